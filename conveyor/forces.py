@@ -176,18 +176,16 @@ class WithoutRubber:
         def both(one: Array, other: Array) -> Array:
             return np.concatenate([one, other])
 
+        pairs = [(self.guidance, back.guidance), (self.flexure, back.flexure)]
         none = np.zeros_like(self.lift)
-        skewed = (self.guidance, back.guidance)
-        flexed = (self.flexure, back.flexure)
-        return WithoutRubber(
-            tilt=both(self.tilt, back.tilt),
-            guidance=None
-            if skewed[0] is skewed[1] is None
-            else both(*(none if one is None else one for one in skewed)),
-            lift=both(self.lift, back.lift),
-            unit_main=both(self.unit_main, back.unit_main),
-            flexure=None if flexed[0] is None or flexed[1] is None else both(flexed[0], flexed[1]),
+        guidance, flexure = (
+            None if one is other is None else both(*(none if part is None else part for part in (one, other)))
+            for one, other in pairs
         )
+        return WithoutRubber(
+            both(self.tilt, back.tilt), guidance, both(self.lift, back.lift),
+            both(self.unit_main, back.unit_main), flexure,
+        )  # fmt: skip
 
 
 def without_rubber(strands: Strands) -> WithoutRubber:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
@@ -140,13 +140,13 @@ def dump(conveyor: Conveyor) -> str:
     return yaml_text(conveyor.as_data(), width=110)
 
 
-def fingerprint(conveyor: Conveyor) -> str:
+def fingerprint(conveyor: Conveyor, *, without: Collection[str] = ()) -> str:
     """Return the SHA-256 of a conveyor's data, compounds and defaults included, for reports.
 
     Two specs that differ in comments, order or layout have the same fingerprint; any changed value or unit
-    changes it, but not what `report` holds, which no figure depends on.
+    changes it, but not what `report` holds, which no figure depends on, nor what fields `without` do.
     """
-    data = {key: value for key, value in conveyor.as_data().items() if key != "report"}
+    data = {key: value for key, value in conveyor.as_data().items() if key not in {"report", *without}}
     canonical = json.dumps(data, sort_keys=True, separators=(",", ":"), allow_nan=False)
     return hashlib.sha256(canonical.encode()).hexdigest()
 

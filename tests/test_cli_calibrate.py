@@ -109,3 +109,4 @@ def test_verify_sheet_asks_for_an_output() -> None:
     assert done.returncode == 2
     assert "give -o SHEET.xlsx, --html SHEET.html or --json" in done.stderr
     assert "unknown compound" in run("verify-sheet", "s1000", "--json").stderr
+    assert "give --spec, too" in run("verify-sheet", "s100", "--set", "belt.speed=3 m/s", "--json").stderr

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Set
 from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated
@@ -116,7 +117,7 @@ def study(
     plain = {"points": count, "calculated": new, "without_an_answer": reasons.total(), "table": str(output)}
 
     def show() -> None:
-        show_best(contents)
+        show_best(contents, {*evaluated.sought, *plan.limits})
         rate = f" in {spent:.3g} s, {new / spent:.3g} a second" if new else ""
         say(f"{count} points, {new} of them calculated now{rate}; {reasons.total()} without an answer")
         for reason, times in reasons.most_common(_SHOWN):
@@ -153,13 +154,14 @@ def _made(
         to.add("specs", specs, told)
 
 
-def show_best(contents: Contents) -> None:
-    """Print the best designs."""
+def show_best(contents: Contents, deciding: Set[str]) -> None:
+    """Print the best designs, of their figures those that decide: files have all."""
     from conveyor.cli.terminal import console, grid
 
     if "best" in contents:
-        title = f"{contents.document.title}: {dict(contents.document.facts)['study']}"
-        console().print(grid(contents["best"], contents.system, title))
+        best, title = contents["best"], f"{contents.document.title}: {dict(contents.document.facts)['study']}"
+        shown = tuple(one for one in best.columns if one.kind in {"text", "count"} or one.key in deciding)
+        console().print(grid(replace(best, columns=shown), contents.system, title))
 
 
 def spec_of(campaign: Campaign, design: Design, figures: str) -> bytes:
@@ -180,7 +182,7 @@ def said(design: Design, campaign: Campaign, system: System) -> str:
 
     known = [(one, design.figures[name]) for name, one in campaign.figures.items()]
     written = (
-        f"{one.label} {unit(priced(one.kind, campaign.base), system).brief(value)}"
+        f"{one.label} {unit(priced(one.kind, campaign.currency), system).brief(value)}"
         for one, value in known
         if value is not None
     )

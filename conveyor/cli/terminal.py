@@ -86,9 +86,13 @@ def grid(part: Table, system: System, title: str | None = None, *, large: bool =
             unit(column.kind, system, large=True) if large else part.unit(column, row, system)
             for column in part.columns
         )
-        made.add_row(*(
+        written = [
             words(cell.written(column.get(row))) for cell, column in zip(cells, part.columns, strict=True)
-        ))  # fmt: skip
+        ]
+        made.add_row(*written)
+        for column, drawn, text in zip(part.columns, made.columns, written, strict=True):
+            if column.kind != "text":  # words break where there is no room, numbers do not
+                drawn.min_width = max(drawn.min_width or 0, text.cell_len)
     return made
 
 

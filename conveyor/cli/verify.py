@@ -25,7 +25,6 @@ _AXES = {
 @command(
     "verify-sheet",
     short_help="Write a sheet for a belt maker to fill in.",
-    without=("changed",),
     examples_of=(
         "conveyor verify-sheet standard-cover low-rolling-resistance-cover -o sheet.xlsx",
         'conveyor verify-sheet mine.yaml --load "1:8:1 N/mm" --roll "194 mm" --html sheet.html',
@@ -65,6 +64,8 @@ def verify_sheet(
         raise InputError("verify-sheet: give -o SHEET.xlsx, --html SHEET.html or --json")
     import conveyor
 
+    if spec is None and session.changed:
+        raise InputError("--set: changes a spec; give --spec, too")
     line = None if spec is None else session.read(spec)
     given = dict(zip(_AXES, (load, temperature, roll, speed, cover), strict=True))
     axes: dict[str, Any] = {

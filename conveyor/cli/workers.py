@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from typing import TYPE_CHECKING, Annotated
 
 from conveyor.cli.app import option
@@ -13,9 +13,14 @@ from conveyor.errors import ConveyorError, InputError
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
+LOCAL = "local"
+"""As address: a cluster of this machine alone."""
 Workers = Annotated[int, option("Processes, or workers of the cluster.", "N", min=1, max=1024)]
 Scheduler = Annotated[
-    str | None, option("Of a Dask cluster (package distributed); else this machine.", "ADDRESS")
+    str | None,
+    option(
+        "Of a Dask cluster (package distributed), or local for one that ends with the command.", "ADDRESS"
+    ),
 ]
 
 
@@ -65,14 +70,18 @@ def executor_of(scheduler: str | None, workers: int) -> Iterator[Executor | None
             yield pool
         return
     try:
-        from distributed import Client, KilledWorker
+        from distributed import Client, KilledWorker, LocalCluster
     except ImportError:
         raise InputError('--scheduler: needs distributed (pip install "conveyor[cluster]")') from None
     try:
-        client = Client(scheduler, timeout="10s")
+        alone = scheduler == LOCAL
+        cluster = (
+            LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) if alone else None
+        )
+        client = Client(scheduler if cluster is None else cluster, timeout="10s")
     except (OSError, ValueError) as error:
         raise InputError(f"--scheduler: {scheduler}: no cluster answers ({error})") from None
-    with client:
+    with nullcontext() if cluster is None else cluster, client:
         try:
             yield client.get_executor()
         except KilledWorker as error:

@@ -26,6 +26,7 @@ from conveyor.contact.checks import (
 from conveyor.contact.curve import LoadCurve, LoadSolutions
 from conveyor.contact.narrow import (
     CHUNK,
+    PLACE_SHARE,
     RANGE,
     ROOM,
     Group,
@@ -293,7 +294,7 @@ class _Sampler:
         for degree in _DEGREES[0 if rtol >= _LOW_DEGREE_FROM else 1 : 4 if self.narrow else None]:
             if waiting.size == 0:
                 break
-            first = self._sample(waiting, points(degree), n)
+            first = self._sample(waiting, points(degree), n, rtol)
             for row in waiting[~first.valid]:
                 by_row[int(self.rows[row])] = NoSolutionError(Status.WRAP_LIMIT.message)
             first = first[np.flatnonzero(first.valid & self._enclosed(first))]
@@ -307,13 +308,13 @@ class _Sampler:
             waiting = waiting[~enough]
         return by_row
 
-    def _sample(self, rows: Index, t: Array, n: int) -> _Batch:
+    def _sample(self, rows: Index, t: Array, n: int, rtol: float) -> _Batch:
         """Contacts of order n of some rows at places t of their half width."""
         alpha = np.exp(self.centre[rows, None] + self.half[rows, None] * t).ravel()
         every = np.repeat(rows, t.size)
         tabled = Tabled.of(self.group.creeps[every], alpha)
         matrix = tabled.matrices(self.rule[every], n)
-        contact = equilibrium(matrix, alpha, self.group.rho[every])
+        contact = equilibrium(matrix, alpha, self.group.rho[every], tolerance=PLACE_SHARE * rtol)
         valid = (contact.inside & (contact.pressure > 0.0)).reshape(-1, t.size).all(axis=1)
         return _Batch(rows, t.size, contact, matrix, tabled, np.asarray(valid))
 
@@ -335,7 +336,7 @@ class _Sampler:
             batch = (
                 first[places]
                 if n == first.order
-                else self._sample(first.rows[places], points(_FEW if thin else first.count - 1), n)
+                else self._sample(first.rows[places], points(_FEW if thin else first.count - 1), n, rtol)
             )
             error, energy, by_loss = self._errors(batch.few(), exponent[places])
             worst = np.maximum(np.maximum(_BETWEEN * error, by_loss), self.floor)

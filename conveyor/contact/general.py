@@ -36,7 +36,6 @@ _POLISHES = 3  # grids whose strips are tried
 _NARROW, _FIT, _FITS = 1e-3, 10.0, 12  # first guess over the nodes' distance, largest step, steps
 _STRIP_NODES, _GAP_NODES = 3.0, 2.0  # that show a strip, and that two strips are apart
 _LIMIT = "the contact comes within a hundredth of the half circle's end at a mean pressure of about {:.3g}"
-_LIMIT_FINER = 1 << _FIRST_POLISH  # times the coarsest grid
 _FAR_BEYOND = 1.5  # times the limit of two coarse grids: no finer one will carry the load
 _CANCELLED = "the strips' forces cancel: friction is that of the loss compliance"
 _ON_GRID = "the strips are known on a grid of {} nodes only"
@@ -240,7 +239,8 @@ def _limit(coarse: Grid, about: float | None, load: float) -> float:
     """
     try:
         below = coarse.contact(0.5 * min(coarse.raised(load)[1] if about is None else about, load))
-        finer = Grid(coarse.problem, _LIMIT_FINER * coarse.points)
+        below = Grid(coarse.problem, 2 * coarse.points).contact(below.mean_pressure, below)
+        finer = Grid(coarse.problem, 4 * coarse.points)
         return min(load, finer.raised(load, below)[1])
     except NoSolutionError:
         return load

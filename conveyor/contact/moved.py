@@ -27,9 +27,15 @@ LOGS = 2 * _REACH + POINTS
 
 @lru_cache(maxsize=1)
 def _lagrange() -> Array:
-    """From powers of a place, counted from the stencil's middle, to the weights of its points."""
+    """From powers of a place, counted from the stencil's middle, to the weights of its points.
+
+    Coefficients of Π (x - x_j)/(x_i - x_j), each to rounding: the inverse of a Vandermonde matrix is not.
+    """
     x = np.arange(POINTS) - 0.5 * (POINTS - 1)
-    return np.linalg.inv(np.vander(x, increasing=True).T)
+    others = [np.delete(x, i) for i in range(POINTS)]
+    return np.array(
+        [np.poly(rest)[::-1] / np.prod(here - rest) for here, rest in zip(x, others, strict=True)]
+    )
 
 
 def stencils(place: Array) -> Stencils:

@@ -59,7 +59,7 @@ _NEWTON_STEPS, _LAST_STEP = 8, 1e-8  # of the nearly straight cubic; the last st
 _CLOSING_STEPS = 8
 _LOAD_SHARE = 0.1  # of rtol: what closing the load may leave of friction
 _LOAD_LOOSE = 0.5  # of rtol: order's error and what is left of the load, together
-_PLACE_SHARE = 1e-4  # of rtol: what may be left of an eccentricity
+PLACE_SHARE = 1e-4  # of rtol: what may be left of an eccentricity
 # times the mismatch of load, times what the search's order is off by: what carrying a contact to its load misses of
 # friction (seen: 0.2 to 1 in the median, 7 to 30 in 99 % of scenes), and of its edges over α (0.3; 0.2 to 70)
 _CARRIED, _EDGES_CARRIED = 20.0, 100.0
@@ -216,7 +216,7 @@ class Search:
     """
 
     def __init__(self, group: Group, rules: Sequence[ShortRule], alpha: Array, rtol: float) -> None:
-        self.group, self.tolerance = group, _PLACE_SHARE * rtol
+        self.group, self.tolerance = group, PLACE_SHARE * rtol
         self.rule, self.check = rules
         self.middle = np.log(alpha)
         ratios, transform = _points()
@@ -235,6 +235,9 @@ class Search:
             ]
         )
         self.cubics = sampled_figures.reshape(3, size, _SAMPLES) @ transform
+        # cubics of the pressure's shape c_v/c_1
+        shapes = contact.c[:, 1:] / contact.c[:, :1]
+        self.shapes = shapes.reshape(size, _SAMPLES, -1).transpose(2, 0, 1) @ transform
         self.place, self._from = np.zeros((2, size))
         self.offset = np.zeros(size)
         self._order, self._miss, self._share = np.zeros(size), np.zeros(size), np.zeros(size)
@@ -311,13 +314,15 @@ class Search:
         dragged = np.exp(np.where(lossy, dragged, 0.0))
         alpha = contact.alpha * wider
         eps = wider * contact.eps + alpha * shifted
+        c, shapes = contact.c * (heavier / wider)[:, None], self.shapes[:, rows]
+        c[:, 1:_SEARCH] += c[:, :1] * (_value(shapes, t_to) - _value(shapes, t_from)).T
         off = np.abs(_log(contact.friction, lossy) - here[2]) + _CUT * np.abs(cubics[2, :, 3])
         off = np.where(lossy, off, 0.0)
         off += np.abs(self.group.target[rows] + miss - here[0]) + _CUT * np.abs(cubics[0, :, 3])
         met = Contact(
             alpha,
             eps,
-            contact.c * (heavier / wider)[:, None],
+            c,
             contact.pressure * heavier,
             contact.friction * dragged,
             contact.inside & (alpha + np.abs(eps) < self.group.rho[rows]),

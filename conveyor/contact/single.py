@@ -17,7 +17,7 @@ from conveyor.contact.checks import (
     overlaps,
     sign,
 )
-from conveyor.contact.fields import SpectralFields
+from conveyor.contact.fields import RESOLVED, SpectralFields, edge_layer
 from conveyor.contact.load import LoadSearch, carry, guess
 from conveyor.contact.orders import ORDERS, next_order
 from conveyor.contact.problem import Status
@@ -32,14 +32,11 @@ DENSE = 192  # order beyond which a core is closed by a tail
 _CORE, _WIDEST_CORE = 64, 512
 _FIRST_TAIL, _LONGEST_TAIL = 1 << 10, 1 << 18
 _LONGEST_TABLE = 1 << 20  # orders times terms
-_RESOLVED = 4.0  # n² times an edge layer's share of the half width from where on errors fall exponentially
-_BEYOND_REACH, _FAR = (
-    2.0,
-    100.0,
-)  # that of the longest tail, and an error over rtol, where climbing is of no use
+_BEYOND_REACH, _FAR = 2.0, 10.0  # that of the longest tail, and energy's error over rtol, where climbing ends
 _UNRESOLVED = 2.4  # power of n that they fall with before
-# of a single layer not yet resolved: friction errs by 2 to 7 times the energy where its error, rising with n, peaks
-_LAYER_OVER_ENERGY, _STEADY = 10.0, 2.0  # that multiple; power of n from which on errors are seen to fall
+# a layer not yet resolved: friction errs by 140 to 220 times that product of the energy's error, which hardly changes;
+# where it peaks, by 2 to 7 times it, and orders agree. Twice that is counted, unless energy falls with this power of n
+_EARLY, _LAYER_OVER_ENERGY, _STEADY = 400.0, 10.0, 2.0
 _FIRST_LOAD_TOLERANCE = 1e-3  # while the order is still rising
 EDGE_LAYER = "a layer at the contact's edge is thinner than the order resolves: pressure ripples there"
 
@@ -127,13 +124,14 @@ def _converged(
             energy = energy_error(scene, state.contact, state.system.lost_beyond(contact))
             error = max(error, state.miss, float(by_energy(energy, by_order.most)[0]))
             decided = last >= SIGN_ORDER or sign(contact, rtol) is not Sign.UNDECIDED
-            if settled and error * (last / longest) ** _UNRESOLVED > rtol and reach < _RESOLVED:
+            if settled and error * (last / longest) ** _UNRESOLVED > rtol and reach < RESOLVED:
                 following = None
             here = last, float(energy[0])
             if last > n and not _falls(lost, here):
-                if _resolution(scene, contact, last) < _RESOLVED:
-                    error = max(error, _LAYER_OVER_ENERGY * here[1])
-                if reach < _BEYOND_REACH and lost is not None and error > _FAR * rtol:
+                reached = _resolution(scene, contact, last)
+                if reached < RESOLVED:
+                    error = max(error, min(_EARLY * reached, _LAYER_OVER_ENERGY) * here[1])
+                if reach < _BEYOND_REACH and lost is not None and here[1] > _FAR * rtol:
                     following = None
             lost = here
             if (error <= rtol and decided) or following is None:
@@ -169,9 +167,4 @@ def _falls(before: tuple[int, float] | None, now: tuple[int, float]) -> bool:
 
 def _resolution(scene: Scene, contact: Contact, last: int) -> float:
     """Square of an order times the edge layer's share of the half width; infinite of an elastic contact."""
-    creep = scene.creep
-    if not creep.weights.size:
-        return math.inf
-    # j(m) is j∞ + Σ d/(m ζ) for large m: the two are equal at the layer's 1/m
-    layer = creep.instantaneous / (float(contact.alpha[0]) * float(np.sum(creep.weights / creep.times)))
-    return layer * last**2
+    return edge_layer(scene.creep, float(contact.alpha[0])) * last**2

@@ -25,7 +25,11 @@ from conveyor.contact.spectral import Contact, assemble
 Array = NDArray[np.float64]
 Index = NDArray[np.int_]
 
+_FELT = 1e-4  # Σ d min(b, 1/b) from which on friction is off by less than 1e-8 of itself: 1e-13 over it seen
 _STEP = 0.2  # of the grid of u
+_NARROWEST = (
+    1e-3  # half width below which J_0 J_1, and friction with it, is too small beside the table's rounding
+)
 _HIGHEST, _LARGEST = (
     64,
     1 << 20,
@@ -94,7 +98,9 @@ class Tabled:
     def of(cls, creeps: Creeps, alpha: Array) -> Tabled:
         """Contacts of half widths α, shape (b,)."""
         b = alpha[:, None] / creeps.times
-        return cls(creeps, alpha, log_stencils(b) if within(b).all() else None)
+        # friction of memories far longer or shorter than the passage is of this order: the tables lack the digits
+        felt = (creeps.weights * np.minimum(b, 1.0 / b)).sum(axis=1)
+        return cls(creeps, alpha, log_stencils(b) if within(b).all() and (felt > _FELT).all() else None)
 
     def __getitem__(self, chosen: Index) -> Tabled:
         b = None if self.b is None else (self.b[0][chosen], self.b[1][:, chosen])
@@ -104,7 +110,7 @@ class Tabled:
         """Of nodes, with the size of the grid of u, and of terms; none where tables do not serve."""
         u = (self.alpha / _STEP)[:, None] * rule.nodes
         size = 32 * int((float(u.max()) + POINTS) / 32.0 + 1.0)
-        served = n <= _HIGHEST and size * n * n <= _LARGEST
+        served = n <= _HIGHEST and size * n * n <= _LARGEST and float(self.alpha.min()) >= _NARROWEST
         return (stencils(u), size, self.b) if served and self.b else None
 
     def matrices(self, rule: ShortRule, n: int, ratios: tuple[float, ...] = (1.0,)) -> Array:

@@ -47,6 +47,8 @@ _STANDARD: Final = (
 )
 
 
+# CEMA, breaking strength of US belts over the tension they are rated for [-]; general knowledge
+RATED_SAFETY: Final[Mapping[Reinforcement, float]] = {"textile": 10.0, "steel cord": 6.67}
 RATED_START: Final = 1.5
 """Tension of a start or stop over the rated one that makers of US belts allow at most [-]; general knowledge."""
 

@@ -126,6 +126,7 @@ class StrandAtWork:
             line.support,
             cover.thickness,
             cover.other if line.support == "belt" else None,
+            cover.merged,
         )
 
     def like(self, other: StrandAtWork) -> bool:

@@ -50,9 +50,10 @@ class CoverNeed:
 
 @dataclass(frozen=True)
 class BeltBody:
-    """The belt itself: width, thickness, carcass [m]; strength, rating, stiffness per width [N/m], None not given.
+    """The belt itself: width, thickness of all, carcass and covers (top, bottom) [m].
 
-    `relaxing` is the stiffness that fades over the lasting one, and in which time [-, s].
+    Strength, rating and stiffness are per width [N/m], None not given; `relaxing` is the stiffness that fades over the
+    lasting one, and in which time [-, s].
     """
 
     width: float
@@ -60,6 +61,7 @@ class BeltBody:
     line_mass: float
     carcass: str
     carcass_thickness: float
+    cover_thicknesses: tuple[float, float]
     strength: float | None
     rating: float | None
     stiffness: float | None
@@ -486,6 +488,7 @@ def _belt(conveyor: Conveyor) -> BeltBody:
         line_mass=belt.line_mass,
         carcass=carcass.kind,
         carcass_thickness=si(carcass.thickness),
+        cover_thicknesses=(si(belt.top_cover.thickness), si(belt.bottom_cover.thickness)),
         strength=_known(carcass.strength),
         rating=_known(carcass.rating),
         stiffness=_known(carcass.stiffness),

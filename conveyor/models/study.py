@@ -15,6 +15,7 @@ from conveyor.errors import InputError
 from conveyor.models.base import Model, Name, Problem, refuse
 from conveyor.models.conveyor import Conveyor
 from conveyor.models.fields import check_path
+from conveyor.models.prices import Prices
 from conveyor.models.variants import scaled
 from conveyor.ranges import MOST, spaced
 from conveyor.units import between, quantity, si, text
@@ -25,6 +26,8 @@ Value: TypeAlias = str | float | int | bool
 Changes: TypeAlias = Mapping[str, Value]
 """New values of fields, by path."""
 MOST_SAMPLES = 2**20
+MOST_POINTS = 10_000_000
+"""Of a study: more take weeks on a hundred cores."""
 STEPS = 1000
 """Of a range that is searched."""
 HOURS = "hours"
@@ -197,11 +200,23 @@ class VariedSpec(Model):
     """Figures of which the least or the most is sought; the first orders the designs."""
     limits: Annotated[dict[str, Limit], Field(default_factory=dict)]
     """What figures have to keep."""
+    prices: Prices = Field(default_factory=lambda: Prices.from_data({}))
+    """Of the parts, field by field before those of the library of prices."""
 
     @property
-    def drawn(self) -> tuple[str, ...]:
-        """Fields that are drawn from ranges."""
-        return ()
+    def drawn(self) -> Mapping[str, SampledRange]:
+        """Ranges of fields that are drawn or searched."""
+        return {}
+
+    @property
+    def given(self) -> Iterator[Changes]:
+        """Every value that is listed, and the ends of ranges; of rows what changes together."""
+        for path, values in self.axes.items():
+            yield from ({path: value} for value in values)
+        for path, span in self.drawn.items():
+            yield from ({path: end} for end in (span.low, span.high))
+        yield from self.together
+        yield from ({path: value for path, value in row.items() if path != HOURS} for row in self.rows)
 
     @model_validator(mode="after")
     def _distinct(self) -> Self:
@@ -253,6 +268,11 @@ class VariedSpec(Model):
             return None
         return tuple(hours_of(row[HOURS]) or 0.0 for row in self.rows)
 
+    def currency(self, base: Conveyor) -> str:
+        """Of all costs: that of the spec's energy, else that of the parts."""
+        energy = None if base.operation is None else base.operation.price
+        return self.prices.currency if energy is None else energy.currency
+
     @property
     def designed(self) -> tuple[str, ...]:
         """Fields that tell designs apart, the slowest first."""
@@ -300,9 +320,16 @@ class StudyPlan(VariedSpec):
             yield from self.points_of(design)
 
     @property
-    def drawn(self) -> tuple[str, ...]:
-        """Fields that are drawn from ranges."""
-        return () if self.samples is None else tuple(self.samples.fields)
+    def drawn(self) -> Mapping[str, SampledRange]:
+        """Ranges of fields that are drawn."""
+        return {} if self.samples is None else self.samples.fields
+
+    @model_validator(mode="after")
+    def _countable(self) -> Self:
+        if self.count > MOST_POINTS:
+            message = f"{self.count:,} points, at most {MOST_POINTS:,}; take coarser steps, or samples"
+            refuse("StudyPlan", [Problem((), message)])
+        return self
 
     @property
     def _ways(self) -> str:
@@ -322,9 +349,9 @@ class SearchPlan(VariedSpec):
     """Of the random numbers: the same seed tries the same designs."""
 
     @property
-    def drawn(self) -> tuple[str, ...]:
-        """Fields that are drawn from ranges."""
-        return tuple(self.ranges)
+    def drawn(self) -> Mapping[str, SampledRange]:
+        """Ranges of fields that are searched."""
+        return self.ranges
 
     @property
     def _ways(self) -> str:

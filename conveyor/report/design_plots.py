@@ -48,7 +48,7 @@ class Shown:
         figures = [study.figures[name] for name in study.sought]
         self.labels = [figure.label for figure in figures]
         self.units: list[Unit] = [
-            unit(priced(figure.kind, study.base), system, large=True) for figure in figures
+            unit(priced(figure.kind, study.currency), system, large=True) for figure in figures
         ]
 
     def sought(self, k: int) -> Any:

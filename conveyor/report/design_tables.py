@@ -80,7 +80,7 @@ def best(study: Explored) -> Table:
         Column("design", "count", "number"),
         *(Column(field.label, "text", _change(field.path), key=field.path) for field in study.fields),
         *(
-            Column(figure.label, priced(figure.kind, study.base), f"figures.{name}", key=name)
+            Column(figure.label, priced(figure.kind, study.currency), _figure(name), key=name)
             for name, figure in study.figures.items()
         ),
         Column("breaks", "text", lambda row: ", ".join(row.broken) or None, sparse=True),
@@ -91,6 +91,10 @@ def best(study: Explored) -> Table:
 
 def _change(path: str) -> Callable[[Design], str]:
     return lambda row: str(row.changes[path])
+
+
+def _figure(name: str) -> Callable[[Design], float | None]:
+    return lambda row: row.figures[name]  # not by a path: a percentile may have a point
 
 
 def on_the_front(study: Explored) -> Table:
@@ -107,7 +111,7 @@ def on_the_front(study: Explored) -> Table:
         *(
             Column(
                 study.figures[name].label,
-                priced(study.figures[name].kind, study.base),
+                priced(study.figures[name].kind, study.currency),
                 _sought(study, k),
                 key=name,
             )
@@ -130,11 +134,11 @@ def effects(study: Explored) -> Table:
     """Effect of each field to what is sought first, one row a field and value."""
     rows = (
         [(study.fields[k].path, effect) for k in study.ordered for effect in study.effects(k)]
-        if study.count
+        if len(study.values)
         else []
     )
     figure = study.figures[next(iter(study.sought))]
-    kind = priced(figure.kind, study.base)
+    kind = priced(figure.kind, study.currency)
     columns = (
         Column("field", "text", "0"),
         Column("value", "text", "1.value"),

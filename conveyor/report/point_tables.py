@@ -21,7 +21,6 @@ from conveyor.units import System
 from conveyor.units.presentation import MONEY, labelled, unit
 
 if TYPE_CHECKING:
-    from conveyor.models import Conveyor
     from conveyor.models.study import Value
     from conveyor.studies.campaign import Campaign, Keyed
     from conveyor.studies.designs import Design
@@ -50,8 +49,8 @@ class CampaignTable:
         Words and kind of each figure, in the system's units.
     system : {"SI", "US"}
         Of the figures.
-    line : Conveyor
-        Whose currency costs have.
+    currency : str
+        Of costs.
     """
 
     def __init__(
@@ -60,10 +59,10 @@ class CampaignTable:
         fields: Sequence[VariedField],
         figures: Sequence[tuple[str, str]],
         system: System,
-        line: Conveyor,
+        currency: str,
     ) -> None:
         self._fields = fields
-        self._shown = [unit(priced(kind, line), system) for _, kind in figures]
+        self._shown = [unit(priced(kind, currency), system) for _, kind in figures]
         headed = [labelled(label, sign.label) for (label, _), sign in zip(figures, self._shown, strict=True)]
         inputs = (labelled(field.path, field.unit) for field in fields)
         self.headings = (row, *inputs, *headed, "no answer because")
@@ -197,7 +196,7 @@ def of_points(campaign: Campaign, system: System) -> CampaignTable:
     """The table of a study's points."""
     figures = [(OUTPUTS[key].label, OUTPUTS[key].kind) for key in campaign.outputs]
     return CampaignTable(
-        "point", varied(campaign.listed, campaign.plan.paths), figures, system, campaign.base
+        "point", varied(campaign.listed, campaign.plan.paths), figures, system, campaign.currency
     )
 
 
@@ -205,7 +204,7 @@ def of_designs(campaign: Campaign, system: System) -> CampaignTable:
     """The table of a study's designs; its rows come from `design_rows`."""
     figures = [(figure.label, figure.kind) for figure in campaign.figures.values()]
     shown = (*figures, ("breaks", "text"), ("on the front", "verdict"))
-    return CampaignTable("design", varied(campaign.listed), shown, system, campaign.base)
+    return CampaignTable("design", varied(campaign.listed), shown, system, campaign.currency)
 
 
 def design_rows(study: Explored, designs: Iterable[Design]) -> Iterator[Row]:
@@ -221,9 +220,6 @@ def design_rows(study: Explored, designs: Iterable[Design]) -> Iterator[Row]:
         yield one.number, values, one.why or figures
 
 
-def priced(kind: str, line: Conveyor) -> str:
-    """A kind, money in the currency of the spec's costs."""
-    if kind != "money":
-        return kind
-    price = None if line.operation is None else line.operation.price
-    return f"{MONEY}{'-' if price is None else price.currency}"
+def priced(kind: str, currency: str) -> str:
+    """A kind, money in the currency of a study's costs."""
+    return f"{MONEY}{currency}" if kind == "money" else kind

@@ -104,7 +104,7 @@ def rubber(page: Page) -> None:
         if len(strands) == 1:  # one compound on both strands
             define(sheet, "table_moduli_return", moduli.cells)
             define(sheet, "table_prony_return", places[f"prony_{strand}"].cells)
-    page.rest(max(place.last for place in places.values()) + 3)
+    page.rest(max(place.last for place in places.values()) + 3, but=("moduli_return", "prony_return"))
 
 
 def _known(sheet: Worksheet, row: int, heading: str, facts: Sequence[tuple[str, str]]) -> int:

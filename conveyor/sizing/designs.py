@@ -16,7 +16,6 @@ import numpy as np
 
 from conveyor.checks import checks, motor_power
 from conveyor.errors import InputError, NoSolutionError, RangeError
-from conveyor.line.roll_lives import shortest_life
 from conveyor.line.stretches import STRANDS
 from conveyor.line.task import CarcassClass, Choice, Chosen, SizingTask, spread
 from conveyor.models import Conveyor
@@ -30,10 +29,10 @@ from conveyor.pipeline import (
     calculate_many,
     take_up_of,
 )
-from conveyor.sizing.costs import Costs, Parts, costs
 from conveyor.sizing.screen import Candidates, Levels, Screened, first_levels, screen
 from conveyor.sizing.sized import SizedDesign, highest_tension
 from conveyor.sizing.spacing import graduated_spacings
+from conveyor.studies.costs import costs, parts_of, roll_life
 from conveyor.studies.states import at_one_take_up, load_states
 
 RTOL: Final = 1e-4
@@ -53,7 +52,6 @@ _TOO_MUCH: Final = (
     "closer sets (rules.carcasses, rules.drives, rules.largest_motor, rules.take_up_travel, rules.carry_spacings), or "
     "split the conveyor"
 )
-_NO_LIFE: Final = 1e12  # [s], of rolls without load
 
 
 @dataclass(frozen=True, eq=False)
@@ -416,10 +414,12 @@ def _design(
     if failed is not None:
         return failed
     choice, _, estimate = begin
-    life = _roll_life(result)
-    return SizedDesign(
-        choice, chosen, result, loads[0], _costs(task, choice, chosen, result, life), estimate, life
-    )
+    energy = 0.0 if result.year is None or result.year.cost is None else result.year.cost
+    parts = parts_of(result)
+    if parts is None:
+        raise AssertionError("a sized spec lists its parts")
+    cost = costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=energy)
+    return SizedDesign(choice, chosen, result, loads[0], cost, estimate, roll_life(result))
 
 
 def _failed(task: SizingTask, pair: Sequence[CalculatedConveyor]) -> Iterator[str]:
@@ -428,46 +428,11 @@ def _failed(task: SizingTask, pair: Sequence[CalculatedConveyor]) -> Iterator[st
         for check in checks(one, contacts=False):
             if check.failed:
                 yield check.subject.text("SI")
-        if _roll_life(one) < task.roll_life:
+        if roll_life(one) < task.roll_life:
             yield "L10 life of a roll set (rules.roll_life)"
     travel = take_up_of(pair).travel
     if travel is not None and travel.whole > task.take_up_travel:
         yield "travel of the take-up (rules.take_up_travel)"
-
-
-def _roll_life(one: CalculatedConveyor) -> float:
-    """L10 of the set that lives shortest [s]."""
-    lives = [shortest_life(one.line.stretches, strand, one.line.speed) for strand in STRANDS]
-    return min((3600.0 * life.hours for life in lives if life is not None), default=_NO_LIFE)
-
-
-def _costs(
-    task: SizingTask, choice: Choice, chosen: Chosen, result: CalculatedConveyor, life: float
-) -> Costs:  # fmt: skip
-    """Of a calculated design."""
-    width, (count, length, _) = choice.trough.width, choice.trough.width.return_rolls
-    spacings = choice.graduated or (choice.carry,) * len(task.sections)
-    carry = math.fsum(along / apart for (along, _), apart in zip(task.sections, spacings, strict=True))
-    back, first = task.length / choice.back, choice.cover == 0
-    year = result.year
-    parts = Parts(
-        width=width.belt,
-        length=task.length,
-        strength=chosen.carcass.strength,
-        steel_cord=float(chosen.carcass.steel_cord),
-        cover=chosen.top + first * chosen.bottom,
-        special_cover=(not first) * chosen.bottom,
-        sets=carry + back,
-        rolls=3.0 * carry + count * back,
-        roll_mass=3.0 * choice.roll.mass(width.three) * carry + count * choice.roll.mass(length) * back,
-        roll_life=life,
-        drives=float(len(chosen.motors)),
-        power=math.fsum(chosen.motors),
-        pulley_mass=math.fsum(pulley.mass for pulley in result.line.pulleys),
-        take_up=result.balance.settled.setting,
-    )
-    cost = 0.0 if year is None or year.cost is None else year.cost
-    return costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=cost)
 
 
 def _graduated(task: SizingTask, designs: Sequence[SizedDesign], anchors: Anchors) -> list[SizedDesign]:

@@ -24,7 +24,7 @@ from conveyor.laws.take_up import PERMANENT_STRETCH_STEEL_CORD, PERMANENT_STRETC
 from conveyor.line.task import Choice, RollSize, SizingTask, Trough, spread
 from conveyor.models.belt import RUBBER_DENSITY
 from conveyor.models.sizing import DriveLayout
-from conveyor.sizing.costs import Parts, costs
+from conveyor.studies.costs import Parts, costs
 
 Array = NDArray[np.float64]
 

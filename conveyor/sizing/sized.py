@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from conveyor.line.task import Choice, Chosen
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor
-from conveyor.sizing.costs import Costs
+from conveyor.studies.costs import Costs
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,9 +10,11 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import sqlite3
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from importlib.metadata import version
@@ -23,10 +25,13 @@ from typing import Final, NamedTuple, Self, TypeAlias
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.fields import field as field_of
+from conveyor.models.fields import with_fields
 from conveyor.models.study import Changes, StudyPlan, Value, VariedSpec, with_states
 from conveyor.spec import fingerprint
+from conveyor.studies.costs import unpriced
 from conveyor.studies.designs import Design, DesignFigure, figures_of, reduced
-from conveyor.studies.points import OUTPUTS, Answer, Job, answers, outputs_of
+from conveyor.studies.points import OUTPUTS, Answer, Job, answers, asked_of, outputs_of, priced
+from conveyor.units import Quantity, is_quantity, quantity
 
 BATCH: Final = 64
 """Points solved side by side at most, and lost at most where a run is stopped."""
@@ -91,7 +96,11 @@ class Campaign:
         needed = dict.fromkeys(key for figure in figures_of(plan, base).values() for key in figure.needs)
         asked = plan.outputs or (() if plan.figures or plan.best or plan.limits else tuple(OUTPUTS))
         outputs = tuple(outputs_of((*asked, *(key for key in needed if key not in asked))))
-        return cls(plan, base, {name: resolve(name) for name in sorted(named)}, outputs)
+        if plan.outputs or plan.figures or plan.best or plan.limits:
+            _refuse_unpriced(plan, base, outputs)
+        compounds = {name: resolve(name) for name in sorted(named)}
+        _refuse_other_kinds(plan, base, compounds)
+        return cls(plan, base, compounds, outputs)
 
     @property
     def listed(self) -> StudyPlan:
@@ -111,15 +120,43 @@ class Campaign:
         """Figures of a design by name."""
         return figures_of(self.plan, self.base)
 
+    @property
+    def currency(self) -> str:
+        """Of all costs."""
+        return self.plan.currency(self.base)
+
     @cached_property
     def job(self) -> Job:
         """What its batches follow from."""
-        return Job.of(self.base, self.outputs, self.compounds)
+        return Job.of(self.base, self.asked, self.compounds)
+
+    @cached_property
+    def asked(self) -> tuple[str, ...]:
+        """What is calculated of points."""
+        return asked_of(self.outputs)
+
+    @cached_property
+    def _pricing(self) -> tuple[Mapping[str, float], float]:
+        """Prices of parts, none where they have none, and the time that parts wear in a year [s]."""
+        hours, operation = self.plan.hours, self.base.operation
+        if any(_unpriced(self.plan, self.base)):
+            return {}, 0.0
+        seconds = (
+            operation.seconds_per_year if hours is None and operation else 3600.0 * math.fsum(hours or ())
+        )
+        return self.plan.prices.amounts, seconds
+
+    def answer(self, known: Answers, point: bytes) -> Answer:
+        """Figures asked for of a point whose answer is known by its key."""
+        return priced(known[point], self.asked, self.outputs, *self._pricing)
 
     @cached_property
     def _common(self) -> hashlib._Hash:
-        """Hash of what every point follows from."""
-        return _hash([version("conveyor"), fingerprint(self.base), self.outputs])
+        """Hash of what every point follows from: without those fields of the spec that no answer does."""
+        idle = ("name", "notes", "cases", "scenarios", "uncertainty")
+        yearly = ("energy_per_year", "cost_per_year")
+        timed = () if any(key in self.asked for key in yearly) else ("operation",)
+        return _hash([version("conveyor"), fingerprint(self.base, without=(*idle, *timed)), self.asked])
 
     @cached_property
     def _rubber(self) -> dict[str, dict[Value, str]]:
@@ -137,6 +174,39 @@ class Campaign:
         rubber = [known.get(point[path]) for path, known in self._rubber.items()]
         digest.update(json.dumps([point, rubber], sort_keys=True).encode())
         return digest.digest()[:16]
+
+
+def _refuse_other_kinds(plan: VariedSpec, base: Conveyor, compounds: Mapping[str, RubberCompound]) -> None:
+    """Refuse values in units that their fields never have; what is beyond a range has no answer, and says so there."""
+    for row in plan.given:
+        for path, value in row.items():
+            like = field_of(base, path)
+            if is_quantity(like) and not _alike(value, like):
+                with_fields(base, row, resolve=compounds.__getitem__)
+
+
+def _alike(value: Value, like: Quantity) -> bool:
+    try:
+        return isinstance(value, str) and quantity(value).dimensionality == like.dimensionality
+    except InputError:
+        return False
+
+
+def _unpriced(plan: VariedSpec, base: Conveyor) -> Iterator[str]:
+    """What keeps every point of a plan from having costs of parts."""
+    yield from (f"{field} is not given" for field in unpriced(base) if field not in plan.paths)
+    if plan.hours is None and base.operation is None:
+        yield "operation.hours_per_year is not given"
+    if plan.currency(base) != plan.prices.currency:
+        yield f"operation.price is in {plan.currency(base)}, prices are in {plan.prices.currency}"
+
+
+def _refuse_unpriced(plan: VariedSpec, base: Conveyor, outputs: Iterable[str]) -> None:
+    """Refuse costs of parts that are asked for where no point has them."""
+    for key in outputs:
+        why = list(_unpriced(plan, base)) if OUTPUTS[key].priced else []
+        if why:
+            raise InputError(f"{key}: {'; '.join(why)}")
 
 
 def _hash(data: object) -> hashlib._Hash:
@@ -159,25 +229,47 @@ class Answers:
         except sqlite3.OperationalError as error:
             raise InputError(f"{path}: cannot be written ({error})") from None
         try:
-            (mark,) = self._file.execute("PRAGMA application_id").fetchone()
-            (pages,) = self._file.execute("PRAGMA page_count").fetchone()
-            if not pages:
-                self._file.execute(f"PRAGMA application_id = {_MARK}")
-                self._file.execute("CREATE TABLE answers (key BLOB PRIMARY KEY, answer TEXT) WITHOUT ROWID")
-        except sqlite3.OperationalError as error:
+            with self._told():
+                self._begin()
+        except ConveyorError as error:
             self._file.close()
-            raise InputError(f"{path}: cannot be written ({error}); another run of the study?") from None
-        except sqlite3.DatabaseError:
-            mark, pages = 0, 1
+            raise InputError(str(error)) from None
+
+    def _begin(self) -> None:
+        """Make the table in a file that is new, or that a full disk left without one."""
+        (mark,) = self._file.execute("PRAGMA application_id").fetchone()
+        (pages,) = self._file.execute("PRAGMA page_count").fetchone()
         if pages and mark != _MARK:
-            self._file.close()
-            raise InputError(f"{path}: holds something else than answers of a study; remove it")
+            raise InputError(f"{self._path}: holds something else than answers of a study; remove it")
+        with self._file:
+            self._file.execute("BEGIN IMMEDIATE")
+            self._file.execute(f"PRAGMA application_id = {_MARK}")
+            self._file.execute(
+                "CREATE TABLE IF NOT EXISTS answers (key BLOB PRIMARY KEY, answer TEXT) WITHOUT ROWID"
+            )
+
+    @contextmanager
+    def _told(self) -> Iterator[None]:
+        """Say what keeps the file from being read or written."""
+        try:
+            yield
+        except sqlite3.OperationalError as error:
+            other = "another run of the study writes to it" if "locked" in str(error) else "make room"
+            raise ConveyorError(
+                f"{self._path}: cannot be written ({error}; {other}); what is done is kept: run it again to go on"
+            ) from None
+        except sqlite3.DatabaseError as error:
+            raise InputError(
+                f"{self._path}: holds something else than answers of a study, or is damaged ({error}); remove it"
+            ) from None
 
     def __contains__(self, key: bytes) -> bool:
-        return self._file.execute("SELECT 1 FROM answers WHERE key = ?", (key,)).fetchone() is not None
+        with self._told():
+            return self._file.execute("SELECT 1 FROM answers WHERE key = ?", (key,)).fetchone() is not None
 
     def __getitem__(self, key: bytes) -> Answer:
-        (text,) = self._file.execute("SELECT answer FROM answers WHERE key = ?", (key,)).fetchone()
+        with self._told():
+            (text,) = self._file.execute("SELECT answer FROM answers WHERE key = ?", (key,)).fetchone()
         answer: Answer = json.loads(text)
         return answer
 
@@ -190,17 +282,13 @@ class Answers:
             They cannot be written: the disk is full, or another run of the study writes.
         """
         lines = [(key, json.dumps(answer)) for key, answer in answers]
-        try:
-            with self._file:
-                self._file.execute("BEGIN IMMEDIATE")
-                self._file.executemany("INSERT OR IGNORE INTO answers VALUES (?, ?)", lines)
-        except sqlite3.OperationalError as error:
-            raise ConveyorError(
-                f"{self._path}: cannot be written ({error}); what is done is kept: run it again to go on"
-            ) from None
+        with self._told(), self._file:
+            self._file.execute("BEGIN IMMEDIATE")
+            self._file.executemany("INSERT OR IGNORE INTO answers VALUES (?, ?)", lines)
 
     def __len__(self) -> int:
-        (count,) = self._file.execute("SELECT count(*) FROM answers").fetchone()
+        with self._told():
+            (count,) = self._file.execute("SELECT count(*) FROM answers").fetchone()
         return int(count)
 
     def __enter__(self) -> Self:
@@ -316,7 +404,7 @@ def keyed_points(campaign: Campaign) -> Iterator[tuple[int, Keyed]]:
 def point_of(campaign: Campaign, known: Answers, number: int, keyed: Keyed) -> Point:
     """A point of a number whose answer is known."""
     key, point = keyed
-    return number, tuple(point[path] for path in campaign.plan.paths), known[key]
+    return number, tuple(point[path] for path in campaign.plan.paths), campaign.answer(known, key)
 
 
 def designs(campaign: Campaign, known: Answers) -> Iterator[Design]:
@@ -327,6 +415,6 @@ def designs(campaign: Campaign, known: Answers) -> Iterator[Design]:
 
 def design_of(campaign: Campaign, known: Answers, design: Changes, number: int = 1) -> Design:
     """A design whose points have answers, over its states."""
-    answers = [known[campaign.key(point)] for point in campaign.plan.points_of(design)]
+    answers = [campaign.answer(known, campaign.key(point)) for point in campaign.plan.points_of(design)]
     made = reduced(campaign.plan, campaign.figures, campaign.outputs, answers)
     return Design(number, design, *made)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -20,7 +21,8 @@ from conveyor.studies.points import OUTPUTS, Answer, outputs_of
 
 Array: TypeAlias = NDArray[np.float64]
 _NAMED: Final = re.compile(r"(\S+)(?: (mean|lowest|highest|(\d+(?:\.\d+)?) ?%))?")
-_YEARLY: Final = ("energy_per_year", "cost_per_year")
+_YEARLY: Final = ("energy_per_year", "cost_per_year", "total_cost_per_year")
+_BUILT: Final = ("capital_cost", "parts_cost_per_year")
 
 
 @dataclass(frozen=True)
@@ -96,8 +98,10 @@ def _figure(name: str, plan: VariedSpec, operation: Operation | None, weights: A
         )
     key, how, percent = match.groups()
     output, many = OUTPUTS[key], len(weights) > 1
-    if how is None and many and key in _YEARLY:
+    if how is None and key in _YEARLY and (many or plan.hours is not None):
         return _yearly(key, plan, operation, weights)
+    if how is None and key in _BUILT:  # a take-up follows from the worst state
+        return DesignFigure(output.label, output.kind, (key,), lambda values: float(np.max(values[0])))
     if how is None or how == "mean":
         label = f"{output.label}, mean" if many else output.label
         kind = "ratio" if many and output.kind == "count" else output.kind
@@ -113,20 +117,22 @@ def _figure(name: str, plan: VariedSpec, operation: Operation | None, weights: A
 
 
 def _yearly(key: str, plan: VariedSpec, operation: Operation | None, hours: Array) -> DesignFigure:
-    """Energy and cost of the states' hours, as of a duty."""
+    """Energy and its cost over the states' hours, as of a duty; with that of the parts."""
     if plan.hours is None:
         raise InputError(f"{key}: the states have no hours; give them hours, or ask for {key} mean")
-    if key == "cost_per_year" and (operation is None or operation.price is None):
-        raise InputError("cost_per_year: the spec has no operation.price")
+    if key != "energy_per_year" and (operation is None or operation.price is None):
+        raise InputError(f"{key}: the spec has no operation.price")
+    parts = ("parts_cost_per_year",) if key == "total_cost_per_year" else ()
 
     def get(values: Sequence[Array]) -> float | None:
-        steps = zip((3600.0 * hours).tolist(), *(one.tolist() for one in values), strict=True)
+        steps = zip((3600.0 * hours).tolist(), *(one.tolist() for one in values[:2]), strict=True)
         sums = duty_sums([DutyStep(*step) for step in steps])
         if key == "energy_per_year":
             return JOULE_PER_KWH * sums.net_kwh
-        return None if operation is None else year_cost(operation, sums)
+        energy = None if operation is None else year_cost(operation, sums)
+        return None if energy is None else energy + math.fsum(float(np.max(one)) for one in values[2:])
 
-    return DesignFigure(OUTPUTS[key].label, OUTPUTS[key].kind, ("mains_power", "flow"), get)
+    return DesignFigure(OUTPUTS[key].label, OUTPUTS[key].kind, ("mains_power", "flow", *parts), get)
 
 
 def mean(values: Array, weights: Array) -> float:

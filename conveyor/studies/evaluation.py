@@ -5,6 +5,7 @@ from __future__ import annotations
 import heapq
 import math
 import re
+from array import array
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -131,6 +132,11 @@ class Explored:
     count: int
 
     @property
+    def currency(self) -> str:
+        """Of all costs."""
+        return self.plan.currency(self.base)
+
+    @property
     def costs(self) -> Array:
         """What is sought with less better, shape `(n, sought)`."""
         return self.found * signs(self.sought)
@@ -181,7 +187,8 @@ def sought_of(plan: StudyPlan, figures: Iterable[str], base: Conveyor) -> dict[s
     priced = (
         operation is not None and operation.price is not None and (plan.hours is not None or not base.duty)
     )
-    usual = tuple(name for name in ("cost_per_year", "energy_per_year") if priced and name in known)
+    cost = "total_cost_per_year" if plan.figures and "total_cost_per_year" in known else "cost_per_year"
+    usual = tuple(name for name in (cost, "energy_per_year") if priced and name in known)
     return dict(plan.best) or dict.fromkeys(usual or known[:1], "least")
 
 
@@ -199,7 +206,7 @@ def explored(campaign: Campaign, designs: Iterable[Design]) -> Explored:
     fields = varied(plan)
     sought = sought_of(plan, campaign.figures, campaign.base)
     sign = signs(sought)
-    values, reached, keeps, numbers = [], [], [], []
+    values, reached, keeps, numbers = array("d"), array("d"), bytearray(), array("q")
     refused: Counter[str] = Counter()
     best: list[tuple[tuple[bool, float, int], Design]] = []
     count = 0
@@ -210,14 +217,14 @@ def explored(campaign: Campaign, designs: Iterable[Design]) -> Explored:
             refused[design.why or f"it has no {missing}"] += 1
             continue
         told = [value for value in known if value is not None]
-        values.append([field.number(design.changes[field.path]) for field in fields])
-        reached.append(told)
+        values.extend(field.number(design.changes[field.path]) for field in fields)
+        reached.extend(told)
         keeps.append(design.keeps)
         numbers.append(design.number)
         rank = (design.keeps, -float(told[0] * sign[0]), -design.number)
         heapq.heappush(best, (rank, design)) if len(best) < BEST else heapq.heappushpop(best, (rank, design))
     costs = np.array(reached).reshape(-1, len(sought))
-    kept = np.array(keeps, dtype=bool)
+    kept = np.frombuffer(keeps, dtype=bool)
     beaten_by_none = np.zeros(len(kept), dtype=bool)
     beaten_by_none[kept] = front(costs[kept] * sign)
     return Explored(

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from operator import attrgetter
-from typing import Final, NamedTuple, Self, TypeAlias
+from typing import Any, Final, NamedTuple, Self, TypeAlias
 
 from conveyor.checks import checks
 from conveyor.errors import ConveyorError, InputError
@@ -17,11 +17,12 @@ from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.fields import with_fields
 from conveyor.models.study import Changes
 from conveyor.pipeline import Anchors, CalculatedConveyor, Variant, anchors_of, calculate_many
+from conveyor.studies.costs import Parts, costs, parts_of
 
 RTOL: Final = 1e-4
 """Of the contacts of a study: their true error is a fifth of it, far below what a spec knows."""
 
-Answer: TypeAlias = list[float | int | None] | str
+Answer: TypeAlias = list[Any] | str
 """Figures of a point, SI, in the order asked for; or why it has none."""
 
 
@@ -31,7 +32,9 @@ class Output:
 
     label: str
     kind: str
-    get: Callable[[CalculatedConveyor], float | int | None]
+    get: Callable[[Any], float | int | None]
+    priced: bool = False
+    """Whether it is read from the costs of the parts instead of the calculated conveyor."""
 
 
 OUTPUTS: Final[Mapping[str, Output]] = {
@@ -51,6 +54,16 @@ OUTPUTS: Final[Mapping[str, Output]] = {
         "energy per year", "energy", lambda a: None if a.year is None else JOULE_PER_KWH * a.year.energy
     ),
     "cost_per_year": Output("cost per year", "money", lambda a: None if a.year is None else a.year.cost),
+    "capital_cost": Output("capital cost", "money", lambda costs: float(costs.whole_capital), priced=True),
+    "parts_cost_per_year": Output(
+        "cost per year of the parts", "money", lambda costs: float(costs.parts_year), priced=True
+    ),
+    "total_cost_per_year": Output(
+        "total cost per year",
+        "money",
+        lambda costs: float(costs.year) if "energy" in costs.yearly else None,
+        priced=True,
+    ),
     "failed": Output(
         "failed checks of the own load",
         "count",
@@ -59,6 +72,8 @@ OUTPUTS: Final[Mapping[str, Output]] = {
     "error_estimate": Output("largest error estimate of the contacts", "error", attrgetter("error_estimate")),
 }
 """Figures by key."""
+PARTS: Final = "parts"
+"""What is kept of a point for figures that are priced."""
 
 
 def outputs_of(keys: Iterable[str]) -> dict[str, Output]:
@@ -76,6 +91,40 @@ def outputs_of(keys: Iterable[str]) -> dict[str, Output]:
     return {key: OUTPUTS[key] for key in asked}
 
 
+def asked_of(outputs: Iterable[str]) -> tuple[str, ...]:
+    """What is calculated of points for figures: those that are priced follow from parts, whatever they cost."""
+    keys = dict.fromkeys(outputs)
+    read = [key for key in keys if not OUTPUTS[key].priced]
+    energy = ("cost_per_year",) if "total_cost_per_year" in keys else ()
+    return tuple(dict.fromkeys([*read, *energy, *((PARTS,) if len(read) < len(keys) else ())]))
+
+
+def priced(
+    answer: Answer, asked: Sequence[str], outputs: Sequence[str], amounts: Mapping[str, float], seconds: float
+) -> Answer:
+    """Figures of an answer that is calculated.
+
+    Parameters
+    ----------
+    answer : list or str
+        Of `asked`, [SI].
+    asked, outputs : sequence of str
+        What was calculated, and what is wanted.
+    amounts : mapping
+        `Prices.amounts`; empty where parts have no price.
+    seconds : float
+        Of running in a year [s].
+    """
+    if isinstance(answer, str) or PARTS not in asked:
+        return answer
+    known = dict(zip(asked, answer, strict=True))
+    parts, costed = known[PARTS], None
+    if amounts and parts is not None:
+        costed = costs(Parts(*parts), amounts, seconds=seconds, energy=known.get("cost_per_year"))
+    read = ((OUTPUTS[key], key) for key in outputs)
+    return [(None if costed is None else one.get(costed)) if one.priced else known[key] for one, key in read]
+
+
 @dataclass(frozen=True)
 class Job:
     """What every batch of a study follows from, packed once; equal ones have the same key.
@@ -85,17 +134,17 @@ class Job:
     key : bytes
         Hash of all of it.
     packed : bytes
-        Spec, keys of `OUTPUTS`, compounds, and the levels of all compounds.
+        Spec, what is asked of points, compounds, and the levels of all compounds.
     """
 
     key: bytes
     packed: bytes = field(compare=False, repr=False)
 
     @classmethod
-    def of(cls, base: Conveyor, outputs: Sequence[str], compounds: Mapping[str, RubberCompound]) -> Self:
-        """Pack a spec, the keys of the figures asked for, and the compounds that points give by name."""
+    def of(cls, base: Conveyor, asked: Sequence[str], compounds: Mapping[str, RubberCompound]) -> Self:
+        """Pack a spec, what is `asked_of` its points, and the compounds that they give by name."""
         every = (base.carry_compound, base.return_compound, *compounds.values())
-        packed = pickle.dumps((base, tuple(outputs), dict(compounds), anchors_of(base, every)))
+        packed = pickle.dumps((base, tuple(asked), dict(compounds), anchors_of(base, every)))
         return cls(hashlib.sha256(packed).digest(), packed)
 
 
@@ -103,7 +152,7 @@ class _Opened(NamedTuple):
     """A job where it is done: the very same parts for all its batches, and the levels of its compounds."""
 
     base: Conveyor
-    outputs: tuple[str, ...]
+    asked: tuple[str, ...]
     compounds: Mapping[str, RubberCompound]
     anchors: Anchors
 
@@ -129,9 +178,9 @@ def answers(job: Job, points: Sequence[Changes], rtol: float = RTOL) -> list[Ans
     Returns
     -------
     list
-        In their order the figures in SI, or why a point has none.
+        In their order what is asked for in SI, or why a point has none.
     """
-    base, outputs, compounds, anchors = _opened(job)
+    base, asked, compounds, anchors = _opened(job)
     known: dict[object, object] = {}
     made: list[Conveyor | str] = []
     for point in points:
@@ -141,13 +190,23 @@ def answers(job: Job, points: Sequence[Changes], rtol: float = RTOL) -> list[Ans
             made.append(str(error))
     variants = [Variant(one) for one in made if isinstance(one, Conveyor)]
     results = iter(calculate_many(variants, rtol, anchors=anchors))
-    return [one if isinstance(one, str) else _answer(next(results), outputs) for one in made]
+    return [one if isinstance(one, str) else _answer(next(results), asked) for one in made]
 
 
-def _answer(result: CalculatedConveyor | ConveyorError, outputs: Sequence[str]) -> Answer:
+def _answer(result: CalculatedConveyor | ConveyorError, asked: Sequence[str]) -> Answer:
     if not isinstance(result, CalculatedConveyor):
         return str(result)
     try:
-        return [OUTPUTS[key].get(result) for key in outputs]
+        return [_parts(result) if key == PARTS else _kept(OUTPUTS[key].get(result)) for key in asked]
     except ConveyorError as error:
         return str(error)
+
+
+def _kept(value: float | None) -> float | None:
+    """A figure to ten digits: what follows them differs from one run of the same batch to the next."""
+    return float(f"{value:.10g}") if isinstance(value, float) else value
+
+
+def _parts(result: CalculatedConveyor) -> list[float | None] | None:
+    parts = parts_of(result)
+    return None if parts is None else [_kept(float(value)) for value in vars(parts).values()]

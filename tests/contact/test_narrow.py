@@ -221,3 +221,23 @@ def test_widest_contact_meets_the_alias_of_its_window():
     for grade in (FINE[0], COARSE[0]):
         for cap in CAPS:
             assert np.exp(-((_width(grade, cap) * (2.0 * np.pi - 2.0 * cap)) ** 2) / 4.0) < 1e-16
+
+
+@pytest.mark.parametrize("pressure", [1e-3, 1e-7, 1e-11])
+@pytest.mark.parametrize("zeta", [1e-6, 1.0, 1e6])
+def test_friction_keeps_its_relative_precision_however_small(pressure, zeta):
+    # half widths down to 1e-8, friction to 1e-20: what is looked up must not leave its rounding there
+    problem = ContactProblem("half-space", 0.002, pressure, CreepSpectrum(0.01, [0.99], [zeta]))
+    exact = by_half_width(Scene.of(problem), 1e-10).found
+    (outcome,) = solve_narrow([problem], 1e-6)
+    outcome = by_half_width(Scene.of(problem), 1e-6, outcome) if isinstance(outcome, Near) else outcome
+    assert abs(outcome.found.friction / exact.friction - 1.0) <= outcome.found.error_estimate <= 1e-6
+
+
+def test_memory_far_longer_than_the_passage():
+    # friction is as small as α/ζ = 1e-11, and inversely proportional to ζ
+    scene = ContactProblem("half-space", 1.6e-3, 2e-8, CreepSpectrum(1e-3, [0.999], [3e5]))
+    long = solve(scene)
+    longer = solve(replace(scene, creep=CreepSpectrum(1e-3, [0.999], [3e6])))
+    assert long.friction / longer.friction == pytest.approx(10.0, rel=1e-8)
+    assert long.energy_error < 1e-9

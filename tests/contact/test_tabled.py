@@ -69,3 +69,13 @@ def test_what_the_tables_do_not_hold_is_formed_one_by_one(order, times):
     side, given = creeps(times), rule()
     found = Tabled.of(side, ALPHA).matrices(given, order)
     np.testing.assert_array_equal(found, assemble(given, side, ALPHA, order))
+
+
+def test_moved_weights_keep_what_is_small_at_the_start_of_the_grid():
+    # sums that vanish with their places do so to rounding of the stencil's largest value, 1.6
+    places = np.array([[1e-7, 1e-3]])
+    (grid,) = moved.moved(moved.stencils(places), 32, np.array([[1.0, -1.0]]))
+    at = np.arange(32) - float(moved.BEFORE)
+    for power in (0, 1, 2, 5):
+        expected = 0.0 if power == 0 else 1e-7**power - 1e-3**power
+        assert grid[0] @ (0.2 * at) ** power == pytest.approx(0.2**power * expected, abs=2e-15)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
@@ -81,8 +80,8 @@ def test_what_a_user_types_is_safe_in_every_file(result, tmp_path):
     assert "'@x" in pd.read_csv(tmp_path / "inputs.csv", encoding="utf-8-sig")["as entered"].tolist()
 
 
-@pytest.mark.skipif(importlib.util.find_spec("pyarrow") is not None, reason="pyarrow is installed")
-def test_parquet_without_its_package_says_how_to_get_it(result, tmp_path):
+def test_parquet_without_its_package_says_how_to_get_it(result, tmp_path, monkeypatch):
+    monkeypatch.setattr("conveyor.report.files.find_spec", lambda _: None)
     with pytest.raises(InputError, match="Parquet needs the package pyarrow: pip install pyarrow"):
         result.to_tables(tmp_path, kind="parquet")
     assert list(tmp_path.iterdir()) == []

@@ -15,6 +15,7 @@ import conveyor
 from conveyor import shelf
 from conveyor.checks import checks
 from conveyor.errors import InputError, NoSolutionError
+from conveyor.laws.belt import RATED_SAFETY
 from conveyor.laws.energy import NEMA_MOTORS
 from conveyor.laws.roll_life import rating_life_hours
 from conveyor.line.task import SizingTask
@@ -291,6 +292,8 @@ def test_a_design_in_us_units_is_of_the_us_trade(small):
     judged = [check for check in checks(conveyor.analyse(spec)) if check.key in {"set_rating", "belt_rating"}]
     assert len(judged) == 4  # both strands; steady and all states
     assert not [check for check in judged if check.failed]
+    for carcass in SizingTask(american).carcasses["EP"]:
+        assert carcass.safety == pytest.approx(RATED_SAFETY["textile"], rel=1e-12)
     assert SizingDuty.from_data(american.as_data()).series == "US"
     assert american.replace(rules={**rules, "series": "metric"}).series == "metric"
 

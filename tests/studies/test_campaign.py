@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import csv
+import errno
 import json
+import os
 import re
 import sqlite3
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
@@ -19,7 +21,7 @@ from conveyor.errors import ConveyorError, InputError
 from conveyor.models.fields import with_fields
 from conveyor.models.study import StudyPlan
 from conveyor.pipeline import calculate
-from conveyor.report.point_tables import PartedTable, of_points
+from conveyor.report.point_tables import CampaignTable, PartedTable, of_points
 from conveyor.studies.campaign import BATCH, Answers, Campaign, point_of, rows, run
 from conveyor.studies.points import OUTPUTS, RTOL
 from tests.command_line import run as command
@@ -134,7 +136,7 @@ def test_order_and_number_of_workers_change_nothing(line, tmp_path, monkeypatch)
     alone = answered(study, tmp_path / "alone")
     with ThreadPoolExecutor(3) as threads:
         assert answered(study, tmp_path / "threads", executor=threads, workers=3) == alone
-    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as processes:
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as processes:
         found = answered(study, tmp_path / "processes", executor=processes, workers=2)
     same(found, alone)
 
@@ -183,6 +185,10 @@ def test_what_is_no_file_of_answers_is_refused(tmp_path, held):
         ({"samples": {"count": 2, "fields": {"x": {"low": "1 m", "high": "1 kg"}}}}, "expected two of one kind"),
         ({"outputs": ["power"]}, 'no figure "power"; there are motor_power'),
         ({"axes": {"belt.sped": ["1 m/s"]}}, "did you mean speed"),
+        ({"axes": {"belt.speed": ["1 m/s", "2 kg"]}}, r'belt.speed: got "2 kg" \(a mass\), expected a speed'),
+        ({"axes": {"belt.speed": "1:2:0.5"}}, "belt.speed: got 1.0 without a unit"),
+        ({"states": [{"material.flow": "1 m"}]}, r'material.flow: got "1 m" \(a length\)'),
+        ({"axes": {x: f"1:2:0.001 {x}" for x in "abc"}}, "1,003,003,001 points, at most 10,000,000"),
         ({"axes": {"belt.top_cover.compound": ["no-such"]}}, 'unknown compound "no-such"'),
     ],
 )  # fmt: skip
@@ -240,7 +246,7 @@ def test_a_table_in_a_folder_grows_while_its_study_runs(line, tmp_path, monkeypa
 
     def instead(_, points):
         calls.extend(points)
-        return [[1e3 * float(point["belt.speed"].split()[0]), None, 1] for point in points]
+        return by_speed(_, points)
 
     study, folder = campaign(line), tmp_path / "points"
 
@@ -272,8 +278,99 @@ def test_a_table_in_a_folder_grows_while_its_study_runs(line, tmp_path, monkeypa
         run_into(folder, tmp_path / "a")
 
 
+def test_a_study_without_any_answer_says_why_and_draws_nothing(tmp_path):
+    file, page = tmp_path / "study.json", tmp_path / "page.html"
+    plan = PLAN | {"base": str(SPECS / "shuttle.yaml"), "axes": {"belt.speed": ["0.001 m/s", "0.002 m/s"]}}
+    file.write_text(json.dumps(plan), encoding="utf-8")
+    done = command("study", file, "-o", tmp_path / "t.csv", "--html", page, "--plots", tmp_path / "figures")
+    assert done.returncode == 0, done.stderr
+    assert "2 without an answer" in done.stdout
+    assert "raise belt.speed" in page.read_text(encoding="utf-8")
+
+
+def by_speed(_, points):
+    """Figures of points at once, instead of their calculation."""
+    return [[1e3 * float(point["belt.speed"].split()[0]), None, 1] for point in points]
+
+
+def test_a_full_disk_loses_nothing_and_the_run_goes_on(line, tmp_path, monkeypatch):
+    monkeypatch.setattr("conveyor.studies.campaign.answers", by_speed)
+    path, study = tmp_path / "a", campaign(line, axes={"belt.speed": "1:3:0.002 m/s"})
+    with Answers(path) as known:
+        known._file.execute("PRAGMA max_page_count = 4")  # as a disk without room for a fifth page
+        with pytest.raises(
+            ConveyorError, match=r"disk is full; make room.*what is done is kept: run it again"
+        ):
+            run(study, known)
+        kept = len(known)
+    assert 0 < kept < study.plan.count
+    asked = []
+    monkeypatch.setattr(
+        "conveyor.studies.campaign.answers", lambda _, new: asked.extend(new) or by_speed(_, new)
+    )
+    assert answered(study, path) == answered(study, tmp_path / "whole")
+    assert len(asked) == (study.plan.count - kept) + study.plan.count
+
+
+def test_a_part_without_room_is_not_there_and_the_run_goes_on(line, tmp_path, monkeypatch):
+    monkeypatch.setattr("conveyor.studies.campaign.answers", by_speed)
+    monkeypatch.setattr("conveyor.report.point_tables.PART", 8)
+    monkeypatch.setattr("conveyor.report.point_tables.find_spec", lambda _: None)
+    study, folder = campaign(line, axes={"belt.speed": "1:1.31:0.01 m/s"}), tmp_path / "points"
+
+    def run_into(folder):
+        with Answers(tmp_path / "a") as known:
+
+            def row(number, keyed):
+                return point_of(study, known, number, keyed)
+
+            run(
+                study, known, answered=PartedTable(of_points(study, "SI"), folder, study.plan.count, row).take
+            )
+
+    write, begun = CampaignTable._csv, []
+
+    def full(self, path, rows):
+        begun.append(path)
+        count = write(self, path, rows)
+        if len(begun) == 3:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        return count
+
+    monkeypatch.setattr(CampaignTable, "_csv", full)
+    with pytest.raises(InputError, match=r"part-00003.csv: cannot be written \(No space left on device\)"):
+        run_into(folder)
+    assert sorted(file.name for file in folder.iterdir()) == ["part-00001.csv", "part-00002.csv"]
+    run_into(folder)
+    run_into(tmp_path / "whole")
+    assert [file.read_bytes() for file in sorted(folder.iterdir())] == [
+        file.read_bytes() for file in sorted((tmp_path / "whole").iterdir())
+    ]
+
+
+def test_a_file_of_answers_that_a_full_disk_left_without_a_table_is_begun_again(tmp_path):
+    with Answers(tmp_path / "a"):
+        pass
+    with closing(sqlite3.connect(tmp_path / "a")) as file, file:
+        file.execute("DROP TABLE answers")
+    with Answers(tmp_path / "a") as known:
+        assert len(known) == 0
+
+
+def test_a_damaged_file_of_answers_says_so(line, tmp_path, monkeypatch):
+    monkeypatch.setattr("conveyor.studies.campaign.answers", by_speed)
+    path, study = tmp_path / "a", campaign(line, axes={"belt.speed": "1:2:0.001 m/s"})
+    answered(study, path)
+    data = path.read_bytes()
+    path.write_bytes(data[:8192] + b"x" * 8192 + data[16384:])
+    with pytest.raises(InputError, match="or is damaged"):
+        answered(study, path)
+
+
 def test_every_figure_can_be_asked_for(line, tmp_path):
-    study = campaign(line, axes={"belt.speed": ["1 m/s"]}, outputs=list(OUTPUTS))
+    timed = line.replace(operation={"hours_per_year": "5000 h", "price": "0.1 EUR/kWh"})
+    study = campaign(timed, axes={"belt.speed": ["1 m/s"]}, outputs=list(OUTPUTS))
     ((*_, answer),) = answered(study, tmp_path / "a")
     assert len(answer) == len(OUTPUTS)
+    assert None not in answer
     assert BATCH > 1

@@ -23,7 +23,7 @@ PLAN = {
     "axes": {"belt.speed": "1:1.3:0.02 m/s", "ambient.temperature": ["0 degC", "20 degC"]},
     "outputs": ["motor_power", "indentation"],
 }
-PATIENCE = 120.0  # seconds
+PATIENCE = 300.0  # seconds
 
 
 def answered(path: Path) -> int:

@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.laws.belt import RATED_SAFETY
 from conveyor.laws.sizing import annuity
+from conveyor.line.roll_lives import shortest_life
+from conveyor.line.stretches import STRANDS
+from conveyor.models import Conveyor
+from conveyor.pipeline import CalculatedConveyor
 
 Value: TypeAlias = "float | NDArray[np.float64]"
+_NO_LIFE: Final = 1e12  # [s], of rolls without load or bearings: their seals end sooner
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,8 +63,13 @@ class Costs:
         """Of everything."""
         return sum(self.yearly.values(), 0.0)
 
+    @property
+    def parts_year(self) -> Value:
+        """Of everything but energy."""
+        return sum((value for name, value in self.yearly.items() if name != "energy"), 0.0)
 
-def costs(parts: Parts, prices: Mapping[str, float], *, seconds: float, energy: Value) -> Costs:
+
+def costs(parts: Parts, prices: Mapping[str, float], *, seconds: float, energy: Value | None) -> Costs:
     """Cost a conveyor.
 
     Parameters
@@ -68,7 +80,7 @@ def costs(parts: Parts, prices: Mapping[str, float], *, seconds: float, energy: 
         `Prices.amounts`.
     seconds : float
         Of running in a year [s].
-    energy : float or ndarray
+    energy : float or ndarray, optional
         Cost of a year's energy [currency/a].
 
     Returns
@@ -102,5 +114,53 @@ def costs(parts: Parts, prices: Mapping[str, float], *, seconds: float, energy: 
     worn = np.minimum(parts.roll_life, p["roll_life"]) / seconds
     yearly["rolls"] = annuity(worn, interest=interest) * capital["rolls"]
     yearly["upkeep"] = p["upkeep"] * sum(capital.values(), 0.0)
-    yearly["energy"] = energy
+    if energy is not None:
+        yearly["energy"] = energy
     return Costs(capital, yearly)
+
+
+def unpriced(line: Conveyor) -> Iterator[str]:
+    """Fields that a spec has to give before its parts have a price."""
+    if line.belt.carcass.strength is None and line.belt.carcass.rating is None:
+        yield "belt.carcass.strength"
+    if line.drive.installed_power is None:
+        yield "drive.installed_power"
+    for drive in line.drive.further_drives:
+        if drive.installed_power is None:
+            yield f"drive.further_drives.{drive.name}.installed_power"
+
+
+def roll_life(one: CalculatedConveyor) -> float:
+    """L10 of the bearings of the set that lives shortest [s]."""
+    lives = [shortest_life(one.line.stretches, strand, one.line.speed) for strand in STRANDS]
+    return min((3600.0 * life.hours for life in lives if life is not None), default=_NO_LIFE)
+
+
+def parts_of(one: CalculatedConveyor) -> Parts | None:
+    """Parts of a calculated conveyor as its spec lists them; None where `unpriced` names a field.
+
+    The bottom cover is a special one where its compound is not that of the top cover; a belt sold by its rated tension
+    is taken to break at a usual multiple of it.
+    """
+    if any(unpriced(one.conveyor)):
+        return None
+    line, belt = one.line, one.line.belt
+    (top, bottom), rubber = belt.cover_thicknesses, one.conveyor.belt.top_cover.compound
+    special = rubber is not None and rubber != one.conveyor.belt.bottom_cover.compound
+    return Parts(
+        width=belt.width,
+        length=line.length,
+        strength=belt.strength
+        or RATED_SAFETY["steel cord" if belt.steel_cord else "textile"] * (belt.rating or 0.0),
+        steel_cord=float(belt.steel_cord),
+        cover=top if special else top + bottom,
+        special_cover=bottom if special else 0.0,
+        sets=math.fsum(stretch.sets for stretch in line.stretches),
+        rolls=math.fsum(stretch.sets * stretch.idlers.rolls for stretch in line.stretches),
+        roll_mass=math.fsum(stretch.sets * stretch.set_mass for stretch in line.stretches),
+        roll_life=roll_life(one),
+        drives=float(len(line.drives)),
+        power=math.fsum(drive.power or 0.0 for drive in line.drives),
+        pulley_mass=math.fsum(pulley.mass for pulley in line.pulleys),
+        take_up=one.balance.settled.setting,
+    )
