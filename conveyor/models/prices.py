@@ -144,7 +144,10 @@ class Prices(Model):
             refuse("Prices", [Problem(("euro",), f"got {self.euro}, allowed: > 0")])
         if len(known) > 1:
             own = {name for name in self.model_fields_set if name in given}
-            own = {name for name in own if str(given[name]) != library_prices().get(name)} or set(given)
+            if self.euro is not None:
+                own = {name for name in own if given[name].currency != self.euro.currency}
+            else:
+                own = {name for name in own if str(given[name]) != library_prices()[name]} or set(given)
             message = f"got {', '.join(sorted(known))}; give every price in one currency: {', '.join(sorted(given))}"
             refuse("Prices", [Problem((min(own),), message)])
         return self

@@ -113,7 +113,7 @@ def size(duty: SizingDuty, *, best: int = 3, progress: Progress | None = None) -
     if not len(choices):
         raise NoSolutionError(
             "no belt width and speed keep the rules of lumps, filling, edge distance and roll speed: allow wider belts "
-            "(rules.widths), other speeds (rules.speeds, rules.fastest, rules.roll_rotation) or fillings"
+            "(rules.widths), other speeds (rules.speeds, rules.fastest, rules.roll_rotation) fillings or troughs"
         )
     candidates, choices, levels = len(choices), choices.taken_up(), first_levels(len(duty.covers))
     estimate = screen(task, choices, levels)

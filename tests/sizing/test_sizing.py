@@ -268,6 +268,8 @@ def test_prices_of_the_library_count_at_what_a_euro_costs():
     ):
         with pytest.raises(InputError, match=message):
             Prices.from_data({"euro": wrong})
+    with pytest.raises(InputError, match=r"roll: got EUR, USD; give every price in one currency"):
+        Prices.from_data({"euro": "1.1 USD", "roll": "15 EUR"})
 
 
 def test_a_design_in_us_units_is_of_the_us_trade(small):
