@@ -216,7 +216,7 @@ def test_a_belt_beyond_its_rating_has_no_length_that_helps():
 @pytest.mark.parametrize(
     ("changes", "missing"),
     [
-        ({"strength": None, "rating": "100 N/mm"}, "belt.carcass.stiffness not given"),
+        ({"kind": "aramid", "strength": None, "rating": "100 N/mm"}, "belt.carcass.stiffness not given"),
         ({"strength": None}, "belt.carcass.strength and rating not given"),
     ],
 )
