@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from mkdocs.config.defaults import MkDocsConfig
@@ -25,3 +26,8 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
         for name in INTERFACE
     ]
     return Files([*(file for file in files if file.src_dir != config.docs_dir), *here, *made])
+
+
+def on_page_markdown(markdown: str, **_: object) -> str:
+    """Blocks of code by their language alone: what else tests read behind it ends no fence here."""
+    return re.sub(r"^```(\w+) \w.*$", r"```\1", markdown, flags=re.MULTILINE)
