@@ -31,7 +31,7 @@ from conveyor.laws.sizing import (
     wear_addition,
 )
 from conveyor.laws.tension import least_pulley_diameter
-from conveyor.line.defaults import SHAFT
+from conveyor.line.defaults import SHAFT, usual_lump_factor
 from conveyor.models import Conveyor
 from conveyor.models.sizing import CarcassRow, DriveLayout, SiteRules, Sizes, SizingDuty, same_width, sizes
 from conveyor.units import from_si, in_si, si
@@ -382,6 +382,11 @@ class SizingTask:
         )
         return carry, back
 
+    @cached_property
+    def lump_factor(self) -> float:
+        """Load of the bulk on a rated set over the steady one [-]; 1 where none is printed for such lumps."""
+        return usual_lump_factor(si(self.duty.lump), self.density) or 1.0
+
     def turns_slowly(self, roll: RollSize, speed: float) -> bool:
         """Whether a roll keeps the rule of rotation."""
         return speed / (math.pi * roll.diameter) <= si(self.rules.roll_rotation)
@@ -470,6 +475,9 @@ class SizingTask:
                     ),
                     "thickness": written(carcass.thickness, "mm"),
                     "mass": written(carcass.mass, "kg/m^2", 3),
+                },
+                "wear": {
+                    "lump": written(si(duty.lump), "mm"), "abrasiveness": duty.abrasiveness, "loading": duty.loading
                 },
             },
             "idlers": self._idlers(choice),
