@@ -266,13 +266,24 @@ class SizingTask:
         return NEMA_MOTORS if self.duty.series == "US" else MOTOR_SERIES
 
     @property
-    def largest_motor(self) -> float:
-        """That the rules allow and the series has [W]."""
-        return min(si(self.rules.largest_motor), self._motors[-1])
+    def _largest_motor(self) -> float:
+        """That the rules allow and the series has [W]; the rule itself where the series has none so small."""
+        most = si(self.rules.largest_motor)
+        return max((each for each in self._motors if each <= most), default=most)
 
-    def motor(self, power: float) -> float:
-        """Smallest one with the reserve of the rules [W]."""
-        return next_motor(power, reserve=self.rules.motor_reserve, series=self._motors)
+    @property
+    def largest_drive(self) -> float:
+        """All motors of a pulley, the largest of them [W]."""
+        return self.rules.motors_per_pulley * self._largest_motor
+
+    def motors(self, power: float) -> float:
+        """The fewest and smallest equal ones of a pulley with the reserve of the rules, together [W]."""
+        count = self.motor_count(power * self.rules.motor_reserve)
+        return count * next_motor(power / count, reserve=self.rules.motor_reserve, series=self._motors)
+
+    def motor_count(self, rated: float) -> int:
+        """Equal motors of a pulley for a rated power [W]."""
+        return max(1, math.ceil(round(rated / self._largest_motor, 9)))
 
     @property
     def take_up_travel(self) -> float:
@@ -544,7 +555,7 @@ class SizingTask:
             **one,
             **brake,
             "position": "tail" if choice.drives == "tail" else "head",
-            "installed_power": self._written(motors[0], "kW"),
+            **self._motored(motors[0]),
             "efficiency": f"{100.0 * self.efficiency:.6g} %",
             "start_factor": rules.start_factor,
         }
@@ -552,8 +563,13 @@ class SizingTask:
         for number, motor in enumerate(motors[1:], start=2):
             tail = "tail" in choice.drives and number == len(motors)
             place = {"name": f"drive {number}", "position": "tail" if tail else "head"}
-            further.append({**one, **place, "installed_power": self._written(motor, "kW")})
+            further.append({**one, **place, **self._motored(motor)})
         return {**first, "further_drives": further} if further else first
+
+    def _motored(self, rated: float) -> dict[str, Any]:
+        """Motors of a pulley with so much together [W]."""
+        count = self.motor_count(rated)
+        return {"installed_power": self._written(rated, "kW")} | ({"motors": count} if count > 1 else {})
 
     def _roll(self, roll: RollSize, length: float) -> dict[str, Any]:
         return {

@@ -49,7 +49,7 @@ _SIZINGS: Final = 5  # belt class, motors and brake against their own tensions
 _SCREENINGS: Final = 2  # levels of the estimate against calculated candidates
 _TOO_MUCH: Final = (
     "no candidate has a belt, motors, bearings and take-up that do among the series: allow further carcasses, drives, "
-    "closer sets (rules.carcasses, rules.drives, rules.largest_motor, rules.take_up_travel, rules.carry_spacings), or "
+    "closer sets (rules.carcasses, rules.drives, rules.motors_per_pulley, rules.take_up_travel, rules.carry_spacings), or "
     "split the conveyor"
 )
 
@@ -239,7 +239,7 @@ def _estimated(task: SizingTask, choice: Choice, estimate: Screened, i: int) -> 
     """Class and motors as the estimate has them."""
     carcass = task.carcasses[choice.kind][int(estimate.carcass[i])]
     power = abs(float(estimate.force[i])) * choice.speed / task.efficiency
-    motors = tuple(map(task.motor, spread(power, choice.drives)))
+    motors = tuple(map(task.motors, spread(power, choice.drives)))
     return Chosen(carcass, *task.covers(choice, carcass), motors, 0.0)
 
 
@@ -358,9 +358,9 @@ def _chosen(task: SizingTask, choice: Choice, before: Chosen, pair: Sequence[Cal
     powers = [_powers(one) for one in pair]
     needed = [max(each) for each in zip(*powers, strict=True)]
     most = max(needed)
-    if most * task.rules.motor_reserve > task.largest_motor:
-        raise NoSolutionError("no motor is large enough for its drive (rules.largest_motor)")
-    motor = task.motor(most)
+    if most * task.rules.motor_reserve > task.largest_drive:
+        raise NoSolutionError("no motor is large enough for its drive (rules.largest_motor, rules.motors_per_pulley)")
+    motor = task.motors(most)
     brake = max((0.0 if one.motions.rolls_back else one.motions.brake_to_hold) for one in pair)
     brake = 0.0 if brake <= 0.0 else max(before.brake, BRAKE_RESERVE * brake)
     if before.brake > 0.0 and brake <= before.brake * (1.0 + RTOL):
@@ -381,8 +381,8 @@ def _foreseen(task: SizingTask, design: SizedDesign) -> Chosen:
     for of in one.stretches[: one.line.count]:
         bulk = of.stretch.bulk_mass / of.stretch.line_mass
         more += max(0.0, -bulk * (of.total - of.forces["idler_rotation"]))
-    motor = task.motor(
-        min(max(_powers(one)) * (1.0 + more / steady), task.largest_motor / task.rules.motor_reserve)
+    motor = task.motors(
+        min(max(_powers(one)) * (1.0 + more / steady), task.largest_drive / task.rules.motor_reserve)
     )
     needed = partial(_needed, choice=design.choice, tension=highest_tension([one]) + more)
     carcass = next(

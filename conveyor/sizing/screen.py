@@ -248,7 +248,7 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
     life = _roll_life(every, around.middle)
     possible = (
         around.strong
-        & (power * task.rules.motor_reserve <= drives * task.largest_motor)
+        & (power * task.rules.motor_reserve <= drives * task.largest_drive)
         & (life >= task.roll_life)
     )
     for load, rating in zip(around.sets.T, every.ratings(), strict=True):

@@ -75,7 +75,8 @@ def test_lumps_say_the_factor_where_none_is_given():
     def of(lump, **given):
         carry = DATA["idlers"]["carry"] | {"cema_class": "D"} | given
         return calculated(
-            belt=DATA["belt"] | {"wear": {"lump": lump, "loading": "low"}}, idlers=DATA["idlers"] | {"carry": carry}
+            belt=DATA["belt"] | {"wear": {"lump": lump, "loading": "low"}},
+            idlers=DATA["idlers"] | {"carry": carry},
         )
 
     # 1600 kg/m³: 1.1 to 300 mm, 1.2 to 500 mm, none printed beyond
