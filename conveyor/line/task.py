@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Final
 
-from conveyor.errors import RangeError
+from conveyor.errors import NoSolutionError, RangeError
 from conveyor.files import libraries
 from conveyor.laws.belt import (
     CEMA_PULLEYS,
@@ -34,7 +34,8 @@ from conveyor.laws.tension import least_pulley_diameter
 from conveyor.line.defaults import SHAFT, usual_lump_factor
 from conveyor.models import Conveyor
 from conveyor.models.sizing import CarcassRow, DriveLayout, SiteRules, Sizes, SizingDuty, same_width, sizes
-from conveyor.units import from_si, in_si, si
+from conveyor.units import from_si, in_si, si, text
+from conveyor.units.sentences import figure
 
 _BEARING_INSET: Final = 0.02  # [m], middle of a bearing inside the tube's end; general knowledge
 _OVERLAND: Final = 1000.0  # [m], from which sets stand as far apart as overland; general knowledge
@@ -169,9 +170,9 @@ class Choice:
 
 @dataclass(frozen=True)
 class Chosen:
-    """What follows from a candidate's tensions: class, covers [m], motor of each drive [W], brakes at the belt [N].
+    """What follows from a candidate's tensions: class, covers [m], motors of each drive [W], brakes at the belt [N].
 
-    `settling`: whether it does from exact ones already.
+    `backstop`: torque of that on the first pulley [N m]; `settling`: whether it follows from exact ones already.
     """
 
     carcass: CarcassClass
@@ -179,6 +180,7 @@ class Chosen:
     bottom: float
     motors: tuple[float, ...]
     brake: float
+    backstop: float = 0.0
     settling: bool = False
 
 
@@ -355,11 +357,44 @@ class SizingTask:
                 shapes.append(Trough(width, angle, section.area))
         return tuple(shapes)
 
+    def fits(self) -> None:
+        """Refuse lumps and flows that no belt takes.
+
+        Raises
+        ------
+        NoSolutionError
+            Lumps ask for a wider belt than the widest, or the flow for a faster or fuller one.
+        """
+        duty, rules, system = self.duty, self.rules, self.duty.report.units
+        lumps = least_width_for_lumps(
+            si(duty.lump), surcharge_angle=duty.material.surcharge, share=duty.lumps
+        )
+        widest = max(map(si, rules.widths or [row.belt for row in self.sizes.widths]))
+        if lumps > widest:
+            asked, had = (figure(width, "thickness", system) for width in (lumps, widest))
+            raise NoSolutionError(
+                f"lump: {text(duty.lump)} asks for a belt of {asked}, the widest has {had} (rules.widths)"
+            )
+        allowed = (trough.area * v for trough in self.troughs for v in self.speeds if self.allows(trough, v))
+        most = max(allowed, default=math.inf) * self.density * si(rules.filling)
+        if self.flow > most:
+            raise NoSolutionError(
+                f"material.flow: {text(duty.material.flow)} is more than the widest and fastest belt takes, "
+                f"{figure(most, 'mass flow', system)} (rules.widths, rules.fastest, rules.speeds, rules.filling)"
+            )
+
+    def allows(self, trough: Trough, speed: float) -> bool:
+        """Whether the rules allow a belt to be so fast."""
+        given = self.rules.fastest
+        fastest = (
+            si(given) if given else recommended_speed(trough.width.belt, abrasiveness=self.duty.abrasiveness)
+        )
+        return speed <= fastest
+
     def filling(self, trough: Trough, speed: float) -> float | None:
         """Share of the cross-section under bulk [-]; None where rules of speed, filling or edges are not kept."""
-        width, given = trough.width.belt, self.rules.fastest
-        fastest = si(given) if given else recommended_speed(width, abrasiveness=self.duty.abrasiveness)
-        if speed > fastest:
+        width = trough.width.belt
+        if not self.allows(trough, speed):
             return None
         area = self.flow / (self.density * speed)
         filling = area / trough.area
@@ -551,6 +586,8 @@ class SizingTask:
         rules, motors = self.rules, chosen.motors
         one = {"wrap_angle": self._written(si(rules.wrap_angle), "deg"), "friction": rules.friction}
         brake = {"brake_force": self._written(chosen.brake, "kN", 4)} if chosen.brake > 0.0 else {}
+        if chosen.backstop > 0.0:
+            brake["backstop_torque"] = self._written(chosen.backstop, "kN*m", 4)
         first = {
             **one,
             **brake,
@@ -584,13 +621,14 @@ class SizingTask:
 
 
 _KINDS: Final = {"m": "length", "mm": "thickness", "m/s": "speed", "deg": "angle", "kW": "power", "N/mm": "line force",
-                 "PIW": "line force", "kN": "force", "kg": "mass", "kg/m^2": "area mass"}  # fmt: skip
+                 "PIW": "line force", "kN": "force", "kN*m": "torque", "kg": "mass", "kg/m^2": "area mass"}  # fmt: skip
 _US_UNITS: Final = {
     "m": "ft",
     "mm": "in",
     "m/s": "fpm",
     "kW": "hp",
     "kN": "lbf",
+    "kN*m": "lbf*ft",
     "kg": "lb",
     "kg/m^2": "lb/ft^2",
 }
