@@ -123,7 +123,7 @@ def test_least_radii_are_those_of_the_laws():
 
 
 def test_a_belt_between_two_rolls_is_a_v():
-    """Its centroid is half way up its wings, five rolls are a polygon; what no strength leaves unknown is not guessed."""
+    """Its centroid is half way up its wings; five rolls are a polygon; without strength nothing is guessed."""
     carry = DATA["idlers"]["carry"]
     roll = carry["roll"] | {"length": "580 mm"}
 
