@@ -213,7 +213,9 @@ def identity(conveyor: Conveyor, system: System) -> Table:
     def idlers(of: Any) -> str:
         inner = "" if of.inner_trough_angle is None else f"{shown(of.inner_trough_angle, 'angle')} and "
         lying = f" at {inner}{shown(of.trough_angle, 'angle')}" if of.rolls > 1 else ""
-        return f"{of.rolls} x {shown(of.roll.diameter, 'thickness')}{lying}, every {shown(of.spacing, 'length')}"
+        return (
+            f"{of.rolls} x {shown(of.roll.diameter, 'thickness')}{lying}, every {shown(of.spacing, 'length')}"
+        )
 
     strength = "" if carcass.strength is None else f", breaking {strength_of(carcass.strength, system)}"
     rating = "" if carcass.rating is None else f", rated {rating_of(carcass.rating, system)}"
