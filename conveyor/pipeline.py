@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from itertools import islice, repeat
-from typing import TypeAlias, TypeVar
+from typing import Any, Final, Self, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,8 +62,6 @@ from conveyor.rubber.anchor import Anchor
 Array = NDArray[np.float64]
 T = TypeVar("T")
 NoAnswer: TypeAlias = NoSolutionError | RangeError | InputError
-_Known: TypeAlias = list[tuple[tuple[object, ...], tuple[object, ...], T]]
-"""What was made of the very same parts and equal values."""
 Progress: TypeAlias = Callable[[int, int], None]
 """Called with what is done and the whole; what is done never falls."""
 Anchors: TypeAlias = list[tuple[RubberCompound, bool, Anchor | NoAnswer | None]]
@@ -300,6 +298,7 @@ def calculate_many(
     one_take_up: bool = False,
     known: CalculatedConveyor | None = None,
     anchors: Anchors | None = None,
+    kept: Kept | None = None,
 ) -> list[CalculatedConveyor | NoAnswer]:
     """Calculate many variants, the contacts of all of them side by side.
 
@@ -318,6 +317,8 @@ def calculate_many(
         A variant that is calculated already: the anchors of its compounds are taken over.
     anchors : list, optional
         Those of calls before with the same compounds; what is new is added.
+    kept : Kept, optional
+        What calls before made of the same parts of specs; what is new is added.
 
     Returns
     -------
@@ -329,7 +330,7 @@ def calculate_many(
     NoSolutionError
         No one setting of the take-up serves all.
     """
-    shared = _Shared(known, [] if anchors is None else anchors, rtol)
+    shared = _Shared(known, [] if anchors is None else anchors, rtol, Kept() if kept is None else kept)
     told = _Told(len(variants), progress)
     shared.anchor(variants)
     made: dict[int, CalculatedConveyor] = {}
@@ -395,6 +396,11 @@ class _Loaded:
     fixed: WithoutRubber
     works: Mapping[Strand, StrandAtWork] = field(default_factory=dict)
     anchored: bool = False
+
+    def in_air(self, roll_drags: tuple[tuple[float, ...], ...]) -> Self:
+        """The same with other drags of its rolls."""
+        line = replace(self.line, roll_drags=roll_drags)
+        return replace(self, line=line, frame=self.frame.of(line))
 
 
 def anchors_of(conveyor: Conveyor, compounds: Iterable[RubberCompound]) -> Anchors:
@@ -489,21 +495,57 @@ def _settled(result: CalculatedConveyor) -> bool:
     return result.convergence is not None and result.convergence.settled(result.line.rtol)
 
 
-class _Shared:
-    """What variants have in common, made once: lines, rubbers at a temperature, covers at their working strain.
+class _Same:
+    """A part of a spec as a key, equal to the very same part alone; held as long as the key is."""
+
+    __slots__ = ("part",)
+
+    def __init__(self, part: object) -> None:
+        self.part = part
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Same) and self.part is other.part
+
+    def __hash__(self) -> int:
+        return object.__hash__(self.part)
+
+
+class Kept:
+    """What calculations of one spec's variants have in common, made once: strands, lines, loops of tensions.
 
     Parts of specs are compared by identity: variants are made by `replace`, which keeps what it does not change.
     """
 
-    def __init__(self, known: CalculatedConveyor | None, anchors: Anchors, rtol: float | None) -> None:
-        self._sections: _Known[tuple[RouteSection, ...]] = []
-        self._strands: _Known[tuple[OneStrand, WithoutRubber]] = []
-        self._drags: _Known[tuple[tuple[float, ...], ...]] = []
-        self._likes: _Known[Line] = []
-        self._lines: _Known[_Loaded] = []
-        self._rubbers: _Known[dict[CoverName, PronySeries]] = []
-        self._merged: _Known[PronySeries] = []
-        self._levelled: _Known[RunningCover] = []
+    MOST: Final = 2048
+    """Things kept from call to call; more than all strands and lines of a study over speeds and spacings."""
+
+    def __init__(self) -> None:
+        self._made: dict[tuple[object, ...], Any] = {}
+
+    def begin(self) -> None:
+        """Forget everything where it has become much."""
+        if len(self._made) > self.MOST:
+            self._made.clear()
+
+    def once(
+        self, make: Callable[[], T], what: str, parts: Iterable[object], values: tuple[object, ...] = ()
+    ) -> T:
+        """What was made of the very same parts and equal values, or what is made of them now."""
+        key = (what, *map(_Same, parts), *values)
+        if key not in self._made:
+            self._made[key] = make()
+        made: T = self._made[key]
+        return made
+
+
+class _Shared:
+    """What variants of one call have in common, made once: lines, rubbers at a temperature, covers at their strain."""
+
+    def __init__(
+        self, known: CalculatedConveyor | None, anchors: Anchors, rtol: float | None, kept: Kept
+    ) -> None:
+        kept.begin()
+        self._kept, self._own = kept, Kept()
         self._theories: list[Theory] = []
         self._anchors, self._rtol = anchors, rtol
         self._alike: dict[tuple[object, ...], list[StrandAtWork]] = {}
@@ -538,7 +580,7 @@ class _Shared:
         """
         given, at = variant.conveyor, variant.covers_at
         compounds = compounds_by_strand(given)
-        rubber = _once(self._rubbers, tuple(compounds.values()), (at,), lambda: rubbers(given, at))
+        rubber = self._own.once(partial(rubbers, given, at), "rubbers", compounds.values(), (at,))
         loaded = self._prepared(given, on_curves)
         covers = covers_of(given, rubber)
         works = {
@@ -555,28 +597,32 @@ class _Shared:
             return work
         rubber, (fastest, slowest) = work.cover.rubber, times
         cut = tuple(rubber.times.searchsorted(times).tolist())
-        less = _once(self._merged, (rubber,), cut, lambda: rubber.merged(fastest=fastest, slowest=slowest))
+        less = self._own.once(
+            lambda: rubber.merged(fastest=fastest, slowest=slowest), "merged", (rubber,), cut
+        )
         return replace(work, cover=replace(work.cover, rubber=less, merged=2.0 * FELT * rtol))
 
     def _prepared(self, given: Conveyor, on_curves: Acting) -> _Loaded:
         """The line of a spec; specs of one belt, load and idlers share a strand, in any air and under any drives."""
-        sections = _once(self._sections, (given.route,), (), lambda: route_sections(given))
-        air = given.air_temperature if given.idlers.drag_follows_air else None
-        scene = (on_curves, given.ambient.wind_speed)
-        strands, drags, fixed = [], [], []
+        kept = self._kept if on_curves == Acting() else self._own
+        sections = self._kept.once(lambda: route_sections(given), "sections", (given.route,))
+        scene = (*map(_in_order, vars(on_curves).values()), given.ambient.wind_speed)
+        each = []
         for strand, own in zip(STRANDS, (given.idlers.carry, given.idlers.return_), strict=True):
             parts = (given.belt, own, given.material, given.route, given.calculation)
             made = partial(_strand, given, sections, strand, on_curves)
-            one, without = _once(self._strands, parts, (strand, *scene), made)
-            strands.append(one)
-            fixed.append(without)
-            drags.append(_once(self._drags, (one,), (air,), partial(roll_drags, given, one)))
-        carry, back = strands
-        both, (up, down) = Strands(sections, (carry, back)), drags
+            each.append(kept.once(made, "strand", parts, (strand, *scene)))
+        strands, fixed = zip(*each, strict=True)
+        air = given.air_temperature if given.idlers.drag_follows_air else None
+        drags = [kept.once(partial(roll_drags, given, one), "drags", (one,), (air,)) for one in strands]
         others = (given.belt, given.material, given.route, given.drive, given.calculation)
-        like = _once(self._likes, others, (), lambda: Line.of(given, both, drags))
-        line = replace(like, strands=both, roll_drags=(*up, *down))
-        return _once(self._lines, (*strands, given.drive), (air,), partial(_loaded, line, fixed))
+        like = self._kept.once(lambda: Line.of(given, Strands(sections, strands), drags), "like", others)
+        run = kept.once(
+            lambda: _loaded(replace(like, strands=Strands(sections, strands)), fixed),
+            "loaded",
+            (*strands, given.drive),
+        )
+        return run.in_air((*drags[0], *drags[1]))
 
     def softened(self, loaded: Sequence[_Loaded]) -> list[Covers | NoAnswer]:
         """The covers of many lines at their working strain; alike ones are the very same, and share load curves."""
@@ -608,7 +654,7 @@ class _Shared:
         level = None if anchor is None else Level(anchor, work.temperature)
         if cover.level == level:
             return cover
-        return _once(self._levelled, (cover, anchor), (), lambda: replace(cover, level=level))
+        return self._own.once(lambda: replace(cover, level=level), "level", (cover, anchor))
 
     def _first(self, work: StrandAtWork) -> StrandAtWork:
         """The first strand that works its cover alike."""
@@ -619,19 +665,8 @@ class _Shared:
         return first
 
 
-def _once(
-    known: _Known[T],
-    parts: tuple[object, ...],
-    values: tuple[object, ...],
-    make: Callable[[], T],
-) -> T:
-    """What was made of the very same parts and equal values, or what is made of them now."""
-    for others, equals, kept in known:
-        if values == equals and all(a is b for a, b in zip(parts, others, strict=True)):
-            return kept
-    made = make()
-    known.append((parts, values, made))
-    return made
+def _in_order(figures: Mapping[tuple[str, Strand], float]) -> tuple[object, ...]:
+    return tuple(figures.items())
 
 
 def _together(covers: Mapping[Strand, RunningCover | NoAnswer]) -> Covers | NoAnswer:
