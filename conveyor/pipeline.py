@@ -10,11 +10,11 @@ tensions act on the rolls again until both agree.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from itertools import islice, repeat
-from typing import Any, Final, Self, TypeAlias, TypeVar
+from typing import Any, Final, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +27,6 @@ from conveyor.line.belts import GAUSS, Tensioned, solve_belts
 from conveyor.line.contacts import Contacts, RollResult, solve_contacts
 from conveyor.line.covers import (
     FELT,
-    CoverName,
     Covers,
     Level,
     RunningCover,
@@ -39,7 +38,7 @@ from conveyor.line.covers import (
     told_apart,
 )
 from conveyor.line.line import Line
-from conveyor.line.roll_drags import roll_drags
+from conveyor.line.roll_drags import StrandDrags, roll_drags_many
 from conveyor.line.strands import OneStrand, Strands
 from conveyor.line.stretches import STRANDS, Acting, RouteSection, Strand, Stretch, route_sections
 from conveyor.loop.balance import Balance, balance
@@ -56,7 +55,6 @@ from conveyor.loop.tensions import MotionState
 from conveyor.loop.transfer import Cleaning, Landing, Trajectory, cleanings, landings, trajectory
 from conveyor.loop.year import Year, year
 from conveyor.models import Calculation, Conveyor, RubberCompound
-from conveyor.rubber import PronySeries
 from conveyor.rubber.anchor import Anchor
 
 Array = NDArray[np.float64]
@@ -338,11 +336,11 @@ def calculate_many(
     going = {i: _Step() for i in range(len(variants))}
     while going:
         loaded: dict[int, _Loaded] = {}
-        for i, step in going.items():
-            try:
-                loaded[i] = shared.loaded(variants[i], step.acting)
-            except (NoSolutionError, RangeError, InputError) as error:
-                refused[i] = error
+        for i, one in shared.loaded({i: (variants[i], step.acting) for i, step in going.items()}):
+            if isinstance(one, _Loaded):
+                loaded[i] = one
+            else:
+                refused[i] = one
             told(len(variants) - len(going), len(loaded))
         for i, contacts in _solved(shared, loaded, going, rtol).items():
             try:
@@ -396,11 +394,6 @@ class _Loaded:
     fixed: WithoutRubber
     works: Mapping[Strand, StrandAtWork] = field(default_factory=dict)
     anchored: bool = False
-
-    def in_air(self, roll_drags: tuple[tuple[float, ...], ...]) -> Self:
-        """The same with other drags of its rolls."""
-        line = replace(self.line, roll_drags=roll_drags)
-        return replace(self, line=line, frame=self.frame.of(line))
 
 
 def anchors_of(conveyor: Conveyor, compounds: Iterable[RubberCompound]) -> Anchors:
@@ -550,6 +543,7 @@ class _Shared:
         self._anchors, self._rtol = anchors, rtol
         self._alike: dict[tuple[object, ...], list[StrandAtWork]] = {}
         self._running: dict[StrandAtWork, RunningCover | NoAnswer] = {}
+        self._drags: dict[tuple[OneStrand, float | None], StrandDrags | InputError] = {}
         self.tensioned: Tensioned = {}
         if known is not None:
             for strand, compound in compounds_by_strand(known.conveyor).items():
@@ -566,28 +560,48 @@ class _Shared:
         asked = [(compound, one.calculation.strain != "off") for one, each in compounds for compound in each]
         self._theories = _theories(self._anchors, asked)
 
-    def loaded(self, variant: Variant, on_curves: Acting) -> _Loaded:
-        """The line of a variant under what acts on its curves, and its covers before its rolls work them.
+    def loaded(self, asked: Mapping[int, tuple[Variant, Acting]]) -> Iterator[tuple[int, _Loaded | NoAnswer]]:
+        """The lines of variants under what acts on their curves, and their covers before the rolls work them.
 
-        Raises
-        ------
-        NoSolutionError
-            The belt lifts off on a concave curve, or runs off its rolls on a horizontal one.
-        RangeError
-            A compound is not known at the belt's temperature.
-        InputError
-            A law of roll drag does not hold at a load.
+        There is none where the belt lifts off on a concave curve or runs off its rolls on a horizontal one, a compound
+        is not known at the belt's temperature, or a law of roll drag does not hold at a load.
         """
+        still: dict[int, _Loaded | NoAnswer] = {}
+        for i, (variant, on_curves) in asked.items():
+            try:
+                still[i] = self._still(variant.conveyor, on_curves)
+            except (NoSolutionError, RangeError, InputError) as error:
+                still[i] = error
+        self._drag([(asked[i][0].conveyor, one) for i, one in still.items() if isinstance(one, _Loaded)])
+        for i, one in still.items():
+            try:
+                yield i, self._in_air(asked[i][0], one) if isinstance(one, _Loaded) else one
+            except (NoSolutionError, RangeError, InputError) as error:
+                yield i, error
+
+    def _drag(self, lines: Iterable[tuple[Conveyor, _Loaded]]) -> None:
+        """Drags of all rolls that are not known, side by side."""
+        asked = {(one, _air(given)): (given, one) for given, line in lines for one in line.line.strands.each}
+        new = {key: pair for key, pair in asked.items() if key not in self._drags}
+        self._drags.update(zip(new, roll_drags_many(list(new.values())), strict=True))
+
+    def _in_air(self, variant: Variant, still: _Loaded) -> _Loaded:
+        """A line with the drags of its rolls, its covers before the rolls work them."""
         given, at = variant.conveyor, variant.covers_at
         compounds = compounds_by_strand(given)
         rubber = self._own.once(partial(rubbers, given, at), "rubbers", compounds.values(), (at,))
-        loaded = self._prepared(given, on_curves)
-        covers = covers_of(given, rubber)
+        drags: list[tuple[float, ...]] = []
+        for strand in still.line.strands.each:
+            one = self._drags[strand, _air(given)]
+            if isinstance(one, InputError):
+                raise one
+            drags += one
+        line = replace(still.line, roll_drags=tuple(drags))
         works = {
-            strand: self._felt(StrandAtWork(loaded.line, strand, cover, compounds[strand], at))
-            for strand, cover in covers.items()
+            strand: self._felt(StrandAtWork(line, strand, cover, compounds[strand], at))
+            for strand, cover in covers_of(given, rubber).items()
         }
-        return replace(loaded, works=works, anchored=_anchored(given.calculation))
+        return _Loaded(line, still.frame.of(line), still.fixed, works, _anchored(given.calculation))
 
     def _felt(self, work: StrandAtWork) -> StrandAtWork:
         """A strand whose cover has its rubber as far as its rolls tell terms apart."""
@@ -602,8 +616,8 @@ class _Shared:
         )
         return replace(work, cover=replace(work.cover, rubber=less, merged=2.0 * FELT * rtol))
 
-    def _prepared(self, given: Conveyor, on_curves: Acting) -> _Loaded:
-        """The line of a spec; specs of one belt, load and idlers share a strand, in any air and under any drives."""
+    def _still(self, given: Conveyor, on_curves: Acting) -> _Loaded:
+        """The line of a spec, its rolls without drag; specs of one belt, load and idlers share a strand."""
         kept = self._kept if on_curves == Acting() else self._own
         sections = self._kept.once(lambda: route_sections(given), "sections", (given.route,))
         scene = (*map(_in_order, vars(on_curves).values()), given.ambient.wind_speed)
@@ -612,17 +626,13 @@ class _Shared:
             parts = (given.belt, own, given.material, given.route, given.calculation)
             made = partial(_strand, given, sections, strand, on_curves)
             each.append(kept.once(made, "strand", parts, (strand, *scene)))
-        strands, fixed = zip(*each, strict=True)
-        air = given.air_temperature if given.idlers.drag_follows_air else None
-        drags = [kept.once(partial(roll_drags, given, one), "drags", (one,), (air,)) for one in strands]
+        (carry, up), (back, down) = each
+        strands = Strands(sections, (carry, back))
         others = (given.belt, given.material, given.route, given.drive, given.calculation)
-        like = self._kept.once(lambda: Line.of(given, Strands(sections, strands), drags), "like", others)
-        run = kept.once(
-            lambda: _loaded(replace(like, strands=Strands(sections, strands)), fixed),
-            "loaded",
-            (*strands, given.drive),
+        like = self._kept.once(lambda: Line.of(given, strands, [(), ()]), "like", others)
+        return kept.once(
+            lambda: _loaded(replace(like, strands=strands), (up, down)), "line", (carry, back, given.drive)
         )
-        return run.in_air((*drags[0], *drags[1]))
 
     def softened(self, loaded: Sequence[_Loaded]) -> list[Covers | NoAnswer]:
         """The covers of many lines at their working strain; alike ones are the very same, and share load curves."""
@@ -663,6 +673,11 @@ class _Shared:
         if first is None:
             alike.append(first := work)
         return first
+
+
+def _air(conveyor: Conveyor) -> float | None:
+    """Temperature around the rolls [K], where their drag follows it."""
+    return conveyor.air_temperature if conveyor.idlers.drag_follows_air else None
 
 
 def _in_order(figures: Mapping[tuple[str, Strand], float]) -> tuple[object, ...]:

@@ -162,7 +162,8 @@ class _Opened(NamedTuple):
 @lru_cache(maxsize=1)
 def _opened(job: Job) -> _Opened:
     """A job unpacked, once in a process that does many batches of it."""
-    return _Opened(*pickle.loads(job.packed), {}, Kept())  # noqa: S301 packed by this program
+    base, asked, compounds, anchors = pickle.loads(job.packed)  # noqa: S301 packed by this program
+    return _Opened(base, asked, compounds, anchors, {}, Kept())
 
 
 def answers(job: Job, points: Sequence[Changes], rtol: float = RTOL) -> list[Answer]:
