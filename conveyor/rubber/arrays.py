@@ -68,7 +68,7 @@ def _plain(w: FloatArray, t: FloatArray) -> bool:
         w.ndim == 1
         and w.shape == t.shape
         and w.size > 0
-        and 0.0 < t.item(0)
+        and t.item(0) > 0.0
         and t.item(-1) < math.inf
         and bool((t[1:] > t[:-1]).all())
         and 0.0 < w.min() <= w.max() < math.inf
