@@ -46,11 +46,15 @@ _LARGEST_STEP, _LARGEST_LOG, _ROOM = (
 
 @dataclass(frozen=True, eq=False)
 class Strips:
-    """Strips in equilibrium under one roll: `contact` holds one an entry, eps = X_l, `jacobian` is Newton's."""
+    """Strips in equilibrium under one roll: `contact` holds one an entry, eps = X_l, `jacobian` is Newton's.
+
+    `left` is what Newton leaves of ln α_l, and of X_l in half widths.
+    """
 
     contact: Contact
     depth: float
     jacobian: Array
+    left: float
 
     @property
     def order(self) -> int:
@@ -123,7 +127,7 @@ def settle(
         )
         largest = float(np.abs(step / unit).max())
         if largest <= tolerance or (largest <= _STALLED * tolerance and largest > _SHRINKS * last):
-            return trial.strips(jacobian)
+            return trial.strips(jacobian, largest)
         last = largest
         if largest > _SHRINKS * before:
             jacobian, before = None, math.inf
@@ -193,10 +197,10 @@ class _Places:
         )
         return np.concatenate([row, heights, held[:, None]], axis=1)
 
-    def strips(self, jacobian: Array) -> Strips:
+    def strips(self, jacobian: Array, left: float) -> Strips:
         """The first place as a contact."""
         contact = pressed(self.c[0], self.slope[0], (self.alpha[0], self.centre[0]), self.scene.problem.rho)
-        return Strips(contact, float(self.depth[0].mean()), jacobian)
+        return Strips(contact, float(self.depth[0].mean()), jacobian, left)
 
 
 def _window(scene: Scene, gap: float, widen: float = 1.0) -> tuple[Array, ComplexArray]:
