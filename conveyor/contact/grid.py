@@ -330,12 +330,11 @@ def _aliases(layer: Layer, creep: CreepSpectrum, points: int) -> Array:
     """
     nodes = chebyshev.chebpts1(21)
     at = 0.25 * points * (nodes + 1.0)
-    alias, alias_loss = np.zeros(nodes.size, dtype=complex), np.zeros(nodes.size)
-    for turn in range(1, _ALIASES + 1):
-        above, below = turn * points + at, turn * points - at
-        up, down = layer.symbol(above, creep), np.conj(layer.symbol(below, creep))
-        alias += up / above**3 + down / below**3
-        alias_loss += up.imag / above**4 + down.imag / below**4
+    turns = points * np.arange(1.0, _ALIASES + 1.0)[:, None]
+    m = np.stack([turns + at, turns - at])
+    symbol = layer.symbol(m.ravel(), creep).reshape(m.shape)
+    symbol[1] = np.conj(symbol[1])
+    alias, alias_loss = (symbol / m**3).sum(axis=(0, 1)), (symbol.imag / m**4).sum(axis=(0, 1))
     far = layer.symbol(np.array([(_ALIASES + 2.0) * points]), creep)[0].real
     tail = special.zeta(3.0, _ALIASES + 1.0 + at / points) + special.zeta(3.0, _ALIASES + 1.0 - at / points)
     alias += far * tail / float(points) ** 3

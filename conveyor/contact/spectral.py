@@ -242,7 +242,7 @@ def penetration(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: float) 
     return depth
 
 
-def level(rule: Rule, creep: CreepSpectrum, alpha: Array, c: Array) -> Array:
+def level(rule: Rule, creep: CreepSpectrum, alpha: Array, c: Array, ik: ProductIK | None = None) -> Array:
     """T_0 coefficient W_0 of a contact's own displacement, shape (b,).
 
     W_0 = Σ_v v c_v Σ_m Re[(-i)^{v-1} S_m] J_v J_0/m². The half-space's share: elastic, by the logarithmic potential,
@@ -257,6 +257,7 @@ def level(rule: Rule, creep: CreepSpectrum, alpha: Array, c: Array) -> Array:
     logarithm = np.log(2.0 / (rule.edge * alpha)) - np.euler_gamma + rule.edge_sum
     out += 0.5 * compliance * c[:, 0] * alpha * logarithm
     if creep.weights.size:
-        products, _ = ProductIK(n, alpha[:, None] / creep.times).weighted(creep.weights * creep.times)
+        ik = ProductIK(n, alpha[:, None] / creep.times) if ik is None else ik
+        products, _ = ik.weighted(creep.weights * creep.times)
         out += np.einsum("bv,bv->b", products[:, 0, 1:] * _signs(n)[2][0], c)
     return out

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from conveyor.contact.bessel import bessel_j
+from conveyor.contact.bessel import ProductIK, bessel_j
 from conveyor.contact.circle import mean_drop, slope_expansion
 from conveyor.contact.energy import loss
 from conveyor.contact.quadrature import CHECK, Rule, build_rule
@@ -164,7 +164,9 @@ class _Places:
         rho = scene.problem.rho
         k, count = alpha.shape
         self.rule: Rule = scene.rule(float(alpha.max()))
-        own = assemble(self.rule, scene.creep, alpha.ravel(), n).reshape(k, count, n + 1, n)
+        times = scene.creep.times
+        ik = ProductIK(n, alpha.ravel()[:, None] / times) if times.size else None
+        own = assemble(self.rule, scene.creep, alpha.ravel(), n, ik).reshape(k, count, n + 1, n)
         scene.matrices += k * count
         slope = slope_expansion(alpha.ravel(), centre.ravel(), rho, n + 2)[..., 0]
         self.slope = slope.reshape(k, count, n + 2)
@@ -178,7 +180,7 @@ class _Places:
         rows = full[:, :, 1:].reshape(k, count * n, count * n)
         right = self.slope[:, :, 1 : n + 1].reshape(k, count * n, 1)
         self.c = np.asarray(np.linalg.solve(rows, right), dtype=np.float64).reshape(k, count, n)
-        lifted = level(self.rule, scene.creep, alpha.ravel(), self.c.reshape(k * count, n)).reshape(k, count)
+        lifted = level(self.rule, scene.creep, alpha.ravel(), self.c.reshape(k * count, n), ik).reshape(k, count)
         lifted += np.einsum("klrv,krv->kl", heights, self.c)
         drop = mean_drop(alpha.ravel(), centre.ravel(), rho, 2 * n + 16).reshape(k, count)
         self.depth = lifted + drop
