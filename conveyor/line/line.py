@@ -309,6 +309,8 @@ class Line:
         Bulk that clings to the belt before the cleaners, and the most that may be left behind them [kg/m²].
     flexure_source : str
         What the flexure rests on, in words.
+    us_sizes : bool
+        Whether motors and pulleys are suggested of the US series, as of a spec with US units.
     """
 
     strands: Strands
@@ -346,6 +348,7 @@ class Line:
     support: Support
     rtol: float
     softened: bool
+    us_sizes: bool
 
     @classmethod
     def of(cls, conveyor: Conveyor, strands: Strands | None = None, drags: RollDrags | None = None) -> Line:
@@ -405,6 +408,7 @@ class Line:
             support=calculation.support,
             rtol=calculation.rtol,
             softened=calculation.strain != "off",
+            us_sizes=conveyor.report.units == "US",
         )
 
     @property

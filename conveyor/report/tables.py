@@ -211,7 +211,11 @@ def identity(conveyor: Conveyor, system: System) -> Table:
         return unit(kind, system).converted(value)
 
     def idlers(of: Any) -> str:
-        return f"{of.rolls} x {shown(of.roll.diameter, 'thickness')}, every {shown(of.spacing, 'length')}"
+        inner = "" if of.inner_trough_angle is None else f"{shown(of.inner_trough_angle, 'angle')} and "
+        lying = f" at {inner}{shown(of.trough_angle, 'angle')}" if of.rolls > 1 else ""
+        return (
+            f"{of.rolls} x {shown(of.roll.diameter, 'thickness')}{lying}, every {shown(of.spacing, 'length')}"
+        )
 
     strength = "" if carcass.strength is None else f", breaking {strength_of(carcass.strength, system)}"
     rating = "" if carcass.rating is None else f", rated {rating_of(carcass.rating, system)}"
@@ -902,7 +906,7 @@ def pulleys(a: CalculatedConveyor) -> Table:
         Column("standard size", "size", "next_size", key="of_the_series"),
         Column("large enough", "verdict", "large_enough"),
     )
-    return Table("pulleys", "Loop", "Pulleys", columns, tuple(a.belt_duty.pulleys), "belt")
+    return Table("pulleys", "Pulleys", "Pulleys", columns, tuple(a.belt_duty.pulleys), "belt")
 
 
 def pulley_loads(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
@@ -939,7 +943,7 @@ def pulley_loads(a: CalculatedConveyor, studies: CalculatedStudies | None = None
         "(slope at most 0.0023, safety at least 1.5). Driven pulleys at one place are passed in the order listed."
     )
     heading = "Loads of the pulleys, all cases and states"
-    return Table("pulley_loads", "Loop", heading, columns, tuple(rows), "belt", note)
+    return Table("pulley_loads", "Pulleys", heading, columns, tuple(rows), "belt", note)
 
 
 def pulley_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:

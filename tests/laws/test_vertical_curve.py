@@ -57,7 +57,7 @@ def test_at_the_limiting_radii_the_strip_is_at_its_limit():
     [
         (
             lambda: curve.trough_section(1.0, middle_roll_length=1.1, trough_angle=0.5),
-            r"middle_roll_length = 1\.1 is not allowed: 0 to belt_width = 1\.0 m",
+            r"middle_roll_length = 1\.1 is not allowed: 0 to the width 1\.0 m",
         ),
         (
             lambda: curve.trough_section(1.0, middle_roll_length=0.4, trough_angle=35.0),

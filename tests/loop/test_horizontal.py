@@ -281,9 +281,39 @@ def test_rolls_that_hold_no_belt_are_refused_in_a_curve():
         InputError, match=r"idlers.return.trough_angle: got 0 deg, .*take a trough, or rolls: 1"
     ):
         from_data(bad)
-    four = pair | {"rolls": 4, "load_shares": ["25 %"] * 4, "trough_angle": "10 deg"}
-    with pytest.raises(InputError, match=r"idlers.return.rolls: got 4, .*known for 1 to 3 rolls"):
-        from_data(data(idlers={"return": four}, route={"sections": [CURVE], "pulleys": PULLEYS}))
+
+
+def garland(**changes):
+    """Carry sets of five rolls in the curve."""
+    roll = DATA["idlers"]["carry"]["roll"] | {"length": "230 mm"}
+    carry = {
+        "rolls": 5,
+        "trough_angle": "55 deg",
+        "inner_trough_angle": "25 deg",
+        "share_rule": "cross-section",
+    }
+    idlers = BACK | {"carry": DATA["idlers"]["carry"] | carry | {"roll": roll} | changes}
+    sections = [CURVE, {"name": "c", "length": "200 m", "lift": "10 m"}]
+    return from_data(
+        data(idlers=idlers, route={"sections": sections, "pulleys": PULLEYS}, calculation={"strain": "off"})
+    )
+
+
+def test_a_garland_of_five_holds_its_belt_in_a_curve(found):
+    """Its drift balances the pull, and is less than in a flatter trough; level inner wings push as the middle does."""
+    five = calculate(garland())
+    bend = five.horizontal[0]
+    (stretch,) = (s for s in five.line.stretches if (s.section, s.strand) == ("bend", "carry"))
+    steady = five.balance.settled.steady
+    i = list(five.line.loop.stretches).index(stretch)
+    pull = 0.5 * (steady.starts[i] + steady.ends[i]) - stretch.line_mass * 4.0**2
+    held = bend.turn.law(0.0, least=False).force(bend.turn.drift)
+    assert held == pytest.approx(2.0 * pull * math.sin(stretch.spacing / 3600.0), rel=1e-5)
+    assert len(stretch.loads) == 5
+    assert abs(bend.turn.drift) < abs(found.horizontal[0].turn.drift)  # a deeper trough
+    level = calculate(garland(inner_trough_angle="0 deg", trough_angle="35 deg"))
+    assert abs(level.horizontal[0].turn.drift) > abs(bend.turn.drift)
+    assert level.horizontal[0].turn.slopes[1:4] == pytest.approx([math.sin(math.radians(3.0))] * 3)
 
 
 def test_more_than_half_a_turn_is_refused():
