@@ -290,7 +290,15 @@ def convert(value: float, kind: str, system: System = "SI") -> float:
     >>> round(convert(293.15, "temperature", "US"), 9)
     68.0
     """
-    return float(from_si(value, kind, unit_label(kind, system)).magnitude)
+    if kind == "temperature":
+        return float(from_si(value, kind, unit_label(kind, system)).magnitude)
+    return float(value) * _one(kind, system)
+
+
+@cache
+def _one(kind: str, system: System) -> float:
+    """What one of the SI base unit is in the unit of reports."""
+    return float(from_si(1.0, kind, unit_label(kind, system)).magnitude)
 
 
 def display(value: float, kind: str, system: System = "SI", *, digits: int = 4) -> str:
@@ -364,6 +372,7 @@ class Bounds:
     lt: str | None = None
     le: str | None = None
 
+    @cache  # noqa: B019 a range is stated once, by a model
     def _limits(self) -> list[tuple[str, Quantity, Callable[[float, float], bool]]]:
         signs: list[tuple[str, str | None, Callable[[float, float], bool]]] = [
             (">", self.gt, float.__gt__),
@@ -375,13 +384,12 @@ class Bounds:
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         """Check the range after the field has been read."""
-        limits = [(sign, limit, si(limit), holds) for sign, limit, holds in self._limits()]
 
         def check(value: Quantity) -> Quantity:
             given = si(value)
-            if all(holds(given, bound) for _, _, bound, holds in limits):
+            if all(holds(given, si(limit)) for _, limit, holds in self._limits()):
                 return value
-            allowed = " and ".join(f"{sign} {_rounded(limit, value)}" for sign, limit, _, _ in limits)
+            allowed = " and ".join(f"{sign} {_rounded(limit, value)}" for sign, limit, _ in self._limits())
             raise InputError(f"got {text(value)}, allowed: {allowed}")
 
         return core_schema.no_info_after_validator_function(_refusing(check), handler(source))

@@ -80,9 +80,8 @@ _NAMES: Final = {
     "rpm": "1/minute",
     "N/rpm": "newton*minute",
 }
-UNITS: Final[dict[str, Any]] = {
-    form: REGISTRY.Unit(_NAMES.get(name, name)) for form, name in SPELLINGS.items()
-}
+_MADE: Final = {name: REGISTRY.Unit(_NAMES.get(name, name)) for name in SPELLINGS.values()}
+UNITS: Final[dict[str, Any]] = {form: _MADE[name] for form, name in SPELLINGS.items()}
 """The units of specs by each of their spellings."""
 
 
