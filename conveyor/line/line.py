@@ -18,6 +18,7 @@ from conveyor.laws.resistance import BULK_ON_BELT_FRICTION, CARCASS_BENDING, idl
 from conveyor.laws.sizing import wear_addition
 from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
 from conveyor.laws.tension import usual_stiffness
+from conveyor.laws.wind import AIR_DENSITY, WIND_LIFT, wind_force
 from conveyor.line import defaults
 from conveyor.line.roll_drags import RollDrags, roll_drags
 from conveyor.line.roll_kinds import RollKind
@@ -309,6 +310,8 @@ class Line:
         Bulk that clings to the belt before the cleaners, and the most that may be left behind them [kg/m²].
     flexure_source : str
         What the flexure rests on, in words.
+    wind_speed : float or None
+        Of the gust that the empty belt must bear [m/s].
     """
 
     strands: Strands
@@ -346,6 +349,7 @@ class Line:
     support: Support
     rtol: float
     softened: bool
+    wind_speed: float | None
 
     @classmethod
     def of(cls, conveyor: Conveyor, strands: Strands | None = None, drags: RollDrags | None = None) -> Line:
@@ -405,6 +409,18 @@ class Line:
             support=calculation.support,
             rtol=calculation.rtol,
             softened=calculation.strain != "off",
+            wind_speed=_known(conveyor.ambient.wind_speed),
+        )
+
+    @property
+    def uplift(self) -> float:
+        """Of the wind on the empty belt [N/m]."""
+        return wind_force(
+            self.wind_speed or 0.0,
+            height=self.belt.width,
+            length=1.0,
+            drag=WIND_LIFT.value,
+            air_density=AIR_DENSITY,
         )
 
     @property

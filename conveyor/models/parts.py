@@ -27,7 +27,7 @@ class Ambient(Model):
     belt_temperature: EarthTemperature | None = None
     """Temperature of the running belt's covers, where it differs."""
     wind_speed: Annotated[Speed, Bounds(ge="0 m/s", le="80 m/s")] | None = None
-    """Gust across the belt for which the empty belt is checked in horizontal curves; no wind without."""
+    """Gust for which the empty belt is checked, against lifting and drift in horizontal curves; no wind without."""
 
     @property
     def belt(self) -> Quantity:

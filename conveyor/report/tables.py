@@ -984,8 +984,10 @@ def vertical_curves(a: CalculatedConveyor) -> Table:
         Column("lowest in a strip", "strength", "least"),
     )
     rows = tuple(curve for curve in a.belt_duty.curves if curve.radius > 0.0)
-    note = _USUAL_STIFFNESS if rows and a.line.belt.stiffness is None else ""
-    return Table("vertical_curves", "Loop", "Vertical curves", columns, rows, "belt", note)
+    notes = [_USUAL_STIFFNESS] if rows and a.line.belt.stiffness is None else []
+    if rows and a.line.wind_speed is not None:
+        notes.append("Against lift-off: with the wind of ambient.wind_speed under the empty belt.")
+    return Table("vertical_curves", "Loop", "Vertical curves", columns, rows, "belt", " ".join(notes))
 
 
 def horizontal_curves(a: CalculatedConveyor) -> Table:

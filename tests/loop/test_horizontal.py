@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from conveyor.checks import belt_drift, horizontal_edges
+from conveyor.checks import belt_drift, horizontal_edges, wind_lift
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.line.strands import Strands
 from conveyor.line.stretches import Acting
@@ -181,6 +181,25 @@ def test_a_storm_blows_the_empty_belt_off_and_the_picture_says_so():
     assert all(check.calculated is None and "no radius helps" in check.why.text() for check in off[:1])
     (axis,) = drift_drawn([("as given", stormy.horizontal)]).axes
     assert "runs off" in {text.get_text() for text in axis.texts}
+
+
+def test_the_wind_lifts_what_has_no_bulk_on_it(found):
+    """m' g = c ρ v²/2 B, against the steepest part: 10 m over 200 m; nothing is said without wind, nor of bulk."""
+    assert not list(wind_lift(found))
+    held = math.sqrt(2.0 * 20.0 * 9.81 * math.cos(math.asin(0.05)) / (0.5 * 1.25 * 1.0))
+    breeze, storm = (
+        [
+            check
+            for flow in ("1200 t/h", "0 t/h")
+            for check in wind_lift(calculate(conveyor(ambient={"wind_speed": f"{gust} m/s"}, flow=flow)))
+        ]
+        for gust in (0.99 * held, 1.01 * held)
+    )
+    assert [check.subject.text().split(", ")[1] for check in breeze] == ["return", "carry", "return"]
+    assert [check.required for check in breeze] == pytest.approx([held] * 3)
+    assert {check.verdict for check in breeze} == {"pass"}
+    assert {check.verdict for check in storm} == {"FAIL"}
+    assert "lifts the empty belt" in storm[0].why.text()
 
 
 def test_the_plan_turns_by_length_over_radius(found):
