@@ -483,7 +483,7 @@ def wind_lift(result: CalculatedConveyor) -> Iterator[Check]:
             air_density=AIR_DENSITY,
         )
         yield compared(
-            "wind_lift", f"empty belt stays down in the wind, {strand}", line.wind_speed, "at most", least, "speed",
+            "wind_lift", f"empty belt stays down in the wind, {strand}", line.wind_speed, "at most", least, "wind",
             source=f"lift coefficient {WIND_LIFT.value:g}, general knowledge",
             why=f"{strand}: a gust of {{calculated}} lifts the empty belt, {{required}} does not (lift coefficient "
             f"{WIND_LIFT.value:g}, general knowledge): hoods, hold-down rolls or a heavier belt",
