@@ -361,6 +361,7 @@ def drift(loads: Sequence[tuple[str, Sequence[HorizontalCheck]]], *, system: Sys
     """Range of the drift over all states of each load in every horizontal curve; the room on the rolls in grey."""
     bends, size = loads[0][1], unit("size", system)
     figure, (axis,) = stacked(1, 1.4 + 0.7 * len(bends))
+    axis.use_sticky_edges = False  # the grey ends within the picture
     thick = 0.8 / len(loads)
     for i, bend in enumerate(bends):
         room = float(size(bend.turn.room))
@@ -379,7 +380,6 @@ def drift(loads: Sequence[tuple[str, Sequence[HorizontalCheck]]], *, system: Sys
             if runs_off:
                 axis.annotate("runs off", (max(low, high, key=abs), y), fontsize=7, color=_FAILS, va="center")
     axis.axvline(0.0, color="0.5", linewidth=0.8)
-    axis.use_sticky_edges = False  # the grey ends within the picture
     axis.set_yticks(range(len(bends)), [f"{bend.section}, {bend.strand}" for bend in bends])
     axis.invert_yaxis()
     words = size.beside("drift, outside negative, inside positive")

@@ -1447,7 +1447,7 @@ def drawings(
         )
         yield Drawing(
             "drift",
-            "Drift of the belt in every horizontal curve, over all states of motion; grey: room on the rolls.",
+            "Drift of the belt in every horizontal curve, all states of motion of all cases; grey: room on the rolls.",
             lambda: analysis_plots.drift(drifts(a, studies, system), system=system),
             "horizontal_curves",
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
 
 import pytest
 
@@ -17,6 +18,7 @@ from conveyor.report.analysis_plots import drift as drift_drawn
 from conveyor.report.analysis_plots import plan
 from conveyor.report.tables import horizontal_curves
 from conveyor.spec import from_data
+from conveyor.units.sentences import said
 from tests.loop.loop_lines import DATA, data
 
 _ROLL = {"diameter": "133 mm", "length": "600 mm", "rotating_mass": "5 kg", "drag": "1.5 N"}
@@ -181,6 +183,30 @@ def test_a_storm_blows_the_empty_belt_off_and_the_picture_says_so():
     assert all(check.calculated is None and "no radius helps" in check.why.text() for check in off[:1])
     (axis,) = drift_drawn([("as given", stormy.horizontal)]).axes
     assert "runs off" in {text.get_text() for text in axis.texts}
+
+
+def test_the_table_is_of_all_cases(found):
+    """An empty carry strand drifts farther inside than the loaded one; what is not worse there stays."""
+    empty = calculate(conveyor(flow="0 t/h"))
+    states = SimpleNamespace(loads=[(said("load state empty"), empty)])
+    table = horizontal_curves(found, SimpleNamespace(cases=None, states=states)).frame()
+    both = zip(found.horizontal, empty.horizontal, strict=True)
+    inside, outside = zip(
+        *(
+            (
+                max(a.farthest_in.inside, b.farthest_in.inside),
+                min(a.farthest_out.outside, b.farthest_out.outside),
+            )
+            for a, b in both
+        ),
+        strict=True,
+    )
+    assert table["farthest inside [mm]"].tolist() == pytest.approx([1e3 * x for x in inside])
+    assert table["farthest outside [mm]"].tolist() == pytest.approx([1e3 * x for x in outside])
+    assert inside[0] > found.horizontal[0].farthest_in.inside
+    assert table["drift, steady [mm]"].tolist() == pytest.approx(
+        [1e3 * bend.turn.drift for bend in found.horizontal]
+    )
 
 
 def test_the_wind_lifts_what_has_no_bulk_on_it(found):
