@@ -460,7 +460,7 @@ def _transfer() -> Iterator[ReferenceCheck]:
     set_load = (loading.bulk_line_mass(1300.0 / 3.6, belt_speed=2.2) + 20.0) * 1.2 * 10.0
     yield _printed(_SANDVIK, "load of a set [N]", "2210", set_load)
     # a belt of 1400 mm on rolls of 530 mm; 1.2 for lumps is theirs, their share of the middle has two digits
-    share = loading.middle_share_by_area(
+    share, _ = loading.shares_by_area(
         loading.usable_width(1.4), middle_roll_length=0.53, trough_angle=math.radians(45.0),
         surcharge_angle=math.radians(30.0),
     )  # fmt: skip
