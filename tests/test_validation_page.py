@@ -40,6 +40,12 @@ SOURCES = {
     "Grimmer, Kessler (1987), by eytelwein 0.1.9": "K.-J. Grimmer, F. Kessler, Spezielle Betrachtungen zur Gurtführung "
     "bei Gurtförderern mit Horizontalkurven: their worked belt as the tests of the open library eytelwein keep it, to "
     "ten and more digits; the paper itself was not read",
+    "course of a flat belt, set by set": "a belt that turns at every set by what banking and guiding friction push, no "
+    "settled course assumed; allowed at the end is the way over which it turns back to the straight, over the length",
+    "polygon of five rolls": "area by the shoelace formula, force on the drifted belt by the heights of its edges",
+    "catenary between the sets": "the chain's own curve; allowed is its next term beyond the parabola, 4/3 of the sag "
+    "squared",
+    "least cost of the sets, by search": "every millimetre tried; allowed is half of one",
     "Lemmon (2013), finite elements": "R. Lemmon, Belt transitions analysis by finite element analysis, Beltcon 17, "
     "table 3: belt of 1600 mm, 600 kN, 13.0 m; strength, stiffness and rolls are inferred, so 1 % is allowed",
     "CEMA, transition": "L = 0.707 sqrt(E/Δσ (s² + z²)), the edge's own way, as lectured at Newcastle (Belt conveying, "

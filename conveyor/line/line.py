@@ -18,6 +18,7 @@ from conveyor.laws.resistance import BULK_ON_BELT_FRICTION, CARCASS_BENDING, idl
 from conveyor.laws.sizing import wear_addition
 from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
 from conveyor.laws.tension import usual_stiffness
+from conveyor.laws.wind import AIR_DENSITY, WIND_LIFT, wind_force
 from conveyor.line import defaults
 from conveyor.line.roll_drags import RollDrags, roll_drags
 from conveyor.line.roll_kinds import RollKind
@@ -313,6 +314,8 @@ class Line:
         What the flexure rests on, in words.
     us_sizes : bool
         Whether motors and pulleys are suggested of the US series, as of a spec with US units.
+    wind_speed : float or None
+        Of the gust that the empty belt must bear [m/s].
     """
 
     strands: Strands
@@ -352,6 +355,7 @@ class Line:
     rtol: float
     softened: bool
     us_sizes: bool
+    wind_speed: float | None
 
     @classmethod
     def of(cls, conveyor: Conveyor, strands: Strands | None = None, drags: RollDrags | None = None) -> Line:
@@ -413,6 +417,18 @@ class Line:
             rtol=calculation.rtol,
             softened=calculation.strain != "off",
             us_sizes=conveyor.report.units == "US",
+            wind_speed=_known(conveyor.ambient.wind_speed),
+        )
+
+    @property
+    def uplift(self) -> float:
+        """Of the wind on the empty belt [N/m]."""
+        return wind_force(
+            self.wind_speed or 0.0,
+            height=self.belt.width,
+            length=1.0,
+            drag=WIND_LIFT.value,
+            air_density=AIR_DENSITY,
         )
 
     @property
