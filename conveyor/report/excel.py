@@ -39,6 +39,7 @@ SHEETS: Final[Fills] = {
     "States": sheets.stacked,
     "Loop": sheets.beside,
     "Pulleys": partial(sheets.stacked, widest=24),
+    "Curves": partial(sheets.stacked, widest=24),
     "Transfer": sheets.transfer,
     "Load cases": partial(sheets.stacked, widest=40),
     "Case checks": sheets.single,
@@ -72,6 +73,7 @@ _LAYOUTS: Final[Mapping[str, Fills]] = {
 _WHERE_ASKED: Final = (
     *VERIFICATION_SHEETS,
     "Pulleys",
+    "Curves",
     "Transfer",
     "Load cases",
     "Case checks",
