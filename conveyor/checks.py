@@ -19,6 +19,7 @@ from conveyor.laws.motion import Stop
 from conveyor.laws.pulley import HUB_SLOPE, SHAFT_SAFETY
 from conveyor.laws.take_up import SCREW_LENGTH
 from conveyor.laws.tension import grip_tension
+from conveyor.laws.wind import AIR_DENSITY, WIND_LIFT, lifting_speed
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.line import Line
 from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
@@ -465,6 +466,30 @@ def _radius(curve: CurveCheck | HorizontalCheck, least: float, fine: str, bad: s
     )
 
 
+def wind_lift(result: CalculatedConveyor) -> Iterator[Check]:
+    """The wind given does not lift a strand without bulk."""
+    line = result.line
+    for strand in STRANDS if line.wind_speed is not None else ():
+        bare = [one for one in line.stretches if one.strand == strand and one.bulk_mass == 0.0]
+        if line.wind_speed is None or not bare:
+            continue
+        steepest = max(bare, key=lambda one: abs(one.inclination))
+        least = lifting_speed(
+            steepest.belt_mass,
+            width=line.belt.width,
+            lift=WIND_LIFT.value,
+            inclination=steepest.inclination,
+            gravity=line.gravity,
+            air_density=AIR_DENSITY,
+        )
+        yield compared(
+            "wind_lift", f"empty belt stays down in the wind, {strand}", line.wind_speed, "at most", least, "wind",
+            source=f"lift coefficient {WIND_LIFT.value:g}, general knowledge",
+            why=f"{strand}: a gust of {{calculated}} lifts the empty belt, {{required}} does not (lift coefficient "
+            f"{WIND_LIFT.value:g}, general knowledge): hoods, hold-down rolls or a heavier belt",
+        )  # fmt: skip
+
+
 def horizontal_edges(result: CalculatedConveyor) -> Iterator[Check]:
     """In every horizontal curve the outer edge of the belt is not overstressed, the inner one not slack."""
     for bend in result.horizontal:
@@ -482,11 +507,12 @@ def belt_drift(result: CalculatedConveyor) -> Iterator[Check]:
         inside, outside = bend.farthest_in, bend.farthest_out
         cure = said("at least a radius of {} is needed, or more banking", (inside.least, "length"))
         if math.isinf(inside.least):
-            cure = said("no radius helps: more banking, a deeper trough or less wind")
+            cure = said("no radius helps: more banking, a deeper trough or a hood")
         yield _drift(bend, inside, "inside", inside.inside, cure)
-        cure = said("less banking or skew")
+        less = "a deeper trough, a hood, less banking or skew" if bend.turn.wind else "less banking or skew"
+        cure = said(less)
         if 0.0 < outside.most < math.inf:
-            cure = said("less banking or skew, or a radius of at most {}", (outside.most, "length"))
+            cure = said(less + ", or a radius of at most {}", (outside.most, "length"))
         yield _drift(bend, outside, "outside", -outside.outside, cure)
 
 
@@ -613,15 +639,13 @@ def pulley_shaft(result: CalculatedConveyor) -> Iterator[Check]:
 def pulley_bearings(result: CalculatedConveyor) -> Iterator[Check]:
     """The bearings of every pulley that gives their rating live as long as asked, in steady running."""
     for duty in result.pulley_duty:
-        hours, seconds, asked = duty.bearing_hours, duty.bearing_seconds, duty.pulley.bearing_life
-        if hours is None or seconds is None:
+        seconds, name = duty.bearing_seconds, quoted(duty.pulley.name)
+        if seconds is None:
             continue
-        name, needed = quoted(duty.pulley.name), f"{(asked or 0.0) / 3600.0:,.0f} h"
         yield compared(
-            "pulley_bearings", f"L10 life of a bearing, {name} pulley", seconds, "at least", asked, "duration",
-            wording=said(f"{hours:,.0f} h"), asked=said(f"at least {needed}"),
-            missing="life asked of it (bearing_life) not given",
-            why=f'the bearings of pulley "{name}" reach an L10 of {hours:,.0f} h, {needed} are required',
+            "pulley_bearings", f"L10 life of a bearing, {name} pulley", seconds, "at least", duty.pulley.bearing_life,
+            "duration", missing="life asked of it (bearing_life) not given",
+            why=f'the bearings of pulley "{name}" reach an L10 of {{calculated}}, {{required}} are required',
         )  # fmt: skip
 
 
@@ -833,16 +857,17 @@ def roll_life(result: CalculatedConveyor) -> Iterator[Check]:
         if life is None:
             continue
         why = said(
-            f"{strand} rolls: L10 of all bearings of a set in {quoted(life.section)} is {life.hours:,.0f} h (of the "
-            f"{life.weakest} alone {life.weakest_hours:,.0f} h), less than the {ASKED_LIFE:,.0f} h that light "
-            "series are rated for (CEMA, as commonly reproduced); seals and dirt may end it sooner"
+            f"{strand} rolls: L10 of all bearings of a set in {quoted(life.section)} is {{}} (of the {life.weakest} "
+            f"alone {{}}), less than the {ASKED_LIFE:,.0f} h that light series are rated for (CEMA, as commonly "
+            "reproduced); seals and dirt may end it sooner",
+            *((3600.0 * hours, "duration") for hours in (life.hours, life.weakest_hours)),
         )
         asked, judged = said(f"at least {ASKED_LIFE:,.0f} h"), verdict(holds=not life.too_short)
         if not life.whole and not life.too_short:
             asked, judged = said("bearings of some rolls not given"), "not checked"
         yield Check(
             "roll_life", said(f"L10 life, {strand} idler sets"), 3600.0 * life.hours, 3600.0 * ASKED_LIFE,
-            "duration", said(f"{life.hours:,.0f} h"), asked, judged, why,
+            "duration", said("{}", (3600.0 * life.hours, "duration")), asked, judged, why,
         )  # fmt: skip
 
 
@@ -859,8 +884,9 @@ def set_rating(result: CalculatedConveyor) -> Iterator[Check]:
         cure = "" if limits.least_class is None else f"; class {limits.least_class} bears it"
         section = worst.stretch.section
         yield compared(
-            "set_rating", f"load of a set, {strand} idlers", limits.load, "at most", rating, "force", source=of_class,
-            where=section,
+            "set_rating", f"load of a set, {strand} idlers", limits.load, "at most",
+            None if limits.lump_factor is None else rating, "force", source=of_class, where=section,
+            missing="lump_factor not given: none is printed for such lumps",
             why=f"{strand} sets in {quoted(section)} bear {{calculated}}, they are rated for {{required}}{cure}",
         )  # fmt: skip
 
@@ -968,7 +994,7 @@ OF_CONTACTS: Final = (penetration, rubber_coverage)
 CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     filling, motor_power, take_up_tension, take_up_reach, drive_grip, sag, slack_belt, belt_safety, belt_rating,
     belt_breakage, splice_strength, cover_thickness, belt_temperature, pulley_diameter, curve_radius,
-    horizontal_edges, belt_drift, transitions, impact_load, skirtboards, belt_cleaning, pulley_shaft,
+    wind_lift, horizontal_edges, belt_drift, transitions, impact_load, skirtboards, belt_cleaning, pulley_shaft,
     pulley_bearings, lagging, starting_force, comes_to_rest, holding, drive_parts, coasting_time, bulk_slip,
     penetration, roll_life, set_rating, roll_axle, belt_flap, rubber_coverage,
 )  # fmt: skip

@@ -40,6 +40,7 @@ from conveyor.laws import (
 )
 from conveyor.laws.belt import belt_safety
 from conveyor.rubber.prony import PronySeries
+from conveyor.sizing.spacing import SectionSpacing
 
 _PROTOTYPE = "Bessel-Galerkin prototype"
 _STRIPS = "two-strip derivation"
@@ -52,12 +53,17 @@ _SHORTT = "Shortt (2019), idler of 127 mm, bearings 6305"
 _NEMA = "NEMA MG 10, table 2-3"
 _TRANSITION = "ISO 5293:2004"
 _CURVE = "Grimmer, Kessler (1987), by eytelwein 0.1.9"
+_FLAT = "course of a flat belt, set by set"
+_POLYGON = "polygon of five rolls"
+_CATENARY = "catenary between the sets"
+_SPACED = "least cost of the sets, by search"
 _LEMMON = "Lemmon (2013), finite elements"
 _CEMA_TRANSITION = "CEMA, transition"
 _SECTION = "ISO 5048, cross-section"
 _SIDEWINDER = "Conveyor C-1.1 report"
 _CKIT = "ckit.co.za, trajectories"
 _RULMECA = "Rulmeca, impact rollers"
+_SANDVIK = "Sandvik (1999), load of idlers"
 _IDENTITY = "J*(ω) E*(ω) = 1"
 _SONG = "Song et al. (2012)"
 _NORDELL = "Nordell and Ciozda (1984), measured"
@@ -177,7 +183,8 @@ def run() -> list[ReferenceCheck]:
     -------
     list of Check
         In the order: reference contacts, Hunter, CONTACT, ISO 5048, pulley shaft, roll, take-up, motor,
-        transition, horizontal curve, printed designs, transfer, compliance times modulus, starts and stops.
+        transition, printed designs, transfer, horizontal curve, flat sets, five rolls, distances of the sets,
+        compliance times modulus, starts and stops.
 
     Examples
     --------
@@ -198,6 +205,9 @@ def run() -> list[ReferenceCheck]:
         _printed_designs(),
         _transfer(),
         _horizontal_curve(),
+        _flat_sets(),
+        _five_rolls(),
+        _distances_of_sets(),
         _compliance_identity(),
         _starts_and_stops(),
     )
@@ -441,12 +451,20 @@ def _printed_designs() -> Iterator[ReferenceCheck]:
 
 
 def _transfer() -> Iterator[ReferenceCheck]:
-    """Width of the bulk on the head pulley, and the impact of a stream."""
+    """Width of the bulk on the head pulley, loads of idlers, and the impact of a stream."""
     for width, printed in (
         (350, "265.5"), (400, "310"), (450, "354.5"), (500, "400"), (600, "500"), (1200, "1100"), (2100, "2000"),
     ):  # fmt: skip
         got = 1e3 * discharge.width_on_pulley(width / 1e3)
         yield _printed(_CKIT, f"width of the bulk on the pulley [mm], belt {width} mm", printed, got)
+    set_load = (loading.bulk_line_mass(1300.0 / 3.6, belt_speed=2.2) + 20.0) * 1.2 * 10.0
+    yield _printed(_SANDVIK, "load of a set [N]", "2210", set_load)
+    # a belt of 1400 mm on rolls of 530 mm; 1.2 for lumps is theirs, their share of the middle has two digits
+    share, _ = loading.shares_by_area(
+        loading.usable_width(1.4), middle_roll_length=0.53, trough_angle=math.radians(45.0),
+        surcharge_angle=math.radians(30.0),
+    )  # fmt: skip
+    yield _close(_SANDVIK, "load of the middle roll [N]", 1856.0, 1.2 * share * set_load, 0.005 / 0.70)
     stream = transfer.stream_impact(1.0 / 3.6, drop_height=1.0, gravity=9.81)
     yield _printed(_RULMECA, "t/h √m over the impact [1/kgf]", "8", 9.81 / stream)
 
@@ -477,6 +495,85 @@ def _horizontal_curve() -> Iterator[ReferenceCheck]:
     guided = horizontal_curve.outward_pushes((0.0, 0.70 * 0.279588668362082, 0.0), **angles)
     force = horizontal_curve.outward_force(drifted, guided) - horizontal_curve.outward_force(drifted, bare)
     yield _close(_CURVE, "friction outward of the middle roll [N]", 16.77059015, force, _CURVE_TOLERANCE)
+
+
+def _flat_sets() -> Iterator[ReferenceCheck]:
+    """Return belt of 60 kN on flat sets of 918 N, 3 m apart, banked by 4.5 deg: 600 m of a curve of 2300 m.
+
+    At each set the belt turns by what the set pushes outward, over the tension; the way back to the straight behind it
+    ends the curve, so that the course is found from there.
+    """
+    tension_, weight, apart, radius, length = 60e3, 918.0, 3.0, 2300.0, 600.0
+    banking, friction, full = math.radians(4.5), 0.35, math.radians(3.0)
+    law = horizontal_curve.FlatDrift(
+        weight, banking_angle=banking, skew=0.0, friction=friction, full_slip=full, length=length, reach=0.7
+    )
+    turned, way = 0.0, 0.0
+    for _ in range(round(length / apart)):
+        guiding = friction * (1.0 - (1.0 - turned / full) ** 3) * math.cos(banking)
+        turned -= weight * (math.sin(banking) + guiding) / tension_ - apart / radius
+        way += turned * apart
+    drift = law.drift(tension_ * apart / radius)
+    slope = 3.0 * friction / full * (1.0 - turned / full) ** 2 * math.cos(banking)
+    settles = tension_ * apart / (weight * slope)  # length over which the course turns back [m]
+    expected, got = 1e3 * turned, 1e3 * drift / length
+    yield _close(_FLAT, "drift per metre inside the curve [mm]", expected, got, _CURVE_TOLERANCE)
+    yield _close(_FLAT, "drift at the end of the curve [m]", way, drift, settles / (length - settles))
+
+
+def _five_rolls() -> Iterator[ReferenceCheck]:
+    """Rolls of 360 mm at 25 and 55 deg: 1.35 m of belt under bulk; an empty belt of 1.6 m drifted inside by 0.1 m."""
+    roll, angles = 0.36, (math.radians(25.0), math.radians(55.0))
+    inner = loading.Wing(roll, angles[0])
+
+    def point(along: float) -> tuple[float, float]:
+        """Across and up, of the polygon at a length from its middle."""
+        flat, first = min(along, 0.5 * roll), min(max(along - 0.5 * roll, 0.0), roll)
+        last = max(along - 1.5 * roll, 0.0)
+        across = flat + first * math.cos(angles[0]) + last * math.cos(angles[1])
+        return across, first * math.sin(angles[0]) + last * math.sin(angles[1])
+
+    corners = [point(0.5 * roll), point(1.5 * roll), point(0.675)]
+    around = [(-x, y) for x, y in reversed(corners)] + corners
+    pairs = zip(around, around[1:] + around[:1], strict=True)
+    expected = 0.5 * math.fsum(x0 * y1 - x1 * y0 for (x0, y0), (x1, y1) in pairs)
+    section = loading.cross_section(
+        1.35, middle_roll_length=roll, trough_angle=angles[1], surcharge_angle=0.0, inner_wing=inner
+    )
+    yield _close(_POLYGON, "below the water line [m²]", expected, section.bottom, _IDENTITY_TOLERANCE)
+    # without friction the force is the slope of the belt's energy: its weight per width times its edges' heights
+    weight, expected = 250.0, 250.0 * (point(0.9)[1] - point(0.7)[1])
+    half = [
+        wing.length
+        for wing in loading.wings(1.6, middle_roll_length=roll, trough_angle=angles[1], inner_wing=inner)
+    ]
+    belt = [loading.RollLoad("", 0.0, weight * on, on, "uniform") for on in (*reversed(half), roll, *half)]
+    pushes = horizontal_curve.outward_pushes(
+        (0.0,) * 5, trough_angle=angles[1], banking_angle=0.0, inner_angle=angles[0]
+    )
+    got = horizontal_curve.DriftLaw.of(belt, pushes).force(0.1)
+    yield _close(
+        _POLYGON, "weight outward, set drifted by 0.1 m [N]", expected, got, 10.0 * _IDENTITY_TOLERANCE
+    )
+
+
+def _distances_of_sets() -> Iterator[ReferenceCheck]:
+    """What a distance asks of the tension, against a chain that hangs; the cheapest distance of a section."""
+    load = 150.0 * 9.81
+    for sag in (0.01, 0.02):
+        low, high = 0.1, 100.0  # tension of the chain's lowest point over the weight between the sets
+        for _ in range(60):
+            middle = 0.5 * (low + high)
+            hangs = middle * (math.cosh(0.5 / middle) - 1.0)
+            low, high = (middle, high) if hangs > sag else (low, middle)
+        got = tension.sag_tension(150.0, spacing=3.0, relative_sag=sag, gravity=9.81)
+        # next term of the cosh: (8 sag)²/48 of it
+        expected, name = low * load * 3.0, f"tension for {100 * sag:g} % sag, 150 kg/m, 3 m [N]"
+        yield _close(_CATENARY, name, expected, got, 1.01 * 4.0 / 3.0 * sag**2)
+    section = SectionSpacing("", "carry", 400.0, 2.0, 5.0, 1.0, math.inf, grows=3.0, falls=4.0)
+    tried = np.linspace(1.0, 8.0, 7_001)
+    best = float(tried[np.argmin([section.cost(a) for a in tried.tolist()])])
+    yield _close(_SPACED, "cheapest distance [m], 3 a^(1/3) + 4/a", best, section.cheapest, 0.0005 / best)
 
 
 def _compliance_identity() -> Iterator[ReferenceCheck]:

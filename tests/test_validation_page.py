@@ -40,6 +40,12 @@ SOURCES = {
     "Grimmer, Kessler (1987), by eytelwein 0.1.9": "K.-J. Grimmer, F. Kessler, Spezielle Betrachtungen zur Gurtführung "
     "bei Gurtförderern mit Horizontalkurven: their worked belt as the tests of the open library eytelwein keep it, to "
     "ten and more digits; the paper itself was not read",
+    "course of a flat belt, set by set": "a belt that turns at every set by what banking and guiding friction push, no "
+    "settled course assumed; allowed at the end is the way over which it turns back to the straight, over the length",
+    "polygon of five rolls": "area by the shoelace formula, force on the drifted belt by the heights of its edges",
+    "catenary between the sets": "the chain's own curve; allowed is its next term beyond the parabola, 4/3 of the sag "
+    "squared",
+    "least cost of the sets, by search": "every millimetre tried; allowed is half of one",
     "Lemmon (2013), finite elements": "R. Lemmon, Belt transitions analysis by finite element analysis, Beltcon 17, "
     "table 3: belt of 1600 mm, 600 kN, 13.0 m; strength, stiffness and rolls are inferred, so 1 % is allowed",
     "CEMA, transition": "L = 0.707 sqrt(E/Δσ (s² + z²)), the edge's own way, as lectured at Newcastle (Belt conveying, "
@@ -51,6 +57,8 @@ SOURCES = {
     "Conveyor C-1.1 report": "a public calculation report (studylib 25593897): belt of 1250 N/mm, 1200 mm; "
     "its tensions printed to three digits",
     "ckit.co.za, trajectories": "its table of edge distances on discharge pulleys; printed digits",
+    "Sandvik (1999), load of idlers": "Selection and load rating of the idlers for belt conveyors (12/99): 1300 t/h at "
+    "2.2 m/s, 45 deg, slope of 30 deg; printed digits, of the middle roll those of its share",
     "Rulmeca, impact rollers": "its rule for fine bulk, t/h times the root of the fall over 8 in kgf, as commonly "
     "reproduced; one printed digit",
     "J*(ω) E*(ω) = 1": "the exact inverse of a relaxation spectrum, 21 terms over 20 decades",

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
-from conveyor.laws.loading import RollLoad
+from conveyor.laws.loading import NO_WING, RollLoad, Wing, roll_angles, wings
 from conveyor.laws.resistance.defaults import Default
 from conveyor.require import (
     require,
@@ -29,10 +29,8 @@ FULL_SLIP_TILT: Final = Default(
 """[rad]"""
 LEAST_GUIDANCE: Final = 0.7
 """Guiding friction to count on over the full one, wet or dirty: Grimmer, Kessler, worked example [-]."""
-WIND_DRAG: Final = Default(1.3, 1.0, 2.0, "drag coefficient of the belt's trough across the wind", True)
-"""[-]"""
-AIR_DENSITY: Final = 1.25
-"""EN 1991-1-4, recommended value [kg/m³]."""
+MOST_ROLLS: Final = 5
+"""Of a set [-]."""
 
 
 def guide_friction(tilt: float, *, friction: float, full_slip: float) -> float:
@@ -79,7 +77,7 @@ def guide_friction(tilt: float, *, friction: float, full_slip: float) -> float:
 
 
 def outward_pushes(
-    frictions: Sequence[float], *, trough_angle: float, banking_angle: float
+    frictions: Sequence[float], *, trough_angle: float, banking_angle: float, inner_angle: float = 0.0
 ) -> tuple[float, ...]:
     """Force to the outside of the curve over the weight on each roll, from the inside roll outward.
 
@@ -89,11 +87,13 @@ def outward_pushes(
     Parameters
     ----------
     frictions : sequence of float
-        κ of each roll to the outside, see `guide_friction` [-]: two or three, the inside roll first.
+        κ of each roll to the outside, see `guide_friction` [-]: two to five, the inside roll first.
     trough_angle : float
         λ of the outer rolls [rad], above 0 and below pi/2.
     banking_angle : float
         β by which the set is raised on the inside [rad], at least 0; λ + β below pi/2.
+    inner_angle : float
+        λ' of the inner wing rolls of four and five [rad], from 0 to λ.
 
     Returns
     -------
@@ -108,7 +108,9 @@ def outward_pushes(
     Notes
     -----
     Grimmer, Kessler, Part II ("improved"), their load factors 1: the weight on a wing acts along the wing in full, as
-    of a belt that passes the corner without friction. Part I takes cos λ of it.
+    of a belt that passes the corner without friction. Part I takes cos λ of it. The paper has three rolls; of four and
+    five the inner wings push with λ', and a wing presses on every roll that it slides toward by the sine of the bend
+    before that (derived). A V has no roll between its wings.
 
     Examples
     --------
@@ -116,24 +118,25 @@ def outward_pushes(
     >>> [round(push, 3) for push in pushes]
     [0.5, 0.0, -0.5]
     """
-    require(len(frictions) in {2, 3}, "frictions", frictions, "those of two or three rolls are needed")
+    rolls = len(frictions)
+    require(2 <= rolls <= MOST_ROLLS, "frictions", frictions, "those of two to five rolls are needed")
     require_finite(**{f"frictions_{i}": one for i, one in enumerate(frictions)})
-    require_angle(0.0, trough_angle=trough_angle, banking_angle=banking_angle)
+    require_angle(0.0, trough_angle=trough_angle, banking_angle=banking_angle, inner_angle=inner_angle)
     require_angle(0.0, sum_of_trough_and_banking=trough_angle + banking_angle)
     require_positive(trough_angle=trough_angle)
-    inside, outside = trough_angle + banking_angle, trough_angle - banking_angle
-    wings = (
-        math.sin(inside) + frictions[0] * math.cos(inside),
-        -math.sin(outside) + frictions[-1] * math.cos(outside),
+    require(
+        inner_angle <= trough_angle, "inner_angle", inner_angle, f"at most {trough_angle!r} rad is needed"
     )
-    if len(frictions) == 2:
-        return wings
-    middle, pressed = frictions[1], frictions[1] * math.sin(trough_angle)
-    return (
-        wings[0] + pressed * math.sin(inside),
-        math.sin(banking_angle) + middle * math.cos(banking_angle),
-        wings[1] + pressed * math.sin(outside),
-    )
+    angles = roll_angles(rolls, trough_angle=trough_angle, inner_angle=inner_angle)
+    pushes = []
+    for i, (angle, friction) in enumerate(zip(angles, frictions, strict=True)):
+        slope, inside = angle + banking_angle, i < rolls // 2
+        step, end = (1, (rolls + 1) // 2) if inside else (-1, rolls // 2 - 1)
+        pressed = math.fsum(
+            frictions[j] * math.sin(step * (angles[j - step] - angles[j])) for j in range(i + step, end, step)
+        )
+        pushes.append(math.sin(slope) * (1.0 + step * pressed) + friction * math.cos(slope))
+    return tuple(pushes)
 
 
 def drifted_loads(loads: Sequence[RollLoad], drift: float, *, roll_length: float) -> tuple[RollLoad, ...]:
@@ -142,7 +145,7 @@ def drifted_loads(loads: Sequence[RollLoad], drift: float, *, roll_length: float
     Parameters
     ----------
     loads : sequence of RollLoad
-        Of the centred belt, inside roll first: two or three [N].
+        Of the centred belt, inside roll first: two to five [N].
     drift : float
         s toward the inside, negative outward [m]; the belt stays on the roll that it leaves.
     roll_length : float
@@ -160,8 +163,8 @@ def drifted_loads(loads: Sequence[RollLoad], drift: float, *, roll_length: float
 
     Notes
     -----
-    Derived. The strip that comes on to a wing bears what it bore on the middle roll (of two rolls, at the inner end of
-    the other wing); along a wing the bulk is laid as before, over its new length.
+    Derived. The strip that comes on to a roll bears what it bore on the one before (of two rolls, what it bore at the
+    inner end of the other wing); along a wing the bulk is laid as before, over its new length.
 
     Examples
     --------
@@ -172,7 +175,7 @@ def drifted_loads(loads: Sequence[RollLoad], drift: float, *, roll_length: float
     [(30.0, 0.3), (32.0, 0.32), (18.0, 0.18)]
     """
     require_positive(roll_length=roll_length)
-    require(len(loads) in {2, 3}, "loads", loads, "those of two or three rolls are needed")
+    require(2 <= len(loads) <= MOST_ROLLS, "loads", loads, "those of two to five rolls are needed")
     if drift < 0.0:
         return tuple(reversed(drifted_loads(loads[::-1], -drift, roll_length=roll_length)))
     left = loads[-1]
@@ -186,11 +189,10 @@ def drifted_loads(loads: Sequence[RollLoad], drift: float, *, roll_length: float
     bulk = left.bulk_force * (over * (2.0 - over) if left.shape == "triangular" else over)
     belt = left.belt_force * over
     made = [_with(left, -bulk, -belt, left.length - drift)]
-    if len(loads) == 3:
-        middle = loads[1]
-        passed = drift / middle.length
-        bulk_on, belt_on = middle.bulk_force * passed, middle.belt_force * passed
-        made.insert(0, _with(middle, bulk - bulk_on, belt - belt_on, middle.length))
+    for inner in reversed(loads[1:-1]):
+        passed = drift / inner.length
+        bulk_on, belt_on = inner.bulk_force * passed, inner.belt_force * passed
+        made.insert(0, _with(inner, bulk - bulk_on, belt - belt_on, inner.length))
         bulk, belt = bulk_on, belt_on
     return (_with(loads[0], bulk, belt, min(loads[0].length + drift, roll_length)), *made)
 
@@ -258,7 +260,7 @@ class DriftLaw:
         Raises
         ------
         InputError
-            Not two or three rolls.
+            Not two to five rolls.
         """
         centred = outward_force(loads, pushes)
 
@@ -380,7 +382,9 @@ class FlatDrift:
         return drift if abs(drift) < self.reach else math.copysign(math.inf, drift)
 
 
-def half_span(belt_width: float, *, middle_roll_length: float, trough_angle: float) -> float:
+def half_span(
+    belt_width: float, *, middle_roll_length: float, trough_angle: float, inner_wing: Wing = NO_WING
+) -> float:
     """Distance of the belt's edge from its middle across the curve, l_M/2 + (B - l_M)/2 cos λ.
 
     Parameters
@@ -388,9 +392,11 @@ def half_span(belt_width: float, *, middle_roll_length: float, trough_angle: flo
     belt_width : float
         B [m], positive.
     middle_roll_length : float
-        l_M, belt on the middle roll [m], from 0 (two rolls) to B.
+        l_M, belt on the middle roll [m], from 0 (two or four rolls) to B.
     trough_angle : float
-        λ [rad], from 0 to below pi/2.
+        λ of the outer rolls [rad], from 0 to below pi/2.
+    inner_wing : Wing
+        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wings`.
 
     Returns
     -------
@@ -412,48 +418,7 @@ def half_span(belt_width: float, *, middle_roll_length: float, trough_angle: flo
     >>> round(half_span(1.2, middle_roll_length=0.4, trough_angle=math.radians(60)), 9)
     0.4
     """
-    require_positive(belt_width=belt_width)
-    ok = 0.0 <= middle_roll_length <= belt_width
-    require(ok, "middle_roll_length", middle_roll_length, f"0 to belt_width = {belt_width!r} m is needed")
-    require_angle(0.0, trough_angle=trough_angle)
-    return 0.5 * (middle_roll_length + (belt_width - middle_roll_length) * math.cos(trough_angle))
-
-
-def wind_force(speed: float, *, height: float, length: float, drag: float, air_density: float) -> float:
-    """Force of the wind across a belt, c ρ v²/2 h a.
-
-    Parameters
-    ----------
-    speed : float
-        v of the wind [m/s], at least 0.
-    height : float
-        h that the trough shows to it [m], at least 0.
-    length : float
-        a of belt [m], positive.
-    drag : float
-        c [-], positive, see `WIND_DRAG`.
-    air_density : float
-        ρ [kg/m³], positive.
-
-    Returns
-    -------
-    float
-        Force [N].
-
-    Raises
-    ------
-    InputError
-        An argument is outside its range.
-
-    Notes
-    -----
-    Dynamic pressure as of EN 1991-1-4, without gusts: take the speed of the gust. Lift on the belt is left out.
-
-    Examples
-    --------
-    >>> wind_force(20.0, height=0.2, length=2.0, drag=1.0, air_density=1.25)
-    100.0
-    """
-    require_not_negative(speed=speed, height=height)
-    require_positive(length=length, drag=drag, air_density=air_density)
-    return drag * 0.5 * air_density * speed**2 * height * length
+    pieces = wings(
+        belt_width, middle_roll_length=middle_roll_length, trough_angle=trough_angle, inner_wing=inner_wing
+    )
+    return 0.5 * middle_roll_length + math.fsum(wing.length * math.cos(wing.angle) for wing in pieces)

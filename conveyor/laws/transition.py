@@ -12,7 +12,8 @@ import math
 from dataclasses import dataclass
 from typing import Final
 
-from conveyor.require import require, require_angle, require_positive
+from conveyor.laws.loading import NO_WING, Wing, wings
+from conveyor.require import require, require_positive
 
 EDGE_OVER_RATED: Final = 1.3
 """Tension of the edges over the belt's rated one, at most [-]; ISO 5293."""
@@ -41,7 +42,12 @@ class TransitionStretch:
 
 
 def transition_stretch(
-    belt_width: float, *, middle_roll_length: float, trough_angle: float, pulley_height: float
+    belt_width: float,
+    *,
+    middle_roll_length: float,
+    trough_angle: float,
+    pulley_height: float,
+    inner_wing: Wing = NO_WING,
 ) -> TransitionStretch:
     """Strips of straight way from the pulley to the trough: ε L² = s² (1 - cos λ) - s H sin λ + H²/2, less its mean.
 
@@ -50,12 +56,14 @@ def transition_stretch(
     belt_width : float
         B [m], positive.
     middle_roll_length : float
-        l_M, belt on the middle roll [m], from 0 (two rolls) to B (flat).
+        l_M, belt on the middle roll [m], from 0 (two or four rolls) to B (flat).
     trough_angle : float
-        λ of the first full set [rad], from 0 to below pi/2.
+        λ of the outer rolls of the first full set [rad], from 0 to below pi/2.
     pulley_height : float
         H, top of the pulley over the middle roll, over the depth of the trough w sin λ [-], from 0 (full trough) to 1;
         0.5 is half trough.
+    inner_wing : Wing
+        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wings`; not steeper than λ.
 
     Returns
     -------
@@ -70,8 +78,9 @@ def transition_stretch(
     Notes
     -----
     w = (B - l_M)/2, s from 0 at the bend to w at the edge. A strip rises s sin λ - H and moves inwards s (1 - cos λ)
-    over the length L; ε to its first order in (w/L)², whose next is below 1 % for L > 2 B. Shear between strips, which
-    evens them out, and what reaches beyond pulley and set are left out: on the safe side.
+    over the length L; ε to its first order in (w/L)², whose next is below 1 % for L > 2 B. Past an inner wing what it
+    rises and moves by there goes before. Shear between strips, which evens them out, and what reaches beyond pulley and
+    set are left out: on the safe side.
 
     Examples
     --------
@@ -84,21 +93,24 @@ def transition_stretch(
     >>> round(full.edge, 5), round(full.middle, 5), round(half.edge, 5), round(half.middle, 5)
     (0.02251, -0.00643, 0.00496, 0.00234)
     """
-    require_positive(belt_width=belt_width)
-    ok = 0.0 <= middle_roll_length <= belt_width
-    require(ok, "middle_roll_length", middle_roll_length, f"0 to belt_width = {belt_width!r} m is needed")
-    require_angle(0.0, trough_angle=trough_angle)
     require(0.0 <= pulley_height <= 1.0, "pulley_height", pulley_height, "0 to 1 is needed")
-    wing = (belt_width - middle_roll_length) / 2.0
-    square = 2.0 * math.sin(0.5 * trough_angle) ** 2  # 1 - cos λ
-    line = pulley_height * wing * math.sin(trough_angle) ** 2  # H sin λ
-    mean = 2.0 * wing**2 * (wing * square / 3.0 - line / 2.0) / belt_width
-    lowest = wing * pulley_height * math.cos(0.5 * trough_angle) ** 2  # s = H sin λ/(2 (1 - cos λ)), below w
-    return TransitionStretch(
-        edge=wing**2 * square - wing * line - mean,
-        middle=-mean,
-        least=lowest**2 * square - lowest * line - mean,
+    pieces = wings(
+        belt_width, middle_roll_length=middle_roll_length, trough_angle=trough_angle, inner_wing=inner_wing
     )
+    height = pulley_height * math.fsum(wing.length * math.sin(wing.angle) for wing in pieces)
+    moved, risen, stretch, whole, least = 0.0, 0.0, 0.0, 0.0, 0.0
+    for wing, angle in pieces:
+        # ε L² at t beyond the last bend: stretch + slope t + square t²
+        square = 2.0 * math.sin(0.5 * angle) ** 2  # 1 - cos λ
+        slope = moved * square + (risen - height) * math.sin(angle)
+        whole += wing * (stretch + wing * (slope / 2.0 + wing * square / 3.0))
+        lowest = min(max(-0.5 * slope, 0.0), square * wing)  # over the square: s = H sin λ/(2 (1 - cos λ))
+        if square > 0.0:
+            least = min(least, stretch + lowest * (slope + lowest) / square)
+        stretch += wing * (slope + wing * square)
+        moved, risen = moved + wing * square, risen + wing * math.sin(angle)
+    mean = 2.0 * whole / belt_width
+    return TransitionStretch(edge=stretch - mean, middle=-mean, least=least - mean)
 
 
 def transition_length(

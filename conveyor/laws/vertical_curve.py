@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from conveyor.laws.loading import NO_WING, Wing, wings
 from conveyor.require import (
     require,
-    require_angle,
     require_not_negative,
     require_positive,
     require_slope,
@@ -34,7 +34,9 @@ class TroughSection:
     middle_below: float
 
 
-def trough_section(belt_width: float, *, middle_roll_length: float, trough_angle: float) -> TroughSection:
+def trough_section(
+    belt_width: float, *, middle_roll_length: float, trough_angle: float, inner_wing: Wing = NO_WING
+) -> TroughSection:
     """Heights of the troughed belt, edges w sin λ - z, middle z = w² sin λ/B, with w = (B - l_M)/2.
 
     Parameters
@@ -42,9 +44,11 @@ def trough_section(belt_width: float, *, middle_roll_length: float, trough_angle
     belt_width : float
         B [m], positive.
     middle_roll_length : float
-        l_M, belt on the middle roll [m], from 0 (two rolls) to B (flat).
+        l_M, belt on the middle roll [m], from 0 (two or four rolls) to B (flat).
     trough_angle : float
-        λ [rad], from 0 to below pi/2.
+        λ of the outer rolls [rad], from 0 to below pi/2.
+    inner_wing : Wing
+        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wings`.
 
     Returns
     -------
@@ -58,7 +62,7 @@ def trough_section(belt_width: float, *, middle_roll_length: float, trough_angle
 
     Notes
     -----
-    Three straight pieces of a thin belt of even stiffness across.
+    Straight pieces of a thin belt of even stiffness across; its centre is the mean of its heights.
 
     Examples
     --------
@@ -66,18 +70,21 @@ def trough_section(belt_width: float, *, middle_roll_length: float, trough_angle
     >>> round(s.edge_above, 4), round(s.middle_below, 4)
     (0.1333, 0.0667)
     """
-    require_positive(belt_width=belt_width)
-    ok = 0.0 <= middle_roll_length <= belt_width
-    require(ok, "middle_roll_length", middle_roll_length, f"0 to belt_width = {belt_width!r} m is needed")
-    require_angle(0.0, trough_angle=trough_angle)
-    wing = (belt_width - middle_roll_length) / 2.0
-    edge = wing * math.sin(trough_angle)
-    centre = edge * wing / belt_width
+    edge = moment = 0.0
+    for length, angle in wings(
+        belt_width, middle_roll_length=middle_roll_length, trough_angle=trough_angle, inner_wing=inner_wing
+    ):
+        rise = length * math.sin(angle)
+        moment += (2.0 * edge + rise) * length
+        edge += rise
+    centre = moment / belt_width
     return TroughSection(edge_above=edge - centre, middle_below=centre)
 
 
-def lift_off_radius(tension: float, *, belt_mass: float, inclination: float, gravity: float) -> float:
-    """Least radius of a concave curve on which the empty belt stays down, r = T/(m'_belt g cos δ).
+def lift_off_radius(
+    tension: float, *, belt_mass: float, inclination: float, gravity: float, uplift: float = 0.0
+) -> float:
+    """Least radius of a concave curve on which the empty belt stays down, r = T/(m'_belt g cos δ - F'_wind).
 
     Parameters
     ----------
@@ -89,11 +96,13 @@ def lift_off_radius(tension: float, *, belt_mass: float, inclination: float, gra
         δ of the belt, at its steepest in the curve [rad], between -pi/2 and pi/2.
     gravity : float
         g [m/s²], positive.
+    uplift : float
+        F'_wind that lifts it per length [N/m], at least 0, see `wind.wind_force`.
 
     Returns
     -------
     float
-        r [m].
+        r [m]; infinite where the wind alone lifts it.
 
     Raises
     ------
@@ -109,10 +118,11 @@ def lift_off_radius(tension: float, *, belt_mass: float, inclination: float, gra
     >>> round(lift_off_radius(60e3, belt_mass=20.0, inclination=0.0, gravity=9.81), 1)
     305.8
     """
-    require_not_negative(tension=tension)
+    require_not_negative(tension=tension, uplift=uplift)
     require_positive(belt_mass=belt_mass, gravity=gravity)
     require_slope(inclination=inclination)
-    return tension / (belt_mass * gravity * math.cos(inclination))
+    held = belt_mass * gravity * math.cos(inclination) - uplift
+    return tension / held if held > 0.0 else math.inf
 
 
 def overstress_radius(

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from conveyor.errors import InputError
 from conveyor.laws.loading import (
     Heap,
     RollLoad,
     filled_width,
-    middle_share_by_area,
     roll_loads,
+    shares_by_area,
 )
 from conveyor.models import Conveyor, IdlerSet
 from conveyor.units import Quantity, si
@@ -30,6 +29,7 @@ class SetLoads:
         self._trough = si(idlers.trough_angle)
         self._roll_length = si(idlers.roll.length)
         self._width = si(conveyor.belt.width)
+        self._middle = idlers.middle_belt(self._width)
         self._gravity = si(conveyor.calculation.gravity)
         self._density = si(conveyor.material.density)
         self._surcharge = conveyor.material.surcharge
@@ -37,7 +37,7 @@ class SetLoads:
         self._heap: Heap = "parabola" if iso else "triangle"
         self._bulk_shares = _shares(idlers.load_shares)
         self._belt_shares = _shares(idlers.belt_shares)
-        self._by_area = idlers.share_rule == "cross-section" and idlers.rolls == 3
+        self._by_area = idlers.share_rule == "cross-section" and idlers.rolls > 2
         self._found: dict[tuple[float, ...], tuple[RollLoad, ...]] = {}
         self._known_shares: dict[float, tuple[float, ...]] = {}
 
@@ -77,52 +77,45 @@ class SetLoads:
         return known
 
     def _shares_of(self, flow_mass: float) -> tuple[float, ...] | None:
-        if not self._by_area or flow_mass == 0.0:
+        if not self._by_area:
             return self._bulk_shares
         if flow_mass not in self._known_shares:
-            middle = self._middle_share(flow_mass)
-            self._known_shares[flow_mass] = (0.5 * (1.0 - middle), middle, 0.5 * (1.0 - middle))
+            self._known_shares[flow_mass] = self._shares_by_area(flow_mass)
         return self._known_shares[flow_mass]
 
-    def _middle_share(self, flow_mass: float) -> float:
-        """By the area above the middle roll at the filling of this stretch; a narrow heap lies on it alone."""
-        across = self.covered(flow_mass)
-        if across <= self._roll_length:
-            return 1.0
-        return middle_share_by_area(
+    def _shares_by_area(self, flow_mass: float) -> tuple[float, ...]:
+        """By the area above each roll at the filling of this stretch; a narrow heap lies on the inner rolls alone."""
+        rolls, across = self.idlers.rolls, self.covered(flow_mass)
+        if across <= self._middle:
+            return tuple(float(place == rolls // 2) for place in range(rolls))
+        middle, *wings = shares_by_area(
             across,
-            middle_roll_length=self._roll_length,
+            middle_roll_length=self._middle,
             trough_angle=self._trough,
             surcharge_angle=self._surcharge,
             heap=self._heap,
+            inner_wing=self.idlers.inner_wing,
         )
+        wings += [0.0] * (rolls // 2 - len(wings))
+        return (*reversed(wings), *([middle] * (rolls % 2)), *wings)
 
     def covered(self, flow_mass: float) -> float:
-        """Width of the belt under the bulk of a mass per length, for sets of up to 3 rolls [m].
-
-        Raises
-        ------
-        InputError
-            Sets of 4 or 5 rolls.
-        """
-        if self.idlers.rolls in {4, 5}:
-            raise InputError(f"the width under the bulk is not known for sets of {self.idlers.rolls} rolls")
+        """Width of the belt under the bulk of a mass per length [m]."""
         if flow_mass == 0.0:
             return 0.0
-        flat = self.idlers.rolls == 1
         return filled_width(
             flow_mass / self._density,
-            middle_roll_length=self._roll_length if self.idlers.rolls == 3 else 0.0,
-            trough_angle=0.0 if flat else self._trough,
+            middle_roll_length=self._middle,
+            trough_angle=self._trough,
             surcharge_angle=self._surcharge,
+            inner_wing=self.idlers.inner_wing,
         )
 
     def wing_contact(self, flow_mass: float) -> float:
-        """Width of each outer roll's belt under the bulk [m]; none on a flat belt."""
+        """Width of each wing's belt under the bulk, for sets of up to 3 rolls [m]; none on a flat belt."""
         if self.idlers.rolls == 1:
             return 0.0
-        inner = self._roll_length if self.idlers.rolls == 3 else 0.0
-        return max(0.5 * (self.covered(flow_mass) - inner), 0.0)
+        return max(0.5 * (self.covered(flow_mass) - self._middle), 0.0)
 
 
 def _shares(given: tuple[Quantity, ...] | None) -> tuple[float, ...] | None:

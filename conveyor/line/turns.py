@@ -3,25 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 from conveyor.laws.horizontal_curve import (
-    AIR_DENSITY,
     FULL_SLIP_TILT,
     LEAST_GUIDANCE,
-    WIND_DRAG,
     DriftLaw,
     FlatDrift,
     drifted_loads,
     guide_friction,
     outward_force,
     outward_pushes,
-    wind_force,
 )
-from conveyor.laws.loading import RollLoad
+from conveyor.laws.loading import RollLoad, roll_angles
 from conveyor.laws.resistance import ROLL_ON_BELT_FRICTION
+from conveyor.laws.wind import AIR_DENSITY, WIND_DRAG, wind_force
 from conveyor.models import IdlerSet, Section
 from conveyor.units import Quantity, si
 
@@ -64,8 +62,8 @@ class Turn:
         Where the inside of the curve is, in running direction of the carry strand.
     radius, vertical, length : float
         Of the curve; of a vertical curve in the same place, as of `RouteSection`; of the section [m].
-    banking, skew, trough_angle, tilt_angle, roll_length : float
-        Of the sets [rad, rad, rad, rad, m].
+    banking, skew, trough_angle, inner_angle, tilt_angle, roll_length : float
+        Of the sets; of the inner wing rolls of four and five [rad, rad, rad, rad, rad, m].
     weights : tuple of RollLoad
         Weight on each roll of one set with the belt centred, inside roll first.
     drift : float
@@ -81,6 +79,7 @@ class Turn:
     banking: float
     skew: float
     trough_angle: float
+    inner_angle: float
     tilt_angle: float
     roll_length: float
     weights: Loads
@@ -115,8 +114,15 @@ class Turn:
         """Sine of each roll's slope, falling outward [-]: what pushes without friction."""
         if self.flat:
             return (math.sin(self.banking),)
-        frictionless = (0.0,) * len(self.weights)
-        return outward_pushes(frictionless, trough_angle=self.trough_angle, banking_angle=self.banking)
+        return self._pushed((0.0,) * len(self.weights))
+
+    def _pushed(self, frictions: Sequence[float]) -> tuple[float, ...]:
+        return outward_pushes(
+            frictions,
+            trough_angle=self.trough_angle,
+            banking_angle=self.banking,
+            inner_angle=self.inner_angle,
+        )
 
     @cached_property
     def _laws(self) -> tuple[DriftLaw | FlatDrift, DriftLaw | FlatDrift]:
@@ -145,14 +151,14 @@ class Turn:
         return DriftLaw.of(loads, self._pushes(share))
 
     def _pushes(self, share: float) -> tuple[float, ...]:
-        """The wings' own tilt pushes to the middle, the skew of the set outward; a wing's axis turns by cos λ of it."""
-        turned = self.skew * math.cos(self.trough_angle)
-        tilts = [self.tilt_angle + turned, turned - self.tilt_angle]
-        if len(self.weights) == 3:
-            tilts.insert(1, self.skew)
+        """The outer rolls' tilt pushes to the middle, the set's skew outward; a wing's axis turns by cos λ of it."""
+        angles = roll_angles(len(self.weights), trough_angle=self.trough_angle, inner_angle=self.inner_angle)
+        tilts = [self.skew * math.cos(angle) for angle in angles]
+        tilts[0] += self.tilt_angle
+        tilts[-1] -= self.tilt_angle
         friction = share * ROLL_ON_BELT_FRICTION.value
         frictions = [guide_friction(e, friction=friction, full_slip=FULL_SLIP_TILT.value) for e in tilts]
-        return outward_pushes(frictions, trough_angle=self.trough_angle, banking_angle=self.banking)
+        return self._pushed(frictions)
 
     def guidance(self) -> float:
         """Resistance of one set's skew: what its friction pushes outward, over the angle of set and belt [N]."""
@@ -197,10 +203,15 @@ def turn(
     thickness: float,
 ) -> Turn:
     """The sets of a strand on a curve under the weights of a centred belt, left to right."""
-    trough, bare = si(idlers.trough_angle), all(load.bulk_force == 0.0 for load in loads)
+    trough, inner = si(idlers.trough_angle), idlers.inner_wing.angle
+    bare = all(load.bulk_force == 0.0 for load in loads)
     wind = 0.0
     if bare and wind_speed:
-        height = thickness + loads[0].length * math.sin(trough)
+        angles = roll_angles(idlers.rolls, trough_angle=trough, inner_angle=inner)
+        depth = math.fsum(
+            load.length * abs(math.sin(angle)) for load, angle in zip(loads, angles, strict=True)
+        )
+        height = thickness + 0.5 * depth
         wind = wind_force(
             wind_speed, height=height, length=spacing, drag=WIND_DRAG.value, air_density=AIR_DENSITY
         )
@@ -212,6 +223,7 @@ def turn(
         banking=given.banking[strand],
         skew=given.skew[strand],
         trough_angle=trough,
+        inner_angle=inner,
         tilt_angle=si(idlers.tilt_angle),
         roll_length=si(idlers.roll.length),
         weights=loads if given.side == "left" else loads[::-1],

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from conveyor.laws.belt import (
+    CEMA_PULLEYS,
     CLASSIC_SAFETY,
     DUTY_SAFETY,
     PULLEY_DIAMETERS,
@@ -15,12 +16,14 @@ from conveyor.laws.belt import (
     Group,
     belt_safety,
     needed_strength,
+    next_pulley_diameter,
     pulley_group_diameter,
     standard_pulley_diameter,
 )
 from conveyor.laws.tension import PULLEY_FACTOR, least_pulley_diameter
 from conveyor.laws.transition import EDGE_OVER_RATED, transition_length, transition_stretch
 from conveyor.laws.vertical_curve import (
+    TroughSection,
     buckling_radius,
     lift_off_radius,
     overstress_radius,
@@ -74,7 +77,7 @@ class CurveCheck:
     lowest, highest : float
         Tensions that occur in it [N].
     lift_off : float or None
-        At which the empty belt stays down; of concave curves.
+        At which the empty belt stays down, in the wind given; of concave curves.
     overstress, buckling : float or None
         At which no strip of the belt is overstressed or slack; infinite where no radius helps.
     most, least : float or None
@@ -251,7 +254,9 @@ def _pulleys(balance: Balance) -> Iterator[PulleyCheck]:
             used = full = max(0.0, *sides(balance, i, balance.settled.steady)) / (line.belt.width * allowed)
         least = pulley_group_diameter(drive, group=group, utilisation=full)
         size = None
-        if drive <= PULLEY_DIAMETERS[-1]:
+        if line.us_sizes:
+            size = next_pulley_diameter(least, series=CEMA_PULLEYS) if least <= CEMA_PULLEYS[-1] else None
+        elif drive <= PULLEY_DIAMETERS[-1]:
             size = standard_pulley_diameter(drive, group=group, utilisation=full)
         yield PulleyCheck(pulley.name, pulley.position, group, used, pulley.diameter, least, size)
 
@@ -279,6 +284,7 @@ def _curves(balance: Balance, states: Sequence[MotionState]) -> Iterator[CurveCh
                 belt_mass=stretch.belt_mass,
                 inclination=stretch.inclination,
                 gravity=line.gravity,
+                uplift=line.uplift,
             )
         strips = _strips(line, stretch, section, lowest, highest)
         yield CurveCheck(
@@ -298,13 +304,12 @@ def _strips(
 ) -> tuple[float | None, float | None, float | None, float | None]:
     """Radii at which edges and middle of the belt bear the curve, and tensions that occur in them.
 
-    None where stiffness or trough are not known.
+    None where stiffness or strength are not known.
     """
-    middle, width = middle_belt(stretch, line.belt.width), line.belt.width
-    allowed, stiffness = allowed_tension(line), line.belt.tensile_stiffness
-    if allowed is None or stiffness is None or middle is None:
+    width, allowed, stiffness = line.belt.width, allowed_tension(line), line.belt.tensile_stiffness
+    if allowed is None or stiffness is None:
         return None, None, None, None
-    trough = trough_section(width, middle_roll_length=middle, trough_angle=stretch.trough_angle)
+    trough = lying(stretch, width)
     stretched, slackened = trough.edge_above, trough.middle_below
     if section.curve == "concave":
         stretched, slackened = slackened, stretched
@@ -331,9 +336,14 @@ def allowed_tension(line: Line) -> float | None:
     return belt.rating if belt.strength is None else belt.strength / _classic_safety(line)
 
 
-def middle_belt(stretch: Stretch, width: float) -> float | None:
-    """Belt on the middle roll [m]; None for four and five rolls, which have no rule."""
-    return {1: width, 2: 0.0, 3: min(stretch.roll_length, width)}.get(len(stretch.loads))
+def lying(stretch: Stretch, width: float) -> TroughSection:
+    """Heights of a belt of a width in the trough of a stretch."""
+    return trough_section(
+        width,
+        middle_roll_length=stretch.idlers.middle_belt(width),
+        trough_angle=stretch.trough_angle,
+        inner_wing=stretch.idlers.inner_wing,
+    )
 
 
 def _transition(line: Line, zone: TransitionZone, states: Sequence[MotionState]) -> TransitionCheck:
@@ -344,15 +354,20 @@ def _transition(line: Line, zone: TransitionZone, states: Sequence[MotionState])
     else:
         stretch, tensions = line.loop.stretches[half], [float(state.starts[half]) for state in states]
     lowest, highest = max(0.0, min(tensions)) / width, max(0.0, *tensions) / width
-    middle, rated, stiffness = middle_belt(stretch, width), allowed_tension(line), line.belt.tensile_stiffness
-    if middle is None or rated is None or stiffness is None:
+    rated, stiffness = allowed_tension(line), line.belt.tensile_stiffness
+    if rated is None or stiffness is None:
         missing = (
-            "no rule for four and five rolls" if middle is None else
-            "belt.carcass.strength and rating not given" if rated is None else "belt.carcass.stiffness not given"
-        )  # fmt: skip
+            "belt.carcass.strength and rating not given"
+            if rated is None
+            else "belt.carcass.stiffness not given"
+        )
         return TransitionCheck(zone, lowest, highest, missing=missing)
     zone_length = transition_stretch(
-        width, middle_roll_length=middle, trough_angle=stretch.trough_angle, pulley_height=zone.pulley_height
+        width,
+        middle_roll_length=stretch.idlers.middle_belt(width),
+        trough_angle=stretch.trough_angle,
+        pulley_height=zone.pulley_height,
+        inner_wing=stretch.idlers.inner_wing,
     )
     allowed = EDGE_OVER_RATED * rated
 

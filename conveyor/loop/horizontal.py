@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from conveyor.laws.horizontal_curve import half_span
-from conveyor.laws.vertical_curve import buckling_radius, overstress_radius, trough_section
+from conveyor.laws.vertical_curve import buckling_radius, overstress_radius
 from conveyor.line.line import Line
 from conveyor.line.stretches import Strand, Stretch
 from conveyor.line.turns import Turn
 from conveyor.loop.balance import Balance
-from conveyor.loop.belt_duty import LEAST_EDGE_TENSION, allowed_tension, middle_belt
+from conveyor.loop.belt_duty import LEAST_EDGE_TENSION, allowed_tension, lying
 from conveyor.loop.curves import pull_inside, pushed_down
 from conveyor.loop.tensions import MotionState
 
@@ -169,12 +169,16 @@ def _edges(
     line: Line, stretch: Stretch, turn: Turn, lowest: float, highest: float
 ) -> tuple[float | None, float | None, float | None, float | None]:
     """Radii that outer and inner edge bear, and their tensions; a vertical curve stretches or slackens both before."""
-    width, middle = line.belt.width, middle_belt(stretch, line.belt.width)
-    allowed, stiffness = allowed_tension(line), line.belt.tensile_stiffness
-    if allowed is None or stiffness is None or middle is None:
+    width, allowed, stiffness = line.belt.width, allowed_tension(line), line.belt.tensile_stiffness
+    if allowed is None or stiffness is None:
         return None, None, None, None
-    across = half_span(width, middle_roll_length=middle, trough_angle=stretch.trough_angle)
-    above = trough_section(width, middle_roll_length=middle, trough_angle=stretch.trough_angle).edge_above
+    across = half_span(
+        width,
+        middle_roll_length=stretch.idlers.middle_belt(width),
+        trough_angle=stretch.trough_angle,
+        inner_wing=stretch.idlers.inner_wing,
+    )
+    above = lying(stretch, width).edge_above
     tight, loose = (tension / width + stiffness * above / turn.vertical for tension in (highest, lowest))
     over = slack = math.inf
     if tight < allowed:

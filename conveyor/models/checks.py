@@ -73,26 +73,23 @@ def _like(length: float, idlers: IdlerSet) -> str:
 
 
 def cross_sections(conveyor: ConveyorParts) -> tuple[float, float] | None:
-    """Cross-section of the bulk, and the largest one that the belt holds (ISO 5048) [m²].
-
-    None without bulk, and for 4 and 5 rolls, which have no rule there.
-    """
+    """Cross-section of the bulk, and the largest one that the belt holds (ISO 5048) [m²]; None without bulk."""
     carry, belt, material = conveyor.idlers.carry, conveyor.belt, conveyor.material
-    if carry.rolls in {4, 5} or si(material.flow) == 0.0:
+    if si(material.flow) == 0.0:
         return None
     across = usable_width(si(belt.width))
-    inner = {1: across, 2: 0.0, 3: min(si(carry.roll.length), across)}[carry.rolls]
     area = cross_section(
         across,
-        middle_roll_length=inner,
+        middle_roll_length=carry.middle_belt(across),
         trough_angle=si(carry.trough_angle),
         surcharge_angle=material.surcharge,
+        inner_wing=carry.inner_wing,
     ).area
     return bulk_line_mass(si(material.flow), belt_speed=si(belt.speed)) / si(material.density), area
 
 
 def _flow_fits(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """The bulk fits the trough (ISO 5048); 4 and 5 rolls have no rule there and are not checked."""
+    """The bulk fits the trough (ISO 5048)."""
     sections, belt, material = cross_sections(conveyor), conveyor.belt, conveyor.material
     if sections is None or sections[0] <= sections[1]:
         return
@@ -254,7 +251,7 @@ def _inertia_reduced(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _flexure_applies(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """The law of the bulk's flexure knows troughs of up to 3 rolls only; so does the width under the bulk."""
+    """The law of the bulk's flexure knows troughs of up to 3 rolls only."""
     flexure, rolls = conveyor.calculation.flexure, conveyor.idlers.carry.rolls
     if flexure is not None and flexure.bulk is not None and rolls in {4, 5}:
         yield Problem(
@@ -286,16 +283,13 @@ def _belt_gives(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _curves_hold(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """In a horizontal curve a trough holds the belt, or one flat roll its course; more than three rolls have no law."""
+    """In a horizontal curve a trough holds the belt, or one flat roll its course."""
     curved = next((s.name for s in conveyor.route.sections if s.horizontal_curve is not None), None)
     if curved is None:
         return
     where = f'section "{curved}" is a horizontal curve'
     for strand, idlers in _sets(conveyor):
-        if idlers.rolls > 3:
-            message = f"got {idlers.rolls}, but {where}, in which the drift is known for 1 to 3 rolls only: take these"
-            yield Problem(("idlers", strand, "rolls"), message)
-        elif idlers.rolls > 1 and si(idlers.trough_angle) == 0.0:
+        if idlers.rolls > 1 and si(idlers.trough_angle) == 0.0:
             message = (
                 f"got {text(idlers.trough_angle)}, but {where}, in which nothing holds a flat belt on several rolls: "
                 "take a trough, or rolls: 1"

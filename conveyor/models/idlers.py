@@ -9,6 +9,7 @@ from typing import Annotated, Final, Literal, Self
 from pydantic import Field, model_validator
 
 from conveyor.laws.idlers import CemaClass
+from conveyor.laws.loading import NO_WING, Wing
 from conveyor.models.base import Model, Number, Problem, refuse
 from conveyor.models.rolls import Roll
 from conveyor.units import (
@@ -41,15 +42,17 @@ class IdlerSet(Model):
     """Distance of the sets along the belt."""
     trough_angle: Annotated[Angle, Bounds(ge="0 deg", le="60 deg")] = quantity("0 deg")
     """Angle of the outer rolls to the level."""
+    inner_trough_angle: Annotated[Angle, Bounds(ge="0 deg", le="60 deg")] | None = None
+    """Angle of the inner wing rolls of 4 or 5 to the level: the 25 deg of a garland of 25 and 55; needed in these."""
     roll: Roll
     middle_roll: Roll | None = None
     """The middle roll of 3 or 5, where it differs (its length may not)."""
     load_shares: tuple[Share, ...] | None = None
-    """Share of each roll in the bulk's load, left to right; else by VDI 2341. Needed for 4 and 5 rolls."""
+    """Share of each roll in the bulk's load, left to right, instead of share_rule."""
     belt_shares: tuple[Share, ...] | None = None
     """The same for the belt's own weight."""
     share_rule: Literal["VDI 2341", "cross-section"] = "VDI 2341"
-    """Rule of the bulk's shares without load_shares; cross-section: by the area of bulk above each of 3 rolls."""
+    """Rule of the bulk's shares without load_shares; cross-section: by the area of bulk above each of 3 to 5."""
     wing_load: Literal["triangular", "uniform"] = "triangular"
     """Bulk along the outer rolls: falling to nothing at the edge, or even."""
     rotating_mass: Annotated[SetMass, Bounds()] | None = None
@@ -68,8 +71,8 @@ class IdlerSet(Model):
     """Class of the sets after CEMA 502, for their load; of class F, and of others' sets, give rating."""
     rating: Annotated[Force, Bounds(gt="0 N", le="1 MN")] | None = None
     """Load that a whole set bears by its maker, instead of that of its class."""
-    lump_factor: Annotated[Number, Field(ge=1, le=5)] = 1.0
-    """Load of the bulk on a rated set over the steady one, for lumps: K1 of CEMA, 1.0 to 1.4; f1 of SANS 1313."""
+    lump_factor: Annotated[Number, Field(ge=1, le=5)] | None = None
+    """Of a rated set, load of the bulk over the steady one: K1 of CEMA, f1 of SANS 1313; by belt.wear.lump without."""
     raised: Annotated[Length, Bounds(ge="0 mm", le="100 mm")] = quantity("0 mm")
     """How much higher than its neighbours a rated set may stand; the belt's tension loads it then."""
     flap_margin: Annotated[Fraction, Bounds(gt="0 %", lt="100 %")] | None = None
@@ -112,6 +115,20 @@ class IdlerSet(Model):
     def _of_set(self, mass: Quantity) -> float:
         return si(mass) * (si(self.spacing) if is_kind(mass, "line mass") else 1.0)
 
+    @property
+    def inner_wing(self) -> Wing:
+        """Length [m] and angle [rad] of the inner wing rolls; none of up to three rolls."""
+        if self.rolls not in {4, 5}:
+            return NO_WING
+        angle = self.inner_trough_angle
+        return Wing(si(self.roll.length), 0.0 if angle is None else si(angle))
+
+    def middle_belt(self, width: float) -> float:
+        """Belt of a width on the middle roll [m]: all of it on one roll, none without a middle one."""
+        if self.rolls == 1:
+            return width
+        return min(si(self.roll.length), width) if self.rolls in {3, 5} else 0.0
+
     def roll_at(self, place: int) -> Roll:
         """Roll at a place of the set, left to right."""
         return self.middle if self.rolls in {3, 5} and place == self.rolls // 2 else self.roll
@@ -139,6 +156,7 @@ class IdlerSet(Model):
                     "set trough_angle to 0 deg or rolls to 2, 3 or 5",
                 )
             )
+        problems += self._inner_problems()
         if self.middle_roll is not None and self.rolls not in {3, 5}:
             problems.append(
                 Problem(
@@ -156,6 +174,22 @@ class IdlerSet(Model):
                 )
             )
         return problems
+
+    def _inner_problems(self) -> Iterator[Problem]:
+        """Four and five rolls have inner wings, no steeper than the outer ones."""
+        angle, inner = self.inner_trough_angle, self.rolls in {4, 5}
+        if angle is None and inner and si(self.trough_angle) > 0.0:
+            message = f"missing: the inner wings of {self.rolls} rolls have an angle of their own, as 25 deg beside 55"
+        elif angle is not None and not inner:
+            message = f"given with rolls: {self.rolls}, but only 4 and 5 have inner wings; remove it or change rolls"
+        elif angle is not None and si(angle) > si(self.trough_angle):
+            message = (
+                f"got {text(angle)}, steeper than the outer rolls (trough_angle {text(self.trough_angle)}); "
+                "exchange the two or correct one"
+            )
+        else:
+            return
+        yield Problem(("inner_trough_angle",), message)
 
     def _whole_problems(self) -> Iterator[Problem]:
         """Masses and drag are given for each roll or for the whole set, never both."""
@@ -200,10 +234,10 @@ class IdlerSet(Model):
 
     def _share_problems(self, name: str, shares: tuple[Quantity, ...] | None) -> list[Problem]:
         if shares is None:
-            needed = self.rolls in {4, 5} and name == "load_shares"
+            needed = self.rolls in {4, 5} and name == "load_shares" and self.share_rule == "VDI 2341"
             message = (
-                f"missing: {self.rolls} rolls have no rule for their shares of the load, "
-                f"give the {self.rolls} load_shares"
+                f"missing: VDI 2341 has no rule for the shares of {self.rolls} rolls, "
+                f"give the {self.rolls} load_shares, or take the share_rule cross-section"
             )
             return [Problem((name,), message)] if needed else []
         if len(shares) != self.rolls:

@@ -359,8 +359,9 @@ def plan(line: Line, *, system: System = "SI") -> Figure:
 
 def drift(loads: Sequence[tuple[str, Sequence[HorizontalCheck]]], *, system: System = "SI") -> Figure:
     """Range of the drift over all states of each load in every horizontal curve; the room on the rolls in grey."""
-    bends, size = loads[0][1], unit("thickness", system)
+    bends, size = loads[0][1], unit("size", system)
     figure, (axis,) = stacked(1, 1.4 + 0.7 * len(bends))
+    axis.use_sticky_edges = False  # the grey ends within the picture
     thick = 0.8 / len(loads)
     for i, bend in enumerate(bends):
         room = float(size(bend.turn.room))

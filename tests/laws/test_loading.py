@@ -206,7 +206,7 @@ def test_refusals_of_roll_loads(change, message):
         (lambda: loading.usable_width(0.05), r"belt_width = 0\.05 is not allowed: more than 0\.05556 m"),
         (
             lambda: loading.cross_section(1.0, middle_roll_length=1.1, trough_angle=0.5, surcharge_angle=0.2),
-            r"middle_roll_length = 1\.1 is not allowed: 0 to usable_width = 1\.0 m",
+            r"middle_roll_length = 1\.1 is not allowed: 0 to the width 1\.0 m",
         ),
         (
             lambda: loading.cross_section(

@@ -179,7 +179,9 @@ def test_contradictions_are_refused(line, calculation, message):
 
 def test_five_rolls_have_no_law_for_the_bulk(line):
     roll = line.idlers.carry.roll.replace(length="300 mm")
-    five = line.idlers.carry.replace(rolls=5, roll=roll, load_shares=["5 %", "15 %", "60 %", "15 %", "5 %"])
+    five = line.idlers.carry.replace(
+        rolls=5, inner_trough_angle="20 deg", roll=roll, share_rule="cross-section"
+    )
     made = line.replace(idlers=line.idlers.replace(carry=five))
     with pytest.raises(InputError, match=r"calculation\.flexure\.bulk: given, but the wings of 5 rolls"):
         with_flexure(made, bulk=BULK)

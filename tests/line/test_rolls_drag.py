@@ -159,7 +159,11 @@ def test_the_third_of_five_rolls_is_the_middle_one(line):
     carry = line.idlers.carry
     short = carry.roll.replace(length="300 mm", drag="1 N")
     five = carry.replace(
-        rolls=5, roll=short, middle_roll=short.replace(drag="3 N"), load_shares=[0.1, 0.2, 0.4, 0.2, 0.1]
+        rolls=5,
+        inner_trough_angle="20 deg",
+        roll=short,
+        middle_roll=short.replace(drag="3 N"),
+        load_shares=[0.1, 0.2, 0.4, 0.2, 0.1],
     )
     _, drags = carry_drags(line.replace(idlers=line.idlers.replace(carry=five)))[0]
     assert drags == pytest.approx((1.0, 1.0, 3.0, 1.0, 1.0), rel=1e-15)

@@ -123,7 +123,7 @@ def test_least_radii_are_those_of_the_laws():
 
 
 def test_a_belt_between_two_rolls_is_a_v():
-    """Its centroid lies half way up its wings; what five rolls and no strength leave unknown is not guessed."""
+    """Its centroid is half way up its wings; five rolls are a polygon; without strength nothing is guessed."""
     carry = DATA["idlers"]["carry"]
     roll = carry["roll"] | {"length": "580 mm"}
 
@@ -140,12 +140,17 @@ def test_a_belt_between_two_rolls_is_a_v():
             "carry": carry
             | {
                 "rolls": 5,
+                "inner_trough_angle": "15 deg",
                 "load_shares": ["4 %", "24 %", "44 %", "24 %", "4 %"],
                 "roll": carry["roll"] | {"length": "230 mm"},
             }
         }
     )
-    assert (five.overstress, five.buckling) == (None, None)
+    inner, outer = 0.23 * math.sin(math.radians(15.0)), 0.155 * math.sin(math.radians(35.0))
+    middle = 0.23 * inner + 2.0 * 0.155 * (inner + 0.5 * outer)
+    assert five.overstress == pytest.approx(stiffness * middle / (2000e3 / 6.7 - five.highest), rel=1e-12)
+    edge = inner + outer - middle
+    assert five.buckling == pytest.approx(stiffness * edge / (five.lowest - LEAST_EDGE_TENSION), rel=1e-12)
     unknown = dip(belt={"carcass": {"kind": "steel cord", "thickness": "5 mm"}})
     assert (unknown.overstress, unknown.buckling) == (None, None)
 

@@ -43,7 +43,7 @@ REFUSED = [
     ("idlers.carry.load_shares", ["20 %", "50 %", 0.2], "idlers.carry.load_shares", "got a sum of 0.9"),
     ("idlers.carry.belt_shares", [0.5, 0.5, 0.5], "idlers.carry.belt_shares", "got a sum of 1.5"),
     ("idlers.carry.load_shares", [-0.2, 1, 0.2], "idlers.carry.load_shares.0", "got -0.2, allowed: >= 0"),
-    ("idlers.carry.rolls", 5, "idlers.carry.load_shares", "missing: 5 rolls have no rule"),
+    ("idlers.carry.rolls", 5, "idlers.carry.load_shares", "missing: VDI 2341 has no rule for the shares of 5 rolls"),
     ("idlers.carry.spacing", "150 mm", "idlers.carry.spacing",
      "got 150 mm, but the rolls are 159 mm thick: rolls of neighbouring sets overlap"),
     ("idlers.carry.roll.length", "390 mm", "idlers.carry.roll.length",
@@ -211,9 +211,30 @@ def test_flow_limit_is_the_iso_5048_section(conveyor_data: dict[str, Any]) -> No
 def test_empty_belt_and_five_rolls_pass(conveyor_data: dict[str, Any]) -> None:
     Conveyor.model_validate(changed(conveyor_data, "material.flow", "0 t/h"))
     changed(conveyor_data, "idlers.carry.rolls", 5)
+    changed(conveyor_data, "idlers.carry.inner_trough_angle", "20 deg")
     changed(conveyor_data, "idlers.carry.roll.length", "280 mm")
     changed(conveyor_data, "idlers.carry.load_shares", [0.1, 0.2, 0.4, 0.2, 0.1])
     Conveyor.model_validate(conveyor_data)
+
+
+@pytest.mark.parametrize(
+    ("rolls", "inner", "message"),
+    [
+        (5, None, "missing: the inner wings of 5 rolls have an angle of their own"),
+        (4, "36 deg", r"got 36 deg, steeper than the outer rolls \(trough_angle 35 deg\)"),
+        (3, "20 deg", "given with rolls: 3, but only 4 and 5 have inner wings"),
+    ],
+)
+def test_inner_wings_have_their_angle(
+    conveyor_data: dict[str, Any], rolls: int, inner: str | None, message: str
+) -> None:
+    changed(conveyor_data, "idlers.carry.rolls", rolls)
+    if rolls > 3:
+        changed(conveyor_data, "idlers.carry.share_rule", "cross-section")
+    if inner is not None:
+        changed(conveyor_data, "idlers.carry.inner_trough_angle", inner)
+    with pytest.raises(ValidationError, match=f"inner_trough_angle\n.*{message}"):
+        Conveyor.model_validate(conveyor_data)
 
 
 def test_length_coefficient_needs_a_long_conveyor(conveyor_data: dict[str, Any]) -> None:

@@ -4,3 +4,4 @@ from conveyor.laws.loading.bulk import *
 from conveyor.laws.loading.curves import *
 from conveyor.laws.loading.heap import *
 from conveyor.laws.loading.rolls import *
+from conveyor.laws.loading.wings import *

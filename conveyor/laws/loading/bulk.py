@@ -9,6 +9,7 @@ import math
 from dataclasses import dataclass
 from typing import Final
 
+from conveyor.laws.loading.wings import NO_WING, Wing, wings
 from conveyor.require import require, require_angle, require_not_negative, require_positive
 
 EDGE_FRACTION: Final = 0.9  # ISO 5048: b = 0.9 B - 50 mm
@@ -101,9 +102,14 @@ class CrossSection:
 
 
 def cross_section(
-    usable_width: float, *, middle_roll_length: float, trough_angle: float, surcharge_angle: float
+    usable_width: float,
+    *,
+    middle_roll_length: float,
+    trough_angle: float,
+    surcharge_angle: float,
+    inner_wing: Wing = NO_WING,
 ) -> CrossSection:
-    """Largest cross-section of bulk on a trough of up to three rolls (ISO 5048).
+    """Largest cross-section of bulk on a trough (ISO 5048).
 
     A_top = [l_M + (b - l_M) cos λ]² tan β/6, A_bottom = [l_M + (b - l_M)/2 cos λ] (b - l_M)/2 sin λ.
 
@@ -112,11 +118,13 @@ def cross_section(
     usable_width : float
         b [m], see `usable_width`.
     middle_roll_length : float
-        l_M [m], from 0 to b. 0 gives the trough of two rolls.
+        l_M [m], from 0 to b. 0 gives the trough of two or four rolls.
     trough_angle : float
-        λ of the wing rolls [rad], from 0 (flat belt) to below pi/2.
+        λ of the outer rolls [rad], from 0 (flat belt) to below pi/2.
     surcharge_angle : float
         β, dynamic slope of the heap [rad], from 0 to below pi/2.
+    inner_wing : Wing
+        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wings`.
 
     Returns
     -------
@@ -130,7 +138,9 @@ def cross_section(
 
     Notes
     -----
-    Level belt. The parabola of the heap is the standard's approximation for moderate β.
+    Level belt. The parabola of the heap is the standard's approximation for moderate β. The standard has up to three
+    rolls; of four and five every wing adds (w + l cos λ) l sin λ below the water line, w being what lies inside of it
+    across (derived).
 
     Examples
     --------
@@ -140,19 +150,24 @@ def cross_section(
     >>> round(s.top, 4), round(s.bottom, 4)
     (0.0445, 0.1357)
     """
-    require_positive(usable_width=usable_width)
-    ok = 0.0 <= middle_roll_length <= usable_width
-    require(ok, "middle_roll_length", middle_roll_length, f"0 to usable_width = {usable_width!r} m is needed")
-    require_angle(0.0, trough_angle=trough_angle, surcharge_angle=surcharge_angle)
-    wing = (usable_width - middle_roll_length) / 2.0
-    wing_across = wing * math.cos(trough_angle)
-    top = (middle_roll_length + 2.0 * wing_across) ** 2 * math.tan(surcharge_angle) / 6.0
-    bottom = (middle_roll_length + wing_across) * wing * math.sin(trough_angle)
-    return CrossSection(top=top, bottom=bottom)
+    require_angle(0.0, surcharge_angle=surcharge_angle)
+    across, bottom = middle_roll_length, 0.0
+    for length, angle in wings(
+        usable_width, middle_roll_length=middle_roll_length, trough_angle=trough_angle, inner_wing=inner_wing
+    ):
+        beside = length * math.cos(angle)
+        bottom += (across + beside) * length * math.sin(angle)
+        across += 2.0 * beside
+    return CrossSection(top=across**2 * math.tan(surcharge_angle) / 6.0, bottom=bottom)
 
 
 def filled_width(
-    area: float, *, middle_roll_length: float, trough_angle: float, surcharge_angle: float
+    area: float,
+    *,
+    middle_roll_length: float,
+    trough_angle: float,
+    surcharge_angle: float,
+    inner_wing: Wing = NO_WING,
 ) -> float:
     """Width of belt under a given cross-section of bulk: `cross_section` solved for b (ISO 5048).
 
@@ -166,9 +181,12 @@ def filled_width(
     middle_roll_length : float
         l_M [m], at least 0.
     trough_angle : float
-        λ of the wing rolls [rad], from 0 to below pi/2.
+        λ of the outer rolls [rad], from 0 to below pi/2.
     surcharge_angle : float
         β, dynamic slope of the heap [rad], from 0 to below pi/2.
+    inner_wing : Wing
+        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wings`: filled, they and the middle
+        are to the outer wings a level middle as wide as they are across.
 
     Returns
     -------
@@ -187,8 +205,31 @@ def filled_width(
     1.03
     """
     require_positive(area=area)
-    require_not_negative(middle_roll_length=middle_roll_length)
+    require_not_negative(middle_roll_length=middle_roll_length, inner_wing_length=inner_wing.length)
     require_angle(0.0, trough_angle=trough_angle, surcharge_angle=surcharge_angle)
+    if inner_wing.length > 0.0:
+        inside = middle_roll_length + 2.0 * inner_wing.length
+        full = cross_section(
+            inside,
+            middle_roll_length=middle_roll_length,
+            trough_angle=inner_wing.angle,
+            surcharge_angle=surcharge_angle,
+        )
+        if area <= full.area:
+            return filled_width(
+                area,
+                middle_roll_length=middle_roll_length,
+                trough_angle=inner_wing.angle,
+                surcharge_angle=surcharge_angle,
+            )
+        level = middle_roll_length + 2.0 * inner_wing.length * math.cos(inner_wing.angle)
+        beyond = filled_width(
+            area - full.bottom,
+            middle_roll_length=level,
+            trough_angle=trough_angle,
+            surcharge_angle=surcharge_angle,
+        )
+        return inside + (beyond - level)
     sine, cosine, steepness = math.sin(trough_angle), math.cos(trough_angle), math.tan(surcharge_angle)
     middle = middle_roll_length
     over_middle = middle**2 * steepness / 6.0

@@ -9,7 +9,8 @@ from __future__ import annotations
 import math
 from typing import Final, Literal
 
-from conveyor.require import require, require_angle, require_positive
+from conveyor.laws.loading.wings import NO_WING, Wing, wings
+from conveyor.require import require, require_angle
 
 Heap = Literal["parabola", "triangle"]
 EQUAL_AREA: Final = 2.0 / 3.0  # [-], tan β/tan θ: W² tan θ/6 = W² tan β/4
@@ -42,33 +43,36 @@ def surcharge_from_slope(slope: float) -> float:
     return math.atan(math.tan(slope) / EQUAL_AREA)
 
 
-def middle_share_by_area(
+def shares_by_area(
     usable_width: float,
     *,
     middle_roll_length: float,
     trough_angle: float,
     surcharge_angle: float,
     heap: Heap = "parabola",
-) -> float:
-    """Share of the bulk's weight that stands above the middle of three rolls: its area over the whole.
+    inner_wing: Wing = NO_WING,
+) -> tuple[float, ...]:
+    """Shares of the bulk's weight that stand above the rolls of a set: their areas over the whole.
 
     Parameters
     ----------
     usable_width : float
         b of the belt under the bulk [m], positive.
     middle_roll_length : float
-        l_M, belt on the middle roll [m], from 0 to b.
+        l_M, belt on the middle roll [m], from 0 (two or four rolls) to b.
     trough_angle : float
-        λ [rad], from 0 to below pi/2.
+        λ of the outer rolls [rad], from 0 to below pi/2.
     surcharge_angle : float
         θ in the convention of ISO 5048, for either heap [rad], from 0 to below pi/2.
     heap : {"parabola", "triangle"}
         Shape of the heap [-]: ISO 5048, or DIN 22101 with the same area.
+    inner_wing : Wing
+        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wings`.
 
     Returns
     -------
-    float
-        Share [-]; each wing half of the rest.
+    tuple of float
+        Of the middle, then of the pieces of one wing outward, as far as the bulk reaches [-].
 
     Raises
     ------
@@ -82,30 +86,37 @@ def middle_share_by_area(
 
     Examples
     --------
-    >>> share = middle_share_by_area(
+    >>> middle, wing = shares_by_area(
     ...     1.03,
     ...     middle_roll_length=0.436,
     ...     trough_angle=math.radians(45),
     ...     surcharge_angle=math.radians(20),
     ... )
-    >>> round(share, 3)
-    0.681
+    >>> round(middle, 3), round(wing, 3)
+    (0.681, 0.16)
     """
-    require_positive(usable_width=usable_width)
-    ok = 0.0 <= middle_roll_length <= usable_width
-    require(ok, "middle_roll_length", middle_roll_length, f"0 to usable_width = {usable_width!r} m is needed")
-    require_angle(0.0, trough_angle=trough_angle, surcharge_angle=surcharge_angle)
+    require_angle(0.0, surcharge_angle=surcharge_angle)
     require(heap in {"parabola", "triangle"}, "heap", heap, "one of parabola, triangle is needed")
-    wing = (usable_width - middle_roll_length) / 2.0
-    depth, across = wing * math.sin(trough_angle), wing * math.cos(trough_angle)
-    width, steepness = middle_roll_length + 2.0 * across, math.tan(surcharge_angle)
-    middle = middle_roll_length
-    area = depth * (middle + across) + width**2 * steepness / 6.0
-    require(
-        area > 0.0, "surcharge_angle", surcharge_angle, "a flat belt carries a heap only, above 0 is needed"
+    pieces = wings(
+        usable_width, middle_roll_length=middle_roll_length, trough_angle=trough_angle, inner_wing=inner_wing
     )
-    if heap == "parabola":
-        top = steepness * (width * middle / 4.0 - middle**3 / (12.0 * width))
-    else:
-        top = EQUAL_AREA * steepness * (width * middle / 2.0 - middle**2 / 4.0)
-    return (depth * middle + top) / area
+    steepness, depth = math.tan(surcharge_angle), math.fsum(w.length * math.sin(w.angle) for w in pieces)
+    half = 0.5 * middle_roll_length + math.fsum(w.length * math.cos(w.angle) for w in pieces)
+
+    def above(x: float) -> float:
+        """Heap over the water line from the middle to x [m²]."""
+        if heap == "parabola":
+            return steepness * x * (half / 2.0 - x**2 / (6.0 * half))
+        return EQUAL_AREA * steepness * x * (half - x / 2.0)
+
+    place = 0.5 * middle_roll_length
+    areas = [depth * place + above(place)]
+    for length, angle in pieces:
+        across, rise = length * math.cos(angle), length * math.sin(angle)
+        areas.append((depth - 0.5 * rise) * across + above(place + across) - above(place))
+        place, depth = place + across, depth - rise
+    whole = math.fsum(areas)
+    require(
+        whole > 0.0, "surcharge_angle", surcharge_angle, "a flat belt carries a heap only, above 0 is needed"
+    )
+    return (areas[0] / whole, *(0.5 * area / whole for area in areas[1:]))
