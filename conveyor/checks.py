@@ -639,15 +639,13 @@ def pulley_shaft(result: CalculatedConveyor) -> Iterator[Check]:
 def pulley_bearings(result: CalculatedConveyor) -> Iterator[Check]:
     """The bearings of every pulley that gives their rating live as long as asked, in steady running."""
     for duty in result.pulley_duty:
-        hours, seconds, asked = duty.bearing_hours, duty.bearing_seconds, duty.pulley.bearing_life
-        if hours is None or seconds is None:
+        seconds, name = duty.bearing_seconds, quoted(duty.pulley.name)
+        if seconds is None:
             continue
-        name, needed = quoted(duty.pulley.name), f"{(asked or 0.0) / 3600.0:,.0f} h"
         yield compared(
-            "pulley_bearings", f"L10 life of a bearing, {name} pulley", seconds, "at least", asked, "duration",
-            wording=said(f"{hours:,.0f} h"), asked=said(f"at least {needed}"),
-            missing="life asked of it (bearing_life) not given",
-            why=f'the bearings of pulley "{name}" reach an L10 of {hours:,.0f} h, {needed} are required',
+            "pulley_bearings", f"L10 life of a bearing, {name} pulley", seconds, "at least", duty.pulley.bearing_life,
+            "duration", missing="life asked of it (bearing_life) not given",
+            why=f'the bearings of pulley "{name}" reach an L10 of {{calculated}}, {{required}} are required',
         )  # fmt: skip
 
 
@@ -859,16 +857,17 @@ def roll_life(result: CalculatedConveyor) -> Iterator[Check]:
         if life is None:
             continue
         why = said(
-            f"{strand} rolls: L10 of all bearings of a set in {quoted(life.section)} is {life.hours:,.0f} h (of the "
-            f"{life.weakest} alone {life.weakest_hours:,.0f} h), less than the {ASKED_LIFE:,.0f} h that light "
-            "series are rated for (CEMA, as commonly reproduced); seals and dirt may end it sooner"
+            f"{strand} rolls: L10 of all bearings of a set in {quoted(life.section)} is {{}} (of the {life.weakest} "
+            f"alone {{}}), less than the {ASKED_LIFE:,.0f} h that light series are rated for (CEMA, as commonly "
+            "reproduced); seals and dirt may end it sooner",
+            *((3600.0 * hours, "duration") for hours in (life.hours, life.weakest_hours)),
         )
         asked, judged = said(f"at least {ASKED_LIFE:,.0f} h"), verdict(holds=not life.too_short)
         if not life.whole and not life.too_short:
             asked, judged = said("bearings of some rolls not given"), "not checked"
         yield Check(
             "roll_life", said(f"L10 life, {strand} idler sets"), 3600.0 * life.hours, 3600.0 * ASKED_LIFE,
-            "duration", said(f"{life.hours:,.0f} h"), asked, judged, why,
+            "duration", said("{}", (3600.0 * life.hours, "duration")), asked, judged, why,
         )  # fmt: skip
 
 

@@ -22,6 +22,7 @@ from conveyor.contact import (
     LoadCurve,
     SolveStats,
     Status,
+    frictions,
     load_curves,
     solve,
     solve_many,
@@ -347,8 +348,8 @@ class IndentationCurve:
         RangeError
             A load outside the curve.
         """
-        w = np.asarray(line_load, dtype=float)
-        return np.asarray(self.curve.friction(w * (self.curve.problem.pressure / self.highest)) * w)
+        (found,) = resistances([self], [np.asarray(line_load, dtype=float)])
+        return found
 
     def at(self, line_load: ArrayLike) -> Indentation:
         """Back from dimensionless to physical.
@@ -379,6 +380,20 @@ class IndentationCurve:
             error=self.curve.error,
             energy_error=self.curve.energy_error,
         )
+
+
+def resistances(curves: Sequence[IndentationCurve], line_loads: Sequence[Array]) -> list[Array]:
+    """Indentation resistance per width on each of many curves at its own line loads, as `IndentationCurve.resistance`.
+
+    Raises
+    ------
+    RangeError
+        A load outside its curve.
+    """
+    units = [one.curve.problem.pressure / one.highest for one in curves]
+    pressures = [w * unit for w, unit in zip(line_loads, units, strict=True)]
+    found = frictions([one.curve for one in curves], pressures)
+    return [friction * w for friction, w in zip(found, line_loads, strict=True)]
 
 
 def indentation_curve(

@@ -10,11 +10,11 @@ tensions act on the rolls again until both agree.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from itertools import islice, repeat
-from typing import TypeAlias, TypeVar
+from typing import Any, Final, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +27,6 @@ from conveyor.line.belts import GAUSS, Tensioned, solve_belts
 from conveyor.line.contacts import Contacts, RollResult, solve_contacts
 from conveyor.line.covers import (
     FELT,
-    CoverName,
     Covers,
     Level,
     RunningCover,
@@ -39,7 +38,7 @@ from conveyor.line.covers import (
     told_apart,
 )
 from conveyor.line.line import Line
-from conveyor.line.roll_drags import roll_drags
+from conveyor.line.roll_drags import StrandDrags, roll_drags_many
 from conveyor.line.strands import OneStrand, Strands
 from conveyor.line.stretches import STRANDS, Acting, RouteSection, Strand, Stretch, route_sections
 from conveyor.loop.balance import Balance, balance
@@ -56,14 +55,11 @@ from conveyor.loop.tensions import MotionState
 from conveyor.loop.transfer import Cleaning, Landing, Trajectory, cleanings, landings, trajectory
 from conveyor.loop.year import Year, year
 from conveyor.models import Calculation, Conveyor, RubberCompound
-from conveyor.rubber import PronySeries
 from conveyor.rubber.anchor import Anchor
 
 Array = NDArray[np.float64]
 T = TypeVar("T")
 NoAnswer: TypeAlias = NoSolutionError | RangeError | InputError
-_Known: TypeAlias = list[tuple[tuple[object, ...], tuple[object, ...], T]]
-"""What was made of the very same parts and equal values."""
 Progress: TypeAlias = Callable[[int, int], None]
 """Called with what is done and the whole; what is done never falls."""
 Anchors: TypeAlias = list[tuple[RubberCompound, bool, Anchor | NoAnswer | None]]
@@ -300,6 +296,7 @@ def calculate_many(
     one_take_up: bool = False,
     known: CalculatedConveyor | None = None,
     anchors: Anchors | None = None,
+    kept: Kept | None = None,
 ) -> list[CalculatedConveyor | NoAnswer]:
     """Calculate many variants, the contacts of all of them side by side.
 
@@ -318,6 +315,8 @@ def calculate_many(
         A variant that is calculated already: the anchors of its compounds are taken over.
     anchors : list, optional
         Those of calls before with the same compounds; what is new is added.
+    kept : Kept, optional
+        What calls before made of the same parts of specs; what is new is added.
 
     Returns
     -------
@@ -329,7 +328,7 @@ def calculate_many(
     NoSolutionError
         No one setting of the take-up serves all.
     """
-    shared = _Shared(known, [] if anchors is None else anchors, rtol)
+    shared = _Shared(known, [] if anchors is None else anchors, rtol, Kept() if kept is None else kept)
     told = _Told(len(variants), progress)
     shared.anchor(variants)
     made: dict[int, CalculatedConveyor] = {}
@@ -337,11 +336,11 @@ def calculate_many(
     going = {i: _Step() for i in range(len(variants))}
     while going:
         loaded: dict[int, _Loaded] = {}
-        for i, step in going.items():
-            try:
-                loaded[i] = shared.loaded(variants[i], step.acting)
-            except (NoSolutionError, RangeError, InputError) as error:
-                refused[i] = error
+        for i, one in shared.loaded({i: (variants[i], step.acting) for i, step in going.items()}):
+            if isinstance(one, _Loaded):
+                loaded[i] = one
+            else:
+                refused[i] = one
             told(len(variants) - len(going), len(loaded))
         for i, contacts in _solved(shared, loaded, going, rtol).items():
             try:
@@ -489,25 +488,62 @@ def _settled(result: CalculatedConveyor) -> bool:
     return result.convergence is not None and result.convergence.settled(result.line.rtol)
 
 
-class _Shared:
-    """What variants have in common, made once: lines, rubbers at a temperature, covers at their working strain.
+class _Same:
+    """A part of a spec as a key, equal to the very same part alone; held as long as the key is."""
+
+    __slots__ = ("part",)
+
+    def __init__(self, part: object) -> None:
+        self.part = part
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Same) and self.part is other.part
+
+    def __hash__(self) -> int:
+        return object.__hash__(self.part)
+
+
+class Kept:
+    """What calculations of one spec's variants have in common, made once: strands, lines, loops of tensions.
 
     Parts of specs are compared by identity: variants are made by `replace`, which keeps what it does not change.
     """
 
-    def __init__(self, known: CalculatedConveyor | None, anchors: Anchors, rtol: float | None) -> None:
-        self._sections: _Known[tuple[RouteSection, ...]] = []
-        self._strands: _Known[tuple[OneStrand, WithoutRubber]] = []
-        self._drags: _Known[tuple[tuple[float, ...], ...]] = []
-        self._likes: _Known[Line] = []
-        self._lines: _Known[_Loaded] = []
-        self._rubbers: _Known[dict[CoverName, PronySeries]] = []
-        self._merged: _Known[PronySeries] = []
-        self._levelled: _Known[RunningCover] = []
+    MOST: Final = 2048
+    """Things kept from call to call; more than all strands and lines of a study over speeds and spacings."""
+
+    def __init__(self) -> None:
+        self._made: dict[tuple[object, ...], Any] = {}
+
+    def begin(self) -> None:
+        """Forget everything where it has become much."""
+        if len(self._made) > self.MOST:
+            self._made.clear()
+
+    def once(
+        self, make: Callable[[], T], what: str, parts: Iterable[object], values: tuple[object, ...] = ()
+    ) -> T:
+        """What was made of the very same parts and equal values, or what is made of them now."""
+        key = (what, *map(_Same, parts), *values)
+        if key not in self._made:
+            self._made[key] = make()
+        made: T = self._made[key]
+        return made
+
+
+class _Shared:
+    """What variants of one call have in common, made once: lines, rubbers at a temperature, covers at their strain."""
+
+    def __init__(
+        self, known: CalculatedConveyor | None, anchors: Anchors, rtol: float | None, kept: Kept
+    ) -> None:
+        kept.begin()
+        self._kept, self._own = kept, Kept()
         self._theories: list[Theory] = []
         self._anchors, self._rtol = anchors, rtol
         self._alike: dict[tuple[object, ...], list[StrandAtWork]] = {}
         self._running: dict[StrandAtWork, RunningCover | NoAnswer] = {}
+        self._drags: dict[tuple[OneStrand, float | None], StrandDrags | InputError] = {}
         self.tensioned: Tensioned = {}
         if known is not None:
             for strand, compound in compounds_by_strand(known.conveyor).items():
@@ -524,28 +560,48 @@ class _Shared:
         asked = [(compound, one.calculation.strain != "off") for one, each in compounds for compound in each]
         self._theories = _theories(self._anchors, asked)
 
-    def loaded(self, variant: Variant, on_curves: Acting) -> _Loaded:
-        """The line of a variant under what acts on its curves, and its covers before its rolls work them.
+    def loaded(self, asked: Mapping[int, tuple[Variant, Acting]]) -> Iterator[tuple[int, _Loaded | NoAnswer]]:
+        """The lines of variants under what acts on their curves, and their covers before the rolls work them.
 
-        Raises
-        ------
-        NoSolutionError
-            The belt lifts off on a concave curve, or runs off its rolls on a horizontal one.
-        RangeError
-            A compound is not known at the belt's temperature.
-        InputError
-            A law of roll drag does not hold at a load.
+        There is none where the belt lifts off on a concave curve or runs off its rolls on a horizontal one, a compound
+        is not known at the belt's temperature, or a law of roll drag does not hold at a load.
         """
+        still: dict[int, _Loaded | NoAnswer] = {}
+        for i, (variant, on_curves) in asked.items():
+            try:
+                still[i] = self._still(variant.conveyor, on_curves)
+            except (NoSolutionError, RangeError, InputError) as error:
+                still[i] = error
+        self._drag([(asked[i][0].conveyor, one) for i, one in still.items() if isinstance(one, _Loaded)])
+        for i, one in still.items():
+            try:
+                yield i, self._in_air(asked[i][0], one) if isinstance(one, _Loaded) else one
+            except (NoSolutionError, RangeError, InputError) as error:
+                yield i, error
+
+    def _drag(self, lines: Iterable[tuple[Conveyor, _Loaded]]) -> None:
+        """Drags of all rolls that are not known, side by side."""
+        asked = {(one, _air(given)): (given, one) for given, line in lines for one in line.line.strands.each}
+        new = {key: pair for key, pair in asked.items() if key not in self._drags}
+        self._drags.update(zip(new, roll_drags_many(list(new.values())), strict=True))
+
+    def _in_air(self, variant: Variant, still: _Loaded) -> _Loaded:
+        """A line with the drags of its rolls, its covers before the rolls work them."""
         given, at = variant.conveyor, variant.covers_at
         compounds = compounds_by_strand(given)
-        rubber = _once(self._rubbers, tuple(compounds.values()), (at,), lambda: rubbers(given, at))
-        loaded = self._prepared(given, on_curves)
-        covers = covers_of(given, rubber)
+        rubber = self._own.once(partial(rubbers, given, at), "rubbers", compounds.values(), (at,))
+        drags: list[tuple[float, ...]] = []
+        for strand in still.line.strands.each:
+            one = self._drags[strand, _air(given)]
+            if isinstance(one, InputError):
+                raise one
+            drags += one
+        line = replace(still.line, roll_drags=tuple(drags))
         works = {
-            strand: self._felt(StrandAtWork(loaded.line, strand, cover, compounds[strand], at))
-            for strand, cover in covers.items()
+            strand: self._felt(StrandAtWork(line, strand, cover, compounds[strand], at))
+            for strand, cover in covers_of(given, rubber).items()
         }
-        return replace(loaded, works=works, anchored=_anchored(given.calculation))
+        return _Loaded(line, still.frame.of(line), still.fixed, works, _anchored(given.calculation))
 
     def _felt(self, work: StrandAtWork) -> StrandAtWork:
         """A strand whose cover has its rubber as far as its rolls tell terms apart."""
@@ -555,28 +611,28 @@ class _Shared:
             return work
         rubber, (fastest, slowest) = work.cover.rubber, times
         cut = tuple(rubber.times.searchsorted(times).tolist())
-        less = _once(self._merged, (rubber,), cut, lambda: rubber.merged(fastest=fastest, slowest=slowest))
+        less = self._own.once(
+            lambda: rubber.merged(fastest=fastest, slowest=slowest), "merged", (rubber,), cut
+        )
         return replace(work, cover=replace(work.cover, rubber=less, merged=2.0 * FELT * rtol))
 
-    def _prepared(self, given: Conveyor, on_curves: Acting) -> _Loaded:
-        """The line of a spec; specs of one belt, load and idlers share a strand, in any air and under any drives."""
-        sections = _once(self._sections, (given.route,), (), lambda: route_sections(given))
-        air = given.air_temperature if given.idlers.drag_follows_air else None
-        scene = (on_curves, given.ambient.wind_speed)
-        strands, drags, fixed = [], [], []
+    def _still(self, given: Conveyor, on_curves: Acting) -> _Loaded:
+        """The line of a spec, its rolls without drag; specs of one belt, load and idlers share a strand."""
+        kept = self._kept if on_curves == Acting() else self._own
+        sections = self._kept.once(lambda: route_sections(given), "sections", (given.route,))
+        scene = (*map(_in_order, vars(on_curves).values()), given.ambient.wind_speed)
+        each = []
         for strand, own in zip(STRANDS, (given.idlers.carry, given.idlers.return_), strict=True):
             parts = (given.belt, own, given.material, given.route, given.calculation)
             made = partial(_strand, given, sections, strand, on_curves)
-            one, without = _once(self._strands, parts, (strand, *scene), made)
-            strands.append(one)
-            fixed.append(without)
-            drags.append(_once(self._drags, (one,), (air,), partial(roll_drags, given, one)))
-        carry, back = strands
-        both, (up, down) = Strands(sections, (carry, back)), drags
+            each.append(kept.once(made, "strand", parts, (strand, *scene)))
+        (carry, up), (back, down) = each
+        strands = Strands(sections, (carry, back))
         others = (given.belt, given.material, given.route, given.drive, given.calculation)
-        like = _once(self._likes, others, (), lambda: Line.of(given, both, drags))
-        line = replace(like, strands=both, roll_drags=(*up, *down))
-        return _once(self._lines, (*strands, given.drive), (air,), partial(_loaded, line, fixed))
+        like = self._kept.once(lambda: Line.of(given, strands, [(), ()]), "like", others)
+        return kept.once(
+            lambda: _loaded(replace(like, strands=strands), (up, down)), "line", (carry, back, given.drive)
+        )
 
     def softened(self, loaded: Sequence[_Loaded]) -> list[Covers | NoAnswer]:
         """The covers of many lines at their working strain; alike ones are the very same, and share load curves."""
@@ -608,7 +664,7 @@ class _Shared:
         level = None if anchor is None else Level(anchor, work.temperature)
         if cover.level == level:
             return cover
-        return _once(self._levelled, (cover, anchor), (), lambda: replace(cover, level=level))
+        return self._own.once(lambda: replace(cover, level=level), "level", (cover, anchor))
 
     def _first(self, work: StrandAtWork) -> StrandAtWork:
         """The first strand that works its cover alike."""
@@ -619,19 +675,13 @@ class _Shared:
         return first
 
 
-def _once(
-    known: _Known[T],
-    parts: tuple[object, ...],
-    values: tuple[object, ...],
-    make: Callable[[], T],
-) -> T:
-    """What was made of the very same parts and equal values, or what is made of them now."""
-    for others, equals, kept in known:
-        if values == equals and all(a is b for a, b in zip(parts, others, strict=True)):
-            return kept
-    made = make()
-    known.append((parts, values, made))
-    return made
+def _air(conveyor: Conveyor) -> float | None:
+    """Temperature around the rolls [K], where their drag follows it."""
+    return conveyor.air_temperature if conveyor.idlers.drag_follows_air else None
+
+
+def _in_order(figures: Mapping[tuple[str, Strand], float]) -> tuple[object, ...]:
+    return tuple(figures.items())
 
 
 def _together(covers: Mapping[Strand, RunningCover | NoAnswer]) -> Covers | NoAnswer:

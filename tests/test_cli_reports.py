@@ -67,7 +67,7 @@ def test_units_of_the_terminal(written):
 def test_units_of_the_spec_are_the_default(tmp_path):
     spec = tmp_path / "own.yaml"
     text = (SPECS / "in_plant_us.yaml").read_text(encoding="utf-8")
-    text = re.sub(r"(?ms)^report:.*?(?=^\S)", "", text)
+    text = re.sub(r"(?ms)^report:.*?(?=^\S|\Z)", "", text)
     spec.write_text(text + "\nreport: {units: US, project: Plant 7, revision: C}\n", encoding="utf-8")
     shown = run("power", spec).stdout
     assert " hp" in shown

@@ -16,6 +16,7 @@ from conveyor import units
 from conveyor.errors import InputError
 from conveyor.units import Bounds, Density, Fraction, Length, MassFlow, Speed, Temperature, quantity, si, text
 from conveyor.units.kinds import KINDS, MAGNITUDES
+from conveyor.units.registry import UNITS
 
 # Definitions: international yard and pound (1959): 1 ft = 0.3048 m, 1 lb = 0.45359237 kg; standard gravity
 # 9.80665 m/s² defines lbf; 1 short ton = 2000 lb; 1 hp = 550 ft lbf/s.
@@ -198,6 +199,20 @@ def test_quantities_are_taken_when_their_unit_is_of_the_kind() -> None:
         quantity(speed * math.inf, "speed")
     with pytest.raises(InputError, match="unit that specs do not know"):
         text(speed * speed)
+
+
+def test_the_registry_knows_every_unit_of_pint_once_a_program_names_one() -> None:
+    ours, pints = units.Quantity._REGISTRY, pint.UnitRegistry()
+    before = quantity("3 t/h", "mass flow")
+    for form, unit in UNITS.items():
+        name = f"{unit:D}"
+        if not any(own in name for own in ("_per_hour", "_per_inch_width", "foot_per_minute")):
+            of_pint = pints.Quantity(1.0, name).to_base_units()
+            assert si(quantity(f"1 {form}")) == pytest.approx(of_pint.magnitude, rel=1e-15), form
+    assert ours.Quantity(1.0, "nautical_mile").to(quantity("1 m").units).magnitude == pytest.approx(1852.0)
+    assert (before + ours.Quantity(1.0, "tonne / hour")).magnitude == pytest.approx(4.0)
+    assert text(before) == "3 t/h"
+    assert str(before) == "3.0 t/h"
 
 
 def test_from_si_and_convert_invert_si() -> None:

@@ -6,7 +6,7 @@ A frozen `ContactProblem` goes into `solve`, a frozen `ContactSolution` with its
 
 from conveyor.contact.belt import BeltSupport as Belt
 from conveyor.contact.creep import CreepSpectrum
-from conveyor.contact.curve import LoadCurve, LoadSolutions
+from conveyor.contact.curve import LoadCurve, LoadSolutions, frictions
 from conveyor.contact.curves import load_curve, load_curves, solve_loads
 from conveyor.contact.interior import Interior, InteriorFields, interior, interior_fields
 from conveyor.contact.layers import Confined, Free, HalfSpace, Layer
@@ -30,6 +30,7 @@ __all__ = [
     "LoadSolutions",
     "SolveStats",
     "Status",
+    "frictions",
     "interior",
     "interior_fields",
     "load_curve",

@@ -7,7 +7,7 @@ at Chebyshev-Lobatto points (sampling.py) and inverted by Newton.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 
@@ -129,20 +129,25 @@ class LoadCurve:
         RangeError
             As `at`.
         """
-        _, t, width = self._places(pressure)
-        return np.asarray(chebyshev.chebval(t, self._columns[:, 1]) * width)
+        (found,) = frictions([self], [np.asarray(pressure, dtype=float)])
+        return found
 
     def _places(self, pressure: ArrayLike) -> tuple[Array, Array, Array]:
         """Mean pressures p̃_m, their places t and half widths a/R."""
         p = np.asarray(pressure, dtype=float)
+        self._check(p)
+        t = _places(self._columns[:, :1], [np.log(p).ravel()]).reshape(p.shape)
+        return p, t, np.exp(self._centre + self._half * t) / self.problem.rho
+
+    def _check(self, p: Array) -> None:
+        """Refuse pressures outside the curve."""
         slack = 1e-12
-        if not np.all((p >= self.lowest * (1.0 - slack)) & (p <= self.highest * (1.0 + slack))):
+        low, high = float(p.min()), float(p.max())
+        if not self.lowest * (1.0 - slack) <= low <= high <= self.highest * (1.0 + slack):
             raise RangeError(
-                f"p̃_m from {p.min():.6g} to {p.max():.6g}: the load curve holds from {self.lowest:.6g} "
+                f"p̃_m from {low:.6g} to {high:.6g}: the load curve holds from {self.lowest:.6g} "
                 f"to {self.highest:.6g}"
             )
-        t = self._place(np.log(p))
-        return p, t, np.exp(self._centre + self._half * t) / self.problem.rho
 
     def _figure(self, t: Array, width: Array, name: str) -> Array:
         if name == "penetration":
@@ -201,16 +206,48 @@ class LoadCurve:
             :, 0
         ]
 
-    def _place(self, log_p: Array) -> Array:
-        """Place t in [-1, 1] with ln p(t) = log_p: Newton from the chords, on a monotone smooth function."""
-        column = self._columns[:, 0]
-        rise, degree = chebyshev.chebder(column), column.size - 1
-        sampled = points(degree)[::-1]
-        t: Array = np.interp(log_p, chebyshev.chebval(sampled, column), sampled)
-        for _ in range(_NEWTON_STEPS):
-            every = chebyshev.chebvander(t, degree).reshape(*t.shape, -1)
-            step = (every @ column - log_p) / (every[..., :-1] @ rise)
-            t = t - step
-            if np.all(np.abs(step) < _LAST_STEP):
-                break
-        return t
+
+def frictions(curves: Sequence[LoadCurve], pressures: Sequence[Array]) -> list[Array]:
+    """Friction μ on each of many curves at its own mean pressures p̃_m, as `LoadCurve.friction`; side by side.
+
+    Raises
+    ------
+    RangeError
+        A pressure outside its curve.
+    """
+    by_degree: dict[int, list[int]] = {}
+    for i, (curve, p) in enumerate(zip(curves, pressures, strict=True)):
+        curve._check(p)  # noqa: SLF001 of this module
+        by_degree.setdefault(curve._columns.shape[0], []).append(i)  # noqa: SLF001
+    found: dict[int, Array] = {}
+    for members in by_degree.values():
+        chosen = [curves[i] for i in members]
+        sizes = [pressures[i].size for i in members]
+        log_p, drags = np.stack([curve._columns[:, :2] for curve in chosen], axis=-1).swapaxes(0, 1)  # noqa: SLF001
+        t = _places(log_p, [np.log(pressures[i]).ravel() for i in members])
+        widths = np.array([(c._centre - math.log(c.problem.rho), c._half) for c in chosen])  # noqa: SLF001
+        centre, half = np.repeat(widths, sizes, axis=0).T
+        friction = chebyshev.chebval(t, drags.repeat(sizes, axis=1), tensor=False) * np.exp(centre + half * t)
+        parts = np.split(friction, np.cumsum(sizes)[:-1])
+        found.update((i, part.reshape(pressures[i].shape)) for i, part in zip(members, parts, strict=True))
+    return [found[i] for i in range(len(curves))]
+
+
+def _places(columns: Array, log_p: Sequence[Array]) -> Array:
+    """Places t in [-1, 1], one curve's after the other, with ln p(t) = log_p; coefficients of ln p have shape (k, b).
+
+    Newton from the chords, on monotone smooth functions.
+    """
+    degree, sizes = columns.shape[0] - 1, [one.size for one in log_p]
+    sampled = points(degree)[::-1]
+    chords = (chebyshev.chebvander(sampled, degree) @ columns).T
+    t = np.concatenate([np.interp(one, chord, sampled) for one, chord in zip(log_p, chords, strict=True)])
+    value = columns.repeat(sizes, axis=1)
+    rise, target = chebyshev.chebder(value), np.concatenate(log_p)
+    for _ in range(_NEWTON_STEPS):
+        every = chebyshev.chebvander(t, degree).T
+        step = ((every * value).sum(axis=0) - target) / (every[:-1] * rise).sum(axis=0)
+        t = t - step
+        if np.all(np.abs(step) < _LAST_STEP):
+            break
+    return t

@@ -16,6 +16,7 @@ from conveyor.indentation import (
     RollContact,
     forgotten,
     indentation_curves,
+    resistances,
 )
 from conveyor.laws.loading import RollLoad
 from conveyor.laws.softening import losing_load
@@ -174,10 +175,11 @@ def solve_contacts(
             low, high = spans.get(contact, (kind.lowest, kind.highest))
             spans[contact] = min(low, kind.lowest), max(high, kind.highest)
     solved = {tolerance: _solved(spans, tolerance) for tolerance, spans in jobs.items()}
-    return [
-        _read(line, cover, contacts, solved[tolerance])
-        for line, cover, contacts, tolerance in zip(lines, covers, asked, tolerances, strict=True)
+    curves = [
+        _curves([solved[tolerance][contact] for contact in contacts])
+        for contacts, tolerance in zip(asked, tolerances, strict=True)
     ]
+    return _read(lines, covers, curves)
 
 
 def _contacts(line: Line, covers: Covers, rtol: float) -> list[RollContact]:
@@ -193,32 +195,40 @@ def _solved(spans: Spans, rtol: float) -> dict[RollContact, IndentationCurve | N
     return dict(zip(contacts, indentation_curves(contacts, lowest, highest, rtol), strict=True))
 
 
+def _curves(
+    solved: Sequence[IndentationCurve | NoSolutionError],
+) -> tuple[IndentationCurve, ...] | NoSolutionError:
+    """The curves of a line's rolls, or why the first without has none."""
+    refused = next((one for one in solved if isinstance(one, NoSolutionError)), None)
+    return refused or tuple(one for one in solved if isinstance(one, IndentationCurve))
+
+
 def _read(
-    line: Line,
-    covers: Covers,
-    contacts: Sequence[RollContact],
-    solved: Mapping[RollContact, IndentationCurve | NoSolutionError],
-) -> Contacts | NoSolutionError:
-    """Every roll's resistance from the load curves, or the first contact's error."""
-    curves: list[IndentationCurve] = []
-    for contact in contacts:
-        curve = solved[contact]
-        if isinstance(curve, NoSolutionError):
-            return curve
-        curves.append(curve)
-    together: dict[IndentationCurve, list[int]] = {}
-    for k, curve in enumerate(curves):
-        together.setdefault(curve, []).append(k)
-    drags: list[Array] = [np.zeros(0)] * len(curves)
-    for curve, members in together.items():
-        kinds = [line.kinds[k] for k in members]
-        resistance = curve.resistance(np.concatenate([kind.distinct for kind in kinds]))
-        parts = np.split(resistance, np.cumsum([kind.distinct.size for kind in kinds])[:-1])
-        for k, kind, part in zip(members, kinds, parts, strict=True):
-            level = covers[kind.strand].level
+    lines: Sequence[Line],
+    covers: Sequence[Covers],
+    curves: Sequence[tuple[IndentationCurve, ...] | NoSolutionError],
+) -> list[Contacts | NoSolutionError]:
+    """Every roll's resistance from the load curves, those of all lines side by side."""
+    asked: dict[IndentationCurve, list[tuple[int, int]]] = {}
+    for i, own in enumerate(curves):
+        for k, curve in enumerate(own if isinstance(own, tuple) else ()):
+            asked.setdefault(curve, []).append((i, k))
+    loads = [[lines[i].kinds[k].distinct for i, k in members] for members in asked.values()]
+    drags: list[dict[int, Array]] = [{} for _ in lines]
+    whole = resistances(list(asked), [np.concatenate(each) for each in loads])
+    for members, each, resistance in zip(asked.values(), loads, whole, strict=True):
+        parts = np.split(resistance, np.cumsum([distinct.size for distinct in each])[:-1])
+        for (i, k), part in zip(members, parts, strict=True):
+            kind = lines[i].kinds[k]
+            level = covers[i][kind.strand].level
             at_level = part if level is None else part * level.factor(kind.distinct)
-            drags[k] = along_the_rolls(kind, at_level[kind.which])
-    return Contacts(line, covers, tuple(curves), tuple(drags))
+            drags[i][k] = along_the_rolls(kind, at_level[kind.which])
+    return [
+        Contacts(line, cover, own, tuple(found[k] for k in range(len(own))))
+        if isinstance(own, tuple)
+        else own
+        for line, cover, own, found in zip(lines, covers, curves, drags, strict=True)
+    ]
 
 
 def along_the_rolls(kind: RollKind, resistance: Array) -> Array:

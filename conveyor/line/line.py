@@ -310,6 +310,8 @@ class Line:
         Bulk that clings to the belt before the cleaners, and the most that may be left behind them [kg/m²].
     flexure_source : str
         What the flexure rests on, in words.
+    us_sizes : bool
+        Whether motors and pulleys are suggested of the US series, as of a spec with US units.
     wind_speed : float or None
         Of the gust that the empty belt must bear [m/s].
     """
@@ -349,6 +351,7 @@ class Line:
     support: Support
     rtol: float
     softened: bool
+    us_sizes: bool
     wind_speed: float | None
 
     @classmethod
@@ -409,6 +412,7 @@ class Line:
             support=calculation.support,
             rtol=calculation.rtol,
             softened=calculation.strain != "off",
+            us_sizes=conveyor.report.units == "US",
             wind_speed=_known(conveyor.ambient.wind_speed),
         )
 

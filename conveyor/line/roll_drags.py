@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,11 +30,13 @@ from conveyor.units import si
 Array = NDArray[np.float64]
 DragLaw = Callable[[Array], Array]
 """From loads of a roll [N] to its drag at the rim under each [N]."""
-RollDrags = Sequence[tuple[tuple[float, ...], ...]]
+StrandDrags: TypeAlias = tuple[tuple[float, ...], ...]
+"""Of each stretch the drag of each roll of one set [N]."""
+RollDrags: TypeAlias = Sequence[StrandDrags]
 """Of each strand and stretch the drag of each roll of one set [N]."""
 
 
-def roll_drags(conveyor: Conveyor, strand: OneStrand) -> tuple[tuple[float, ...], ...]:
+def roll_drags(conveyor: Conveyor, strand: OneStrand) -> StrandDrags:
     """Drag of each roll of one set of every stretch of a strand at its rim, by its load [N].
 
     Raises
@@ -40,23 +44,89 @@ def roll_drags(conveyor: Conveyor, strand: OneStrand) -> tuple[tuple[float, ...]
     InputError
         A maker's line falls below zero at a load, or the air is too cold for the grease.
     """
-    sets, which = strand.distinct_sets
-    drags = [tuple(row) for row in _set_drags(conveyor, strand.strand, np.array(sets)).tolist()]
-    return tuple(drags[i] for i in which)
+    (drags,) = roll_drags_many([(conveyor, strand)])
+    if isinstance(drags, InputError):
+        raise drags
+    return drags
 
 
-def _set_drags(conveyor: Conveyor, strand: Strand, loads: Array) -> Array:
-    """Drags of the rolls of sets of a strand under their loads, both shape (sets, rolls) [N]."""
+def roll_drags_many(asked: Sequence[tuple[Conveyor, OneStrand]]) -> list[StrandDrags | InputError]:
+    """Drags of the rolls of many strands, each as `roll_drags`; those in service are computed together."""
+    drags = [np.empty(np.shape(strand.distinct_sets[0])) for _, strand in asked]
+    refused: dict[int, InputError] = {}
+    served: dict[tuple[float, float], list[tuple[int, list[int], _InService]]] = {}
+    for k, (conveyor, strand) in enumerate(asked):
+        loads = np.array(strand.distinct_sets[0])
+        try:
+            for places, law in _laws(conveyor, strand.strand):
+                if isinstance(law, _InService):
+                    served.setdefault((law.diameter, law.length), []).append((k, places, law))
+                else:
+                    drags[k][:, places] = law(loads[:, places])
+        except InputError as error:
+            refused[k] = error
+    for alike in served.values():
+        loads_of = [np.array(asked[k][1].distinct_sets[0])[:, places] for k, places, _ in alike]
+        for (k, places, _), one in zip(alike, _in_service([law for *_, law in alike], loads_of), strict=True):
+            if isinstance(one, InputError):
+                refused.setdefault(k, one)
+            else:
+                drags[k][:, places] = one
+    return [
+        refused[k] if k in refused else _of_stretches(strand, drags[k]) for k, (_, strand) in enumerate(asked)
+    ]
+
+
+def _of_stretches(strand: OneStrand, sets: Array) -> StrandDrags:
+    """Drags of every stretch from those of the sets that occur."""
+    rows = [tuple(row) for row in sets.tolist()]
+    return tuple(rows[i] for i in strand.distinct_sets[1])
+
+
+def _laws(conveyor: Conveyor, strand: Strand) -> Iterator[tuple[list[int], DragLaw | _InService]]:
+    """Laws of drag of a set, with the places of the rolls that each is of."""
     idlers = conveyor.idlers.carry if strand == "carry" else conveyor.idlers.return_
     if idlers.drag is not None:
-        return np.full(loads.shape, si(idlers.drag) / idlers.rolls)
+        yield list(range(idlers.rolls)), _evenly(si(idlers.drag) / idlers.rolls)
+        return
     rolls = [idlers.roll_at(place) for place in range(idlers.rolls)]
-    drags = np.empty(loads.shape)
     for first, roll in enumerate(rolls):
         same = [place for place, other in enumerate(rolls) if other is roll]
         if first == same[0]:
-            drags[:, same] = _law(roll, conveyor, _field(idlers, roll, strand))(loads[:, same])
-    return drags
+            yield same, _law(roll, conveyor, _field(idlers, roll, strand))
+
+
+@dataclass(frozen=True)
+class _InService:
+    """A roll in service: its size [m], the belt's speed [m/s], the air around it [K], and its field."""
+
+    diameter: float
+    length: float
+    speed: float
+    air: float
+    field: str
+
+
+def _in_service(laws: Sequence[_InService], loads: Sequence[Array]) -> list[Array | InputError]:
+    """Drags of rolls of one size under their loads [N]; where one is refused, each by itself."""
+    sizes = [one.size for one in loads]
+    speed, air = (
+        np.repeat(each, sizes) for each in zip(*((law.speed, law.air) for law in laws), strict=True)
+    )
+    try:
+        whole = service_roll_drag(
+            np.concatenate([one.ravel() for one in loads]),
+            belt_speed=speed,
+            roll_diameter=laws[0].diameter,
+            roll_length=laws[0].length,
+            air_temperature=air,
+        ).force
+    except InputError as error:
+        if len(laws) == 1:
+            return [InputError(f"{laws[0].field}: drag not given: {error}")]
+        return [_in_service([law], [one])[0] for law, one in zip(laws, loads, strict=True)]
+    parts = np.split(whole, np.cumsum(sizes)[:-1])
+    return [part.reshape(one.shape) for part, one in zip(parts, loads, strict=True)]
 
 
 def _field(idlers: IdlerSet, roll: Roll, strand: Strand) -> str:
@@ -64,7 +134,7 @@ def _field(idlers: IdlerSet, roll: Roll, strand: Strand) -> str:
     return f"idlers.{strand}.{name}"
 
 
-def _law(roll: Roll, conveyor: Conveyor, field: str) -> DragLaw:
+def _law(roll: Roll, conveyor: Conveyor, field: str) -> DragLaw | _InService:
     diameter, law = si(roll.diameter), roll.drag_law
     speed, air = si(conveyor.belt.speed), si(conveyor.ambient.temperature)
     if isinstance(law, MakerDrag):
@@ -72,7 +142,7 @@ def _law(roll: Roll, conveyor: Conveyor, field: str) -> DragLaw:
     if isinstance(law, BearingDrag):
         return _named(_bearing(law, diameter, speed, air, f"{field}.drag_law"), f"{field}.drag_law")
     if roll.drag is None and conveyor.calculation.roll_drag == "in service":
-        return _named(_in_service(diameter, si(roll.length), speed, air), f"{field}: drag not given")
+        return _InService(diameter, si(roll.length), speed, air, field)
     return _evenly(acceptance_limit(roll).value if roll.drag is None else si(roll.drag))
 
 
@@ -89,14 +159,6 @@ def _each(law: Callable[[float], float]) -> DragLaw:
         return np.array([law(load) for load in distinct.tolist()])[which].reshape(loads.shape)
 
     return drags
-
-
-def _in_service(diameter: float, length: float, speed: float, air: float) -> DragLaw:
-    return lambda loads: (
-        service_roll_drag(
-            loads, belt_speed=speed, roll_diameter=diameter, roll_length=length, air_temperature=air
-        ).force
-    )
 
 
 def assumed_share(conveyor: Conveyor, idlers: IdlerSet, drags: Sequence[float]) -> float:

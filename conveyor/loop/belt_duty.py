@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from conveyor.laws.belt import (
+    CEMA_PULLEYS,
     CLASSIC_SAFETY,
     DUTY_SAFETY,
     PULLEY_DIAMETERS,
@@ -15,6 +16,7 @@ from conveyor.laws.belt import (
     Group,
     belt_safety,
     needed_strength,
+    next_pulley_diameter,
     pulley_group_diameter,
     standard_pulley_diameter,
 )
@@ -252,7 +254,9 @@ def _pulleys(balance: Balance) -> Iterator[PulleyCheck]:
             used = full = max(0.0, *sides(balance, i, balance.settled.steady)) / (line.belt.width * allowed)
         least = pulley_group_diameter(drive, group=group, utilisation=full)
         size = None
-        if drive <= PULLEY_DIAMETERS[-1]:
+        if line.us_sizes:
+            size = next_pulley_diameter(least, series=CEMA_PULLEYS) if least <= CEMA_PULLEYS[-1] else None
+        elif drive <= PULLEY_DIAMETERS[-1]:
             size = standard_pulley_diameter(drive, group=group, utilisation=full)
         yield PulleyCheck(pulley.name, pulley.position, group, used, pulley.diameter, least, size)
 

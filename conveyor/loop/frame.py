@@ -74,6 +74,12 @@ class Frame:
         self.run_shares: list[float] = (np.diff(way[self.boundaries]) / way[-1]).tolist()
         self.masses = Sums(line.loop.mass, line, self.boundaries)
 
+    def of(self, line: Line) -> Frame:
+        """The same loop of a line whose rolls drag otherwise."""
+        made = copy(self)
+        made.line = line
+        return made
+
     def scaled(self, change: Callable[[Force], Force]) -> Frame:
         """The same loop with its forces at single places changed; a pulley's wrap and bearings alike."""
         made = copy(self)

@@ -38,6 +38,7 @@ SHEETS: Final[Fills] = {
     "Tensions": sheets.single,
     "States": sheets.stacked,
     "Loop": sheets.beside,
+    "Pulleys": partial(sheets.stacked, widest=24),
     "Transfer": sheets.transfer,
     "Load cases": partial(sheets.stacked, widest=40),
     "Case checks": sheets.single,
@@ -70,6 +71,7 @@ _LAYOUTS: Final[Mapping[str, Fills]] = {
 """By the layout of a report; others have all tables of a sheet under one another."""
 _WHERE_ASKED: Final = (
     *VERIFICATION_SHEETS,
+    "Pulleys",
     "Transfer",
     "Load cases",
     "Case checks",

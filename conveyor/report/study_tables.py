@@ -193,6 +193,7 @@ def motors(studies: CalculatedStudies) -> Table:
         Column("reserve", "ratio", "reserve"),
         Column("motors", "count", "count"),
         Column("rated each", "power", "rated"),
+        Column("series", "text", "series"),
         Column("installed", "power", lambda row: row.count * row.rated),
     )
     heading = "Selected standard motors"

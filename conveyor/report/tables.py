@@ -908,7 +908,7 @@ def pulleys(a: CalculatedConveyor) -> Table:
         Column("standard size", "size", "next_size", key="of_the_series"),
         Column("large enough", "verdict", "large_enough"),
     )
-    return Table("pulleys", "Loop", "Pulleys", columns, tuple(a.belt_duty.pulleys), "belt")
+    return Table("pulleys", "Pulleys", "Pulleys", columns, tuple(a.belt_duty.pulleys), "belt")
 
 
 def pulley_loads(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
@@ -945,7 +945,7 @@ def pulley_loads(a: CalculatedConveyor, studies: CalculatedStudies | None = None
         "(slope at most 0.0023, safety at least 1.5). Driven pulleys at one place are passed in the order listed."
     )
     heading = "Loads of the pulleys, all cases and states"
-    return Table("pulley_loads", "Loop", heading, columns, tuple(rows), "belt", note)
+    return Table("pulley_loads", "Pulleys", heading, columns, tuple(rows), "belt", note)
 
 
 def pulley_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:

@@ -17,7 +17,7 @@ from typing import Final
 from conveyor.arguments import checked
 from conveyor.checks import Check, checks, covered
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.laws.energy import MOTOR_SERIES, next_motor
+from conveyor.laws.energy import MOTOR_SERIES, NEMA_MOTORS, next_motor
 from conveyor.loop.take_up import TakeUpDuty
 from conveyor.models import Conveyor, LoadCase, standard_cases
 from conveyor.models.variants import case_settings
@@ -130,13 +130,14 @@ class Governing:
 
 @dataclass(frozen=True)
 class MotorChoice:
-    """Motors of one drive pulley: the shaft power they must give or hold [W], how many of which rating [W]."""
+    """Motors of one drive pulley: shaft power they must give or hold [W], how many, of which rating [W] and series."""
 
     drive: str
     needed: float
     reserve: float
     count: int
     rated: float
+    series: str
     case: str
 
 
@@ -355,6 +356,8 @@ def recommended_motors(
 ) -> tuple[MotorChoice, ...]:
     """Motors of every drive pulley: the least number of equal ones of the series that give or hold its share.
 
+    Of NEMA for a spec with US units, else of IEC 60072-1.
+
     Parameters
     ----------
     loads : sequence of (Said, CalculatedConveyor)
@@ -377,12 +380,13 @@ def recommended_motors(
     ]
     power, label, decisive = max(asked, key=lambda load: abs(load[0]))
     case = label.text(decisive.conveyor.report.units)
+    name, series = ("NEMA", NEMA_MOTORS) if decisive.line.us_sizes else ("IEC 60072-1", MOTOR_SERIES)
     choices = []
     for drive in decisive.line.drives:
         if drive.share == 0.0:
             continue
         needed = drive.share * power
-        count = max(1, math.ceil(round(abs(needed) * reserve / MOTOR_SERIES[-1], 9)))
-        rated = next_motor(needed / count, reserve=reserve)
-        choices.append(MotorChoice(drive.name, needed, reserve, count, rated, case))
+        count = max(1, math.ceil(round(abs(needed) * reserve / series[-1], 9)))
+        rated = next_motor(needed / count, reserve=reserve, series=series)
+        choices.append(MotorChoice(drive.name, needed, reserve, count, rated, name, case))
     return tuple(choices)

@@ -16,7 +16,7 @@ from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.fields import with_fields
 from conveyor.models.study import Changes
-from conveyor.pipeline import Anchors, CalculatedConveyor, Variant, anchors_of, calculate_many
+from conveyor.pipeline import Anchors, CalculatedConveyor, Kept, Variant, anchors_of, calculate_many
 from conveyor.studies.costs import Parts, costs, parts_of
 
 RTOL: Final = 1e-4
@@ -149,18 +149,21 @@ class Job:
 
 
 class _Opened(NamedTuple):
-    """A job where it is done: the very same parts for all its batches, and the levels of its compounds."""
+    """A job where it is done: the very same parts for all its batches, and what batches before made of them."""
 
     base: Conveyor
     asked: tuple[str, ...]
     compounds: Mapping[str, RubberCompound]
     anchors: Anchors
+    known: dict[object, Any]
+    kept: Kept
 
 
 @lru_cache(maxsize=1)
 def _opened(job: Job) -> _Opened:
     """A job unpacked, once in a process that does many batches of it."""
-    return _Opened(*pickle.loads(job.packed))  # noqa: S301 packed by this program
+    base, asked, compounds, anchors = pickle.loads(job.packed)  # noqa: S301 packed by this program
+    return _Opened(base, asked, compounds, anchors, {}, Kept())
 
 
 def answers(job: Job, points: Sequence[Changes], rtol: float = RTOL) -> list[Answer]:
@@ -180,8 +183,9 @@ def answers(job: Job, points: Sequence[Changes], rtol: float = RTOL) -> list[Ans
     list
         In their order what is asked for in SI, or why a point has none.
     """
-    base, asked, compounds, anchors = _opened(job)
-    known: dict[object, object] = {}
+    base, asked, compounds, anchors, known, kept = _opened(job)
+    if len(known) > Kept.MOST:
+        known.clear()
     made: list[Conveyor | str] = []
     for point in points:
         try:
@@ -189,7 +193,7 @@ def answers(job: Job, points: Sequence[Changes], rtol: float = RTOL) -> list[Ans
         except ConveyorError as error:
             made.append(str(error))
     variants = [Variant(one) for one in made if isinstance(one, Conveyor)]
-    results = iter(calculate_many(variants, rtol, anchors=anchors))
+    results = iter(calculate_many(variants, rtol, anchors=anchors, kept=kept))
     return [one if isinstance(one, str) else _answer(next(results), asked) for one in made]
 
 

@@ -19,52 +19,27 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from conveyor.errors import InputError
-from conveyor.units.kinds import KINDS, MAGNITUDES, SPELLINGS
+from conveyor.units.kinds import KINDS, MAGNITUDES
 from conveyor.units.misreadings import LONGEST, NUMBER, NUMBER_UNIT, why_not
+from conveyor.units.registry import REGISTRY, UNITS
 
 System = Literal["SI", "US"]
-
-_registry: pint.UnitRegistry[Any] = pint.UnitRegistry()
-_registry.formatter.default_format = "~P"
-for _definition in (
-    "foot_per_minute = foot / minute = fpm",
-    "metric_ton_per_hour = metric_ton / hour = tph",
-    "short_ton_per_hour = short_ton / hour = stph",
-    "pound_per_inch_width = force_pound / inch = PIW",
-):
-    _registry.define(_definition)
 
 if TYPE_CHECKING:
     from typing import TypeAlias
 
     Quantity: TypeAlias = pint.Quantity[float]
 else:
-    Quantity = _registry.Quantity
+    Quantity = REGISTRY.Quantity
 
-_PINT_NAME = {
-    "in": "inch", "inch": "inch", "us": "microsecond", "µs": "microsecond", "min": "minute", "h": "hour",
-    "d": "day", "t": "metric_ton", "°C": "degC", "°F": "degF", "Δ°C": "delta_degC", "Δ°F": "delta_degF",
-    "deg": "degree", "°": "degree", "rad": "radian", "hp": "horsepower", "lbf": "force_pound",
-    "%": "percent", "": "dimensionless", "t/h": "metric_ton/hour", "lb/h": "pound/hour",
-    "kg/h": "kilogram/hour", "m^3/h": "meter**3/hour", "t/m": "metric_ton/meter",
-    "t/m^3": "metric_ton/meter**3",
-    "short_ton/h": "short_ton/hour", "km/h": "kilometer/hour", "in^2": "inch**2", "ft/min": "foot/minute",
-    "m/min": "meter/minute", "ft^3/min": "foot**3/minute", "lbf/in": "force_pound/inch",
-    "lbf/ft": "force_pound/foot", "rpm": "1/minute", "N/rpm": "newton*minute", "lbf*in": "force_pound*inch",
-    "lbf*in^2": "force_pound*inch**2",
-    "cSt": "centistokes",
-}  # fmt: skip
-_UNITS: dict[str, Any] = {
-    form: _registry.Unit(_PINT_NAME.get(name, name.replace("^", "**"))) for form, name in SPELLINGS.items()
-}
 _TABLES: dict[str | None, dict[str, Any]] = {
-    None: _UNITS,
-    **{key: {form: _UNITS[form] for form in kind.units} for key, kind in KINDS.items()},
+    None: UNITS,
+    **{key: {form: UNITS[form] for form in kind.units} for key, kind in KINDS.items()},
 }
 _SPELLED: dict[Any, str] = {}
-for _form, _unit in _UNITS.items():
+for _form, _unit in UNITS.items():
     _SPELLED.setdefault(_unit, _form)
-_PERCENT, _PLAIN = _UNITS["%"], _UNITS[""]
+_PERCENT, _PLAIN = UNITS["%"], UNITS[""]
 
 
 def quantity(value: object, kind: str | None = None) -> Quantity:
@@ -120,7 +95,7 @@ def _sized(value: Quantity, kind: str | None, unit: str | None = None) -> Quanti
 @cache
 def _sizes(kind: str, unit: str) -> tuple[float, float]:
     """Smallest and largest size of a kind as numbers of a unit; a scale with an offset counts its own degrees."""
-    scale = _si_scale(_UNITS[unit])
+    scale = _si_scale(UNITS[unit])
     one = 1.0 if scale is None or scale[2] else scale[0] / scale[1]
     return MAGNITUDES[kind][0] / one, MAGNITUDES[kind][1] / one
 
@@ -130,14 +105,14 @@ def _is_finite_number(value: object) -> TypeGuard[float]:
 
 
 def _build(number: float, unit: Any) -> Quantity:
-    built: Quantity = _registry.Quantity(number, unit)
+    built: Quantity = REGISTRY.Quantity(number, unit)
     return built
 
 
 def _checked(value: Any, kind: str | None) -> Quantity:
     """Check a quantity built in Python: our registry, a unit of the table, finite."""
     expected = "a quantity" if kind is None else KINDS[kind].expected
-    if not isinstance(value, _registry.Quantity):
+    if not isinstance(value, REGISTRY.Quantity):
         raise InputError(f"got {value} of another pint registry, expected {expected}; give it as text")
     if value.units not in _TABLES[kind].values():
         allowed = ", ".join(form for form in _TABLES[kind] if form)
@@ -219,7 +194,7 @@ def same(one: Quantity, other: Quantity) -> bool:
 @cache
 def _si_scale(unit: Any) -> tuple[float, float, float] | None:
     """Factor, divisor and offset to SI, None of degrees unlike kelvin; asked of pint once for each unit."""
-    if _registry.Unit(unit) == _PERCENT:
+    if REGISTRY.Unit(unit) == _PERCENT:
         return 1.0, 100.0, 0.0
     zero, one = (float(_build(number, unit).to_base_units().magnitude) for number in (0.0, 1.0))
     if zero == 0.0:
@@ -249,7 +224,7 @@ def text(value: Quantity) -> str:
 
 def is_quantity(value: object) -> TypeGuard[Quantity]:
     """Tell whether a value is a quantity of this package."""
-    return isinstance(value, _registry.Quantity)
+    return isinstance(value, REGISTRY.Quantity)
 
 
 def is_kind(value: Quantity, kind: str) -> bool:
@@ -286,15 +261,15 @@ def from_si(value: float, kind: str, unit: str | None = None) -> Quantity:
     spelled = KINDS[kind].si if unit is None else unit
     if spelled not in KINDS[kind].units:
         raise InputError(f'"{spelled}" is not a unit of {KINDS[kind].noun}')
-    built: Quantity = _build(float(value), _base(kind)).to(_UNITS[spelled])
+    built: Quantity = _build(float(value), _base(kind)).to(UNITS[spelled])
     return built
 
 
 @cache
 def _base(kind: str) -> Any:
     if kind == "temperature":
-        return _UNITS["K"]
-    return _build(1.0, _UNITS[KINDS[kind].si]).to_base_units().units
+        return UNITS["K"]
+    return _build(1.0, UNITS[KINDS[kind].si]).to_base_units().units
 
 
 def unit_label(kind: str, system: System = "SI") -> str:
@@ -316,7 +291,15 @@ def convert(value: float, kind: str, system: System = "SI") -> float:
     >>> round(convert(293.15, "temperature", "US"), 9)
     68.0
     """
-    return float(from_si(value, kind, unit_label(kind, system)).magnitude)
+    if kind == "temperature":
+        return float(from_si(value, kind, unit_label(kind, system)).magnitude)
+    return float(value) * _one(kind, system)
+
+
+@cache
+def _one(kind: str, system: System) -> float:
+    """What one of the SI base unit is in the unit of reports."""
+    return float(from_si(1.0, kind, unit_label(kind, system)).magnitude)
 
 
 def display(value: float, kind: str, system: System = "SI", *, digits: int = 4) -> str:
@@ -390,6 +373,7 @@ class Bounds:
     lt: str | None = None
     le: str | None = None
 
+    @cache  # noqa: B019 a range is stated once, by a model
     def _limits(self) -> list[tuple[str, Quantity, Callable[[float, float], bool]]]:
         signs: list[tuple[str, str | None, Callable[[float, float], bool]]] = [
             (">", self.gt, float.__gt__),
@@ -401,13 +385,12 @@ class Bounds:
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         """Check the range after the field has been read."""
-        limits = [(sign, limit, si(limit), holds) for sign, limit, holds in self._limits()]
 
         def check(value: Quantity) -> Quantity:
             given = si(value)
-            if all(holds(given, bound) for _, _, bound, holds in limits):
+            if all(holds(given, si(limit)) for _, limit, holds in self._limits()):
                 return value
-            allowed = " and ".join(f"{sign} {_rounded(limit, value)}" for sign, limit, _, _ in limits)
+            allowed = " and ".join(f"{sign} {_rounded(limit, value)}" for sign, limit, _ in self._limits())
             raise InputError(f"got {text(value)}, allowed: {allowed}")
 
         return core_schema.no_info_after_validator_function(_refusing(check), handler(source))

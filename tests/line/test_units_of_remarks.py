@@ -22,7 +22,8 @@ ROUNDED = 50.0 + 5.0 * POUND  # [N], both are printed to three digits: 20.4 kN, 
 
 @pytest.fixture(scope="module")
 def result() -> conveyor.Analysis:
-    return conveyor.analyse(conveyor.load("examples/specs/in_plant_us.yaml"))
+    line = conveyor.load("examples/specs/in_plant_us.yaml")
+    return conveyor.analyse(line.replace(report={"units": "SI"}))
 
 
 def _found(pattern: re.Pattern[str], warnings: tuple[str, ...]) -> float:

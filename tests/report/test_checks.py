@@ -19,7 +19,7 @@ SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 
 @pytest.fixture(scope="module")
 def line():
-    return conveyor.load(SPECS / "in_plant_us.yaml")
+    return conveyor.load(SPECS / "in_plant_us.yaml").replace(report={"units": "SI"})
 
 
 def found(line, system="SI"):

@@ -23,7 +23,7 @@ SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 DIGITS = 1e-15  # openpyxl writes 16 significant digits
 SHEETS = [
     "Summary", "Results", "Given", "Inputs", "Sections", "Resistances", "Rolls", "Tension diagram", "Tensions",
-    "States", "Loop", "Indentation", "Rubber", "Checks and notes",
+    "States", "Loop", "Pulleys", "Indentation", "Rubber", "Checks and notes",
 ]  # fmt: skip
 HIDDEN = {"Inputs", "Rolls", "Tensions", "States", "Indentation"}
 

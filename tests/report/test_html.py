@@ -28,6 +28,7 @@ GRAPHIC_CONTRAST = 3.0  # WCAG 2.2, 1.4.11
 def line():
     plain = conveyor.load(SPECS / "in_plant_us.yaml")
     return plain.replace(
+        report={"units": "SI"},
         cases=[
             {"name": "full", "loading": "full", "temperatures": ["10 degC", "30 degC"]},
             {"name": "half", "loading": "part load", "share": "50 %", "speeds": ["500 fpm", "600 fpm"]},

@@ -56,7 +56,7 @@ def test_figures_are_the_tables(book, result, asked):
 
 
 def test_yes_and_no_are_words(book):
-    assert set(column(book["Loop"], "Pulleys", "large enough")) <= {"yes", "NO"}
+    assert set(column(book["Pulleys"], "Pulleys", "large enough")) <= {"yes", "NO"}
 
 
 def test_spec_without_studies_studies_nothing():

@@ -91,6 +91,9 @@ SERVICE_DRAG: Final = Default(
     True,
 )  # [-]
 _CLOSED: Final = 1e-10  # [K]
+_UNIT_SPEED: Final = (
+    1.0  # [m/s], at which a bearing's film is scaled; Palmgren's moment is proportional to it anywhere
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,10 +176,10 @@ def roll_end_cooling(roll_diameter: float, *, roll_length: float) -> float:
 def service_roll_drag(
     roll_load: ArrayLike,
     *,
-    belt_speed: float,
+    belt_speed: ArrayLike,
     roll_diameter: float,
     roll_length: float,
-    air_temperature: float,
+    air_temperature: ArrayLike,
 ) -> ServiceDrag:
     """Drag of rolls in service with usual bearings, grease and labyrinth seals that warm themselves (Palmgren).
 
@@ -184,14 +187,14 @@ def service_roll_drag(
     ----------
     roll_load : array_like
         P of each roll, radial, of both bearings together [N], at least 0.
-    belt_speed : float
-        v [m/s], positive.
+    belt_speed : array_like
+        v [m/s], positive; one, or one of each roll.
     roll_diameter : float
         D [m], see `usual_bearing`.
     roll_length : float
         L of the shell [m], positive.
-    air_temperature : float
-        Around the rolls [K], positive.
+    air_temperature : array_like
+        Around the rolls [K], positive; one, or one of each roll.
 
     Returns
     -------
@@ -219,26 +222,26 @@ def service_roll_drag(
     >>> round(float(drag.force), 1), round(float(drag.bearing_temperature) - 293.15, 1)
     (2.4, 4.0)
     """
-    load = np.asarray(roll_load, dtype=float)
+    given = (np.asarray(one, dtype=float) for one in (roll_load, belt_speed, air_temperature))
+    load, speed, air = np.broadcast_arrays(*given)
     borne = bool(np.all((load >= 0.0) & (load < math.inf)))
     require(borne, "roll_load", roll_load, "finite numbers of at least 0 are needed")
-    require_positive(belt_speed=belt_speed, air_temperature=air_temperature)
+    (cool, thick), (warm, thin) = USUAL_OIL
+    for v in np.unique(speed).tolist():
+        require_positive(belt_speed=v)
+    for at in np.unique(air).tolist():
+        require_positive(air_temperature=at)
+        oil_viscosity(
+            at, first_temperature=cool, first_viscosity=thick, second_temperature=warm, second_viscosity=thin
+        )
     bearing, cooling = usual_bearing(roll_diameter), roll_end_cooling(roll_diameter, roll_length=roll_length)
     seal = SEAL_STRESS.value * 2.0 * math.pi * (bearing.outside / 2.0) ** 2 * SEAL_LENGTH
-    rotation = roll_rotation(belt_speed, roll_diameter=roll_diameter)
-    (cool, thick), (warm, thin) = USUAL_OIL
     unit = bearing_roll_drag(
         1.0,
-        belt_speed=belt_speed,
+        belt_speed=_UNIT_SPEED,
         roll_diameter=roll_diameter,
         mean_diameter=bearing.mean_diameter,
-        viscosity=oil_viscosity(
-            air_temperature,
-            first_temperature=cool,
-            first_viscosity=thick,
-            second_temperature=warm,
-            second_viscosity=thin,
-        ),
+        viscosity=thick,
         static_rating=bearing.static_rating,
         f0=SERVICE_F0,
         f1_factor=SERVICE_F1_FACTOR,
@@ -248,28 +251,28 @@ def service_roll_drag(
     rest = unit.seals + unit.load * load ** (1.0 + BEARING_F1_EXPONENT.value)
     turn, slope = walther(cool, thick, warm, thin)
 
-    def film(temperature: Array) -> tuple[Array, Array]:
-        """Palmgren's f(ν n) of the oil at temperatures, and its slope [1/K]."""
+    def film(temperature: Array, speed: Array) -> tuple[Array, Array]:
+        """Palmgren's f(ν n) of the oil at temperatures and speeds, and its slope [1/K]."""
+        turns = speed * (PER_MINUTE * roll_rotation(1.0, roll_diameter=roll_diameter))
         log_z = np.exp(turn - slope * np.log(temperature))
         z = 10.0**log_z
-        fed = (z - WALTHER_OFFSET) * (rotation * PER_MINUTE) >= PALMGREN_SWITCH
-        fed_film = PALMGREN_FED * ((z - WALTHER_OFFSET) * (rotation * PER_MINUTE)) ** (2.0 / 3.0)
+        fed = (z - WALTHER_OFFSET) * turns >= PALMGREN_SWITCH
+        fed_film = PALMGREN_FED * ((z - WALTHER_OFFSET) * turns) ** (2.0 / 3.0)
         falls = (
             -2.0 / 3.0 * fed_film * z * math.log(10.0) * log_z * slope / ((z - WALTHER_OFFSET) * temperature)
         )
         return np.where(fed, fed_film, PALMGREN_SLOW), np.where(fed, falls, 0.0)
 
     # F v = 2 G (T - T_air), by Newton's steps within a bracket that shrinks: friction falls as the oil warms
-    air = np.full(load.shape, air_temperature)
-    scale = unit.no_load / film(air)[0]
-    cooled = 2.0 * cooling / belt_speed
-    low, high = air, air + (rest + unit.no_load) / cooled
+    scale = unit.no_load / float(film(np.asarray(cool), np.asarray(_UNIT_SPEED))[0])
+    cooled = 2.0 * cooling / speed
+    low, high = air, air + (rest + scale * film(air, speed)[0]) / cooled
     place, step = low, math.inf
     while step > _CLOSED:
-        viscous, falls = film(place)
-        surplus = rest + scale * viscous - cooled * (place - air_temperature)
+        viscous, falls = film(place, speed)
+        surplus = rest + scale * viscous - cooled * (place - air)
         low, high = np.where(surplus >= 0.0, place, low), np.where(surplus > 0.0, high, place)
         newton = place - surplus / (scale * falls - cooled)
         following = np.where((newton >= low) & (newton <= high), newton, 0.5 * (low + high))
         step, place = float(np.max(np.abs(following - place), initial=0.0)), following
-    return ServiceDrag(rest + scale * film(place)[0], place)
+    return ServiceDrag(rest + scale * film(place, speed)[0], place)
