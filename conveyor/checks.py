@@ -884,8 +884,9 @@ def set_rating(result: CalculatedConveyor) -> Iterator[Check]:
         cure = "" if limits.least_class is None else f"; class {limits.least_class} bears it"
         section = worst.stretch.section
         yield compared(
-            "set_rating", f"load of a set, {strand} idlers", limits.load, "at most", rating, "force", source=of_class,
-            where=section,
+            "set_rating", f"load of a set, {strand} idlers", limits.load, "at most",
+            None if limits.lump_factor is None else rating, "force", source=of_class, where=section,
+            missing="lump_factor not given: none is printed for such lumps",
             why=f"{strand} sets in {quoted(section)} bear {{calculated}}, they are rated for {{required}}{cure}",
         )  # fmt: skip
 

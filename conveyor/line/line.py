@@ -296,6 +296,8 @@ class Line:
         Drag of each roll of one set at its rim, of every stretch [N].
     speed, flow, density, gravity : float
         Of the belt, the bulk, the site.
+    lump : float or None
+        Largest size of the bulk [m], where the spec says it.
     drives : tuple of DriveUnit
         The first one first.
     bulk_on_belt : float
@@ -322,6 +324,7 @@ class Line:
     speed: float
     flow: float
     density: float
+    lump: float | None
     gravity: float
     loading: tuple[LoadingPoint, ...]
     scrapers: tuple[Scraper, ...]
@@ -383,6 +386,7 @@ class Line:
             speed=si(conveyor.belt.speed),
             flow=si(conveyor.material.flow),
             density=si(conveyor.material.density),
+            lump=None if conveyor.belt.wear is None else si(conveyor.belt.wear.lump),
             gravity=si(calculation.gravity),
             loading=_loading_points(conveyor, places),
             scrapers=_scrapers(conveyor),

@@ -552,6 +552,7 @@ def idler_sets(a: CalculatedConveyor, studies: CalculatedStudies | None = None) 
         Column("turning mass of a set", "mass", "0.stretch.set_mass"),
         Column("rotation", "rotation", extreme(max, "5", "rotations.1"), page=None),
         Column("load of a set", "force", "3.limits.load"),
+        Column("lump factor", "ratio", "3.limits.lump_factor", page=None),
         Column("of the case", "text", "2", page=None),
         Column("rating", "force", "0.limits.rating", sparse=True),
         Column("CEMA class", "text", "0.limits.cema_class", sparse=True),
@@ -569,8 +570,9 @@ def idler_sets(a: CalculatedConveyor, studies: CalculatedStudies | None = None) 
     )  # fmt: skip
     heading = "Idler sets, the worst of all cases"
     note = (
-        "Load with lump_factor and the tension on a raised set. Belt: first natural frequency between two sets in the "
-        "section closest to resonance; rolls out of round excite it and twice it; distance 0 where a span is hit."
+        "Load with the lump factor (given, else by belt.wear.lump) and the tension on a raised set. Belt: first "
+        "natural frequency between two sets in the section closest to resonance; rolls out of round excite it and "
+        "twice it; distance 0 where a span is hit."
     )
     return Table("idler_sets", "Sections", heading, columns, rows, "rolls", note, named=2)
 
