@@ -234,8 +234,9 @@ def surface_series(
         step = max(1, _CHUNK // max(x[chosen].size, shown))
         for i in range(0, m.size, step):
             part = m[i : i + step]
-            wave = amplitudes[:shown] @ bessel_j(shown, part * alpha)[1:]
-            wave *= 2.0 * weights[i : i + step] / part
+            wave = (
+                2.0 * weights[i : i + step] / part * (amplitudes[:shown] @ bessel_j(shown, part * alpha)[1:])
+            )
             turn = np.multiply.outer(x[chosen], part)
             out[chosen] += np.cos(turn) @ wave.real - np.sin(turn) @ wave.imag
 

@@ -20,7 +20,7 @@ from conveyor.contact.grid import Grid, GridContact, Raised, solve_grid
 from conveyor.contact.orders import ORDERS, next_order
 from conveyor.contact.problem import Status
 from conveyor.contact.scene import Scene
-from conveyor.contact.single import LOAD_FLOOR, ROUNDING, SIGN_ORDER, remarks
+from conveyor.contact.single import LAYER_OVER_ENERGY, LOAD_FLOOR, ROUNDING, SIGN_ORDER, beyond_reach, remarks
 from conveyor.contact.solution import Found, Outcome
 from conveyor.contact.strips import Strips, friction_by_loss, loads, settle, smallest_gap, too_close
 from conveyor.errors import NoSolutionError
@@ -147,7 +147,8 @@ def _polished(scene: Scene, grid: GridContact, start: _Start, rtol: float) -> Ou
         pressing = sign(strips.contact, rtol)
         if pressing is Sign.PULLING and error <= _SETTLED:
             return None
-        if error <= rtol or n == ORDERS[-1]:
+        hopeless = n >= _LAST_TRY and beyond_reach(scene, strips.contact, (n, ORDERS[-1]), error / rtol)
+        if error <= rtol or n == ORDERS[-1] or hopeless:
             by_loss = friction if cancelled else friction_by_loss(scene, strips)
             energy = abs(by_loss - strips.friction) / scale
             if not cancelled:
@@ -155,9 +156,9 @@ def _polished(scene: Scene, grid: GridContact, start: _Start, rtol: float) -> Ou
                 most = MOST * error + strips.left * (strips.gross_friction + _reach(strips, scene)) / scale
                 rounding = ROUNDING * strips.gross_friction / scale
                 error = max(error, energy / ENERGY_OVER_ERROR, min(_TWICE * energy, most), rounding)
-            error = max(error, ROUNDING)
+            error = max(error, LAYER_OVER_ENERGY * energy if hopeless else ROUNDING)
             decided = n >= SIGN_ORDER or pressing is not Sign.UNDECIDED
-            if (error <= rtol and decided) or n == ORDERS[-1]:
+            if (error <= rtol and decided) or n == ORDERS[-1] or hopeless:
                 if overlaps(scene, strips.contact, strips.depth):
                     return None
                 fields = SpectralFields(

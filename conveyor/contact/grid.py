@@ -184,9 +184,7 @@ class Grid:
                 pass  # what rounding makes of two nodes that touch at once may run in circles
         return self._lowered(np.zeros(self.x.size, dtype=bool), 0.0, pressure, _EXCHANGES)
 
-    def _lowered(
-        self, active: NDArray[np.bool_], carried: float, pressure: float, exchanges: int
-    ) -> Raised:
+    def _lowered(self, active: NDArray[np.bool_], carried: float, pressure: float, exchanges: int) -> Raised:
         """`raised` from the nodes in contact under a smaller mean pressure."""
         surface, height = self._surface, 0.0
         if carried:

@@ -64,7 +64,7 @@ PLACE_SHARE = 1e-4  # of rtol: what may be left of an eccentricity
 # times the mismatch of load, times what the search's order is off by: what carrying a contact to its load misses of
 # friction (seen: 0.2 to 1 in the median, 7 to 30 in 99 % of scenes), and of its edges over α (0.3; 0.2 to 70)
 _CARRIED, _EDGES_CARRIED = 20.0, 100.0
-_SHAPE_CARRIED = 2.0  # times the mismatch of load, times Σ v |c_v/c_1| not carried: of the largest pressure (0.7 seen)
+_SHAPE_CARRIED = 2.0  # the same of the largest pressure, times Σ v |c_v/c_1| that is not carried (0.7 seen)
 _CUT = 0.03  # of a cubic's last coefficient: what the cubic itself is off by between its points
 _MOST_PANELS = 12
 _ROLL = 0.98  # of its radius: the widest half width
@@ -339,6 +339,7 @@ class Search:
         off += np.abs(self.group.target[rows] + miss - y_from) + cut[0] * self.span[rows] / (_SPAN * RANGE)
         shape = np.abs(contact.c[:, 1:] / first)
         shape[:, : _SEARCH - 1] = np.abs(contact.c[:, 1:_SEARCH] / first - here[3:].T)
+        unlike = shape @ np.arange(2.0, c.shape[1] + 1.0)
         missed = np.abs(miss)
         met = Contact(
             alpha,
@@ -348,7 +349,7 @@ class Search:
             contact.friction * np.exp(np.where(lossy, dragged, 0.0)),
             contact.inside & (alpha + np.abs(eps) < self.group.rho[rows]),
         )
-        return met, _CARRIED * off * missed, _SHAPE_CARRIED * missed * (shape @ np.arange(2.0, c.shape[1] + 1.0))
+        return met, _CARRIED * off * missed, _SHAPE_CARRIED * unlike * missed
 
 
 def _log(values: Array, told: NDArray[np.bool_]) -> Array:

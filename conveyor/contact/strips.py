@@ -180,7 +180,8 @@ class _Places:
         rows = full[:, :, 1:].reshape(k, count * n, count * n)
         right = self.slope[:, :, 1 : n + 1].reshape(k, count * n, 1)
         self.c = np.asarray(np.linalg.solve(rows, right), dtype=np.float64).reshape(k, count, n)
-        lifted = level(self.rule, scene.creep, alpha.ravel(), self.c.reshape(k * count, n), ik).reshape(k, count)
+        every = self.c.reshape(k * count, n)
+        lifted = level(self.rule, scene.creep, alpha.ravel(), every, ik).reshape(k, count)
         lifted += np.einsum("klrv,krv->kl", heights, self.c)
         drop = mean_drop(alpha.ravel(), centre.ravel(), rho, 2 * n + 16).reshape(k, count)
         self.depth = lifted + drop

@@ -1454,6 +1454,12 @@ def drawings(
             "horizontal_curves",
         )
     yield Drawing(
+        "cross-section",
+        "A set of each strand with belt and bulk as it lies on it, to scale; the belt centred, the strand at rest.",
+        lambda: analysis_plots.cross_section(conveyor, a.line, system=system),
+        "distinct_rolls",
+    )
+    yield Drawing(
         "pressure",
         "Contact pressure at the highest line load of each strand; the contact leans to where the belt arrives.",
         lambda: analysis_plots.pressure_under_rolls(a.contacts, system=system),
