@@ -517,20 +517,23 @@ class Kept:
 
     def __init__(self) -> None:
         self._made: dict[tuple[object, ...], Any] = {}
+        self.fields: dict[object, Any] = {}
+        """For `with_fields`: specs of the same changes have the very same parts."""
 
     def begin(self) -> None:
-        """Forget everything where it has become much."""
-        if len(self._made) > self.MOST:
-            self._made.clear()
+        """Forget everything where it has become much; other threads end with what they began with."""
+        if max(len(self._made), len(self.fields)) > self.MOST:
+            self._made, self.fields = {}, {}
 
     def once(
         self, make: Callable[[], T], what: str, parts: Iterable[object], values: tuple[object, ...] = ()
     ) -> T:
         """What was made of the very same parts and equal values, or what is made of them now."""
         key = (what, *map(_Same, parts), *values)
-        if key not in self._made:
-            self._made[key] = make()
-        made: T = self._made[key]
+        known = self._made
+        if key not in known:
+            known.setdefault(key, make())
+        made: T = known[key]
         return made
 
 
