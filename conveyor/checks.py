@@ -19,6 +19,7 @@ from conveyor.laws.motion import Stop
 from conveyor.laws.pulley import HUB_SLOPE, SHAFT_SAFETY
 from conveyor.laws.take_up import SCREW_LENGTH
 from conveyor.laws.tension import grip_tension
+from conveyor.laws.wind import AIR_DENSITY, WIND_LIFT, lifting_speed
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.line import Line
 from conveyor.line.roll_lives import ASKED_LIFE, shortest_life
@@ -102,9 +103,9 @@ class Check:
         """How far the calculated figure is on the safe side of the required one, over that one [-].
 
         Calculated over required less 1 where at least that is required, 1 less calculated over required where at most;
-        None where a figure is missing or the required one is 0.
+        None where a figure is missing, the required one is 0, or both are temperatures, which have no ratio.
         """
-        if self.calculated is None or not self.required:
+        if self.calculated is None or not self.required or self.kind == "temperature":
             return None
         over = (self.calculated - self.required) / abs(self.required)
         return over if self.relation == "at least" else -over
@@ -207,8 +208,9 @@ def severity(check: Check) -> tuple[int, float]:
     margin = check.margin
     if margin is None:
         margin = -math.inf if check.failed else math.inf
-        if check.required == 0.0 and check.calculated is not None:
-            margin = check.calculated if check.relation == "at least" else -check.calculated
+        if check.required is not None and check.calculated is not None:
+            over = check.calculated - check.required
+            margin = over if check.relation == "at least" else -over
     return ("FAIL", "pass", "not checked").index(check.verdict), margin
 
 
@@ -465,6 +467,30 @@ def _radius(curve: CurveCheck | HorizontalCheck, least: float, fine: str, bad: s
     )
 
 
+def wind_lift(result: CalculatedConveyor) -> Iterator[Check]:
+    """The wind given does not lift a strand without bulk."""
+    line = result.line
+    for strand in STRANDS if line.wind_speed is not None else ():
+        bare = [one for one in line.stretches if one.strand == strand and one.bulk_mass == 0.0]
+        if line.wind_speed is None or not bare:
+            continue
+        steepest = max(bare, key=lambda one: abs(one.inclination))
+        least = lifting_speed(
+            steepest.belt_mass,
+            width=line.belt.width,
+            lift=WIND_LIFT.value,
+            inclination=steepest.inclination,
+            gravity=line.gravity,
+            air_density=AIR_DENSITY,
+        )
+        yield compared(
+            "wind_lift", f"empty belt stays down in the wind, {strand}", line.wind_speed, "at most", least, "wind",
+            source=f"lift coefficient {WIND_LIFT.value:g}, general knowledge",
+            why=f"{strand}: a gust of {{calculated}} lifts the empty belt, {{required}} does not (lift coefficient "
+            f"{WIND_LIFT.value:g}, general knowledge): hoods, hold-down rolls or a heavier belt",
+        )  # fmt: skip
+
+
 def horizontal_edges(result: CalculatedConveyor) -> Iterator[Check]:
     """In every horizontal curve the outer edge of the belt is not overstressed, the inner one not slack."""
     for bend in result.horizontal:
@@ -482,11 +508,12 @@ def belt_drift(result: CalculatedConveyor) -> Iterator[Check]:
         inside, outside = bend.farthest_in, bend.farthest_out
         cure = said("at least a radius of {} is needed, or more banking", (inside.least, "length"))
         if math.isinf(inside.least):
-            cure = said("no radius helps: more banking, a deeper trough or less wind")
+            cure = said("no radius helps: more banking, a deeper trough or a hood")
         yield _drift(bend, inside, "inside", inside.inside, cure)
-        cure = said("less banking or skew")
+        less = "a deeper trough, a hood, less banking or skew" if bend.turn.wind else "less banking or skew"
+        cure = said(less)
         if 0.0 < outside.most < math.inf:
-            cure = said("less banking or skew, or a radius of at most {}", (outside.most, "length"))
+            cure = said(less + ", or a radius of at most {}", (outside.most, "length"))
         yield _drift(bend, outside, "outside", -outside.outside, cure)
 
 
@@ -858,8 +885,9 @@ def set_rating(result: CalculatedConveyor) -> Iterator[Check]:
         cure = "" if limits.least_class is None else f"; class {limits.least_class} bears it"
         section = worst.stretch.section
         yield compared(
-            "set_rating", f"load of a set, {strand} idlers", limits.load, "at most", rating, "force", source=of_class,
-            where=section,
+            "set_rating", f"load of a set, {strand} idlers", limits.load, "at most",
+            None if limits.lump_factor is None else rating, "force", source=of_class, where=section,
+            missing="lump_factor not given: none is printed for such lumps",
             why=f"{strand} sets in {quoted(section)} bear {{calculated}}, they are rated for {{required}}{cure}",
         )  # fmt: skip
 
@@ -967,7 +995,7 @@ OF_CONTACTS: Final = (penetration, rubber_coverage)
 CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     filling, motor_power, take_up_tension, take_up_reach, drive_grip, sag, slack_belt, belt_safety, belt_rating,
     belt_breakage, splice_strength, cover_thickness, belt_temperature, pulley_diameter, curve_radius,
-    horizontal_edges, belt_drift, transitions, impact_load, skirtboards, belt_cleaning, pulley_shaft,
+    wind_lift, horizontal_edges, belt_drift, transitions, impact_load, skirtboards, belt_cleaning, pulley_shaft,
     pulley_bearings, lagging, starting_force, comes_to_rest, holding, drive_parts, coasting_time, bulk_slip,
     penetration, roll_life, set_rating, roll_axle, belt_flap, rubber_coverage,
 )  # fmt: skip

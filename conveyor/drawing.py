@@ -14,7 +14,7 @@ from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import scaled
 from conveyor.report import analysis_plots, plots, transfer_tables
-from conveyor.report.tables import boundaries
+from conveyor.report.tables import boundaries, drifts
 from conveyor.studies.comparison_scenes import ComparedScene, Coverage, of_compound
 from conveyor.units import Quantity, System, quantity
 from conveyor.units.presentation import chosen
@@ -78,12 +78,17 @@ class AnalysisPlots:
             raise InputError("no trajectory: give route.discharge, and bulk that reaches the head")
         return transfer_tables.picture(self.analysis, system=self._in(system))
 
+    def cross_section(self, *, system: System | None = None) -> Figure:
+        """A set of each strand with its belt and bulk, to scale."""
+        result = self.analysis
+        return analysis_plots.cross_section(result.conveyor, result.line, system=self._in(system))
+
     def plan(self, *, system: System | None = None) -> Figure:
         """The route from above, with its horizontal curves."""
         return analysis_plots.plan(self.analysis.line, system=self._in(system))
 
-    def drift(self, *, system: System | None = None) -> Figure:
-        """Drift of the belt in every horizontal curve, over all states of motion.
+    def drift(self, studies: CalculatedStudies | None = None, *, system: System | None = None) -> Figure:
+        """Drift of the belt in every horizontal curve, over all states of motion; of all cases with the studies.
 
         Raises
         ------
@@ -92,7 +97,8 @@ class AnalysisPlots:
         """
         if not self.analysis.horizontal:
             raise InputError("drift: the route has no horizontal curve (route.sections[].horizontal_curve)")
-        return analysis_plots.drift([("as given", self.analysis.horizontal)], system=self._in(system))
+        shown = self._in(system)
+        return analysis_plots.drift(drifts(self.analysis, studies, shown), system=shown)
 
     def pressure(self, *, system: System | None = None) -> Figure:
         """Contact pressure under the highest line load of each strand."""
@@ -162,12 +168,13 @@ class AnalysisPlots:
         """All of these by name, and those of the studies where they are given."""
         result, conveyor = self.analysis, self.analysis.conveyor
         rubbers = _STRANDS[: 1 if conveyor.carry_compound.name == conveyor.return_compound.name else 2]
-        drawn = [self.resistances, self.tensions, self.profile]
-        drawn += [self.plan, self.drift] if result.horizontal else []
+        drawn = [self.resistances, self.tensions, self.profile, self.cross_section]
+        drawn += [self.plan] if result.horizontal else []
         drawn += [] if result.trajectory is None else [self.trajectory]
         drawn += [self.pressure, *([self.flap] if result.set_duty else [])]
         made = {
-            **{draw.__name__: draw(system=system) for draw in drawn},
+            **{draw.__name__.replace("_", "-"): draw(system=system) for draw in drawn},
+            **({"drift": self.drift(studies, system=system)} if result.horizontal else {}),
             **{f"rubber-{strand}": self.rubber(strand, system=system) for strand in rubbers},
             "power-temperature": self.power_against_temperature(system=system),
             "power-speed": self.power_against_speed(system=system),

@@ -8,7 +8,7 @@ from typing import Final
 
 from conveyor.checks import Check
 from conveyor.files.libraries import widest_spacings
-from conveyor.laws.horizontal_curve import FULL_SLIP_TILT, WIND_DRAG
+from conveyor.laws.horizontal_curve import FULL_SLIP_TILT
 from conveyor.laws.motion import DRIVE_INERTIA, START_FACTOR
 from conveyor.laws.resistance import (
     CARCASS_BENDING,
@@ -18,6 +18,7 @@ from conveyor.laws.resistance import (
     SCRAPING_FACTOR,
     SERVICE_DRAG,
 )
+from conveyor.laws.wind import WIND_DRAG, WIND_LIFT
 from conveyor.line.belts import BeltContacts
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.line import Line
@@ -51,6 +52,7 @@ def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
         "The bearings of driven pulleys (at each drive's place the most wrapped ones) are included in the drive's "
         "efficiency; tension changes the load of the rolls on curves only.",
         *_horizontal(conveyor),
+        *_wind(conveyor),
         f"Covers are at {figure(conveyor.temperature, 'temperature', conveyor.report.units)} throughout.",
         *_energy(conveyor),
     )
@@ -74,10 +76,17 @@ def _horizontal(conveyor: Conveyor) -> Iterator[str]:
             "A flat set in a horizontal curve holds the course of its belt by banking and guiding friction, not its "
             "place (derived): the belt comes in along the middle and drifts all along; its drift is that at the end."
         )
+
+
+def _wind(conveyor: Conveyor) -> Iterator[str]:
+    """What the wind on a strand without bulk rests on."""
     if conveyor.ambient.wind_speed is not None:
         yield (
-            f"Wind: drag coefficient {WIND_DRAG.value:g} (general knowledge) on the height of the empty trough, across "
-            "the belt, either way; it lifts nothing, and no hood shelters."
+            f"Wind on a strand without bulk, no hood: it lifts by {WIND_LIFT.value:g} of its dynamic pressure on the "
+            f"belt's width ({WIND_LIFT.low:g} to {WIND_LIFT.high:g}, most if dammed below; general knowledge), "
+            "held against the belt's weight, in concave curves together with the tension. In horizontal curves it "
+            f"pushes across by {WIND_DRAG.value:g} (general knowledge) on the height of the trough, either way; the "
+            "weights that hold the belt there are taken without its lift."
         )
 
 
@@ -558,9 +567,8 @@ def _library_warnings(conveyor: Conveyor) -> Iterator[Said]:
         taken = [name for name in entry.fields if name != "name" and name not in without(given, entry.fields)]
         if taken:
             spans = "; ".join(f"{name} {entry.range[name]}" for name in taken if name in entry.range)
-            yield said(
-                f'{field}: {", ".join(taken)} of "{entry.name}" are {entry.source}, in practice {spans}'
-            )
+            met = f", in practice {spans}" if spans else ""
+            yield said(f'{field}: {", ".join(taken)} assumed as of "{entry.name}": {entry.source}{met}')
 
 
 def _cover_warnings(conveyor: Conveyor) -> Iterator[Said]:
@@ -585,7 +593,7 @@ def _set_warnings(result: CalculatedConveyor) -> Iterator[Said]:
         if stretches[0].tilt_angle > 0.0 or any(s.turn is not None and s.turn.guided for s in stretches):
             friction = ROLL_ON_BELT_FRICTION.value
             yield said(
-                f"idlers.{strand}: tilt or skew with μ0 = {friction:g}, general knowledge, not a source"
+                f"idlers.{strand}: friction of belt on tilted or skewed rolls {friction:g} assumed (general knowledge)"
             )
         if idlers.offset.magnitude > 0.0:
             yield said(f"idlers.{strand}.offset: the loads of the rolls are those of a set in one plane")

@@ -63,6 +63,7 @@ _SECTION = "ISO 5048, cross-section"
 _SIDEWINDER = "Conveyor C-1.1 report"
 _CKIT = "ckit.co.za, trajectories"
 _RULMECA = "Rulmeca, impact rollers"
+_SANDVIK = "Sandvik (1999), load of idlers"
 _IDENTITY = "J*(ω) E*(ω) = 1"
 _SONG = "Song et al. (2012)"
 _NORDELL = "Nordell and Ciozda (1984), measured"
@@ -450,12 +451,20 @@ def _printed_designs() -> Iterator[ReferenceCheck]:
 
 
 def _transfer() -> Iterator[ReferenceCheck]:
-    """Width of the bulk on the head pulley, and the impact of a stream."""
+    """Width of the bulk on the head pulley, loads of idlers, and the impact of a stream."""
     for width, printed in (
         (350, "265.5"), (400, "310"), (450, "354.5"), (500, "400"), (600, "500"), (1200, "1100"), (2100, "2000"),
     ):  # fmt: skip
         got = 1e3 * discharge.width_on_pulley(width / 1e3)
         yield _printed(_CKIT, f"width of the bulk on the pulley [mm], belt {width} mm", printed, got)
+    set_load = (loading.bulk_line_mass(1300.0 / 3.6, belt_speed=2.2) + 20.0) * 1.2 * 10.0
+    yield _printed(_SANDVIK, "load of a set [N]", "2210", set_load)
+    # a belt of 1400 mm on rolls of 530 mm; 1.2 for lumps is theirs, their share of the middle has two digits
+    share, _ = loading.shares_by_area(
+        loading.usable_width(1.4), middle_roll_length=0.53, trough_angle=math.radians(45.0),
+        surcharge_angle=math.radians(30.0),
+    )  # fmt: skip
+    yield _close(_SANDVIK, "load of the middle roll [N]", 1856.0, 1.2 * share * set_load, 0.005 / 0.70)
     stream = transfer.stream_impact(1.0 / 3.6, drop_height=1.0, gravity=9.81)
     yield _printed(_RULMECA, "t/h √m over the impact [1/kgf]", "8", 9.81 / stream)
 

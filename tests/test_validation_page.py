@@ -57,6 +57,8 @@ SOURCES = {
     "Conveyor C-1.1 report": "a public calculation report (studylib 25593897): belt of 1250 N/mm, 1200 mm; "
     "its tensions printed to three digits",
     "ckit.co.za, trajectories": "its table of edge distances on discharge pulleys; printed digits",
+    "Sandvik (1999), load of idlers": "Selection and load rating of the idlers for belt conveyors (12/99): 1300 t/h at "
+    "2.2 m/s, 45 deg, slope of 30 deg; printed digits, of the middle roll those of its share",
     "Rulmeca, impact rollers": "its rule for fine bulk, t/h times the root of the fall over 8 in kgf, as commonly "
     "reproduced; one printed digit",
     "J*(ω) E*(ω) = 1": "the exact inverse of a relaxation spectrum, 21 terms over 20 decades",

@@ -19,6 +19,9 @@ _FAR_DOWN = 2
 _SMALLEST = 1e-260  # I_v/I_0 whose inverse is within double range
 _NEGLIGIBLE = 1e-20  # of the diagonal, whose sum over terms is of the order of one
 _UPWARD = 0.25  # times order²: rounding grows e⁴ upward from there
+# sweeps, by differences and by the recurrence: 1e-15 from order 32 on, for every argument
+_SMOOTH, _PLAIN = 8, 4
+_SMOOTH_FROM = 32  # order from which on the ratios are found so, and order of a table that asks for it
 _DAMPED = 24.0  # exponent of the damping: 4e-11 of the start's error, itself below 1e-3
 
 
@@ -147,23 +150,14 @@ class ProductIK:
     """
 
     def __init__(self, order: int, b: Array) -> None:
-        r = _ratio_i(order, b)
-        k = np.empty((order + 1, *b.shape))
-        last = special.k1e(b) / special.k0e(b)
-        k[0] = last
-        two_over_b = 2.0 / b
-        steps = np.multiply.outer(np.arange(1.0, order + 1.0), two_over_b)
-        for v in range(1, order + 1):
-            np.add(np.reciprocal(last), steps[v - 1], out=k[v])
-            last = k[v]
+        r, k = _ratios_ik(order, b)
         twice = 2.0 * np.arange(1.0, order + 1.0)[:, None, None]
         delta = b * (r[1:] + 1.0 / k[:-1])
         self._deficit = delta / (twice * (twice + delta))
         self._diagonal = 1.0 / (b * (r + k))
         self._ratio, self._rise = r, k
         self._high = np.ones_like(r)  # I_v/I_0
-        for v in range(order):
-            np.multiply(self._high[v], r[v], out=self._high[v + 1])
+        np.cumprod(r[:-1], axis=0, out=self._high[1:])
 
     def falling(self, order: int) -> Array:
         """K_v/K_order of v = 0 … order, shape (order + 1, k, t)."""
@@ -234,6 +228,28 @@ class ProductIK:
         return sums
 
 
+def _ratios_ik(order: int, b: Array) -> tuple[Array, Array]:
+    """I_{v+1}/I_v and K_{v+1}/K_v of v = 0 … order at b, shape (order + 1, ...) each."""
+    if order <= 2 * _SMOOTH_FROM:
+        return _ratio_i(order, b), _ratio_k(order, b)
+    upper, lower = neighbour_ratios(_SMOOTH_FROM, order, b.ravel())
+    r, k = np.empty((2, order + 1, *b.shape))
+    r[_SMOOTH_FROM:], k[_SMOOTH_FROM:] = upper.reshape(-1, *b.shape), 1.0 / lower.reshape(-1, *b.shape)
+    r[:_SMOOTH_FROM], k[:_SMOOTH_FROM] = _ratio_i(_SMOOTH_FROM - 1, b), _ratio_k(_SMOOTH_FROM - 1, b)
+    return r, k
+
+
+def _ratio_k(order: int, b: Array) -> Array:
+    """K_{v+1}(b)/K_v(b) by the recurrence upward, shape (order + 1, ...)."""
+    out = np.empty((order + 1, *b.shape))
+    out[0] = last = special.k1e(b) / special.k0e(b)
+    steps = np.multiply.outer(np.arange(1.0, order + 1.0), 2.0 / b)
+    for v in range(1, order + 1):
+        np.add(np.reciprocal(last), steps[v - 1], out=out[v])
+        last = out[v]
+    return out
+
+
 def _ratio_i(order: int, b: Array) -> Array:
     """I_{v+1}(b)/I_v(b), shape (order + 1, ...).
 
@@ -264,3 +280,50 @@ def _ratio_i(order: int, b: Array) -> Array:
             rising = 1.0 / rising - v * step
             out[v][upward] = rising
     return out
+
+
+def neighbour_ratios(first: int, last: int, b: Array) -> tuple[Array, Array]:
+    """I_{v+1}/I_v and K_v/K_{v+1} of the orders `first` … `last`, at least 16, without a loop over them.
+
+    Both solve a recurrence r_{v-1} (2v/b + r_v) = 1, h_v (2v/b + h_{v-1}) = 1 whose solution is smooth in v: with the
+    neighbour's difference from the sweep before, each equation is a quadratic of its own, and a sweep gains a factor
+    of v. The recurrence itself takes the last digits where b < v.
+
+    Parameters
+    ----------
+    first, last : int
+        Orders [-].
+    b : ndarray, shape (t,)
+        Arguments [-], positive.
+
+    Returns
+    -------
+    tuple of ndarray, shape (last - first + 1, t)
+
+    Examples
+    --------
+    >>> from scipy import special
+    >>> upper, lower = neighbour_ratios(40, 40, np.array([3.0]))
+    >>> round(float(upper[0, 0] / (special.iv(41, 3.0) / special.iv(40, 3.0))), 12)
+    1.0
+    """
+    spare = _SMOOTH + _PLAIN
+    v = np.arange(first - spare, last + spare + 1.0)[:, None]
+    rise = 2.0 * v / b
+    upper = b / (v + 0.5 + np.hypot(v + 1.5, b))
+    lower = b / (v - 0.5 + np.hypot(v + 0.5, b))
+    for sweep in range(1, _SMOOTH + 1):
+        change, step = upper[:-1] - upper[1:], rise[sweep:]
+        upper = _root(step + change, 1.0 - change * step)
+        lower = _root(step + (lower[:-1] - lower[1:]), 1.0)
+    for sweep in range(_PLAIN):
+        upper = 1.0 / (rise[_SMOOTH + 1 : upper.shape[0] + _SMOOTH] + upper[1:])
+        lower = 1.0 / (rise[_SMOOTH + 1 + sweep :] + lower[:-1])
+    count = last - first + 1
+    return upper[_PLAIN : _PLAIN + count], lower[:count]
+
+
+def _root(linear: Array, constant: Array | float) -> Array:
+    """Positive root of x² + linear x = constant."""
+    root: Array = 2.0 * constant / (linear + np.sqrt(linear * linear + 4.0 * constant))
+    return root

@@ -17,7 +17,7 @@ from conveyor.contact.spectral import Contact, nested, of_orders
 Array = NDArray[np.float64]
 
 ENERGY_OVER_ERROR = 10.0  # energy error over true error of friction while n is too small: 5 to 80 seen
-_MOST = 2.3  # 1/(1 - (3/4)²): of an error that grows like n²
+MOST = 2.3  # 1/(1 - (3/4)²): of an error that grows like n²
 _LASTING = 16  # samples: a ripple of the highest order changes sign after four
 _TAILS = 4.0  # an unresolved edge layer dips below zero by up to 2.1 tails, a resolved split by more than 20
 WRAPPED = 0.5  # (a + |e|)/R beyond which a second eccentricity and a gap outside are looked for
@@ -78,7 +78,7 @@ def errors_of_lower(
     left: Array = np.where(
         half <= most, most, np.minimum(most, 4.0 * most * most / np.where(half > 0.0, half, 1.0))
     )
-    return OrderErrors(left, _MOST * most, 2.0 * np.where(lower.inside, moved, contact.alpha))
+    return OrderErrors(left, MOST * most, 2.0 * np.where(lower.inside, moved, contact.alpha))
 
 
 def by_energy(energy: Array, most: Array) -> Array:

@@ -54,19 +54,21 @@ class CreepSpectrum:
             raise InputError("weights and times: two lists of numbers are needed") from None
         if d.ndim != 1 or d.shape != z.shape:
             raise InputError(f"weights {d.shape} and times {z.shape}: give two lists of equal length")
-        if not np.all((d <= 1.0 + _SUM_TOLERANCE) & (d > 0.0)):
+        if d.size and not 0.0 < d.min() <= d.max() <= 1.0 + _SUM_TOLERANCE:
             raise InputError(
                 f"weights = {d.tolist()}: each weight is positive, the instantaneous part and all weights add to 1"
             )
-        if not np.all((z == 0.0) | ((z >= _TIMES[0]) & (z <= _TIMES[1]))):
+        least, most = _TIMES
+        plain = z.size == 0 or least <= z.min() <= z.max() <= most
+        if not plain and not np.all((z == 0.0) | ((z >= least) & (z <= most))):
             raise InputError(
-                f"times = {z.tolist()}: each ζ is finite and not negative: 0, or from {_TIMES[0]:g} to {_TIMES[1]:g}"
+                f"times = {z.tolist()}: each ζ is finite and not negative: 0, or from {least:g} to {most:g}"
             )
         if not (math.isfinite(instantaneous) and 0.0 < instantaneous <= 1.0 + _SUM_TOLERANCE):
             raise InputError(f"instantaneous = {instantaneous!r}: j∞ = E0/E∞ lies in (0, 1]")
-        if abs(instantaneous + d.sum() - 1.0) > _SUM_TOLERANCE:
+        if abs((whole := instantaneous + float(d.sum())) - 1.0) > _SUM_TOLERANCE:
             raise InputError(
-                f"instantaneous + sum(weights) = {instantaneous + d.sum():.12g}: must be 1 "
+                f"instantaneous + sum(weights) = {whole:.12g}: must be 1 "
                 "(compliances are in units of the rubbery compliance 1/E0)"
             )
         for array in (d, z):

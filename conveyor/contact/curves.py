@@ -36,7 +36,7 @@ from conveyor.contact.narrow import (
     guess,
 )
 from conveyor.contact.orders import ORDERS, lowest_order, order_for
-from conveyor.contact.problem import ContactProblem, Status, check_rtol
+from conveyor.contact.problem import ContactProblem, check_rtol
 from conveyor.contact.quadrature import CHECK, SOLVE, build_rule
 from conveyor.contact.sampling import Sampled, derivative, missed, points
 from conveyor.contact.scene import instantly_relaxed
@@ -60,6 +60,10 @@ _FARTHEST = 4.0  # times the order, in one step
 _BETWEEN = 1.25  # errors between the five points that are looked at over those there: 1.03 seen
 _ENDS = 1e-3  # the ends need to be known only well enough to be enclosed
 _WRAPPED = 0.75  # (a + |e|)/R beyond which one half width may have two loads (docs/method.md)
+_OFF_ROLL = (
+    "a half width has no contact with both edges on the roll: lower the load, enlarge the radius, or solve such loads "
+    "one by one, which names the limit"
+)
 _SPLITS = (
     "the contact separates into several strips: lower the load, thicken the layer, use the confined support, "
     "or solve such loads one by one"
@@ -245,7 +249,7 @@ def _alone(problem: ContactProblem, lowest: float, rtol: float) -> LoadCurve | N
         ends = [solve(replace(problem, pressure=p), _ENDS) for p in (lowest, highest)]
         low, high = np.log([s.half_width * problem.rho for s in ends])
         if any(len(s.patches) > 1 for s in ends):
-            return NoSolutionError(f"between mean pressures {lowest:.6g} and {highest:.6g} {_SPLITS}")
+            return _no_curve(lowest, highest, _SPLITS)
         if wraps(ends[1]):
             return NoSolutionError(
                 f"at the mean pressure {highest:.6g} the contact reaches {ends[1].outer_edge:.2f} R: too far round "
@@ -296,7 +300,7 @@ class _Sampler:
                 break
             first = self._sample(waiting, points(degree), n, rtol)
             for row in waiting[~first.valid]:
-                by_row[int(self.rows[row])] = NoSolutionError(Status.WRAP_LIMIT.message)
+                by_row[int(self.rows[row])] = self._none(row, _OFF_ROLL)
             first = first[np.flatnonzero(first.valid & self._enclosed(first))]
             waiting = first.rows
             if waiting.size == 0:
@@ -353,9 +357,9 @@ class _Sampler:
                 plain = bool(pressing[k].all())
                 key = int(self.rows[row])
                 if not batch.valid[k]:
-                    curves[key] = NoSolutionError(Status.WRAP_LIMIT.message)
+                    curves[key] = self._none(row, _OFF_ROLL)
                 elif pulling[k].any():
-                    curves[key] = self._split(row)
+                    curves[key] = self._none(row, _SPLITS)
                 elif total <= rtol and (plain or n >= SIGN_ORDER):
                     if not (self.narrow and may_touch_elsewhere(sampled.contacts, self.group.rho[row]).any()):
                         curves[key] = self._curve(row, sampled, (total, float(energy[k])), n)
@@ -383,9 +387,8 @@ class _Sampler:
         error, energy, bound = (one.reshape(-1, batch.count).max(axis=1) for one in each)
         return error, energy, bound
 
-    def _split(self, row: int) -> NoSolutionError:
-        lowest, highest = self.lowest[row], self.group.problems[row].pressure
-        return NoSolutionError(f"between mean pressures {lowest:.6g} and {highest:.6g} {_SPLITS}")
+    def _none(self, row: int, why: str) -> NoSolutionError:
+        return _no_curve(float(self.lowest[row]), self.group.problems[row].pressure, why)
 
     def _curve(self, row: int, sampled: Sampled, errors: tuple[float, float], n: int) -> LoadCurve:
         problem = self.group.problems[row]
@@ -455,6 +458,10 @@ def _exponents(batch: _Batch) -> Array:
     every = (batch.count - 1) // _FEW
     exponents: Array = np.where(lossy, beta, 0.0)[:, ::every]
     return exponents
+
+
+def _no_curve(lowest: float, highest: float, why: str) -> NoSolutionError:
+    return NoSolutionError(f"between mean pressures {lowest:.6g} and {highest:.6g} {why}")
 
 
 def _unsettled(error: float) -> NoSolutionError:

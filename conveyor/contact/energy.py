@@ -85,9 +85,11 @@ def loss(rule: Rule | ShortRule, creep: CreepSpectrum | Creeps, contact: Contact
     n = contact.c.shape[1]
     v = np.arange(1, n + 1)
     weighted = v * contact.c
-    table = bessel_j(n, contact.alpha[:, None] * rule.nodes)[1:]
+    place = contact.alpha[:, None] * rule.nodes
+    shown = enough_orders(place, n)
+    table = bessel_j(shown, place)[1:]
     phase = (-1j) ** ((v - 1) % 4)
-    spectrum = 0.5 * ((weighted * phase)[:, None] @ table.swapaxes(0, 1))[:, 0] / rule.nodes
+    spectrum = 0.5 * ((weighted * phase)[:, None, :shown] @ table.swapaxes(0, 1))[:, 0] / rule.nodes
     power = spectrum.real**2 + spectrum.imag**2
     total: Array = np.sum(power * (rule.weights.imag * rule.nodes), axis=1)
     if creep.weights.size:

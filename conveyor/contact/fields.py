@@ -21,6 +21,7 @@ Array = NDArray[np.float64]
 
 SERIES_REACH = 600.0  # m α where the series outside ends: cut by (m α)^(-5/2) = 1e-7, at an edge (m α)^(-3/2)
 _FAR = 64.0
+_PLAIN = 500.0  # wave numbers up to which the series is summed one by one: a window has as many nodes
 _CHUNK = 4_000_000
 _PEAK_STEPS = 8
 RESOLVED: Final = 4.0
@@ -227,20 +228,27 @@ def surface_series(
     v = np.arange(1, c.size + 1)
     amplitudes = 0.5 * v * c * (-1j) ** ((v - 1) % 4)
     out = np.zeros(x.size)
+
+    def add(chosen: NDArray[np.bool_] | slice, m: Array, weights: NDArray[np.complex128]) -> None:
+        shown = enough_orders(alpha * m, c.size)
+        step = max(1, _CHUNK // max(x[chosen].size, shown))
+        for i in range(0, m.size, step):
+            part = m[i : i + step]
+            wave = (
+                2.0 * weights[i : i + step] / part * (amplitudes[:shown] @ bessel_j(shown, part * alpha)[1:])
+            )
+            turn = np.multiply.outer(x[chosen], part)
+            out[chosen] += np.cos(turn) @ wave.real - np.sin(turn) @ wave.imag
+
+    if reach <= _PLAIN * alpha:
+        m = np.arange(1.0, math.ceil(reach / alpha) + 1.0)
+        add(slice(None), m, layer.symbol(m, creep) / m)
+        return out
     # far from the contact the series' tail cancels: a wave number turns |x| radians, and 64 x 600 are enough
     octave = np.floor(np.log2(np.maximum(np.abs(x) / alpha, 1.0)))
     for group in np.unique(octave):
         chosen = octave == group
         far = float(np.abs(x[chosen]).max())
         end = reach / alpha * min(1.0, _FAR * alpha / far)
-        m, weights = series_rule(layer, creep, span=alpha + far, end=end)
-        shown = enough_orders(alpha * m, c.size)
-        step = max(1, _CHUNK // max(int(chosen.sum()), shown))
-        for i in range(0, m.size, step):
-            part = m[i : i + step]
-            wave = (
-                2.0 * weights[i : i + step] * (amplitudes[:shown] @ bessel_j(shown, part * alpha)[1:]) / part
-            )
-            turn = np.multiply.outer(x[chosen], part)
-            out[chosen] += np.cos(turn) @ wave.real - np.sin(turn) @ wave.imag
+        add(chosen, *series_rule(layer, creep, span=alpha + far, end=end))
     return out

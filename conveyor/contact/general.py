@@ -14,13 +14,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.checks import ENERGY_OVER_ERROR, Sign, overlaps, sign
+from conveyor.contact.checks import ENERGY_OVER_ERROR, MOST, Sign, overlaps, sign
 from conveyor.contact.fields import GridFields, SpectralFields
-from conveyor.contact.grid import Grid, GridContact, solve_grid
+from conveyor.contact.grid import Grid, GridContact, Raised, solve_grid
 from conveyor.contact.orders import ORDERS, next_order
 from conveyor.contact.problem import Status
 from conveyor.contact.scene import Scene
-from conveyor.contact.single import LOAD_FLOOR, ROUNDING, SIGN_ORDER, remarks
+from conveyor.contact.single import LAYER_OVER_ENERGY, LOAD_FLOOR, ROUNDING, SIGN_ORDER, beyond_reach, remarks
 from conveyor.contact.solution import Found, Outcome
 from conveyor.contact.strips import Strips, friction_by_loss, loads, settle, smallest_gap, too_close
 from conveyor.errors import NoSolutionError
@@ -37,6 +37,7 @@ _NARROW, _FIT, _FITS = 1e-3, 10.0, 12  # first guess over the nodes' distance, l
 _STRIP_NODES, _GAP_NODES = 3.0, 2.0  # that show a strip, and that two strips are apart
 _LIMIT = "the contact comes within a hundredth of the half circle's end at a mean pressure of about {:.3g}"
 _FAR_BEYOND = 1.5  # times the limit of two coarse grids: no finer one will carry the load
+_TWICE = 2.0  # the energy's error: what Newton leaves shows in it once (1.00 seen)
 _CANCELLED = "the strips' forces cancel: friction is that of the loss compliance"
 _ON_GRID = "the strips are known on a grid of {} nodes only"
 
@@ -53,11 +54,11 @@ def at_first_sight(scene: Scene) -> Outcome | GridContact | None:
     """The refusal of a load far beyond what a coarse grid carries, or the contact there; None where that has none."""
     load, coarse = scene.problem.pressure, Grid(scene.problem, _coarsest(scene.problem.rho))
     try:
-        grid, about = coarse.raised(load)
-        limit = _limit(coarse, about, load) if _FAR_BEYOND * about < load else math.inf
+        raised = coarse.raised(load)
+        limit = _limit(coarse, raised, load) if _FAR_BEYOND * raised.limit < load else math.inf
     except NoSolutionError:
         return None
-    return _overloaded(grid, limit) if _FAR_BEYOND * limit < load else grid
+    return _overloaded(raised.contact, limit) if _FAR_BEYOND * limit < load else raised.contact
 
 
 def by_strips(scene: Scene, rtol: float) -> Outcome:
@@ -146,12 +147,18 @@ def _polished(scene: Scene, grid: GridContact, start: _Start, rtol: float) -> Ou
         pressing = sign(strips.contact, rtol)
         if pressing is Sign.PULLING and error <= _SETTLED:
             return None
-        if error <= rtol or n == ORDERS[-1]:
+        hopeless = n >= _LAST_TRY and beyond_reach(scene, strips.contact, (n, ORDERS[-1]), error / rtol)
+        if error <= rtol or n == ORDERS[-1] or hopeless:
             by_loss = friction if cancelled else friction_by_loss(scene, strips)
             energy = abs(by_loss - strips.friction) / scale
-            error = max(error, 0.0 if cancelled else energy / ENERGY_OVER_ERROR, ROUNDING)
+            if not cancelled:
+                # what order, and what Newton leaves of forces that partly cancel, may do
+                most = MOST * error + strips.left * (strips.gross_friction + _reach(strips, scene)) / scale
+                rounding = ROUNDING * strips.gross_friction / scale
+                error = max(error, energy / ENERGY_OVER_ERROR, min(_TWICE * energy, most), rounding)
+            error = max(error, LAYER_OVER_ENERGY * energy if hopeless else ROUNDING)
             decided = n >= SIGN_ORDER or pressing is not Sign.UNDECIDED
-            if (error <= rtol and decided) or n == ORDERS[-1]:
+            if (error <= rtol and decided) or n == ORDERS[-1] or hopeless:
                 if overlaps(scene, strips.contact, strips.depth):
                     return None
                 fields = SpectralFields(
@@ -172,6 +179,11 @@ def _polished(scene: Scene, grid: GridContact, start: _Start, rtol: float) -> Ou
 def _scale(scene: Scene, friction: float) -> float:
     """What errors of friction are relative to; one where the layer is elastic and friction is zero."""
     return abs(friction) if scene.lossy and friction else 1.0
+
+
+def _reach(strips: Strips, scene: Scene) -> float:
+    """Half width over R: how much of itself a strip's force turns by where it moves by its half width."""
+    return float(strips.contact.alpha.max()) / scene.problem.rho
 
 
 def _edges(strips: Strips) -> Array:
@@ -232,16 +244,17 @@ def _overloaded(grid: GridContact, limit: float) -> Outcome:
     return Outcome(Status.WRAP_LIMIT, grid=grid.points, way="grid", remarks=(_LIMIT.format(limit),))
 
 
-def _limit(coarse: Grid, about: float | None, load: float) -> float:
+def _limit(coarse: Grid, raised: Raised | None, load: float) -> float:
     """The mean pressure from which on the contact touches the last of 256 nodes on the roll, `load` at most.
 
-    `about` is that of 64 nodes, the coarse grid's.
+    `raised` is the contact of 64 nodes, the coarse grid's, under the load.
     """
     try:
-        below = coarse.contact(0.5 * min(coarse.raised(load)[1] if about is None else about, load))
+        raised = coarse.raised(load) if raised is None else raised
+        below = coarse.halfway(raised) if raised.limit < load else coarse.contact(0.5 * load)
         below = Grid(coarse.problem, 2 * coarse.points).contact(below.mean_pressure, below)
         finer = Grid(coarse.problem, 4 * coarse.points)
-        return min(load, finer.raised(load, below)[1])
+        return min(load, finer.raised(load, below).limit)
     except NoSolutionError:
         return load
 

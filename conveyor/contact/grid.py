@@ -18,6 +18,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -130,6 +131,17 @@ def solve_grid(
     return Grid(problem, points).contact(problem.pressure, start, depth=depth)
 
 
+class Raised(NamedTuple):
+    """A contact raised from nothing, the p̃_m from which on it touches the roll's end, infinite where it does not.
+
+    `half` are the nodes in contact under half of that.
+    """
+
+    contact: GridContact
+    limit: float
+    half: NDArray[np.bool_]
+
+
 class Grid:
     """A scene's surface on a grid, made once for any number of loads; parameters as in `solve_grid`."""
 
@@ -156,13 +168,13 @@ class Grid:
         except NoSolutionError:
             if self.x.size > _FEW or depth is not None:
                 raise
-            return self.raised(pressure)[0]
+            return self.raised(pressure).contact
 
-    def raised(self, pressure: float, start: GridContact | None = None) -> tuple[GridContact, float]:
-        """Contact under a mean pressure p̃_m raised from nothing, and the p̃_m from which on it touches the roll's end.
+    def raised(self, pressure: float, start: GridContact | None = None) -> Raised:
+        """Contact under a mean pressure p̃_m raised from nothing, and where on the way it touches the roll's end.
 
-        That is infinite where it does not. Raised from the load of `start`, a contact on another grid, where that leads
-        to one here. For some hundred nodes: each exchange of the active set costs their square.
+        Raised from the load of `start`, a contact on another grid, where that leads to one here. For some hundred
+        nodes: each exchange of the active set costs their square.
         """
         if start is not None:
             try:
@@ -172,16 +184,19 @@ class Grid:
                 pass  # what rounding makes of two nodes that touch at once may run in circles
         return self._lowered(np.zeros(self.x.size, dtype=bool), 0.0, pressure, _EXCHANGES)
 
-    def _lowered(
-        self, active: NDArray[np.bool_], carried: float, pressure: float, exchanges: int
-    ) -> tuple[GridContact, float]:
+    def _lowered(self, active: NDArray[np.bool_], carried: float, pressure: float, exchanges: int) -> Raised:
         """`raised` from the nodes in contact under a smaller mean pressure."""
         surface, height = self._surface, 0.0
         if carried:
             height = _equations(surface, self._drop, np.flatnonzero(active), carried, None)[1]
         tableau = _Tableau(surface.dense(np.arange(self.x.size)), self._drop, active, height)
-        limit = tableau.lower(pressure * self.points, exchanges * self.x.size) / self.points
-        return self._contact(tableau.active, pressure, None), limit
+        limit = tableau.lower(pressure * self.points, exchanges * self.x.size)
+        half = tableau.active_under(0.5 * limit)
+        return Raised(self._contact(tableau.active, pressure, None), limit / self.points, half)
+
+    def halfway(self, raised: Raised) -> GridContact:
+        """Contact under half the mean pressure that touches the roll's end."""
+        return self._contact(raised.half, 0.5 * raised.limit, None)
 
     @property
     def points(self) -> int:
@@ -313,12 +328,11 @@ def _aliases(layer: Layer, creep: CreepSpectrum, points: int) -> Array:
     """
     nodes = chebyshev.chebpts1(21)
     at = 0.25 * points * (nodes + 1.0)
-    alias, alias_loss = np.zeros(nodes.size, dtype=complex), np.zeros(nodes.size)
-    for turn in range(1, _ALIASES + 1):
-        above, below = turn * points + at, turn * points - at
-        up, down = layer.symbol(above, creep), np.conj(layer.symbol(below, creep))
-        alias += up / above**3 + down / below**3
-        alias_loss += up.imag / above**4 + down.imag / below**4
+    turns = points * np.arange(1.0, _ALIASES + 1.0)[:, None]
+    m = np.stack([turns + at, turns - at])
+    symbol = layer.symbol(m.ravel(), creep).reshape(m.shape)
+    symbol[1] = np.conj(symbol[1])
+    alias, alias_loss = (symbol / m**3).sum(axis=(0, 1)), (symbol.imag / m**4).sum(axis=(0, 1))
     far = layer.symbol(np.array([(_ALIASES + 2.0) * points]), creep)[0].real
     tail = special.zeta(3.0, _ALIASES + 1.0 + at / points) + special.zeta(3.0, _ALIASES + 1.0 - at / points)
     alias += far * tail / float(points) ** 3
@@ -386,45 +400,56 @@ class _Tableau:
     def __init__(self, matrix: Array, drop: Array, active: NDArray[np.bool_], height: float) -> None:
         a, b = np.flatnonzero(active), np.flatnonzero(~active)
         self.active, self.height = active.copy(), height
-        self.table, self.lines = np.array(matrix, order="F"), np.stack([drop, -np.ones(drop.size)], axis=1)
+        self._before, self._way = active.copy(), list[tuple[float, int]]()
+        self.table, self.lines = np.array(matrix, order="F"), np.stack([drop, -np.ones(drop.size)])
         if a.size:
             inverse, over = np.linalg.inv(matrix[np.ix_(a, a)]), matrix[np.ix_(a, b)]
             under = matrix[np.ix_(b, a)] @ inverse
-            self.lines[b] -= under @ self.lines[a]
-            self.lines[a] = -inverse @ self.lines[a]
+            self.lines[:, b] -= self.lines[:, a] @ under.T
+            self.lines[:, a] = -self.lines[:, a] @ inverse.T
             self.table[np.ix_(a, a)], self.table[np.ix_(a, b)] = inverse, -inverse @ over
             self.table[np.ix_(b, a)], self.table[np.ix_(b, b)] = under, matrix[np.ix_(b, b)] - under @ over
 
     def lower(self, load: float, exchanges: int) -> float:
         """Lower the roll until Σ p = `load`; the Σ p from which on an end node is in contact, infinite if none is."""
+        from scipy.linalg.blas import dger  # 10 ms that contacts without a grid do without
+
         limit = 0.0 if self._at_end() else math.inf
+        constant, slope = self.lines
         for _ in range(exchanges):
-            constant, slope = self.lines.T
-            ready = np.divide(-constant, slope, out=np.full(slope.size, math.inf), where=slope < 0.0)
-            node = int(np.argmin(ready))
+            ready = np.where(slope < 0.0, constant, math.inf) / np.abs(slope)
+            node = int(ready.argmin())
             self.height = max(self.height, float(ready[node]))
             carried = math.inf
             if math.isfinite(self.height):
-                carried = float(constant[self.active].sum() + self.height * slope[self.active].sum())
+                carried = float(constant @ self.active + self.height * (slope @ self.active))
             if carried >= load:
                 return limit
-            self._exchange(node)
+            self._exchange(node, dger)
+            self._way.append((carried, node))
             limit = min(limit, carried) if self._at_end() else math.inf
         raise NoSolutionError(f"the load on the grid did not rise within {exchanges} exchanges")
+
+    def active_under(self, load: float) -> NDArray[np.bool_]:
+        """Nodes in contact under a smaller Σ p, on the way that was taken."""
+        active = self._before.copy()
+        for carried, node in self._way:
+            if carried > load:
+                break
+            active[node] ^= True
+        return active
 
     def _at_end(self) -> bool:
         return bool(self.active[0] or self.active[-1])
 
-    def _exchange(self, node: int) -> None:
+    def _exchange(self, node: int, rank_one: Callable[..., Array]) -> None:
         """A node's pressure for its gap, or the other way round."""
-        from scipy.linalg.blas import dger  # 10 ms that contacts without a grid do without
-
         inverse = 1.0 / self.table[node, node]
-        column, row, line = self.table[:, node].copy(), self.table[node].copy(), self.lines[node] * inverse
-        self.lines -= np.outer(column, line)
-        self.table = dger(-inverse, column, row, a=self.table, overwrite_a=1)
+        column, row, line = self.table[:, node].copy(), self.table[node].copy(), self.lines[:, node] * inverse
+        self.lines -= line[:, None] * column
+        self.table = rank_one(-inverse, column, row, a=self.table, overwrite_a=1)
         self.table[node], self.table[:, node] = -row * inverse, column * inverse
-        self.lines[node], self.table[node, node] = -line, inverse
+        self.lines[:, node], self.table[node, node] = -line, inverse
         self.active[node] ^= True
 
 

@@ -7,6 +7,7 @@ to the other ways.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
@@ -53,9 +54,9 @@ Index = NDArray[np.int_]
 _SEARCH = 10
 _ROUGH = 1e-9  # relative error of eccentricities on the way
 _SAMPLES, RANGE = 4, 0.25  # half widths sampled, to both sides of the guess in ln α
-_OUTSIDE = 1.3  # of that range: farther, the guess was wrong
+_SPAN = 2.0 * math.cos(0.5 * math.pi / _SAMPLES)  # of the samples, over that range
+_OUTSIDE = 0.2  # of the samples' span of ln p: farther beyond them, the guess was wrong
 ROOM = 1.4  # the rule serves contacts wider than the guess by so much: exp(1.3 x 0.25)
-_NEWTON_STEPS, _LAST_STEP = 8, 1e-8  # of the nearly straight cubic; the last step leaves its square
 _CLOSING_STEPS = 8
 _LOAD_SHARE = 0.1  # of rtol: what closing the load may leave of friction
 _LOAD_LOOSE = 0.5  # of rtol: order's error and what is left of the load, together
@@ -63,6 +64,7 @@ PLACE_SHARE = 1e-4  # of rtol: what may be left of an eccentricity
 # times the mismatch of load, times what the search's order is off by: what carrying a contact to its load misses of
 # friction (seen: 0.2 to 1 in the median, 7 to 30 in 99 % of scenes), and of its edges over α (0.3; 0.2 to 70)
 _CARRIED, _EDGES_CARRIED = 20.0, 100.0
+_SHAPE_CARRIED = 2.0  # the same of the largest pressure, times Σ v |c_v/c_1| that is not carried (0.7 seen)
 _CUT = 0.03  # of a cubic's last coefficient: what the cubic itself is off by between its points
 _MOST_PANELS = 12
 _ROLL = 0.98  # of its radius: the widest half width
@@ -70,7 +72,7 @@ _WIDE_CHUNK = 16  # wide ones have several times the nodes
 _MOST_ENTRIES = 3_000_000  # of the matrices that are formed together
 _FARTHEST = 2.0  # times the order, in one step
 _GUESSES_TRIED = 4
-_FLATTEST, _FARTHEST_GUESS = 0.1, 1.5  # d ln p over the search's half range; ln of half widths
+_FLATTEST, _FARTHEST_GUESS = 0.4, 1.5  # d ln p/d ln α; ln of half widths
 CHUNK = 200  # scenes whose tables stay in the processor's cache
 _GUESSES = 14
 _GUESS = 1.0  # of the Hertz guess: the true half widths of conveyor covers, glassy to rubbery, are 0.80 to 1.21 of it
@@ -201,95 +203,109 @@ def guess(group: Group) -> Array:
 
 
 @lru_cache(maxsize=1)
-def _points() -> tuple[tuple[float, ...], Array]:
-    """Half widths over the guess at Chebyshev points of the search, and from values there to a cubic's coefficients."""
-    t = np.cos((np.arange(_SAMPLES) + 0.5) * (np.pi / _SAMPLES))
-    return tuple(np.exp(RANGE * t).tolist()), np.linalg.inv(np.vander(t, increasing=True)).T
+def _points() -> tuple[float, ...]:
+    """Half widths over the guess, at Chebyshev points of the search's range, from the widest down."""
+    return tuple(np.exp(RANGE * np.cos((np.arange(_SAMPLES) + 0.5) * (np.pi / _SAMPLES))).tolist())
+
+
+class Cubics:
+    """Cubics through four points y of b scenes, shape (b, 4), of f figures each, shape (f, b, 4): Newton's form."""
+
+    def __init__(self, y: Array, figures: Array) -> None:
+        self.y = y
+        parts, last = [figures[..., 0]], figures
+        for step in range(1, _SAMPLES):
+            last = (last[..., 1:] - last[..., :-1]) / (y[:, step:] - y[:, :-step])
+            parts.append(last[..., 0])
+        self.parts = np.stack(parts)
+
+    def value(self, rows: Index, y: Array, figures: slice | int = slice(None)) -> Array:
+        """Figures of some rows at y."""
+        first, second, third, fourth = self.parts[:, figures][..., rows]
+        away = y[:, None] - self.y[rows]
+        value: Array = first + away[:, 0] * (second + away[:, 1] * (third + away[:, 2] * fourth))
+        return value
+
+    def slope(self, rows: Index, y: Array) -> Array:
+        """Their derivatives by y, of the first three figures."""
+        _, second, third, fourth = self.parts[:, :3, rows]
+        away = y[:, None] - self.y[rows]
+        sum_, product = away[:, 0] + away[:, 1], away[:, 0] * away[:, 1]
+        slope: Array = second + sum_ * third + (product + away[:, 2] * sum_) * fourth
+        return slope
 
 
 class Search:
     """Half widths on their way to the load, one scene a row.
 
-    At a low order the load is sampled at four half widths in one batch: ln p̃_m(ln α) is a cubic to 1e-5. At a higher
-    order it differs by an offset that hardly depends on α, so that each evaluation there gives the next place, and the
-    contact there as soon as it is near.
+    At a low order four half widths are sampled in one batch: ln α, ε/α, ln |μ| and the pressure's shape c_v/c_1 are
+    cubics of y = ln p̃_m, to 1e-5. At a higher order ln p̃_m differs by an offset that hardly depends on α, so that each
+    evaluation there gives the next place, and the contact there as soon as it is near.
     """
 
     def __init__(self, group: Group, rules: Sequence[ShortRule], alpha: Array, rtol: float) -> None:
         self.group, self.tolerance = group, PLACE_SHARE * rtol
         self.rule, self.check = rules
         self.middle = np.log(alpha)
-        ratios, transform = _points()
         size = alpha.size
-        sampled = np.multiply.outer(alpha, ratios).ravel()
-        matrix = Tabled.of(group.creeps, alpha).matrices(self.rule, _SEARCH, ratios)
+        sampled = np.multiply.outer(alpha, _points()).ravel()
+        matrix = Tabled.of(group.creeps, alpha).matrices(self.rule, _SEARCH, _points())
         contact = equilibrium(matrix, sampled, np.repeat(group.rho, _SAMPLES), tolerance=_ROUGH)
-        good = (contact.inside & (contact.pressure > 0.0)).reshape(size, _SAMPLES).all(axis=1)
-        # cubics of ln p, ε/α and ln |μ|
-        self.lossy = (contact.friction != 0.0).reshape(size, _SAMPLES).all(axis=1)
-        sampled_figures = np.stack(
-            [
-                _log(contact.pressure, contact.pressure > 0.0),
-                contact.eps / sampled,
-                _log(contact.friction, contact.friction != 0.0),
-            ]
-        )
-        self.cubics = sampled_figures.reshape(3, size, _SAMPLES) @ transform
-        # cubics of the pressure's shape c_v/c_1
-        shapes = contact.c[:, 1:] / contact.c[:, :1]
-        self.shapes = shapes.reshape(size, _SAMPLES, -1).transpose(2, 0, 1) @ transform
-        self.place, self._from = np.zeros((2, size))
+        pressing = contact.inside & (contact.pressure > 0.0)
+        good = pressing.reshape(size, _SAMPLES).all(axis=1)
+        lossy = contact.friction != 0.0
+        self.lossy = lossy.reshape(size, _SAMPLES).all(axis=1)
+        figures = np.empty((_SEARCH + 2, size * _SAMPLES))
+        np.log(sampled, out=figures[0])
+        np.divide(contact.eps, sampled, out=figures[1])
+        figures[2] = _log(contact.friction, lossy)
+        np.divide(contact.c[:, 1:].T, contact.c[:, 0], out=figures[3:])
+        y = _log(contact.pressure, pressing).reshape(size, _SAMPLES)
+        rising = (y[:, 1:] < y[:, :-1]).all(axis=1)
+        y[~rising] = -np.arange(_SAMPLES)
+        self.cubics = Cubics(y, figures.reshape(-1, size, _SAMPLES))
+        self.span = y[:, 0] - y[:, -1]
+        self.place, self._from = self.group.target.copy(), np.zeros(size)
         self.offset = np.zeros(size)
         self._order, self._miss, self._share = np.zeros(size), np.zeros(size), np.zeros(size)
-        self.alive = np.array(good, dtype=bool)
+        self.alive = np.asarray(good & rising)
         self.matrices = np.ones(size, dtype=int)
-        self.move(np.flatnonzero(good))
+        self.move(np.flatnonzero(self.alive))
         self.stray = good & ~self.alive
 
     @property
     def extrapolated(self) -> Array:
         """Half widths where a straight line through the middle meets the load: for those far outside."""
-        load = self.cubics[0]
-        away = RANGE * (self.group.target - load[:, 0]) / np.maximum(load[:, 1], _FLATTEST)
+        exponent = np.maximum(self.span / (_SPAN * RANGE), _FLATTEST)
+        away = (self.group.target - self.cubics.y.mean(axis=1)) / exponent
         values: Array = np.exp(self.middle + np.clip(away, -_FARTHEST_GUESS, _FARTHEST_GUESS))
         return values
 
     def move(self, rows: Index) -> None:
-        """Newton on the cubic and its offset, to the place where the load is met; rows far outside are given up."""
-        cubic = self.cubics[0, rows]
-        wanted = self.group.target[rows] - self.offset[rows]
-        t = self.place[rows]
-        for _ in range(_NEWTON_STEPS):
-            rise = _slope(cubic, t)
-            rising = rise > 0.0
-            last = t
-            t = np.where(rising, t - (_value(cubic, t) - wanted) / np.where(rising, rise, 1.0), _OUTSIDE)
-            t = np.minimum(np.maximum(t, -_OUTSIDE), _OUTSIDE)
-            if (np.abs(t - last) <= _LAST_STEP).all():
-                break
-        self.place[rows] = t
-        self.alive[rows] &= np.abs(t) < _OUTSIDE
+        """To the places where the load is met with the present offset; rows far outside are given up."""
+        self.place[rows] = y = self.group.target[rows] - self.offset[rows]
+        ends = self.cubics.y[rows]
+        beyond = np.maximum(y - ends[:, 0], ends[:, -1] - y)
+        self.alive[rows] &= beyond < _OUTSIDE * self.span[rows]
 
     def place_and_slope(self, row: int) -> tuple[float, float]:
         """Ln α of the present place and d ln p̃_m/d ln α there."""
-        t, load = float(self.place[row]), self.cubics[0, row]
-        slope = (load[1] + t * (2.0 * load[2] + t * 3.0 * load[3])) / RANGE
-        return float(self.middle[row] + RANGE * t), float(slope)
+        at = np.array([row])
+        run = self.cubics.slope(at, self.place[at])[0, 0]
+        return float(self.cubics.value(at, self.place[at], 0)[0]), float(1.0 / run)
 
     def exponent(self, rows: Index) -> Array:
         """β = d ln μ/d ln p at the present places; zero where nothing is lost."""
-        load, _, drag = _slope(self.cubics[:, rows], self.place[rows])
-        out: Array = np.where(self.lossy[rows], drag / load, 0.0)
-        return out
+        return np.where(self.lossy[rows], self.cubics.slope(rows, self.place[rows])[2], 0.0)
 
     def evaluate(self, rows: Index, n: int) -> tuple[Contact, Array, Array, Tabled]:
         """Contacts of some rows at order n, their matrices, ln p - target, tables; moves on to the next places."""
-        t = self._from[rows] = self.place[rows]
-        alpha = np.exp(self.middle[rows] + RANGE * t)
+        y = self._from[rows] = self.place[rows]
+        log_alpha, turn = self.cubics.value(rows, y, slice(2))
+        alpha = np.exp(log_alpha)
         tabled = Tabled.of(self.group.creeps[rows], alpha)
         matrix = tabled.matrices(self.rule[rows], n)
-        start = alpha * _value(self.cubics[1, rows], t)
-        contact = equilibrium(matrix, alpha, self.group.rho[rows], start, self.tolerance)
+        contact = equilibrium(matrix, alpha, self.group.rho[rows], alpha * turn, self.tolerance)
         self.matrices[rows] += 1
         good = np.asarray(contact.inside & (contact.pressure > 0.0))
         self.alive[rows] &= good
@@ -303,31 +319,37 @@ class Search:
         self.move(rows[good])
         return contact, matrix, miss, tabled
 
-    def carried(self, rows: Index, contact: Contact, miss: Array) -> tuple[Contact, Array]:
-        """Contacts just evaluated, carried to their loads as those of the low order go; the friction it may miss."""
-        t_from, t_to = self._from[rows], self.place[rows]
-        cubics = self.cubics[:, rows]
-        here = _value(cubics, t_from)
-        heavier, shifted, dragged = _value(cubics, t_to) - here
+    def carried(self, rows: Index, contact: Contact, miss: Array) -> tuple[Contact, Array, Array]:
+        """Contacts just evaluated, carried to their loads as those of the low order go.
+
+        With the friction and the largest pressure that this may miss, relative.
+        """
+        y_from, y_to = self._from[rows], self.place[rows]
+        here = self.cubics.value(rows, y_from)
+        log_wider, shifted, dragged, *_ = change = self.cubics.value(rows, y_to) - here
         lossy = self.lossy[rows] & (contact.friction != 0.0)
-        wider, heavier = np.exp(RANGE * (t_to - t_from)), np.exp(heavier)
-        dragged = np.exp(np.where(lossy, dragged, 0.0))
+        wider, heavier = np.exp(log_wider), np.exp(y_to - y_from)
         alpha = contact.alpha * wider
         eps = wider * contact.eps + alpha * shifted
-        c, shapes = contact.c * (heavier / wider)[:, None], self.shapes[:, rows]
-        c[:, 1:_SEARCH] += c[:, :1] * (_value(shapes, t_to) - _value(shapes, t_from)).T
-        off = np.abs(_log(contact.friction, lossy) - here[2]) + _CUT * np.abs(cubics[2, :, 3])
-        off = np.where(lossy, off, 0.0)
-        off += np.abs(self.group.target[rows] + miss - here[0]) + _CUT * np.abs(cubics[0, :, 3])
+        first, c = contact.c[:, :1], contact.c * (heavier / wider)[:, None]
+        c[:, 1:_SEARCH] += c[:, :1] * change[3:].T
+        # what the cubics are off by: of friction, of the load, of the pressure's shape
+        cut = _CUT * np.abs(self.cubics.parts[3][:, rows]) * (self.span[rows] / _SPAN) ** 3
+        off = np.where(lossy, np.abs(_log(contact.friction, lossy) - here[2]) + cut[2], 0.0)
+        off += np.abs(self.group.target[rows] + miss - y_from) + cut[0] * self.span[rows] / (_SPAN * RANGE)
+        shape = np.abs(contact.c[:, 1:] / first)
+        shape[:, : _SEARCH - 1] = np.abs(contact.c[:, 1:_SEARCH] / first - here[3:].T)
+        unlike = shape @ np.arange(2.0, c.shape[1] + 1.0)
+        missed = np.abs(miss)
         met = Contact(
             alpha,
             eps,
             c,
             contact.pressure * heavier,
-            contact.friction * dragged,
+            contact.friction * np.exp(np.where(lossy, dragged, 0.0)),
             contact.inside & (alpha + np.abs(eps) < self.group.rho[rows]),
         )
-        return met, _CARRIED * off * np.abs(miss)
+        return met, _CARRIED * off * missed, _SHAPE_CARRIED * unlike * missed
 
 
 def _log(values: Array, told: NDArray[np.bool_]) -> Array:
@@ -336,25 +358,13 @@ def _log(values: Array, told: NDArray[np.bool_]) -> Array:
     return logs
 
 
-def _value(cubic: Array, t: Array) -> Array:
-    """Cubics of coefficients of shape (..., b, 4) at t."""
-    value: Array = cubic[..., 0] + t * (cubic[..., 1] + t * (cubic[..., 2] + t * cubic[..., 3]))
-    return value
-
-
-def _slope(cubic: Array, t: Array) -> Array:
-    """Their derivatives."""
-    slope: Array = cubic[..., 1] + t * (2.0 * cubic[..., 2] + t * 3.0 * cubic[..., 3])
-    return slope
-
-
 class _Closing:
     """Raises the order until each scene meets rtol, and checks what it finds."""
 
     def __init__(self, search: Search, rtol: float) -> None:
         self.search, self.rtol = search, rtol
         self.tight = max(_LOAD_SHARE * rtol, LOAD_FLOOR)
-        self.error, self.most, self.edges = np.ones((3, search.place.size))
+        self.error, self.most, self.edges, self.peak = np.ones((4, search.place.size))
         self.wanted = np.full(search.place.size, lowest_order(rtol))
         self.done: dict[int, Outcome | Near | Left] = {}
 
@@ -381,11 +391,12 @@ class _Closing:
                 self.error[rows], self.most[rows], self.edges[rows] = by_order
             alive = search.alive[rows]
             fine = (self.error[rows] <= rtol) & alive
-            met, left = search.carried(rows, contact, miss)
+            met, left, peak = search.carried(rows, contact, miss)
             error = self.error[rows] + left
             near = fine & met.inside & ((left <= self.tight) | (error <= _LOAD_LOOSE * rtol))
             at = np.flatnonzero(near)
             if at.size:
+                self.peak[rows[at]] = peak[at]
                 self.edges[rows[at]] += _EDGES_CARRIED / _CARRIED * left[at] * met.alpha[at]
                 evaluated, closed = chosen_rows(contact, at), chosen_rows(met, at)
                 self._accept((rows[at], tabled[at]), evaluated, closed, error[at])
@@ -444,6 +455,7 @@ class _Closing:
                 energy_error=errors[1],
                 error_estimate=errors[0],
                 edge_error=float(self.edges[row]),
+                peak_error=float(self.peak[row]),
                 fields=SpectralFields(problem.layer, creep, contact, problem.rho),
             ),
             order=int(contact.c.shape[1]),

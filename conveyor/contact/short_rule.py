@@ -34,7 +34,6 @@ ComplexArray = NDArray[np.complex128]
 CAPS = (0.5, 1.0, 1.5, 2.0, 2.4)
 """Half widths α up to which windows are made: the alias exp(-(w(2π-2α))²/4) asks for wider ones."""
 WIDEST = CAPS[0]  # where the width below meets it, 1e-17
-_RAMP = 6.5  # as in quadrature.py
 # Up to a cap: nodes on [0, 1], where f is a polynomial of one degree less to rounding; ζ beyond which Q_l is recurred
 # upward, where it loses r^(2·nodes) units of rounding, r = |z + sqrt(z² - 1)| = 1.7, 1.36, z = -1 - 2i/ζ; Gauss points
 # of the other terms, r^(nodes - 2·points) = 1e-15
@@ -47,6 +46,7 @@ class Grade:
 
     `stretch` and `phase` limit the panels beyond the window as in quadrature.Panels; `depth` is the q = m k h beyond
     which L = 1 is taken, |L-1| < 4 q² exp(-2q). `error` is what all of it may do to friction (seen: a quarter of it).
+    The window is one up to m = 1 and zero from its end 2 m0 on: m0 = `ramp` w.
     """
 
     width: float
@@ -56,16 +56,20 @@ class Grade:
     phase: float
     depth: float
     error: float
+    ramp: float = 6.5  # as in quadrature.py
 
 
-# to rounding, and to 1e-9 of the largest entry; the rules of a pair have no node in common
+# to rounding, to 1e-9 and to 1e-7 of the largest entry; the rules of a pair have no node in common
 FINE = (Grade(2.4, 16, 11, 1.7, 14.0, 20.0, 5e-11), Grade(2.8, 18, 14, 1.9, 15.0, 20.0, 5e-11))
 COARSE = (Grade(2.4, 12, 5, 1.7, 13.0, 13.5, 2e-8), Grade(2.8, 13, 6, 1.8, 13.0, 14.0, 2e-8))
-COARSE_FROM, FINE_FROM = 1e-7, 1e-10  # rtol down to which the pairs serve
+LOOSE = (Grade(1.55, 9, 3, 1.7, 10.0, 10.5, 5e-6, 4.6), Grade(1.7, 10, 4, 1.8, 10.0, 11.0, 5e-6, 4.6))
+LOOSE_FROM, COARSE_FROM, FINE_FROM = 1e-4, 1e-7, 1e-10  # rtol down to which the pairs serve
 
 
 def grades_for(rtol: float) -> tuple[Grade, Grade]:
     """The pair that solves and checks to a tolerance."""
+    if rtol >= LOOSE_FROM:
+        return LOOSE
     return COARSE if rtol >= COARSE_FROM else FINE
 
 
@@ -123,7 +127,7 @@ def _edges(grade: Grade, cap: float, end: float) -> Array:
 def _window(grade: Grade, count: int, cap: float) -> _Window:
     """Window of a grade with `count` coarse nodes."""
     width = _width(grade, cap)
-    centre = _RAMP * width
+    centre = grade.ramp * width
     end = float(math.ceil(2.0 * centre))
     integers = np.arange(1.0, end + 1.0)
     x, gauss = _gauss(grade.points)
@@ -216,7 +220,7 @@ def _beside(shared: Array, own: Array) -> Array:
 
 def _count(grade: Grade, cap: float, widest: float) -> int:
     """Coarse nodes of a window: a function that turns ±c radians is a polynomial of degree c + O(c^(1/3))."""
-    phase = widest * math.ceil(2.0 * _RAMP * _width(grade, cap))
+    phase = widest * math.ceil(2.0 * grade.ramp * _width(grade, cap))
     steps = 4.0 if cap == WIDEST else 16.0
     return int(steps * math.ceil((phase + 4.0 * phase ** (1.0 / 3.0) + grade.spare) / steps))
 
@@ -237,7 +241,7 @@ def _beyond(reach: Array, half_width: Array, grade: Grade, end: float) -> tuple[
 
 def panels_beyond(reach: Array, half_width: Array, grade: Grade) -> NDArray[np.int_]:
     """About how many panels each scene needs beyond the window: for handing over like with like."""
-    end = float(math.ceil(2.0 * _RAMP * grade.width))
+    end = float(math.ceil(2.0 * grade.ramp * grade.width))
     by_phase = np.maximum(reach - end, 0.0) * 2.0 * half_width / grade.phase
     by_stretch = np.log(np.maximum(reach / end, 1.0)) / grade.stretch
     return np.ceil(np.maximum(by_phase, by_stretch)).astype(int)

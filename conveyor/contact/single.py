@@ -36,7 +36,7 @@ _BEYOND_REACH, _FAR = 2.0, 10.0  # that of the longest tail, and energy's error 
 _UNRESOLVED = 2.4  # power of n that they fall with before
 # a layer not yet resolved: friction errs by 140 to 220 times that product of the energy's error, which hardly changes;
 # where it peaks, by 2 to 7 times it, and orders agree. Twice that is counted, unless energy falls with this power of n
-_EARLY, _LAYER_OVER_ENERGY, _STEADY = 400.0, 10.0, 2.0
+_EARLY, LAYER_OVER_ENERGY, _STEADY = 400.0, 10.0, 2.0
 _FIRST_LOAD_TOLERANCE = 1e-3  # while the order is still rising
 EDGE_LAYER = "a layer at the contact's edge is thinner than the order resolves: pressure ripples there"
 
@@ -124,13 +124,13 @@ def _converged(
             energy = energy_error(scene, state.contact, state.system.lost_beyond(contact))
             error = max(error, state.miss, float(by_energy(energy, by_order.most)[0]))
             decided = last >= SIGN_ORDER or sign(contact, rtol) is not Sign.UNDECIDED
-            if settled and error * (last / longest) ** _UNRESOLVED > rtol and reach < RESOLVED:
+            if settled and last > n and beyond_reach(scene, contact, (last, longest), error / rtol):
                 following = None
             here = last, float(energy[0])
             if last > n and not _falls(lost, here):
                 reached = _resolution(scene, contact, last)
                 if reached < RESOLVED:
-                    error = max(error, min(_EARLY * reached, _LAYER_OVER_ENERGY) * here[1])
+                    error = max(error, min(_EARLY * reached, LAYER_OVER_ENERGY) * here[1])
                 if reach < _BEYOND_REACH and lost is not None and here[1] > _FAR * rtol:
                     following = None
             lost = here
@@ -165,6 +165,15 @@ def _falls(before: tuple[int, float] | None, now: tuple[int, float]) -> bool:
     return before is not None and now[1] * now[0] ** _STEADY <= before[1] * before[0] ** _STEADY
 
 
+def beyond_reach(scene: Scene, contact: Contact, orders: tuple[int, int], excess: float) -> bool:
+    """Whether the longest order does not reach the edge layer, nor falls an error that exceeds rtol so far below it.
+
+    `orders` are the present and the longest one.
+    """
+    now, longest = orders
+    return excess * (now / longest) ** _UNRESOLVED > 1.0 and _resolution(scene, contact, longest) < RESOLVED
+
+
 def _resolution(scene: Scene, contact: Contact, last: int) -> float:
-    """Square of an order times the edge layer's share of the half width; infinite of an elastic contact."""
-    return edge_layer(scene.creep, float(contact.alpha[0])) * last**2
+    """Square of an order times the edge layer's share of the narrowest half width; infinite of an elastic contact."""
+    return edge_layer(scene.creep, float(contact.alpha.min())) * last**2

@@ -70,6 +70,7 @@ class Found:
     error_estimate: float
     edge_error: float  # X
     fields: Fields
+    peak_error: float = 0.0  # of the largest pressure, relative, beside that of `fields`
 
 
 @dataclass(frozen=True, eq=False)
@@ -226,7 +227,8 @@ class ContactSolution:
     @cached_property
     def peak_error(self) -> float:
         """Estimated relative error of the largest pressure [-], from the tail of its series."""
-        return self._need().fields.peak_error() + self.error_estimate
+        solved = self._need()
+        return solved.peak_error + solved.fields.peak_error() + self.error_estimate
 
     @property
     def patches(self) -> Array:

@@ -58,7 +58,7 @@ def solve(problem: ContactProblem, rtol: float = 1e-6, *, throw: bool = True) ->
     >>> round(s.friction, 8), s.status.name
     (0.28505539, 'OK')
     """
-    return solve_many([problem], rtol, throw=throw)[0]
+    return _all([problem], rtol, throw)[0]
 
 
 @checked
@@ -119,6 +119,10 @@ def solve_many(
     NoSolutionError
         As `solve`, of the first scene without an answer (throw=True).
     """
+    return _all(problems, rtol, throw)
+
+
+def _all(problems: Sequence[ContactProblem], rtol: float, throw: bool) -> list[ContactSolution]:
     check_rtol(rtol)
     return [
         _solution(problem, outcome, throw)

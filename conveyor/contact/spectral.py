@@ -17,7 +17,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.bessel import ProductIK, bessel_j
+from conveyor.contact.bessel import ProductIK, bessel_j, enough_orders
 from conveyor.contact.circle import eccentricity, mean_drop, slope_expansion
 from conveyor.contact.creep import Creeps, CreepSpectrum
 from conveyor.contact.quadrature import Rule
@@ -26,7 +26,7 @@ from conveyor.contact.short_rule import ShortRule
 Array = NDArray[np.float64]
 
 _SETTLED = 1e-14  # relative, of the eccentricity
-_NEAR = 0.7  # (a + |e|)/R up to which a step or two find it
+_NEAR = 0.9  # (a + |e|)/R up to which a step or two find it
 _STEPS = 2
 
 
@@ -78,14 +78,17 @@ def assemble(
         The Bessel products of these half widths, where known.
     """
     real, imaginary, retarded = _signs(n)
-    table = bessel_j(n, alpha[:, None] * rule.nodes).swapaxes(0, 1)
+    place = alpha[:, None] * rule.nodes
+    shown = enough_orders(place, n)
+    table = bessel_j(shown, place).swapaxes(0, 1)
     even, odd = table[:, 0::2], table[:, 1::2]
     dense, lossy = rule.weights.real[..., None, :], rule.weights.imag[..., None, :]
-    gram = np.empty((alpha.size, n + 1, n + 1))  # i - v even: Re S, odd: Im S
-    gram[:, 0::2, 0::2] = (even * dense) @ even.swapaxes(1, 2)
-    gram[:, 1::2, 1::2] = (odd * dense) @ odd.swapaxes(1, 2)
-    gram[:, 0::2, 1::2] = (even * lossy) @ odd.swapaxes(1, 2)
-    gram[:, 1::2, 0::2] = gram[:, 0::2, 1::2].swapaxes(1, 2)
+    gram = np.zeros((alpha.size, n + 1, n + 1))  # i - v even: Re S, odd: Im S
+    at_even, at_odd = slice(0, shown + 1, 2), slice(1, shown + 1, 2)
+    gram[:, at_even, at_even] = (even * dense) @ even.swapaxes(1, 2)
+    gram[:, at_odd, at_odd] = (odd * dense) @ odd.swapaxes(1, 2)
+    gram[:, at_even, at_odd] = (even * lossy) @ odd.swapaxes(1, 2)
+    gram[:, at_odd, at_even] = gram[:, at_even, at_odd].swapaxes(1, 2)
     matrix: Array = (real + imaginary) * gram[:, :, 1:]
     index = np.arange(n)
     half_space = np.zeros((alpha.size, n))
@@ -239,7 +242,7 @@ def penetration(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: float) 
     return depth
 
 
-def level(rule: Rule, creep: CreepSpectrum, alpha: Array, c: Array) -> Array:
+def level(rule: Rule, creep: CreepSpectrum, alpha: Array, c: Array, ik: ProductIK | None = None) -> Array:
     """T_0 coefficient W_0 of a contact's own displacement, shape (b,).
 
     W_0 = Σ_v v c_v Σ_m Re[(-i)^{v-1} S_m] J_v J_0/m². The half-space's share: elastic, by the logarithmic potential,
@@ -254,6 +257,7 @@ def level(rule: Rule, creep: CreepSpectrum, alpha: Array, c: Array) -> Array:
     logarithm = np.log(2.0 / (rule.edge * alpha)) - np.euler_gamma + rule.edge_sum
     out += 0.5 * compliance * c[:, 0] * alpha * logarithm
     if creep.weights.size:
-        products, _ = ProductIK(n, alpha[:, None] / creep.times).weighted(creep.weights * creep.times)
+        ik = ProductIK(n, alpha[:, None] / creep.times) if ik is None else ik
+        products, _ = ik.weighted(creep.weights * creep.times)
         out += np.einsum("bv,bv->b", products[:, 0, 1:] * _signs(n)[2][0], c)
     return out

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from conveyor.contact.bessel import bessel_j
+from conveyor.contact.bessel import ProductIK, bessel_j
 from conveyor.contact.circle import mean_drop, slope_expansion
 from conveyor.contact.energy import loss
 from conveyor.contact.quadrature import CHECK, Rule, build_rule
@@ -46,11 +46,15 @@ _LARGEST_STEP, _LARGEST_LOG, _ROOM = (
 
 @dataclass(frozen=True, eq=False)
 class Strips:
-    """Strips in equilibrium under one roll: `contact` holds one an entry, eps = X_l, `jacobian` is Newton's."""
+    """Strips in equilibrium under one roll: `contact` holds one an entry, eps = X_l, `jacobian` is Newton's.
+
+    `left` is what Newton leaves of ln α_l, and of X_l in half widths.
+    """
 
     contact: Contact
     depth: float
     jacobian: Array
+    left: float
 
     @property
     def order(self) -> int:
@@ -123,7 +127,7 @@ def settle(
         )
         largest = float(np.abs(step / unit).max())
         if largest <= tolerance or (largest <= _STALLED * tolerance and largest > _SHRINKS * last):
-            return trial.strips(jacobian)
+            return trial.strips(jacobian, largest)
         last = largest
         if largest > _SHRINKS * before:
             jacobian, before = None, math.inf
@@ -160,7 +164,9 @@ class _Places:
         rho = scene.problem.rho
         k, count = alpha.shape
         self.rule: Rule = scene.rule(float(alpha.max()))
-        own = assemble(self.rule, scene.creep, alpha.ravel(), n).reshape(k, count, n + 1, n)
+        times = scene.creep.times
+        ik = ProductIK(n, alpha.ravel()[:, None] / times) if times.size else None
+        own = assemble(self.rule, scene.creep, alpha.ravel(), n, ik).reshape(k, count, n + 1, n)
         scene.matrices += k * count
         slope = slope_expansion(alpha.ravel(), centre.ravel(), rho, n + 2)[..., 0]
         self.slope = slope.reshape(k, count, n + 2)
@@ -174,7 +180,8 @@ class _Places:
         rows = full[:, :, 1:].reshape(k, count * n, count * n)
         right = self.slope[:, :, 1 : n + 1].reshape(k, count * n, 1)
         self.c = np.asarray(np.linalg.solve(rows, right), dtype=np.float64).reshape(k, count, n)
-        lifted = level(self.rule, scene.creep, alpha.ravel(), self.c.reshape(k * count, n)).reshape(k, count)
+        every = self.c.reshape(k * count, n)
+        lifted = level(self.rule, scene.creep, alpha.ravel(), every, ik).reshape(k, count)
         lifted += np.einsum("klrv,krv->kl", heights, self.c)
         drop = mean_drop(alpha.ravel(), centre.ravel(), rho, 2 * n + 16).reshape(k, count)
         self.depth = lifted + drop
@@ -193,10 +200,10 @@ class _Places:
         )
         return np.concatenate([row, heights, held[:, None]], axis=1)
 
-    def strips(self, jacobian: Array) -> Strips:
+    def strips(self, jacobian: Array, left: float) -> Strips:
         """The first place as a contact."""
         contact = pressed(self.c[0], self.slope[0], (self.alpha[0], self.centre[0]), self.scene.problem.rho)
-        return Strips(contact, float(self.depth[0].mean()), jacobian)
+        return Strips(contact, float(self.depth[0].mean()), jacobian, left)
 
 
 def _window(scene: Scene, gap: float, widen: float = 1.0) -> tuple[Array, ComplexArray]:

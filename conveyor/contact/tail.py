@@ -18,62 +18,13 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.bessel import ProductIK
+from conveyor.contact.bessel import ProductIK, neighbour_ratios
 from conveyor.contact.creep import CreepSpectrum
 
 Array = NDArray[np.float64]
 
 _BLOCK = 32
 _SEGMENT = 4096  # orders whose tables are held together
-# sweeps, by differences and by the recurrence: 1e-15 from order 32 on, for every argument
-_SMOOTH, _PLAIN = 8, 4
-
-
-def neighbour_ratios(first: int, last: int, b: Array) -> tuple[Array, Array]:
-    """I_{v+1}/I_v and K_v/K_{v+1} of the orders `first` … `last`, at least 16, without a loop over them.
-
-    Both solve a recurrence r_{v-1} (2v/b + r_v) = 1, h_v (2v/b + h_{v-1}) = 1 whose solution is smooth in v: with the
-    neighbour's difference from the sweep before, each equation is a quadratic of its own, and a sweep gains a factor
-    of v. The recurrence itself takes the last digits where b < v.
-
-    Parameters
-    ----------
-    first, last : int
-        Orders [-].
-    b : ndarray, shape (t,)
-        Arguments [-], positive.
-
-    Returns
-    -------
-    tuple of ndarray, shape (last - first + 1, t)
-
-    Examples
-    --------
-    >>> from scipy import special
-    >>> upper, lower = neighbour_ratios(40, 40, np.array([3.0]))
-    >>> round(float(upper[0, 0] / (special.iv(41, 3.0) / special.iv(40, 3.0))), 12)
-    1.0
-    """
-    spare = _SMOOTH + _PLAIN
-    v = np.arange(first - spare, last + spare + 1.0)[:, None]
-    rise = 2.0 * v / b
-    upper = b / (v + 0.5 + np.hypot(v + 1.5, b))
-    lower = b / (v - 0.5 + np.hypot(v + 0.5, b))
-    for sweep in range(1, _SMOOTH + 1):
-        change, step = upper[:-1] - upper[1:], rise[sweep:]
-        upper = _root(step + change, 1.0 - change * step)
-        lower = _root(step + (lower[:-1] - lower[1:]), 1.0)
-    for sweep in range(_PLAIN):
-        upper = 1.0 / (rise[_SMOOTH + 1 : upper.shape[0] + _SMOOTH] + upper[1:])
-        lower = 1.0 / (rise[_SMOOTH + 1 + sweep :] + lower[:-1])
-    count = last - first + 1
-    return upper[_PLAIN : _PLAIN + count], lower[:count]
-
-
-def _root(linear: Array, constant: Array | float) -> Array:
-    """Positive root of x² + linear x = constant."""
-    root: Array = 2.0 * constant / (linear + np.sqrt(linear * linear + 4.0 * constant))
-    return root
 
 
 class _Segment:

@@ -142,7 +142,7 @@ def _lift_off(scenario: Followed) -> Iterator[Check]:
             continue
         stretch, radius = stretches[f"{peak.section}, {peak.strand}"], abs(sections[peak.section].radius)
         least = lift_off_radius(max(peak.highest, 0.0), belt_mass=stretch.belt_mass, inclination=stretch.inclination,
-                                gravity=scenario.line.gravity)  # fmt: skip
+                                gravity=scenario.line.gravity, uplift=scenario.line.uplift)  # fmt: skip
         why = "the empty belt lifts off on the concave curve of {calculated}; at least {required} are needed"
         yield compared("dynamic_lift_off", f"empty belt stays down, {quoted(peak.section)}, {peak.strand}", radius,
                        "at least", least, "length", why=why, where=f"{peak.highest_at:.1f} s")  # fmt: skip

@@ -29,12 +29,8 @@ FULL_SLIP_TILT: Final = Default(
 """[rad]"""
 LEAST_GUIDANCE: Final = 0.7
 """Guiding friction to count on over the full one, wet or dirty: Grimmer, Kessler, worked example [-]."""
-WIND_DRAG: Final = Default(1.3, 1.0, 2.0, "drag coefficient of the belt's trough across the wind", True)
-"""[-]"""
 MOST_ROLLS: Final = 5
 """Of a set [-]."""
-AIR_DENSITY: Final = 1.25
-"""EN 1991-1-4, recommended value [kg/m³]."""
 
 
 def guide_friction(tilt: float, *, friction: float, full_slip: float) -> float:
@@ -426,43 +422,3 @@ def half_span(
         belt_width, middle_roll_length=middle_roll_length, trough_angle=trough_angle, inner_wing=inner_wing
     )
     return 0.5 * middle_roll_length + math.fsum(wing.length * math.cos(wing.angle) for wing in pieces)
-
-
-def wind_force(speed: float, *, height: float, length: float, drag: float, air_density: float) -> float:
-    """Force of the wind across a belt, c ρ v²/2 h a.
-
-    Parameters
-    ----------
-    speed : float
-        v of the wind [m/s], at least 0.
-    height : float
-        h that the trough shows to it [m], at least 0.
-    length : float
-        a of belt [m], positive.
-    drag : float
-        c [-], positive, see `WIND_DRAG`.
-    air_density : float
-        ρ [kg/m³], positive.
-
-    Returns
-    -------
-    float
-        Force [N].
-
-    Raises
-    ------
-    InputError
-        An argument is outside its range.
-
-    Notes
-    -----
-    Dynamic pressure as of EN 1991-1-4, without gusts: take the speed of the gust. Lift on the belt is left out.
-
-    Examples
-    --------
-    >>> wind_force(20.0, height=0.2, length=2.0, drag=1.0, air_density=1.25)
-    100.0
-    """
-    require_not_negative(speed=speed, height=height)
-    require_positive(length=length, drag=drag, air_density=air_density)
-    return drag * 0.5 * air_density * speed**2 * height * length

@@ -1,7 +1,8 @@
 """Sets of rolls: load they are rated for by class, load of a set that stands high, flap of the belt between sets.
 
 Sources: CEMA 502 (ratings of classes B, C and D as reproduced in "Calculating L10 Idler Life", scribd 483814341; E
-general knowledge); the rest is statics and the string that moves along itself (derived).
+general knowledge); lumps by Sandvik, Selection and load rating of the idlers for belt conveyors (12/99, scribd
+424696958); the rest is statics and the string that moves along itself (derived).
 """
 
 from __future__ import annotations
@@ -44,6 +45,13 @@ _VEE_RATINGS: Final[Mapping[CemaClass, tuple[int, int, int]]] = {
     "C": (30, 66, 500), "D": (36, 60, 850), "E": (36, 96, 1300),
 }  # fmt: skip
 """Two rolls in a V: narrowest and widest belt [in], [lbf]."""
+# Sandvik 12/99, table 2: factor c [-] up to these sizes of lumps [m], at these densities [kg/m³]
+_LUMP_DENSITIES: Final = (800.0, 1200.0, 1600.0, 2000.0, 2400.0, 2800.0, 3200.0)
+_LUMP_FACTORS: Final[Mapping[float, tuple[float, ...]]] = {
+    0.100: (1.0, 1.0, 1.0, 1.0, 1.1, 1.1, 1.1), 0.150: (1.0, 1.0, 1.0, 1.1, 1.1, 1.1, 1.1),
+    0.200: (1.0, 1.0, 1.1, 1.1, 1.1, 1.2, 1.2), 0.300: (1.0, 1.1, 1.1, 1.2, 1.2, 1.2, 1.3),
+    0.400: (1.1, 1.1, 1.1, 1.2, 1.2, 1.3, 1.3), 0.500: (1.1, 1.1, 1.2, 1.2, 1.3, 1.3, 1.4),
+}  # fmt: skip
 _WIDTH_SLACK: Final = 0.06
 """A width counts to the column it exceeds by this share at most: 1000 mm to 42 in, 1200 mm to 48 in; derived [-]."""
 FLAP_MODES: Final = 2
@@ -151,6 +159,48 @@ def rated_set_load(cema_class: CemaClass, *, belt_width: float, trough_angle: fl
     if rating == 0:
         raise none
     return rating * _POUND_FORCE
+
+
+def lump_load_factor(lump: float, *, density: float) -> float:
+    """Load of a set that bears lumps over the steady one, factor c (Sandvik 12/99, table 2).
+
+    Parameters
+    ----------
+    lump : float
+        Largest size of the bulk [m], at least 0.
+    density : float
+        Of the bulk [kg/m³], positive.
+
+    Returns
+    -------
+    float
+        c [-].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+    RangeError
+        The table ends at lumps of 500 mm and 3200 kg/m³.
+
+    Notes
+    -----
+    Of the middle roll there, belt included. Between two columns or rows the next one counts (derived).
+
+    Examples
+    --------
+    >>> [lump_load_factor(0.25, density=density) for density in (850.0, 1700.0, 3000.0)]
+    [1.1, 1.2, 1.3]
+    """
+    require_not_negative(lump=lump)
+    require_positive(density=density)
+    for size, factors in _LUMP_FACTORS.items():
+        for most, factor in zip(_LUMP_DENSITIES, factors, strict=True):
+            if lump <= size and density <= most:
+                return factor
+    raise RangeError(
+        f"factors are printed up to lumps of 500 mm and 3200 kg/m³, not {1e3 * lump:g} mm and {density:g} kg/m³"
+    )
 
 
 def flap_frequency(

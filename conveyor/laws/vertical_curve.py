@@ -81,8 +81,10 @@ def trough_section(
     return TroughSection(edge_above=edge - centre, middle_below=centre)
 
 
-def lift_off_radius(tension: float, *, belt_mass: float, inclination: float, gravity: float) -> float:
-    """Least radius of a concave curve on which the empty belt stays down, r = T/(m'_belt g cos δ).
+def lift_off_radius(
+    tension: float, *, belt_mass: float, inclination: float, gravity: float, uplift: float = 0.0
+) -> float:
+    """Least radius of a concave curve on which the empty belt stays down, r = T/(m'_belt g cos δ - F'_wind).
 
     Parameters
     ----------
@@ -94,11 +96,13 @@ def lift_off_radius(tension: float, *, belt_mass: float, inclination: float, gra
         δ of the belt, at its steepest in the curve [rad], between -pi/2 and pi/2.
     gravity : float
         g [m/s²], positive.
+    uplift : float
+        F'_wind that lifts it per length [N/m], at least 0, see `wind.wind_force`.
 
     Returns
     -------
     float
-        r [m].
+        r [m]; infinite where the wind alone lifts it.
 
     Raises
     ------
@@ -114,10 +118,11 @@ def lift_off_radius(tension: float, *, belt_mass: float, inclination: float, gra
     >>> round(lift_off_radius(60e3, belt_mass=20.0, inclination=0.0, gravity=9.81), 1)
     305.8
     """
-    require_not_negative(tension=tension)
+    require_not_negative(tension=tension, uplift=uplift)
     require_positive(belt_mass=belt_mass, gravity=gravity)
     require_slope(inclination=inclination)
-    return tension / (belt_mass * gravity * math.cos(inclination))
+    held = belt_mass * gravity * math.cos(inclination) - uplift
+    return tension / held if held > 0.0 else math.inf
 
 
 def overstress_radius(

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from typing import Final
 
+from conveyor.errors import RangeError
+from conveyor.laws.idlers import lump_load_factor
 from conveyor.laws.tension import PULLEY_FACTOR
 from conveyor.models import Cleaner, Conveyor, Feeding, Pulley
 from conveyor.units import from_si, quantity, si
@@ -69,3 +71,11 @@ def pulleys(conveyor: Conveyor) -> tuple[tuple[Pulley, ...], bool]:
 
 def _assumes(conveyor: Conveyor) -> bool:
     return conveyor.calculation.not_given == "usual values"
+
+
+def usual_lump_factor(lump: float | None, density: float) -> float | None:
+    """Of lumps [m], 1 where their size is not known; None where none is printed for them."""
+    try:
+        return 1.0 if lump is None else lump_load_factor(lump, density=density)
+    except RangeError:
+        return None

@@ -18,6 +18,7 @@ from conveyor.laws.resistance import BULK_ON_BELT_FRICTION, CARCASS_BENDING, idl
 from conveyor.laws.sizing import wear_addition
 from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
 from conveyor.laws.tension import usual_stiffness
+from conveyor.laws.wind import AIR_DENSITY, WIND_LIFT, wind_force
 from conveyor.line import defaults
 from conveyor.line.roll_drags import RollDrags, roll_drags
 from conveyor.line.roll_kinds import RollKind
@@ -295,6 +296,8 @@ class Line:
         Drag of each roll of one set at its rim, of every stretch [N].
     speed, flow, density, gravity : float
         Of the belt, the bulk, the site.
+    lump : float or None
+        Largest size of the bulk [m], where the spec says it.
     drives : tuple of DriveUnit
         The first one first.
     bulk_on_belt : float
@@ -311,6 +314,8 @@ class Line:
         What the flexure rests on, in words.
     us_sizes : bool
         Whether motors and pulleys are suggested of the US series, as of a spec with US units.
+    wind_speed : float or None
+        Of the gust that the empty belt must bear [m/s].
     """
 
     strands: Strands
@@ -319,6 +324,7 @@ class Line:
     speed: float
     flow: float
     density: float
+    lump: float | None
     gravity: float
     loading: tuple[LoadingPoint, ...]
     scrapers: tuple[Scraper, ...]
@@ -349,6 +355,7 @@ class Line:
     rtol: float
     softened: bool
     us_sizes: bool
+    wind_speed: float | None
 
     @classmethod
     def of(cls, conveyor: Conveyor, strands: Strands | None = None, drags: RollDrags | None = None) -> Line:
@@ -379,6 +386,7 @@ class Line:
             speed=si(conveyor.belt.speed),
             flow=si(conveyor.material.flow),
             density=si(conveyor.material.density),
+            lump=None if conveyor.belt.wear is None else si(conveyor.belt.wear.lump),
             gravity=si(calculation.gravity),
             loading=_loading_points(conveyor, places),
             scrapers=_scrapers(conveyor),
@@ -409,6 +417,18 @@ class Line:
             rtol=calculation.rtol,
             softened=calculation.strain != "off",
             us_sizes=conveyor.report.units == "US",
+            wind_speed=_known(conveyor.ambient.wind_speed),
+        )
+
+    @property
+    def uplift(self) -> float:
+        """Of the wind on the empty belt [N/m]."""
+        return wind_force(
+            self.wind_speed or 0.0,
+            height=self.belt.width,
+            length=1.0,
+            drag=WIND_LIFT.value,
+            air_density=AIR_DENSITY,
         )
 
     @property

@@ -6,8 +6,15 @@ import math
 from dataclasses import dataclass
 
 from conveyor.errors import RangeError
-from conveyor.laws.idlers import CEMA_CLASSES, CemaClass, raised_set_load, rated_set_load
+from conveyor.laws.idlers import (
+    CEMA_CLASSES,
+    CemaClass,
+    raised_set_load,
+    rated_set_load,
+)
 from conveyor.laws.pulley import hub_moment, shaft_slope
+from conveyor.line.defaults import usual_lump_factor
+from conveyor.line.line import Line
 from conveyor.line.roll_lives import roll_life
 from conveyor.line.stretches import Stretch
 from conveyor.units import si
@@ -34,6 +41,9 @@ class SetLimits:
         Load that a whole set is rated for [N].
     least_class : str or None
         First CEMA class rated for `load`; None without one, or where the spec asks for no rating.
+    lump_factor : float or None
+        Of the bulk's load, as given or by the size of its lumps, 1 where nothing is said of them; None where no factor
+        is printed for such lumps: the load is without one.
     load : float
         Of a set as rated: lumps and the highest set's share of the tension in it [N].
     flap_margin : float or None
@@ -45,15 +55,17 @@ class SetLimits:
     cema_class: CemaClass | None
     rating: float | None
     least_class: CemaClass | None
+    lump_factor: float | None
     load: float
     flap_margin: float | None
     axle: AxleSlope | None
 
     @classmethod
-    def of(cls, stretch: Stretch, *, belt_width: float, tension: float, belt_speed: float) -> SetLimits:
+    def of(cls, stretch: Stretch, line: Line, *, tension: float) -> SetLimits:
         """Limits and load of a stretch's sets at the highest belt tension that occurs there [N]."""
-        given = stretch.idlers
-        load = math.fsum(roll.belt_force + given.lump_factor * roll.bulk_force for roll in stretch.loads)
+        given, belt_width = stretch.idlers, line.belt.width
+        lumps = given.lump_factor or usual_lump_factor(line.lump, line.density)
+        load = math.fsum(roll.belt_force + (lumps or 1.0) * roll.bulk_force for roll in stretch.loads)
         load += raised_set_load(max(tension, 0.0), height=si(given.raised), spacing=stretch.spacing)
         ratings = {
             name: rating
@@ -66,9 +78,10 @@ class SetLimits:
             cema_class=given.cema_class,
             rating=own if given.rating is None else si(given.rating),
             least_class=next((name for name, most in ratings.items() if rated and load <= most), None),
+            lump_factor=lumps,
             load=load,
             flap_margin=None if given.flap_margin is None else si(given.flap_margin),
-            axle=_axle(stretch, belt_speed),
+            axle=_axle(stretch, line.speed),
         )
 
 

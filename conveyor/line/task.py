@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Final
 
-from conveyor.errors import RangeError
+from conveyor.errors import NoSolutionError, RangeError
 from conveyor.files import libraries
 from conveyor.laws.belt import (
     CEMA_PULLEYS,
@@ -31,10 +31,11 @@ from conveyor.laws.sizing import (
     wear_addition,
 )
 from conveyor.laws.tension import least_pulley_diameter
-from conveyor.line.defaults import SHAFT
+from conveyor.line.defaults import SHAFT, usual_lump_factor
 from conveyor.models import Conveyor
 from conveyor.models.sizing import CarcassRow, DriveLayout, SiteRules, Sizes, SizingDuty, same_width, sizes
-from conveyor.units import from_si, in_si, si
+from conveyor.units import from_si, in_si, si, text
+from conveyor.units.sentences import figure
 
 _BEARING_INSET: Final = 0.02  # [m], middle of a bearing inside the tube's end; general knowledge
 _OVERLAND: Final = 1000.0  # [m], from which sets stand as far apart as overland; general knowledge
@@ -169,9 +170,9 @@ class Choice:
 
 @dataclass(frozen=True)
 class Chosen:
-    """What follows from a candidate's tensions: class, covers [m], motor of each drive [W], brakes at the belt [N].
+    """What follows from a candidate's tensions: class, covers [m], motors of each drive [W], brakes at the belt [N].
 
-    `settling`: whether it does from exact ones already.
+    `backstop`: torque of that on the first pulley [N m]; `settling`: whether it follows from exact ones already.
     """
 
     carcass: CarcassClass
@@ -179,6 +180,7 @@ class Chosen:
     bottom: float
     motors: tuple[float, ...]
     brake: float
+    backstop: float = 0.0
     settling: bool = False
 
 
@@ -266,13 +268,24 @@ class SizingTask:
         return NEMA_MOTORS if self.duty.series == "US" else MOTOR_SERIES
 
     @property
-    def largest_motor(self) -> float:
-        """That the rules allow and the series has [W]."""
-        return min(si(self.rules.largest_motor), self._motors[-1])
+    def _largest_motor(self) -> float:
+        """That the rules allow and the series has [W]; the rule itself where the series has none so small."""
+        most = si(self.rules.largest_motor)
+        return max((each for each in self._motors if each <= most), default=most)
 
-    def motor(self, power: float) -> float:
-        """Smallest one with the reserve of the rules [W]."""
-        return next_motor(power, reserve=self.rules.motor_reserve, series=self._motors)
+    @property
+    def largest_drive(self) -> float:
+        """All motors of a pulley, the largest of them [W]."""
+        return self.rules.motors_per_pulley * self._largest_motor
+
+    def motors(self, power: float) -> float:
+        """The fewest and smallest equal ones of a pulley with the reserve of the rules, together [W]."""
+        count = self.motor_count(power * self.rules.motor_reserve)
+        return count * next_motor(power / count, reserve=self.rules.motor_reserve, series=self._motors)
+
+    def motor_count(self, rated: float) -> int:
+        """Equal motors of a pulley for a rated power [W]."""
+        return max(1, math.ceil(round(rated / self._largest_motor, 9)))
 
     @property
     def take_up_travel(self) -> float:
@@ -344,11 +357,44 @@ class SizingTask:
                 shapes.append(Trough(width, angle, section.area))
         return tuple(shapes)
 
+    def fits(self) -> None:
+        """Refuse lumps and flows that no belt takes.
+
+        Raises
+        ------
+        NoSolutionError
+            Lumps ask for a wider belt than the widest, or the flow for a faster or fuller one.
+        """
+        duty, rules, system = self.duty, self.rules, self.duty.report.units
+        lumps = least_width_for_lumps(
+            si(duty.lump), surcharge_angle=duty.material.surcharge, share=duty.lumps
+        )
+        widest = max(map(si, rules.widths or [row.belt for row in self.sizes.widths]))
+        if lumps > widest:
+            asked, had = (figure(width, "thickness", system) for width in (lumps, widest))
+            raise NoSolutionError(
+                f"lump: {text(duty.lump)} asks for a belt of {asked}, the widest has {had} (rules.widths)"
+            )
+        allowed = (trough.area * v for trough in self.troughs for v in self.speeds if self.allows(trough, v))
+        most = max(allowed, default=math.inf) * self.density * si(rules.filling)
+        if self.flow > most:
+            raise NoSolutionError(
+                f"material.flow: {text(duty.material.flow)} is more than the widest and fastest belt takes, "
+                f"{figure(most, 'mass flow', system)} (rules.widths, rules.fastest, rules.speeds, rules.filling)"
+            )
+
+    def allows(self, trough: Trough, speed: float) -> bool:
+        """Whether the rules allow a belt to be so fast."""
+        given = self.rules.fastest
+        fastest = (
+            si(given) if given else recommended_speed(trough.width.belt, abrasiveness=self.duty.abrasiveness)
+        )
+        return speed <= fastest
+
     def filling(self, trough: Trough, speed: float) -> float | None:
         """Share of the cross-section under bulk [-]; None where rules of speed, filling or edges are not kept."""
-        width, given = trough.width.belt, self.rules.fastest
-        fastest = si(given) if given else recommended_speed(width, abrasiveness=self.duty.abrasiveness)
-        if speed > fastest:
+        width = trough.width.belt
+        if not self.allows(trough, speed):
             return None
         area = self.flow / (self.density * speed)
         filling = area / trough.area
@@ -381,6 +427,11 @@ class SizingTask:
             for rolls, angle in ((3, trough.angle), (count, vee))
         )
         return carry, back
+
+    @cached_property
+    def lump_factor(self) -> float:
+        """Load of the bulk on a rated set over the steady one [-]; 1 where none is printed for such lumps."""
+        return usual_lump_factor(si(self.duty.lump), self.density) or 1.0
 
     def turns_slowly(self, roll: RollSize, speed: float) -> bool:
         """Whether a roll keeps the rule of rotation."""
@@ -471,6 +522,9 @@ class SizingTask:
                     "thickness": written(carcass.thickness, "mm"),
                     "mass": written(carcass.mass, "kg/m^2", 3),
                 },
+                "wear": {
+                    "lump": written(si(duty.lump), "mm"), "abrasiveness": duty.abrasiveness, "loading": duty.loading
+                },
             },
             "idlers": self._idlers(choice),
             "material": duty.material.as_data(),
@@ -532,11 +586,13 @@ class SizingTask:
         rules, motors = self.rules, chosen.motors
         one = {"wrap_angle": self._written(si(rules.wrap_angle), "deg"), "friction": rules.friction}
         brake = {"brake_force": self._written(chosen.brake, "kN", 4)} if chosen.brake > 0.0 else {}
+        if chosen.backstop > 0.0:
+            brake["backstop_torque"] = self._written(chosen.backstop, "kN*m", 4)
         first = {
             **one,
             **brake,
             "position": "tail" if choice.drives == "tail" else "head",
-            "installed_power": self._written(motors[0], "kW"),
+            **self._motored(motors[0]),
             "efficiency": f"{100.0 * self.efficiency:.6g} %",
             "start_factor": rules.start_factor,
         }
@@ -544,8 +600,13 @@ class SizingTask:
         for number, motor in enumerate(motors[1:], start=2):
             tail = "tail" in choice.drives and number == len(motors)
             place = {"name": f"drive {number}", "position": "tail" if tail else "head"}
-            further.append({**one, **place, "installed_power": self._written(motor, "kW")})
+            further.append({**one, **place, **self._motored(motor)})
         return {**first, "further_drives": further} if further else first
+
+    def _motored(self, rated: float) -> dict[str, Any]:
+        """Motors of a pulley with so much together [W]."""
+        count = self.motor_count(rated)
+        return {"installed_power": self._written(rated, "kW")} | ({"motors": count} if count > 1 else {})
 
     def _roll(self, roll: RollSize, length: float) -> dict[str, Any]:
         return {
@@ -560,13 +621,14 @@ class SizingTask:
 
 
 _KINDS: Final = {"m": "length", "mm": "thickness", "m/s": "speed", "deg": "angle", "kW": "power", "N/mm": "line force",
-                 "PIW": "line force", "kN": "force", "kg": "mass", "kg/m^2": "area mass"}  # fmt: skip
+                 "PIW": "line force", "kN": "force", "kN*m": "torque", "kg": "mass", "kg/m^2": "area mass"}  # fmt: skip
 _US_UNITS: Final = {
     "m": "ft",
     "mm": "in",
     "m/s": "fpm",
     "kW": "hp",
     "kN": "lbf",
+    "kN*m": "lbf*ft",
     "kg": "lb",
     "kg/m^2": "lb/ft^2",
 }

@@ -8,20 +8,18 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from conveyor.laws.horizontal_curve import (
-    AIR_DENSITY,
     FULL_SLIP_TILT,
     LEAST_GUIDANCE,
-    WIND_DRAG,
     DriftLaw,
     FlatDrift,
     drifted_loads,
     guide_friction,
     outward_force,
     outward_pushes,
-    wind_force,
 )
 from conveyor.laws.loading import RollLoad, roll_angles
 from conveyor.laws.resistance import ROLL_ON_BELT_FRICTION
+from conveyor.laws.wind import AIR_DENSITY, WIND_DRAG, wind_force
 from conveyor.models import IdlerSet, Section
 from conveyor.units import Quantity, si
 

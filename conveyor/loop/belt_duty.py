@@ -77,7 +77,7 @@ class CurveCheck:
     lowest, highest : float
         Tensions that occur in it [N].
     lift_off : float or None
-        At which the empty belt stays down; of concave curves.
+        At which the empty belt stays down, in the wind given; of concave curves.
     overstress, buckling : float or None
         At which no strip of the belt is overstressed or slack; infinite where no radius helps.
     most, least : float or None
@@ -284,6 +284,7 @@ def _curves(balance: Balance, states: Sequence[MotionState]) -> Iterator[CurveCh
                 belt_mass=stretch.belt_mass,
                 inclination=stretch.inclination,
                 gravity=line.gravity,
+                uplift=line.uplift,
             )
         strips = _strips(line, stretch, section, lowest, highest)
         yield CurveCheck(

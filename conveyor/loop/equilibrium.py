@@ -7,9 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
 from conveyor.errors import NoSolutionError
 from conveyor.forces import Force
-from conveyor.loop.run_up import run_up
+from conveyor.loop.run_up import started
 from conveyor.loop.tensions import STEADY, Condition, Loop, Motion, MotionState, Singles
 
 _LOOP_STEPS = 200
@@ -210,16 +212,11 @@ def _motions(loop: Loop, bends: Bends, singles: Singles, drive: float) -> tuple[
 
     states = [shared(STEADY, drive, 1.0, 1.0)]
     if drive > 0.0:
-        start = run_up(line, drive, mass)
+        pushed, per_drive = started(line, np.asarray(drive), np.asarray(mass))
+        forces = per_drive.tolist()
+        sags = math.fsum(forces) / drive != 1.0
         states.append(
-            loop.motion(
-                START,
-                start.forces,
-                singles,
-                driving=True,
-                acceleration=start.acceleration,
-                may_sag=start.factor != 1.0,
-            )
+            loop.motion(START, forces, singles, driving=True, acceleration=float(pushed), may_sag=sags)
         )
     else:
         states.append(shared(START if drive >= 0.0 else BRAKING, drive, 1.0, factor))

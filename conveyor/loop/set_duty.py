@@ -85,7 +85,7 @@ def set_duty(balance: Balance) -> tuple[SetDuty, ...]:
 
 def _duty(balance: Balance, stretch: Stretch, start: float, end: float) -> SetDuty:
     line = balance.line
-    limits = SetLimits.of(stretch, belt_width=line.belt.width, tension=max(start, end), belt_speed=line.speed)
+    limits = SetLimits.of(stretch, line, tension=max(start, end))
     swings = (_swing(stretch, start, line.speed), _swing(stretch, end, line.speed))
     return SetDuty(stretch, limits, set_life(stretch, line.speed), line.speed, swings)
 

@@ -71,8 +71,8 @@ class IdlerSet(Model):
     """Class of the sets after CEMA 502, for their load; of class F, and of others' sets, give rating."""
     rating: Annotated[Force, Bounds(gt="0 N", le="1 MN")] | None = None
     """Load that a whole set bears by its maker, instead of that of its class."""
-    lump_factor: Annotated[Number, Field(ge=1, le=5)] = 1.0
-    """Load of the bulk on a rated set over the steady one, for lumps: K1 of CEMA, 1.0 to 1.4; f1 of SANS 1313."""
+    lump_factor: Annotated[Number, Field(ge=1, le=5)] | None = None
+    """Of a rated set, load of the bulk over the steady one: K1 of CEMA, f1 of SANS 1313; by belt.wear.lump without."""
     raised: Annotated[Length, Bounds(ge="0 mm", le="100 mm")] = quantity("0 mm")
     """How much higher than its neighbours a rated set may stand; the belt's tension loads it then."""
     flap_margin: Annotated[Fraction, Bounds(gt="0 %", lt="100 %")] | None = None

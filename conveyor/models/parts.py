@@ -16,7 +16,7 @@ from conveyor.models.material import BulkMaterial
 from conveyor.models.methods import Calibration, Cema, Flexure
 from conveyor.models.operation import DutyEntry, EarthTemperature, Operation
 from conveyor.models.route import Route
-from conveyor.units import Acceleration, Bounds, Fraction, Quantity, Speed, quantity, si, text
+from conveyor.units import Acceleration, Bounds, Fraction, Quantity, WindSpeed, quantity, si, text
 
 
 class Ambient(Model):
@@ -26,8 +26,8 @@ class Ambient(Model):
     """Temperature of the air."""
     belt_temperature: EarthTemperature | None = None
     """Temperature of the running belt's covers, where it differs."""
-    wind_speed: Annotated[Speed, Bounds(ge="0 m/s", le="80 m/s")] | None = None
-    """Gust across the belt for which the empty belt is checked in horizontal curves; no wind without."""
+    wind_speed: Annotated[WindSpeed, Bounds(ge="0 m/s", le="80 m/s")] | None = None
+    """Gust for which the empty belt is checked, against lifting and drift in horizontal curves; no wind without."""
 
     @property
     def belt(self) -> Quantity:

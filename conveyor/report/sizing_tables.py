@@ -119,7 +119,8 @@ def _why(sizing: CalculatedSizing, rank: int) -> str:
     best, own = sizing.best.costs.yearly, sizing.designs[rank].costs.yearly
     change = {name: float(own[name] - best[name]) for name in own}
     order = sorted(change, key=lambda name: -abs(change[name]))[:2]
-    return ", ".join(f"{name} {change[name]:+,.0f}" for name in order if round(change[name]) != 0) + " a year"
+    told = ", ".join(f"{name} {change[name]:+,.0f}" for name in order if round(change[name]) != 0)
+    return f"{told} a year" if told else "as cheap as the first"
 
 
 def costs(sizing: CalculatedSizing) -> Table:

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import math
 import platform
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict, replace
 from datetime import date
 from functools import partial
 from importlib.metadata import version
-from itertools import accumulate
-from typing import Any, Final, NamedTuple
+from itertools import accumulate, chain
+from typing import Any, Final, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -30,6 +30,7 @@ from conveyor.line.stretches import Strand
 from conveyor.loop.balance import Balance
 from conveyor.loop.drive_duty import coasting_flywheel
 from conveyor.loop.estimates import CemaEstimate, Classical
+from conveyor.loop.horizontal import HorizontalCheck
 from conveyor.loop.set_duty import SetDuty
 from conveyor.loop.take_up import TakeUpDuty
 from conveyor.loop.tensions import MotionState
@@ -96,6 +97,7 @@ PARTS: Final = (
 """Parts of the page."""
 CURVE_POINTS: Final = 25
 Getter = Callable[[Any], Any]
+_Row = TypeVar("_Row")
 _DECADES, _PER_DECADE = (-3, 7), 4  # of frequency shown in the rubber table [Hz]
 _HOUR: Final = 3600.0
 _NAMED: Final = 2
@@ -155,11 +157,11 @@ def of_analysis(
         pulleys(analysis),
         pulley_loads(analysis, studies),
         pulley_states(analysis, studies),
-        vertical_curves(analysis),
-        horizontal_curves(analysis),
-        curve_edges(analysis),
+        vertical_curves(analysis, studies),
+        horizontal_curves(analysis, studies),
+        curve_edges(analysis, studies),
         drift_states(analysis, studies),
-        transitions(analysis),
+        transitions(analysis, studies),
         *of_transfer(analysis),
         convergence(analysis),
         *studied,
@@ -550,6 +552,7 @@ def idler_sets(a: CalculatedConveyor, studies: CalculatedStudies | None = None) 
         Column("turning mass of a set", "mass", "0.stretch.set_mass"),
         Column("rotation", "rotation", extreme(max, "5", "rotations.1"), page=None),
         Column("load of a set", "force", "3.limits.load"),
+        Column("lump factor", "ratio", "3.limits.lump_factor", page=None),
         Column("of the case", "text", "2", page=None),
         Column("rating", "force", "0.limits.rating", sparse=True),
         Column("CEMA class", "text", "0.limits.cema_class", sparse=True),
@@ -567,8 +570,9 @@ def idler_sets(a: CalculatedConveyor, studies: CalculatedStudies | None = None) 
     )  # fmt: skip
     heading = "Idler sets, the worst of all cases"
     note = (
-        "Load with lump_factor and the tension on a raised set. Belt: first natural frequency between two sets in the "
-        "section closest to resonance; rolls out of round excite it and twice it; distance 0 where a span is hit."
+        "Load with the lump factor (given, else by belt.wear.lump) and the tension on a raised set. Belt: first "
+        "natural frequency between two sets in the section closest to resonance; rolls out of round excite it and "
+        "twice it; distance 0 where a span is hit."
     )
     return Table("idler_sets", "Sections", heading, columns, rows, "rolls", note, named=2)
 
@@ -968,8 +972,25 @@ def pulley_states(a: CalculatedConveyor, studies: CalculatedStudies | None = Non
     return Table("pulley_states", "States", heading, columns, rows, printed=False)
 
 
-def vertical_curves(a: CalculatedConveyor) -> Table:
-    """One row a vertical curve and strand: its radius beside the least ones."""
+def _all_cases(every: Iterable[Sequence[_Row]], **worst: Callable[[list[Any]], Any]) -> tuple[_Row, ...]:
+    """The rows of several cases as one each: as in the first, and of the named figures the worst that is known."""
+    made = []
+    for same in zip(*every, strict=True):
+        known = {name: [one for row in same if (one := getattr(row, name)) is not None] for name in worst}
+        made.append(replace(same[0], **{name: worst[name](ones) for name, ones in known.items() if ones}))
+    return tuple(made)
+
+
+def _bends(a: CalculatedConveyor, studies: CalculatedStudies | None) -> tuple[HorizontalCheck, ...]:
+    """Every horizontal curve with the states of all cases."""
+    every = [result.horizontal for _, result in loads(a, studies)]
+    return _all_cases(
+        every, states=lambda each: tuple(chain(*each)), overstress=max, buckling=max, most=max, least=min
+    )
+
+
+def vertical_curves(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+    """One row a vertical curve and strand: its radius beside the least ones, of all cases."""
     columns = (
         Column("section", "text", "section"),
         Column("strand", "text", "strand"),
@@ -983,13 +1004,19 @@ def vertical_curves(a: CalculatedConveyor) -> Table:
         Column("highest in a strip", "strength", "most"),
         Column("lowest in a strip", "strength", "least"),
     )
-    rows = tuple(curve for curve in a.belt_duty.curves if curve.radius > 0.0)
-    note = _USUAL_STIFFNESS if rows and a.line.belt.stiffness is None else ""
-    return Table("vertical_curves", "Loop", "Vertical curves", columns, rows, "belt", note)
+    every = [result.belt_duty.curves for _, result in loads(a, studies)]
+    rows = _all_cases(
+        every, lowest=min, highest=max, lift_off=max, overstress=max, buckling=max, most=max, least=min
+    )
+    notes = [_USUAL_STIFFNESS] if rows and a.line.belt.stiffness is None else []
+    if rows and a.line.wind_speed is not None:
+        notes.append("Against lift-off: with the wind of ambient.wind_speed under the empty belt.")
+    heading = "Vertical curves, all cases"
+    return Table("vertical_curves", "Loop", heading, columns, rows, "belt", " ".join(notes))
 
 
-def horizontal_curves(a: CalculatedConveyor) -> Table:
-    """One row a horizontal curve and strand: how far the belt drifts, its radius beside the least ones."""
+def horizontal_curves(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+    """One row a horizontal curve and strand: how far the belt drifts, its radius beside the least ones; all cases."""
     columns = (
         Column("section", "text", "section"),
         Column("strand", "text", "strand"),
@@ -997,23 +1024,24 @@ def horizontal_curves(a: CalculatedConveyor) -> Table:
         Column("radius", "length", "radius"),
         Column("banking", "angle", "turn.banking"),
         Column("skew", "angle", "turn.skew"),
-        Column("drift, steady", "thickness", "turn.drift"),
-        Column("farthest inside", "thickness", "farthest_in.inside"),
-        Column("farthest outside", "thickness", "farthest_out.outside"),
-        Column("room on the rolls", "thickness", "turn.room"),
+        Column("drift, steady", "size", "turn.drift"),
+        Column("farthest inside", "size", "farthest_in.inside"),
+        Column("farthest outside", "size", "farthest_out.outside"),
+        Column("room on the rolls", "size", "turn.room"),
         Column("minimum against drift", "length", extreme(max, "states", "least")),
         Column("maximum against drift", "length", extreme(min, "states", "most")),
     )
     note = (
-        "Drift is positive to the inside. Inside: highest tension, 70 % of the guiding friction; outside: lowest "
-        "tension, all of it; the wind of ambient.wind_speed either way on a strand without bulk. Of a flat set: at the "
-        "end of the curve, with the worse of both. ∞: the belt runs off its rolls, or no radius is too large."
+        "Drift is positive to the inside; steady as given. Inside: highest tension, 70 % of the guiding friction; "
+        "outside: lowest tension, all of it; the wind of ambient.wind_speed either way on a strand without bulk. Of a "
+        "flat set: at the end of the curve, with the worse of both. ∞: the belt runs off its rolls, or no radius is "
+        "too large."
     )
-    heading = "Horizontal curves"
-    return Table("horizontal_curves", "Loop", heading, columns, a.horizontal, "belt", note)
+    heading = "Horizontal curves, all cases"
+    return Table("horizontal_curves", "Loop", heading, columns, _bends(a, studies), "belt", note)
 
 
-def curve_edges(a: CalculatedConveyor) -> Table:
+def curve_edges(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
     """One row a horizontal curve and strand: what its edges bear; nothing where stiffness or strength are not known."""
     columns = (
         Column("section", "text", "section"),
@@ -1024,9 +1052,9 @@ def curve_edges(a: CalculatedConveyor) -> Table:
         Column("highest at the outer edge", "strength", "most"),
         Column("lowest at the inner edge", "strength", "least"),
     )
-    rows = tuple(curve for curve in a.horizontal if curve.most is not None)
+    rows = tuple(curve for curve in _bends(a, studies) if curve.most is not None)
     note = _USUAL_STIFFNESS if rows and a.line.belt.stiffness is None else ""
-    heading = "Edges of the belt in horizontal curves"
+    heading = "Edges of the belt in horizontal curves, all cases"
     return Table("curve_edges", "Loop", heading, columns, rows, "belt", note)
 
 
@@ -1046,8 +1074,8 @@ def drift_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None
         Column("state", "text", "2.state"),
         Column("lowest tension", "force", "2.lowest"),
         Column("highest tension", "force", "2.highest"),
-        Column("farthest inside", "thickness", "2.inside"),
-        Column("farthest outside", "thickness", "2.outside"),
+        Column("farthest inside", "size", "2.inside"),
+        Column("farthest outside", "size", "2.outside"),
         Column("minimum against drift", "length", "2.least"),
         Column("maximum against drift", "length", "2.most"),
     )
@@ -1055,8 +1083,8 @@ def drift_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None
     return Table("drift_states", "States", heading, columns, rows, printed=False)
 
 
-def transitions(a: CalculatedConveyor) -> Table:
-    """One row a transition that the spec gives: its length beside the least ones, tensions of its strips."""
+def transitions(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+    """One row a transition that the spec gives: its length beside the least ones, tensions of its strips; all cases."""
     columns = (
         Column("end", "text", "zone.end"),
         Column("pulley over depth of trough", "share", "zone.pulley_height"),
@@ -1069,7 +1097,7 @@ def transitions(a: CalculatedConveyor) -> Table:
         Column("allowed in a strip", "strength", "allowed"),
         Column("lowest in a strip", "strength", "least"),
     )
-    heading = "Transitions between trough and pulley"
+    heading = "Transitions between trough and pulley, all cases"
     note = (
         "Strips of straight way, ISO 5293 taken on to every strip and a raised pulley; at most 130 % of the rated "
         "tension (or strength over the classic safety), none slack. Carry strand, every state of motion."
@@ -1079,7 +1107,9 @@ def transitions(a: CalculatedConveyor) -> Table:
     note += "".join(
         f" Not known: {missing}." for missing in {row.missing for row in a.belt_duty.transitions} - {""}
     )
-    return Table("transitions", "Loop", heading, columns, a.belt_duty.transitions, "belt", note)
+    every = [result.belt_duty.transitions for _, result in loads(a, studies)]
+    rows = _all_cases(every, lowest=min, highest=max, stretched=max, slackened=max, most=max, least=min)
+    return Table("transitions", "Loop", heading, columns, rows, "belt", note)
 
 
 def convergence(a: CalculatedConveyor) -> Table:
@@ -1378,6 +1408,14 @@ def provenance(spec: str, sheet: str = "Checks and notes") -> Table:
     return Table("provenance", sheet, "Provenance", columns, tuple(facts.items()), page)
 
 
+def drifts(
+    a: CalculatedConveyor, studies: CalculatedStudies | None, system: System
+) -> list[tuple[str, tuple[HorizontalCheck, ...]]]:
+    """The horizontal curves of every case, each with its name."""
+    every = loads(a, studies)
+    return [(label.text(system).removeprefix("load state "), found.horizontal) for label, found in every]
+
+
 def drawings(
     a: CalculatedConveyor, system: System, studies: CalculatedStudies | None = None
 ) -> Iterator[Drawing]:
@@ -1411,16 +1449,16 @@ def drawings(
         )
         yield Drawing(
             "drift",
-            "Drift of the belt in every horizontal curve, over all states of motion; grey: room on the rolls.",
-            lambda: analysis_plots.drift(
-                [
-                    (label.text(system).removeprefix("load state "), result.horizontal)
-                    for label, result in loads(a, studies)
-                ],
-                system=system,
-            ),
+            "Drift of the belt in every horizontal curve, all states of motion of all cases; grey: room on the rolls.",
+            lambda: analysis_plots.drift(drifts(a, studies, system), system=system),
             "horizontal_curves",
         )
+    yield Drawing(
+        "cross-section",
+        "A set of each strand with belt and bulk as it lies on it, to scale; the belt centred, the strand at rest.",
+        lambda: analysis_plots.cross_section(conveyor, a.line, system=system),
+        "distinct_rolls",
+    )
     yield Drawing(
         "pressure",
         "Contact pressure at the highest line load of each strand; the contact leans to where the belt arrives.",

@@ -54,6 +54,30 @@ def spectrum(
     weight_name: str, weights: ArrayLike, unit: str, times: ArrayLike
 ) -> tuple[FloatArray, FloatArray]:
     """Weights and times [s] of a discrete spectrum, checked, by ascending time, read-only."""
+    w, t = np.array(weights, dtype=np.float64), np.array(times, dtype=np.float64)
+    if not _plain(w, t):
+        w, t = _sorted(weight_name, weights, unit, times)
+    w.setflags(write=False)
+    t.setflags(write=False)
+    return w, t
+
+
+def _plain(w: FloatArray, t: FloatArray) -> bool:
+    """Whether all is as it should be, by ascending time already: what most spectra are is found at once."""
+    return (
+        w.ndim == 1
+        and w.shape == t.shape
+        and w.size > 0
+        and t.item(0) > 0.0
+        and t.item(-1) < math.inf
+        and bool((t[1:] > t[:-1]).all())
+        and 0.0 < w.min() <= w.max() < math.inf
+    )
+
+
+def _sorted(
+    weight_name: str, weights: ArrayLike, unit: str, times: ArrayLike
+) -> tuple[FloatArray, FloatArray]:
     w = positive_vector(weight_name, weights, unit)
     t = positive_vector("times", times, "s")
     if w.shape != t.shape:
@@ -65,6 +89,4 @@ def spectrum(
         raise InputError(
             f"times must be distinct; {t[equal[0]]:g} s occurs twice: add its {weight_name} into one term"
         )
-    w.setflags(write=False)
-    t.setflags(write=False)
     return w, t

@@ -16,6 +16,7 @@ import numpy as np
 
 from conveyor.checks import checks, motor_power
 from conveyor.errors import InputError, NoSolutionError, RangeError
+from conveyor.laws.drives import next_preferred
 from conveyor.line.stretches import STRANDS
 from conveyor.line.task import CarcassClass, Choice, Chosen, SizingTask, spread
 from conveyor.models import Conveyor
@@ -44,13 +45,13 @@ ALIKE: Final = 2
 GRADUATED: Final = 3
 """Designs whose carry sets are tried farther apart where the belt is tighter, if no more are wanted."""
 BRAKE_RESERVE: Final = 1.3
-"""Brake force over that which holds the loaded belt; general knowledge."""
+"""Brake force, or torque of a backstop, over that which holds the loaded belt; general knowledge."""
 _SIZINGS: Final = 5  # belt class, motors and brake against their own tensions
 _SCREENINGS: Final = 2  # levels of the estimate against calculated candidates
 _TOO_MUCH: Final = (
     "no candidate has a belt, motors, bearings and take-up that do among the series: allow further carcasses, drives, "
-    "closer sets (rules.carcasses, rules.drives, rules.largest_motor, rules.take_up_travel, rules.carry_spacings), or "
-    "split the conveyor"
+    "motors, closer sets (rules.carcasses, rules.drives, rules.motors_per_pulley, rules.take_up_travel, "
+    "rules.carry_spacings), or split the conveyor"
 )
 
 
@@ -111,6 +112,7 @@ def size(duty: SizingDuty, *, best: int = 3, progress: Progress | None = None) -
     task = SizingTask(duty)
     choices = Candidates.of(task)
     if not len(choices):
+        task.fits()
         raise NoSolutionError(
             "no belt width and speed keep the rules of lumps, filling, edge distance and roll speed: allow wider belts "
             "(rules.widths), other speeds (rules.speeds, rules.fastest, rules.roll_rotation) fillings or troughs"
@@ -239,7 +241,7 @@ def _estimated(task: SizingTask, choice: Choice, estimate: Screened, i: int) -> 
     """Class and motors as the estimate has them."""
     carcass = task.carcasses[choice.kind][int(estimate.carcass[i])]
     power = abs(float(estimate.force[i])) * choice.speed / task.efficiency
-    motors = tuple(map(task.motor, spread(power, choice.drives)))
+    motors = tuple(map(task.motors, spread(power, choice.drives)))
     return Chosen(carcass, *task.covers(choice, carcass), motors, 0.0)
 
 
@@ -358,14 +360,21 @@ def _chosen(task: SizingTask, choice: Choice, before: Chosen, pair: Sequence[Cal
     powers = [_powers(one) for one in pair]
     needed = [max(each) for each in zip(*powers, strict=True)]
     most = max(needed)
-    if most * task.rules.motor_reserve > task.largest_motor:
-        raise NoSolutionError("no motor is large enough for its drive (rules.largest_motor)")
-    motor = task.motor(most)
+    if most * task.rules.motor_reserve > task.largest_drive:
+        raise NoSolutionError(
+            "no motor is large enough for its drive (rules.largest_motor, rules.motors_per_pulley)"
+        )
+    motor = task.motors(most)
     brake = max((0.0 if one.motions.rolls_back else one.motions.brake_to_hold) for one in pair)
     brake = 0.0 if brake <= 0.0 else max(before.brake, BRAKE_RESERVE * brake)
     if before.brake > 0.0 and brake <= before.brake * (1.0 + RTOL):
         brake = before.brake
-    return Chosen(carcass, *task.covers(choice, carcass), (motor,) * len(needed), brake, settling=True)
+    held = max((one.motions.brake_to_hold if one.motions.rolls_back else 0.0) for one in pair)
+    torque = BRAKE_RESERVE * held * 0.5 * task.drive_diameter(carcass)
+    backstop = max(before.backstop, next_preferred(torque)) if torque > 0.0 else 0.0
+    return Chosen(
+        carcass, *task.covers(choice, carcass), (motor,) * len(needed), brake, backstop, settling=True
+    )
 
 
 def _foreseen(task: SizingTask, design: SizedDesign) -> Chosen:
@@ -381,15 +390,15 @@ def _foreseen(task: SizingTask, design: SizedDesign) -> Chosen:
     for of in one.stretches[: one.line.count]:
         bulk = of.stretch.bulk_mass / of.stretch.line_mass
         more += max(0.0, -bulk * (of.total - of.forces["idler_rotation"]))
-    motor = task.motor(
-        min(max(_powers(one)) * (1.0 + more / steady), task.largest_motor / task.rules.motor_reserve)
+    motor = task.motors(
+        min(max(_powers(one)) * (1.0 + more / steady), task.largest_drive / task.rules.motor_reserve)
     )
     needed = partial(_needed, choice=design.choice, tension=highest_tension([one]) + more)
     carcass = next(
         (each for each in task.carcasses[design.choice.kind] if needed(each) <= each.strength), chosen.carcass
     )
     covers, motors = task.covers(design.choice, carcass), (motor,) * len(chosen.motors)
-    return Chosen(carcass, *covers, motors, chosen.brake, settling=False)
+    return Chosen(carcass, *covers, motors, chosen.brake, chosen.backstop, settling=False)
 
 
 def _needed(carcass: CarcassClass, choice: Choice, tension: float) -> float:

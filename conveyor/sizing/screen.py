@@ -248,7 +248,7 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
     life = _roll_life(every, around.middle)
     possible = (
         around.strong
-        & (power * task.rules.motor_reserve <= drives * task.largest_motor)
+        & (power * task.rules.motor_reserve <= drives * task.largest_drive)
         & (life >= task.roll_life)
     )
     for load, rating in zip(around.sets.T, every.ratings(), strict=True):
@@ -306,7 +306,7 @@ def _around(
     slack, largest = _tensions(every, force, (down[:, ::-1], up), spans)
     asked = (series.strengths[kind] < (safety * largest / width)[:, None]).sum(axis=1)
     last = series.last[kind]
-    sets = np.array([spans[1], spans[0]]).T
+    sets = np.array([(belt + task.lump_factor * bulk) * g * carry, spans[0]]).T
     return _Loop(covers, middle, sets, indentation.T, force, slack, np.minimum(asked, last), asked <= last)
 
 

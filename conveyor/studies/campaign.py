@@ -33,7 +33,7 @@ from conveyor.studies.designs import Design, DesignFigure, figures_of, reduced
 from conveyor.studies.points import OUTPUTS, Answer, Job, answers, asked_of, outputs_of, priced
 from conveyor.units import Quantity, is_quantity, quantity
 
-BATCH: Final = 64
+BATCH: Final = 256
 """Points solved side by side at most, and lost at most where a run is stopped."""
 SHARES: Final = 16
 """Batches that a smaller study is cut into, so that several workers have work."""
@@ -263,9 +263,11 @@ class Answers:
                 f"{self._path}: holds something else than answers of a study, or is damaged ({error}); remove it"
             ) from None
 
-    def __contains__(self, key: bytes) -> bool:
+    def among(self, keys: Sequence[bytes]) -> set[bytes]:
+        """Those of some keys that have answers."""
+        query = f"SELECT key FROM answers WHERE key IN ({', '.join('?' * len(keys))})"  # noqa: S608 no text of users
         with self._told():
-            return self._file.execute("SELECT 1 FROM answers WHERE key = ?", (key,)).fetchone() is not None
+            return {key for (key,) in self._file.execute(query, keys)}
 
     def __getitem__(self, key: bytes) -> Answer:
         with self._told():
@@ -386,7 +388,8 @@ def _batches(campaign: Campaign, known: Answers, points: Iterable[Changes], size
     """Points without an answer, of every `size` points in their order: whoever calculates them, the same batches."""
     keyed, before = ((campaign.key(point), point) for point in points), 0
     while every := list(islice(keyed, size)):
-        yield _Batch(before, every, {key: point for key, point in every if key not in known})
+        there = known.among([key for key, _ in every])
+        yield _Batch(before, every, {key: point for key, point in every if key not in there})
         before += len(every)
 
 

@@ -130,7 +130,7 @@ class Governing:
 
 @dataclass(frozen=True)
 class MotorChoice:
-    """Motors of one drive pulley: shaft power they must give or hold [W], how many, of which rating [W] and series."""
+    """Motors of one drive pulley: what they must give or hold at the shaft [W], number, rating [W], series."""
 
     drive: str
     needed: float

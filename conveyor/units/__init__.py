@@ -38,6 +38,7 @@ from conveyor.units.quantities import (
     Time,
     Torque,
     Viscosity,
+    WindSpeed,
     between,
     convert,
     display,

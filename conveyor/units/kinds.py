@@ -45,6 +45,7 @@ KINDS: dict[str, Kind] = {
     "thickness": Kind("a length", "mm cm m km in inch ft", "6 mm", "mm", "in"),
     "area": Kind("an area", "mm^2 cm^2 m^2 in^2 ft^2", "0.2 m^2", "m^2", "ft^2"),
     "speed": Kind("a speed", "m/s fpm ft/min km/h m/min ft/s mph", "5 m/s", "m/s", "fpm"),
+    "wind": Kind("a speed", "m/s fpm ft/min km/h m/min ft/s mph", "15 m/s", "m/s", "mph"),
     "acceleration": Kind("an acceleration", "m/s^2 ft/s^2", "9.81 m/s^2", "m/s^2", "ft/s^2"),
     "mass": Kind("a mass", "kg g t lb short_ton", "15.5 kg", "kg", "lb"),
     "line mass": Kind("a mass per length", "kg/m lb/ft t/m", "16.4 kg/m", "kg/m", "lb/ft"),
@@ -84,6 +85,7 @@ KINDS: dict[str, Kind] = {
 
 MAGNITUDES: dict[str, tuple[float, float]] = {
     "length": (1e-9, 1e6), "thickness": (1e-9, 1e6), "area": (1e-9, 1e6), "speed": (1e-6, 1e3),
+    "wind": (1e-6, 1e3),
     "acceleration": (1e-6, 1e3), "mass": (1e-6, 1e9), "line mass": (1e-6, 1e6), "area mass": (1e-6, 1e6),
     "belt mass": (1e-6, 1e6), "set mass": (1e-6, 1e6), "density": (1e-3, 1e5),
     "force": (1e-6, 1e10), "line force": (1e-6, 1e10), "spring rate": (1e-6, 1e10),

@@ -244,8 +244,9 @@ def is_kind(value: Quantity, kind: str) -> bool:
 
 
 _SI_LABELS = {
-    "length": "m", "area": "m²", "speed": "m/s", "acceleration": "m/s²", "mass": "kg", "line mass": "kg/m",
-    "area mass": "kg/m²", "density": "kg/m³", "force": "N", "line force": "N/m", "pressure": "Pa", "duration": "s",
+    "length": "m", "area": "m²", "speed": "m/s", "wind": "m/s", "acceleration": "m/s²", "mass": "kg",
+    "line mass": "kg/m", "area mass": "kg/m²", "density": "kg/m³", "force": "N", "line force": "N/m",
+    "pressure": "Pa", "duration": "s",
     "time": "s", "frequency": "Hz", "angular frequency": "rad/s", "temperature": "K", "angle": "rad",
     "mass flow": "kg/s", "volume flow": "m³/s", "power": "W", "energy": "J", "molar energy": "J/mol", "fraction": "-",
     "inertia": "kg m²",
@@ -419,6 +420,7 @@ Length = Annotated[Quantity, Measure("length")]
 Thickness = Annotated[Quantity, Measure("thickness")]
 Area = Annotated[Quantity, Measure("area")]
 Speed = Annotated[Quantity, Measure("speed")]
+WindSpeed = Annotated[Quantity, Measure("wind")]
 Acceleration = Annotated[Quantity, Measure("acceleration")]
 Mass = Annotated[Quantity, Measure("mass")]
 LineMass = Annotated[Quantity, Measure("line mass")]

@@ -214,7 +214,7 @@ class TestRaisedFromNothing:
     @by_scene
     def test_the_same_contact(self, name):
         grid = Grid(SCENES[name], 256)
-        raised, limit = grid.raised(SCENES[name].pressure)
+        raised, limit, _ = grid.raised(SCENES[name].pressure)
         straight = grid.contact(SCENES[name].pressure)
         assert raised.friction == pytest.approx(straight.friction, rel=ROUNDING, abs=1e-15)
         assert raised.depth == pytest.approx(straight.depth, rel=ROUNDING)
@@ -224,7 +224,7 @@ class TestRaisedFromNothing:
     def test_the_limit_is_where_the_end_is_reached(self, start):
         grid = Grid(PLATE, 128)
         below = None if start is None else Grid(PLATE, 256).contact(start)
-        wrapped, limit = grid.raised(PLATE.pressure, below)
+        wrapped, limit, _ = grid.raised(PLATE.pressure, below)
         assert wrapped.at_roll_end
         assert not grid.raised(0.999 * limit)[0].at_roll_end
         assert grid.raised(1.001 * limit)[0].at_roll_end

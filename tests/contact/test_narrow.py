@@ -26,7 +26,7 @@ from conveyor.contact.layers import Layers
 from conveyor.contact.narrow import Left, solve_narrow
 from conveyor.contact.quadrature import build_rule
 from conveyor.contact.scene import Scene
-from conveyor.contact.short_rule import CAPS, COARSE, FINE, _moments, _width, short_rules
+from conveyor.contact.short_rule import CAPS, COARSE, FINE, LOOSE, _moments, _width, short_rules
 from conveyor.contact.single import Near, by_half_width
 from conveyor.contact.spectral import Contact, assemble
 
@@ -107,13 +107,13 @@ def test_moments_of_slow_terms(zeta, count):
 @pytest.mark.parametrize("half_width", [0.003, 0.03, 0.15, 0.5, 0.8, 1.4, 2.3])
 @pytest.mark.parametrize("thickness", [0.02, 0.3, 4.0])
 def test_short_rules_make_the_matrix_of_the_full_rule(support, half_width, thickness):
-    # promised: rounding, and 1e-9; entries of a small instantaneous compliance are cancelled by a factor of 100
+    # promised: rounding, 1e-9 and 1e-7; entries of a small instantaneous compliance are cancelled by a factor of 100
     creep = spectrum(int(1e4 * half_width))
     problem = ContactProblem(support, 0.45, 0.01, creep, thickness, 0.45)
     full = build_rule(problem.layer, creep, half_width)
     side = Creeps(np.array([creep.instantaneous]), creep.weights[None], creep.times[None])
     layers = Layers(support, np.array([thickness]), np.array([0.45]))
-    for grades, tolerance in ((FINE, 1e-10), (COARSE, 2e-8)):
+    for grades, tolerance in ((FINE, 1e-10), (COARSE, 2e-8), (LOOSE, 2e-6)):
         for rule in short_rules(layers, side, np.array([half_width]), grades):
             assert rule.nodes.shape[1] < full.nodes.size
             for share in (1.0, 0.3):
@@ -218,9 +218,9 @@ def test_elastic_layers_in_a_batch():
 
 def test_widest_contact_meets_the_alias_of_its_window():
     # exp(-(w(2π-2α))²/4) of the solving windows
-    for grade in (FINE[0], COARSE[0]):
+    for grade, alias in ((FINE[0], 1e-16), (COARSE[0], 1e-16), (LOOSE[0], 1e-7)):
         for cap in CAPS:
-            assert np.exp(-((_width(grade, cap) * (2.0 * np.pi - 2.0 * cap)) ** 2) / 4.0) < 1e-16
+            assert np.exp(-((_width(grade, cap) * (2.0 * np.pi - 2.0 * cap)) ** 2) / 4.0) < alias
 
 
 @pytest.mark.parametrize("pressure", [1e-3, 1e-7, 1e-11])

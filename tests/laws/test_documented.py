@@ -21,6 +21,7 @@ from conveyor.laws import (
     tension,
     transfer,
     vertical_curve,
+    wind,
 )
 from conveyor.laws import energy as energy_laws
 from conveyor.laws import motion as motion_laws
@@ -28,7 +29,7 @@ from conveyor.laws import motion as motion_laws
 WITHOUT_UNIT = {"minima", "carcass"}  # a mapping whose text states the unit; a name
 MODULES = (
     loading, resistance, tension, power, closed_forms, take_up, motion_laws, vertical_curve, roll_life,
-    energy_laws, belt_check, drives, idlers, discharge, transfer,
+    energy_laws, belt_check, drives, idlers, discharge, transfer, wind,
 )  # fmt: skip
 
 

@@ -8,6 +8,7 @@ import pytest
 
 from conveyor.errors import InputError
 from conveyor.laws import vertical_curve as curve
+from conveyor.laws import wind
 
 ROUNDING = 1e-13
 
@@ -50,6 +51,22 @@ def test_at_the_limiting_radii_the_strip_is_at_its_limit():
     assert 100e3 + 72e6 * 0.13 / radius == pytest.approx(160e3, rel=ROUNDING)
     radius = curve.buckling_radius(100e3, distance=0.07, stiffness_per_width=72e6, least_per_width=10e3)
     assert 100e3 - 72e6 * 0.07 / radius == pytest.approx(10e3, rel=ROUNDING)
+
+
+def test_the_wind_lifts_what_the_tension_leaves():
+    """At the speed that lifts the belt alone no radius holds it; at half of it a quarter of the weight is gone."""
+    belt = {"belt_mass": 20.0, "inclination": 0.1, "gravity": 9.81}
+    speed = wind.lifting_speed(**belt, width=1.2, lift=0.5, air_density=1.25)
+
+    def uplift(of):
+        return wind.wind_force(of, height=1.2, length=1.0, drag=0.5, air_density=1.25)
+
+    calm = curve.lift_off_radius(60e3, **belt)
+    assert uplift(speed) == pytest.approx(20.0 * 9.81 * math.cos(0.1), rel=1e-14)
+    assert curve.lift_off_radius(60e3, **belt, uplift=uplift(0.5 * speed)) == pytest.approx(
+        calm / 0.75, rel=1e-14
+    )
+    assert curve.lift_off_radius(60e3, **belt, uplift=uplift(1.01 * speed)) == math.inf
 
 
 @pytest.mark.parametrize(

@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
-from conveyor.checks import belt_drift, horizontal_edges
+from conveyor.checks import belt_drift, horizontal_edges, wind_lift
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.line.strands import Strands
 from conveyor.line.stretches import Acting
 from conveyor.loop.belt_duty import LEAST_EDGE_TENSION
 from conveyor.loop.curves import drifts, pressing_masses
 from conveyor.pipeline import calculate
+from conveyor.report.analysis_plots import cross_section as across
 from conveyor.report.analysis_plots import drift as drift_drawn
 from conveyor.report.analysis_plots import plan
 from conveyor.report.tables import horizontal_curves
 from conveyor.spec import from_data
+from conveyor.units.sentences import said
 from tests.loop.loop_lines import DATA, data
 
 _ROLL = {"diameter": "133 mm", "length": "600 mm", "rotating_mass": "5 kg", "drag": "1.5 N"}
@@ -183,6 +187,49 @@ def test_a_storm_blows_the_empty_belt_off_and_the_picture_says_so():
     assert "runs off" in {text.get_text() for text in axis.texts}
 
 
+def test_the_table_is_of_all_cases(found):
+    """An empty carry strand drifts farther inside than the loaded one; what is not worse there stays."""
+    empty = calculate(conveyor(flow="0 t/h"))
+    states = SimpleNamespace(loads=[(said("load state empty"), empty)])
+    table = horizontal_curves(found, SimpleNamespace(cases=None, states=states)).frame()
+    both = zip(found.horizontal, empty.horizontal, strict=True)
+    inside, outside = zip(
+        *(
+            (
+                max(a.farthest_in.inside, b.farthest_in.inside),
+                min(a.farthest_out.outside, b.farthest_out.outside),
+            )
+            for a, b in both
+        ),
+        strict=True,
+    )
+    assert table["farthest inside [mm]"].tolist() == pytest.approx([1e3 * x for x in inside])
+    assert table["farthest outside [mm]"].tolist() == pytest.approx([1e3 * x for x in outside])
+    assert inside[0] > found.horizontal[0].farthest_in.inside
+    assert table["drift, steady [mm]"].tolist() == pytest.approx(
+        [1e3 * bend.turn.drift for bend in found.horizontal]
+    )
+
+
+def test_the_wind_lifts_what_has_no_bulk_on_it(found):
+    """m' g = c ρ v²/2 B, against the steepest part: 10 m over 200 m; nothing is said without wind, nor of bulk."""
+    assert not list(wind_lift(found))
+    held = math.sqrt(2.0 * 20.0 * 9.81 * math.cos(math.asin(0.05)) / (0.5 * 1.25 * 1.0))
+    breeze, storm = (
+        [
+            check
+            for flow in ("1200 t/h", "0 t/h")
+            for check in wind_lift(calculate(conveyor(ambient={"wind_speed": f"{gust} m/s"}, flow=flow)))
+        ]
+        for gust in (0.99 * held, 1.01 * held)
+    )
+    assert [check.subject.text().split(", ")[1] for check in breeze] == ["return", "carry", "return"]
+    assert [check.required for check in breeze] == pytest.approx([held] * 3)
+    assert {check.verdict for check in breeze} == {"pass"}
+    assert {check.verdict for check in storm} == {"FAIL"}
+    assert "lifts the empty belt" in storm[0].why.text()
+
+
 def test_the_plan_turns_by_length_over_radius(found):
     """A level curve to the left: its chord heads by half the angle turned, its end by all of it."""
     (axis,) = plan(found.line).axes
@@ -311,6 +358,12 @@ def test_a_garland_of_five_holds_its_belt_in_a_curve(found):
     assert held == pytest.approx(2.0 * pull * math.sin(stretch.spacing / 3600.0), rel=1e-5)
     assert len(stretch.loads) == 5
     assert abs(bend.turn.drift) < abs(found.horizontal[0].turn.drift)  # a deeper trough
+    carry, back = across(five.conveyor, five.line).axes
+    assert (len(carry.patches), len(back.patches)) == (6, 2)  # five rolls and the bulk; a V
+    x, y = carry.patches[-1].get_xy().T / 1e3
+    area = abs(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])) / 2.0
+    # 1200 t/h at 4 m/s, 1.6 t/m³; 40 chords leave 1/1600 of the heap
+    assert area == pytest.approx(1200.0 / 3.6 / 4.0 / 1600.0, rel=1.0 / 1600.0)
     level = calculate(garland(inner_trough_angle="0 deg", trough_angle="35 deg"))
     assert abs(level.horizontal[0].turn.drift) > abs(bend.turn.drift)
     assert level.horizontal[0].turn.slopes[1:4] == pytest.approx([math.sin(math.radians(3.0))] * 3)

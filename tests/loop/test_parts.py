@@ -71,6 +71,24 @@ def test_the_load_of_a_set_is_belt_lumps_and_a_raised_set():
     assert check.calculated == pytest.approx(max(duty.limits.load for duty in found.set_duty))
 
 
+def test_lumps_say_the_factor_where_none_is_given():
+    def of(lump, **given):
+        carry = DATA["idlers"]["carry"] | {"cema_class": "D"} | given
+        return calculated(
+            belt=DATA["belt"] | {"wear": {"lump": lump, "loading": "low"}},
+            idlers=DATA["idlers"] | {"carry": carry},
+        )
+
+    # 1600 kg/m³: 1.1 to 300 mm, 1.2 to 500 mm, none printed beyond
+    factors = {
+        lump: {duty.limits.lump_factor for duty in of(lump).set_duty} for lump in ("0.3 m", "0.5 m", "0.6 m")
+    }
+    assert factors == {"0.3 m": {1.1}, "0.5 m": {1.2}, "0.6 m": {None}}
+    assert {duty.limits.lump_factor for duty in of("0.6 m", lump_factor=1.4).set_duty} == {1.4}
+    check = only(set_rating(of("0.6 m")))
+    assert (check.verdict, check.required) == ("not checked", None)
+
+
 def test_a_set_beyond_its_rating_fails_and_names_the_class_that_bears_it():
     check = only(set_rating(with_carry(cema_class="B", lump_factor=1.4, spacing="2 m")))
     assert check.failed

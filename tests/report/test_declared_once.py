@@ -47,7 +47,7 @@ def probed(result, monkeypatch):
         more = Figure("probing", "power", 12_345.0, "tile large notebook", "power_kW.probing")
         return replace(table, rows=(*table.rows, more))
 
-    def with_table(_):
+    def with_table(_, __):
         columns_of = (Column("what", "text", str), Column("size", "length", len))
         return Table("probes", "Loop", "Probes", columns_of, ("abc",), (OnPage("belt", "Probes"),))
 

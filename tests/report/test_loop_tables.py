@@ -27,7 +27,7 @@ DUTY = BeltDuty(
     curves=(CurveCheck("dip", "carry", "concave", 250.0, 20e3, 50e3, 255.0, 70.0, 110.0, 90e3, 12e3),),
 )
 BELT = SimpleNamespace(stiffness=None, strength=None, covers=())
-OF_DUTY = SimpleNamespace(belt_duty=DUTY, line=SimpleNamespace(belt=BELT))
+OF_DUTY = SimpleNamespace(belt_duty=DUTY, line=SimpleNamespace(belt=BELT, wind_speed=None))
 
 
 def test_strength_in_newtons_a_millimetre_and_diameters_in_millimetres():

@@ -230,15 +230,41 @@ def test_what_is_wrong_is_refused_with_its_place(tmp_path, old, new, message):
 
 
 @pytest.mark.parametrize(
-    ("rules", "message"),
+    ("changes", "rules", "message"),
     [
-        ({"speeds": ["0.1 m/s"]}, "no belt width and speed keep the rules"),
-        ({"largest_motor": "1 kW"}, "belt, motors, bearings and take-up"),
+        ({}, {"roll_rotation": "10 rpm"}, "no belt width and speed keep the rules"),
+        ({}, {"largest_motor": "1 kW"}, "belt, motors, bearings and take-up"),
+        # 0.80 m, 35 deg takes some 500 t/h at 2.5 m/s; 3 lumps of 0.4 m at 20 deg
+        (
+            {},
+            {"speeds": ["0.1 m/s"]},
+            r"material\.flow: 400 t/h is more than the widest and fastest belt takes, \d+ t/h",
+        ),
+        ({"lump": "400 mm"}, {}, "lump: 400 mm asks for a belt of 1,200 mm, the widest has 800 mm"),
     ],
 )
-def test_rules_that_leave_nothing_say_so(small, rules, message):
+def test_what_leaves_nothing_is_named(small, changes, rules, message):
     with pytest.raises(NoSolutionError, match=message):
-        size(small.replace(rules=small.rules.replace(**rules)))
+        size(small.replace(rules=small.rules.replace(**rules), **changes))
+
+
+@pytest.mark.parametrize("most", [1, 2])
+def test_motors_of_a_pulley_share_what_one_does_not_give(small, most):
+    rules = small.rules.replace(largest_motor="100 kW", motors_per_pulley=most)
+    task = SizingTask(small.replace(rules=rules))
+    assert task.largest_drive == most * 90e3  # the series has 90 and 110 kW
+    assert (task.motors(80e3), task.motor_count(90e3)) == (90e3, 1)  # reserve 1.1
+    if most == 2:
+        assert (task.motors(120e3), task.motor_count(150e3)) == (150e3, 2)
+
+
+def test_a_rising_design_has_the_backstop_that_holds_it(small):
+    spec = size(small, best=1).best.conveyor
+    held = [
+        check for check in checks(conveyor.analyse(spec)) if check.key in {"holding_brake", "backstop_torque"}
+    ]
+    assert [check.verdict for check in held] == ["pass", "pass"]
+    assert all(check.margin >= 1.0 - 1.0 / 1.3 - 1e-3 for check in held)  # 1.3, written to four digits
 
 
 def test_prices_are_those_of_the_library_but_for_what_is_given():

@@ -106,6 +106,7 @@ def test_shipped_checks_name_source_and_quantity():
         "NEMA MG 10, table 2-3",
         "Nordell and Ciozda (1984), measured",
         "Rulmeca, impact rollers",
+        "Sandvik (1999), load of idlers",
         "Shortt (2019), idler of 127 mm, bearings 6305",
         "Song et al. (2012)",
         "ckit.co.za, trajectories",
