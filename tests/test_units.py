@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import subprocess
+import sys
 import time
 from typing import Annotated
 
@@ -298,8 +300,6 @@ def test_bounds_are_inclusive_as_written() -> None:
 
 def test_json_schema_accepts_what_the_model_accepts() -> None:
     import re
-import subprocess
-import sys
 
     schema = Sample.model_json_schema()["properties"]
     for name, value in VALID.items():
