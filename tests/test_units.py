@@ -222,7 +222,7 @@ def test_threads_that_name_a_unit_first_find_all_of_pint() -> None:
 from concurrent.futures import ThreadPoolExecutor
 from conveyor.units import quantity
 with ThreadPoolExecutor(8) as pool:
-    print(sum(pool.map(lambda metres: quantity(metres, "length").to("furlong").magnitude, ["201.168 m"] * 16)))
+    print(sum(pool.map(lambda metres: quantity(metres, "length").to("nautical_mile").magnitude, ["1852 m"] * 16)))
 """
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert float(done.stdout) == pytest.approx(16.0)
