@@ -103,9 +103,9 @@ class Check:
         """How far the calculated figure is on the safe side of the required one, over that one [-].
 
         Calculated over required less 1 where at least that is required, 1 less calculated over required where at most;
-        None where a figure is missing or the required one is 0.
+        None where a figure is missing, the required one is 0, or both are temperatures, which have no ratio.
         """
-        if self.calculated is None or not self.required:
+        if self.calculated is None or not self.required or self.kind == "temperature":
             return None
         over = (self.calculated - self.required) / abs(self.required)
         return over if self.relation == "at least" else -over
@@ -208,8 +208,9 @@ def severity(check: Check) -> tuple[int, float]:
     margin = check.margin
     if margin is None:
         margin = -math.inf if check.failed else math.inf
-        if check.required == 0.0 and check.calculated is not None:
-            margin = check.calculated if check.relation == "at least" else -check.calculated
+        if check.required is not None and check.calculated is not None:
+            over = check.calculated - check.required
+            margin = over if check.relation == "at least" else -over
     return ("FAIL", "pass", "not checked").index(check.verdict), margin
 
 

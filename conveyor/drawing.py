@@ -78,6 +78,11 @@ class AnalysisPlots:
             raise InputError("no trajectory: give route.discharge, and bulk that reaches the head")
         return transfer_tables.picture(self.analysis, system=self._in(system))
 
+    def cross_section(self, *, system: System | None = None) -> Figure:
+        """A set of each strand with its belt and bulk, to scale."""
+        result = self.analysis
+        return analysis_plots.cross_section(result.conveyor, result.line, system=self._in(system))
+
     def plan(self, *, system: System | None = None) -> Figure:
         """The route from above, with its horizontal curves."""
         return analysis_plots.plan(self.analysis.line, system=self._in(system))
@@ -163,12 +168,12 @@ class AnalysisPlots:
         """All of these by name, and those of the studies where they are given."""
         result, conveyor = self.analysis, self.analysis.conveyor
         rubbers = _STRANDS[: 1 if conveyor.carry_compound.name == conveyor.return_compound.name else 2]
-        drawn = [self.resistances, self.tensions, self.profile]
+        drawn = [self.resistances, self.tensions, self.profile, self.cross_section]
         drawn += [self.plan] if result.horizontal else []
         drawn += [] if result.trajectory is None else [self.trajectory]
         drawn += [self.pressure, *([self.flap] if result.set_duty else [])]
         made = {
-            **{draw.__name__: draw(system=system) for draw in drawn},
+            **{draw.__name__.replace("_", "-"): draw(system=system) for draw in drawn},
             **({"drift": self.drift(studies, system=system)} if result.horizontal else {}),
             **{f"rubber-{strand}": self.rubber(strand, system=system) for strand in rubbers},
             "power-temperature": self.power_against_temperature(system=system),

@@ -374,6 +374,7 @@ class _Step:
 
     acting: Acting = field(default_factory=Acting)
     pulls: Array | None = None
+    covers: Covers = field(default_factory=dict)
     before: Balance | None = None
     convergence: Convergence | None = None
 
@@ -382,7 +383,8 @@ class _Step:
         """The next step; its tensions are those found."""
         line, steady = result.line, result.balance.settled.steady
         held = pulls(line, steady, GAUSS[0]) if line.support == "belt" else None
-        return cls(acting(line, steady), held, result.balance, result.convergence)
+        covers = result.contacts.covers
+        return cls(acting(line, steady), held, covers, result.balance, result.convergence)
 
 
 @dataclass(frozen=True, eq=False)
@@ -445,7 +447,8 @@ def _solved(
 
     A belt that gives is first held fast: its tensions are not known before.
     """
-    running = dict(zip(loaded, shared.softened(list(loaded.values())), strict=True))
+    before = [steps[i].covers for i in loaded]
+    running = dict(zip(loaded, shared.softened(list(loaded.values()), before), strict=True))
     covers = {i: one for i, one in running.items() if isinstance(one, Mapping)}
     solved = solve_contacts([loaded[i].line for i in covers], list(covers.values()), rtol)
     refused = {i: one for i, one in running.items() if not isinstance(one, Mapping)}
@@ -514,20 +517,23 @@ class Kept:
 
     def __init__(self) -> None:
         self._made: dict[tuple[object, ...], Any] = {}
+        self.fields: dict[object, Any] = {}
+        """For `with_fields`: specs of the same changes have the very same parts."""
 
     def begin(self) -> None:
-        """Forget everything where it has become much."""
-        if len(self._made) > self.MOST:
-            self._made.clear()
+        """Forget everything where it has become much; other threads end with what they began with."""
+        if max(len(self._made), len(self.fields)) > self.MOST:
+            self._made, self.fields = {}, {}
 
     def once(
         self, make: Callable[[], T], what: str, parts: Iterable[object], values: tuple[object, ...] = ()
     ) -> T:
         """What was made of the very same parts and equal values, or what is made of them now."""
         key = (what, *map(_Same, parts), *values)
-        if key not in self._made:
-            self._made[key] = make()
-        made: T = self._made[key]
+        known = self._made
+        if key not in known:
+            known.setdefault(key, make())
+        made: T = known[key]
         return made
 
 
@@ -634,9 +640,16 @@ class _Shared:
             lambda: _loaded(replace(like, strands=strands), (up, down)), "line", (carry, back, given.drive)
         )
 
-    def softened(self, loaded: Sequence[_Loaded]) -> list[Covers | NoAnswer]:
-        """The covers of many lines at their working strain; alike ones are the very same, and share load curves."""
+    def softened(self, loaded: Sequence[_Loaded], before: Sequence[Covers]) -> list[Covers | NoAnswer]:
+        """The covers of many lines at their working strain; alike ones are the very same, and share load curves.
+
+        A cover of the step before stays where its rolls work it as they did.
+        """
         firsts = [{strand: self._first(work) for strand, work in one.works.items()} for one in loaded]
+        for works, kept in zip(firsts, before, strict=True):
+            for strand, cover in kept.items():
+                if works[strand].still_at(cover):
+                    self._running.setdefault(works[strand], cover)
         asked = dict.fromkeys(first for works in firsts for first in works.values())
         new = [first for first in asked if first not in self._running]
         tests = [work for theory in self._theories for work in theory.works]

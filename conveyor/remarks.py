@@ -567,9 +567,8 @@ def _library_warnings(conveyor: Conveyor) -> Iterator[Said]:
         taken = [name for name in entry.fields if name != "name" and name not in without(given, entry.fields)]
         if taken:
             spans = "; ".join(f"{name} {entry.range[name]}" for name in taken if name in entry.range)
-            yield said(
-                f'{field}: {", ".join(taken)} of "{entry.name}" are {entry.source}, in practice {spans}'
-            )
+            met = f", in practice {spans}" if spans else ""
+            yield said(f'{field}: {", ".join(taken)} assumed as of "{entry.name}": {entry.source}{met}')
 
 
 def _cover_warnings(conveyor: Conveyor) -> Iterator[Said]:
@@ -594,7 +593,7 @@ def _set_warnings(result: CalculatedConveyor) -> Iterator[Said]:
         if stretches[0].tilt_angle > 0.0 or any(s.turn is not None and s.turn.guided for s in stretches):
             friction = ROLL_ON_BELT_FRICTION.value
             yield said(
-                f"idlers.{strand}: tilt or skew with μ0 = {friction:g}, general knowledge, not a source"
+                f"idlers.{strand}: friction of belt on tilted or skewed rolls {friction:g} assumed (general knowledge)"
             )
         if idlers.offset.magnitude > 0.0:
             yield said(f"idlers.{strand}.offset: the loads of the rolls are those of a set in one plane")

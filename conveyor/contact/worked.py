@@ -38,7 +38,7 @@ _PHASE: Final = (
     12.0  # radians a panel at most, pressure and place together: 8 Gauss nodes integrate them to 1e-5
 )
 _GAUSS: Final = 8
-_CHUNK: Final = 8  # contacts at once: few enough for the cache
+_CHUNK: Final = 16  # contacts at once: few enough for the cache, many enough for the calls
 
 
 class _Waves(NamedTuple):

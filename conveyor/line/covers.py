@@ -144,11 +144,20 @@ class StrandAtWork:
         factors = self.compound.amplitude_factors() if self.line.softened else None
         if factors is None:
             return None
-        loads = np.concatenate([kind.line_loads for kind in self.kinds])
-        weights = np.concatenate([kind.weights * kind.sets for kind in self.kinds])
         contact = roll_contact(self.line, max(self.kinds, key=lambda kind: kind.highest), self.cover)
         swept = self.compound.swept_series(self.temperature)
-        return WorkedCover(contact, losing_load(loads, weights), factors, self.temperature, swept)
+        return WorkedCover(contact, self.line_load, factors, self.temperature, swept)
+
+    @property
+    def line_load(self) -> float:
+        """At which its rolls lose their energy [N/m]."""
+        loads = np.concatenate([kind.line_loads for kind in self.kinds])
+        return losing_load(loads, np.concatenate([kind.weights * kind.sets for kind in self.kinds]))
+
+    def still_at(self, cover: RunningCover) -> bool:
+        """Whether its rolls work a cover at the strain that it was softened for: strain goes as a root of the load."""
+        was = cover.strain
+        return was is not None and abs(self.line_load - was.line_load) <= self.line.rtol * was.line_load
 
 
 FELT: Final = 0.02

@@ -6,7 +6,8 @@ Axes are in SI units (kN, kW, MPa), or in US units (lbf, hp, psi).
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 from conveyor.contact import solve
 from conveyor.errors import InputError
 from conveyor.indentation import to_problem
+from conveyor.laws.loading import Wing, filled_width, wings
 from conveyor.laws.tension import grip_tension
 from conveyor.line.contacts import Contacts, RollResult
 from conveyor.line.stretches import STRANDS
@@ -28,7 +30,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from conveyor.line.line import Line
-    from conveyor.line.stretches import RouteSection, Strand
+    from conveyor.line.stretches import RouteSection, Strand, Stretch
     from conveyor.loop.balance import Balance
     from conveyor.loop.estimates import Classical
     from conveyor.loop.horizontal import HorizontalCheck
@@ -268,6 +270,7 @@ _FAILS = "#B3261E"
 _WAY = "distance from the head along the belt, return strand first"
 _PIECES = 24  # chords of a curve in plan
 _BEYOND = 1.5  # of the room on the rolls, to where a drift without end is drawn
+_HEAP = 41  # points of its outline
 _ROOM = 0.05  # of the length, above and below a level route
 _ASPECT = 5.0  # a height that is less than a fifth of the length is drawn larger
 
@@ -324,6 +327,63 @@ def route_profile(
         axis.set_aspect("equal", adjustable="datalim")
     across, up = length.beside("horizontal distance"), length.beside("height over the tail")
     return finished(figure, across, up, conveyor.name, group="x")
+
+
+def cross_section(conveyor: Conveyor, line: Line, *, system: System = "SI") -> Figure:
+    """A set of each strand with its belt, and with the bulk as it lies there, to scale; the belt is centred."""
+    figure, axes = stacked(2, 1.4 * _HEIGHT)
+    size, width = unit("size", system), line.belt.width
+    for axis, strand in zip(axes, STRANDS, strict=True):
+        stretch = max((s for s in line.stretches if s.strand == strand), key=lambda s: s.bulk_mass)
+        middle, angle = stretch.idlers.middle_belt(width), stretch.trough_angle
+        trough = partial(
+            wings, middle_roll_length=middle, trough_angle=angle, inner_wing=stretch.idlers.inner_wing
+        )
+        for x, y in _rolls(stretch, 0.5 * middle, trough(width)):
+            axis.fill(size(x), size(y), color="0.85", edgecolor="0.4")
+        x, y = _mirrored(0.5 * middle, trough(width))
+        axis.plot(size(x), size(y), color="#1F4E79", linewidth=3, zorder=3)
+        if stretch.bulk_mass > 0.0:
+            covered = filled_width(
+                stretch.bulk_mass / line.density,
+                middle_roll_length=middle,
+                trough_angle=angle,
+                surcharge_angle=conveyor.material.surcharge,
+                inner_wing=stretch.idlers.inner_wing,
+            )
+            lying = 0.5 * min(middle, covered)
+            x, y = _mirrored(lying, trough(covered) if covered > middle else ())
+            over = np.linspace(x[-1], x[0], _HEAP)
+            heap = y[-1] + math.tan(conveyor.material.surcharge) * (x[-1] ** 2 - over**2) / (2.0 * x[-1])
+            axis.fill(size(np.append(x, over)), size(np.append(y, heap)), color="#C9A66B", zorder=2)
+        axis.set_aspect("equal", adjustable="datalim")
+        axis.set_ylabel(size.beside(f"{strand}, up"))
+    axes[1].set_xlabel(size.beside("across the belt"))
+    titled(figure, "Sets, belt and bulk")
+    return figure
+
+
+def _mirrored(flat: float, half: Sequence[Wing]) -> tuple[Array, Array]:
+    """Across and up [m], of a belt level to `flat` on both sides and on the wings beyond, from left to right."""
+    x = np.cumsum([flat, *(wing.length * math.cos(wing.angle) for wing in half)])
+    y = np.cumsum([0.0, *(wing.length * math.sin(wing.angle) for wing in half)])
+    return np.concatenate([-x[::-1], x]), np.concatenate([y[::-1], y])
+
+
+def _rolls(stretch: Stretch, flat: float, half: Sequence[Wing]) -> Iterator[tuple[Array, Array]]:
+    """Outlines of the rolls [m]: a wing's begins at the bend before it."""
+    count, long = len(stretch.radii), stretch.roll_length
+    if count % 2:
+        thick = 2.0 * stretch.radii[count // 2]
+        yield np.array([-0.5, 0.5, 0.5, -0.5]) * long, np.array([0.0, 0.0, -thick, -thick])
+    x, y = flat, 0.0
+    for wing, radius in zip(half, stretch.radii[(count + 1) // 2 :], strict=False):
+        along = long * np.array([math.cos(wing.angle), math.sin(wing.angle)])
+        down = 2.0 * radius * np.array([math.sin(wing.angle), -math.cos(wing.angle)])
+        outline = np.array([x, y]) + np.array([0.0 * along, along, along + down, down])
+        for side in (1.0, -1.0):
+            yield side * outline[:, 0], outline[:, 1]
+        x, y = x + wing.length * math.cos(wing.angle), y + wing.length * math.sin(wing.angle)
 
 
 def _drawn(section: RouteSection, heading: float) -> tuple[Array, float]:

@@ -155,7 +155,6 @@ class _Opened(NamedTuple):
     asked: tuple[str, ...]
     compounds: Mapping[str, RubberCompound]
     anchors: Anchors
-    known: dict[object, Any]
     kept: Kept
 
 
@@ -163,7 +162,7 @@ class _Opened(NamedTuple):
 def _opened(job: Job) -> _Opened:
     """A job unpacked, once in a process that does many batches of it."""
     base, asked, compounds, anchors = pickle.loads(job.packed)  # noqa: S301 packed by this program
-    return _Opened(base, asked, compounds, anchors, {}, Kept())
+    return _Opened(base, asked, compounds, anchors, Kept())
 
 
 def answers(job: Job, points: Sequence[Changes], rtol: float = RTOL) -> list[Answer]:
@@ -183,9 +182,8 @@ def answers(job: Job, points: Sequence[Changes], rtol: float = RTOL) -> list[Ans
     list
         In their order what is asked for in SI, or why a point has none.
     """
-    base, asked, compounds, anchors, known, kept = _opened(job)
-    if len(known) > Kept.MOST:
-        known.clear()
+    base, asked, compounds, anchors, kept = _opened(job)
+    known = kept.fields
     made: list[Conveyor | str] = []
     for point in points:
         try:

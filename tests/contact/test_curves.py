@@ -7,8 +7,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from conveyor.contact import ContactProblem, CreepSpectrum, LoadCurve, load_curve, load_curves, solve
-from conveyor.errors import InputError, NoSolutionError
+from conveyor.contact import (
+    ContactProblem,
+    CreepSpectrum,
+    LoadCurve,
+    frictions,
+    load_curve,
+    load_curves,
+    solve,
+)
+from conveyor.errors import InputError, NoSolutionError, RangeError
 
 TERMS = CreepSpectrum(0.05, np.full(10, 0.095), np.logspace(-6, 3, 10))
 ELASTIC = CreepSpectrum(1.0)
@@ -22,6 +30,18 @@ SCENES = [
 ]
 HIGH = np.array([p.pressure for p in SCENES])
 LOW = HIGH / 20.0
+
+
+def test_many_curves_are_read_as_each_by_itself():
+    curves = load_curves(SCENES, LOW, HIGH, 1e-4)
+    loads = [np.geomspace(low, high, 3 + k) for k, (low, high) in enumerate(zip(LOW, HIGH, strict=True))]
+    for curve, p, friction in zip(curves, loads, frictions(curves, loads), strict=True):
+        np.testing.assert_allclose(friction, curve.at(p).friction, rtol=1e-12, atol=1e-15)  # Newton to 1e-18
+        again = frictions([curve, curve], [p.reshape(-1, 1), p[:1]])
+        assert again[0].shape == (p.size, 1)
+        np.testing.assert_allclose(again[1], friction[:1], rtol=1e-12, atol=1e-15)
+    with pytest.raises(RangeError, match="the load curve holds"):
+        frictions(curves[:2], [loads[0], 2.0 * loads[1]])
 
 
 @pytest.mark.parametrize("rtol", [1e-3, 1e-4, 1e-6])

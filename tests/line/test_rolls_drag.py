@@ -12,6 +12,7 @@ from conveyor.errors import InputError
 from conveyor.laws.resistance import bearing_roll_drag, oil_viscosity, service_roll_drag
 from conveyor.laws.roll_life import heavier_bearing_load
 from conveyor.line.line import Line
+from conveyor.line.roll_drags import roll_drags, roll_drags_many
 from conveyor.line.roll_lives import roll_life, set_life
 from conveyor.pipeline import calculate
 from conveyor.remarks import assumptions, warnings
@@ -82,6 +83,24 @@ def test_without_drag_a_roll_is_in_service_or_at_its_limit(line):
 def test_a_roll_too_small_for_a_usual_bearing_needs_its_drag(line):
     with pytest.raises(InputError, match=r"idlers\.carry\.roll: drag not given: roll_diameter = 0\.03"):
         Line.of(carry_roll(line, diameter="30 mm"))
+
+
+def test_rolls_of_many_lines_drag_as_each_by_itself(line):
+    def in_air(given, air):
+        made = given.replace(ambient=given.ambient.replace(temperature=air, belt_temperature="20 degC"))
+        return [(made, strand) for strand in Line.of(given).strands.each]
+
+    faster = line.replace(belt=line.belt.replace(speed="6 m/s"))
+    small = carry_roll(line, drag_law=MAKER)
+    asked = [*in_air(line, "-20 degC"), *in_air(faster, "20 degC"), *in_air(small, "0 degC")]
+    for pair, drags in zip(asked, roll_drags_many(asked), strict=True):
+        for one, alone in zip(drags, roll_drags(*pair), strict=True):
+            assert one == pytest.approx(alone, rel=ROUNDING)
+    # grease that is solid in one line's air leaves the others theirs
+    cold, warm = roll_drags_many([in_air(line, "-90 degC")[0], asked[2]])
+    assert isinstance(cold, InputError)
+    assert str(cold).startswith("idlers.carry.roll: drag not given: temperature = 183.1")
+    assert warm[0] == pytest.approx(roll_drags(*asked[2])[0], rel=ROUNDING)
 
 
 def test_a_flat_line_is_one_figure(line):

@@ -233,6 +233,11 @@ def test_examples_hold(name):
     curves = sum(section.curve is not None for section in done.conveyor.route.sections)
     assert len(done.belt_duty.curves) == 2 * curves
     assert (done.convergence is None) == (curves == 0)
+    for (
+        strand,
+        cover,
+    ) in done.contacts.covers.items():  # kept from a step before where the tensions moved no load
+        assert cover.strain.line_load == pytest.approx(done.contacts.losing_load(strand), rel=done.line.rtol)
     if done.convergence is not None:
         settling = done.convergence
         assert min(settling.steps, settling.change, settling.ratio, settling.bound) >= 0.0

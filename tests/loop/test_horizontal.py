@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from conveyor.checks import belt_drift, horizontal_edges, wind_lift
@@ -14,6 +15,7 @@ from conveyor.line.stretches import Acting
 from conveyor.loop.belt_duty import LEAST_EDGE_TENSION
 from conveyor.loop.curves import drifts, pressing_masses
 from conveyor.pipeline import calculate
+from conveyor.report.analysis_plots import cross_section as across
 from conveyor.report.analysis_plots import drift as drift_drawn
 from conveyor.report.analysis_plots import plan
 from conveyor.report.tables import horizontal_curves
@@ -356,6 +358,12 @@ def test_a_garland_of_five_holds_its_belt_in_a_curve(found):
     assert held == pytest.approx(2.0 * pull * math.sin(stretch.spacing / 3600.0), rel=1e-5)
     assert len(stretch.loads) == 5
     assert abs(bend.turn.drift) < abs(found.horizontal[0].turn.drift)  # a deeper trough
+    carry, back = across(five.conveyor, five.line).axes
+    assert (len(carry.patches), len(back.patches)) == (6, 2)  # five rolls and the bulk; a V
+    x, y = carry.patches[-1].get_xy().T / 1e3
+    area = abs(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])) / 2.0
+    # 1200 t/h at 4 m/s, 1.6 t/m³; 40 chords leave 1/1600 of the heap
+    assert area == pytest.approx(1200.0 / 3.6 / 4.0 / 1600.0, rel=1.0 / 1600.0)
     level = calculate(garland(inner_trough_angle="0 deg", trough_angle="35 deg"))
     assert abs(level.horizontal[0].turn.drift) > abs(bend.turn.drift)
     assert level.horizontal[0].turn.slopes[1:4] == pytest.approx([math.sin(math.radians(3.0))] * 3)

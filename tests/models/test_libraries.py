@@ -167,7 +167,7 @@ def test_general_knowledge_is_warned_of_until_the_spec_gives_it(conveyor_data):
     conveyor_data["material"] = {"listed": "lignite", "flow": "2000 t/h"}
     conveyor_data["route"]["sections"][0]["loaded"] = False
     told = _library_remarks(from_data(conveyor_data))
-    assert any('density, surcharge_angle of "lignite" are general knowledge' in line for line in told)
+    assert any('density, surcharge_angle assumed as of "lignite": general knowledge' in line for line in told)
     conveyor_data["material"] |= {"density": "700 kg/m^3", "surcharge_angle": "18 deg"}
     assert not any(
         '"lignite" are general knowledge' in line for line in _library_remarks(from_data(conveyor_data))

@@ -45,7 +45,8 @@ def figures(result, line):
 
 def test_every_figure_there_is(figures):
     assert set(figures["SI"]) == {
-        "resistances", "tensions", "profile", "pressure", "rubber-carry", "power-temperature", "power-speed",
+        "resistances", "tensions", "profile", "cross-section", "pressure", "rubber-carry", "power-temperature",
+        "power-speed",
         "cases-temperature", "cases-speed", "ranges",
     }  # fmt: skip
 
@@ -160,6 +161,7 @@ def test_what_a_spec_asks_for_is_drawn(studied, monkeypatch, spec, more):
         "resistances",
         "tensions",
         "profile",
+        "cross-section",
         "pressure",
         "rubber-carry",
         "power-temperature",

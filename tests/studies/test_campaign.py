@@ -20,10 +20,10 @@ from conveyor import shelf
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models.fields import with_fields
 from conveyor.models.study import StudyPlan
-from conveyor.pipeline import calculate
+from conveyor.pipeline import Kept, calculate
 from conveyor.report.point_tables import CampaignTable, PartedTable, of_points
 from conveyor.studies.campaign import BATCH, Answers, Campaign, point_of, rows, run
-from conveyor.studies.points import OUTPUTS, RTOL
+from conveyor.studies.points import OUTPUTS, RTOL, answers
 from tests.command_line import run as command
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -139,6 +139,20 @@ def test_order_and_number_of_workers_change_nothing(line, tmp_path, monkeypatch)
     with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as processes:
         found = answered(study, tmp_path / "processes", executor=processes, workers=2)
     same(found, alone)
+
+
+def test_what_batches_before_made_changes_nothing(line, monkeypatch):
+    study = campaign(line)
+    points = list(study.listed.points())
+    together = answers(study.job, points)
+    again = [
+        answers(study.job, [point])[0] for point in points
+    ]  # strands and lines are those of the batch before
+    monkeypatch.setattr(Kept, "MOST", 0)
+    forgetful = [answers(study.job, [point])[0] for point in points]
+    for one, other, third in zip(together, again, forgetful, strict=True):
+        assert one == pytest.approx(other, rel=1e-9)  # figures are kept to ten digits
+        assert one == pytest.approx(third, rel=1e-9)
 
 
 def test_a_lost_worker_loses_nothing_that_was_done(line, tmp_path, monkeypatch):
