@@ -442,6 +442,9 @@ def _printed_designs() -> Iterator[ReferenceCheck]:
         yield _close(
             _HELIX_PRINTED, f"power at the belt [kW], {name}", printed, got, 0.005 / force + 0.005 / printed
         )
+    bulk = loading.bulk_line_mass(2125.0 / 3.6, belt_speed=3.58)
+    # its speed has three digits
+    yield _close(_SIDEWINDER, "bulk on the belt [kg/m]", 165.0, bulk, 0.005 / 3.58 + 0.05 / 165.0)
     for state, force, printed in (("running", 88.3, 16.98), ("momentary", 127.0, 11.83)):
         got = belt_safety(1e3 * force, nominal_strength=1250e3, belt_width=1.2)
         digit = 0.05 if force < 100.0 else 0.5

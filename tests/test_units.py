@@ -215,6 +215,17 @@ def test_the_registry_knows_every_unit_of_pint_once_a_program_names_one() -> Non
     assert str(before) == "3.0 t/h"
 
 
+def test_threads_that_name_a_unit_first_find_all_of_pint() -> None:
+    program = """
+from concurrent.futures import ThreadPoolExecutor
+from conveyor.units import quantity
+with ThreadPoolExecutor(8) as pool:
+    print(sum(pool.map(lambda metres: quantity(metres, "length").to("furlong").magnitude, ["201.168 m"] * 16)))
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert float(done.stdout) == pytest.approx(16.0)
+
+
 def test_from_si_and_convert_invert_si() -> None:
     for kind, entry in KINDS.items():
         if kind in {"belt mass", "set mass"}:  # two dimensions: per area or set, or per length
@@ -287,6 +298,8 @@ def test_bounds_are_inclusive_as_written() -> None:
 
 def test_json_schema_accepts_what_the_model_accepts() -> None:
     import re
+import subprocess
+import sys
 
     schema = Sample.model_json_schema()["properties"]
     for name, value in VALID.items():

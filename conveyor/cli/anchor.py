@@ -60,7 +60,7 @@ def anchor(
     )
     if output is not None:
         to.add("compound file", output, {output: store.dump(anchored.compound, marks.FITTED).encode()})
-    session.answer(anchoring.plain(anchored), to, lambda: _show(anchored, session.system()))
+    session.answer(lambda: anchoring.plain(anchored), to, lambda: _show(anchored, session.system()))
 
 
 def _show(anchored: Anchored, system: System) -> None:

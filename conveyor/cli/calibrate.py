@@ -71,7 +71,7 @@ def calibrate(
         to.report(calibration.contents(system), output)
     elif output is not None:
         to.add("part of a spec", output, {output: calibration.fragment.encode()})
-    session.answer(calibration.to_dict(), to, lambda: _show(calibration, system))
+    session.answer(calibration.to_dict, to, lambda: _show(calibration, system))
 
 
 def _show(calibration: CalibrationStudy, system: System) -> None:

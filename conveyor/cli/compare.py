@@ -117,7 +117,7 @@ def compare(
             to.figure(figure(system=system), path)
     from conveyor.cli.terminal import show_comparison
 
-    session.answer(comparison_tables.plain(comparison), to, lambda: show_comparison(contents))
+    session.answer(lambda: comparison_tables.plain(comparison), to, lambda: show_comparison(contents))
 
 
 def _amount(given: str) -> tuple[str, float]:

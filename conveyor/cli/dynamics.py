@@ -85,7 +85,7 @@ def dynamics(
         _write(followed, contents, path, to)
     from conveyor.cli.terminal import show_dynamics
 
-    session.answer(plain(followed), to, lambda: show_dynamics(contents))
+    session.answer(lambda: plain(followed), to, lambda: show_dynamics(contents))
 
 
 def _chosen(line: Conveyor, names: list[str] | None) -> tuple[Scenario, ...]:

@@ -86,4 +86,4 @@ def optimise(
             f"{searched.tried} designs in {searched.generations} generations, {new} points calculated now; {end}"
         )
 
-    session.answer(plain, to, show)
+    session.answer(lambda: plain, to, show)

@@ -52,4 +52,4 @@ def power(
             to.figures(shown.plots.every(asked), plots, plot_kind.value)
     from conveyor.cli.terminal import show_power
 
-    session.answer(result.to_dict(asked), to, lambda: show_power(contents))
+    session.answer(lambda: result.to_dict(asked), to, lambda: show_power(contents))

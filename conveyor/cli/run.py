@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import gc
 import logging
 import os
 import re
@@ -37,9 +36,6 @@ _PARSERS: Final = {
 
 def main() -> None:
     """Run the command line; errors become one message on stderr and an exit code, never a traceback."""
-    gc.set_threshold(
-        100_000
-    )  # a start makes classes, no garbage: looking for it took a sixth of a short command
     _set_up_streams()
     try:
         code = app(None if sys.argv[1:] else ["--help"], prog_name="conveyor", standalone_mode=False)

@@ -65,9 +65,9 @@ class Session:
         """A bar on stderr of what goes on; none where nothing or JSON is printed."""
         return progress(what, silent=self.quiet or self.as_json)
 
-    def answer(self, figures: object, to: Outputs, show: Callable[[], None]) -> None:
+    def answer(self, figures: Callable[[], object], to: Outputs, show: Callable[[], None]) -> None:
         """Write the files, then print the figures as JSON, or show them and name the files."""
-        text = json_text(figures)
+        text = json_text(figures()) if self.as_json else ""
         written = to.save()
         if self.as_json:
             print_text(text)

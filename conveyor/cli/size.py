@@ -68,7 +68,7 @@ def size(
     to.write(contents)
     from conveyor.cli.terminal import show_sizing
 
-    session.answer(plain(contents, designs), to, lambda: show_sizing(contents))
+    session.answer(lambda: plain(contents, designs), to, lambda: show_sizing(contents))
 
 
 def _ranked(path: Path, best: int) -> list[Path]:

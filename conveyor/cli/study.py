@@ -124,7 +124,7 @@ def study(
             say(f"{times} without an answer: {reason}")
         say(f"table: {output}", *([] if designs is None else [f"designs: {designs}"]))
 
-    session.answer(plain | design_tables.plain(evaluated), to, show)
+    session.answer(lambda: plain | design_tables.plain(evaluated), to, show)
 
 
 def _asked(to: Outputs, option: str, path: Path | None, table: CampaignTable) -> None:

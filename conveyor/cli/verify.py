@@ -78,7 +78,7 @@ def verify_sheet(
             compounds, conveyor=line, softened=softened, shelves=session.shelf or (), progress=told, **axes
         )
     to.write(sheet.contents(session.system(line)))
-    session.answer(sheet.to_dict(), to, lambda: _show(sheet))
+    session.answer(sheet.to_dict, to, lambda: _show(sheet))
 
 
 def _show(sheet: VerificationSheet) -> None:

@@ -7,6 +7,7 @@ import json
 import re
 import warnings
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from io import StringIO
@@ -199,13 +200,21 @@ def _json(content: str, path: Path) -> Any:
         raise InputError(f"{path}:1:1 syntax: {_TOO_DEEP}") from None
 
 
+def _parsed(content: str, kind: str) -> Node | None:
+    parser = YAML(typ=kind, pure=True)
+    parser.max_depth = DEEPEST + 1  # its effort grows with the square of the depth
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", ReusedAnchorWarning)
+        node: Node | None = parser.compose(content)
+    return node
+
+
 def _composed(content: str, path: Path) -> Node | None:
+    """Nodes of a text; where it is refused, the slower parser, which keeps comments, knows better what is wrong."""
+    with suppress(YAMLError, ReusedAnchorWarning, RecursionError):
+        return _parsed(content, "safe")
     try:
-        parser = YAML(typ="rt", pure=True)
-        parser.max_depth = DEEPEST + 1  # its effort grows with the square of the depth
-        with warnings.catch_warnings():
-            warnings.simplefilter("error", ReusedAnchorWarning)
-            node: Node | None = parser.compose(content)
+        return _parsed(content, "rt")
     except ReusedAnchorWarning as twice:
         line, column = map(int, re.findall(r"line (\d+), column (\d+)", str(twice))[-1])
         raise InputError(
@@ -226,7 +235,6 @@ def _composed(content: str, path: Path) -> Node | None:
         raise InputError(f"{path}:{line}:{column} syntax: {plain_yaml(reason)}") from None
     except RecursionError:
         raise InputError(f"{path}:1:1 syntax: {_TOO_DEEP}") from None
-    return node
 
 
 class _Reader:

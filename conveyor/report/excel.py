@@ -38,7 +38,8 @@ SHEETS: Final[Fills] = {
     "Tensions": sheets.single,
     "States": sheets.stacked,
     "Loop": sheets.beside,
-    "Pulleys": partial(sheets.stacked, widest=24),
+    "Pulleys": sheets.noted,
+    "Curves": sheets.noted,
     "Transfer": sheets.transfer,
     "Load cases": partial(sheets.stacked, widest=40),
     "Case checks": sheets.single,
@@ -72,6 +73,7 @@ _LAYOUTS: Final[Mapping[str, Fills]] = {
 _WHERE_ASKED: Final = (
     *VERIFICATION_SHEETS,
     "Pulleys",
+    "Curves",
     "Transfer",
     "Load cases",
     "Case checks",

@@ -217,7 +217,7 @@ class Page:
         put(cell, note, GREY)
         if across:
             return 1
-        columns = range(place.first_column, place.last_column + 1)
+        columns = range(place.first_column, self._last_printed(key, place) + 1)
         width = sum(self.sheet.column_dimensions[get_column_letter(j)].width for j in columns)
         rows = lines_of(note, width)
         self.sheet.merge_cells(None, row, columns[0], row + rows - 1, columns[-1])

@@ -30,6 +30,11 @@ def stacked(page: Page, widest: int = 56) -> None:
     page.rest(widest=widest)
 
 
+def noted(page: Page) -> None:
+    """All tables of the sheet under one another, each with its note as wide as what is printed of it."""
+    page.stacked(page.keys, widest=24, across=False)
+
+
 def beside(page: Page) -> None:
     """Lists of figures under one another, beside them the tables of several columns."""
     lists = [key for key in page.keys if page.contents[key].figures]

@@ -1012,7 +1012,7 @@ def vertical_curves(a: CalculatedConveyor, studies: CalculatedStudies | None = N
     if rows and a.line.wind_speed is not None:
         notes.append("Against lift-off: with the wind of ambient.wind_speed under the empty belt.")
     heading = "Vertical curves, all cases"
-    return Table("vertical_curves", "Loop", heading, columns, rows, "belt", " ".join(notes))
+    return Table("vertical_curves", "Curves", heading, columns, rows, "belt", " ".join(notes))
 
 
 def horizontal_curves(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
@@ -1038,7 +1038,7 @@ def horizontal_curves(a: CalculatedConveyor, studies: CalculatedStudies | None =
         "too large."
     )
     heading = "Horizontal curves, all cases"
-    return Table("horizontal_curves", "Loop", heading, columns, _bends(a, studies), "belt", note)
+    return Table("horizontal_curves", "Curves", heading, columns, _bends(a, studies), "belt", note)
 
 
 def curve_edges(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
@@ -1055,7 +1055,7 @@ def curve_edges(a: CalculatedConveyor, studies: CalculatedStudies | None = None)
     rows = tuple(curve for curve in _bends(a, studies) if curve.most is not None)
     note = _USUAL_STIFFNESS if rows and a.line.belt.stiffness is None else ""
     heading = "Edges of the belt in horizontal curves, all cases"
-    return Table("curve_edges", "Loop", heading, columns, rows, "belt", note)
+    return Table("curve_edges", "Curves", heading, columns, rows, "belt", note)
 
 
 def drift_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
@@ -1109,7 +1109,7 @@ def transitions(a: CalculatedConveyor, studies: CalculatedStudies | None = None)
     )
     every = [result.belt_duty.transitions for _, result in loads(a, studies)]
     rows = _all_cases(every, lowest=min, highest=max, stretched=max, slackened=max, most=max, least=min)
-    return Table("transitions", "Loop", heading, columns, rows, "belt", note)
+    return Table("transitions", "Curves", heading, columns, rows, "belt", note)
 
 
 def convergence(a: CalculatedConveyor) -> Table:

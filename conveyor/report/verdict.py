@@ -24,6 +24,9 @@ AS_GIVEN: Final = "as given"
 """Load of a spec itself."""
 _SET: Final = ("take_up_tension", "sag")
 """Criteria that the least setting of the take-up meets without margin."""
+_SETS: Final = (
+    1e-6  # [-], margin of a grip below which it has set the take-up; its setting is exact to rounding
+)
 _DOMINANT: Final = 0.3
 """Share of the indentation in the main resistance from which the quality of the rubber data is said first."""
 _TOLD: Final = 3  # failures that are told in full
@@ -198,6 +201,7 @@ def sentence(governing: Sequence[Check], system: System) -> str:
         first = f"Not adequate as given: {count['FAIL']} of {len(governing)} checks failed; {fails}{more}."
         return f"{first} Action required: {done}." if done else first
     passed = [c for c in governing if c.verdict == "pass" and c.margin is not None and c.key not in _SET]
+    passed = [c for c in passed if c.key != "drive_grip" or (c.margin or 0.0) > _SETS]
     words = f"Adequate as given: all {count['pass']} criteria checked are met"
     if passed:
         nearest = min(passed, key=lambda check: check.margin or 0.0)

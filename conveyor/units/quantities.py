@@ -161,7 +161,12 @@ def si_with_unit(value: Quantity) -> tuple[float, str]:
     >>> si_with_unit(quantity("20 degC", "temperature")), si_with_unit(quantity("3 kN"))
     ((293.15, 'K'), (3000.0, 'N'))
     """
-    return si(value), next((label for kind, label in _SI_LABELS.items() if is_kind(value, kind)), "K")
+    return si(value), _si_label(value.units)
+
+
+@cache
+def _si_label(unit: Any) -> str:
+    return next((label for kind, label in _SI_LABELS.items() if unit in _TABLES[kind].values()), "K")
 
 
 def between(low: Quantity, high: Quantity, share: float) -> Quantity:

@@ -6,6 +6,7 @@ pint takes longer to read its whole file than to calculate a conveyor, and specs
 from __future__ import annotations
 
 from pathlib import Path
+from threading import RLock
 from typing import Any, Final
 
 import pint
@@ -85,16 +86,26 @@ UNITS: Final[dict[str, Any]] = {form: _MADE[name] for form, name in SPELLINGS.it
 """The units of specs by each of their spellings."""
 
 
+_READING: Final = RLock()
+
+
 def _whole(text: str) -> str:
     """Before the first unit that a program names in text: all of pint's."""
-    REGISTRY.preprocessors.remove(_whole)
-    written, REGISTRY.formatter.default_format = (
-        REGISTRY.formatter.default_format,
-        "",
-    )  # pint compares long names
-    REGISTRY.load_definitions(Path(pint.__file__).with_name("default_en.txt"))
-    REGISTRY.formatter.default_format = written
+    with _READING:
+        if _whole in REGISTRY.preprocessors:
+            REGISTRY.preprocessors[REGISTRY.preprocessors.index(_whole)] = _waited
+            written = REGISTRY.formatter.default_format
+            REGISTRY.formatter.default_format = ""  # pint compares long names
+            REGISTRY.load_definitions(Path(pint.__file__).with_name("default_en.txt"))
+            REGISTRY.formatter.default_format = written
+            REGISTRY.preprocessors.remove(_waited)
     return text
+
+
+def _waited(text: str) -> str:
+    """Before a unit that another thread names while all of pint's are read."""
+    with _READING:
+        return text
 
 
 REGISTRY.preprocessors.append(_whole)

@@ -110,6 +110,10 @@ def test_shipped_checks_name_source_and_quantity():
         "Shortt (2019), idler of 127 mm, bearings 6305",
         "Song et al. (2012)",
         "ckit.co.za, trajectories",
+        "catenary between the sets",
+        "course of a flat belt, set by set",
+        "least cost of the sets, by search",
+        "polygon of five rolls",
         "two-strip derivation",
     }
     assert len({(check.source, check.quantity) for check in checks}) == len(checks)
