@@ -543,7 +543,9 @@ def _five_rolls() -> Iterator[ReferenceCheck]:
     section = loading.cross_section(
         1.35, middle_roll_length=roll, trough_angle=angles[1], surcharge_angle=0.0, inner_wing=inner
     )
-    yield _close(_POLYGON, "below the water line, five rolls [m²]", expected, section.bottom, _IDENTITY_TOLERANCE)
+    yield _close(
+        _POLYGON, "below the water line, five rolls [m²]", expected, section.bottom, _IDENTITY_TOLERANCE
+    )
     # without friction the force is the slope of the belt's energy: its weight per width times its edges' heights
     weight, expected = 250.0, 250.0 * (point(0.9)[1] - point(0.7)[1])
     half = [
