@@ -14,7 +14,7 @@ from conveyor.contact.creep import CreepSpectrum
 from conveyor.contact.energy import Strip
 from conveyor.contact.grid import GridContact
 from conveyor.contact.layers import Layer
-from conveyor.contact.quadrature import build_rule, series_rule
+from conveyor.contact.quadrature import build_rule, series_rule, window_end
 from conveyor.contact.spectral import Contact, penetration
 
 Array = NDArray[np.float64]
@@ -240,8 +240,9 @@ def surface_series(
             turn = np.multiply.outer(x[chosen], part)
             out[chosen] += np.cos(turn) @ wave.real - np.sin(turn) @ wave.imag
 
-    if reach <= _PLAIN * alpha:
-        m = np.arange(1.0, math.ceil(reach / alpha) + 1.0)
+    last = max(reach / alpha, window_end(alpha + float(np.abs(x).max())))
+    if last <= _PLAIN:
+        m = np.arange(1.0, math.ceil(last) + 1.0)
         add(slice(None), m, layer.symbol(m, creep) / m)
         return out
     # far from the contact the series' tail cancels: a wave number turns |x| radians, and 64 x 600 are enough

@@ -81,7 +81,7 @@ def build_rule(layer: Layer, creep: CreepSpectrum, half_width: float, panels: Pa
         The layer is so thin against the contact that the rule would need more than two million nodes.
     """
     span = 2.0 * half_width
-    width = panels.window * max(2.0, _ALIAS / (2.0 * math.pi - span))
+    width = panels.window * _window(span)
     centre = _RAMP * width
     integers = np.arange(1.0, math.ceil(2.0 * centre) + 1.0)
     end = max(2.0 * centre, layer.reach)
@@ -119,7 +119,7 @@ def series_rule(
     RuleTooLongError
         More than two million nodes.
     """
-    width = max(2.0, _ALIAS / (2.0 * math.pi - span))
+    width = _window(span)
     centre = _RAMP * width
     integers = np.arange(1.0, math.ceil(2.0 * centre) + 1.0)
     edges = _panel_edges(
@@ -135,6 +135,15 @@ def series_rule(
     rest = 0.5 * special.erfc((centre - m) / width)
     weights = [window * layer.symbol(integers, creep) / integers, measure * rest * layer.symbol(m, creep) / m]
     return np.concatenate([integers, m]), np.concatenate(weights)
+
+
+def window_end(span: float) -> float:
+    """Wave number up to which the window of `series_rule` takes integers."""
+    return 2.0 * _RAMP * _window(span)
+
+
+def _window(span: float) -> float:
+    return max(2.0, _ALIAS / (2.0 * math.pi - span))
 
 
 def _panel_edges(
