@@ -470,9 +470,11 @@ def _radius(curve: CurveCheck | HorizontalCheck, least: float, fine: str, bad: s
 def wind_lift(result: CalculatedConveyor) -> Iterator[Check]:
     """The wind given does not lift a strand without bulk."""
     line = result.line
-    for strand in STRANDS if line.wind_speed is not None else ():
+    if line.wind_speed is None:
+        return
+    for strand in STRANDS:
         bare = [one for one in line.stretches if one.strand == strand and one.bulk_mass == 0.0]
-        if line.wind_speed is None or not bare:
+        if not bare:
             continue
         steepest = max(bare, key=lambda one: abs(one.inclination))
         least = lifting_speed(
