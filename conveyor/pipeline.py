@@ -634,10 +634,11 @@ class _Shared:
             each.append(kept.once(made, "strand", parts, (strand, *scene)))
         (carry, up), (back, down) = each
         strands = Strands(sections, (carry, back))
-        others = (given.belt, given.material, given.route, given.drive, given.calculation)
-        like = self._kept.once(lambda: Line.of(given, strands, [(), ()]), "like", others)
+        others = (given.belt, given.material, given.route, given.drive, given.calculation, given.report)
+        wind = (given.ambient.wind_speed,)
+        like = self._kept.once(lambda: Line.of(given, strands, [(), ()]), "like", others, wind)
         return kept.once(
-            lambda: _loaded(replace(like, strands=strands), (up, down)), "line", (carry, back, given.drive)
+            lambda: _loaded(replace(like, strands=strands), (up, down)), "line", (carry, back, like)
         )
 
     def softened(self, loaded: Sequence[_Loaded], before: Sequence[Covers]) -> list[Covers | NoAnswer]:

@@ -10,10 +10,11 @@ import pytest
 from conveyor.errors import InputError
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
-from conveyor.pipeline import Variant, calculate, calculate_many
+from conveyor.pipeline import CalculatedConveyor, Variant, calculate, calculate_many
 from conveyor.spec import load
 from conveyor.studies import studies
 from conveyor.studies.states import LoadState, load_states
+from conveyor.units import quantity, si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 RTOL = 1e-6
@@ -136,3 +137,21 @@ def test_a_case_loads_the_sections_it_names(line):
         LoadCase.from_data({"name": "some", "loading": "full", "sections": ["climb"]})
     with pytest.raises(InputError, match=r"cases\.0\.sections\.0|cases\[0\]\.sections\[0\]"):
         line.replace(cases=[{"name": "some", "loading": "sections", "sections": ["hill"]}])
+
+
+def test_variants_side_by_side_have_their_own_wind_and_series() -> None:
+    line = load("examples/specs/curved.yaml")
+    variants = [
+        line.replace(ambient=line.ambient.replace(wind_speed=quantity("10 m/s"))),
+        line.replace(ambient=line.ambient.replace(wind_speed=quantity("30 m/s"))),
+        line.replace(report={"units": "US"}),
+    ]
+    together = calculate_many([Variant(one) for one in variants])
+    seen = [
+        (one.line.wind_speed, one.line.us_sizes) for one in together if isinstance(one, CalculatedConveyor)
+    ]
+    assert seen == [
+        (pytest.approx(10.0), False),
+        (pytest.approx(30.0), False),
+        (pytest.approx(si(line.ambient.wind_speed)), True),
+    ]
