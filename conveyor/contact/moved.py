@@ -6,7 +6,6 @@ Lagrange interpolation. The table f(x_g) is made once, and many scenes need one 
 
 from __future__ import annotations
 
-import math
 from functools import lru_cache
 
 import numpy as np
@@ -67,12 +66,12 @@ def logs() -> Array:
     return b
 
 
-def log_stencils(b: Array) -> Stencils:
-    """Stencils of arguments b, shape (b, k), on the grid of ln b."""
-    return stencils(np.arcsinh((np.log(b) - _MIDDLE) / _SCALE) / _STEP + _REACH)
+def log_places(b: Array) -> Array:
+    """Places of arguments b on the grid of ln b."""
+    places: Array = np.arcsinh((np.log(b) - _MIDDLE) / _SCALE) / _STEP + _REACH
+    return places
 
 
-def within(b: Array) -> NDArray[np.bool_]:
-    """Which of the scenes have every argument b, shape (b, k), on the grid of ln b."""
-    far = _SCALE * math.sinh(_STEP * _REACH)
-    return np.asarray((np.abs(np.log(b) - _MIDDLE) <= far).all(axis=1))
+def within(places: Array) -> NDArray[np.bool_]:
+    """Which of the scenes have all `log_places`, shape (b, k), on the grid."""
+    return np.asarray((np.abs(places - _REACH) <= _REACH).all(axis=1))

@@ -157,7 +157,7 @@ def _chunks(group: Group, alpha: Array, rows: Index, grade: Grade) -> Iterator[I
     caps = np.array([cap_of(width) for width in half_width])
     panels = panels_beyond(group.layers.reach(grade.depth)[rows], half_width, grade)
     order = np.lexsort((half_width, panels, caps))
-    order = order[(panels[order] <= _MOST_PANELS) & within(1.0 / group.creeps.times)[rows[order]]]
+    order = order[(panels[order] <= _MOST_PANELS) & within(group.creeps.places)[rows[order]]]
     for cap in np.unique(caps[order]):
         same = rows[order[caps[order] == cap]]
         step = CHUNK if cap == WIDEST else _WIDE_CHUNK
@@ -177,7 +177,7 @@ def fits(group: Group, half_width: Array, grade: Grade) -> NDArray[np.bool_]:
     """Whether contacts up to these half widths are narrow: for the window, for the roll, against the layer."""
     panels = panels_beyond(group.layers.reach(grade.depth), half_width, grade)
     slim = (half_width < np.minimum(WIDEST, WRAPPED * group.rho)) & (panels <= _MOST_PANELS)
-    return np.asarray(slim & within(1.0 / group.creeps.times))
+    return np.asarray(slim & within(group.creeps.places))
 
 
 def guess(group: Group) -> Array:

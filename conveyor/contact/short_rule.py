@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from scipy import special
 
 from conveyor.contact.creep import Creeps
-from conveyor.contact.moved import LOGS, log_stencils, logs, moved
+from conveyor.contact.moved import LOGS, logs, moved, stencils
 from conveyor.contact.quadrature import Rule
 from conveyor.contact.stack import Stack
 
@@ -179,7 +179,7 @@ def short_rules(layers: Stack, creeps: Creeps, half_width: Array, grades: Sequen
         _beyond(layers.reach(grade.depth), half_width, grade, window.end)
         for grade, window in zip(grades, windows, strict=True)
     ]
-    (terms,) = moved(log_stencils(1.0 / creeps.times), LOGS, creeps.weights)
+    (terms,) = moved(stencils(creeps.places), LOGS, creeps.weights)
     units, nodes, compliances = [], [], []
     for window, (beyond, _) in zip(windows, panels, strict=True):
         known = (terms @ window.terms.view(float)).view(complex)
