@@ -44,7 +44,7 @@ from conveyor.contact.short_rule import (
 )
 from conveyor.contact.single import DENSE, LOAD_FLOOR, Near
 from conveyor.contact.solution import Found, Outcome
-from conveyor.contact.spectral import Contact, equilibrium
+from conveyor.contact.spectral import Contact, equilibrium, equilibrium_of_orders
 from conveyor.contact.stack import Stack, kind, stacked
 from conveyor.contact.tabled import Tabled
 
@@ -52,7 +52,7 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int_]
 
 _SEARCH = 10
-_ROUGH = 1e-9  # relative error of eccentricities on the way
+ROUGH = 1e-9  # relative error of eccentricities on the way
 _SAMPLES, RANGE = 4, 0.25  # half widths sampled, to both sides of the guess in ln α
 _SPAN = 2.0 * math.cos(0.5 * math.pi / _SAMPLES)  # of the samples, over that range
 _OUTSIDE = 0.2  # of the samples' span of ln p: farther beyond them, the guess was wrong
@@ -250,7 +250,7 @@ class Search:
         size = alpha.size
         sampled = np.multiply.outer(alpha, _points()).ravel()
         matrix = Tabled.of(group.creeps, alpha).matrices(self.rule, _SEARCH, _points())
-        contact = equilibrium(matrix, sampled, np.repeat(group.rho, _SAMPLES), tolerance=_ROUGH)
+        contact = equilibrium(matrix, sampled, np.repeat(group.rho, _SAMPLES), tolerance=ROUGH)
         pressing = contact.inside & (contact.pressure > 0.0)
         good = pressing.reshape(size, _SAMPLES).all(axis=1)
         lossy = contact.friction != 0.0
@@ -298,14 +298,16 @@ class Search:
         """β = d ln μ/d ln p at the present places; zero where nothing is lost."""
         return np.where(self.lossy[rows], self.cubics.slope(rows, self.place[rows])[2], 0.0)
 
-    def evaluate(self, rows: Index, n: int) -> tuple[Contact, Array, Array, Tabled]:
-        """Contacts of some rows at order n, their matrices, ln p - target, tables; moves on to the next places."""
+    def evaluate(self, rows: Index, n: int) -> tuple[Contact, Contact, Array, Tabled]:
+        """Contacts of some rows at order n, those of lower orders, ln p - target, tables; on to the next places."""
         y = self._from[rows] = self.place[rows]
         log_alpha, turn = self.cubics.value(rows, y, slice(2))
         alpha = np.exp(log_alpha)
         tabled = Tabled.of(self.group.creeps[rows], alpha)
         matrix = tabled.matrices(self.rule[rows], n)
-        contact = equilibrium(matrix, alpha, self.group.rho[rows], alpha * turn, self.tolerance)
+        contact, lower = equilibrium_of_orders(
+            matrix, alpha, self.group.rho[rows], alpha * turn, self.tolerance
+        )
         self.matrices[rows] += 1
         good = np.asarray(contact.inside & (contact.pressure > 0.0))
         self.alive[rows] &= good
@@ -317,7 +319,7 @@ class Search:
         self._share[rows], self._miss[rows], self._order[rows] = share, miss, n
         self.offset[rows] += np.where(good, miss / (1.0 - share), 0.0)
         self.move(rows[good])
-        return contact, matrix, miss, tabled
+        return contact, lower, miss, tabled
 
     def carried(self, rows: Index, contact: Contact, miss: Array) -> tuple[Contact, Array, Array]:
         """Contacts just evaluated, carried to their loads as those of the low order go.
@@ -385,9 +387,9 @@ class _Closing:
         search, rtol = self.search, self.rtol
         for step in range(_CLOSING_STEPS):
             exponent = search.exponent(rows)
-            contact, matrix, miss, tabled = search.evaluate(rows, n)
+            contact, lower, miss, tabled = search.evaluate(rows, n)
             if step == 0:
-                by_order = order_errors(contact, matrix, search.group.rho[rows], exponent)
+                by_order = order_errors(contact, lower, exponent)
                 self.error[rows], self.most[rows], self.edges[rows] = by_order
             alive = search.alive[rows]
             fine = (self.error[rows] <= rtol) & alive
