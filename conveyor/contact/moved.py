@@ -41,10 +41,8 @@ def stencils(place: Array) -> Stencils:
     """Places of shape (b, k), in steps of the grid from its point `BEFORE`: first points, and weights (16, b, k)."""
     first = np.floor(place)
     powers = np.empty((POINTS, *place.shape))
-    powers[0] = 1.0
-    np.subtract(place, first + 0.5, out=powers[1])
-    for known in (2, 4, 8):
-        np.multiply(powers[:known], powers[1] * powers[known - 1], out=powers[known : 2 * known])
+    powers[0], powers[1:] = 1.0, place - (first + 0.5)
+    np.multiply.accumulate(powers, axis=0, out=powers)
     shares = _lagrange() @ powers.reshape(POINTS, -1)
     return first.astype(int), shares.reshape(powers.shape)
 

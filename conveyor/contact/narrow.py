@@ -37,7 +37,6 @@ from conveyor.contact.short_rule import (
     WIDEST,
     Grade,
     ShortRule,
-    cap_of,
     grades_for,
     panels_beyond,
     short_rules,
@@ -74,8 +73,7 @@ _FARTHEST = 2.0  # times the order, in one step
 _GUESSES_TRIED = 4
 _FLATTEST, _FARTHEST_GUESS = 0.4, 1.5  # d ln p/d ln α; ln of half widths
 CHUNK = 200  # scenes whose tables stay in the processor's cache
-_GUESSES = 14
-_GUESS = 1.0  # of the Hertz guess: the true half widths of conveyor covers, glassy to rubbery, are 0.80 to 1.21 of it
+_GUESSES = np.linspace(0.0, 1.0, 14)
 
 
 @dataclass(eq=False)
@@ -102,6 +100,8 @@ class Group:
         )
 
     def __getitem__(self, chosen: Index) -> Group:
+        if len(self.problems) == 1:
+            return self
         return Group(
             [self.problems[i] for i in chosen],
             [self.given[i] for i in chosen],
@@ -143,8 +143,9 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
                 search = Search(part, rules, alpha[chosen], rtol)
                 for row, outcome in _Closing(search, rtol).outcomes().items():
                     outcomes[members[chosen[row]]] = outcome
-                strayed.append(chosen[search.stray])
-                alpha[chosen] = search.extrapolated
+                if search.stray.any():
+                    strayed.append(chosen[search.stray])
+                    alpha[chosen] = search.extrapolated
             rows = np.concatenate(strayed) if strayed else rows[:0]
             if rows.size == 0:
                 break
@@ -154,13 +155,13 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
 def _chunks(group: Group, alpha: Array, rows: Index, grade: Grade) -> Iterator[Index]:
     """Like with like, few enough for the cache; without those whose rules would be too long."""
     half_width = ROOM * alpha[rows]
-    caps = np.array([cap_of(width) for width in half_width])
+    caps = np.searchsorted(CAPS, half_width)
     panels = panels_beyond(group.layers.reach(grade.depth)[rows], half_width, grade)
     order = np.lexsort((half_width, panels, caps))
     order = order[(panels[order] <= _MOST_PANELS) & within(group.creeps.places)[rows[order]]]
-    for cap in np.unique(caps[order]):
+    for cap in sorted(set(caps[order].tolist())):
         same = rows[order[caps[order] == cap]]
-        step = CHUNK if cap == WIDEST else _WIDE_CHUNK
+        step = CHUNK if CAPS[cap] == WIDEST else _WIDE_CHUNK
         for start in range(0, same.size, step):
             yield same[start : start + step]
 
@@ -181,25 +182,20 @@ def fits(group: Group, half_width: Array, grade: Grade) -> NDArray[np.bool_]:
 
 
 def guess(group: Group) -> Array:
-    """Half width of each scene: Hertz, p̃_m = α²/(4ρ² C), with the compliance C = |S| at m = 1/α."""
+    """Half width of each scene: Hertz, p̃_m = α²/(4ρ² C), with the compliance C = |S| at m = 1/α.
+
+    The true half widths of conveyor covers, glassy to rubbery, are 0.80 to 1.21 of it.
+    """
     narrow = group.rho * np.sqrt(np.exp(group.target) * group.creeps.instantaneous)
     span = np.log(np.maximum(0.8 * group.rho / narrow, 1.0 + 1e-9))
-    log_alpha = np.log(narrow)[:, None] + np.linspace(0.0, 1.0, _GUESSES) * span[:, None]
+    log_alpha = np.log(narrow)[:, None] + _GUESSES * span[:, None]
     alpha = np.exp(log_alpha)
     m = np.maximum(1.0 / alpha, 1.0)
     compliance = np.abs(group.layers.symbol(m, group.creeps.compliance(m)))
     log_load = 2.0 * (log_alpha - np.log(2.0 * group.rho)[:, None]) - np.log(compliance)
     log_load = np.maximum.accumulate(log_load, axis=1)
     # a load beyond the table is no narrow contact: its place is the table's end and it is handed back
-    above = np.clip((log_load < group.target[:, None]).sum(axis=1), 1, _GUESSES - 1)
-    row = np.arange(group.rho.size)
-    rise = log_load[row, above] - log_load[row, above - 1]
-    run = log_alpha[row, above] - log_alpha[row, above - 1]
-    rising = rise > 0.0
-    share = np.where(rising, (group.target - log_load[row, above - 1]) / np.where(rising, rise, 1.0), 1.0)
-    place = log_alpha[row, above - 1] + np.maximum(share, 0.0) * run
-    guess: Array = _GUESS * np.exp(place)
-    return guess
+    return np.exp([np.interp(*each) for each in zip(group.target, log_load, log_alpha, strict=True)])
 
 
 @lru_cache(maxsize=1)
