@@ -23,7 +23,7 @@ _NEWTON_STEPS, _LAST_STEP = 60, 1e-8
 
 @lru_cache(maxsize=256)
 def _cosines(count: int) -> tuple[Array, Array, Array]:
-    """Chebyshev nodes s > 0, shape (h,), and what `_parts` there are worth of even and odd slopes, shape (h, count/2)."""
+    """Chebyshev nodes s > 0, shape (h,), and from `_parts` there to even and odd coefficients, (h, count/2) each."""
     half = (count + count % 2 + _SPARE) // 2
     angle = (np.arange(half) + 0.5) * (0.5 * np.pi / half)
     transform = np.cos(np.multiply.outer(angle, np.arange(count))) * (-1.0 / half)

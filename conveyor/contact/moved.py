@@ -17,6 +17,7 @@ Stencils = tuple[NDArray[np.int_], Array]
 POINTS = 16
 BEFORE = POINTS // 2 - 1
 """Grid points before place 0, which a stencil there reaches."""
+_ALONG = np.arange(POINTS)[:, None, None]
 # ln b = 2 + 5 sinh x in steps of 0.02: a tenth in the middle, where functions of ln b are analytic within π/2 of the
 # real axis only, more where they fall like b or 1/b (seen: 4e-13 of functions below one)
 _STEP, _MIDDLE, _SCALE, _REACH = 0.02, 2.0, 5.0, 130  # to both sides: b from 2e-14 to 2e15
@@ -41,8 +42,10 @@ def stencils(place: Array) -> Stencils:
     """Places of shape (b, k), in steps of the grid from its point `BEFORE`: first points, and weights (16, b, k)."""
     first = np.floor(place)
     powers = np.empty((POINTS, *place.shape))
-    powers[0], powers[1:] = 1.0, place - (first + 0.5)
-    np.multiply.accumulate(powers, axis=0, out=powers)
+    powers[0] = 1.0
+    np.subtract(place, first + 0.5, out=powers[1])
+    for known in (2, 4, 8):
+        np.multiply(powers[:known], powers[1] * powers[known - 1], out=powers[known : 2 * known])
     shares = _lagrange() @ powers.reshape(POINTS, -1)
     return first.astype(int), shares.reshape(powers.shape)
 
@@ -51,8 +54,7 @@ def moved(at: Stencils, size: int, *weights: Array) -> list[Array]:
     """Each of some weights, shape (b, k), on a grid of `size` points, shape (b, size)."""
     first, shares = at
     rows = first.shape[0]
-    index = np.arange(POINTS)[:, None, None] + (first + size * np.arange(rows)[:, None])
-    index = index.ravel()
+    index = (_ALONG + (first + size * np.arange(rows)[:, None])).ravel()
     grids = (np.bincount(index, (each * shares).ravel(), rows * size) for each in weights)
     return [np.asarray(grid, dtype=np.float64).reshape(rows, size) for grid in grids]
 

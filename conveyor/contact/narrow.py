@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,6 +73,7 @@ _MOST_ENTRIES = 3_000_000  # of the matrices that are formed together
 _FARTHEST = 2.0  # times the order, in one step
 _GUESSES_TRIED = 4
 _FLATTEST, _FARTHEST_GUESS = 0.4, 1.5  # d ln p/d ln α; ln of half widths
+_CAPS = np.array(CAPS)
 CHUNK = 200  # scenes whose tables stay in the processor's cache
 _GUESSES = np.linspace(0.0, 1.0, 14)
 
@@ -155,7 +157,7 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
 def _chunks(group: Group, alpha: Array, rows: Index, grade: Grade) -> Iterator[Index]:
     """Like with like, few enough for the cache; without those whose rules would be too long."""
     half_width = ROOM * alpha[rows]
-    caps = np.searchsorted(CAPS, half_width)
+    caps = np.searchsorted(_CAPS, half_width)
     panels = panels_beyond(group.layers.reach(grade.depth)[rows], half_width, grade)
     order = np.lexsort((half_width, panels, caps))
     order = order[(panels[order] <= _MOST_PANELS) & within(group.creeps.places)[rows[order]]]
@@ -215,9 +217,9 @@ class Cubics:
             parts.append(last[..., 0])
         self.parts = np.stack(parts)
 
-    def value(self, rows: Index, y: Array, figures: slice | int = slice(None)) -> Array:
+    def value(self, rows: Index, y: Array) -> Array:
         """Figures of some rows at y."""
-        first, second, third, fourth = self.parts[:, figures][..., rows]
+        first, second, third, fourth = self.parts[..., rows]
         away = y[:, None] - self.y[rows]
         value: Array = first + away[:, 0] * (second + away[:, 1] * (third + away[:, 2] * fourth))
         return value
@@ -229,6 +231,17 @@ class Cubics:
         sum_, product = away[:, 0] + away[:, 1], away[:, 0] * away[:, 1]
         slope: Array = second + sum_ * third + (product + away[:, 2] * sum_) * fourth
         return slope
+
+
+class _Evaluated(NamedTuple):
+    """Contacts at their order, those of lower orders, ln p - target, tables; the cubics' y there and its figures."""
+
+    contact: Contact
+    lower: Contact
+    miss: Array
+    tabled: Tabled
+    place: Array
+    known: Array
 
 
 class Search:
@@ -261,7 +274,7 @@ class Search:
         y[~rising] = -np.arange(_SAMPLES)
         self.cubics = Cubics(y, figures.reshape(-1, size, _SAMPLES))
         self.span = y[:, 0] - y[:, -1]
-        self.place, self._from = self.group.target.copy(), np.zeros(size)
+        self.place = self.group.target.copy()
         self.offset = np.zeros(size)
         self._order, self._miss, self._share = np.zeros(size), np.zeros(size), np.zeros(size)
         self.alive = np.asarray(good & rising)
@@ -288,21 +301,21 @@ class Search:
         """Ln α of the present place and d ln p̃_m/d ln α there."""
         at = np.array([row])
         run = self.cubics.slope(at, self.place[at])[0, 0]
-        return float(self.cubics.value(at, self.place[at], 0)[0]), float(1.0 / run)
+        return float(self.cubics.value(at, self.place[at])[0, 0]), float(1.0 / run)
 
     def exponent(self, rows: Index) -> Array:
         """β = d ln μ/d ln p at the present places; zero where nothing is lost."""
         return np.where(self.lossy[rows], self.cubics.slope(rows, self.place[rows])[2], 0.0)
 
-    def evaluate(self, rows: Index, n: int) -> tuple[Contact, Contact, Array, Tabled]:
-        """Contacts of some rows at order n, those of lower orders, ln p - target, tables; on to the next places."""
-        y = self._from[rows] = self.place[rows]
-        log_alpha, turn = self.cubics.value(rows, y, slice(2))
-        alpha = np.exp(log_alpha)
+    def evaluate(self, rows: Index, n: int) -> _Evaluated:
+        """Contacts of some rows at order n; moves on to the next places."""
+        y = self.place[rows]
+        known = self.cubics.value(rows, y)
+        alpha = np.exp(known[0])
         tabled = Tabled.of(self.group.creeps[rows], alpha)
         matrix = tabled.matrices(self.rule[rows], n)
         contact, lower = equilibrium_of_orders(
-            matrix, alpha, self.group.rho[rows], alpha * turn, self.tolerance
+            matrix, alpha, self.group.rho[rows], alpha * known[1], self.tolerance
         )
         self.matrices[rows] += 1
         good = np.asarray(contact.inside & (contact.pressure > 0.0))
@@ -315,16 +328,17 @@ class Search:
         self._share[rows], self._miss[rows], self._order[rows] = share, miss, n
         self.offset[rows] += np.where(good, miss / (1.0 - share), 0.0)
         self.move(rows[good])
-        return contact, lower, miss, tabled
+        return _Evaluated(contact, lower, miss, tabled, y, known)
 
-    def carried(self, rows: Index, contact: Contact, miss: Array) -> tuple[Contact, Array, Array]:
+    def carried(self, rows: Index, found: _Evaluated) -> tuple[Contact, Array, Array]:
         """Contacts just evaluated, carried to their loads as those of the low order go.
 
         With the friction and the largest pressure that this may miss, relative.
         """
-        y_from, y_to = self._from[rows], self.place[rows]
-        here = self.cubics.value(rows, y_from)
-        log_wider, shifted, dragged, *_ = change = self.cubics.value(rows, y_to) - here
+        contact, miss, y_from, here = found.contact, found.miss, found.place, found.known
+        y_to = self.place[rows]
+        change = self.cubics.value(rows, y_to) - here
+        log_wider, shifted, dragged = change[:3]
         lossy = self.lossy[rows] & (contact.friction != 0.0)
         wider, heavier = np.exp(log_wider), np.exp(y_to - y_from)
         alpha = contact.alpha * wider
@@ -383,21 +397,21 @@ class _Closing:
         search, rtol = self.search, self.rtol
         for step in range(_CLOSING_STEPS):
             exponent = search.exponent(rows)
-            contact, lower, miss, tabled = search.evaluate(rows, n)
+            found = search.evaluate(rows, n)
             if step == 0:
-                by_order = order_errors(contact, lower, exponent)
+                by_order = order_errors(found.contact, found.lower, exponent)
                 self.error[rows], self.most[rows], self.edges[rows] = by_order
             alive = search.alive[rows]
             fine = (self.error[rows] <= rtol) & alive
-            met, left, peak = search.carried(rows, contact, miss)
+            met, left, peak = search.carried(rows, found)
             error = self.error[rows] + left
             near = fine & met.inside & ((left <= self.tight) | (error <= _LOAD_LOOSE * rtol))
             at = np.flatnonzero(near)
             if at.size:
                 self.peak[rows[at]] = peak[at]
                 self.edges[rows[at]] += _EDGES_CARRIED / _CARRIED * left[at] * met.alpha[at]
-                evaluated, closed = chosen_rows(contact, at), chosen_rows(met, at)
-                self._accept((rows[at], tabled[at]), evaluated, closed, error[at])
+                evaluated, closed = chosen_rows(found.contact, at), chosen_rows(met, at)
+                self._accept((rows[at], found.tabled[at]), evaluated, closed, error[at])
             for row in rows[alive & ~fine]:
                 self._raise(int(row), n, 0.0)
             rows = rows[fine & ~near]

@@ -105,8 +105,8 @@ class _Window:
 class _Windows:
     """Windows of some grades side by side.
 
-    `terms` are the weights of ∫_0^1 j f dm on nodes of [0, 1] of single terms with 1/ζ on the grid of logarithms, window
-    by window, then j at the windows' inner places, of narrow contacts; `plain` is the same for j = 1.
+    `terms` are the weights of ∫_0^1 j f dm on nodes of [0, 1] of single terms with 1/ζ on the grid of logarithms,
+    window by window, then j at the windows' inner places, of narrow contacts; `plain` is the same for j = 1.
     """
 
     each: list[_Window]
@@ -192,10 +192,7 @@ def short_rules(layers: Stack, creeps: Creeps, half_width: Array, grades: Sequen
     widest = float(half_width.max())
     cap = cap_of(widest)
     windows = _windows(tuple(grades), tuple(_count(grade, cap, widest) for grade in grades), cap)
-    panels = [
-        _beyond(layers.reach(grade.depth), half_width, grade, window.end)
-        for grade, window in zip(grades, windows.each, strict=True)
-    ]
+    panels = _beyond(layers, half_width, grades, [window.end for window in windows.each])
     first, shares = stencils(creeps.places)
     low, high = int(first.min()), int(first.max()) + POINTS
     (terms,) = moved((first - low, shares), high - low, creeps.weights)
@@ -215,7 +212,8 @@ def short_rules(layers: Stack, creeps: Creeps, half_width: Array, grades: Sequen
         # complex @ real would make the real one complex first
         parts = (np.concatenate([fine.real, fine.imag]) @ window.spread) / window.coarse
         weights = np.empty((half_width.size, window.coarse.size + nodes.shape[1]), dtype=complex)
-        weights.real[:, : window.coarse.size], weights.imag[:, : window.coarse.size] = np.split(parts, 2)
+        weights.real[:, : window.coarse.size] = parts[: half_width.size]
+        weights.imag[:, : window.coarse.size] = parts[half_width.size :]
         weights[:, window.coarse.size :] = measure * (symbol[:, far:last] - j[:, far:last]) / nodes
         rules.append(ShortRule(_beside(window.coarse, nodes), weights))
         start, far = end, last
@@ -237,18 +235,27 @@ def _count(grade: Grade, cap: float, widest: float) -> int:
     return int(steps * math.ceil((phase + 4.0 * phase ** (1.0 / 3.0) + grade.spare) / steps))
 
 
-def _beyond(reach: Array, half_width: Array, grade: Grade, end: float) -> tuple[Array, Array]:
-    """Panels from the window's end to the layer's reach; scenes with fewer panels get empty ones."""
-    longest = grade.phase / (2.0 * half_width)
-    growth = math.expm1(grade.stretch)
-    edges = [np.full(half_width.size, end)]
+def _beyond(
+    layers: Stack, half_width: Array, grades: Sequence[Grade], ends: Sequence[float]
+) -> list[tuple[Array, Array]]:
+    """Panels from the windows' ends to the layer's reach; scenes with fewer panels get empty ones."""
+    reach = np.array([layers.reach(grade.depth) for grade in grades])
+    longest = np.multiply.outer([0.5 * grade.phase for grade in grades], 1.0 / half_width)
+    growth = np.array([[math.expm1(grade.stretch)] for grade in grades])
+    end = np.array(ends)[:, None]
+    edges = [np.broadcast_to(end, reach.shape)]
     while (reach > edges[-1]).any():
         edges.append(np.maximum(np.minimum(edges[-1] + np.minimum(growth * edges[-1], longest), reach), end))
-    x, gauss = _gauss(grade.points)
-    bounds = np.array(edges).T
-    half = 0.5 * (bounds[:, 1:] - bounds[:, :-1])[:, :, None]
-    shape = half_width.size, half.shape[1] * grade.points
-    return (bounds[:, :-1, None] + half * (x + 1.0)).reshape(shape), (half * gauss).reshape(shape)
+    bounds = np.array(edges)
+    half = 0.5 * (bounds[1:] - bounds[:-1])
+    panels = []
+    for k, grade in enumerate(grades):
+        x, gauss = _gauss(grade.points)
+        count = np.count_nonzero(half[:, k].max(axis=1))
+        wide, shape = half[:count, k].T[:, :, None], (half_width.size, count * grade.points)
+        nodes = bounds[:count, k].T[:, :, None] + wide * (x + 1.0)
+        panels.append((nodes.reshape(shape), (wide * gauss).reshape(shape)))
+    return panels
 
 
 def panels_beyond(reach: Array, half_width: Array, grade: Grade) -> NDArray[np.int_]:

@@ -190,7 +190,7 @@ def _in_balance(
         square = reach * reach
         left = (step[0] / radius) ** 2 * np.abs(step[0]) * (0.5 + 2.0 * square)
         settled = near & (left <= tolerance * (1.0 - square) ** 2 * np.abs(here))
-        if (settled | ~near).all():
+        if settled.all() or (settled | ~near).all():
             break
         eps = np.where(np.abs(step[0]) < 0.5 * (radius - inner), here, eps)
     place = start + step
