@@ -128,5 +128,5 @@ class Creeps:
             times[row, : creep.times.size] = creep.times
         return cls(np.array([creep.instantaneous for creep in spectra]), weights, times)
 
-    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_]) -> Creeps:
+    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_] | slice) -> Creeps:
         return Creeps(self.instantaneous[chosen], self.weights[chosen], self.times[chosen])

@@ -303,17 +303,18 @@ class Search:
         run = self.cubics.slope(at, self.place[at])[0, 0]
         return float(self.cubics.value(at, self.place[at])[0, 0]), float(1.0 / run)
 
-    def exponent(self, rows: Index) -> Array:
-        """β = d ln μ/d ln p at the present places; zero where nothing is lost."""
-        return np.where(self.lossy[rows], self.cubics.slope(rows, self.place[rows])[2], 0.0)
+    def exponent(self, rows: Index, y: Array) -> Array:
+        """β = d ln μ/d ln p at places y; zero where nothing is lost."""
+        return np.where(self.lossy[rows], self.cubics.slope(rows, y)[2], 0.0)
 
     def evaluate(self, rows: Index, n: int) -> _Evaluated:
         """Contacts of some rows at order n; moves on to the next places."""
         y = self.place[rows]
         known = self.cubics.value(rows, y)
         alpha = np.exp(known[0])
-        tabled = Tabled.of(self.group.creeps[rows], alpha)
-        matrix = tabled.matrices(self.rule[rows], n)
+        at = _some(rows, self.place.size)
+        tabled = Tabled.of(self.group.creeps[at], alpha)
+        matrix = tabled.matrices(self.rule[at], n)
         contact, lower = equilibrium_of_orders(
             matrix, alpha, self.group.rho[rows], alpha * known[1], self.tolerance
         )
@@ -321,10 +322,12 @@ class Search:
         good = np.asarray(contact.inside & (contact.pressure > 0.0))
         self.alive[rows] &= good
         miss = np.log(np.where(good, contact.pressure, 1.0)) - self.group.target[rows]
+        share = self._share[rows]
         # where the slope at this order is 1 - q of the cubic's, a miss comes back as its q-th part
         again = (self._order[rows] == n) & (np.abs(miss) < 0.5 * np.abs(self._miss[rows]))
-        back = np.where(again, miss / np.where(again, self._miss[rows], 1.0), 0.0)
-        share = self._share[rows] + back * (1.0 - self._share[rows])
+        if again.any():
+            back = np.where(again, miss / np.where(again, self._miss[rows], 1.0), 0.0)
+            share = share + back * (1.0 - share)
         self._share[rows], self._miss[rows], self._order[rows] = share, miss, n
         self.offset[rows] += np.where(good, miss / (1.0 - share), 0.0)
         self.move(rows[good])
@@ -364,6 +367,11 @@ class Search:
         return met, _CARRIED * off * missed, _SHAPE_CARRIED * unlike * missed
 
 
+def _some(rows: Index, size: int) -> Index | slice:
+    """Rows in their order, of `size` at most; where these are all, as a slice, which copies nothing."""
+    return rows if rows.size < size else slice(None)
+
+
 def _log(values: Array, told: NDArray[np.bool_]) -> Array:
     """Ln |values| where it means something, else zero."""
     logs: Array = np.log(np.abs(np.where(told, values, 1.0)))
@@ -396,10 +404,9 @@ class _Closing:
         """Meet the load at order n."""
         search, rtol = self.search, self.rtol
         for step in range(_CLOSING_STEPS):
-            exponent = search.exponent(rows)
             found = search.evaluate(rows, n)
             if step == 0:
-                by_order = order_errors(found.contact, found.lower, exponent)
+                by_order = order_errors(found.contact, found.lower, search.exponent(rows, found.place))
                 self.error[rows], self.most[rows], self.edges[rows] = by_order
             alive = search.alive[rows]
             fine = (self.error[rows] <= rtol) & alive
@@ -410,8 +417,9 @@ class _Closing:
             if at.size:
                 self.peak[rows[at]] = peak[at]
                 self.edges[rows[at]] += _EDGES_CARRIED / _CARRIED * left[at] * met.alpha[at]
-                evaluated, closed = chosen_rows(found.contact, at), chosen_rows(met, at)
-                self._accept((rows[at], found.tabled[at]), evaluated, closed, error[at])
+                part = _some(at, rows.size)
+                evaluated, closed = chosen_rows(found.contact, part), chosen_rows(met, part)
+                self._accept((rows[at], found.tabled[part]), evaluated, closed, error[at])
             for row in rows[alive & ~fine]:
                 self._raise(int(row), n, 0.0)
             rows = rows[fine & ~near]
@@ -430,7 +438,7 @@ class _Closing:
         search, rtol, (rows, tabled) = self.search, self.rtol, scenes
         grade = grades_for(rtol)[1]
         rho = search.group.rho[rows]
-        by_loss = tabled.friction_by_loss(search.check[rows], contact, rho)
+        by_loss = tabled.friction_by_loss(search.check[_some(rows, search.place.size)], contact, rho)
         energy = np.abs(relative_difference(by_loss, contact.friction))
         by_loss_error = by_energy(energy, self.most[rows])
         estimate = np.maximum(np.maximum(error, by_loss_error), grade.error)

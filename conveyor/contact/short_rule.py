@@ -79,7 +79,7 @@ class ShortRule:
     nodes: Array
     weights: ComplexArray
 
-    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_]) -> ShortRule:
+    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_] | slice) -> ShortRule:
         return ShortRule(self.nodes[chosen], self.weights[chosen])
 
 

@@ -127,7 +127,8 @@ def equilibrium(
     Contact
         With friction μ = -(1/λ)∫ p u' dx / p_m (paper, section 3) from the coefficients of pressure and slope.
     """
-    return _in_balance(_alone, matrix, (alpha, eps), rho, tolerance)[0]
+    found = _in_balance(_alone, matrix, (alpha, eps), rho, tolerance)
+    return _order(found, 0, found.inside)
 
 
 def equilibrium_of_orders(
@@ -137,7 +138,15 @@ def equilibrium_of_orders(
 
     These to second order in the shift of their eccentricity.
     """
-    return _in_balance(_nested, matrix, (alpha, eps), rho, tolerance)
+    found = _in_balance(_nested, matrix, (alpha, eps), rho, tolerance)
+    lower = slice(1, None)
+    on_roll = (found.alpha + np.abs(found.eps[lower]) < rho) & (found.pressure[lower] > 0.0)
+    return _order(found, 0, found.inside), _order(found, lower, on_roll)
+
+
+def _order(found: Contact, at: int | slice, inside: NDArray[np.bool_]) -> Contact:
+    """Contacts of one of the solver's orders, or of some."""
+    return Contact(found.alpha, found.eps[at], found.c[at], found.pressure[at], found.friction[at], inside)
 
 
 Solver = Callable[[Array, Array], Array]
@@ -170,8 +179,8 @@ def _nested(rows: Array, right: Array) -> Array:
 
 def _in_balance(
     solver: Solver, matrix: Array, place: tuple[Array, Array | None], rho: Array | float, tolerance: float
-) -> tuple[Contact, Contact]:
-    """The contacts, and those of lower orders that the solver knows."""
+) -> Contact:
+    """Contacts of the k orders that the solver knows: eps, c, pressure and friction have k rows of b."""
     alpha, eps = place
     radius = np.zeros(alpha.shape) + rho
     if eps is None:
@@ -193,18 +202,15 @@ def _in_balance(
         if settled.all() or (settled | ~near).all():
             break
         eps = np.where(np.abs(step[0]) < 0.5 * (radius - inner), here, eps)
-    place = start + step
-    inside = settled
+    found, inside = start + step, settled
     if not settled.all():
         rows = np.flatnonzero(~settled)
         start, inside[rows] = _by_newton(matrix[rows], alpha[rows], radius[rows], eps[rows])
         inner = np.where(inside, alpha, 0.5 * radius)
         slope[:, rows], c[:, rows], step = _balanced(solver, matrix[rows], inner[rows], start, radius[rows])
-        place[:, rows] = start + step
-    met = pressed(c, slope, (inner, place), radius)
-    whole = Contact(inner, place[0], c[0], met.pressure[0], met.friction[0], inside)
-    on_roll = (inner + np.abs(place[1:]) < radius) & (met.pressure[1:] > 0.0)
-    return whole, Contact(inner, place[1:], c[1:], met.pressure[1:], met.friction[1:], on_roll)
+        found[:, rows] = start + step
+    load, friction = _load_and_friction(c, slope, inner, radius)
+    return Contact(inner, found, c, load, friction, inside)
 
 
 def _balanced(
@@ -246,22 +252,26 @@ def of_orders(lower: tuple[Array, Array], contact: Contact, rho: Array | float) 
     found = []
     for matrix in lower:
         slope, c, step = _balanced(_alone, matrix, contact.alpha, contact.eps, radius)
-        found.append(pressed(c[0], slope[0], (contact.alpha, contact.eps + step[0]), radius))
-    eps, pressure, friction = (
-        np.stack([getattr(one, name) for one in found]) for name in ("eps", "pressure", "friction")
-    )
+        found.append((contact.eps + step[0], *_load_and_friction(c[0], slope[0], contact.alpha, radius)))
+    eps, pressure, friction = (np.stack(figures) for figures in zip(*found, strict=True))
     on_roll = (contact.alpha + np.abs(eps) < radius) & (pressure > 0.0)
-    return Contact(contact.alpha, eps, found[1].c, pressure, friction, on_roll)
+    return Contact(contact.alpha, eps, contact.c, pressure, friction, on_roll)
 
 
 def pressed(c: Array, slope: Array, place: tuple[Array, Array], rho: Array | float) -> Contact:
-    """Load and friction of contacts of known coefficients c, shape (..., n), slopes T_0 … T_{n+1}, and place (α, ε)."""
+    """Contacts of known coefficients c, shape (b, n), slopes T_0 … T_{n+1}, and place (α, ε)."""
     alpha, eps = place
+    load, friction = _load_and_friction(c, slope, alpha, rho)
+    return Contact(alpha, eps, c, load, friction, np.ones(alpha.size, dtype=bool))
+
+
+def _load_and_friction(c: Array, slope: Array, alpha: Array, rho: Array | float) -> tuple[Array, Array]:
+    """p̃_m and μ of coefficients c, shape (..., n), and slopes T_0 … T_{n+1}."""
     n = c.shape[-1]
     # ∫ sqrt(1-s²) U_{v-1} T_i ds = (π/4) [(1 + δ_{v1}) δ_{i,v-1} - δ_{i,v+1}]
-    work = (c * (slope[..., :n] - slope[..., 2 : n + 2])).sum(axis=-1) / c[..., 0] + slope[..., 0]
-    on_roll = np.ones(eps.shape, dtype=bool)
-    return Contact(alpha, eps, c, 0.25 * alpha * c[..., 0], -0.5 * rho * work, on_roll)
+    first = c[..., 0]
+    work = (c * (slope[..., :n] - slope[..., 2 : n + 2])).sum(axis=-1) / first + slope[..., 0]
+    return 0.25 * alpha * first, -0.5 * rho * work
 
 
 def penetration(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: float) -> Array:

@@ -77,7 +77,7 @@ def _terms(n: int, ratio: float) -> list[Array]:
 
 def _grid(size: int) -> Array:
     """Grid of u."""
-    u = _STEP * (np.arange(size) - BEFORE)
+    u = _STEP * (np.arange(float(size)) - BEFORE)
     u[BEFORE] = 1e-150  # for zero: J_1²/u² is ¼ there
     return u
 
@@ -142,7 +142,7 @@ class Tabled:
         places = log_places(b)
         return cls(creeps, alpha, places if felt.min() > _FELT and within(places).all() else None)
 
-    def __getitem__(self, chosen: Index) -> Tabled:
+    def __getitem__(self, chosen: Index | slice) -> Tabled:
         places = None if self.places is None else self.places[chosen]
         return Tabled(self.creeps[chosen], self.alpha[chosen], places)
 
