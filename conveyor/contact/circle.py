@@ -80,7 +80,9 @@ def slope_expansion(alpha: Array, eps: Array, rho: Array | float, count: int) ->
     value = np.zeros((3, alpha.size, count))
     np.matmul(even, to_even, out=value[:, :, :few:2])
     np.matmul(odd, to_odd, out=value[:, :, 1:few:2])
-    value /= np.power.outer(radius, (1.0, 2.0, 3.0)).T[:, :, None]
+    value[2] /= radius[:, None]  # each derivative by ε is one by t over ρ
+    value[1:] /= radius[:, None]
+    value /= radius[:, None]
     return value.transpose(1, 2, 0)
 
 

@@ -211,11 +211,11 @@ class Cubics:
 
     def __init__(self, y: Array, figures: Array) -> None:
         self.y = y
-        parts, last = [figures[..., 0]], figures
+        self.parts = np.empty((_SAMPLES, *figures.shape[:2]))
+        self.parts[0], last = figures[..., 0], figures
         for step in range(1, _SAMPLES):
             last = (last[..., 1:] - last[..., :-1]) / (y[:, step:] - y[:, :-step])
-            parts.append(last[..., 0])
-        self.parts = np.stack(parts)
+            self.parts[step] = last[..., 0]
 
     def value(self, rows: Index, y: Array) -> Array:
         """Figures of some rows at y."""

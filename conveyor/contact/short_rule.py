@@ -243,7 +243,7 @@ def _beyond(
     longest = np.multiply.outer([0.5 * grade.phase for grade in grades], 1.0 / half_width)
     growth = np.array([[math.expm1(grade.stretch)] for grade in grades])
     end = np.array(ends)[:, None]
-    edges = [np.broadcast_to(end, reach.shape)]
+    edges = [np.zeros(reach.shape) + end]
     while (reach > edges[-1]).any():
         edges.append(np.maximum(np.minimum(edges[-1] + np.minimum(growth * edges[-1], longest), reach), end))
     bounds = np.array(edges)
