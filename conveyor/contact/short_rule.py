@@ -101,20 +101,6 @@ class _Window:
     spread: Array  # (unit + inner, K)
 
 
-@dataclass(frozen=True, eq=False)
-class _Windows:
-    """Windows of some grades side by side.
-
-    `terms` are the weights of ∫_0^1 j f dm on nodes of [0, 1] of single terms with 1/ζ on the grid of logarithms,
-    window by window, then j at the windows' inner places, of narrow contacts; `plain` is the same for j = 1.
-    """
-
-    each: list[_Window]
-    inner: Array
-    plain: Array
-    terms: Array  # real and imaginary parts in turn
-
-
 _gauss = lru_cache(maxsize=32)(np.polynomial.legendre.leggauss)
 
 
@@ -164,19 +150,10 @@ def _window(grade: Grade, count: int, cap: float) -> _Window:
     )
 
 
-@lru_cache(maxsize=64)
-def _windows(grades: tuple[Grade, ...], counts: tuple[int, ...], cap: float) -> _Windows:
-    """Windows of grades with as many coarse nodes."""
-    each = [_window(grade, count, cap) for grade, count in zip(grades, counts, strict=True)]
-    inner = np.concatenate([window.inner for window in each])
-    unit, slow, plain = _UNITS[cap == WIDEST]
-    zeta = 1.0 / logs()
-    terms = [_unit_weights(zeta, unit, slow, plain)] * len(each)
-    ones = [0.5 * _gauss(unit)[1]] * len(each)
-    if cap == WIDEST:  # wide windows have too many nodes for a table
-        terms.append(1.0 / (1.0 - 1j * np.multiply.outer(zeta, inner)))
-        ones.append(np.ones(inner.size))
-    return _Windows(each, inner, np.concatenate(ones), np.concatenate(terms, axis=1).view(float))
+@lru_cache(maxsize=2)
+def _unit_table(unit: int, slow: float, plain: int) -> Array:
+    """`_unit_weights` of terms with 1/ζ on the grid of logarithms, real and imaginary parts in turn."""
+    return _unit_weights(1.0 / logs(), unit, slow, plain).view(float)
 
 
 def cap_of(half_width: float) -> float:
@@ -191,24 +168,23 @@ def short_rules(layers: Stack, creeps: Creeps, half_width: Array, grades: Sequen
     """
     widest = float(half_width.max())
     cap = cap_of(widest)
-    windows = _windows(tuple(grades), tuple(_count(grade, cap, widest) for grade in grades), cap)
-    panels = _beyond(layers, half_width, grades, [window.end for window in windows.each])
+    windows = [_window(grade, _count(grade, cap, widest), cap) for grade in grades]
+    panels = _beyond(layers, half_width, grades, [window.end for window in windows])
+    unit = _UNITS[cap == WIDEST]
     first, shares = stencils(creeps.places)
     low, high = int(first.min()), int(first.max()) + POINTS
     (terms,) = moved((first - low, shares), high - low, creeps.weights)
-    known = (terms @ windows.terms[low:high]).view(complex)
-    known += creeps.instantaneous[:, None] * windows.plain
-    unit, ends = _UNITS[cap == WIDEST][0], len(panels) * _UNITS[cap == WIDEST][0]
-    beyond = np.concatenate([nodes for nodes, _ in panels], axis=1)
-    j = known[:, ends:] if cap == WIDEST else creeps.compliance(windows.inner[None])
-    j = np.concatenate([j, creeps.compliance(beyond)], axis=1)
-    symbol = layers.symbol(_beside(windows.inner, beyond), j)
-    rules, start, far = [], 0, windows.inner.size
-    for k, (window, (nodes, measure)) in enumerate(zip(windows.each, panels, strict=True)):
+    below = (terms @ _unit_table(*unit)[low:high]).view(complex)
+    below += creeps.instantaneous[:, None] * (0.5 * _gauss(unit[0])[1])
+    inner = np.concatenate([window.inner for window in windows])
+    every = _beside(inner, np.concatenate([nodes for nodes, _ in panels], axis=1))
+    j = creeps.compliance(every)
+    symbol = layers.symbol(every, j)
+    rules, start, far = [], 0, inner.size
+    for window, (nodes, measure) in zip(windows, panels, strict=True):
         end, cut, last = start + window.inner.size, start + window.ramp.size, far + nodes.shape[1]
         inside = window.measure * (window.rest * symbol[:, cut:end] - j[:, cut:end])
-        own = known[:, k * unit : (k + 1) * unit]
-        fine = np.concatenate([-own, window.ramp * symbol[:, start:cut], inside], axis=1)
+        fine = np.concatenate([-below, window.ramp * symbol[:, start:cut], inside], axis=1)
         # complex @ real would make the real one complex first
         parts = (np.concatenate([fine.real, fine.imag]) @ window.spread) / window.coarse
         weights = np.empty((half_width.size, window.coarse.size + nodes.shape[1]), dtype=complex)
