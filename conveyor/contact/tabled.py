@@ -139,8 +139,9 @@ class Tabled:
         b = alpha[:, None] / creeps.times
         # friction of memories far longer or shorter than the passage is of this order: the tables lack the digits
         felt = (creeps.weights * np.minimum(b, 1.0 / b)).sum(axis=1)
+        told = (felt > _FELT) | (felt == 0.0)  # without memory there is none
         places = log_places(b)
-        return cls(creeps, alpha, places if felt.min() > _FELT and within(places).all() else None)
+        return cls(creeps, alpha, places if told.all() and within(places).all() else None)
 
     def __getitem__(self, chosen: Index | slice) -> Tabled:
         places = None if self.places is None else self.places[chosen]
