@@ -24,7 +24,7 @@ from conveyor.forces import WithoutRubber, along_the_belt, strand_without_rubber
 from conveyor.laws.softening import softened_many
 from conveyor.line.anchors import Theory
 from conveyor.line.belts import GAUSS, Tensioned, solve_belts
-from conveyor.line.contacts import Contacts, RollResult, solve_contacts
+from conveyor.line.contacts import Contacts, RollResult, SolvedCurves, solve_contacts
 from conveyor.line.covers import (
     FELT,
     Covers,
@@ -55,6 +55,7 @@ from conveyor.loop.tensions import MotionState
 from conveyor.loop.transfer import Cleaning, Landing, Trajectory, cleanings, landings, trajectory
 from conveyor.loop.year import Year, year
 from conveyor.models import Calculation, Conveyor, RubberCompound
+from conveyor.models.belt import Belt
 from conveyor.rubber.anchor import Anchor
 
 Array = NDArray[np.float64]
@@ -389,11 +390,15 @@ class _Step:
 
 @dataclass(frozen=True, eq=False)
 class _Loaded:
-    """A line with its loop, the forces that no rubber changes, the covers its rolls are to work; whether at a level."""
+    """A line with its loop, the forces that no rubber changes, the covers its rolls are to work; whether at a level.
+
+    `acted`: tensions act on its curves, so that no other variant has it.
+    """
 
     line: Line
     frame: Frame
     fixed: WithoutRubber
+    acted: bool
     works: Mapping[Strand, StrandAtWork] = field(default_factory=dict)
     anchored: bool = False
 
@@ -434,10 +439,10 @@ def _strand(
     return made, strand_without_rubber(made)
 
 
-def _loaded(line: Line, fixed: Sequence[WithoutRubber]) -> _Loaded:
-    """A line, its rolls not at work yet."""
+def _loaded(line: Line, fixed: Sequence[WithoutRubber], acted: bool) -> _Loaded:
+    """A line, its rolls not at work yet; whether tensions act on its curves."""
     carry, back = fixed
-    return _Loaded(line, Frame(line), carry.joined(back))
+    return _Loaded(line, Frame(line), carry.joined(back), acted)
 
 
 def _solved(
@@ -450,7 +455,7 @@ def _solved(
     before = [steps[i].covers for i in loaded]
     running = dict(zip(loaded, shared.softened(list(loaded.values()), before), strict=True))
     covers = {i: one for i, one in running.items() if isinstance(one, Mapping)}
-    solved = solve_contacts([loaded[i].line for i in covers], list(covers.values()), rtol)
+    solved = solve_contacts([loaded[i].line for i in covers], list(covers.values()), rtol, shared.curves)
     refused = {i: one for i, one in running.items() if not isinstance(one, Mapping)}
     contacts: dict[int, Contacts | NoAnswer] = {**refused, **dict(zip(covers, solved, strict=True))}
     tight = {i: one for i in loaded if (one := steps[i].pulls) is not None}
@@ -491,6 +496,10 @@ def _settled(result: CalculatedConveyor) -> bool:
     return result.convergence is not None and result.convergence.settled(result.line.rtol)
 
 
+_NOTHING: Final[Any] = object()
+_RUBBER: Final[Any] = {cover: {"compound"} for cover in ("top_cover", "bottom_cover")}
+
+
 class _Same:
     """A part of a spec as a key, equal to the very same part alone; held as long as the key is."""
 
@@ -507,34 +516,45 @@ class _Same:
 
 
 class Kept:
-    """What calculations of one spec's variants have in common, made once: strands, lines, loops of tensions.
+    """What calculations of one spec's variants have in common, made once: strands, lines, covers, load curves.
 
-    Parts of specs are compared by identity: variants are made by `replace`, which keeps what it does not change.
+    Parts of specs are compared by identity: variants are made by `replace`, which keeps what it does not change. Belts
+    that differ in their rubber alone have the same strands and lines.
     """
 
     MOST: Final = 2048
-    """Things kept from call to call; more than all strands and lines of a study over speeds and spacings."""
+    """Things of a sort kept from call to call, those used last; more than all of a study over speeds and spacings."""
 
     def __init__(self) -> None:
-        self._made: dict[tuple[object, ...], Any] = {}
+        self._made: dict[object, Any] = {}
+        self.covers: dict[StrandAtWork, RunningCover | NoAnswer] = {}
+        self.curves: SolvedCurves = {}
+        self.drags: dict[tuple[OneStrand, float | None], StrandDrags | InputError] = {}
         self.fields: dict[object, Any] = {}
         """For `with_fields`: specs of the same changes have the very same parts."""
 
     def begin(self) -> None:
-        """Forget everything where it has become much; other threads end with what they began with."""
-        if max(len(self._made), len(self.fields)) > self.MOST:
-            self._made, self.fields = {}, {}
+        """Forget what was not used for long where it has become much."""
+        every: tuple[dict[Any, Any], ...] = (self._made, self.covers, self.curves, self.drags, self.fields)
+        for known in every:
+            for key in list(known)[: max(0, len(known) - self.MOST)]:
+                known.pop(key, None)
 
     def once(
         self, make: Callable[[], T], what: str, parts: Iterable[object], values: tuple[object, ...] = ()
     ) -> T:
         """What was made of the very same parts and equal values, or what is made of them now."""
         key = (what, *map(_Same, parts), *values)
-        known = self._made
-        if key not in known:
-            known.setdefault(key, make())
-        made: T = known[key]
+        made: T = self._made.pop(key, _NOTHING)
+        if made is _NOTHING:
+            made = make()
+        self._made[key] = made  # at the end are those used last
         return made
+
+    def belt(self, belt: Belt) -> Belt:
+        """The first belt that differs from a belt in its rubber alone."""
+        said = self.once(lambda: belt.model_dump_json(exclude=_RUBBER), "said", (belt,))
+        return self.once(lambda: belt, "belt", (), (said, belt.line_mass))
 
 
 class _Shared:
@@ -547,10 +567,10 @@ class _Shared:
         self._kept, self._own = kept, Kept()
         self._theories: list[Theory] = []
         self._anchors, self._rtol = anchors, rtol
-        self._alike: dict[tuple[object, ...], list[StrandAtWork]] = {}
         self._running: dict[StrandAtWork, RunningCover | NoAnswer] = {}
-        self._drags: dict[tuple[OneStrand, float | None], StrandDrags | InputError] = {}
+        self._drags = kept.drags
         self.tensioned: Tensioned = {}
+        self.curves = kept.curves
         if known is not None:
             for strand, compound in compounds_by_strand(known.conveyor).items():
                 cover = known.contacts.covers[strand]
@@ -595,50 +615,68 @@ class _Shared:
         """A line with the drags of its rolls, its covers before the rolls work them."""
         given, at = variant.conveyor, variant.covers_at
         compounds = compounds_by_strand(given)
-        rubber = self._own.once(partial(rubbers, given, at), "rubbers", compounds.values(), (at,))
+        turned, gives = given.route.turned_over, given.calculation.support == "belt"
+        rubber = self._kept.once(
+            partial(rubbers, given, at),
+            "rubbers",
+            (*compounds.values(), given.belt.top_cover.compound),
+            (at, turned, gives),
+        )
+        acted = self._own if still.acted else self._kept
+        running = acted.once(partial(self._dragged, still, _air(given)), "in air", (still,), (_air(given),))
+        rtol = running.line.rtol if self._rtol is None else self._rtol
+        works = {
+            strand: acted.once(
+                partial(self._felt, StrandAtWork(running.line, strand, cover, compounds[strand], at), rtol),
+                "work",
+                (running.line, cover.rubber, compounds[strand], *((cover.other[1],) if gives else ())),
+                (strand, at, rtol),
+            )
+            for strand, cover in covers_of(given, rubber).items()
+        }
+        return replace(running, works=works, anchored=_anchored(given.calculation))
+
+    def _dragged(self, still: _Loaded, air: float | None) -> _Loaded:
+        """A line with the drags of its rolls in air of a temperature [K]."""
         drags: list[tuple[float, ...]] = []
         for strand in still.line.strands.each:
-            one = self._drags[strand, _air(given)]
+            one = self._drags[strand, air]
             if isinstance(one, InputError):
                 raise one
             drags += one
         line = replace(still.line, roll_drags=tuple(drags))
-        works = {
-            strand: self._felt(StrandAtWork(line, strand, cover, compounds[strand], at))
-            for strand, cover in covers_of(given, rubber).items()
-        }
-        return _Loaded(line, still.frame.of(line), still.fixed, works, _anchored(given.calculation))
+        return replace(still, line=line, frame=still.frame.of(line))
 
-    def _felt(self, work: StrandAtWork) -> StrandAtWork:
+    def _felt(self, work: StrandAtWork, rtol: float) -> StrandAtWork:
         """A strand whose cover has its rubber as far as its rolls tell terms apart."""
-        rtol = work.line.rtol if self._rtol is None else self._rtol
         times = told_apart(work, rtol)
         if times is None:
             return work
         rubber, (fastest, slowest) = work.cover.rubber, times
         cut = tuple(rubber.times.searchsorted(times).tolist())
-        less = self._own.once(
+        less = self._kept.once(
             lambda: rubber.merged(fastest=fastest, slowest=slowest), "merged", (rubber,), cut
         )
         return replace(work, cover=replace(work.cover, rubber=less, merged=2.0 * FELT * rtol))
 
     def _still(self, given: Conveyor, on_curves: Acting) -> _Loaded:
         """The line of a spec, its rolls without drag; specs of one belt, load and idlers share a strand."""
-        kept = self._kept if on_curves == Acting() else self._own
+        acted = on_curves != Acting()
+        kept, belt = self._own if acted else self._kept, self._kept.belt(given.belt)
         sections = self._kept.once(lambda: route_sections(given), "sections", (given.route,))
         scene = (*map(_in_order, vars(on_curves).values()), given.ambient.wind_speed)
         each = []
         for strand, own in zip(STRANDS, (given.idlers.carry, given.idlers.return_), strict=True):
-            parts = (given.belt, own, given.material, given.route, given.calculation)
+            parts = (belt, own, given.material, given.route, given.calculation)
             made = partial(_strand, given, sections, strand, on_curves)
             each.append(kept.once(made, "strand", parts, (strand, *scene)))
         (carry, up), (back, down) = each
         strands = Strands(sections, (carry, back))
-        others = (given.belt, given.material, given.route, given.drive, given.calculation, given.report)
+        others = (belt, given.material, given.route, given.drive, given.calculation, given.report)
         wind = (given.ambient.wind_speed,)
         like = self._kept.once(lambda: Line.of(given, strands, [(), ()]), "like", others, wind)
         return kept.once(
-            lambda: _loaded(replace(like, strands=strands), (up, down)), "line", (carry, back, like)
+            lambda: _loaded(replace(like, strands=strands), (up, down), acted), "line", (carry, back, like)
         )
 
     def softened(self, loaded: Sequence[_Loaded], before: Sequence[Covers]) -> list[Covers | NoAnswer]:
@@ -651,11 +689,22 @@ class _Shared:
             for strand, cover in kept.items():
                 if works[strand].still_at(cover):
                     self._running.setdefault(works[strand], cover)
-        asked = dict.fromkeys(first for works in firsts for first in works.values())
+        still = {
+            first
+            for one, works in zip(loaded, firsts, strict=True)
+            if not one.acted
+            for first in works.values()
+        }
+        asked = dict.fromkeys(
+            first for works in firsts for first in works.values() if first not in self._running
+        )
+        known = self._kept.covers
+        self._running |= {first: known.pop(first) for first in asked if first in known}
         new = [first for first in asked if first not in self._running]
         tests = [work for theory in self._theories for work in theory.works]
         covers, soft = softened_covers(new, tests)
         self._running.update(zip(new, covers, strict=True))
+        known |= {first: self._running[first] for first in asked if first in still}
         tested = iter(soft)
         for theory in self._theories:
             levels = theory.levels(list(islice(tested, len(theory.works))))
@@ -682,11 +731,7 @@ class _Shared:
 
     def _first(self, work: StrandAtWork) -> StrandAtWork:
         """The first strand that works its cover alike."""
-        alike = self._alike.setdefault(work.scene, [])
-        first = next((one for one in alike if work.like(one)), None)
-        if first is None:
-            alike.append(first := work)
-        return first
+        return self._kept.once(lambda: work, "alike", (work.compound,), work.scene)
 
 
 def _air(conveyor: Conveyor) -> float | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +29,8 @@ from conveyor.line.stretches import Strand
 Array = NDArray[np.float64]
 Spans = Mapping[RollContact, tuple[float, float]]
 """Range of line loads that occur on each contact [N/m]."""
+SolvedCurves: TypeAlias = dict[tuple[RollContact, float, float, float], IndentationCurve | NoSolutionError]
+"""By contact, range of line loads [N/m] and relative tolerance [-]; those used last at the end."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,7 +151,10 @@ class Contacts:
 
 
 def solve_contacts(
-    lines: Sequence[Line], covers: Sequence[Covers], rtol: float | None = None
+    lines: Sequence[Line],
+    covers: Sequence[Covers],
+    rtol: float | None = None,
+    known: SolvedCurves | None = None,
 ) -> list[Contacts | NoSolutionError]:
     """Solve the contacts of many lines, or of many rubbers under one, side by side.
 
@@ -160,6 +166,8 @@ def solve_contacts(
         What the rolls of each strand run on, for each scene.
     rtol : float, optional
         Relative tolerance of the contacts [-]; that of each line without it.
+    known : dict, optional
+        Curves of calls before; what is new is added.
 
     Returns
     -------
@@ -174,7 +182,8 @@ def solve_contacts(
         for contact, kind in zip(contacts, line.kinds, strict=True):
             low, high = spans.get(contact, (kind.lowest, kind.highest))
             spans[contact] = min(low, kind.lowest), max(high, kind.highest)
-    solved = {tolerance: _solved(spans, tolerance) for tolerance, spans in jobs.items()}
+    before = {} if known is None else known
+    solved = {tolerance: _solved(spans, tolerance, before) for tolerance, spans in jobs.items()}
     curves = [
         _curves([solved[tolerance][contact] for contact in contacts])
         for contacts, tolerance in zip(asked, tolerances, strict=True)
@@ -189,10 +198,17 @@ def _contacts(line: Line, covers: Covers, rtol: float) -> list[RollContact]:
     return [shared[contact] for contact in contacts]
 
 
-def _solved(spans: Spans, rtol: float) -> dict[RollContact, IndentationCurve | NoSolutionError]:
-    contacts = list(spans)
-    lowest, highest = zip(*spans.values(), strict=True)
-    return dict(zip(contacts, indentation_curves(contacts, lowest, highest, rtol), strict=True))
+def _solved(
+    spans: Spans, rtol: float, known: SolvedCurves
+) -> dict[RollContact, IndentationCurve | NoSolutionError]:
+    """Curves of all contacts: what is known of exactly such, the others solved side by side."""
+    keys = {contact: (contact, *span, rtol) for contact, span in spans.items()}
+    solved = {contact: known.pop(key) for contact, key in keys.items() if key in known}
+    if new := [contact for contact in spans if contact not in solved]:
+        lowest, highest = zip(*(spans[contact] for contact in new), strict=True)
+        solved |= zip(new, indentation_curves(new, lowest, highest, rtol), strict=True)
+    known |= {key: solved[contact] for contact, key in keys.items()}
+    return solved
 
 
 def _curves(

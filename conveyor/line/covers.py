@@ -116,7 +116,7 @@ class StrandAtWork:
 
     @property
     def scene(self) -> tuple[object, ...]:
-        """What must be equal where two strands work their covers alike, besides the compound and the rolls."""
+        """What must be equal where two strands work their covers exactly alike, besides the compound."""
         line, cover = self.line, self.cover
         return (
             self.strand,
@@ -127,16 +127,7 @@ class StrandAtWork:
             cover.thickness,
             cover.other if line.support == "belt" else None,
             cover.merged,
-        )
-
-    def like(self, other: StrandAtWork) -> bool:
-        """Whether it works the very same compound exactly as another strand of the same scene does."""
-        return self.compound is other.compound and (
-            self.kinds is other.kinds
-            or (
-                len(self.kinds) == len(other.kinds)
-                and all(a.bears_like(b) for a, b in zip(self.kinds, other.kinds, strict=True))
-            )
+            *(kind.bearing for kind in self.kinds),
         )
 
     def worked(self) -> WorkedCover | None:
