@@ -554,7 +554,7 @@ class Kept:
     def belt(self, belt: Belt) -> Belt:
         """The first belt that differs from a belt in its rubber alone."""
         said = self.once(lambda: belt.model_dump_json(exclude=_RUBBER), "said", (belt,))
-        return self.once(lambda: belt, "belt", (), (said, belt.line_mass))
+        return self.once(partial(_itself, belt), "belt", (), (said, belt.line_mass))
 
 
 class _Shared:
@@ -577,7 +577,8 @@ class _Shared:
                 if cover.level is not None:
                     self._anchors.append((compound, known.line.softened, cover.level.anchor))
                 work = StrandAtWork(known.line, strand, cover, compound, known.temperature)
-                self._running[self._first(work)] = cover
+                first = kept.once(partial(_itself, work), "alike", (compound,), work.scene)
+                self._running[first] = cover
 
     def anchor(self, variants: Iterable[Variant]) -> None:
         """Ask for the levels of all their compounds: they come with the covers of the strands."""
@@ -627,7 +628,7 @@ class _Shared:
         rtol = running.line.rtol if self._rtol is None else self._rtol
         works = {
             strand: acted.once(
-                partial(self._felt, StrandAtWork(running.line, strand, cover, compounds[strand], at), rtol),
+                partial(self._worked, StrandAtWork(running.line, strand, cover, compounds[strand], at), rtol),
                 "work",
                 (running.line, cover.rubber, compounds[strand], *((cover.other[1],) if gives else ())),
                 (strand, at, rtol),
@@ -646,6 +647,11 @@ class _Shared:
             drags += one
         line = replace(still.line, roll_drags=tuple(drags))
         return replace(still, line=line, frame=still.frame.of(line))
+
+    def _worked(self, work: StrandAtWork, rtol: float) -> StrandAtWork:
+        """The first strand that works its cover alike, whose rubber it has as far as its rolls tell terms apart."""
+        felt = self._felt(work, rtol)
+        return self._kept.once(partial(_itself, felt), "alike", (work.compound,), felt.scene)
 
     def _felt(self, work: StrandAtWork, rtol: float) -> StrandAtWork:
         """A strand whose cover has its rubber as far as its rolls tell terms apart."""
@@ -684,40 +690,31 @@ class _Shared:
 
         A cover of the step before stays where its rolls work it as they did.
         """
-        firsts = [{strand: self._first(work) for strand, work in one.works.items()} for one in loaded]
-        for works, kept in zip(firsts, before, strict=True):
+        for one, kept in zip(loaded, before, strict=True):
             for strand, cover in kept.items():
-                if works[strand].still_at(cover):
-                    self._running.setdefault(works[strand], cover)
-        still = {
-            first
-            for one, works in zip(loaded, firsts, strict=True)
-            if not one.acted
-            for first in works.values()
-        }
-        asked = dict.fromkeys(
-            first for works in firsts for first in works.values() if first not in self._running
-        )
+                if one.works[strand].still_at(cover):
+                    self._running.setdefault(one.works[strand], cover)
+        still = {work for one in loaded if not one.acted for work in one.works.values()}
+        works = dict.fromkeys(work for one in loaded for work in one.works.values())
+        asked = [work for work in works if work not in self._running]
         known = self._kept.covers
-        self._running |= {first: known.pop(first) for first in asked if first in known}
-        new = [first for first in asked if first not in self._running]
+        self._running |= {work: known.pop(work) for work in asked if work in known}
+        new = [work for work in asked if work not in self._running]
         tests = [work for theory in self._theories for work in theory.works]
         covers, soft = softened_covers(new, tests)
         self._running.update(zip(new, covers, strict=True))
-        known |= {first: self._running[first] for first in asked if first in still}
+        known |= {work: self._running[work] for work in asked if work in still}
         tested = iter(soft)
         for theory in self._theories:
             levels = theory.levels(list(islice(tested, len(theory.works))))
             self._anchors += zip(theory.compounds, repeat(theory.softened), levels, strict=False)
         self._theories = []
-        return [
-            _together({strand: self._at_level(one, strand, first) for strand, first in works.items()})
-            for one, works in zip(loaded, firsts, strict=True)
-        ]
+        return [_together({strand: self._at_level(one, strand) for strand in one.works}) for one in loaded]
 
-    def _at_level(self, loaded: _Loaded, strand: Strand, first: StrandAtWork) -> RunningCover | NoAnswer:
+    def _at_level(self, loaded: _Loaded, strand: Strand) -> RunningCover | NoAnswer:
         """A strand's cover at the level of its compound's tests; at the theory's without."""
-        cover, work = self._running[first], loaded.works[strand]
+        work = loaded.works[strand]
+        cover = self._running[work]
         known = self._anchors if loaded.anchored else ()
         softened = loaded.line.softened
         anchors = (level for one, how, level in known if one is work.compound and how == softened)
@@ -729,9 +726,9 @@ class _Shared:
             return cover
         return self._own.once(lambda: replace(cover, level=level), "level", (cover, anchor))
 
-    def _first(self, work: StrandAtWork) -> StrandAtWork:
-        """The first strand that works its cover alike."""
-        return self._kept.once(lambda: work, "alike", (work.compound,), work.scene)
+
+def _itself(one: T) -> T:
+    return one
 
 
 def _air(conveyor: Conveyor) -> float | None:

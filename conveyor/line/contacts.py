@@ -112,9 +112,20 @@ class Contacts:
 
     def excited_band(self, strand: Strand) -> tuple[float, float] | None:
         """Frequencies between which every roll of a strand loses nine tenths of its energy [Hz]; None without loss."""
-        lows = [f for curve in self.curves_of(strand) if (f := curve.slowest_excited) is not None]
-        highs = [f for curve in self.curves_of(strand) if (f := curve.fastest_excited) is not None]
-        return (min(lows), max(highs)) if lows and highs else None
+        low, high = self.slowest_excited(strand), self.fastest_excited(strand)
+        return None if low is None or high is None else (low, high)
+
+    def slowest_excited(self, strand: Strand) -> float | None:
+        """Lower end of that band [Hz]."""
+        return min(
+            (f for one in self.curves_of(strand) if (f := one.slowest_excited) is not None), default=None
+        )
+
+    def fastest_excited(self, strand: Strand) -> float | None:
+        """Upper end of it [Hz]."""
+        return max(
+            (f for one in self.curves_of(strand) if (f := one.fastest_excited) is not None), default=None
+        )
 
     def losing_load(self, strand: Strand) -> float:
         """Mean line load of a strand's rolls, weighted by what each loses [N/m]."""
@@ -174,7 +185,10 @@ def solve_contacts(
     list
         In their order the contacts, or why a scene has none.
     """
-    tolerances = [line.rtol if rtol is None else rtol for line in lines]
+    tolerances = [
+        (line.rtol if rtol is None else rtol) - max(cover.merged for cover in own.values())
+        for line, own in zip(lines, covers, strict=True)
+    ]
     asked = [_contacts(*scene) for scene in zip(lines, covers, tolerances, strict=True)]
     jobs: dict[float, dict[RollContact, tuple[float, float]]] = {}
     for line, contacts, tolerance in zip(lines, asked, tolerances, strict=True):

@@ -272,8 +272,8 @@ def _coverage(
         min(results, key=lambda one: one.line.speed),
         max(results, key=lambda one: one.line.speed),
     )
-    lows = [band[0] for strand in strands if (band := slowest.contacts.excited_band(strand)) is not None]
-    highs = [band[1] for strand in strands if (band := fastest.contacts.excited_band(strand)) is not None]
+    lows = [f for strand in strands if (f := slowest.contacts.slowest_excited(strand)) is not None]
+    highs = [f for strand in strands if (f := fastest.contacts.fastest_excited(strand)) is not None]
     if not lows or not highs:
         return None
     return Coverage(compound.name, temperature, (min(lows), max(highs)), compound.frequencies(temperature))
