@@ -298,6 +298,7 @@ def calculate_many(
     known: CalculatedConveyor | None = None,
     anchors: Anchors | None = None,
     kept: Kept | None = None,
+    runs: Iterable[Iterable[int]] = (),
 ) -> list[CalculatedConveyor | NoAnswer]:
     """Calculate many variants, the contacts of all of them side by side.
 
@@ -315,9 +316,11 @@ def calculate_many(
     known : CalculatedConveyor, optional
         A variant that is calculated already: the anchors of its compounds are taken over.
     anchors : list, optional
-        Those of calls before with the same compounds; what is new is added.
+        Those of calls before with the same compounds, of `kept` without it; what is new is added.
     kept : Kept, optional
         What calls before made of the same parts of specs; what is new is added.
+    runs : iterable of iterable of int
+        Numbers of variants that differ in speed alone: the working strain of all is read among that of three.
 
     Returns
     -------
@@ -329,7 +332,9 @@ def calculate_many(
     NoSolutionError
         No one setting of the take-up serves all.
     """
-    shared = _Shared(known, [] if anchors is None else anchors, rtol, Kept() if kept is None else kept)
+    before = Kept() if kept is None else kept
+    shared = _Shared(known, before.anchors if anchors is None else anchors, rtol, before)
+    shared.runs = [list(run) for run in runs]
     told = _Told(len(variants), progress)
     shared.anchor(variants)
     made: dict[int, CalculatedConveyor] = {}
@@ -452,8 +457,7 @@ def _solved(
 
     A belt that gives is first held fast: its tensions are not known before.
     """
-    before = [steps[i].covers for i in loaded]
-    running = dict(zip(loaded, shared.softened(list(loaded.values()), before), strict=True))
+    running = shared.softened(loaded, {i: steps[i].covers for i in loaded})
     covers = {i: one for i, one in running.items() if isinstance(one, Mapping)}
     solved = solve_contacts([loaded[i].line for i in covers], list(covers.values()), rtol, shared.curves)
     refused = {i: one for i, one in running.items() if not isinstance(one, Mapping)}
@@ -527,6 +531,7 @@ class Kept:
 
     def __init__(self) -> None:
         self._made: dict[object, Any] = {}
+        self.anchors: Anchors = []
         self.covers: dict[StrandAtWork, RunningCover | NoAnswer] = {}
         self.curves: SolvedCurves = {}
         self.drags: dict[tuple[OneStrand, float | None], StrandDrags | InputError] = {}
@@ -570,6 +575,7 @@ class _Shared:
         self._running: dict[StrandAtWork, RunningCover | NoAnswer] = {}
         self._drags = kept.drags
         self.tensioned: Tensioned = {}
+        self.runs: list[list[int]] = []
         self.curves = kept.curves
         if known is not None:
             for strand, compound in compounds_by_strand(known.conveyor).items():
@@ -685,23 +691,29 @@ class _Shared:
             lambda: _loaded(replace(like, strands=strands), (up, down), acted), "line", (carry, back, like)
         )
 
-    def softened(self, loaded: Sequence[_Loaded], before: Sequence[Covers]) -> list[Covers | NoAnswer]:
+    def softened(
+        self, loaded: Mapping[int, _Loaded], before: Mapping[int, Covers]
+    ) -> dict[int, Covers | NoAnswer]:
         """The covers of many lines at their working strain; alike ones are the very same, and share load curves.
 
         A cover of the step before stays where its rolls work it as they did.
         """
-        for one, kept in zip(loaded, before, strict=True):
+        for i, kept in before.items():
             for strand, cover in kept.items():
-                if one.works[strand].still_at(cover):
-                    self._running.setdefault(one.works[strand], cover)
-        still = {work for one in loaded if not one.acted for work in one.works.values()}
-        works = dict.fromkeys(work for one in loaded for work in one.works.values())
+                if loaded[i].works[strand].still_at(cover):
+                    self._running.setdefault(loaded[i].works[strand], cover)
+        still = {work for one in loaded.values() if not one.acted for work in one.works.values()}
+        works = dict.fromkeys(work for one in loaded.values() for work in one.works.values())
         asked = [work for work in works if work not in self._running]
         known = self._kept.covers
         self._running |= {work: known.pop(work) for work in asked if work in known}
         new = [work for work in asked if work not in self._running]
         tests = [work for theory in self._theories for work in theory.works]
-        covers, soft = softened_covers(new, tests)
+        runs = [
+            [loaded[i].works[strand] for i in run if i in loaded] for run in self.runs for strand in STRANDS
+        ]
+        unknown = set(new)
+        covers, soft = softened_covers(new, tests, [run for run in runs if unknown.issuperset(run)])
         self._running.update(zip(new, covers, strict=True))
         known |= {work: self._running[work] for work in asked if work in still}
         tested = iter(soft)
@@ -709,7 +721,10 @@ class _Shared:
             levels = theory.levels(list(islice(tested, len(theory.works))))
             self._anchors += zip(theory.compounds, repeat(theory.softened), levels, strict=False)
         self._theories = []
-        return [_together({strand: self._at_level(one, strand) for strand in one.works}) for one in loaded]
+        return {
+            i: _together({strand: self._at_level(one, strand) for strand in one.works})
+            for i, one in loaded.items()
+        }
 
     def _at_level(self, loaded: _Loaded, strand: Strand) -> RunningCover | NoAnswer:
         """A strand's cover at the level of its compound's tests; at the theory's without."""
@@ -724,7 +739,7 @@ class _Shared:
         level = None if anchor is None else Level(anchor, work.temperature)
         if cover.level == level:
             return cover
-        return self._own.once(lambda: replace(cover, level=level), "level", (cover, anchor))
+        return self._kept.once(lambda: replace(cover, level=level), "level", (cover, anchor))
 
 
 def _itself(one: T) -> T:

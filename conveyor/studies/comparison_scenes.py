@@ -152,7 +152,11 @@ def of_compound(
     strands = strands_of(changed, cover)
     settings = list(crossed_settings(changed, temperatures, speeds))
     going = [(s, s.conveyor) for s in settings if isinstance(s.conveyor, Conveyor)]
-    answers = iter(calculate_many([Variant(c, s.temperature) for s, c in going], rtol, kept=kept))
+    runs: dict[float, list[int]] = {}
+    for i, (setting, _) in enumerate(going):
+        runs.setdefault(setting.temperature, []).append(i)
+    variants = [Variant(c, s.temperature) for s, c in going]
+    answers = iter(calculate_many(variants, rtol, kept=kept, runs=runs.values()))
     solved: list[CalculatedConveyor] = []
     refused = []
     for setting in settings:
