@@ -142,6 +142,7 @@ class Model(BaseModel):
         allow_inf_nan=False,
         populate_by_name=True,
         validate_default=True,
+        defer_build=True,
     )
 
     def replace(self, **changes: Any) -> Self:
