@@ -55,6 +55,7 @@ from conveyor.loop.tensions import MotionState
 from conveyor.loop.transfer import Cleaning, Landing, Trajectory, cleanings, landings, trajectory
 from conveyor.loop.year import Year, year
 from conveyor.models import Calculation, Conveyor, RubberCompound
+from conveyor.models.fields import KnownParts
 from conveyor.rubber.anchor import Anchor
 
 Array = NDArray[np.float64]
@@ -517,13 +518,13 @@ class Kept:
 
     def __init__(self) -> None:
         self._made: dict[tuple[object, ...], Any] = {}
-        self.fields: dict[object, Any] = {}
+        self.fields = KnownParts()
         """For `with_fields`: specs of the same changes have the very same parts."""
 
     def begin(self) -> None:
         """Forget everything where it has become much; other threads end with what they began with."""
-        if max(len(self._made), len(self.fields)) > self.MOST:
-            self._made, self.fields = {}, {}
+        if len(self._made) > self.MOST or self.fields.full:
+            self._made, self.fields = {}, KnownParts()
 
     def once(
         self, make: Callable[[], T], what: str, parts: Iterable[object], values: tuple[object, ...] = ()
