@@ -115,7 +115,7 @@ def _converged(
         by_order = OrderErrors(*(np.max(errors, axis=0) for errors in zip(*pairs, strict=True)))
         error = float(by_order.friction[0])
         following = _next((n, last), [float(pair.friction[0]) for pair in pairs], rtol, longest)
-        reach = _resolution(scene, state.contact, longest) if last > n else math.inf
+        reach = resolution(scene, state.contact, longest) if last > n else math.inf
         if error <= rtol or following is None or reach < _BEYOND_REACH:
             settled = error <= rtol or following is None
             if state.miss > tight and tolerance > tight:
@@ -129,7 +129,7 @@ def _converged(
                 following = None
             here = last, float(energy[0])
             if last > n and not _falls(lost, here):
-                reached = _resolution(scene, contact, last)
+                reached = resolution(scene, contact, last)
                 if reached < RESOLVED:
                     error = max(error, min(_EARLY * reached, LAYER_OVER_ENERGY) * here[1])
                 if reach < _BEYOND_REACH and lost is not None and here[1] > _FAR * rtol:
@@ -172,9 +172,9 @@ def beyond_reach(scene: Scene, contact: Contact, orders: tuple[int, int], excess
     `orders` are the present and the longest one.
     """
     now, longest = orders
-    return excess * (now / longest) ** _UNRESOLVED > 1.0 and _resolution(scene, contact, longest) < RESOLVED
+    return excess * (now / longest) ** _UNRESOLVED > 1.0 and resolution(scene, contact, longest) < RESOLVED
 
 
-def _resolution(scene: Scene, contact: Contact, last: int) -> float:
+def resolution(scene: Scene, contact: Contact, last: int) -> float:
     """Square of an order times the edge layer's share of the narrowest half width; infinite of an elastic contact."""
     return edge_layer(scene.creep, float(contact.alpha.min())) * last**2

@@ -276,28 +276,27 @@ def _load_and_friction(c: Array, slope: Array, alpha: Array, rho: Array | float)
 
 def penetration(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: float) -> Array:
     """Δ/R = 1 + W_0 - v_0: depth of the roll's crown below the mean line of the deformed surface, shape (b,)."""
-    depth: Array = level(rule, creep, contact.alpha, contact.c) + mean_drop(
-        contact.alpha, contact.eps, rho, 2 * contact.c.shape[1] + 16
-    )
+    n = contact.c.shape[1]
+    lifted = np.einsum("bv,bv->b", level(rule, creep, contact.alpha, n), contact.c)
+    depth: Array = lifted + mean_drop(contact.alpha, contact.eps, rho, 2 * n + 16)
     return depth
 
 
-def level(rule: Rule, creep: CreepSpectrum, alpha: Array, c: Array, ik: ProductIK | None = None) -> Array:
-    """T_0 coefficient W_0 of a contact's own displacement, shape (b,).
+def level(rule: Rule, creep: CreepSpectrum, alpha: Array, n: int, ik: ProductIK | None = None) -> Array:
+    """T_0 coefficient W_0 of a contact's own displacement per coefficient c_1 … c_n, shape (b, n).
 
     W_0 = Σ_v v c_v Σ_m Re[(-i)^{v-1} S_m] J_v J_0/m². The half-space's share: elastic, by the logarithmic potential,
     ∫_δ^∞ J_1 J_0/x² dx = ½ (ln 2 - γ - ln δ); each retardation term from w_t - ζ w_t' = d w_el.
     """
-    n = c.shape[1]
     table = bessel_j(n, np.multiply.outer(alpha, rule.nodes)).swapaxes(0, 1)
     v = np.arange(1, n + 1)
     moments = (table[:, 1:] @ (table[:, 0] * (rule.weights / rule.nodes))[..., None])[..., 0]
-    out: Array = np.einsum("bv,bv->b", v * c, np.real((-1j) ** ((v - 1) % 4) * moments))
+    out: Array = v * np.real((-1j) ** ((v - 1) % 4) * moments)
     compliance = creep.instantaneous + float(creep.weights.sum())
     logarithm = np.log(2.0 / (rule.edge * alpha)) - np.euler_gamma + rule.edge_sum
-    out += 0.5 * compliance * c[:, 0] * alpha * logarithm
+    out[:, 0] += 0.5 * compliance * alpha * logarithm
     if creep.weights.size:
         ik = ProductIK(n, alpha[:, None] / creep.times) if ik is None else ik
         products, _ = ik.weighted(creep.weights * creep.times)
-        out += np.einsum("bv,bv->b", products[:, 0, 1:] * _signs(n)[2][0], c)
+        out += products[:, 0, 1:] * _signs(n)[2][0]
     return out
