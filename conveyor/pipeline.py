@@ -57,6 +57,7 @@ from conveyor.loop.transfer import Cleaning, Landing, Trajectory, cleanings, lan
 from conveyor.loop.year import Year, year
 from conveyor.models import Calculation, Conveyor, RubberCompound
 from conveyor.models.belt import Belt
+from conveyor.models.fields import KnownParts
 from conveyor.rubber.anchor import Anchor
 
 Array = NDArray[np.float64]
@@ -536,15 +537,17 @@ class Kept:
         self.covers: dict[StrandAtWork, RunningCover | NoAnswer] = {}
         self.curves: SolvedCurves = {}
         self.drags: dict[tuple[OneStrand, float | None], StrandDrags | InputError] = {}
-        self.fields: dict[object, Any] = {}
+        self.fields = KnownParts()
         """For `with_fields`: specs of the same changes have the very same parts."""
 
     def begin(self) -> None:
         """Forget what was not used for long where it has become much."""
-        every: tuple[dict[Any, Any], ...] = (self._made, self.covers, self.curves, self.drags, self.fields)
+        every: tuple[dict[Any, Any], ...] = (self._made, self.covers, self.curves, self.drags)
         for known in every:
             for key in list(known)[: max(0, len(known) - self.MOST)]:
                 known.pop(key, None)
+        if self.fields.full:
+            self.fields = KnownParts()
 
     def once(
         self, make: Callable[[], T], what: str, parts: Iterable[object], values: tuple[object, ...] = ()
