@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
-from itertools import islice, repeat
+from itertools import chain, islice, repeat
 from typing import Any, Final, TypeAlias, TypeVar
 
 import numpy as np
@@ -27,6 +27,7 @@ from conveyor.line.belts import GAUSS, Tensioned, solve_belts
 from conveyor.line.contacts import Contacts, RollResult, solve_contacts
 from conveyor.line.covers import (
     FELT,
+    CoverName,
     Covers,
     Level,
     RunningCover,
@@ -54,7 +55,8 @@ from conveyor.loop.take_up import TakeUpDuty, at_one_setting, take_up_duty
 from conveyor.loop.tensions import MotionState
 from conveyor.loop.transfer import Cleaning, Landing, Trajectory, cleanings, landings, trajectory
 from conveyor.loop.year import Year, year
-from conveyor.models import Calculation, Conveyor, RubberCompound
+from conveyor.models import Belt, Calculation, Conveyor, RubberCompound
+from conveyor.rubber import PronySeries
 from conveyor.rubber.anchor import Anchor
 
 Array = NDArray[np.float64]
@@ -431,6 +433,18 @@ def _strand(
     return made, strand_without_rubber(made)
 
 
+def _without_rubber(belt: Belt) -> tuple[str, float]:
+    """What of a belt a line reads, as a key: all but the compounds of its covers, and its mass [kg/m]."""
+    rubber = {"top_cover": {"compound"}, "bottom_cover": {"compound"}}
+    return belt.model_dump_json(exclude=rubber), belt.line_mass
+
+
+def _dragged(still: _Loaded, drags: Sequence[StrandDrags]) -> _Loaded:
+    """A line whose rolls drag."""
+    line = replace(still.line, roll_drags=tuple(chain.from_iterable(drags)))
+    return replace(still, line=line, frame=still.frame.of(line))
+
+
 def _loaded(line: Line, fixed: Sequence[WithoutRubber]) -> _Loaded:
     """A line, its rolls not at work yet."""
     carry, back = fixed
@@ -538,11 +552,13 @@ class Kept:
         self._made: dict[tuple[object, ...], Any] = {}
         self.fields: dict[object, Any] = {}
         """For `with_fields`: specs of the same changes have the very same parts."""
+        self.drags: dict[tuple[OneStrand, float | None], StrandDrags | InputError] = {}
+        """Of the rolls of strands, by the air's temperature where they follow it [K]."""
 
     def begin(self) -> None:
         """Forget everything where it has become much; other threads end with what they began with."""
-        if max(len(self._made), len(self.fields)) > self.MOST:
-            self._made, self.fields = {}, {}
+        if max(len(self._made), len(self.fields), len(self.drags)) > self.MOST:
+            self._made, self.fields, self.drags = {}, {}, {}
 
     def once(
         self, make: Callable[[], T], what: str, parts: Iterable[object], values: tuple[object, ...] = ()
@@ -568,7 +584,7 @@ class _Shared:
         self._anchors, self._rtol = anchors, rtol
         self._alike: dict[tuple[object, ...], list[StrandAtWork]] = {}
         self._running: dict[StrandAtWork, RunningCover | NoAnswer] = {}
-        self._drags: dict[tuple[OneStrand, float | None], StrandDrags | InputError] = {}
+        self._drags = kept.drags
         self.tensioned: Tensioned = {}
         if known is not None:
             for strand, compound in compounds_by_strand(known.conveyor).items():
@@ -615,18 +631,28 @@ class _Shared:
         given, at = variant.conveyor, variant.covers_at
         compounds = compounds_by_strand(given)
         rubber = self._own.once(partial(rubbers, given, at), "rubbers", compounds.values(), (at,))
-        drags: list[tuple[float, ...]] = []
-        for strand in still.line.strands.each:
-            one = self._drags[strand, _air(given)]
+        drags: list[StrandDrags] = []
+        for each in still.line.strands.each:
+            one = self._drags[each, _air(given)]
             if isinstance(one, InputError):
                 raise one
-            drags += one
-        line = replace(still.line, roll_drags=tuple(drags))
-        works = {
-            strand: self._felt(StrandAtWork(line, strand, cover, compounds[strand], at))
-            for strand, cover in covers_of(given, rubber).items()
-        }
-        return _Loaded(line, still.frame.of(line), still.fixed, works, _anchored(given.calculation))
+            drags.append(one)
+        made = self._kept.once(partial(_dragged, still, drags), "in air", (still, *drags))
+        belt = given.belt.bottom_cover, given.belt.top_cover
+        works: dict[Strand, StrandAtWork] = {}
+        for strand, of in zip(STRANDS, still.line.strands.each, strict=True):
+            parts = (of, compounds[strand], given.calculation, given.route, *belt)
+            make = partial(self._at_work, given, made.line, strand, rubber, at)
+            works[strand] = self._own.once(make, "work", parts, (still.line.speed, at))
+        return replace(made, works=works, anchored=_anchored(given.calculation))
+
+    def _at_work(
+        self, given: Conveyor, line: Line, strand: Strand, rubber: Mapping[CoverName, PronySeries], at: float
+    ) -> StrandAtWork:
+        """A strand on its cover."""
+        return self._felt(
+            StrandAtWork(line, strand, covers_of(given, rubber)[strand], compounds_by_strand(given)[strand], at)
+        )
 
     def _felt(self, work: StrandAtWork) -> StrandAtWork:
         """A strand whose cover has its rubber as far as its rolls tell terms apart."""
@@ -642,18 +668,23 @@ class _Shared:
         return replace(work, cover=replace(work.cover, rubber=less, merged=2.0 * FELT * rtol))
 
     def _still(self, given: Conveyor, on_curves: Acting) -> _Loaded:
-        """The line of a spec, its rolls without drag; specs of one belt, load and idlers share a strand."""
+        """The line of a spec, its rolls without drag; specs of one belt, load and idlers share a strand.
+
+        Belts that differ in their rubber only, and weigh the same, are one.
+        """
         kept = self._kept if on_curves == Acting() else self._own
+        bare = self._own.once(partial(_without_rubber, given.belt), "without rubber", (given.belt,))
+        belt = self._kept.once(lambda: given.belt, "belt", (), (bare,))
         sections = self._kept.once(lambda: route_sections(given), "sections", (given.route,))
         scene = (*map(_in_order, vars(on_curves).values()), given.ambient.wind_speed)
         each = []
         for strand, own in zip(STRANDS, (given.idlers.carry, given.idlers.return_), strict=True):
-            parts = (given.belt, own, given.material, given.route, given.calculation)
+            parts = (belt, own, given.material, given.route, given.calculation)
             made = partial(_strand, given, sections, strand, on_curves)
             each.append(kept.once(made, "strand", parts, (strand, *scene)))
         (carry, up), (back, down) = each
         strands = Strands(sections, (carry, back))
-        others = (given.belt, given.material, given.route, given.drive, given.calculation, given.report)
+        others = (belt, given.material, given.route, given.drive, given.calculation, given.report)
         wind = (given.ambient.wind_speed,)
         like = self._kept.once(lambda: Line.of(given, strands, [(), ()]), "like", others, wind)
         return kept.once(

@@ -20,7 +20,7 @@ from conveyor.line.contacts import RollResult
 from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import CoverChoice, crossed_settings, with_compound
-from conveyor.pipeline import CalculatedConveyor, Variant, calculate_many
+from conveyor.pipeline import CalculatedConveyor, Kept, Variant, calculate_many
 from conveyor.units import Quantity
 
 _BAND_RTOL = 1e-3  # of the contacts that the band is formed from: a tenth of the narrowest band
@@ -124,6 +124,7 @@ def of_compound(
     *,
     cover: CoverChoice,
     rtol: float,
+    kept: Kept | None = None,
 ) -> CompoundStudy:
     """Calculate every temperature and speed of one compound.
 
@@ -139,6 +140,8 @@ def of_compound(
         Which cover changes.
     rtol : float
         Relative tolerance of the contacts [-].
+    kept : Kept, optional
+        What other compounds on the same conveyor had of its lines.
 
     Raises
     ------
@@ -149,7 +152,7 @@ def of_compound(
     strands = strands_of(changed, cover)
     settings = list(crossed_settings(changed, temperatures, speeds))
     going = [(s, s.conveyor) for s in settings if isinstance(s.conveyor, Conveyor)]
-    answers = iter(calculate_many([Variant(c, s.temperature) for s, c in going], rtol))
+    answers = iter(calculate_many([Variant(c, s.temperature) for s, c in going], rtol, kept=kept))
     solved: list[CalculatedConveyor] = []
     refused = []
     for setting in settings:
