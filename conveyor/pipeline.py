@@ -668,28 +668,31 @@ class _Shared:
         return replace(work, cover=replace(work.cover, rubber=less, merged=2.0 * FELT * rtol))
 
     def _still(self, given: Conveyor, on_curves: Acting) -> _Loaded:
-        """The line of a spec, its rolls without drag; specs of one belt, load and idlers share a strand.
-
-        Belts that differ in their rubber only, and weigh the same, are one.
-        """
+        """The line of a spec, its rolls without drag; belts that weigh the same and differ in rubber only are one."""
         kept = self._kept if on_curves == Acting() else self._own
         bare = self._own.once(partial(_without_rubber, given.belt), "without rubber", (given.belt,))
         belt = self._kept.once(lambda: given.belt, "belt", (), (bare,))
-        sections = self._kept.once(lambda: route_sections(given), "sections", (given.route,))
+        sets = given.idlers.carry, given.idlers.return_
+        others = (belt, given.material, given.route, given.drive, given.calculation, given.report)
         scene = (*map(_in_order, vars(on_curves).values()), given.ambient.wind_speed)
+        laid = partial(self._laid, given, on_curves, kept, others, scene)
+        return kept.once(laid, "line", (*sets, *others), scene)
+
+    def _laid(
+        self, given: Conveyor, on_curves: Acting, kept: Kept, others: Sequence[object], scene: tuple[object, ...]
+    ) -> _Loaded:
+        """The same, made of what it shares: specs of one belt, load and idlers share a strand."""
+        belt, *_ = others
+        sections = self._kept.once(lambda: route_sections(given), "sections", (given.route,))
         each = []
         for strand, own in zip(STRANDS, (given.idlers.carry, given.idlers.return_), strict=True):
             parts = (belt, own, given.material, given.route, given.calculation)
             made = partial(_strand, given, sections, strand, on_curves)
             each.append(kept.once(made, "strand", parts, (strand, *scene)))
         (carry, up), (back, down) = each
-        strands = Strands(sections, (carry, back))
-        others = (belt, given.material, given.route, given.drive, given.calculation, given.report)
-        wind = (given.ambient.wind_speed,)
+        strands, wind = Strands(sections, (carry, back)), (given.ambient.wind_speed,)
         like = self._kept.once(lambda: Line.of(given, strands, [(), ()]), "like", others, wind)
-        return kept.once(
-            lambda: _loaded(replace(like, strands=strands), (up, down)), "line", (carry, back, like)
-        )
+        return _loaded(replace(like, strands=strands), (up, down))
 
     def softened(self, loaded: Sequence[_Loaded], before: Sequence[Covers]) -> list[Covers | NoAnswer]:
         """The covers of many lines at their working strain; alike ones are the very same, and share load curves.

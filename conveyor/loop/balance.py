@@ -116,7 +116,7 @@ class Balance:
     @cached_property
     def power(self) -> Power:
         """In steady running."""
-        line, force = self.line, self.forces.total
+        line, force = self.line, self.settled.force
         mains = self.frame.mains(force)
         return Power(
             belt=belt_power(force, belt_speed=line.speed),
