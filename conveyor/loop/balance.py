@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -144,7 +144,8 @@ class Balance:
 
     def held(self, setting: float) -> Balance:
         """The same forces along the belt with the take-up at a setting [N]."""
-        return balance(self.frame, self.along, self.unit_main, setting)
+        (found,) = held([self], setting)
+        return found
 
 
 def balance(
@@ -168,10 +169,20 @@ def balance(
     NoSolutionError
         The tensions do not settle (wraps that grow faster than the tension they need), or the belt is slack.
     """
-    (found,) = balances([OpenLoop(frame, along, unit_main, setting)])
-    if isinstance(found, NoSolutionError):
-        raise found
+    (found,) = _answers(balances([OpenLoop(frame, along, unit_main, setting)]))
     return found
+
+
+def held(loops: Iterable[Balance], setting: float) -> list[Balance]:
+    """Loops under the same forces along their belts with the take-up at a setting [N]."""
+    return _answers(balances([OpenLoop(one.frame, one.along, one.unit_main, setting) for one in loops]))
+
+
+def _answers(found: Sequence[Balance | NoSolutionError]) -> list[Balance]:
+    for one in found:
+        if isinstance(one, NoSolutionError):
+            raise one
+    return [one for one in found if isinstance(one, Balance)]
 
 
 class OpenLoop(NamedTuple):

@@ -20,8 +20,7 @@ Array = NDArray[np.float64]
 
 _LOOP_STEPS = 200
 _LOOP_CLOSED = 1e-13  # relative change of the drive force; wraps add about 1e-3 of it per step
-_EXTRAPOLATED = 3  # steps that show a ratio
-_SHRINKS = 0.5  # ratio below which the steps are a geometric row
+_SHRINKS = 1.0 / 3.0  # q/(1 - q) of two changes of ratio q, half or less or turned: they lead somewhere
 _HELD = 1.0 - 1e-9  # of what is needed; a setting typed to the computed figure is not short of it
 
 START, BRAKING, LEAST, LEAST_BRAKING, BRAKES = (
@@ -145,15 +144,22 @@ class Settled:
         """Highest tension round the loop in every state that decides the setting [N]."""
         return float(self.closed.largest[self.row])
 
+    @cached_property
+    def _governing(self) -> tuple[int, int]:
+        """State and condition that asks for the least setting."""
+        asked = self.closed.asked[self.row]
+        k, c = divmod(int(asked.argmax()), asked.shape[-1])
+        return k, c
+
     @property
     def governed_by(self) -> str:
         """What asks for the least setting: "grip" or "sag"."""
-        return "grip" if self.closed.governing[self.row, 1] < len(self.line.drives) else "sag"
+        return "grip" if self._governing[1] < len(self.line.drives) else "sag"
 
     @property
     def governing(self) -> str:
         """Name of the condition that governs the take-up."""
-        k, c = self.closed.governing[self.row].tolist()
+        k, c = self._governing
         return self._condition(next(name for name, at in self._names.items() if at == k), c)
 
     def _condition(self, state: str, c: int) -> str:
@@ -199,7 +205,6 @@ class Now:
     names: tuple[str, ...]
     resistance: Array
     rubbing: Array
-    met: Array
     moving: Moving
     occurs: NDArray[np.bool_]
 
@@ -216,8 +221,8 @@ class Closed:
         Setting that each condition asks for [N]; -inf of one that there is not.
     setting, needed : ndarray, shape (b,)
         Of the take-up, and the least it should be [N].
-    governing : ndarray, shape (b, 2)
-        State and condition that asks for it.
+    bends : ndarray, shape (b, pulleys)
+        Resistances of the pulleys under which they are closed [N].
     pulleys : ndarray, shape (b, pulleys, 2)
         Wrap and bearings of every pulley [N].
     given : bool
@@ -229,7 +234,7 @@ class Closed:
     asked: Array
     setting: Array
     needed: Array
-    governing: NDArray[np.intp]
+    bends: Array
     pulleys: Array
     given: bool
 
@@ -250,7 +255,7 @@ class Closed:
         drive = now.resistance[:, 0]
         occurs, acceleration, forces = _coasting(loops, drive, np.zeros_like(loops.standing.brakes))
         states = np.ones((len(drive), 1)), acceleration[:, None], forces[:, None]
-        moving = loops.moving(now.met, *states, drive >= 0.0)
+        moving = loops.moving(*states, self.bends, drive >= 0.0)
         return occurs, States(moving, self.setting)
 
 
@@ -270,15 +275,15 @@ def settle(loops: Loops, given: Array | None = None) -> tuple[Closed, dict[int, 
         The loops at rest, and why a row has no answer: its tensions do not settle (wraps that grow faster than the
         tension they need), or its belt is slack at a pulley.
     """
-    kinds, rows, whole = _Kinds(loops), np.arange(len(loops.frames)), np.abs(loops.along[:, :2, -1].sum(axis=-1))
-    history, drive = [np.zeros((len(rows), len(loops.plan.bends)))], np.full(len(rows), np.inf)
-    going, refused = np.ones(len(rows), dtype=bool), dict[int, NoSolutionError]()
+    kinds, b, whole = _Kinds(loops), len(loops.frames), np.abs(loops.along[:, :2, -1].sum(axis=-1))
+    bends, drive = np.zeros((b, len(loops.plan.bends))), np.full(b, np.inf)
+    going, refused = np.ones(b, dtype=bool), dict[int, NoSolutionError]()
+    last: tuple[Array, Array] | None = None
     for _ in range(_LOOP_STEPS):
-        before, now = drive, kinds.at(history[-1])
+        before, now = drive, kinds.at(bends)
         drive = now.resistance[:, 0]
         asked = np.where(now.occurs[..., None], now.moving.asked(kinds.sagging), -np.inf)
-        governing = asked.reshape(len(rows), -1).argmax(axis=-1)
-        needed = asked.reshape(len(rows), -1)[rows, governing]
+        needed = asked.max(axis=(1, 2))
         setting = needed if given is None else given
         going &= ~(np.abs(drive - before) <= _LOOP_CLOSED * np.maximum(np.abs(drive), whole))
         wraps, bearings = _pulleys(loops, now.moving, setting, refused)
@@ -286,26 +291,30 @@ def settle(loops: Loops, given: Array | None = None) -> tuple[Closed, dict[int, 
             going[list(refused)] = False
         if not going.any():
             break
-        history.append(np.where(going[:, None], wraps + bearings, history[-1]))
-        if len(history) == _EXTRAPOLATED:
-            history = [_extrapolated(*history)]
+        step = (wraps + bearings, wraps + bearings - bends)
+        bends = np.where(going[:, None], step[0] if last is None else _further(last, step), bends)
+        last = step
     else:
         refused |= {row: _unsettled() for row in np.flatnonzero(going).tolist()}
-    at = np.stack(np.divmod(governing, asked.shape[-1]), axis=-1)
     pulleys = np.stack([wraps, bearings], axis=-1)
-    return Closed(loops, now, asked, setting, needed, at, pulleys, given is not None), refused
+    return Closed(loops, now, asked, setting, needed, bends, pulleys, given is not None), refused
 
 
 def _unsettled() -> NoSolutionError:
     return NoSolutionError("the tensions round the belt do not settle: check pulley diameters and drive friction")
 
 
-def _extrapolated(first: Array, second: Array, third: Array) -> Array:
-    """Where three steps lead to (Aitken); the last of them where they do not shrink."""
-    before, step = second - first, third - second
-    shrinks = np.abs(step) < _SHRINKS * np.abs(before)
-    ratio = np.divide(step, before, out=np.zeros_like(step), where=shrinks)
-    return third + step * ratio / (1.0 - ratio)
+def _further(last: tuple[Array, Array], step: tuple[Array, Array]) -> Array:
+    """Where two steps lead to: the secant along them (Anderson's mixing of depth one); the last where none shrink.
+
+    A step is what the pulleys' resistances become, and by how much they change.
+    """
+    (before, was), (here, short) = last, step
+    turned = short - was
+    along, whole = (turned * short).sum(axis=-1), (turned * turned).sum(axis=-1)
+    shrinks = (along > -whole) & (along < _SHRINKS * whole)
+    share = np.divide(along, whole, out=np.zeros(len(here)), where=shrinks)
+    return np.asarray(here - share[:, None] * (here - before))
 
 
 def _pulleys(
@@ -351,9 +360,7 @@ class _Kinds:
     def at(self, bends: Array) -> Now:
         """The states at resistances of the pulleys [N], shape (b, pulleys)."""
         loops, standing = self.loops, self.loops.standing
-        met = loops.met.copy()
-        met[:, 1, loops.plan.bends] = bends
-        rubbing = met[:, 1].sum(axis=-1)
+        rubbing = loops.rubbing + bends.sum(axis=-1)
         resistance = loops.lift[:, None] + self.friction * rubbing[:, None]
         acceleration, forces = self.pushes * resistance, self.shares * resistance[..., None]
         occurs = np.ones(resistance.shape, dtype=bool)
@@ -367,8 +374,8 @@ class _Kinds:
         if BRAKES in self.names:
             slows, acceleration[:, -1], forces[:, -1] = _coasting(loops, resistance[:, -1], standing.brakes)
             occurs[:, -1] = slows & self.braked
-        moving = loops.moving(met, self.friction, acceleration, forces, resistance[:, 0] >= 0.0)
-        return Now(self.names, resistance, rubbing, met, moving, occurs)
+        moving = loops.moving(self.friction, acceleration, forces, bends, resistance[:, 0] >= 0.0)
+        return Now(self.names, resistance, rubbing, moving, occurs)
 
 
 def _coasting(loops: Loops, resistance: Array, brakes: Array) -> tuple[NDArray[np.bool_], Array, Array]:

@@ -111,11 +111,16 @@ class Standing:
             """Arrays of each in rows; what is no array is alike in all."""
             columns = {name: [getattr(part, name) for part in parts] for name in vars(parts[0])}
             return {
-                name: np.array(column)[rows] if isinstance(column[0], np.ndarray) else column[0]
+                name: _rows(column, rows) if isinstance(column[0], np.ndarray) else column[0]
                 for name, column in columns.items()
             }
 
         return cls(**stacked(list(unlike)) | {"pull": Pull(**stacked([one.pull for one in unlike]))})
+
+
+def _rows(column: Sequence[Array], rows: Sequence[int]) -> Array:
+    """Arrays in rows, some of them in several."""
+    return column[0][None] if len(rows) == 1 else np.array(column)[rows]
 
 
 class Frame:

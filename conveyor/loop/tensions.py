@@ -124,7 +124,7 @@ class Loops:
             for force in forces_there:
                 if force.spot is not None:
                     met[1, self.plan.spots[frame.at[force.spot]]] += force.total
-        self.lift = self.met[:, 0].sum(axis=-1)
+        self.lift, self.rubbing = self.met[:, 0].sum(axis=-1), self.met[:, 1].sum(axis=-1)
         self.mass = self.standing.mass[:, -1]
 
     @cached_property
@@ -142,22 +142,25 @@ class Loops:
         begun = self.along[..., self.plan.boundaries[:-1]] * self._shares[:, None]
         return np.asarray((mean - begun.sum(axis=-1))[..., None])
 
-    def moving(self, met: Array, friction: Array, acceleration: Array, forces: Array, driving: NDArray[np.bool_]) -> Moving:
+    def moving(
+        self, friction: Array, acceleration: Array, forces: Array, bends: Array, driving: NDArray[np.bool_]
+    ) -> Moving:
         """States in which every drive gives its force; they and the masses balance the resistances.
 
         Parameters
         ----------
-        met : ndarray, shape (b, 3, count)
-            `met` with the resistances of the pulleys [N].
         friction, acceleration : ndarray, shape (b, m)
             Over the computed one [-]; of belt and bulk [m/s²].
         forces : ndarray, shape (b, m, d)
             Of the drives [N].
+        bends : ndarray, shape (b, pulleys)
+            Resistances of the pulleys [N].
         driving : ndarray, shape (b,)
             Whether the drives pull in steady running: a take-up on their slack side stands there always.
         """
         plan = self.plan
-        steps = _in_state(met, friction, acceleration)
+        steps = _in_state(self.met, friction, acceleration)
+        steps[..., plan.bends] = friction[..., None] * bends[:, None]
         steps[..., plan.drives] = -forces
         offsets = np.zeros((*friction.shape, plan.count + 1))
         np.cumsum(steps, axis=-1, out=offsets[..., 1:])
