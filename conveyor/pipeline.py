@@ -651,7 +651,9 @@ class _Shared:
     ) -> StrandAtWork:
         """A strand on its cover."""
         return self._felt(
-            StrandAtWork(line, strand, covers_of(given, rubber)[strand], compounds_by_strand(given)[strand], at)
+            StrandAtWork(
+                line, strand, covers_of(given, rubber)[strand], compounds_by_strand(given)[strand], at
+            )
         )
 
     def _felt(self, work: StrandAtWork) -> StrandAtWork:
@@ -679,7 +681,12 @@ class _Shared:
         return kept.once(laid, "line", (*sets, *others), scene)
 
     def _laid(
-        self, given: Conveyor, on_curves: Acting, kept: Kept, others: Sequence[object], scene: tuple[object, ...]
+        self,
+        given: Conveyor,
+        on_curves: Acting,
+        kept: Kept,
+        others: Sequence[object],
+        scene: tuple[object, ...],
     ) -> _Loaded:
         """The same, made of what it shares: specs of one belt, load and idlers share a strand."""
         belt, *_ = others

@@ -169,16 +169,17 @@ def balance(
     NoSolutionError
         The tensions do not settle (wraps that grow faster than the tension they need), or the belt is slack.
     """
-    (found,) = _answers(balances([OpenLoop(frame, along, unit_main, setting)]))
+    (found,) = answers(balances([OpenLoop(frame, along, unit_main, setting)]))
     return found
 
 
 def held(loops: Iterable[Balance], setting: float) -> list[Balance]:
     """Loops under the same forces along their belts with the take-up at a setting [N]."""
-    return _answers(balances([OpenLoop(one.frame, one.along, one.unit_main, setting) for one in loops]))
+    return answers(balances([OpenLoop(one.frame, one.along, one.unit_main, setting) for one in loops]))
 
 
-def _answers(found: Sequence[Balance | NoSolutionError]) -> list[Balance]:
+def answers(found: Sequence[Balance | NoSolutionError]) -> list[Balance]:
+    """The loops that were closed; the first refusal is raised."""
     for one in found:
         if isinstance(one, NoSolutionError):
             raise one

@@ -259,6 +259,7 @@ class Closed:
         return occurs, States(moving, self.setting)
 
 
+@np.errstate(over="ignore", invalid="ignore")  # of a row that grows until it is refused
 def settle(loops: Loops, given: Array | None = None) -> tuple[Closed, dict[int, NoSolutionError]]:
     """Close loops of tensions around the forces along their belts, each as if it were alone.
 
@@ -301,7 +302,9 @@ def settle(loops: Loops, given: Array | None = None) -> tuple[Closed, dict[int, 
 
 
 def _unsettled() -> NoSolutionError:
-    return NoSolutionError("the tensions round the belt do not settle: check pulley diameters and drive friction")
+    return NoSolutionError(
+        "the tensions round the belt do not settle: check pulley diameters and drive friction"
+    )
 
 
 def _further(last: tuple[Array, Array], step: tuple[Array, Array]) -> Array:

@@ -160,7 +160,7 @@ class Frame:
         self.station = next(stop for stop in self.drives if 0 in stop)
         self.anchor = None if line.take_up.spot is None else self.at[line.take_up.spot]
         self.plan = self._plan()
-        self.standing = self._standing()
+        self.standing = _standing(self)
 
     def _plan(self) -> Plan:
         line, met = self.line, 0
@@ -206,32 +206,6 @@ class Frame:
             keeps_length=keeps,
         )
 
-    def _standing(self) -> Standing:
-        line, plan = self.line, self.plan
-        shape, pulleys = line.loop, [bend.pulley for bend in self.bends]
-        met = np.zeros((3, plan.count))
-        for force in self.points:
-            if force.spot is not None:
-                met[0 if force.certain else 1, plan.spots[self.at[force.spot]]] += force.total
-        mass = np.concatenate([[0.0], np.cumsum(shape.mass)])
-        met[2, plan.runs] = np.diff(mass[plan.boundaries])
-        return Standing(
-            met=met,
-            mass=mass,
-            least=shape.least,
-            lengths=shape.length,
-            grip=np.array([grip_tension(1.0, friction=d.friction, wrap_angle=d.wrap_angle) for d in line.drives]),
-            brakes=np.array(line.brakes),
-            wrap=np.array([bend.wrap[0] for bend in self.bends]),
-            slope=np.array([bend.wrap[1] for bend in self.bends]),
-            bearings=np.array([bend.bearings or 0.0 for bend in self.bends]),
-            pulley_mass=np.array([pulley.mass for pulley in pulleys]),
-            wrap_angle=np.array([pulley.wrap_angle for pulley in pulleys]),
-            least_friction=np.array(line.least_friction),
-            gravity=np.array(line.gravity),
-            pull=Pull.of(line),
-        )
-
     def of(self, line: Line) -> Frame:
         """The same loop of a line whose rolls drag otherwise."""
         made = copy(self)
@@ -246,7 +220,7 @@ class Frame:
         made.bends = tuple(
             bend.times(change(unit).total) for bend, unit in zip(self.bends, units, strict=True)
         )
-        made.standing = made._standing()
+        made.standing = _standing(made)
         return made
 
     def motor(self, force: float) -> float:
@@ -257,3 +231,31 @@ class Frame:
     def mains(self, force: float) -> float:
         """Power from the mains for a force at the belt, negative when it is fed back [W]."""
         return motor_power(self.motor(force), efficiency=self.line.mains_efficiency)
+
+
+def _standing(frame: Frame) -> Standing:
+    """What stands round a loop, in the order of its plan."""
+    line, plan = frame.line, frame.plan
+    shape, pulleys = line.loop, [bend.pulley for bend in frame.bends]
+    met = np.zeros((3, plan.count))
+    for force in frame.points:
+        if force.spot is not None:
+            met[0 if force.certain else 1, plan.spots[frame.at[force.spot]]] += force.total
+    mass = np.concatenate([[0.0], np.cumsum(shape.mass)])
+    met[2, plan.runs] = np.diff(mass[plan.boundaries])
+    return Standing(
+        met=met,
+        mass=mass,
+        least=shape.least,
+        lengths=shape.length,
+        grip=np.array([grip_tension(1.0, friction=d.friction, wrap_angle=d.wrap_angle) for d in line.drives]),
+        brakes=np.array(line.brakes),
+        wrap=np.array([bend.wrap[0] for bend in frame.bends]),
+        slope=np.array([bend.wrap[1] for bend in frame.bends]),
+        bearings=np.array([bend.bearings or 0.0 for bend in frame.bends]),
+        pulley_mass=np.array([pulley.mass for pulley in pulleys]),
+        wrap_angle=np.array([pulley.wrap_angle for pulley in pulleys]),
+        least_friction=np.array(line.least_friction),
+        gravity=np.array(line.gravity),
+        pull=Pull.of(line),
+    )
