@@ -29,6 +29,7 @@ from conveyor.contact.narrow import (
     PLACE_SHARE,
     RANGE,
     ROOM,
+    ROUGH,
     Group,
     alike,
     chosen_rows,
@@ -44,7 +45,7 @@ from conveyor.contact.short_rule import ShortRule, full_rule, grades_for, panels
 from conveyor.contact.single import ROUNDING, SIGN_ORDER
 from conveyor.contact.solution import ContactSolution, SolveStats
 from conveyor.contact.solve import solve
-from conveyor.contact.spectral import Contact, equilibrium
+from conveyor.contact.spectral import Contact, equilibrium, equilibrium_of_orders
 from conveyor.contact.tabled import Tabled
 from conveyor.errors import InputError, NoSolutionError
 
@@ -380,7 +381,8 @@ class _Sampler:
         """Largest errors by order of each row, of the energy, and what that says of friction."""
         rho = np.repeat(self.group.rho[batch.rows], batch.count)
         every = np.repeat(batch.rows, batch.count)
-        by_order = order_errors(batch.contact, batch.matrix, rho, exponent.ravel())
+        _, lower = equilibrium_of_orders(batch.matrix, batch.contact.alpha, rho, batch.contact.eps, ROUGH)
+        by_order = order_errors(batch.contact, lower, exponent.ravel())
         by_loss = batch.tabled.friction_by_loss(self.check[every], batch.contact, rho)
         energy = np.abs(relative_difference(by_loss, batch.contact.friction))
         each = (by_order.friction, energy, by_energy(energy, by_order.most))

@@ -39,11 +39,13 @@ _ROLL = 1.0 - 1e-12  # nodes on the roll: |X| < ρ
 _DENSE = 400  # active nodes solved by LU; beyond it GMRES takes less
 _PIVOTS, _COSTLY_PIVOTS = 300, 60  # of few and of many active nodes
 _FEW = 520  # nodes on the roll whose load is raised from nothing where block exchanges do not settle
-_EXCHANGES, _FEW_EXCHANGES = 40, 4  # a node, from nothing (1 to 20 seen) and from another load
+_EXCHANGES, _FEW_EXCHANGES = 25, 4  # a node, from nothing (1 to 19 seen) and from another load
+_AT_ONCE = 100  # exchanges at one height (1 to 6 seen): more run in circles, by rounding
 _PATIENCE = 10  # block exchanges that may fail to lessen the infeasible nodes (Júdice and Pires)
 _ROUNDING = 1e-12  # of the depth; gaps smaller than it are closed
+_DENSE_RATHER = 1000  # LU takes less than two cycles of GMRES that do not settle
 _DENSE_AT_WORST = 2000  # where GMRES does not settle: lags near a right angle, E∞/E0 1000 and more
-_KRYLOV, _RESTART, _CYCLES = 1e-12, 60, 8
+_KRYLOV, _RESTART, _CYCLES, _FEW_CYCLES = 1e-12, 60, 8, 2
 _OCTAVE = 1 << 12  # wave numbers below are taken one by one
 
 
@@ -363,21 +365,24 @@ def _pivot(
     if not active.any():
         active[np.argmin(drop)] = True
     fewest, patience = drop.size + 1, _PATIENCE
-    costly = 0
+    costly, dense = 0, _DENSE
+    seen = set[bytes]()
     for pivots in range(1, _PIVOTS + 1):
         costly += int(active.sum() > _DENSE)
         if costly > _COSTLY_PIVOTS:
             break
-        p, raised = _equations(surface, drop, np.flatnonzero(active), mean, depth)
+        p, raised, dense = _equations(surface, drop, np.flatnonzero(active), mean, depth, dense)
         gap = surface.lifted(p) + drop - raised
         closed = _ROUNDING * max(abs(raised), float(drop.max()))
         wrong = np.where(active, p < 0.0, gap < -closed)
         count = int(wrong.sum())
         if count == 0:
             return p, raised - surface.lift * float(p.sum()) / surface.points, pivots
+        before, now = len(seen), active.tobytes()
+        seen.add(now)
         if count < fewest:
             fewest, patience = count, _PATIENCE
-        elif patience > 0:
+        elif patience > 0 and len(seen) > before:
             patience -= 1
         elif drop.size <= _FEW and depth is None:
             break
@@ -416,9 +421,13 @@ class _Tableau:
 
         limit = 0.0 if self._at_end() else math.inf
         constant, slope = self.lines
+        at_once = 0
         for _ in range(exchanges):
             ready = np.where(slope < 0.0, constant, math.inf) / np.abs(slope)
             node = int(ready.argmin())
+            at_once = 0 if ready[node] > self.height else at_once + 1
+            if at_once > _AT_ONCE:
+                break
             self.height = max(self.height, float(ready[node]))
             carried = math.inf
             if math.isfinite(self.height):
@@ -428,7 +437,7 @@ class _Tableau:
             self._exchange(node, dger)
             self._way.append((carried, node))
             limit = min(limit, carried) if self._at_end() else math.inf
-        raise NoSolutionError(f"the load on the grid did not rise within {exchanges} exchanges")
+        raise NoSolutionError(f"the load on the grid did not rise within {len(self._way)} exchanges")
 
     def active_under(self, load: float) -> NDArray[np.bool_]:
         """Nodes in contact under a smaller Σ p, on the way that was taken."""
@@ -454,11 +463,17 @@ class _Tableau:
 
 
 def _equations(
-    surface: _Surface, drop: Array, nodes: NDArray[np.int_], mean: float, depth: float | None
-) -> tuple[Array, float]:
-    """Pressure with w + s = Δ at the active nodes, and the raised depth Δ + lift x mean pressure."""
+    surface: _Surface,
+    drop: Array,
+    nodes: NDArray[np.int_],
+    mean: float,
+    depth: float | None,
+    dense: int = _DENSE,
+) -> tuple[Array, float, int]:
+    """Pressure with w + s = Δ at the active nodes, the raised depth Δ + lift x mean pressure, and `dense` from now on."""
     right = np.stack([-drop[nodes], np.ones(nodes.size)], axis=1)
-    shape, level = _solved(surface, nodes, right).T
+    answer, dense = _solved(surface, nodes, right, dense)
+    shape, level = answer.T
     # p = shape + (Δ + lift x mean) level
     if depth is None:
         raised = (mean * surface.points - shape.sum()) / level.sum()
@@ -467,12 +482,13 @@ def _equations(
         raised = (depth + share * shape.sum()) / (1.0 - share * level.sum())
     p = np.zeros(drop.size)
     p[nodes] = shape + raised * level
-    return p, float(raised)
+    return p, float(raised), dense
 
 
-def _solved(surface: _Surface, nodes: NDArray[np.int_], right: Array) -> Array:
-    if nodes.size <= _DENSE:
-        return _dense(surface, nodes, right)
+def _solved(surface: _Surface, nodes: NDArray[np.int_], right: Array, dense: int) -> tuple[Array, int]:
+    """Solution of an active set's equations, and the size up to which the next is solved densely: now `dense`."""
+    if nodes.size <= dense:
+        return _dense(surface, nodes, right), dense
     from scipy.sparse.linalg import LinearOperator, gmres  # 40 ms that small grids do without
 
     full = np.zeros(surface.index.size)
@@ -486,15 +502,16 @@ def _solved(surface: _Surface, nodes: NDArray[np.int_], right: Array) -> Array:
     product = LinearOperator(size, lambda v: surface.lifted(spread(v))[nodes], dtype=np.float64)
     inverse = LinearOperator(size, lambda v: surface.pressed(spread(v))[nodes], dtype=np.float64)
     out = np.empty_like(right)
+    cycles = _FEW_CYCLES if nodes.size <= _DENSE_RATHER else _CYCLES
     for k in range(right.shape[1]):
         out[:, k], failed = gmres(
-            product, right[:, k], rtol=_KRYLOV, restart=_RESTART, maxiter=_CYCLES, M=inverse
+            product, right[:, k], rtol=_KRYLOV, restart=_RESTART, maxiter=cycles, M=inverse
         )
         if failed and nodes.size <= _DENSE_AT_WORST:
-            return _dense(surface, nodes, right)
+            return _dense(surface, nodes, right), _DENSE_RATHER
         if failed:
             raise NoSolutionError(f"GMRES did not settle on {nodes.size} active nodes of the grid")
-    return out
+    return out, dense
 
 
 def _dense(surface: _Surface, nodes: NDArray[np.int_], right: Array) -> Array:

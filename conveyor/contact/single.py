@@ -12,8 +12,8 @@ from conveyor.contact.checks import (
     Sign,
     by_energy,
     energy_error,
-    errors_of_lower,
     may_touch_elsewhere,
+    order_errors,
     overlaps,
     sign,
 )
@@ -23,7 +23,7 @@ from conveyor.contact.orders import ORDERS, next_order
 from conveyor.contact.problem import Status
 from conveyor.contact.scene import Scene, State
 from conveyor.contact.solution import Found, Outcome
-from conveyor.contact.spectral import Contact
+from conveyor.contact.spectral import Contact, of_orders
 
 LOAD_FLOOR = 2e-13  # rounding of the load at a condition number of 100
 SIGN_ORDER = 256  # splits show below it; a dip that lasts is an edge layer that friction does not feel
@@ -109,12 +109,13 @@ def _converged(
             return None
         exponent = search.exponent if scene.depth is None else None
         pairs = [
-            errors_of_lower(state.contact, lower, scene.problem.rho, exponent) for lower in state.system.lower
+            order_errors(state.contact, of_orders(lower, state.contact, scene.problem.rho), exponent)
+            for lower in state.system.lower
         ]
         by_order = OrderErrors(*(np.max(errors, axis=0) for errors in zip(*pairs, strict=True)))
         error = float(by_order.friction[0])
         following = _next((n, last), [float(pair.friction[0]) for pair in pairs], rtol, longest)
-        reach = _resolution(scene, state.contact, longest) if last > n else math.inf
+        reach = resolution(scene, state.contact, longest) if last > n else math.inf
         if error <= rtol or following is None or reach < _BEYOND_REACH:
             settled = error <= rtol or following is None
             if state.miss > tight and tolerance > tight:
@@ -128,7 +129,7 @@ def _converged(
                 following = None
             here = last, float(energy[0])
             if last > n and not _falls(lost, here):
-                reached = _resolution(scene, contact, last)
+                reached = resolution(scene, contact, last)
                 if reached < RESOLVED:
                     error = max(error, min(_EARLY * reached, LAYER_OVER_ENERGY) * here[1])
                 if reach < _BEYOND_REACH and lost is not None and here[1] > _FAR * rtol:
@@ -171,9 +172,9 @@ def beyond_reach(scene: Scene, contact: Contact, orders: tuple[int, int], excess
     `orders` are the present and the longest one.
     """
     now, longest = orders
-    return excess * (now / longest) ** _UNRESOLVED > 1.0 and _resolution(scene, contact, longest) < RESOLVED
+    return excess * (now / longest) ** _UNRESOLVED > 1.0 and resolution(scene, contact, longest) < RESOLVED
 
 
-def _resolution(scene: Scene, contact: Contact, last: int) -> float:
+def resolution(scene: Scene, contact: Contact, last: int) -> float:
     """Square of an order times the edge layer's share of the narrowest half width; infinite of an elastic contact."""
     return edge_layer(scene.creep, float(contact.alpha.min())) * last**2

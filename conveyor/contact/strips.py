@@ -165,9 +165,10 @@ class _Places:
         k, count = alpha.shape
         self.rule: Rule = scene.rule(float(alpha.max()))
         times = scene.creep.times
-        ik = ProductIK(n, alpha.ravel()[:, None] / times) if times.size else None
-        own = assemble(self.rule, scene.creep, alpha.ravel(), n, ik).reshape(k, count, n + 1, n)
-        scene.matrices += k * count
+        apart, same = np.unique(alpha.ravel(), return_inverse=True)  # a step of X_l leaves the own blocks
+        ik = ProductIK(n, apart[:, None] / times) if times.size else None
+        own = assemble(self.rule, scene.creep, apart, n, ik)[same].reshape(k, count, n + 1, n)
+        scene.matrices += apart.size
         slope = slope_expansion(alpha.ravel(), centre.ravel(), rho, n + 2)[..., 0]
         self.slope = slope.reshape(k, count, n + 2)
         full = np.zeros((k, count, n + 1, count, n))
@@ -180,8 +181,8 @@ class _Places:
         rows = full[:, :, 1:].reshape(k, count * n, count * n)
         right = self.slope[:, :, 1 : n + 1].reshape(k, count * n, 1)
         self.c = np.asarray(np.linalg.solve(rows, right), dtype=np.float64).reshape(k, count, n)
-        every = self.c.reshape(k * count, n)
-        lifted = level(self.rule, scene.creep, alpha.ravel(), every, ik).reshape(k, count)
+        raised = level(self.rule, scene.creep, apart, n, ik)[same].reshape(k, count, n)
+        lifted = np.einsum("klv,klv->kl", raised, self.c)
         lifted += np.einsum("klrv,krv->kl", heights, self.c)
         drop = mean_drop(alpha.ravel(), centre.ravel(), rho, 2 * n + 16).reshape(k, count)
         self.depth = lifted + drop
