@@ -27,6 +27,7 @@ from conveyor.line.belts import GAUSS, Tensioned, solve_belts
 from conveyor.line.contacts import Contacts, RollResult, SolvedCurves, solve_contacts
 from conveyor.line.covers import (
     FELT,
+    READ_RTOL,
     Covers,
     Level,
     RunningCover,
@@ -41,7 +42,7 @@ from conveyor.line.line import Line
 from conveyor.line.roll_drags import StrandDrags, roll_drags_many
 from conveyor.line.strands import OneStrand, Strands
 from conveyor.line.stretches import STRANDS, Acting, RouteSection, Strand, Stretch, route_sections
-from conveyor.loop.balance import Balance, balance
+from conveyor.loop.balance import Balance, OpenLoop, balances
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
 from conveyor.loop.curves import Convergence, acting, converged, pulls
 from conveyor.loop.drive_duty import DriveDuty, drive_duty
@@ -163,10 +164,7 @@ class CalculatedConveyor:
     def drive_forces(self) -> tuple[float, float]:
         """Drive force with the friction at both ends of its band; lift and acceleration of bulk have none [N]."""
         settled = self.balance.settled
-        low, high = (
-            settled.loop.resistance(settled.loop.singles(settled.bends, friction), friction)
-            for friction in self.friction_band or (self.line.least_friction, 1.0)
-        )
+        low, high = map(settled.resistance, self.friction_band or (self.line.least_friction, 1.0))
         return low, high
 
     @property
@@ -321,7 +319,8 @@ def calculate_many(
     kept : Kept, optional
         What calls before made of the same parts of specs; what is new is added.
     runs : iterable of iterable of int
-        Numbers of variants that differ in speed alone: the working strain of all is read among that of three.
+        Numbers of variants that differ in speed alone: the working strain of all is read among that of three, where
+        `rtol` leaves room for it (`READ_RTOL`).
 
     Returns
     -------
@@ -333,9 +332,8 @@ def calculate_many(
     NoSolutionError
         No one setting of the take-up serves all.
     """
-    before = Kept() if kept is None else kept
-    shared = _Shared(known, before.anchors if anchors is None else anchors, rtol, before)
-    shared.runs = [list(run) for run in runs]
+    shared = _Shared(known, anchors, rtol, Kept() if kept is None else kept)
+    shared.read_among(runs)
     told = _Told(len(variants), progress)
     shared.anchor(variants)
     made: dict[int, CalculatedConveyor] = {}
@@ -349,11 +347,11 @@ def calculate_many(
             else:
                 refused[i] = one
             told(len(variants) - len(going), len(loaded))
-        for i, contacts in _solved(shared, loaded, going, rtol).items():
-            try:
-                made[i] = _closed(variants[i], loaded[i], contacts)
-            except (NoSolutionError, RangeError, InputError) as error:
-                refused[i] = error
+        for i, result in _closed(variants, loaded, _solved(shared, loaded, going, rtol)).items():
+            if isinstance(result, CalculatedConveyor):
+                made[i] = result
+            else:
+                refused[i] = result
         for i in refused:
             made.pop(i, None)
         if one_take_up:
@@ -472,10 +470,33 @@ def _solved(
     return contacts
 
 
-def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts | NoAnswer) -> CalculatedConveyor:
-    """Close the loop around the forces of the rolls."""
-    if not isinstance(contacts, Contacts):
-        raise contacts
+def _closed(
+    variants: Sequence[Variant], loaded: Mapping[int, _Loaded], contacts: Mapping[int, Contacts | NoAnswer]
+) -> dict[int, CalculatedConveyor | NoAnswer]:
+    """Close the loops around the forces of the rolls, all side by side."""
+    found: dict[int, CalculatedConveyor | NoAnswer] = {}
+    open_loops: dict[int, tuple[Contacts, OpenLoop]] = {}
+    for i, one in contacts.items():
+        try:
+            if isinstance(one, Contacts):
+                open_loops[i] = one, _open(variants[i], loaded[i], one)
+            else:
+                found[i] = one
+        except InputError as error:
+            found[i] = error
+    closed = balances([loop for _, loop in open_loops.values()])
+    for (i, (rolls, _)), made in zip(open_loops.items(), closed, strict=True):
+        at = variants[i]
+        found[i] = (
+            made
+            if isinstance(made, NoSolutionError)
+            else CalculatedConveyor(at.conveyor, at.covers_at, rolls, made, loaded[i].fixed)
+        )
+    return found
+
+
+def _open(variant: Variant, loaded: _Loaded, contacts: Contacts) -> OpenLoop:
+    """The loop with the forces of the rolls along it."""
     level = np.repeat([variant.level.get(strand, 1.0) for strand in STRANDS], loaded.line.count)
     along = along_the_belt(
         loaded.line,
@@ -484,8 +505,7 @@ def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts | NoAnswer) ->
         roll_drag=variant.roll_drag,
         calibration=variant.conveyor.calculation.calibration,
     )
-    closed = balance(loaded.frame, along, float(loaded.fixed.unit_main.sum()), variant.take_up)
-    return CalculatedConveyor(variant.conveyor, variant.covers_at, contacts, closed, loaded.fixed)
+    return OpenLoop(loaded.frame, along, float(loaded.fixed.unit_main.sum()), variant.take_up)
 
 
 def _convergence(result: CalculatedConveyor, step: _Step) -> Convergence | None:
@@ -569,16 +589,16 @@ class _Shared:
     """What variants of one call have in common, made once: lines, rubbers at a temperature, covers at their strain."""
 
     def __init__(
-        self, known: CalculatedConveyor | None, anchors: Anchors, rtol: float | None, kept: Kept
+        self, known: CalculatedConveyor | None, anchors: Anchors | None, rtol: float | None, kept: Kept
     ) -> None:
         kept.begin()
         self._kept, self._own = kept, Kept()
         self._theories: list[Theory] = []
-        self._anchors, self._rtol = anchors, rtol
+        self._anchors, self._rtol = kept.anchors if anchors is None else anchors, rtol
         self._running: dict[StrandAtWork, RunningCover | NoAnswer] = {}
         self._drags = kept.drags
         self.tensioned: Tensioned = {}
-        self.runs: list[list[int]] = []
+        self._runs: list[list[int]] = []
         self.curves = kept.curves
         if known is not None:
             for strand, compound in compounds_by_strand(known.conveyor).items():
@@ -588,6 +608,11 @@ class _Shared:
                 work = StrandAtWork(known.line, strand, cover, compound, known.temperature)
                 first = kept.once(partial(_itself, work), "alike", (compound,), work.scene)
                 self._running[first] = cover
+
+    def read_among(self, runs: Iterable[Iterable[int]]) -> None:
+        """Read the strains of variants that differ in speed alone among three of them, where the tolerance allows."""
+        if self._rtol is not None and self._rtol >= READ_RTOL:
+            self._runs = [list(run) for run in runs]
 
     def anchor(self, variants: Iterable[Variant]) -> None:
         """Ask for the levels of all their compounds: they come with the covers of the strands."""
@@ -625,13 +650,8 @@ class _Shared:
         """A line with the drags of its rolls, its covers before the rolls work them."""
         given, at = variant.conveyor, variant.covers_at
         compounds = compounds_by_strand(given)
-        turned, gives = given.route.turned_over, given.calculation.support == "belt"
-        rubber = self._kept.once(
-            partial(rubbers, given, at),
-            "rubbers",
-            (*compounds.values(), given.belt.top_cover.compound),
-            (at, turned, gives),
-        )
+        rubber = rubbers(given, lambda one: self._kept.once(partial(one.series, at), "series", (one,), (at,)))
+        gives = given.calculation.support == "belt"
         acted = self._own if still.acted else self._kept
         running = acted.once(partial(self._dragged, still, _air(given)), "in air", (still,), (_air(given),))
         rtol = running.line.rtol if self._rtol is None else self._rtol
@@ -713,7 +733,7 @@ class _Shared:
         new = [work for work in asked if work not in self._running]
         tests = [work for theory in self._theories for work in theory.works]
         runs = [
-            [loaded[i].works[strand] for i in run if i in loaded] for run in self.runs for strand in STRANDS
+            [loaded[i].works[strand] for i in run if i in loaded] for run in self._runs for strand in STRANDS
         ]
         unknown = set(new)
         covers, soft = softened_covers(new, tests, [run for run in runs if unknown.issuperset(run)])
