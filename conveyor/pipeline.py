@@ -27,6 +27,7 @@ from conveyor.line.belts import GAUSS, Tensioned, solve_belts
 from conveyor.line.contacts import Contacts, RollResult, SolvedCurves, solve_contacts
 from conveyor.line.covers import (
     FELT,
+    READ_RTOL,
     Covers,
     Level,
     RunningCover,
@@ -318,7 +319,8 @@ def calculate_many(
     kept : Kept, optional
         What calls before made of the same parts of specs; what is new is added.
     runs : iterable of iterable of int
-        Numbers of variants that differ in speed alone: the working strain of all is read among that of three.
+        Numbers of variants that differ in speed alone: the working strain of all is read among that of three, where
+        `rtol` leaves room for it (`READ_RTOL`).
 
     Returns
     -------
@@ -330,9 +332,8 @@ def calculate_many(
     NoSolutionError
         No one setting of the take-up serves all.
     """
-    before = Kept() if kept is None else kept
-    shared = _Shared(known, before.anchors if anchors is None else anchors, rtol, before)
-    shared.runs = [list(run) for run in runs]
+    shared = _Shared(known, anchors, rtol, Kept() if kept is None else kept)
+    shared.read_among(runs)
     told = _Told(len(variants), progress)
     shared.anchor(variants)
     made: dict[int, CalculatedConveyor] = {}
@@ -588,16 +589,16 @@ class _Shared:
     """What variants of one call have in common, made once: lines, rubbers at a temperature, covers at their strain."""
 
     def __init__(
-        self, known: CalculatedConveyor | None, anchors: Anchors, rtol: float | None, kept: Kept
+        self, known: CalculatedConveyor | None, anchors: Anchors | None, rtol: float | None, kept: Kept
     ) -> None:
         kept.begin()
         self._kept, self._own = kept, Kept()
         self._theories: list[Theory] = []
-        self._anchors, self._rtol = anchors, rtol
+        self._anchors, self._rtol = kept.anchors if anchors is None else anchors, rtol
         self._running: dict[StrandAtWork, RunningCover | NoAnswer] = {}
         self._drags = kept.drags
         self.tensioned: Tensioned = {}
-        self.runs: list[list[int]] = []
+        self._runs: list[list[int]] = []
         self.curves = kept.curves
         if known is not None:
             for strand, compound in compounds_by_strand(known.conveyor).items():
@@ -607,6 +608,11 @@ class _Shared:
                 work = StrandAtWork(known.line, strand, cover, compound, known.temperature)
                 first = kept.once(partial(_itself, work), "alike", (compound,), work.scene)
                 self._running[first] = cover
+
+    def read_among(self, runs: Iterable[Iterable[int]]) -> None:
+        """Read the strains of variants that differ in speed alone among three of them, where the tolerance allows."""
+        if self._rtol is not None and self._rtol >= READ_RTOL:
+            self._runs = [list(run) for run in runs]
 
     def anchor(self, variants: Iterable[Variant]) -> None:
         """Ask for the levels of all their compounds: they come with the covers of the strands."""
@@ -644,13 +650,8 @@ class _Shared:
         """A line with the drags of its rolls, its covers before the rolls work them."""
         given, at = variant.conveyor, variant.covers_at
         compounds = compounds_by_strand(given)
-        turned, gives = given.route.turned_over, given.calculation.support == "belt"
-        rubber = self._kept.once(
-            partial(rubbers, given, at),
-            "rubbers",
-            (*compounds.values(), given.belt.top_cover.compound),
-            (at, turned, gives),
-        )
+        rubber = rubbers(given, lambda one: self._kept.once(partial(one.series, at), "series", (one,), (at,)))
+        gives = given.calculation.support == "belt"
         acted = self._own if still.acted else self._kept
         running = acted.once(partial(self._dragged, still, _air(given)), "in air", (still,), (_air(given),))
         rtol = running.line.rtol if self._rtol is None else self._rtol
@@ -735,7 +736,7 @@ class _Shared:
         new = [work for work in asked if work not in self._running]
         tests = [work for theory in self._theories for work in theory.works]
         runs = [
-            [loaded[i].works[strand] for i in run if i in loaded] for run in self.runs for strand in STRANDS
+            [loaded[i].works[strand] for i in run if i in loaded] for run in self._runs for strand in STRANDS
         ]
         unknown = set(new)
         covers, soft = softened_covers(new, tests, [run for run in runs if unknown.issuperset(run)])

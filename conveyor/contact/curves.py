@@ -53,7 +53,7 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int_]
 
 _DEGREES = (8, 12, 16, 32, 64, 128)
-_LOW_DEGREE_FROM = 1e-4  # rtol that degree 8 may meet over a factor of 10 in load
+_LOW_DEGREE_FROM = 2e-5  # rtol that degree 8 may meet over a factor of 4 in load
 _FEW = 4  # degree that carries what a higher order changes
 _MARGIN = 1e-2  # the sampled range of ln α goes this far beyond the loads asked for
 _SIGN_FLOOR = 1e-9

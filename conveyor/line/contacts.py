@@ -153,7 +153,7 @@ class Contacts:
     def error(self) -> float:
         """Largest relative error estimate of any roll's indentation [-]."""
         pairs = zip(self.line.kinds, self.curves, strict=True)
-        return max(curve.error + self.covers[kind.strand].merged for kind, curve in pairs)
+        return max(curve.error + self.covers[kind.strand].unsure for kind, curve in pairs)
 
     @property
     def energy_error(self) -> float:
@@ -186,7 +186,7 @@ def solve_contacts(
         In their order the contacts, or why a scene has none.
     """
     tolerances = [
-        (line.rtol if rtol is None else rtol) - max(cover.merged for cover in own.values())
+        (line.rtol if rtol is None else rtol) - max(cover.unsure for cover in own.values())
         for line, own in zip(lines, covers, strict=True)
     ]
     asked = [_contacts(*scene) for scene in zip(lines, covers, tolerances, strict=True)]

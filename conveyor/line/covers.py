@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Final, Literal, TypeAlias
 
@@ -52,7 +52,7 @@ class RunningCover:
     `strain` is what the rubber was softened for; None where it is that of the master curve. `level` is the factor that
     the compound's rolling-resistance tests put on its indentation; None where the theory stands alone. `other` is the
     belt's other cover: its thickness [m], and its rubber at small strain. `merged` is what merging terms that the rolls
-    do not tell apart may change of indentation [-].
+    do not tell apart may change of indentation [-], `read` what reading the strain between speeds may.
     """
 
     thickness: float
@@ -62,6 +62,12 @@ class RunningCover:
     strain: WorkingStrain | None = None
     level: Level | None = None
     merged: float = 0.0
+    read: float = 0.0
+
+    @property
+    def unsure(self) -> float:
+        """What of indentation its rubber may miss [-]."""
+        return self.merged + self.read
 
 
 CoverName: TypeAlias = Strand | Literal["top"]
@@ -75,24 +81,24 @@ def compounds_by_strand(conveyor: Conveyor) -> dict[Strand, RubberCompound]:
     return {"carry": conveyor.carry_compound, "return": conveyor.return_compound}
 
 
-def rubbers(conveyor: Conveyor, temperature: float) -> dict[CoverName, PronySeries]:
-    """Series of each strand's rubber and of the top cover's at a temperature [K]; one series a compound.
+def rubbers(
+    conveyor: Conveyor, series: Callable[[RubberCompound], PronySeries]
+) -> dict[CoverName, PronySeries]:
+    """Series of each strand's rubber and of the top cover's; one series a compound.
 
     Raises
     ------
     RangeError
-        A compound is not known there.
+        A compound is not known at the temperature of `series`.
     """
     carry, back = conveyor.carry_compound, conveyor.return_compound
-    series = carry.series(temperature)
-    same = back is carry or back == carry
-    behind = series if same else back.series(temperature)
+    behind = series(carry if back == carry else back)
     own = conveyor.belt.top_cover.compound
     turned = conveyor.route.turned_over and own is not None and conveyor.calculation.support == "belt"
     return {
-        "carry": series,
+        "carry": series(carry),
         "return": behind,
-        "top": own.series(temperature) if turned and own is not None else behind,
+        "top": series(own) if turned and own is not None else behind,
     }
 
 
@@ -176,8 +182,13 @@ def told_apart(work: StrandAtWork, rtol: float) -> tuple[float, float] | None:
 READ_FROM: Final = 5
 """Speeds from which on the working strain is found at three of them, and read between."""
 READ_SPAN: Final = 2.0
-"""Fastest over slowest of the speeds that a strain is read among: ln strain is a parabola of ln speed to 5e-4, as seen
-on the shelf's covers from -30 to 40 °C."""
+"""Fastest over slowest of the speeds that a strain is read among: ln strain is a parabola of ln speed to 5e-4 (three
+covers of the shelf, -30 to 40 °C); more nodes gain nothing, the strain found at each speed scatters as much."""
+READ_ERROR: Final = 7e-5
+"""Of indentation, what that changes [-]: with the error of the curves 8e-5 at most, 1e-5 in the median was seen of 550
+scenes against contacts of 1e-7 with a strain of their own (benchmarks/compare_error.py)."""
+READ_RTOL: Final = 1e-4
+"""Finest tolerance of contacts that leaves room for it [-]."""
 
 
 def softened_covers(
@@ -215,7 +226,8 @@ def softened_covers(
     soft |= zip(read, softened_at([asked[work] for work in read], list(read.values())), strict=True)
     left = [work for work in asked if work not in soft]
     soft |= zip(left, softened_many([asked[work] for work in left]), strict=True)
-    return [_running(work.cover, soft.get(work)) for work in works], found[: len(tests)]
+    running = [_running(work.cover, soft.get(work), READ_ERROR if work in read else 0.0) for work in works]
+    return running, found[: len(tests)]
 
 
 def _parts(run: Sequence[StrandAtWork]) -> Iterator[list[StrandAtWork]]:
@@ -258,11 +270,11 @@ def _read(
 
 
 def _running(
-    cover: RunningCover, soft: SoftCover | NoSolutionError | RangeError | None
+    cover: RunningCover, soft: SoftCover | NoSolutionError | RangeError | None, read: float
 ) -> RunningCover | NoSolutionError | RangeError:
     if soft is None:
         return cover
-    return replace(cover, rubber=soft[0], strain=soft[1]) if isinstance(soft, tuple) else soft
+    return replace(cover, rubber=soft[0], strain=soft[1], read=read) if isinstance(soft, tuple) else soft
 
 
 def backing(line: Line, cover: RunningCover, tension: float) -> Backing:
