@@ -3,8 +3,8 @@
     python benchmarks/accuracy_vs_time.py [OUTDIR]
 
 Each method finds the contact of a given load from nothing. Errors are relative, of friction, against the solver at its
-tightest; where that stops short (the peaked scene) its own estimate is the floor shown. Times are medians of several
-runs on one thread, beside ten 200 x 200 solves. Writes accuracy_time.png and scaling.png.
+tightest; where that stops short (the peaked scene) its own estimate is the floor shown. Times are the least processor
+time of several runs on one thread, beside ten 200 x 200 solves. Writes accuracy_time.png and scaling.png.
 """
 
 from __future__ import annotations
@@ -14,15 +14,14 @@ import os
 os.environ["OMP_NUM_THREADS"] = "1"  # before numpy: BLAS reads it once
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
-import statistics
 import sys
-import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from boundary_elements import solve_boundary_elements
+from other_solvers import reference, seconds
 
 from conveyor.contact import ContactProblem, CreepSpectrum, solve, solve_loads, solve_many
 from conveyor.contact.grid import solve_grid
@@ -39,7 +38,6 @@ GRIDS = tuple(2**k for k in range(9, 17))
 ELEMENTS = (16, 32, 64, 128, 256, 512)
 METHODS = ("spectral, fixed order", "solve, by rtol", "grid", "boundary elements")
 STYLES = ("o-", "s-", "^-", "x--")
-LONG = 0.2  # seconds beyond which one run is enough
 
 
 @dataclass(frozen=True)
@@ -63,27 +61,6 @@ def scenes() -> dict[str, ContactProblem]:
             "half-space", 0.1, 0.01, CreepSpectrum(1e-3, [0.999], [0.01])
         ),
     }
-
-
-def seconds(work: Callable[[], object], runs: int = 7) -> float:
-    """Median wall time after one run to warm up."""
-    began = time.perf_counter()
-    work()
-    first = time.perf_counter() - began
-    if first > LONG:
-        return first
-    times = []
-    for _ in range(runs):
-        began = time.perf_counter()
-        work()
-        times.append(time.perf_counter() - began)
-    return statistics.median(times)
-
-
-def reference() -> float:
-    rng = np.random.default_rng(0)
-    matrix, right = rng.standard_normal((200, 200)) + 20.0 * np.eye(200), rng.standard_normal(200)
-    return seconds(lambda: [np.linalg.solve(matrix, right) for _ in range(10)], 51)
 
 
 def by_order(problem: ContactProblem, n: int) -> float:

@@ -31,7 +31,7 @@ from conveyor.contact.grid import solve_grid
 SCENES = {"wide: R/λ 0.4, p̃ 0.05": (0.4, 0.05), "narrow: R/λ 0.05, p̃ 0.01": (0.05, 0.01)}
 NODES = tuple(2**k for k in range(7, 14))
 RTOLS = (1e-2, 1e-3, 1e-4, 1e-6, 1e-9)
-PERIOD, RUNS, LONG = 2.0 * math.pi, 6, 0.3
+PERIOD, RUNS, LONG = 2.0 * math.pi, 20, 0.3
 SOLVED = 1e-10  # their own tolerance
 
 

@@ -24,9 +24,10 @@ from conveyor.forces import WithoutRubber, along_the_belt, strand_without_rubber
 from conveyor.laws.softening import softened_many
 from conveyor.line.anchors import Theory
 from conveyor.line.belts import GAUSS, Tensioned, solve_belts
-from conveyor.line.contacts import Contacts, RollResult, solve_contacts
+from conveyor.line.contacts import Contacts, RollResult, SolvedCurves, solve_contacts
 from conveyor.line.covers import (
     FELT,
+    READ_RTOL,
     Covers,
     Level,
     RunningCover,
@@ -41,7 +42,7 @@ from conveyor.line.line import Line
 from conveyor.line.roll_drags import StrandDrags, roll_drags_many
 from conveyor.line.strands import OneStrand, Strands
 from conveyor.line.stretches import STRANDS, Acting, RouteSection, Strand, Stretch, route_sections
-from conveyor.loop.balance import Balance, balance
+from conveyor.loop.balance import Balance, OpenLoop, balances
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
 from conveyor.loop.curves import Convergence, acting, converged, pulls
 from conveyor.loop.drive_duty import DriveDuty, drive_duty
@@ -55,6 +56,8 @@ from conveyor.loop.tensions import MotionState
 from conveyor.loop.transfer import Cleaning, Landing, Trajectory, cleanings, landings, trajectory
 from conveyor.loop.year import Year, year
 from conveyor.models import Calculation, Conveyor, RubberCompound
+from conveyor.models.belt import Belt
+from conveyor.models.fields import KnownParts
 from conveyor.rubber.anchor import Anchor
 
 Array = NDArray[np.float64]
@@ -161,10 +164,7 @@ class CalculatedConveyor:
     def drive_forces(self) -> tuple[float, float]:
         """Drive force with the friction at both ends of its band; lift and acceleration of bulk have none [N]."""
         settled = self.balance.settled
-        low, high = (
-            settled.loop.resistance(settled.loop.singles(settled.bends, friction), friction)
-            for friction in self.friction_band or (self.line.least_friction, 1.0)
-        )
+        low, high = map(settled.resistance, self.friction_band or (self.line.least_friction, 1.0))
         return low, high
 
     @property
@@ -297,6 +297,7 @@ def calculate_many(
     known: CalculatedConveyor | None = None,
     anchors: Anchors | None = None,
     kept: Kept | None = None,
+    runs: Iterable[Iterable[int]] = (),
 ) -> list[CalculatedConveyor | NoAnswer]:
     """Calculate many variants, the contacts of all of them side by side.
 
@@ -314,9 +315,12 @@ def calculate_many(
     known : CalculatedConveyor, optional
         A variant that is calculated already: the anchors of its compounds are taken over.
     anchors : list, optional
-        Those of calls before with the same compounds; what is new is added.
+        Those of calls before with the same compounds, of `kept` without it; what is new is added.
     kept : Kept, optional
         What calls before made of the same parts of specs; what is new is added.
+    runs : iterable of iterable of int
+        Numbers of variants that differ in speed alone: the working strain of all is read among that of three, where
+        `rtol` leaves room for it (`READ_RTOL`).
 
     Returns
     -------
@@ -328,7 +332,8 @@ def calculate_many(
     NoSolutionError
         No one setting of the take-up serves all.
     """
-    shared = _Shared(known, [] if anchors is None else anchors, rtol, Kept() if kept is None else kept)
+    shared = _Shared(known, anchors, rtol, Kept() if kept is None else kept)
+    shared.read_among(runs)
     told = _Told(len(variants), progress)
     shared.anchor(variants)
     made: dict[int, CalculatedConveyor] = {}
@@ -342,11 +347,11 @@ def calculate_many(
             else:
                 refused[i] = one
             told(len(variants) - len(going), len(loaded))
-        for i, contacts in _solved(shared, loaded, going, rtol).items():
-            try:
-                made[i] = _closed(variants[i], loaded[i], contacts)
-            except (NoSolutionError, RangeError, InputError) as error:
-                refused[i] = error
+        for i, result in _closed(variants, loaded, _solved(shared, loaded, going, rtol)).items():
+            if isinstance(result, CalculatedConveyor):
+                made[i] = result
+            else:
+                refused[i] = result
         for i in refused:
             made.pop(i, None)
         if one_take_up:
@@ -389,11 +394,15 @@ class _Step:
 
 @dataclass(frozen=True, eq=False)
 class _Loaded:
-    """A line with its loop, the forces that no rubber changes, the covers its rolls are to work; whether at a level."""
+    """A line with its loop, the forces that no rubber changes, the covers its rolls are to work; whether at a level.
+
+    `acted`: tensions act on its curves, so that no other variant has it.
+    """
 
     line: Line
     frame: Frame
     fixed: WithoutRubber
+    acted: bool
     works: Mapping[Strand, StrandAtWork] = field(default_factory=dict)
     anchored: bool = False
 
@@ -434,10 +443,10 @@ def _strand(
     return made, strand_without_rubber(made)
 
 
-def _loaded(line: Line, fixed: Sequence[WithoutRubber]) -> _Loaded:
-    """A line, its rolls not at work yet."""
+def _loaded(line: Line, fixed: Sequence[WithoutRubber], acted: bool) -> _Loaded:
+    """A line, its rolls not at work yet; whether tensions act on its curves."""
     carry, back = fixed
-    return _Loaded(line, Frame(line), carry.joined(back))
+    return _Loaded(line, Frame(line), carry.joined(back), acted)
 
 
 def _solved(
@@ -447,10 +456,9 @@ def _solved(
 
     A belt that gives is first held fast: its tensions are not known before.
     """
-    before = [steps[i].covers for i in loaded]
-    running = dict(zip(loaded, shared.softened(list(loaded.values()), before), strict=True))
+    running = shared.softened(loaded, {i: steps[i].covers for i in loaded})
     covers = {i: one for i, one in running.items() if isinstance(one, Mapping)}
-    solved = solve_contacts([loaded[i].line for i in covers], list(covers.values()), rtol)
+    solved = solve_contacts([loaded[i].line for i in covers], list(covers.values()), rtol, shared.curves)
     refused = {i: one for i, one in running.items() if not isinstance(one, Mapping)}
     contacts: dict[int, Contacts | NoAnswer] = {**refused, **dict(zip(covers, solved, strict=True))}
     tight = {i: one for i in loaded if (one := steps[i].pulls) is not None}
@@ -462,10 +470,33 @@ def _solved(
     return contacts
 
 
-def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts | NoAnswer) -> CalculatedConveyor:
-    """Close the loop around the forces of the rolls."""
-    if not isinstance(contacts, Contacts):
-        raise contacts
+def _closed(
+    variants: Sequence[Variant], loaded: Mapping[int, _Loaded], contacts: Mapping[int, Contacts | NoAnswer]
+) -> dict[int, CalculatedConveyor | NoAnswer]:
+    """Close the loops around the forces of the rolls, all side by side."""
+    found: dict[int, CalculatedConveyor | NoAnswer] = {}
+    open_loops: dict[int, tuple[Contacts, OpenLoop]] = {}
+    for i, one in contacts.items():
+        try:
+            if isinstance(one, Contacts):
+                open_loops[i] = one, _open(variants[i], loaded[i], one)
+            else:
+                found[i] = one
+        except InputError as error:
+            found[i] = error
+    closed = balances([loop for _, loop in open_loops.values()])
+    for (i, (rolls, _)), made in zip(open_loops.items(), closed, strict=True):
+        at = variants[i]
+        found[i] = (
+            made
+            if isinstance(made, NoSolutionError)
+            else CalculatedConveyor(at.conveyor, at.covers_at, rolls, made, loaded[i].fixed)
+        )
+    return found
+
+
+def _open(variant: Variant, loaded: _Loaded, contacts: Contacts) -> OpenLoop:
+    """The loop with the forces of the rolls along it."""
     level = np.repeat([variant.level.get(strand, 1.0) for strand in STRANDS], loaded.line.count)
     along = along_the_belt(
         loaded.line,
@@ -474,8 +505,7 @@ def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts | NoAnswer) ->
         roll_drag=variant.roll_drag,
         calibration=variant.conveyor.calculation.calibration,
     )
-    closed = balance(loaded.frame, along, float(loaded.fixed.unit_main.sum()), variant.take_up)
-    return CalculatedConveyor(variant.conveyor, variant.covers_at, contacts, closed, loaded.fixed)
+    return OpenLoop(loaded.frame, along, float(loaded.fixed.unit_main.sum()), variant.take_up)
 
 
 def _convergence(result: CalculatedConveyor, step: _Step) -> Convergence | None:
@@ -489,6 +519,10 @@ def _convergence(result: CalculatedConveyor, step: _Step) -> Convergence | None:
 def _settled(result: CalculatedConveyor) -> bool:
     """Whether tensions and what they do to the rolls agree."""
     return result.convergence is not None and result.convergence.settled(result.line.rtol)
+
+
+_NOTHING: Final[Any] = object()
+_RUBBER: Final[Any] = {cover: {"compound"} for cover in ("top_cover", "bottom_cover")}
 
 
 class _Same:
@@ -507,57 +541,78 @@ class _Same:
 
 
 class Kept:
-    """What calculations of one spec's variants have in common, made once: strands, lines, loops of tensions.
+    """What calculations of one spec's variants have in common, made once: strands, lines, covers, load curves.
 
-    Parts of specs are compared by identity: variants are made by `replace`, which keeps what it does not change.
+    Parts of specs are compared by identity: variants are made by `replace`, which keeps what it does not change. Belts
+    that differ in their rubber alone have the same strands and lines.
     """
 
     MOST: Final = 2048
-    """Things kept from call to call; more than all strands and lines of a study over speeds and spacings."""
+    """Things of a sort kept from call to call, those used last; more than all of a study over speeds and spacings."""
 
     def __init__(self) -> None:
-        self._made: dict[tuple[object, ...], Any] = {}
-        self.fields: dict[object, Any] = {}
+        self._made: dict[object, Any] = {}
+        self.anchors: Anchors = []
+        self.covers: dict[StrandAtWork, RunningCover | NoAnswer] = {}
+        self.curves: SolvedCurves = {}
+        self.drags: dict[tuple[OneStrand, float | None], StrandDrags | InputError] = {}
+        self.fields = KnownParts()
         """For `with_fields`: specs of the same changes have the very same parts."""
 
     def begin(self) -> None:
-        """Forget everything where it has become much; other threads end with what they began with."""
-        if max(len(self._made), len(self.fields)) > self.MOST:
-            self._made, self.fields = {}, {}
+        """Forget what was not used for long where it has become much."""
+        every: tuple[dict[Any, Any], ...] = (self._made, self.covers, self.curves, self.drags)
+        for known in every:
+            for key in list(known)[: max(0, len(known) - self.MOST)]:
+                known.pop(key, None)
+        if self.fields.full:
+            self.fields = KnownParts()
 
     def once(
         self, make: Callable[[], T], what: str, parts: Iterable[object], values: tuple[object, ...] = ()
     ) -> T:
         """What was made of the very same parts and equal values, or what is made of them now."""
         key = (what, *map(_Same, parts), *values)
-        known = self._made
-        if key not in known:
-            known.setdefault(key, make())
-        made: T = known[key]
+        made: T = self._made.pop(key, _NOTHING)
+        if made is _NOTHING:
+            made = make()
+        self._made[key] = made  # at the end are those used last
         return made
+
+    def belt(self, belt: Belt) -> Belt:
+        """The first belt that differs from a belt in its rubber alone."""
+        said = self.once(lambda: belt.model_dump_json(exclude=_RUBBER), "said", (belt,))
+        return self.once(partial(_itself, belt), "belt", (), (said, belt.line_mass))
 
 
 class _Shared:
     """What variants of one call have in common, made once: lines, rubbers at a temperature, covers at their strain."""
 
     def __init__(
-        self, known: CalculatedConveyor | None, anchors: Anchors, rtol: float | None, kept: Kept
+        self, known: CalculatedConveyor | None, anchors: Anchors | None, rtol: float | None, kept: Kept
     ) -> None:
         kept.begin()
         self._kept, self._own = kept, Kept()
         self._theories: list[Theory] = []
-        self._anchors, self._rtol = anchors, rtol
-        self._alike: dict[tuple[object, ...], list[StrandAtWork]] = {}
+        self._anchors, self._rtol = kept.anchors if anchors is None else anchors, rtol
         self._running: dict[StrandAtWork, RunningCover | NoAnswer] = {}
-        self._drags: dict[tuple[OneStrand, float | None], StrandDrags | InputError] = {}
+        self._drags = kept.drags
         self.tensioned: Tensioned = {}
+        self._runs: list[list[int]] = []
+        self.curves = kept.curves
         if known is not None:
             for strand, compound in compounds_by_strand(known.conveyor).items():
                 cover = known.contacts.covers[strand]
                 if cover.level is not None:
                     self._anchors.append((compound, known.line.softened, cover.level.anchor))
                 work = StrandAtWork(known.line, strand, cover, compound, known.temperature)
-                self._running[self._first(work)] = cover
+                first = kept.once(partial(_itself, work), "alike", (compound,), work.scene)
+                self._running[first] = cover
+
+    def read_among(self, runs: Iterable[Iterable[int]]) -> None:
+        """Read the strains of variants that differ in speed alone among three of them, where the tolerance allows."""
+        if self._rtol is not None and self._rtol >= READ_RTOL:
+            self._runs = [list(run) for run in runs]
 
     def anchor(self, variants: Iterable[Variant]) -> None:
         """Ask for the levels of all their compounds: they come with the covers of the strands."""
@@ -595,80 +650,109 @@ class _Shared:
         """A line with the drags of its rolls, its covers before the rolls work them."""
         given, at = variant.conveyor, variant.covers_at
         compounds = compounds_by_strand(given)
-        rubber = self._own.once(partial(rubbers, given, at), "rubbers", compounds.values(), (at,))
+        rubber = rubbers(given, lambda one: self._kept.once(partial(one.series, at), "series", (one,), (at,)))
+        gives = given.calculation.support == "belt"
+        acted = self._own if still.acted else self._kept
+        running = acted.once(partial(self._dragged, still, _air(given)), "in air", (still,), (_air(given),))
+        rtol = running.line.rtol if self._rtol is None else self._rtol
+        works = {
+            strand: acted.once(
+                partial(self._worked, StrandAtWork(running.line, strand, cover, compounds[strand], at), rtol),
+                "work",
+                (running.line, cover.rubber, compounds[strand], *((cover.other[1],) if gives else ())),
+                (strand, at, rtol),
+            )
+            for strand, cover in covers_of(given, rubber).items()
+        }
+        return replace(running, works=works, anchored=_anchored(given.calculation))
+
+    def _dragged(self, still: _Loaded, air: float | None) -> _Loaded:
+        """A line with the drags of its rolls in air of a temperature [K]."""
         drags: list[tuple[float, ...]] = []
         for strand in still.line.strands.each:
-            one = self._drags[strand, _air(given)]
+            one = self._drags[strand, air]
             if isinstance(one, InputError):
                 raise one
             drags += one
         line = replace(still.line, roll_drags=tuple(drags))
-        works = {
-            strand: self._felt(StrandAtWork(line, strand, cover, compounds[strand], at))
-            for strand, cover in covers_of(given, rubber).items()
-        }
-        return _Loaded(line, still.frame.of(line), still.fixed, works, _anchored(given.calculation))
+        return replace(still, line=line, frame=still.frame.of(line))
 
-    def _felt(self, work: StrandAtWork) -> StrandAtWork:
+    def _worked(self, work: StrandAtWork, rtol: float) -> StrandAtWork:
+        """The first strand that works its cover alike, whose rubber it has as far as its rolls tell terms apart."""
+        felt = self._felt(work, rtol)
+        return self._kept.once(partial(_itself, felt), "alike", (work.compound,), felt.scene)
+
+    def _felt(self, work: StrandAtWork, rtol: float) -> StrandAtWork:
         """A strand whose cover has its rubber as far as its rolls tell terms apart."""
-        rtol = work.line.rtol if self._rtol is None else self._rtol
         times = told_apart(work, rtol)
         if times is None:
             return work
         rubber, (fastest, slowest) = work.cover.rubber, times
         cut = tuple(rubber.times.searchsorted(times).tolist())
-        less = self._own.once(
+        less = self._kept.once(
             lambda: rubber.merged(fastest=fastest, slowest=slowest), "merged", (rubber,), cut
         )
         return replace(work, cover=replace(work.cover, rubber=less, merged=2.0 * FELT * rtol))
 
     def _still(self, given: Conveyor, on_curves: Acting) -> _Loaded:
         """The line of a spec, its rolls without drag; specs of one belt, load and idlers share a strand."""
-        kept = self._kept if on_curves == Acting() else self._own
+        acted = on_curves != Acting()
+        kept, belt = self._own if acted else self._kept, self._kept.belt(given.belt)
         sections = self._kept.once(lambda: route_sections(given), "sections", (given.route,))
         scene = (*map(_in_order, vars(on_curves).values()), given.ambient.wind_speed)
         each = []
         for strand, own in zip(STRANDS, (given.idlers.carry, given.idlers.return_), strict=True):
-            parts = (given.belt, own, given.material, given.route, given.calculation)
+            parts = (belt, own, given.material, given.route, given.calculation)
             made = partial(_strand, given, sections, strand, on_curves)
             each.append(kept.once(made, "strand", parts, (strand, *scene)))
         (carry, up), (back, down) = each
         strands = Strands(sections, (carry, back))
-        others = (given.belt, given.material, given.route, given.drive, given.calculation, given.report)
+        others = (belt, given.material, given.route, given.drive, given.calculation, given.report)
         wind = (given.ambient.wind_speed,)
         like = self._kept.once(lambda: Line.of(given, strands, [(), ()]), "like", others, wind)
         return kept.once(
-            lambda: _loaded(replace(like, strands=strands), (up, down)), "line", (carry, back, like)
+            lambda: _loaded(replace(like, strands=strands), (up, down), acted), "line", (carry, back, like)
         )
 
-    def softened(self, loaded: Sequence[_Loaded], before: Sequence[Covers]) -> list[Covers | NoAnswer]:
+    def softened(
+        self, loaded: Mapping[int, _Loaded], before: Mapping[int, Covers]
+    ) -> dict[int, Covers | NoAnswer]:
         """The covers of many lines at their working strain; alike ones are the very same, and share load curves.
 
         A cover of the step before stays where its rolls work it as they did.
         """
-        firsts = [{strand: self._first(work) for strand, work in one.works.items()} for one in loaded]
-        for works, kept in zip(firsts, before, strict=True):
+        for i, kept in before.items():
             for strand, cover in kept.items():
-                if works[strand].still_at(cover):
-                    self._running.setdefault(works[strand], cover)
-        asked = dict.fromkeys(first for works in firsts for first in works.values())
-        new = [first for first in asked if first not in self._running]
+                if loaded[i].works[strand].still_at(cover):
+                    self._running.setdefault(loaded[i].works[strand], cover)
+        still = {work for one in loaded.values() if not one.acted for work in one.works.values()}
+        works = dict.fromkeys(work for one in loaded.values() for work in one.works.values())
+        asked = [work for work in works if work not in self._running]
+        known = self._kept.covers
+        self._running |= {work: known.pop(work) for work in asked if work in known}
+        new = [work for work in asked if work not in self._running]
         tests = [work for theory in self._theories for work in theory.works]
-        covers, soft = softened_covers(new, tests)
+        runs = [
+            [loaded[i].works[strand] for i in run if i in loaded] for run in self._runs for strand in STRANDS
+        ]
+        unknown = set(new)
+        covers, soft = softened_covers(new, tests, [run for run in runs if unknown.issuperset(run)])
         self._running.update(zip(new, covers, strict=True))
+        known |= {work: self._running[work] for work in asked if work in still}
         tested = iter(soft)
         for theory in self._theories:
             levels = theory.levels(list(islice(tested, len(theory.works))))
             self._anchors += zip(theory.compounds, repeat(theory.softened), levels, strict=False)
         self._theories = []
-        return [
-            _together({strand: self._at_level(one, strand, first) for strand, first in works.items()})
-            for one, works in zip(loaded, firsts, strict=True)
-        ]
+        return {
+            i: _together({strand: self._at_level(one, strand) for strand in one.works})
+            for i, one in loaded.items()
+        }
 
-    def _at_level(self, loaded: _Loaded, strand: Strand, first: StrandAtWork) -> RunningCover | NoAnswer:
+    def _at_level(self, loaded: _Loaded, strand: Strand) -> RunningCover | NoAnswer:
         """A strand's cover at the level of its compound's tests; at the theory's without."""
-        cover, work = self._running[first], loaded.works[strand]
+        work = loaded.works[strand]
+        cover = self._running[work]
         known = self._anchors if loaded.anchored else ()
         softened = loaded.line.softened
         anchors = (level for one, how, level in known if one is work.compound and how == softened)
@@ -678,15 +762,11 @@ class _Shared:
         level = None if anchor is None else Level(anchor, work.temperature)
         if cover.level == level:
             return cover
-        return self._own.once(lambda: replace(cover, level=level), "level", (cover, anchor))
+        return self._kept.once(lambda: replace(cover, level=level), "level", (cover, anchor))
 
-    def _first(self, work: StrandAtWork) -> StrandAtWork:
-        """The first strand that works its cover alike."""
-        alike = self._alike.setdefault(work.scene, [])
-        first = next((one for one in alike if work.like(one)), None)
-        if first is None:
-            alike.append(first := work)
-        return first
+
+def _itself(one: T) -> T:
+    return one
 
 
 def _air(conveyor: Conveyor) -> float | None:

@@ -12,7 +12,7 @@ from conveyor.contact.energy import friction_by_loss
 from conveyor.contact.fields import SpectralFields, sampled_sines
 from conveyor.contact.quadrature import CHECK, build_rule
 from conveyor.contact.scene import Scene
-from conveyor.contact.spectral import Contact, nested, of_orders
+from conveyor.contact.spectral import Contact
 
 Array = NDArray[np.float64]
 
@@ -34,15 +34,8 @@ class OrderErrors(NamedTuple):
     edges: Array
 
 
-def order_errors(contact: Contact, matrix: Array, rho: Array | float, exponent: Array | None) -> OrderErrors:
-    """Errors of friction and edges by order: `errors_of_lower` of the matrices of order n/2 and 3n/4 in `matrix`."""
-    return errors_of_lower(contact, nested(matrix), rho, exponent)
-
-
-def errors_of_lower(
-    contact: Contact, matrices: tuple[Array, Array], rho: Array | float, exponent: Array | None
-) -> OrderErrors:
-    """Errors of friction and edges by order, from matrices of order n/2 and 3n/4 at the same half width.
+def order_errors(contact: Contact, lower: Contact, exponent: Array | None) -> OrderErrors:
+    """Errors of friction and edges by order, from contacts of order n/2 and 3n/4 of the same half width.
 
     At one half width a lower order differs in friction and in load; at one load friction differs by
     δ = |δμ/μ - β δp/p| with β = d ln μ/d ln p (`exponent`), the two shifts added where β is not known. From δ(n/2)
@@ -55,10 +48,8 @@ def errors_of_lower(
     ----------
     contact : Contact
         Contacts of the full order, batch of b.
-    matrices : tuple of ndarray, shape (b, l+1, l)
-        Those of half and three quarters of the order.
-    rho : float or ndarray, shape (b,)
-        k R [-].
+    lower : Contact
+        Those of half and of three quarters of the order, shapes (2, b).
     exponent : ndarray, shape (b,), optional
         β.
 
@@ -67,18 +58,15 @@ def errors_of_lower(
     OrderErrors
         Friction off by all of itself, edges by α, where a lower order has no contact on the roll.
     """
-    change = []
-    for lower in of_orders(matrices, contact, rho):
-        friction = relative_difference(lower.friction, contact.friction)
-        load = lower.pressure / contact.pressure - 1.0
-        shift = np.abs(friction) + np.abs(load) if exponent is None else np.abs(friction - exponent * load)
-        change.append(np.where(lower.inside, shift, 1.0))
-    moved = (contact.alpha + np.abs(contact.eps)) * np.abs(load) + np.abs(lower.eps - contact.eps)
-    half, most = change
+    friction = relative_difference(lower.friction, contact.friction)
+    load = lower.pressure / contact.pressure - 1.0
+    shift = np.abs(friction) + np.abs(load) if exponent is None else np.abs(friction - exponent * load)
+    half, most = np.where(lower.inside, shift, 1.0)
+    moved = (contact.alpha + np.abs(contact.eps)) * np.abs(load[1]) + np.abs(lower.eps[1] - contact.eps)
     left: Array = np.where(
         half <= most, most, np.minimum(most, 4.0 * most * most / np.where(half > 0.0, half, 1.0))
     )
-    return OrderErrors(left, MOST * most, 2.0 * np.where(lower.inside, moved, contact.alpha))
+    return OrderErrors(left, MOST * most, 2.0 * np.where(lower.inside[1], moved, contact.alpha))
 
 
 def by_energy(energy: Array, most: Array) -> Array:

@@ -6,6 +6,7 @@ w' = -(1/ρ) t/sqrt(1-t²) (paper, Eq. 9, corrected: u = Δ - R + v(x+e), v = sq
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 
 import numpy as np
@@ -21,12 +22,13 @@ _NEWTON_STEPS, _LAST_STEP = 60, 1e-8
 
 
 @lru_cache(maxsize=256)
-def _cosines(count: int, half: int) -> tuple[Array, Array]:
-    """Chebyshev nodes s > 0, shape (half,), and the cosine transform, shape (count, half)."""
+def _cosines(count: int) -> tuple[Array, Array, Array]:
+    """Chebyshev nodes s > 0, shape (h,), and from `_parts` there to even and odd coefficients, (h, count/2) each."""
+    half = (count + count % 2 + _SPARE) // 2
     angle = (np.arange(half) + 0.5) * (0.5 * np.pi / half)
-    transform = np.cos(np.multiply.outer(np.arange(count), angle)) * (2.0 / half)
-    transform[0] *= 0.5
-    return np.cos(angle), transform
+    transform = np.cos(np.multiply.outer(angle, np.arange(count))) * (-1.0 / half)
+    transform[:, 0] *= 0.5
+    return np.cos(angle), transform[:, ::2].copy(), transform[:, 1::2].copy()
 
 
 def _shown(nearest: float, count: int) -> int:
@@ -34,31 +36,29 @@ def _shown(nearest: float, count: int) -> int:
 
     Coefficients fall like (|s| + sqrt(s² - 1))^-i (Bernstein).
     """
-    rate = np.arccosh(max(nearest, 1.0))
+    rate = math.acosh(max(nearest, 1.0))
     return count if rate * (count - 2) <= _NEGLIGIBLE else max(4, int(_NEGLIGIBLE / rate) + 2)
 
 
-def _parts(y: Array, e: Array, rho: Array) -> tuple[Array, Array]:
-    """Even and odd part of t/sqrt(1-t²) at t = (±y + e)/ρ, times two, and their two derivatives by e, (3, b, k) each.
+def _parts(y: Array, e: Array) -> tuple[Array, Array]:
+    """Even and odd part of h(t) = t/sqrt(1-t²) at t = e ± y, times two, and two derivatives by e, (3, b, k) each.
 
-    Formed apart, so that a contact almost centred (e → 0) keeps the relative precision of its even part.
+    The even part of a contact almost centred (e → 0) keeps its relative precision.
     """
-    t = np.empty((2, *np.broadcast_shapes(y.shape, e.shape)))
-    np.add(y, e, out=t[0])
-    np.subtract(y, e, out=t[1])
-    t /= rho
+    t = np.empty((2, y.shape[0], y.shape[1]))
+    np.add(e, y, out=t[0])
+    np.subtract(e, y, out=t[1])
     c = 1.0 - t * t
     root = 1.0 / np.sqrt(c)
     shape = np.empty((3, *t.shape))
     np.multiply(t, root, out=shape[0])
-    np.divide(root, c * rho, out=shape[1])
-    # d²(t/sqrt(1-t²))/dt² = 3 t (1-t²)^(-5/2)
-    np.multiply(shape[1], 3.0 * t / (c * rho), out=shape[2])
-    total, difference = shape[:, 0] + shape[:, 1], shape[:, 0] - shape[:, 1]
-    total[1], difference[1] = difference[1], total[1].copy()
-    # h1 - h2 without cancellation where both have one sign: (h1² - h2²)/(h1 + h2)
-    np.divide(4.0 * y * e, rho * rho * c[0] * c[1] * total[0], out=difference[0], where=y > np.abs(e))
-    return difference, total
+    np.divide(root, c, out=shape[1])
+    # d²h/dt² = 3 t (1-t²)^(-5/2)
+    np.multiply(shape[1], 3.0 * t / c, out=shape[2])
+    even, odd = shape[:, 0] + shape[:, 1], shape[:, 0] - shape[:, 1]
+    # h(y+e) - h(y-e) without cancellation where both have one sign: over their sum, the difference of their squares
+    np.divide(4.0 * y * e, c[0] * c[1] * odd[0], out=even[0], where=y > np.abs(e))
+    return even, odd
 
 
 def slope_expansion(alpha: Array, eps: Array, rho: Array | float, count: int) -> Array:
@@ -75,11 +75,13 @@ def slope_expansion(alpha: Array, eps: Array, rho: Array | float, count: int) ->
     """
     radius = np.zeros(alpha.shape) + rho
     few = _shown(float(((radius - np.abs(eps)) / alpha).min()), count)
-    s, transform = _cosines(few, (few + few % 2 + _SPARE) // 2)
+    s, to_even, to_odd = _cosines(few)
+    even, odd = _parts((alpha / radius)[:, None] * s, (eps / radius)[:, None])
     value = np.zeros((3, alpha.size, count))
-    both = _parts(alpha[:, None] * s, eps[:, None], radius[:, None])
-    for start, part in enumerate(both):
-        value[:, :, start:few:2] = part @ (transform[start::2].T * -0.5)
+    np.matmul(even, to_even, out=value[:, :, :few:2])
+    np.matmul(odd, to_odd, out=value[:, :, 1:few:2])
+    value[2] /= radius[:, None]  # each derivative by ε is one by t over ρ
+    value[1:] /= radius[:, None]
     value /= radius[:, None]
     return value.transpose(1, 2, 0)
 
@@ -123,17 +125,15 @@ def _newton(
 ) -> tuple[Array, NDArray[np.bool_]]:
     """Newton on the first `few` coefficients; their sum is taken once, as weights of the transform's nodes."""
     alpha, eps, radius = place
-    s, transform = _cosines(few, (few + few % 2 + _SPARE) // 2)
-    even_weights = row[:, 1 : few - 1 : 2] @ transform[2::2] - transform[0]
-    odd_weights = row[:, 0 : few - 1 : 2] @ transform[1::2]
-    y, radii = alpha[:, None] * s, radius[:, None]
+    s, to_even, to_odd = _cosines(few)
+    even_weights = row[:, 1 : few - 1 : 2] @ to_even[:, 1:].T - to_even[:, 0]
+    odd_weights = row[:, 0 : few - 1 : 2] @ to_odd.T
+    y = (alpha / radius)[:, None] * s
     settled = np.zeros(alpha.size, dtype=bool)
     for _ in range(_NEWTON_STEPS):
-        (even, even_change, _), (odd, odd_change, _) = _parts(y, eps[:, None], radii)
-        miss = np.einsum("bk,bk->b", even_weights, even) + np.einsum("bk,bk->b", odd_weights, odd)
-        rise = np.einsum("bk,bk->b", even_weights, even_change) + np.einsum(
-            "bk,bk->b", odd_weights, odd_change
-        )
+        even, odd = _parts(y, (eps / radius)[:, None])
+        miss, rise, _ = (even_weights * even + odd_weights * odd).sum(axis=2)
+        rise /= radius
         target = eps - miss / rise
         outside = np.abs(target) >= room
         target = np.where(outside, 0.5 * (eps + np.sign(target) * room), target)

@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from conveyor.arguments import checked
+from conveyor.contact.moved import log_places
 from conveyor.errors import InputError
 
 Array = NDArray[np.float64]
@@ -101,6 +103,11 @@ class Creeps:
     weights: Array
     times: Array
 
+    @cached_property
+    def places(self) -> Array:
+        """Of 1/ζ on the grid of logarithms, shape (b, t)."""
+        return log_places(1.0 / self.times)
+
     def compliance(self, m: Array) -> NDArray[np.complex128]:
         """j(m) of each scene at its wave numbers m, shape (b, k), or at those of all, shape (1, k)."""
         x = m[:, :, None] * self.times[:, None, :]
@@ -121,5 +128,5 @@ class Creeps:
             times[row, : creep.times.size] = creep.times
         return cls(np.array([creep.instantaneous for creep in spectra]), weights, times)
 
-    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_]) -> Creeps:
+    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_] | slice) -> Creeps:
         return Creeps(self.instantaneous[chosen], self.weights[chosen], self.times[chosen])

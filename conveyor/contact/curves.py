@@ -29,6 +29,7 @@ from conveyor.contact.narrow import (
     PLACE_SHARE,
     RANGE,
     ROOM,
+    ROUGH,
     Group,
     alike,
     chosen_rows,
@@ -44,7 +45,7 @@ from conveyor.contact.short_rule import ShortRule, full_rule, grades_for, panels
 from conveyor.contact.single import ROUNDING, SIGN_ORDER
 from conveyor.contact.solution import ContactSolution, SolveStats
 from conveyor.contact.solve import solve
-from conveyor.contact.spectral import Contact, equilibrium
+from conveyor.contact.spectral import Contact, equilibrium, equilibrium_of_orders
 from conveyor.contact.tabled import Tabled
 from conveyor.errors import InputError, NoSolutionError
 
@@ -52,7 +53,7 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int_]
 
 _DEGREES = (8, 12, 16, 32, 64, 128)
-_LOW_DEGREE_FROM = 1e-4  # rtol that degree 8 may meet over a factor of 10 in load
+_LOW_DEGREE_FROM = 2e-5  # rtol that degree 8 may meet over a factor of 4 in load
 _FEW = 4  # degree that carries what a higher order changes
 _MARGIN = 1e-2  # the sampled range of ln α goes this far beyond the loads asked for
 _SIGN_FLOOR = 1e-9
@@ -380,7 +381,8 @@ class _Sampler:
         """Largest errors by order of each row, of the energy, and what that says of friction."""
         rho = np.repeat(self.group.rho[batch.rows], batch.count)
         every = np.repeat(batch.rows, batch.count)
-        by_order = order_errors(batch.contact, batch.matrix, rho, exponent.ravel())
+        _, lower = equilibrium_of_orders(batch.matrix, batch.contact.alpha, rho, batch.contact.eps, ROUGH)
+        by_order = order_errors(batch.contact, lower, exponent.ravel())
         by_loss = batch.tabled.friction_by_loss(self.check[every], batch.contact, rho)
         energy = np.abs(relative_difference(by_loss, batch.contact.friction))
         each = (by_order.friction, energy, by_energy(energy, by_order.most))

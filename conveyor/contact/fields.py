@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final, Protocol
 
 import numpy as np
@@ -24,6 +25,7 @@ _FAR = 64.0
 _PLAIN = 500.0  # wave numbers up to which the series is summed one by one: a window has as many nodes
 _CHUNK = 4_000_000
 _PEAK_STEPS = 8
+_TABLED = 1 << 16  # entries of a table of sines: a product with it costs no more than a transform
 RESOLVED: Final = 4.0
 """n² times an edge layer's share of the half width, from where on errors fall exponentially."""
 _TAILS = 4.0
@@ -187,8 +189,18 @@ def _sines(c: Array, angle: Array) -> Array:
     return np.concatenate(sums)
 
 
+@lru_cache(maxsize=16)
+def _waves(n: int, count: int) -> Array:
+    """Sin(vθ) of v = 1 … n there, shape (n, count + 1)."""
+    turn = np.outer(np.arange(1, n + 1), np.arange(count + 1)) % (2 * count)
+    waves: Array = np.sin(turn * (math.pi / count))
+    return waves
+
+
 def sampled_sines(c: Array, count: int) -> Array:
     """Σ_v c_v sin(vθ) at θ = 0, π/count … π, shape (b, count + 1), for c of shape (b, n)."""
+    if c.shape[1] * count <= _TABLED:
+        return c @ _waves(c.shape[1], count)
     waves = np.zeros((c.shape[0], c.shape[1] + 1), dtype=complex)
     waves[:, 1:] = -1j * count * c
     sampled: Array = np.fft.irfft(waves, 2 * count)[:, : count + 1]

@@ -6,7 +6,6 @@ Lagrange interpolation. The table f(x_g) is made once, and many scenes need one 
 
 from __future__ import annotations
 
-import math
 from functools import lru_cache
 
 import numpy as np
@@ -18,6 +17,7 @@ Stencils = tuple[NDArray[np.int_], Array]
 POINTS = 16
 BEFORE = POINTS // 2 - 1
 """Grid points before place 0, which a stencil there reaches."""
+_ALONG = np.arange(POINTS)[:, None, None]
 # ln b = 2 + 5 sinh x in steps of 0.02: a tenth in the middle, where functions of ln b are analytic within π/2 of the
 # real axis only, more where they fall like b or 1/b (seen: 4e-13 of functions below one)
 _STEP, _MIDDLE, _SCALE, _REACH = 0.02, 2.0, 5.0, 130  # to both sides: b from 2e-14 to 2e15
@@ -54,8 +54,7 @@ def moved(at: Stencils, size: int, *weights: Array) -> list[Array]:
     """Each of some weights, shape (b, k), on a grid of `size` points, shape (b, size)."""
     first, shares = at
     rows = first.shape[0]
-    index = np.arange(POINTS)[:, None, None] + (first + size * np.arange(rows)[:, None])
-    index = index.ravel()
+    index = (_ALONG + (first + size * np.arange(rows)[:, None])).ravel()
     grids = (np.bincount(index, (each * shares).ravel(), rows * size) for each in weights)
     return [np.asarray(grid, dtype=np.float64).reshape(rows, size) for grid in grids]
 
@@ -67,12 +66,12 @@ def logs() -> Array:
     return b
 
 
-def log_stencils(b: Array) -> Stencils:
-    """Stencils of arguments b, shape (b, k), on the grid of ln b."""
-    return stencils(np.arcsinh((np.log(b) - _MIDDLE) / _SCALE) / _STEP + _REACH)
+def log_places(b: Array) -> Array:
+    """Places of arguments b on the grid of ln b."""
+    places: Array = np.arcsinh((np.log(b) - _MIDDLE) / _SCALE) / _STEP + _REACH
+    return places
 
 
-def within(b: Array) -> NDArray[np.bool_]:
-    """Which of the scenes have every argument b, shape (b, k), on the grid of ln b."""
-    far = _SCALE * math.sinh(_STEP * _REACH)
-    return np.asarray((np.abs(np.log(b) - _MIDDLE) <= far).all(axis=1))
+def within(places: Array) -> NDArray[np.bool_]:
+    """Which of the scenes have all `log_places`, shape (b, k), on the grid."""
+    return np.asarray((np.abs(places - _REACH) <= _REACH).all(axis=1))

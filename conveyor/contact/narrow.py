@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,14 +38,13 @@ from conveyor.contact.short_rule import (
     WIDEST,
     Grade,
     ShortRule,
-    cap_of,
     grades_for,
     panels_beyond,
     short_rules,
 )
 from conveyor.contact.single import DENSE, LOAD_FLOOR, Near
 from conveyor.contact.solution import Found, Outcome
-from conveyor.contact.spectral import Contact, equilibrium
+from conveyor.contact.spectral import Contact, equilibrium, equilibrium_of_orders
 from conveyor.contact.stack import Stack, kind, stacked
 from conveyor.contact.tabled import Tabled
 
@@ -52,7 +52,7 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int_]
 
 _SEARCH = 10
-_ROUGH = 1e-9  # relative error of eccentricities on the way
+ROUGH = 1e-9  # relative error of eccentricities on the way
 _SAMPLES, RANGE = 4, 0.25  # half widths sampled, to both sides of the guess in ln α
 _SPAN = 2.0 * math.cos(0.5 * math.pi / _SAMPLES)  # of the samples, over that range
 _OUTSIDE = 0.2  # of the samples' span of ln p: farther beyond them, the guess was wrong
@@ -73,9 +73,9 @@ _MOST_ENTRIES = 3_000_000  # of the matrices that are formed together
 _FARTHEST = 2.0  # times the order, in one step
 _GUESSES_TRIED = 4
 _FLATTEST, _FARTHEST_GUESS = 0.4, 1.5  # d ln p/d ln α; ln of half widths
+_CAPS = np.array(CAPS)
 CHUNK = 200  # scenes whose tables stay in the processor's cache
-_GUESSES = 14
-_GUESS = 1.0  # of the Hertz guess: the true half widths of conveyor covers, glassy to rubbery, are 0.80 to 1.21 of it
+_GUESSES = np.linspace(0.0, 1.0, 14)
 
 
 @dataclass(eq=False)
@@ -102,6 +102,8 @@ class Group:
         )
 
     def __getitem__(self, chosen: Index) -> Group:
+        if len(self.problems) == 1:
+            return self
         return Group(
             [self.problems[i] for i in chosen],
             [self.given[i] for i in chosen],
@@ -143,8 +145,9 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
                 search = Search(part, rules, alpha[chosen], rtol)
                 for row, outcome in _Closing(search, rtol).outcomes().items():
                     outcomes[members[chosen[row]]] = outcome
-                strayed.append(chosen[search.stray])
-                alpha[chosen] = search.extrapolated
+                if search.stray.any():
+                    strayed.append(chosen[search.stray])
+                    alpha[chosen] = search.extrapolated
             rows = np.concatenate(strayed) if strayed else rows[:0]
             if rows.size == 0:
                 break
@@ -154,13 +157,13 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
 def _chunks(group: Group, alpha: Array, rows: Index, grade: Grade) -> Iterator[Index]:
     """Like with like, few enough for the cache; without those whose rules would be too long."""
     half_width = ROOM * alpha[rows]
-    caps = np.array([cap_of(width) for width in half_width])
+    caps = np.searchsorted(_CAPS, half_width)
     panels = panels_beyond(group.layers.reach(grade.depth)[rows], half_width, grade)
     order = np.lexsort((half_width, panels, caps))
-    order = order[(panels[order] <= _MOST_PANELS) & within(1.0 / group.creeps.times)[rows[order]]]
-    for cap in np.unique(caps[order]):
+    order = order[(panels[order] <= _MOST_PANELS) & within(group.creeps.places)[rows[order]]]
+    for cap in sorted(set(caps[order].tolist())):
         same = rows[order[caps[order] == cap]]
-        step = CHUNK if cap == WIDEST else _WIDE_CHUNK
+        step = CHUNK if CAPS[cap] == WIDEST else _WIDE_CHUNK
         for start in range(0, same.size, step):
             yield same[start : start + step]
 
@@ -177,29 +180,24 @@ def fits(group: Group, half_width: Array, grade: Grade) -> NDArray[np.bool_]:
     """Whether contacts up to these half widths are narrow: for the window, for the roll, against the layer."""
     panels = panels_beyond(group.layers.reach(grade.depth), half_width, grade)
     slim = (half_width < np.minimum(WIDEST, WRAPPED * group.rho)) & (panels <= _MOST_PANELS)
-    return np.asarray(slim & within(1.0 / group.creeps.times))
+    return np.asarray(slim & within(group.creeps.places))
 
 
 def guess(group: Group) -> Array:
-    """Half width of each scene: Hertz, p̃_m = α²/(4ρ² C), with the compliance C = |S| at m = 1/α."""
+    """Half width of each scene: Hertz, p̃_m = α²/(4ρ² C), with the compliance C = |S| at m = 1/α.
+
+    The true half widths of conveyor covers, glassy to rubbery, are 0.80 to 1.21 of it.
+    """
     narrow = group.rho * np.sqrt(np.exp(group.target) * group.creeps.instantaneous)
     span = np.log(np.maximum(0.8 * group.rho / narrow, 1.0 + 1e-9))
-    log_alpha = np.log(narrow)[:, None] + np.linspace(0.0, 1.0, _GUESSES) * span[:, None]
+    log_alpha = np.log(narrow)[:, None] + _GUESSES * span[:, None]
     alpha = np.exp(log_alpha)
     m = np.maximum(1.0 / alpha, 1.0)
     compliance = np.abs(group.layers.symbol(m, group.creeps.compliance(m)))
     log_load = 2.0 * (log_alpha - np.log(2.0 * group.rho)[:, None]) - np.log(compliance)
     log_load = np.maximum.accumulate(log_load, axis=1)
     # a load beyond the table is no narrow contact: its place is the table's end and it is handed back
-    above = np.clip((log_load < group.target[:, None]).sum(axis=1), 1, _GUESSES - 1)
-    row = np.arange(group.rho.size)
-    rise = log_load[row, above] - log_load[row, above - 1]
-    run = log_alpha[row, above] - log_alpha[row, above - 1]
-    rising = rise > 0.0
-    share = np.where(rising, (group.target - log_load[row, above - 1]) / np.where(rising, rise, 1.0), 1.0)
-    place = log_alpha[row, above - 1] + np.maximum(share, 0.0) * run
-    guess: Array = _GUESS * np.exp(place)
-    return guess
+    return np.exp([np.interp(*each) for each in zip(group.target, log_load, log_alpha, strict=True)])
 
 
 @lru_cache(maxsize=1)
@@ -213,15 +211,15 @@ class Cubics:
 
     def __init__(self, y: Array, figures: Array) -> None:
         self.y = y
-        parts, last = [figures[..., 0]], figures
+        self.parts = np.empty((_SAMPLES, *figures.shape[:2]))
+        self.parts[0], last = figures[..., 0], figures
         for step in range(1, _SAMPLES):
             last = (last[..., 1:] - last[..., :-1]) / (y[:, step:] - y[:, :-step])
-            parts.append(last[..., 0])
-        self.parts = np.stack(parts)
+            self.parts[step] = last[..., 0]
 
-    def value(self, rows: Index, y: Array, figures: slice | int = slice(None)) -> Array:
+    def value(self, rows: Index, y: Array) -> Array:
         """Figures of some rows at y."""
-        first, second, third, fourth = self.parts[:, figures][..., rows]
+        first, second, third, fourth = self.parts[..., rows]
         away = y[:, None] - self.y[rows]
         value: Array = first + away[:, 0] * (second + away[:, 1] * (third + away[:, 2] * fourth))
         return value
@@ -233,6 +231,17 @@ class Cubics:
         sum_, product = away[:, 0] + away[:, 1], away[:, 0] * away[:, 1]
         slope: Array = second + sum_ * third + (product + away[:, 2] * sum_) * fourth
         return slope
+
+
+class _Evaluated(NamedTuple):
+    """Contacts at their order, those of lower orders, ln p - target, tables; the cubics' y there and its figures."""
+
+    contact: Contact
+    lower: Contact
+    miss: Array
+    tabled: Tabled
+    place: Array
+    known: Array
 
 
 class Search:
@@ -250,7 +259,7 @@ class Search:
         size = alpha.size
         sampled = np.multiply.outer(alpha, _points()).ravel()
         matrix = Tabled.of(group.creeps, alpha).matrices(self.rule, _SEARCH, _points())
-        contact = equilibrium(matrix, sampled, np.repeat(group.rho, _SAMPLES), tolerance=_ROUGH)
+        contact = equilibrium(matrix, sampled, np.repeat(group.rho, _SAMPLES), tolerance=ROUGH)
         pressing = contact.inside & (contact.pressure > 0.0)
         good = pressing.reshape(size, _SAMPLES).all(axis=1)
         lossy = contact.friction != 0.0
@@ -265,7 +274,7 @@ class Search:
         y[~rising] = -np.arange(_SAMPLES)
         self.cubics = Cubics(y, figures.reshape(-1, size, _SAMPLES))
         self.span = y[:, 0] - y[:, -1]
-        self.place, self._from = self.group.target.copy(), np.zeros(size)
+        self.place = self.group.target.copy()
         self.offset = np.zeros(size)
         self._order, self._miss, self._share = np.zeros(size), np.zeros(size), np.zeros(size)
         self.alive = np.asarray(good & rising)
@@ -292,41 +301,47 @@ class Search:
         """Ln α of the present place and d ln p̃_m/d ln α there."""
         at = np.array([row])
         run = self.cubics.slope(at, self.place[at])[0, 0]
-        return float(self.cubics.value(at, self.place[at], 0)[0]), float(1.0 / run)
+        return float(self.cubics.value(at, self.place[at])[0, 0]), float(1.0 / run)
 
-    def exponent(self, rows: Index) -> Array:
-        """β = d ln μ/d ln p at the present places; zero where nothing is lost."""
-        return np.where(self.lossy[rows], self.cubics.slope(rows, self.place[rows])[2], 0.0)
+    def exponent(self, rows: Index, y: Array) -> Array:
+        """β = d ln μ/d ln p at places y; zero where nothing is lost."""
+        return np.where(self.lossy[rows], self.cubics.slope(rows, y)[2], 0.0)
 
-    def evaluate(self, rows: Index, n: int) -> tuple[Contact, Array, Array, Tabled]:
-        """Contacts of some rows at order n, their matrices, ln p - target, tables; moves on to the next places."""
-        y = self._from[rows] = self.place[rows]
-        log_alpha, turn = self.cubics.value(rows, y, slice(2))
-        alpha = np.exp(log_alpha)
-        tabled = Tabled.of(self.group.creeps[rows], alpha)
-        matrix = tabled.matrices(self.rule[rows], n)
-        contact = equilibrium(matrix, alpha, self.group.rho[rows], alpha * turn, self.tolerance)
+    def evaluate(self, rows: Index, n: int) -> _Evaluated:
+        """Contacts of some rows at order n; moves on to the next places."""
+        y = self.place[rows]
+        known = self.cubics.value(rows, y)
+        alpha = np.exp(known[0])
+        at = _some(rows, self.place.size)
+        tabled = Tabled.of(self.group.creeps[at], alpha)
+        matrix = tabled.matrices(self.rule[at], n)
+        contact, lower = equilibrium_of_orders(
+            matrix, alpha, self.group.rho[rows], alpha * known[1], self.tolerance
+        )
         self.matrices[rows] += 1
         good = np.asarray(contact.inside & (contact.pressure > 0.0))
         self.alive[rows] &= good
         miss = np.log(np.where(good, contact.pressure, 1.0)) - self.group.target[rows]
+        share = self._share[rows]
         # where the slope at this order is 1 - q of the cubic's, a miss comes back as its q-th part
         again = (self._order[rows] == n) & (np.abs(miss) < 0.5 * np.abs(self._miss[rows]))
-        back = np.where(again, miss / np.where(again, self._miss[rows], 1.0), 0.0)
-        share = self._share[rows] + back * (1.0 - self._share[rows])
+        if again.any():
+            back = np.where(again, miss / np.where(again, self._miss[rows], 1.0), 0.0)
+            share = share + back * (1.0 - share)
         self._share[rows], self._miss[rows], self._order[rows] = share, miss, n
         self.offset[rows] += np.where(good, miss / (1.0 - share), 0.0)
         self.move(rows[good])
-        return contact, matrix, miss, tabled
+        return _Evaluated(contact, lower, miss, tabled, y, known)
 
-    def carried(self, rows: Index, contact: Contact, miss: Array) -> tuple[Contact, Array, Array]:
+    def carried(self, rows: Index, found: _Evaluated) -> tuple[Contact, Array, Array]:
         """Contacts just evaluated, carried to their loads as those of the low order go.
 
         With the friction and the largest pressure that this may miss, relative.
         """
-        y_from, y_to = self._from[rows], self.place[rows]
-        here = self.cubics.value(rows, y_from)
-        log_wider, shifted, dragged, *_ = change = self.cubics.value(rows, y_to) - here
+        contact, miss, y_from, here = found.contact, found.miss, found.place, found.known
+        y_to = self.place[rows]
+        change = self.cubics.value(rows, y_to) - here
+        log_wider, shifted, dragged = change[:3]
         lossy = self.lossy[rows] & (contact.friction != 0.0)
         wider, heavier = np.exp(log_wider), np.exp(y_to - y_from)
         alpha = contact.alpha * wider
@@ -350,6 +365,11 @@ class Search:
             contact.inside & (alpha + np.abs(eps) < self.group.rho[rows]),
         )
         return met, _CARRIED * off * missed, _SHAPE_CARRIED * unlike * missed
+
+
+def _some(rows: Index, size: int) -> Index | slice:
+    """Rows in their order, of `size` at most; where these are all, as a slice, which copies nothing."""
+    return rows if rows.size < size else slice(None)
 
 
 def _log(values: Array, told: NDArray[np.bool_]) -> Array:
@@ -384,22 +404,22 @@ class _Closing:
         """Meet the load at order n."""
         search, rtol = self.search, self.rtol
         for step in range(_CLOSING_STEPS):
-            exponent = search.exponent(rows)
-            contact, matrix, miss, tabled = search.evaluate(rows, n)
+            found = search.evaluate(rows, n)
             if step == 0:
-                by_order = order_errors(contact, matrix, search.group.rho[rows], exponent)
+                by_order = order_errors(found.contact, found.lower, search.exponent(rows, found.place))
                 self.error[rows], self.most[rows], self.edges[rows] = by_order
             alive = search.alive[rows]
             fine = (self.error[rows] <= rtol) & alive
-            met, left, peak = search.carried(rows, contact, miss)
+            met, left, peak = search.carried(rows, found)
             error = self.error[rows] + left
             near = fine & met.inside & ((left <= self.tight) | (error <= _LOAD_LOOSE * rtol))
             at = np.flatnonzero(near)
             if at.size:
                 self.peak[rows[at]] = peak[at]
                 self.edges[rows[at]] += _EDGES_CARRIED / _CARRIED * left[at] * met.alpha[at]
-                evaluated, closed = chosen_rows(contact, at), chosen_rows(met, at)
-                self._accept((rows[at], tabled[at]), evaluated, closed, error[at])
+                part = _some(at, rows.size)
+                evaluated, closed = chosen_rows(found.contact, part), chosen_rows(met, part)
+                self._accept((rows[at], found.tabled[part]), evaluated, closed, error[at])
             for row in rows[alive & ~fine]:
                 self._raise(int(row), n, 0.0)
             rows = rows[fine & ~near]
@@ -418,7 +438,7 @@ class _Closing:
         search, rtol, (rows, tabled) = self.search, self.rtol, scenes
         grade = grades_for(rtol)[1]
         rho = search.group.rho[rows]
-        by_loss = tabled.friction_by_loss(search.check[rows], contact, rho)
+        by_loss = tabled.friction_by_loss(search.check[_some(rows, search.place.size)], contact, rho)
         energy = np.abs(relative_difference(by_loss, contact.friction))
         by_loss_error = by_energy(energy, self.most[rows])
         estimate = np.maximum(np.maximum(error, by_loss_error), grade.error)

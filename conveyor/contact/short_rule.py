@@ -17,14 +17,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
 from conveyor.contact.creep import Creeps
-from conveyor.contact.moved import LOGS, log_stencils, logs, moved
+from conveyor.contact.moved import POINTS, logs, moved, stencils
 from conveyor.contact.quadrature import Rule
 from conveyor.contact.stack import Stack
 
@@ -80,7 +79,7 @@ class ShortRule:
     nodes: Array
     weights: ComplexArray
 
-    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_]) -> ShortRule:
+    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_] | slice) -> ShortRule:
         return ShortRule(self.nodes[chosen], self.weights[chosen])
 
 
@@ -100,8 +99,6 @@ class _Window:
     end: float
     coarse: Array
     spread: Array  # (unit + inner, K)
-    plain: Array  # for j = 1: weights of ∫_0^1 j f dm on nodes of [0, 1], then j(inner) of narrow contacts
-    terms: ComplexArray  # the same of single terms with 1/ζ on the grid of logarithms
 
 
 _gauss = lru_cache(maxsize=32)(np.polynomial.legendre.leggauss)
@@ -135,14 +132,7 @@ def _window(grade: Grade, count: int, cap: float) -> _Window:
     half = 0.5 * np.diff(edges)[:, None]
     panels = (edges[:-1, None] + half * (x + 1.0)).ravel()
     measure = (half * gauss).ravel()
-    unit, slow, plain = _UNITS[cap == WIDEST]
-    unit_x, unit_gauss = _gauss(unit)
-    inner = np.concatenate([integers, panels])
-    zeta = 1.0 / logs()
-    terms, ones = _unit_weights(zeta, unit, slow, plain), 0.5 * unit_gauss
-    if cap == WIDEST:  # wide windows have too many nodes for a table
-        terms = np.concatenate([terms, 1.0 / (1.0 - 1j * np.multiply.outer(zeta, inner))], axis=1)
-        ones = np.concatenate([ones, np.ones(inner.size)])
+    unit_x, _ = _gauss(_UNITS[cap == WIDEST][0])
     coarse_x, coarse_gauss = _gauss(count)
     fine = np.concatenate([0.5 * (unit_x + 1.0), integers, panels]) * (2.0 / end) - 1.0
     all_degrees = np.arange(count)
@@ -150,16 +140,20 @@ def _window(grade: Grade, count: int, cap: float) -> _Window:
         special.eval_legendre(all_degrees[:, None], coarse_x) * coarse_gauss
     )
     return _Window(
-        inner=inner,
+        inner=np.concatenate([integers, panels]),
         ramp=0.5 * special.erfc((integers - centre) / width),
         measure=measure,
         rest=0.5 * special.erfc((centre - panels) / width),
         end=end,
         coarse=0.5 * end * (coarse_x + 1.0),
         spread=spread,
-        plain=ones,
-        terms=terms,
     )
+
+
+@lru_cache(maxsize=2)
+def _unit_table(unit: int, slow: float, plain: int) -> Array:
+    """`_unit_weights` of terms with 1/ζ on the grid of logarithms, real and imaginary parts in turn."""
+    return _unit_weights(1.0 / logs(), unit, slow, plain).view(float)
 
 
 def cap_of(half_width: float) -> float:
@@ -175,39 +169,31 @@ def short_rules(layers: Stack, creeps: Creeps, half_width: Array, grades: Sequen
     widest = float(half_width.max())
     cap = cap_of(widest)
     windows = [_window(grade, _count(grade, cap, widest), cap) for grade in grades]
-    panels = [
-        _beyond(layers.reach(grade.depth), half_width, grade, window.end)
-        for grade, window in zip(grades, windows, strict=True)
-    ]
-    (terms,) = moved(log_stencils(1.0 / creeps.times), LOGS, creeps.weights)
-    units, nodes, compliances = [], [], []
-    for window, (beyond, _) in zip(windows, panels, strict=True):
-        known = (terms @ window.terms.view(float)).view(complex)
-        known += creeps.instantaneous[:, None] * window.plain
-        unit = _UNITS[cap == WIDEST][0]
-        units.append(known[:, :unit])
-        nodes.append(_beside(window.inner, beyond))
-        j = known[:, unit:] if cap == WIDEST else creeps.compliance(window.inner[None])
-        compliances.append(np.concatenate([j, creeps.compliance(beyond)], axis=1))
-    symbol = layers.symbol(np.concatenate(nodes, axis=1), np.concatenate(compliances, axis=1))
-    ends = np.cumsum([m.shape[1] for m in nodes]).tolist()
-    symbols = [symbol[:, start:end] for start, end in pairwise([0, *ends])]
-    return list(map(_rule, windows, panels, units, compliances, symbols))
-
-
-def _rule(
-    window: _Window, panels: tuple[Array, Array], unit: ComplexArray, j: ComplexArray, symbol: ComplexArray
-) -> ShortRule:
-    """Rule of one window and the panels beyond it, from what unit weights, j and S are at its nodes."""
-    beyond, measure = panels
-    cut, end = window.ramp.size, window.inner.size
-    inside = window.measure * (window.rest * symbol[:, cut:end] - j[:, cut:end])
-    fine = np.concatenate([-unit, window.ramp * symbol[:, :cut], inside], axis=1)
-    # complex @ real would make the real one complex first
-    parts = (np.concatenate([fine.real, fine.imag]) @ window.spread) / window.coarse
-    weights = parts[: fine.shape[0]] + 1j * parts[fine.shape[0] :]
-    rest = measure * (symbol[:, end:] - j[:, end:]) / beyond
-    return ShortRule(_beside(window.coarse, beyond), np.concatenate([weights, rest], axis=1))
+    panels = _beyond(layers, half_width, grades, [window.end for window in windows])
+    unit = _UNITS[cap == WIDEST]
+    first, shares = stencils(creeps.places)
+    low, high = int(first.min()), int(first.max()) + POINTS
+    (terms,) = moved((first - low, shares), high - low, creeps.weights)
+    below = (terms @ _unit_table(*unit)[low:high]).view(complex)
+    below += creeps.instantaneous[:, None] * (0.5 * _gauss(unit[0])[1])
+    inner = np.concatenate([window.inner for window in windows])
+    every = _beside(inner, np.concatenate([nodes for nodes, _ in panels], axis=1))
+    j = creeps.compliance(every)
+    symbol = layers.symbol(every, j)
+    rules, start, far = [], 0, inner.size
+    for window, (nodes, measure) in zip(windows, panels, strict=True):
+        end, cut, last = start + window.inner.size, start + window.ramp.size, far + nodes.shape[1]
+        inside = window.measure * (window.rest * symbol[:, cut:end] - j[:, cut:end])
+        fine = np.concatenate([-below, window.ramp * symbol[:, start:cut], inside], axis=1)
+        # complex @ real would make the real one complex first
+        parts = (np.concatenate([fine.real, fine.imag]) @ window.spread) / window.coarse
+        weights = np.empty((half_width.size, window.coarse.size + nodes.shape[1]), dtype=complex)
+        weights.real[:, : window.coarse.size] = parts[: half_width.size]
+        weights.imag[:, : window.coarse.size] = parts[half_width.size :]
+        weights[:, window.coarse.size :] = measure * (symbol[:, far:last] - j[:, far:last]) / nodes
+        rules.append(ShortRule(_beside(window.coarse, nodes), weights))
+        start, far = end, last
+    return rules
 
 
 def _beside(shared: Array, own: Array) -> Array:
@@ -225,18 +211,27 @@ def _count(grade: Grade, cap: float, widest: float) -> int:
     return int(steps * math.ceil((phase + 4.0 * phase ** (1.0 / 3.0) + grade.spare) / steps))
 
 
-def _beyond(reach: Array, half_width: Array, grade: Grade, end: float) -> tuple[Array, Array]:
-    """Panels from the window's end to the layer's reach; scenes with fewer panels get empty ones."""
-    longest = grade.phase / (2.0 * half_width)
-    growth = math.expm1(grade.stretch)
-    edges = [np.full(half_width.size, end)]
-    while float((reach - edges[-1]).max()) > 0.0:
+def _beyond(
+    layers: Stack, half_width: Array, grades: Sequence[Grade], ends: Sequence[float]
+) -> list[tuple[Array, Array]]:
+    """Panels from the windows' ends to the layer's reach; scenes with fewer panels get empty ones."""
+    reach = np.array([layers.reach(grade.depth) for grade in grades])
+    longest = np.multiply.outer([0.5 * grade.phase for grade in grades], 1.0 / half_width)
+    growth = np.array([[math.expm1(grade.stretch)] for grade in grades])
+    end = np.array(ends)[:, None]
+    edges = [np.zeros(reach.shape) + end]
+    while (reach > edges[-1]).any():
         edges.append(np.maximum(np.minimum(edges[-1] + np.minimum(growth * edges[-1], longest), reach), end))
-    x, gauss = _gauss(grade.points)
-    bounds = np.stack(edges, axis=1)
-    half = 0.5 * np.diff(bounds, axis=1)[:, :, None]
-    shape = half_width.size, half.shape[1] * grade.points
-    return (bounds[:, :-1, None] + half * (x + 1.0)).reshape(shape), (half * gauss).reshape(shape)
+    bounds = np.array(edges)
+    half = 0.5 * (bounds[1:] - bounds[:-1])
+    panels = []
+    for k, grade in enumerate(grades):
+        x, gauss = _gauss(grade.points)
+        count = np.count_nonzero(half[:, k].max(axis=1))
+        wide, shape = half[:count, k].T[:, :, None], (half_width.size, count * grade.points)
+        nodes = bounds[:count, k].T[:, :, None] + wide * (x + 1.0)
+        panels.append((nodes.reshape(shape), (wide * gauss).reshape(shape)))
+    return panels
 
 
 def panels_beyond(reach: Array, half_width: Array, grade: Grade) -> NDArray[np.int_]:

@@ -12,8 +12,8 @@ from conveyor.contact.checks import (
     Sign,
     by_energy,
     energy_error,
-    errors_of_lower,
     may_touch_elsewhere,
+    order_errors,
     overlaps,
     sign,
 )
@@ -23,7 +23,7 @@ from conveyor.contact.orders import ORDERS, next_order
 from conveyor.contact.problem import Status
 from conveyor.contact.scene import Scene, State
 from conveyor.contact.solution import Found, Outcome
-from conveyor.contact.spectral import Contact
+from conveyor.contact.spectral import Contact, of_orders
 
 LOAD_FLOOR = 2e-13  # rounding of the load at a condition number of 100
 SIGN_ORDER = 256  # splits show below it; a dip that lasts is an edge layer that friction does not feel
@@ -109,7 +109,8 @@ def _converged(
             return None
         exponent = search.exponent if scene.depth is None else None
         pairs = [
-            errors_of_lower(state.contact, lower, scene.problem.rho, exponent) for lower in state.system.lower
+            order_errors(state.contact, of_orders(lower, state.contact, scene.problem.rho), exponent)
+            for lower in state.system.lower
         ]
         by_order = OrderErrors(*(np.max(errors, axis=0) for errors in zip(*pairs, strict=True)))
         error = float(by_order.friction[0])

@@ -11,7 +11,8 @@ the short sum of quadrature.py: a weighted Gram product of one Bessel table. Eve
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -126,62 +127,113 @@ def equilibrium(
     Contact
         With friction μ = -(1/λ)∫ p u' dx / p_m (paper, section 3) from the coefficients of pressure and slope.
     """
-    n = matrix.shape[2]
+    found = _in_balance(_alone, matrix, (alpha, eps), rho, tolerance)
+    return _order(found, 0, found.inside)
+
+
+def equilibrium_of_orders(
+    matrix: Array, alpha: Array, rho: Array | float, eps: Array | None, tolerance: float
+) -> tuple[Contact, Contact]:
+    """As `equilibrium`, and the contacts of half and of three quarters of the order as one of shape (2, b).
+
+    These to second order in the shift of their eccentricity.
+    """
+    found = _in_balance(_nested, matrix, (alpha, eps), rho, tolerance)
+    lower = slice(1, None)
+    on_roll = (found.alpha + np.abs(found.eps[lower]) < rho) & (found.pressure[lower] > 0.0)
+    return _order(found, 0, found.inside), _order(found, lower, on_roll)
+
+
+def _order(found: Contact, at: int | slice, inside: NDArray[np.bool_]) -> Contact:
+    """Contacts of one of the solver's orders, or of some."""
+    return Contact(found.alpha, found.eps[at], found.c[at], found.pressure[at], found.friction[at], inside)
+
+
+Solver = Callable[[Array, Array], Array]
+"""Answers x of rows (b, n, n) to right sides (b, n, r), shape (k, b, n, r): whole, then of lower orders."""
+
+
+def _alone(rows: Array, right: Array) -> Array:
+    return np.asarray(np.linalg.solve(rows, right), dtype=np.float64)[None]
+
+
+def _nested(rows: Array, right: Array) -> Array:
+    """Of the whole, of half and of three quarters of it by one elimination, in blocks of n/2, n/4 and n/4."""
+    n = rows.shape[2]
+    half, most = n // 2, (3 * n) // 4
+    middle, rest = most - half, n - most
+    both = np.concatenate([rows, right], axis=2)
+    first = np.linalg.solve(both[:, :half, :half], both[:, :half, half:])
+    below = both[:, half:, half:] - both[:, half:, :half] @ first
+    second = np.linalg.solve(below[:, :middle, :middle], below[:, :middle, middle:])
+    last = below[:, middle:, middle:] - below[:, middle:, :middle] @ second
+    x = np.zeros((3, *right.shape))
+    x[1, :, :half] = first[..., n - half :]
+    x[2, :, half:most] = second[..., rest:]
+    x[2, :, :half] = x[1, :, :half] - first[..., :middle] @ x[2, :, half:most]
+    x[0, :, most:] = np.linalg.solve(last[..., :rest], last[..., rest:])
+    x[0, :, half:most] = x[2, :, half:most] - second[..., :rest] @ x[0, :, most:]
+    x[0, :, :half] = x[1, :, :half] - first[..., : n - half] @ x[0, :, half:]
+    return x
+
+
+def _in_balance(
+    solver: Solver, matrix: Array, place: tuple[Array, Array | None], rho: Array | float, tolerance: float
+) -> Contact:
+    """Contacts of the k orders that the solver knows: eps, c, pressure and friction have k rows of b."""
+    alpha, eps = place
     radius = np.zeros(alpha.shape) + rho
     if eps is None:
-        unit = np.zeros((n, 1))
+        unit = np.zeros((matrix.shape[2], 1))
         unit[0] = 1.0
         eps = alpha * (matrix[:, :1] @ np.linalg.solve(matrix[:, 1:], unit))[:, 0, 0]
     for _ in range(_STEPS):
         reach = (alpha + np.abs(eps)) / radius
         near = reach < _NEAR
-        near_eps = np.where(near, eps, 0.0)
-        near_alpha = np.where(near, alpha, 0.5 * radius)
-        slopes = slope_expansion(near_alpha, near_eps, radius, n + 2)
-        slope, c, step = _balanced(matrix, slopes, slopes[:, 1 : n + 1])
-        place = near_eps + step
+        inner, start = alpha, eps
+        if not near.all():
+            inner, start = np.where(near, alpha, 0.5 * radius), np.where(near, eps, 0.0)
+        slope, c, step = _balanced(solver, matrix, inner, start, radius)
+        here = start + step[0]
         # what the parabola in the step leaves: (d³h/dt³)/6 (step/ρ)³, h = t/sqrt(1-t²)
-        left = 0.5 * np.abs(step) ** 3 * (1.0 + 4.0 * reach**2) / (radius * (1.0 - reach**2)) ** 2
-        settled = near & (left <= tolerance * np.abs(place)) & (np.abs(step) < 0.5 * (radius - near_alpha))
-        if (settled | ~near).all():
+        square = reach * reach
+        left = (step[0] / radius) ** 2 * np.abs(step[0]) * (0.5 + 2.0 * square)
+        settled = near & (left <= tolerance * (1.0 - square) ** 2 * np.abs(here))
+        if settled.all() or (settled | ~near).all():
             break
-        eps = np.where(np.abs(step) < 0.5 * (radius - near_alpha), place, eps)
-    contact = pressed(c, slope, (near_alpha, place), radius)
-    if settled.all():
-        return contact
-    rows = np.flatnonzero(~settled)
-    newton = _by_newton(matrix[rows], alpha[rows], radius[rows], eps[rows])
-    for name in ("alpha", "eps", "c", "pressure", "friction", "inside"):
-        getattr(contact, name)[rows] = getattr(newton, name)
-    return contact
+        eps = np.where(np.abs(step[0]) < 0.5 * (radius - inner), here, eps)
+    found, inside = start + step, settled
+    if not settled.all():
+        rows = np.flatnonzero(~settled)
+        start, inside[rows] = _by_newton(matrix[rows], alpha[rows], radius[rows], eps[rows])
+        inner = np.where(inside, alpha, 0.5 * radius)
+        slope[:, rows], c[:, rows], step = _balanced(solver, matrix[rows], inner[rows], start, radius[rows])
+        found[:, rows] = start + step
+    load, friction = _load_and_friction(c, slope, inner, radius)
+    return Contact(inner, found, c, load, friction, inside)
 
 
-def _balanced(matrix: Array, slopes: Array, right: Array) -> tuple[Array, Array, Array]:
-    """Slope and pressure coefficients and the step of ε that satisfy every row, to second order in the step.
+def _balanced(
+    solver: Solver, matrix: Array, alpha: Array, eps: Array, radius: Array
+) -> tuple[Array, Array, Array]:
+    """Slope and pressure coefficients and the step from ε that satisfy every row, to second order in the step."""
+    n = matrix.shape[2]
+    slopes = slope_expansion(alpha, eps, radius, n + 2)
+    answers = solver(matrix[:, 1:], slopes[:, 1 : n + 1])
+    off = (matrix[:, :1] @ answers)[..., 0, :] - slopes[:, 0]
+    rise = off[..., 1]
+    straight, bend = -off[..., 0] / rise, -0.5 * off[..., 2] / rise
+    step = straight + bend * (straight + bend * straight * straight) ** 2
+    powers = np.empty((*step.shape, 3, 1))
+    powers[..., 0, 0], powers[..., 1, 0], powers[..., 2, 0] = 1.0, step, 0.5 * step * step
+    return (slopes @ powers)[..., 0], (answers @ powers)[..., 0], step
 
-    `right` are the slopes of the rows below the first.
-    """
-    answers = np.linalg.solve(matrix[:, 1:], right)
-    miss, rise, bend = ((matrix[:, :1] @ answers)[:, 0] - slopes[:, 0]).T
-    step = -miss / rise
-    for _ in range(2):
-        step = -(miss + 0.5 * bend * step * step) / rise
-    powers = np.empty((step.size, 3, 1))
-    powers[:, 0, 0], powers[:, 1, 0], powers[:, 2, 0] = 1.0, step, 0.5 * step * step
-    slope: Array = (slopes @ powers)[..., 0]
-    c: Array = np.asarray((answers @ powers)[..., 0], dtype=np.float64)
-    return slope, c, np.asarray(step)
 
-
-def _by_newton(matrix: Array, alpha: Array, radius: Array, eps: Array) -> Contact:
-    """Contacts whose eccentricity is far from where the search starts."""
+def _by_newton(matrix: Array, alpha: Array, radius: Array, eps: Array) -> tuple[Array, NDArray[np.bool_]]:
+    """Eccentricities far from where the search starts; zero where there is none."""
     row = np.linalg.solve(matrix[:, 1:].swapaxes(1, 2), matrix[:, 0, :, None])[..., 0]
     eps, inside = eccentricity(np.asarray(row, dtype=np.float64), alpha, radius, eps)
-    safe, eps = np.where(inside, alpha, 0.5 * radius), np.where(inside, eps, 0.0)
-    n = matrix.shape[2]
-    slope = slope_expansion(safe, eps, radius, n + 2)[..., 0]
-    c = np.asarray(np.linalg.solve(matrix[:, 1:], slope[:, 1 : n + 1, None])[..., 0], dtype=np.float64)
-    return replace(pressed(c, slope, (safe, eps), radius), inside=inside)
+    return np.where(inside, eps, 0.0), inside
 
 
 def nested(matrix: Array) -> tuple[Array, Array]:
@@ -191,47 +243,35 @@ def nested(matrix: Array) -> tuple[Array, Array]:
     return half, most
 
 
-def of_orders(lower: tuple[Array, Array], contact: Contact, rho: Array | float) -> tuple[Contact, Contact]:
-    """Contacts by matrices of two lower orders, shapes (b, n+1, n), at the half widths of those of a higher one.
+def of_orders(lower: tuple[Array, Array], contact: Contact, rho: Array | float) -> Contact:
+    """Contacts by matrices of two lower orders, shapes (b, l+1, l), at the half widths of those of a higher one.
 
-    To second order in the shift of the eccentricity. Both are solved as of the higher of the two orders, the lower one
-    with no pressure in its missing coefficients.
+    As `equilibrium_of_orders` has them, for matrices that need not be parts of one another.
     """
-    low, n, b = lower[0].shape[2], lower[1].shape[2], contact.alpha.size
-    matrix = np.zeros((2, b, n + 1, n))
-    matrix[1] = lower[1]
-    matrix[0, :, : low + 1, :low] = lower[0]
-    missing = np.arange(low, n)
-    matrix[0, :, missing + 1, missing] = 1.0
-    slopes = np.empty((2, b, n + 2, 3))
-    slopes[:] = slope_expansion(contact.alpha, contact.eps, rho, n + 2)
-    right = slopes[:, :, 1 : n + 1].copy()
-    right[0, :, low:] = 0.0
-    slope, c, step = (
-        part.reshape(2, b, *part.shape[1:])
-        for part in _balanced(*(part.reshape(2 * b, *part.shape[2:]) for part in (matrix, slopes, right)))
-    )
-    found = [pressed(c[k], slope[k], (contact.alpha, contact.eps + step[k]), rho) for k in (0, 1)]
-    first, second = (
-        replace(one, inside=(one.alpha + np.abs(one.eps) < rho) & (one.pressure > 0.0)) for one in found
-    )
-    return first, second
+    radius = np.zeros(contact.alpha.shape) + rho
+    found = []
+    for matrix in lower:
+        slope, c, step = _balanced(_alone, matrix, contact.alpha, contact.eps, radius)
+        found.append((contact.eps + step[0], *_load_and_friction(c[0], slope[0], contact.alpha, radius)))
+    eps, pressure, friction = (np.stack(figures) for figures in zip(*found, strict=True))
+    on_roll = (contact.alpha + np.abs(eps) < radius) & (pressure > 0.0)
+    return Contact(contact.alpha, eps, contact.c, pressure, friction, on_roll)
 
 
 def pressed(c: Array, slope: Array, place: tuple[Array, Array], rho: Array | float) -> Contact:
-    """Load and friction of contacts of known coefficients c, shape (b, n), slopes T_0 … T_{n+1}, and place (α, ε)."""
+    """Contacts of known coefficients c, shape (b, n), slopes T_0 … T_{n+1}, and place (α, ε)."""
     alpha, eps = place
-    n = c.shape[1]
+    load, friction = _load_and_friction(c, slope, alpha, rho)
+    return Contact(alpha, eps, c, load, friction, np.ones(alpha.size, dtype=bool))
+
+
+def _load_and_friction(c: Array, slope: Array, alpha: Array, rho: Array | float) -> tuple[Array, Array]:
+    """p̃_m and μ of coefficients c, shape (..., n), and slopes T_0 … T_{n+1}."""
+    n = c.shape[-1]
     # ∫ sqrt(1-s²) U_{v-1} T_i ds = (π/4) [(1 + δ_{v1}) δ_{i,v-1} - δ_{i,v+1}]
-    work = np.einsum("bv,bv->b", c, slope[:, :n] - slope[:, 2 : n + 2]) + c[:, 0] * slope[:, 0]
-    return Contact(
-        alpha=alpha,
-        eps=eps,
-        c=c,
-        pressure=0.25 * alpha * c[:, 0],
-        friction=-0.5 * rho * work / c[:, 0],
-        inside=np.ones(alpha.size, dtype=bool),
-    )
+    first = c[..., 0]
+    work = (c * (slope[..., :n] - slope[..., 2 : n + 2])).sum(axis=-1) / first + slope[..., 0]
+    return 0.25 * alpha * first, -0.5 * rho * work
 
 
 def penetration(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: float) -> Array:

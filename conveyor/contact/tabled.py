@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,7 @@ from numpy.typing import NDArray
 from conveyor.contact.bessel import ProductIK, bessel_j
 from conveyor.contact.creep import Creeps
 from conveyor.contact.energy import friction_by_loss
-from conveyor.contact.moved import BEFORE, LOGS, POINTS, Stencils, log_stencils, logs, moved, stencils, within
+from conveyor.contact.moved import BEFORE, LOGS, POINTS, Stencils, log_places, logs, moved, stencils, within
 from conveyor.contact.short_rule import ShortRule
 from conveyor.contact.spectral import Contact, assemble
 
@@ -36,44 +37,82 @@ _HIGHEST, _LARGEST = (
 )  # order, and entries of a table of waves, beyond which matrices are formed one by one
 
 
+class _Pairs(NamedTuple):
+    """Pairs i ≤ v of equal and of unequal parity, and the factors of equal ones in the loss."""
+
+    of_parity: tuple[tuple[Index, Index], tuple[Index, Index]]
+    lost: Array
+
+
 @lru_cache(maxsize=16)
-def _pairs(n: int) -> tuple[list[tuple[Index, Index]], Index, Array, Array]:
-    """Pairs i ≤ v of equal and of unequal parity; where a matrix finds its entries, and their factors; of the loss."""
+def _pairs(n: int) -> _Pairs:
     v, i = (np.asarray(index, dtype=np.int_) for index in np.nonzero(np.tri(n + 1, dtype=bool)))
     even = (v - i) % 2 == 0
-    pairs: list[tuple[Index, Index]] = [(i[kind], v[kind]) for kind in (even, ~even)]
-    place = np.empty((n + 1, n + 1), dtype=int)
-    low, high = (np.concatenate(side) for side in zip(*pairs, strict=True))
-    place[low, high] = place[high, low] = np.arange(low.size)
+    lost = np.where((v - i) % 4 == 0, 0.25, -0.25) * np.where(i == v, 1.0, 2.0) * (i > 0)
+    return _Pairs(((i[even], v[even]), (i[~even], v[~even])), np.asarray(lost[even], dtype=np.float64))
+
+
+@lru_cache(maxsize=16)
+def _places(n: int, count: int) -> tuple[Index, Array]:
+    """Where `count` matrices of order n find their entries in the products with their tables, and their factors."""
+    even, odd = _pairs(n).of_parity
+    place = np.empty((count, n + 1, n + 1), dtype=int)
+    for (i, v), start in ((even, 0), (odd, count * even[0].size)):
+        place[:, i, v] = place[:, v, i] = start + np.arange(count * i.size).reshape(count, i.size)
     row, column = np.arange(n + 1)[:, None], np.arange(1, n + 1)
     q = row - column
     factor = np.where(row == 0, 1.0, 2.0) * column * np.where((q + q % 2) % 4 == 0, -1.0, 1.0)
-    i, v = pairs[0]
-    lost = np.where((v - i) % 4 == 0, 0.25, -0.25) * np.where(i == v, 1.0, 2.0) * (i > 0)
-    signs, lost = np.asarray(factor.ravel(), dtype=np.float64), np.asarray(lost, dtype=np.float64)
-    return pairs, np.asarray(place[:, 1:].ravel()), signs, lost
+    return np.asarray(place[:, :, 1:].ravel()), np.tile(factor.ravel(), count)
 
 
-@lru_cache(maxsize=64)
-def _waves(n: int, size: int, ratio: float) -> list[Array]:
-    """J_i J_v(r u) on the grid of u for pairs of equal and of unequal parity, and of equal parity over u²."""
-    u = _STEP * (np.arange(size) - BEFORE)
+@lru_cache(maxsize=16)
+def _terms(n: int, ratio: float) -> list[Array]:
+    """I_max K_min(r b) on the grid of b for pairs of each parity, with signs; on the diagonal 1/(2v) - I_v K_v."""
+    products, deficit = ProductIK(n, ratio * logs()[:, None]).weighted(np.ones(1))
+    return [
+        np.where(i == v, deficit[:, v], np.where((v - i - 1) % 4 < 2, 1.0, -1.0) * products[:, i, v])
+        for i, v in _pairs(n).of_parity
+    ]
+
+
+def _grid(size: int) -> Array:
+    """Grid of u."""
+    u = _STEP * (np.arange(float(size)) - BEFORE)
     u[BEFORE] = 1e-150  # for zero: J_1²/u² is ¼ there
-    table = bessel_j(n, np.abs(ratio * u))
-    table[1::2] *= np.sign(u)
-    even, odd = (np.ascontiguousarray((table[i] * table[v]).T) for i, v in _pairs(n)[0])
-    return [even, odd, even / (u * u)[:, None]]
+    return u
 
 
 @lru_cache(maxsize=32)
-def _terms(n: int, ratio: float) -> list[Array]:
-    """I_max K_min(r b) on the grid of b for the same pairs, with signs; on the diagonal 1/(2v) - I_v K_v."""
-    products, deficit = ProductIK(n, ratio * logs()[:, None]).weighted(np.ones(1))
-    signs = [np.where((v - i - 1) % 4 < 2, 1.0, -1.0) for i, v in _pairs(n)[0]]
+def _tables(n: int, size: int, ratios: tuple[float, ...]) -> list[Array]:
+    """Rows I_max K_min(r b) of the grid of b, then J_i J_v(r u) of that of u; ratio by ratio, pairs of each parity."""
+    table = [bessel_j(n, np.abs(ratio * _grid(size))) for ratio in ratios]
+    for one in table:
+        one[1::2] *= np.sign(_grid(size))
     return [
-        np.where(i == v, deficit[:, v], sign * products[:, i, v])
-        for sign, (i, v) in zip(signs, _pairs(n)[0], strict=True)
+        np.block(
+            [
+                [_terms(n, ratio)[parity] for ratio in ratios],
+                [(one[i] * one[v]).T for one in table],
+            ]
+        )
+        for parity, (i, v) in enumerate(_pairs(n).of_parity)
     ]
+
+
+@lru_cache(maxsize=32)
+def _loss_table(n: int, size: int) -> Array:
+    """The same of pairs of equal parity, J_i J_v over u²."""
+    table: Array = _tables(n, size, (1.0,))[0].copy()
+    table[LOGS:] /= (_grid(size) ** 2)[:, None]
+    return table
+
+
+class _Rows(NamedTuple):
+    """Where terms and nodes hand their weights to: stencils, and which rows of the tables these are."""
+
+    at: Stencils
+    chosen: slice
+    size: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,13 +125,13 @@ class Tabled:
         Spectrum of each.
     alpha : ndarray, shape (b,)
         Half widths [-].
-    b : tuple, optional
-        Stencils of their terms; none where one lies beyond the tables.
+    places : ndarray, shape (b, t), optional
+        Of their terms; none where one lies beyond the tables.
     """
 
     creeps: Creeps
     alpha: Array
-    b: Stencils | None
+    places: Array | None
 
     @classmethod
     def of(cls, creeps: Creeps, alpha: Array) -> Tabled:
@@ -100,52 +139,65 @@ class Tabled:
         b = alpha[:, None] / creeps.times
         # friction of memories far longer or shorter than the passage is of this order: the tables lack the digits
         felt = (creeps.weights * np.minimum(b, 1.0 / b)).sum(axis=1)
-        return cls(creeps, alpha, log_stencils(b) if within(b).all() and (felt > _FELT).all() else None)
+        told = (felt > _FELT) | (felt == 0.0)  # without memory there is none
+        places = log_places(b)
+        return cls(creeps, alpha, places if told.all() and within(places).all() else None)
 
-    def __getitem__(self, chosen: Index) -> Tabled:
-        b = None if self.b is None else (self.b[0][chosen], self.b[1][:, chosen])
-        return Tabled(self.creeps[chosen], self.alpha[chosen], b)
+    def __getitem__(self, chosen: Index | slice) -> Tabled:
+        places = None if self.places is None else self.places[chosen]
+        return Tabled(self.creeps[chosen], self.alpha[chosen], places)
 
-    def _stencils(self, rule: ShortRule, n: int) -> tuple[Stencils, int, Stencils] | None:
-        """Of nodes, with the size of the grid of u, and of terms; none where tables do not serve."""
+    def _rows(self, rule: ShortRule, n: int) -> _Rows | None:
+        """Of terms, then nodes; none where tables do not serve."""
+        if self.places is None:
+            return None
         u = (self.alpha / _STEP)[:, None] * rule.nodes
-        size = 32 * int((float(u.max()) + POINTS) / 32.0 + 1.0)
-        served = n <= _HIGHEST and size * n * n <= _LARGEST and float(self.alpha.min()) >= _NARROWEST
-        return (stencils(u), size, self.b) if served and self.b else None
+        size = int(u.max()) + POINTS
+        if n > _HIGHEST or size * n * n > _LARGEST or float(self.alpha.min()) < _NARROWEST:
+            return None
+        first, shares = stencils(np.concatenate([self.places, u], axis=1))
+        terms = self.places.shape[1]
+        low = int(first[:, :terms].min())
+        first[:, :terms] -= low
+        first[:, terms:] += LOGS - low
+        return _Rows((first, shares), slice(low, LOGS + size), 1 << (size - 1).bit_length())
+
+    def _moved(self, rows: _Rows, terms: Array, *nodes: Array) -> list[Array]:
+        """Weights of the terms, with each of some weights of the nodes, on rows of the tables."""
+        both = (np.concatenate([terms, each], axis=1) for each in nodes)
+        return moved(rows.at, rows.chosen.stop - rows.chosen.start, *both)
 
     def matrices(self, rule: ShortRule, n: int, ratios: tuple[float, ...] = (1.0,)) -> Array:
         """`spectral.assemble` of order n at α times each ratio, one contact's after the other, (b · r, n+1, n)."""
-        grids = self._stencils(rule, n)
-        if grids is None:
+        rows = self._rows(rule, n)
+        if rows is None:
             every = np.repeat(np.arange(self.alpha.size), len(ratios))
             alpha = np.multiply.outer(self.alpha, ratios).ravel()
             return assemble(rule[every], self.creeps[every], alpha, n)
-        nodes, size, b = grids
-        _, where, factor, _ = _pairs(n)
-        (terms,) = moved(b, LOGS, self.creeps.weights)
-        weights = moved(nodes, size, rule.weights.real, rule.weights.imag)
-        out = np.empty((self.alpha.size, len(ratios), (n + 1) * n))
-        for k, ratio in enumerate(ratios):
-            tables = zip(weights, _waves(n, size, ratio)[:2], _terms(n, ratio), strict=True)
-            packed = [weight @ wave + terms @ half_space for weight, wave, half_space in tables]
-            np.multiply(np.concatenate(packed, axis=1).take(where, axis=1), factor, out=out[:, k])
+        where, factor = _places(n, len(ratios))
+        weights = self._moved(rows, self.creeps.weights, rule.weights.real, rule.weights.imag)
+        tables = _tables(n, rows.size, ratios)
+        packed = [weight @ table[rows.chosen] for weight, table in zip(weights, tables, strict=True)]
+        out: Array = np.concatenate(packed, axis=1).take(where, axis=1)
+        out *= factor
+        out = out.reshape(self.alpha.size, len(ratios), -1)
         out[..., n :: n + 1] -= self.creeps.instantaneous[:, None, None]
         return out.reshape(-1, n + 1, n)
 
     def friction_by_loss(self, rule: ShortRule, contact: Contact, rho: Array) -> Array:
         """`energy.friction_by_loss` of the contacts, shape (b,)."""
         n = contact.c.shape[1]
-        grids = self._stencils(rule, n)
-        if grids is None:
+        rows = self._rows(rule, n)
+        if rows is None:
             return friction_by_loss(rule, self.creeps, contact, rho)
-        nodes, size, b = grids
-        ((i, v), _), _, _, factor = _pairs(n)
-        (lossy,) = moved(nodes, size, rule.weights.imag * rule.nodes * (self.alpha * self.alpha)[:, None])
-        (terms,) = moved(b, LOGS, self.creeps.weights * self.creeps.times)
-        power = lossy @ _waves(n, size, 1.0)[2] + terms @ _terms(n, 1.0)[0]
+        pairs = _pairs(n)
+        (i, v), _ = pairs.of_parity
+        lossy = rule.weights.imag * rule.nodes * (self.alpha * self.alpha)[:, None]
+        (weights,) = self._moved(rows, self.creeps.weights * self.creeps.times, lossy)
+        power = weights @ _loss_table(n, rows.size)[rows.chosen]
         x = np.zeros((self.alpha.size, n + 1))
         np.multiply(contact.c, np.arange(1.0, n + 1.0), out=x[:, 1:])
         power *= x[:, i]
         power *= x[:, v]
-        friction: Array = 2.0 * rho * (power @ factor) / contact.pressure
+        friction: Array = 2.0 * rho * (power @ pairs.lost) / contact.pressure
         return friction

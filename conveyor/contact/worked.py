@@ -38,6 +38,9 @@ _PHASE: Final = (
     12.0  # radians a panel at most, pressure and place together: 8 Gauss nodes integrate them to 1e-5
 )
 _GAUSS: Final = 8
+_SUNK: Final = 16.0
+"""Wave number times depth from which on a harmonic leaves 2e-6 of what it is at the surface."""
+_LAYERS: Final = 4  # depths whose harmonics are cut at once
 _CHUNK: Final = 16  # contacts at once: few enough for the cache, many enough for the calls
 
 
@@ -156,14 +159,12 @@ def _strains(
         np.array(part)[:, 1:-1] for part in zip(*(one.depths(depths) for one in inside), strict=True)
     )
     z = z / alpha[:, None]
-    difference, shear = [], []
-    losing = np.zeros(0)
+    difference: list[Array] = []
+    shear: list[Array] = []
+    losing = np.empty_like(z)
     for waves, bessel in tables:
         u = waves.u
         q = thickness[:, None] * u
-        D, T = incompressible_shapes(
-            q[:, None, :], z[:, :, None] * u, np.maximum(thickness[:, None] - z, 0.0)[:, :, None] * u
-        )
         m = u / alpha[:, None]
         creep = creeps.compliance(m)
         # p̃̂ and dm/m with it: the sum's 2 Σ is 2 ∫ dm
@@ -172,11 +173,22 @@ def _strains(
         pressure.imag = -(c[:, 1::2] @ bessel[1::2])
         pressure /= m
         strained = (2.0 * waves.weights * waves.window / alpha[:, None]) * pressure * creep
-        difference.append(_turned(D, strained, waves))
-        shear.append(_turned(T, 1j * strained, waves))
-        if losing.size == 0:
+        first = not difference
+        if first:
             square = (waves.weights / alpha[:, None]) * np.abs(pressure) ** 2 * creep.imag
-            losing = ((D * D + T * T) @ (square * m)[:, :, None])[:, :, 0]
+        d, g = np.empty((2, *z.shape, waves.cos.shape[1]))
+        for top in range(0, depths, _LAYERS):
+            part = slice(top, top + _LAYERS)
+            k = int(u.searchsorted(_SUNK / z[:, part].min()))
+            height = np.maximum(thickness[:, None] - z[:, part], 0.0)[:, :, None]
+            D, T = incompressible_shapes(q[:, None, :k], z[:, part, None] * u[:k], height * u[:k])
+            d[:, part] = _turned(D, strained[:, :k], waves, k)
+            g[:, part] = _turned(T, 1j * strained[:, :k], waves, k)
+            if first:
+                losing[:, part] = ((D * D + T * T) @ (square * m)[:, :k, None])[:, :, 0]
+        difference.append(d)
+        shear.append(g)
+        if first:
             lost = square * confined_symbol(q)
             mean = np.exp(np.sum(lost * np.log(m), axis=1) / lost.sum(axis=1))
     scale = np.array([one.scale for one in inside])[:, None, None]
@@ -188,6 +200,6 @@ def _strains(
     return list(zip(strain.tolist(), mean.tolist(), strict=True))
 
 
-def _turned(shape: Array, wave: NDArray[np.complex128], waves: _Waves) -> Array:
-    """Re Σ shape · wave e^{iux}, shape (b, nz, nx)."""
-    return (shape * wave.real[:, None, :]) @ waves.cos - (shape * wave.imag[:, None, :]) @ waves.sin
+def _turned(shape: Array, wave: NDArray[np.complex128], waves: _Waves, k: int) -> Array:
+    """Re Σ shape · wave e^{iux} over the first k wave numbers, shape (b, nz, nx)."""
+    return (shape * wave.real[:, None, :]) @ waves.cos[:k] - (shape * wave.imag[:, None, :]) @ waves.sin[:k]

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
+import sys
 import zipfile
 from contextlib import suppress
-from importlib.metadata import version
+from functools import cache
+from importlib import metadata
 from io import BytesIO
 from typing import Final
 from xml.etree import ElementTree as ET
@@ -29,6 +31,13 @@ _BOM: Final = b"\xef\xbb\xbf"
 _UNIT: Final = re.compile(r" ?\[[^\]]*\]")
 _LARGEST_PROPERTIES: Final = 20_000
 _HEAD: Final = 4_000
+
+
+@cache
+def version(package: str) -> str:
+    """Return the version of an installed package: its own word where it is loaded, else what was installed."""
+    said = getattr(sys.modules.get(package), "__version__", None)
+    return str(said) if said is not None else metadata.version(package)
 
 
 def maker() -> str:

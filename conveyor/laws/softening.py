@@ -23,6 +23,7 @@ from conveyor.rubber import (
     EquivalentLinear,
     PronySeries,
     StrainTask,
+    at_strains,
     equivalent_linear_many,
 )
 from conveyor.rubber.equivalent import Worked
@@ -31,7 +32,8 @@ Array = NDArray[np.float64]
 
 LOAD_EXPONENT = 4.0 / 3.0
 """Of the indentation in the line load, Winkler: good enough to weigh the loads of a strand by what they lose."""
-_STRAIN_RTOL = 5e-3  # of the working strain: sweeps are repeated to a few per cent
+STRAIN_RTOL: Final = 5e-3
+"""Of the working strain: sweeps are repeated to a few per cent [-]."""
 _CONTACT_RTOL = 1e-3
 INSIDE: Final = (12, 32)
 """Depths and points at which the strain inside a cover is taken: strain and frequency to 3e-3 of themselves, measured
@@ -159,9 +161,34 @@ def softened_many(works: Sequence[WorkedCover]) -> list[SoftCover | NoSolutionEr
             worked |= {i: _worked(works[i].contact, *pair) for i, pair in zip(members, strained, strict=True)}
         return [worked[i] if i in worked else NoSolutionError(solved[i].message) for i in asked]
 
-    tasks = [StrainTask(work.contact.rubber, work.factors, work.temperature, work.swept) for work in works]
-    answers = equivalent_linear_many(tasks, strains_of, rtol=_STRAIN_RTOL)
+    answers = equivalent_linear_many(_tasks(works), strains_of, rtol=STRAIN_RTOL)
     return [_cover(work, answer) for work, answer in zip(works, answers, strict=True)]
+
+
+def softened_at(
+    works: Sequence[WorkedCover], worked: Sequence[Worked]
+) -> list[SoftCover | NoSolutionError | RangeError]:
+    """Series of covers at strains that are known; no contact is solved.
+
+    Parameters
+    ----------
+    works : sequence of WorkedCover
+        Covers.
+    worked : sequence of tuple of float
+        Strain amplitude [-] and angular frequency [rad/s] of each.
+
+    Returns
+    -------
+    list
+        In their order the covers, or why there is none.
+    """
+    return [
+        _cover(work, answer) for work, answer in zip(works, at_strains(_tasks(works), worked), strict=True)
+    ]
+
+
+def _tasks(works: Sequence[WorkedCover]) -> list[StrainTask]:
+    return [StrainTask(work.contact.rubber, work.factors, work.temperature, work.swept) for work in works]
 
 
 def _worked(contact: RollContact, strain: float, wave_number: float) -> Worked:

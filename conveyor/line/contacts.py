@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +29,8 @@ from conveyor.line.stretches import Strand
 Array = NDArray[np.float64]
 Spans = Mapping[RollContact, tuple[float, float]]
 """Range of line loads that occur on each contact [N/m]."""
+SolvedCurves: TypeAlias = dict[tuple[RollContact, float, float, float], IndentationCurve | NoSolutionError]
+"""By contact, range of line loads [N/m] and relative tolerance [-]; those used last at the end."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,9 +112,20 @@ class Contacts:
 
     def excited_band(self, strand: Strand) -> tuple[float, float] | None:
         """Frequencies between which every roll of a strand loses nine tenths of its energy [Hz]; None without loss."""
-        lows = [f for curve in self.curves_of(strand) if (f := curve.slowest_excited) is not None]
-        highs = [f for curve in self.curves_of(strand) if (f := curve.fastest_excited) is not None]
-        return (min(lows), max(highs)) if lows and highs else None
+        low, high = self.slowest_excited(strand), self.fastest_excited(strand)
+        return None if low is None or high is None else (low, high)
+
+    def slowest_excited(self, strand: Strand) -> float | None:
+        """Lower end of that band [Hz]."""
+        return min(
+            (f for one in self.curves_of(strand) if (f := one.slowest_excited) is not None), default=None
+        )
+
+    def fastest_excited(self, strand: Strand) -> float | None:
+        """Upper end of it [Hz]."""
+        return max(
+            (f for one in self.curves_of(strand) if (f := one.fastest_excited) is not None), default=None
+        )
 
     def losing_load(self, strand: Strand) -> float:
         """Mean line load of a strand's rolls, weighted by what each loses [N/m]."""
@@ -139,7 +153,7 @@ class Contacts:
     def error(self) -> float:
         """Largest relative error estimate of any roll's indentation [-]."""
         pairs = zip(self.line.kinds, self.curves, strict=True)
-        return max(curve.error + self.covers[kind.strand].merged for kind, curve in pairs)
+        return max(curve.error + self.covers[kind.strand].unsure for kind, curve in pairs)
 
     @property
     def energy_error(self) -> float:
@@ -148,7 +162,10 @@ class Contacts:
 
 
 def solve_contacts(
-    lines: Sequence[Line], covers: Sequence[Covers], rtol: float | None = None
+    lines: Sequence[Line],
+    covers: Sequence[Covers],
+    rtol: float | None = None,
+    known: SolvedCurves | None = None,
 ) -> list[Contacts | NoSolutionError]:
     """Solve the contacts of many lines, or of many rubbers under one, side by side.
 
@@ -160,13 +177,18 @@ def solve_contacts(
         What the rolls of each strand run on, for each scene.
     rtol : float, optional
         Relative tolerance of the contacts [-]; that of each line without it.
+    known : dict, optional
+        Curves of calls before; what is new is added.
 
     Returns
     -------
     list
         In their order the contacts, or why a scene has none.
     """
-    tolerances = [line.rtol if rtol is None else rtol for line in lines]
+    tolerances = [
+        (line.rtol if rtol is None else rtol) - max(cover.unsure for cover in own.values())
+        for line, own in zip(lines, covers, strict=True)
+    ]
     asked = [_contacts(*scene) for scene in zip(lines, covers, tolerances, strict=True)]
     jobs: dict[float, dict[RollContact, tuple[float, float]]] = {}
     for line, contacts, tolerance in zip(lines, asked, tolerances, strict=True):
@@ -174,7 +196,8 @@ def solve_contacts(
         for contact, kind in zip(contacts, line.kinds, strict=True):
             low, high = spans.get(contact, (kind.lowest, kind.highest))
             spans[contact] = min(low, kind.lowest), max(high, kind.highest)
-    solved = {tolerance: _solved(spans, tolerance) for tolerance, spans in jobs.items()}
+    before = {} if known is None else known
+    solved = {tolerance: _solved(spans, tolerance, before) for tolerance, spans in jobs.items()}
     curves = [
         _curves([solved[tolerance][contact] for contact in contacts])
         for contacts, tolerance in zip(asked, tolerances, strict=True)
@@ -189,10 +212,17 @@ def _contacts(line: Line, covers: Covers, rtol: float) -> list[RollContact]:
     return [shared[contact] for contact in contacts]
 
 
-def _solved(spans: Spans, rtol: float) -> dict[RollContact, IndentationCurve | NoSolutionError]:
-    contacts = list(spans)
-    lowest, highest = zip(*spans.values(), strict=True)
-    return dict(zip(contacts, indentation_curves(contacts, lowest, highest, rtol), strict=True))
+def _solved(
+    spans: Spans, rtol: float, known: SolvedCurves
+) -> dict[RollContact, IndentationCurve | NoSolutionError]:
+    """Curves of all contacts: what is known of exactly such, the others solved side by side."""
+    keys = {contact: (contact, *span, rtol) for contact, span in spans.items()}
+    solved = {contact: known.pop(key) for contact, key in keys.items() if key in known}
+    if new := [contact for contact in spans if contact not in solved]:
+        lowest, highest = zip(*(spans[contact] for contact in new), strict=True)
+        solved |= zip(new, indentation_curves(new, lowest, highest, rtol), strict=True)
+    known |= {key: solved[contact] for contact, key in keys.items()}
+    return solved
 
 
 def _curves(

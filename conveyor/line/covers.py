@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Final, Literal, TypeAlias
 
@@ -11,13 +12,22 @@ from numpy.typing import ArrayLike, NDArray
 
 from conveyor.errors import NoSolutionError, RangeError
 from conveyor.indentation import Backing, RollContact, Support, felt
-from conveyor.laws.softening import SoftCover, WorkedCover, WorkingStrain, losing_load, softened_many
+from conveyor.laws.softening import (
+    STRAIN_RTOL,
+    SoftCover,
+    WorkedCover,
+    WorkingStrain,
+    losing_load,
+    softened_at,
+    softened_many,
+)
 from conveyor.line.line import Line
 from conveyor.line.roll_kinds import RollKind
 from conveyor.line.stretches import STRANDS, Strand
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.rubber import PronySeries
 from conveyor.rubber.anchor import Anchor
+from conveyor.rubber.equivalent import Worked
 from conveyor.units import si
 
 Array = NDArray[np.float64]
@@ -42,7 +52,7 @@ class RunningCover:
     `strain` is what the rubber was softened for; None where it is that of the master curve. `level` is the factor that
     the compound's rolling-resistance tests put on its indentation; None where the theory stands alone. `other` is the
     belt's other cover: its thickness [m], and its rubber at small strain. `merged` is what merging terms that the rolls
-    do not tell apart may change of indentation [-].
+    do not tell apart may change of indentation [-], `read` what reading the strain between speeds may.
     """
 
     thickness: float
@@ -52,6 +62,12 @@ class RunningCover:
     strain: WorkingStrain | None = None
     level: Level | None = None
     merged: float = 0.0
+    read: float = 0.0
+
+    @property
+    def unsure(self) -> float:
+        """What of indentation its rubber may miss [-]."""
+        return self.merged + self.read
 
 
 CoverName: TypeAlias = Strand | Literal["top"]
@@ -65,24 +81,24 @@ def compounds_by_strand(conveyor: Conveyor) -> dict[Strand, RubberCompound]:
     return {"carry": conveyor.carry_compound, "return": conveyor.return_compound}
 
 
-def rubbers(conveyor: Conveyor, temperature: float) -> dict[CoverName, PronySeries]:
-    """Series of each strand's rubber and of the top cover's at a temperature [K]; one series a compound.
+def rubbers(
+    conveyor: Conveyor, series: Callable[[RubberCompound], PronySeries]
+) -> dict[CoverName, PronySeries]:
+    """Series of each strand's rubber and of the top cover's; one series a compound.
 
     Raises
     ------
     RangeError
-        A compound is not known there.
+        A compound is not known at the temperature of `series`.
     """
     carry, back = conveyor.carry_compound, conveyor.return_compound
-    series = carry.series(temperature)
-    same = back is carry or back == carry
-    behind = series if same else back.series(temperature)
+    behind = series(carry if back == carry else back)
     own = conveyor.belt.top_cover.compound
     turned = conveyor.route.turned_over and own is not None and conveyor.calculation.support == "belt"
     return {
-        "carry": series,
+        "carry": series(carry),
         "return": behind,
-        "top": own.series(temperature) if turned and own is not None else behind,
+        "top": series(own) if turned and own is not None else behind,
     }
 
 
@@ -116,7 +132,7 @@ class StrandAtWork:
 
     @property
     def scene(self) -> tuple[object, ...]:
-        """What must be equal where two strands work their covers alike, besides the compound and the rolls."""
+        """What must be equal where two strands work their covers exactly alike, besides the compound."""
         line, cover = self.line, self.cover
         return (
             self.strand,
@@ -127,16 +143,7 @@ class StrandAtWork:
             cover.thickness,
             cover.other if line.support == "belt" else None,
             cover.merged,
-        )
-
-    def like(self, other: StrandAtWork) -> bool:
-        """Whether it works the very same compound exactly as another strand of the same scene does."""
-        return self.compound is other.compound and (
-            self.kinds is other.kinds
-            or (
-                len(self.kinds) == len(other.kinds)
-                and all(a.bears_like(b) for a, b in zip(self.kinds, other.kinds, strict=True))
-            )
+            *(kind.bearing for kind in self.kinds),
         )
 
     def worked(self) -> WorkedCover | None:
@@ -172,8 +179,22 @@ def told_apart(work: StrandAtWork, rtol: float) -> tuple[float, float] | None:
     return felt(roll_contact(work.line, lightest, work.cover), lightest.lowest, FELT * rtol)
 
 
+READ_FROM: Final = 5
+"""Speeds from which on the working strain is found at three of them, and read between."""
+READ_SPAN: Final = 2.0
+"""Fastest over slowest of the speeds that a strain is read among: ln strain is a parabola of ln speed to 5e-4 (three
+covers of the shelf, -30 to 40 °C); more nodes gain nothing, the strain found at each speed scatters as much."""
+READ_ERROR: Final = 7e-5
+"""Of indentation, what that changes [-]: with the error of the curves 8e-5 at most, 1e-5 in the median was seen of 550
+scenes against contacts of 1e-7 with a strain of their own (benchmarks/compare_error.py)."""
+READ_RTOL: Final = 1e-4
+"""Finest tolerance of contacts that leaves room for it [-]."""
+
+
 def softened_covers(
-    works: Sequence[StrandAtWork], tests: Sequence[WorkedCover] = ()
+    works: Sequence[StrandAtWork],
+    tests: Sequence[WorkedCover] = (),
+    runs: Sequence[Sequence[StrandAtWork]] = (),
 ) -> tuple[list[RunningCover | NoSolutionError | RangeError], list[SoftCover | NoSolutionError | RangeError]]:
     """The covers at the strain their rolls work them at, where the compounds have sweeps, solved side by side.
 
@@ -183,6 +204,8 @@ def softened_covers(
         Strands.
     tests : sequence of WorkedCover
         Covers of rolling-resistance tests, that go with them.
+    runs : sequence of sequence of StrandAtWork
+        Of `works`, strands that differ in speed and what follows from it alone.
 
     Returns
     -------
@@ -190,18 +213,68 @@ def softened_covers(
         In their order the covers, of strands and of tests; or why there is none: it has no answer at its working
         strain, or the sweeps of its compound do not reach the strain.
     """
-    asked = {i: worked for i, work in enumerate(works) if (worked := work.worked()) is not None}
-    found = softened_many([*tests, *asked.values()])
-    soft = dict(zip(asked, found[len(tests) :], strict=True))
-    return [_running(work.cover, soft.get(i)) for i, work in enumerate(works)], found[: len(tests)]
+    asked = {work: worked for work in works if (worked := work.worked()) is not None}
+    threes = {three: part for run in runs for part in _parts(run) for three in [_three(part)]}
+    between = {work for three, part in threes.items() for work in part if work not in three}
+    found = softened_many([*tests, *(worked for work, worked in asked.items() if work not in between)])
+    soft = dict(zip([work for work in asked if work not in between], found[len(tests) :], strict=True))
+    read: dict[StrandAtWork, Worked] = {}
+    for three, part in threes.items():
+        strains = [one[1] for work in three if isinstance(one := soft.get(work), tuple)]
+        if len(strains) == len(three):
+            read |= _read(three, strains, [work for work in part if work in between])
+    soft |= zip(read, softened_at([asked[work] for work in read], list(read.values())), strict=True)
+    left = [work for work in asked if work not in soft]
+    soft |= zip(left, softened_many([asked[work] for work in left]), strict=True)
+    running = [_running(work.cover, soft.get(work), READ_ERROR if work in read else 0.0) for work in works]
+    return running, found[: len(tests)]
+
+
+def _parts(run: Sequence[StrandAtWork]) -> Iterator[list[StrandAtWork]]:
+    """Strands of speeds that a strain is read among, the slowest first."""
+    left = sorted(dict.fromkeys(run), key=lambda work: work.line.speed)
+    while len(left) >= READ_FROM:
+        part = [work for work in left if work.line.speed <= READ_SPAN * left[0].line.speed]
+        left = left[len(part) :]
+        if len(part) >= READ_FROM:
+            yield part
+
+
+def _three(part: Sequence[StrandAtWork]) -> tuple[StrandAtWork, StrandAtWork, StrandAtWork]:
+    """The slowest, the middle one and the fastest."""
+    slowest, fastest = part[0], part[-1]
+    middle = math.sqrt(slowest.line.speed * fastest.line.speed)
+    return slowest, min(part[1:-1], key=lambda work: abs(math.log(work.line.speed / middle))), fastest
+
+
+def _read(
+    three: Sequence[StrandAtWork], strains: Sequence[WorkingStrain], between: Sequence[StrandAtWork]
+) -> dict[StrandAtWork, Worked]:
+    """Strains and angular frequencies by a parabola in ln speed; none where that may miss more than they are found to.
+
+    What a straight line misses squares with the degree, as of Chebyshev points (contact.sampling).
+    """
+    known = np.log([(one.strain, 2.0 * math.pi * one.frequency) for one in strains])
+    slow, middle, fast = np.log([work.line.speed for work in three])
+    at = np.log([work.line.speed for work in between])[:, None]
+    straight = known[0] + (known[2] - known[0]) * (at - slow) / (fast - slow)
+    bend = known[1] - known[0] - (known[2] - known[0]) * (middle - slow) / (fast - slow)
+    bend = bend * (at - slow) * (at - fast) / ((middle - slow) * (middle - fast))
+    miss, span = np.abs(bend).max(axis=0), np.maximum(np.ptp(known, axis=0), np.finfo(float).tiny)
+    if np.any(np.minimum(miss, 4.0 * miss * miss / span) > STRAIN_RTOL):
+        return {}
+    return {
+        work: (strain, omega)
+        for work, (strain, omega) in zip(between, np.exp(straight + bend).tolist(), strict=True)
+    }
 
 
 def _running(
-    cover: RunningCover, soft: SoftCover | NoSolutionError | RangeError | None
+    cover: RunningCover, soft: SoftCover | NoSolutionError | RangeError | None, read: float
 ) -> RunningCover | NoSolutionError | RangeError:
     if soft is None:
         return cover
-    return replace(cover, rubber=soft[0], strain=soft[1]) if isinstance(soft, tuple) else soft
+    return replace(cover, rubber=soft[0], strain=soft[1], read=read) if isinstance(soft, tuple) else soft
 
 
 def backing(line: Line, cover: RunningCover, tension: float) -> Backing:

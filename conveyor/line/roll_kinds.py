@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,20 +45,11 @@ class RollKind:
     lowest: float
     highest: float
 
-    def bears_like(self, other: RollKind) -> bool:
-        """Whether the rolls work a cover exactly as others do."""
-        return (self.strand, self.radius, self.spacing) == (
-            other.strand,
-            other.radius,
-            other.spacing,
-        ) and all(
-            np.array_equal(mine, theirs)
-            for mine, theirs in (
-                (self.line_loads, other.line_loads),
-                (self.weights, other.weights),
-                (self.sets, other.sets),
-            )
-        )
+    @cached_property
+    def bearing(self) -> tuple[object, ...]:
+        """What must be equal where rolls work a cover exactly alike."""
+        arrays = (self.line_loads, self.weights, self.sets)
+        return self.strand, self.radius, self.spacing, *(one.tobytes() for one in arrays)
 
 
 def roll_kinds(stretches: tuple[Stretch, ...], points: int, first: int) -> tuple[RollKind, ...]:

@@ -142,6 +142,7 @@ class Model(BaseModel):
         allow_inf_nan=False,
         populate_by_name=True,
         validate_default=True,
+        defer_build=True,
     )
 
     def replace(self, **changes: Any) -> Self:
@@ -169,8 +170,13 @@ class Model(BaseModel):
         try:
             return cls.model_validate(data)
         except ValidationError as error:
-            lines = [f"{field_path(item['loc'])}: {message(item, cls)}" for item in real_errors(error)]
-            raise InputError("\n".join(lines)) from None
+            raise cls.refusal(error) from None
+
+    @classmethod
+    def refusal(cls, error: ValidationError) -> InputError:
+        """What a validation found wrong, every refusal on its own line."""
+        lines = [f"{field_path(item['loc'])}: {message(item, cls)}" for item in real_errors(error)]
+        return InputError("\n".join(lines))
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:

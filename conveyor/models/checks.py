@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
+from typing import Final
 
 from conveyor.errors import RangeError
 from conveyor.laws.idlers import rated_set_load
@@ -18,28 +19,6 @@ from conveyor.models.parts import ConveyorParts
 from conveyor.models.route import Feeding
 from conveyor.models.wording import Location
 from conveyor.units import Quantity, display, from_si, si, text
-
-
-def conflicts(conveyor: ConveyorParts) -> list[Problem]:
-    """Return every conflict between the parts, not the first only."""
-    checks = (
-        _rolls_span,
-        _flow_fits,
-        _sets_apart,
-        _classes_exist,
-        _wear_known,
-        _covers_thin,
-        _warm_enough,
-        _feeding_fits,
-        _discharges,
-        _drives_placed,
-        _inertia_reduced,
-        _coefficient_holds,
-        _flexure_applies,
-        _belt_gives,
-        _curves_hold,
-    )
-    return [problem for check in checks for problem in check(conveyor)]
 
 
 def _sets(conveyor: ConveyorParts) -> tuple[tuple[str, IdlerSet], tuple[str, IdlerSet]]:
@@ -305,3 +284,23 @@ def _coefficient_holds(conveyor: ConveyorParts) -> Iterator[Problem]:
             f'got "C", but route.sections are {display(length, "length")} long together and C holds for more than '
             f'{SHORTEST_FOR_FACTOR:g} m; set calculation.secondary to "itemised"',
         )
+
+
+CONFLICTS: Final[Mapping[Callable[[ConveyorParts], Iterator[Problem]], tuple[str, ...]]] = {
+    _rolls_span: ("belt", "idlers"),
+    _flow_fits: ("belt", "idlers", "material"),
+    _sets_apart: ("idlers", "route"),
+    _classes_exist: ("belt", "idlers"),
+    _wear_known: ("belt", "route"),
+    _covers_thin: ("belt", "idlers", "route"),
+    _warm_enough: ("ambient", "belt", "route"),
+    _feeding_fits: ("belt", "route"),
+    _discharges: ("calculation", "route"),
+    _drives_placed: ("drive", "route"),
+    _inertia_reduced: ("drive", "route"),
+    _coefficient_holds: ("calculation", "route"),
+    _flexure_applies: ("calculation", "idlers"),
+    _belt_gives: ("belt", "calculation"),
+    _curves_hold: ("idlers", "route"),
+}
+"""Checks between the parts, and the parts that each of them reads."""

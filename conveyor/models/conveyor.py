@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Annotated, Self
+from collections.abc import Callable, Iterator, Mapping
+from typing import Annotated, Any, Final, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationError, model_validator
 
-from conveyor.models.base import Problem, refuse
+from conveyor.models.base import Model, Problem, refuse
 from conveyor.models.cases import LoadCase, named_once
-from conveyor.models.checks import conflicts, cross_sections
+from conveyor.models.checks import CONFLICTS, cross_sections
 from conveyor.models.parts import ConveyorParts
 from conveyor.models.report import Report
 from conveyor.models.scenarios import Scenario, scenario_problems
@@ -32,8 +32,45 @@ class Conveyor(ConveyorParts):
 
     @model_validator(mode="after")
     def _parts_fit(self) -> Self:
-        refuse("Conveyor", [*conflicts(self), *named_once(self.cases), *self._case_problems()])
+        refuse("Conveyor", [problem for check in CHECKS for problem in check(self)])
         return self
+
+    def with_parts(
+        self, parts: Mapping[str, Model], numbers: Mapping[str, int], fit: set[tuple[object, ...]]
+    ) -> Conveyor:
+        """The conveyor with other parts of the same kinds, each of them checked on its own.
+
+        Parameters
+        ----------
+        parts : mapping of str to Model
+            By the name of their field.
+        numbers : mapping of str to int
+            What tells them from other parts of the field that are compared with the same `fit`, from 1.
+        fit : set
+            Of earlier calls on the same conveyor: checks with the numbers of what they read, which need not be made
+            again. New ones are added.
+
+        Raises
+        ------
+        InputError
+            The parts do not fit each other; every refusal on its own line.
+        """
+        made = Conveyor.model_construct(self.model_fields_set | set(parts), **{**dict(self), **parts})
+        new = {
+            key: check
+            for check, reads in CHECKS.items()
+            if (key := (check, *(numbers.get(name, 0) for name in reads))) not in fit
+        }
+        try:
+            refuse("Conveyor", [problem for check in new.values() for problem in check(made)])
+        except ValidationError as error:
+            raise self.refusal(error) from None
+        fit.update(new)
+        return made
+
+    def _case_names(self) -> Iterator[Problem]:
+        """No two cases have one name."""
+        yield from named_once(self.cases)
 
     def _case_problems(self) -> Iterator[Problem]:
         """Every section that a case or a scenario loads exists, and every drive that a scenario names."""
@@ -48,3 +85,11 @@ class Conveyor(ConveyorParts):
     def cross_sections(self) -> tuple[float, float] | None:
         """Cross-section of the bulk and the largest the belt holds (ISO 5048) [m²]; None where there is no rule."""
         return cross_sections(self)
+
+
+CHECKS: Final[Mapping[Callable[[Any], Iterator[Problem]], tuple[str, ...]]] = {
+    **CONFLICTS,
+    Conveyor._case_names: ("cases",),  # noqa: SLF001 of this module
+    Conveyor._case_problems: ("cases", "drive", "route", "scenarios"),  # noqa: SLF001
+}
+"""All that fields do not say of themselves, and the fields that each check reads."""

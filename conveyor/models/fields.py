@@ -5,13 +5,15 @@ from __future__ import annotations
 import difflib
 import re
 from collections.abc import Callable, Mapping
-from functools import partial
+from functools import lru_cache, partial
+from itertools import count
 from typing import Any, Final, TypeAlias
 
 from conveyor.errors import InputError
 from conveyor.models.base import Model
 from conveyor.models.compound import RubberCompound
 from conveyor.models.conveyor import Conveyor
+from conveyor.units import is_quantity
 
 Resolve: TypeAlias = Callable[[str], RubberCompound]
 """A compound by its name or path."""
@@ -19,12 +21,36 @@ _PART: Final = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
 _WHOLE: Final = re.compile(r"[^.\[\]]+(?:\.[^.\[\]]+|\[\d+\])*")
 
 
+class KnownParts:
+    """Parts of one conveyor's variants, each made and checked once; which of them are known to fit each other."""
+
+    MOST: Final = 2048
+    """Parts kept, and combinations of them 32 times as many."""
+
+    def __init__(self) -> None:
+        self._made: dict[object, tuple[int, Any]] = {}
+        self._numbers = count(1)
+        self.fit: set[tuple[object, ...]] = set()
+        """Of `Conveyor.with_parts`."""
+
+    @property
+    def full(self) -> bool:
+        """Whether it has become much."""
+        return len(self._made) > self.MOST or len(self.fit) > 32 * self.MOST
+
+    def once(self, change: object, make: Callable[[], Any]) -> tuple[int, Any]:
+        """Number and part of a change, made where it is new."""
+        if change not in self._made:
+            self._made.setdefault(change, (next(self._numbers), make()))
+        return self._made[change]
+
+
 def with_fields(
     conveyor: Conveyor,
     changes: Mapping[str, Any],
     *,
     resolve: Resolve | None = None,
-    known: dict[object, Any] | None = None,
+    known: KnownParts | None = None,
 ) -> Conveyor:
     """The conveyor with some fields changed, checked like a new spec.
 
@@ -37,9 +63,9 @@ def with_fields(
         brackets, or by their `name` (`route.sections.incline.lift`).
     resolve : callable, optional
         Looks compounds up that are given by name or path.
-    known : dict, optional
+    known : KnownParts, optional
         Parts that were made of the same changes, kept from call to call with one conveyor: what two variants share is
-        then the very same object.
+        then the very same object, and what was checked is not checked again.
 
     Raises
     ------
@@ -56,11 +82,15 @@ def with_fields(
     tree: dict[str, Any] = {}
     for path, value in changes.items():
         _plant(tree, path, value)
-    made = {
-        name: _part(getattr(conveyor, name), below, name, resolve, known if known is not None else {})
-        for name, below in _named(conveyor, tree, "")
-    }
-    return _replaced(conveyor, made, "") if made else conveyor
+    known, made, numbers, alike = known or KnownParts(), {}, {}, True
+    for name, below in _named(conveyor, tree, ""):
+        old = getattr(conveyor, name)
+        make = partial(_changed, old, below, name, resolve)
+        numbers[name], made[name] = known.once((name, _frozen(below)), make)
+        alike = alike and isinstance(old, Model) and type(made[name]) is type(old)
+    if not made:
+        return conveyor
+    return conveyor.with_parts(made, numbers, known.fit) if alike else _replaced(conveyor, made, "")
 
 
 def field(conveyor: Conveyor, path: str) -> Any:
@@ -105,10 +135,11 @@ def check_path(path: str) -> None:
     _parts(path)
 
 
-def _parts(path: str) -> list[str]:
+@lru_cache(maxsize=1024)
+def _parts(path: str) -> tuple[str, ...]:
     if _WHOLE.fullmatch(path) is None:
         raise InputError(f'{path}: no path of a field; expected names joined by points, as in "belt.speed"')
-    return [name or number for name, number in _PART.findall(path)]
+    return tuple(name or number for name, number in _PART.findall(path))
 
 
 def _plant(tree: dict[str, Any], path: str, value: Any) -> None:
@@ -121,14 +152,6 @@ def _plant(tree: dict[str, Any], path: str, value: Any) -> None:
     if last in tree:
         raise InputError(f"{path}: changed twice, or a field below it is; give one of both")
     tree[last] = _Leaf(value)
-
-
-def _part(old: Any, below: Any, path: str, resolve: Resolve | None, known: dict[object, Any]) -> Any:
-    """A part with what is below it changed; the very one that the same changes made before."""
-    key = (path, _frozen(below))
-    if key not in known:
-        known[key] = _changed(old, below, path, resolve)
-    return known[key]
 
 
 def _changed(old: Any, below: Any, path: str, resolve: Resolve | None) -> Any:
@@ -155,13 +178,19 @@ def _changed(old: Any, below: Any, path: str, resolve: Resolve | None) -> Any:
 
 def _named(old: Model, below: Mapping[str, Any], path: str) -> list[tuple[str, Any]]:
     """Names of the fields in Python, and what is below them."""
-    aliases = {info.alias or name: name for name, info in type(old).model_fields.items()}
+    aliases = _aliases(type(old))
     for key in below:
         if key not in aliases:
             near = difflib.get_close_matches(key, aliases, n=1)
             guess = f"did you mean {near[0]}?" if near else f"there are {', '.join(aliases)}"
             raise InputError(f"{path + '.' if path else ''}{key}: no such field; {guess}")
     return [(aliases[key], lower) for key, lower in below.items()]
+
+
+@lru_cache(maxsize=128)
+def _aliases(model: type[Model]) -> dict[str, str]:
+    """Names of a model's fields in Python by those that specs use."""
+    return {info.alias or name: name for name, info in model.model_fields.items()}
 
 
 def _item(items: tuple[Any, ...], part: str, path: str) -> int:
@@ -190,5 +219,7 @@ def _plain(below: Any) -> Any:
 def _frozen(below: Any) -> object:
     """What tells changes apart."""
     if isinstance(below, _Leaf):
-        return type(below.value).__name__, repr(below.value)
+        value = below.value
+        told = (value.magnitude, value.units) if is_quantity(value) else repr(value)
+        return type(value).__name__, told
     return tuple(sorted((key, _frozen(lower)) for key, lower in below.items()))

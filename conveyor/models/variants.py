@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -10,6 +10,7 @@ from conveyor.errors import ConveyorError, InputError, RangeError
 from conveyor.models.cases import LoadCase
 from conveyor.models.compound import RubberCompound
 from conveyor.models.conveyor import Conveyor
+from conveyor.models.fields import KnownParts, with_fields
 from conveyor.models.route import Route, Section
 from conveyor.models.runs import MeasuredRun
 from conveyor.units import Quantity, from_si, si
@@ -121,14 +122,20 @@ def with_temperature(conveyor: Conveyor, temperature: Quantity) -> Conveyor:
     InputError
         A compound is not known there.
     """
+    warmth = _warmth(conveyor, temperature)
+    return conveyor.replace(ambient=conveyor.ambient.replace(**warmth)) if warmth else conveyor
+
+
+def _warmth(conveyor: Conveyor, temperature: Quantity) -> dict[str, Quantity]:
+    """Fields of the air and the covers that change where the covers are at a temperature."""
     ambient = conveyor.ambient
     change = si(temperature) - si(ambient.belt)
     if change == 0.0:
-        return conveyor
+        return {}
     if ambient.belt_temperature is None:
-        return conveyor.replace(ambient=ambient.replace(temperature=temperature))
+        return {"temperature": temperature}
     air = from_si(float(f"{si(ambient.temperature) + change:.9g}"), "temperature", "K")
-    return conveyor.replace(ambient=ambient.replace(temperature=air, belt_temperature=temperature))
+    return {"temperature": air, "belt_temperature": temperature}
 
 
 def distinct(values: Iterable[Quantity]) -> list[Quantity]:
@@ -155,18 +162,29 @@ def crossed_settings(
 
     Otherwise nothing but the rubber changes with the temperature, and the conveyors of one speed are one.
     """
-    given = tuple(temperatures)
+    air = conveyor.idlers.drag_follows_air
+    given = [(si(at), _fields("ambient", _warmth(conveyor, at)) if air else {}) for at in temperatures]
+    known = KnownParts()
     for speed in speeds:
-        running: Conveyor | ConveyorError
-        try:
-            running = conveyor.replace(belt=conveyor.belt.replace(speed=speed))
-        except InputError as error:
-            running = error
-        for temperature in given:
-            if conveyor.idlers.drag_follows_air:
-                yield _setting(running, temperature, speed)
-            else:
-                yield Setting(si(temperature), si(speed), running)
+        running = _with_fields_or_why(conveyor, {"belt.speed": speed}, known)
+        for temperature, warmth in given:
+            made = running
+            if warmth and isinstance(running, Conveyor):
+                made = _with_fields_or_why(conveyor, {"belt.speed": speed, **warmth}, known)
+            yield Setting(temperature, si(speed), made)
+
+
+def _fields(part: str, changes: Mapping[str, Quantity]) -> dict[str, Quantity]:
+    return {f"{part}.{name}": value for name, value in changes.items()}
+
+
+def _with_fields_or_why(
+    conveyor: Conveyor, changes: Mapping[str, Quantity], known: KnownParts
+) -> Conveyor | InputError:
+    try:
+        return with_fields(conveyor, changes, known=known)
+    except InputError as error:
+        return error
 
 
 def _setting(loaded: Conveyor | ConveyorError, temperature: Quantity, speed: Quantity) -> Setting:

@@ -6,13 +6,13 @@ import math
 from collections import Counter
 from collections.abc import Mapping
 from datetime import date
-from importlib.metadata import version
 from typing import Any, Final
 
 from openpyxl.styles import Alignment, Border, Font, PatternFill, Side
 from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
+from conveyor.files.marks import version
 from conveyor.report import charts
 from conveyor.report.cells import (
     ACCENT,

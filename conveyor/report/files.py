@@ -5,15 +5,16 @@ from __future__ import annotations
 from importlib.util import find_spec
 from io import BytesIO
 from pathlib import Path
-from typing import Final, Literal
-
-import pandas as pd
+from typing import TYPE_CHECKING, Final, Literal
 
 from conveyor.errors import InputError
 from conveyor.files import marks
 from conveyor.files.saving import save
 from conveyor.printable import printable
 from conveyor.report.columns import Contents
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 FileKind = Literal["csv", "parquet"]
 _KINDS: Final = ("csv", "parquet")
@@ -71,9 +72,12 @@ def csv(frame: pd.DataFrame) -> bytes:
 
     Examples
     --------
+    >>> import pandas as pd
     >>> csv(pd.DataFrame({"name": ["=1+1", "mine"], "power [kW]": [1.5, -2.0]})).decode("utf-8-sig")
     "name,power [kW]\r\n'=1+1,1.5\r\nmine,-2.0\r\n"
     """
+    import pandas as pd
+
     safe = pd.DataFrame(
         {plain(str(name)): [plain(value) for value in frame[name].tolist()] for name in frame.columns},
         dtype=object,

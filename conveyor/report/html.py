@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from datetime import date
-from importlib.metadata import version
 from pathlib import Path
 from typing import Final
 
 from conveyor.errors import InputError
+from conveyor.files.marks import version
 from conveyor.files.saving import save, writable
 from conveyor.markup import Html, element, joined
 from conveyor.report.columns import HEADINGS, Contents, Drawing, Table, ordered

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from datetime import date
-from importlib.metadata import version
 from itertools import pairwise
 
 from openpyxl.styles import Alignment
@@ -12,6 +11,7 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.pagebreak import Break
 from openpyxl.worksheet.worksheet import Worksheet
 
+from conveyor.files.marks import version
 from conveyor.report import charts
 from conveyor.report.cells import GREY, HEADING, TITLE, VERDICTS, lines_of, put
 from conveyor.report.columns import FAILS, HEADINGS, ordered

@@ -12,13 +12,13 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict, replace
 from datetime import date
 from functools import partial
-from importlib.metadata import version
 from itertools import accumulate, chain
 from typing import Any, Final, NamedTuple, TypeVar
 
 import numpy as np
 
 from conveyor.checks import Check, checks, deciding, leading, reach
+from conveyor.files.marks import version
 from conveyor.laws.drives import next_preferred
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.line.belts import BeltContacts
@@ -53,7 +53,7 @@ from conveyor.report.columns import (
     noted,
     slug,
 )
-from conveyor.report.inputs import gathered
+from conveyor.report.inputs import Row, gathered
 from conveyor.report.inputs import inputs as entered
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.study_tables import of_studies, plain_take_up, take_up_of
@@ -123,6 +123,8 @@ def of_analysis(
 ) -> Contents:
     """Every table of an analysis and of its studies, in the system of its conveyor's report."""
     system = analysis.conveyor.report.units
+    about = document(analysis.conveyor, "Belt conveyor calculation", system)
+    entries, every_roll = entered(analysis.conveyor), rolls(analysis)
     every = _every_check(analysis, studies, further)
     governing = deciding(every)
     studied, drawn = of_studies(studies, system)
@@ -132,17 +134,17 @@ def of_analysis(
         identity(analysis.conveyor, system),
         governing_figures(analysis, studies, governing, asks, left_open),
         results(analysis, left_open),
-        *given(analysis.conveyor, system),
+        *given(entries, system),
         defaults(left_open, system),
-        inputs(analysis.conveyor),
+        inputs(entries),
         sections(analysis),
         resistances(analysis),
         classical(analysis),
         cema(analysis),
         breakdown(analysis),
-        distinct_rolls(analysis),
+        distinct_rolls(analysis, every_roll),
         idler_sets(analysis, studies),
-        rolls(analysis),
+        every_roll,
         section_ends(analysis),
         tensions(analysis),
         tension_states(analysis),
@@ -175,9 +177,8 @@ def of_analysis(
         *case_checks(every, system),
         checked(governing, system),
         remarks(analysis, governing, system, () if further is None else further.assumptions),
-        provenance(fingerprint(analysis.conveyor)),
+        provenance(about.fingerprint),
     )
-    about = document(analysis.conveyor, "Belt conveyor calculation", system)
     shown = () if further is None else further.drawings
     return Contents(
         about, parts, system, (*drawings(analysis, system, studies), *drawn, *shown), PARTS, "conveyor"
@@ -322,7 +323,7 @@ def _left_open(power: PowerRange, system: System) -> str:
     return " ".join((said, *(f"Not included: {note}." for note in power.notes)))
 
 
-def inputs(conveyor: Conveyor) -> Table:
+def inputs(entries: tuple[Row, ...]) -> Table:
     """Every field: as entered, in SI, and whether the spec, a library or a default gave it."""
     columns = (
         Column("field", "text", "0"),
@@ -333,16 +334,15 @@ def inputs(conveyor: Conveyor) -> Table:
     )
     caption = "Every field: as entered, in SI, and whether the spec, a library or a default gave it"
     page, heading = (OnPage("inputs", caption, printed=False),), "Inputs as entered and in SI"
-    return Table("inputs", "Inputs", heading, columns, entered(conveyor), page, printed=False)
+    return Table("inputs", "Inputs", heading, columns, entries, page, printed=False)
 
 
-def given(conveyor: Conveyor, system: System) -> Iterator[Table]:
+def given(entries: tuple[Row, ...], system: System) -> Iterator[Table]:
     """Inputs as they are read: what was given, one row a part, then what was left to defaults."""
     columns = (Column("part", "text", "0"), Column("values", "text", "1"))
-    rows = entered(conveyor)
     for key, heading, chosen in (
-        ("inputs_given", "Inputs given", [row for row in rows if row[-1] != "default"]),
-        ("inputs_default", "Inputs left to defaults", [row for row in rows if row[-1] == "default"]),
+        ("inputs_given", "Inputs given", [row for row in entries if row[-1] != "default"]),
+        ("inputs_default", "Inputs left to defaults", [row for row in entries if row[-1] == "default"]),
     ):
         shown = gathered(chosen, system, alike=key == "inputs_default")
         yield Table(key, "Given", heading, columns, shown, "inputs")
@@ -514,13 +514,17 @@ def rolls(a: CalculatedConveyor) -> Table:
     return Table("rolls", "Rolls", heading, columns, rows, printed=False)
 
 
-def distinct_rolls(a: CalculatedConveyor) -> Table:
+def distinct_rolls(a: CalculatedConveyor, every: Table) -> Table:
     """Rolls that read alike once, with the sections they stand in."""
-    every, by_look = rolls(a), dict[tuple[str, ...], list[Any]]()
+    by_look, looks = dict[tuple[str, ...], list[Any]](), dict[tuple[Any, ...], tuple[str, ...]]()
     shown = tuple(column for column in every.columns if column.page is not None)
     for row in every.rows:
-        look = tuple(unit(column.kind).short(column.get(row)) for column in shown[1:])
-        by_look.setdefault(look, []).append(row)
+        values = tuple(column.get(row) for column in shown[1:])
+        if values not in looks:
+            looks[values] = tuple(
+                unit(column.kind).short(value) for column, value in zip(shown[1:], values, strict=True)
+            )
+        by_look.setdefault(looks[values], []).append(row)
     columns = (
         Column("sections", "text", lambda rows: _in_words([row[0].stretch.section for row in rows])),
         *(column.of("0") for column in shown[1:]),

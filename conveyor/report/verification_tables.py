@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from importlib.metadata import version
 from typing import TYPE_CHECKING, Any, Final
 
+from conveyor.files.marks import version
 from conveyor.models import Report
 from conveyor.report.columns import Column, Contents, OnPage, ReportHead, Table, noted
 from conveyor.units import System

@@ -6,6 +6,7 @@ from conveyor.rubber.band import ReplicaBand, bootstrap
 from conveyor.rubber.equivalent import (
     EquivalentLinear,
     StrainTask,
+    at_strains,
     equivalent_linear,
     equivalent_linear_many,
     softened,
@@ -45,6 +46,7 @@ __all__ = [
     "StrainSweep",
     "StrainTask",
     "Superposition",
+    "at_strains",
     "bootstrap",
     "compare_shift_laws",
     "creeps",

@@ -275,6 +275,30 @@ def equivalent_linear_many(
     return [answers[i] for i in range(len(tasks))]
 
 
+def at_strains(
+    tasks: Sequence[StrainTask], worked: Sequence[Worked]
+) -> list[EquivalentLinear | NoSolutionError | RangeError]:
+    """Series at strains that are known.
+
+    Parameters
+    ----------
+    tasks : sequence of StrainTask
+        Series.
+    worked : sequence of tuple of float
+        Strain amplitude [-] and angular frequency [rad/s] of each.
+
+    Returns
+    -------
+    list
+        In their order the answers, or why there is none.
+    """
+    answers: _Answers = {}
+    paths = {i: _Path(*one) for i, one in enumerate(worked)}
+    for i, (series, (stiff, lossy)) in _series(tasks, paths, answers).items():
+        answers[i] = EquivalentLinear(series, *worked[i], stiff, lossy, 0)
+    return [answers[i] for i in range(len(tasks))]
+
+
 _Answers: TypeAlias = dict[int, EquivalentLinear | NoSolutionError | RangeError]
 
 

@@ -20,7 +20,7 @@ from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.operation import BeltSpeed
 from conveyor.models.variants import CoverChoice, distinct, with_compound
-from conveyor.pipeline import Progress
+from conveyor.pipeline import Kept, Progress
 from conveyor.studies.comparison_scenes import ComparedScene, Coverage, Refusal, of_compound, strands_of
 from conveyor.studies.duty import CalculatedYear, analyse_duty
 from conveyor.units import Quantity, quantity
@@ -156,11 +156,11 @@ def compare_compounds(
     runs = [conveyor.belt.speed] if speeds is None else _quantities(speeds, "speed")
     costs = {_named(name, chosen): cost for name, cost in (extra_costs or {}).items()}
     reference = chosen[0].name if base is None else _named(base, chosen)
-    studies = []
+    studies, kept = [], Kept()
     for done, compound in enumerate(chosen):
         if progress is not None:
             progress(done, len(chosen))
-        studies.append(of_compound(conveyor, compound, at, runs, cover=cover, rtol=rtol))
+        studies.append(of_compound(conveyor, compound, at, runs, cover=cover, rtol=rtol, kept=kept))
     if progress is not None:
         progress(len(chosen), len(chosen))
     return CalculatedComparison(

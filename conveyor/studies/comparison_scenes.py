@@ -20,7 +20,7 @@ from conveyor.line.contacts import RollResult
 from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import CoverChoice, crossed_settings, with_compound
-from conveyor.pipeline import CalculatedConveyor, Variant, calculate_many
+from conveyor.pipeline import CalculatedConveyor, Kept, Variant, calculate_many
 from conveyor.units import Quantity
 
 _BAND_RTOL = 1e-3  # of the contacts that the band is formed from: a tenth of the narrowest band
@@ -124,6 +124,7 @@ def of_compound(
     *,
     cover: CoverChoice,
     rtol: float,
+    kept: Kept | None = None,
 ) -> CompoundStudy:
     """Calculate every temperature and speed of one compound.
 
@@ -139,6 +140,8 @@ def of_compound(
         Which cover changes.
     rtol : float
         Relative tolerance of the contacts [-].
+    kept : Kept, optional
+        What the compounds before have in common with this one: lines, and the rolls under a cover that stays.
 
     Raises
     ------
@@ -149,7 +152,11 @@ def of_compound(
     strands = strands_of(changed, cover)
     settings = list(crossed_settings(changed, temperatures, speeds))
     going = [(s, s.conveyor) for s in settings if isinstance(s.conveyor, Conveyor)]
-    answers = iter(calculate_many([Variant(c, s.temperature) for s, c in going], rtol))
+    runs: dict[float, list[int]] = {}
+    for i, (setting, _) in enumerate(going):
+        runs.setdefault(setting.temperature, []).append(i)
+    variants = [Variant(c, s.temperature) for s, c in going]
+    answers = iter(calculate_many(variants, rtol, kept=kept, runs=runs.values()))
     solved: list[CalculatedConveyor] = []
     refused = []
     for setting in settings:
@@ -200,7 +207,7 @@ def _scene(
         motor=power.motor,
         motor_low=low,
         motor_high=high,
-        largest_tension=balance.tensions.largest,
+        largest_tension=balance.settled.largest,
         energy_per_tonne_km=power.energy_per_tonne_km,
         energy_per_year=None if year is None else year.energy,
         cost_per_year=None if year is None else year.cost,
@@ -269,8 +276,8 @@ def _coverage(
         min(results, key=lambda one: one.line.speed),
         max(results, key=lambda one: one.line.speed),
     )
-    lows = [band[0] for strand in strands if (band := slowest.contacts.excited_band(strand)) is not None]
-    highs = [band[1] for strand in strands if (band := fastest.contacts.excited_band(strand)) is not None]
+    lows = [f for strand in strands if (f := slowest.contacts.slowest_excited(strand)) is not None]
+    highs = [f for strand in strands if (f := fastest.contacts.fastest_excited(strand)) is not None]
     if not lows or not highs:
         return None
     return Coverage(compound.name, temperature, (min(lows), max(highs)), compound.frequencies(temperature))

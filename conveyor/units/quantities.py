@@ -95,7 +95,7 @@ def _sized(value: Quantity, kind: str | None, unit: str | None = None) -> Quanti
 @cache
 def _sizes(kind: str, unit: str) -> tuple[float, float]:
     """Smallest and largest size of a kind as numbers of a unit; a scale with an offset counts its own degrees."""
-    scale = _si_scale(UNITS[unit])
+    scale = _si_scale(UNITS[unit]._units)  # noqa: SLF001 as `si` asks
     one = 1.0 if scale is None or scale[2] else scale[0] / scale[1]
     return MAGNITUDES[kind][0] / one, MAGNITUDES[kind][1] / one
 

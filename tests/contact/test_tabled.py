@@ -40,10 +40,10 @@ def test_moved_weights_sum_a_smooth_function_as_before():
 
 def test_moved_logarithms_keep_relative_precision_of_what_falls():
     b = np.geomspace(1e-12, 1e13, 200)[:, None]
-    assert moved.within(b).all()
-    (grid,) = moved.moved(moved.log_stencils(b), moved.LOGS, np.ones_like(b))
+    assert moved.within(moved.log_places(b)).all()
+    (grid,) = moved.moved(moved.stencils(moved.log_places(b)), moved.LOGS, np.ones_like(b))
     np.testing.assert_allclose(grid @ (1.0 / (1.0 + moved.logs())), 1.0 / (1.0 + b[:, 0]), rtol=1e-7)
-    assert not moved.within(np.array([[1.0, 1e-20]])).any()
+    assert not moved.within(moved.log_places(np.array([[1.0, 1e-20]]))).any()
 
 
 @pytest.mark.parametrize("order", [10, 32, 64])

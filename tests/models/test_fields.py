@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -9,7 +10,9 @@ import pytest
 import conveyor
 from conveyor import shelf
 from conveyor.errors import InputError
-from conveyor.models.fields import field, with_fields
+from conveyor.models import Conveyor
+from conveyor.models.conveyor import CHECKS
+from conveyor.models.fields import KnownParts, field, with_fields
 from conveyor.units import si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -55,7 +58,7 @@ def test_a_compound_is_looked_up_by_name(line):
 
 
 def test_what_two_variants_share_is_the_very_same(line):
-    known = {}
+    known = KnownParts()
     slow, fast = (
         with_fields(line, {"belt.speed": speed, "idlers.carry.spacing": "1 m"}, known=known)
         for speed in ("5 m/s", "6 m/s")
@@ -81,3 +84,44 @@ def test_what_two_variants_share_is_the_very_same(line):
 def test_what_leads_nowhere_is_refused_with_its_path(line, changes, said):
     with pytest.raises(InputError, match=said):
         with_fields(line, changes)
+
+
+def test_parts_that_are_known_are_checked_against_each_other_all_the_same(line):
+    def made(changes, **known):
+        try:
+            return with_fields(line, changes, **known).as_data()
+        except InputError as error:
+            return str(error)
+
+    known = KnownParts()
+    fields = {
+        "belt.speed": ("5.5 m/s", "3 m/s", "5 kg"),
+        "material.flow": ("2000 t/h", "6000 t/h"),
+        "idlers.carry.roll.length": ("300 mm", "530 mm"),
+        "route.feeding.speed": ("2 m/s", "4 m/s"),
+    }
+    points = [dict(zip(fields, values, strict=True)) for values in product(*fields.values())]
+    found = [made(point, known=known) for point in points]
+    assert found == [made(point) for point in points]
+    assert {type(one) for one in found} == {dict, str}
+    assert found == [made(point, known=known) for point in points]
+
+
+class _Only:
+    """Some fields of a conveyor, and what follows from them."""
+
+    def __init__(self, conveyor, names):
+        self._conveyor, self._names = conveyor, names
+
+    def __getattr__(self, name):
+        if name in Conveyor.model_fields:
+            assert name in self._names, f"reads {name}, too"
+            return getattr(self._conveyor, name)
+        return getattr(Conveyor, name).fget(self)
+
+
+@pytest.mark.parametrize("spec", sorted(SPECS.glob("*.yaml")), ids=lambda path: path.stem)
+def test_a_check_reads_the_fields_that_it_names(spec):
+    given = conveyor.load(spec)
+    for check, reads in CHECKS.items():
+        assert list(check(_Only(given, reads))) == []

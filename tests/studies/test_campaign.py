@@ -51,10 +51,10 @@ def answered(study, path, **options):
 
 
 def same(found, expected):
-    """The same points in the same order; answers as other batches round them."""
+    """The same points in the same order; answers, kept to ten digits, as other batches round them."""
     assert [(number, values) for number, values, _ in found] == [(n, v) for n, v, _ in expected]
     for (*_, one), (*_, other) in zip(found, expected, strict=True):
-        assert one == pytest.approx(other, rel=1e-12)
+        assert one == pytest.approx(other, rel=1.1e-9)
 
 
 def test_points_are_every_value_with_every_other_and_the_last_changes_fastest():

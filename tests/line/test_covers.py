@@ -1,0 +1,93 @@
+"""Working strains read among three speeds, and what compounds compared on one conveyor share."""
+
+from __future__ import annotations
+
+import pytest
+
+from conveyor import shelf
+from conveyor.laws import softening
+from conveyor.laws.softening import STRAIN_RTOL
+from conveyor.line import covers
+from conveyor.models.variants import crossed_settings, with_compound
+from conveyor.pipeline import CalculatedConveyor, Kept, Variant, calculate_many
+from conveyor.spec import load
+from conveyor.units import quantity
+
+SPEEDS = ("4.5 m/s", "5 m/s", "5.6 m/s", "6.3 m/s", "7.2 m/s")
+
+
+@pytest.fixture(scope="module")
+def line():
+    given = load("examples/specs/overland.yaml")
+    return given.replace(
+        calculation=given.calculation.replace(anchor="off")
+    )  # tests have covers of their own
+
+
+@pytest.fixture
+def solved(monkeypatch):
+    """How many covers are solved at their own strain, call by call."""
+    counts = []
+
+    def counted(works):
+        counts.append(len(works))
+        return softening.softened_many(works)
+
+    monkeypatch.setattr(covers, "softened_many", counted)
+    return counts
+
+
+def calculated(line, speeds, *, runs=(), kept=None):
+    at = [quantity("0 degC", "temperature")]
+    settings = crossed_settings(line, at, [quantity(speed, "speed") for speed in speeds])
+    answers = calculate_many(
+        [Variant(one.conveyor, one.temperature) for one in settings], 1e-4, runs=runs, kept=kept
+    )
+    assert all(isinstance(one, CalculatedConveyor) for one in answers)
+    return answers
+
+
+def strains(results, strand):
+    return [one.contacts.covers[strand].strain for one in results]
+
+
+def test_strains_between_three_speeds_are_those_found_at_each(line, solved):
+    alone = calculated(line, SPEEDS)
+    assert sum(solved) == 2 * len(SPEEDS)  # two strands
+    solved.clear()
+    read = calculated(line, SPEEDS, runs=[range(len(SPEEDS))])
+    assert sum(solved) == 2 * 3
+    for strand in ("carry", "return"):
+        for one, other in zip(strains(read, strand), strains(alone, strand), strict=True):
+            assert one.strain == pytest.approx(other.strain, rel=STRAIN_RTOL)
+            assert one.frequency == pytest.approx(other.frequency, rel=STRAIN_RTOL)
+            assert one.line_load == other.line_load
+    for one, other in zip(read, alone, strict=True):  # indentation goes as a small power of the strain
+        assert one.balance.forces.indentation == pytest.approx(other.balance.forces.indentation, rel=1e-3)
+
+
+def test_few_speeds_and_speeds_far_apart_have_each_their_own_strain(line, solved):
+    calculated(line, SPEEDS[:4], runs=[range(4)])
+    assert sum(solved) == 2 * 4
+    solved.clear()
+    calculated(line, ("4.5 m/s", "5 m/s", "6 m/s", "9.1 m/s", "9.5 m/s"), runs=[range(5)])
+    assert sum(solved) == 2 * 5
+
+
+def test_a_strain_that_bends_too_much_is_found_at_each_speed(line, solved, monkeypatch):
+    monkeypatch.setattr(covers, "STRAIN_RTOL", 1e-9)  # of what a parabola may miss
+    calculated(line, SPEEDS, runs=[range(len(SPEEDS))])
+    assert sum(solved) == 2 * len(SPEEDS)
+
+
+def test_compounds_of_the_bottom_cover_share_the_line_and_the_return_rolls(line):
+    kept = Kept()
+    one, other = (
+        calculated(with_compound(line, shelf.compound(name), "bottom"), SPEEDS[:1], kept=kept)[0]
+        for name in ("standard-cover", "low-rolling-resistance-cover")
+    )
+    assert one.line is other.line
+    assert one.contacts.covers["return"] is other.contacts.covers["return"]
+    assert set(one.contacts.curves_of("return")) == set(other.contacts.curves_of("return"))
+    assert not set(one.contacts.curves_of("carry")) & set(other.contacts.curves_of("carry"))
+    assert one.contacts.covers["carry"].rubber is not other.contacts.covers["carry"].rubber
