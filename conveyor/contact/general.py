@@ -59,7 +59,7 @@ class _Start(NamedTuple):
     failures: int
 
 
-class Sight(NamedTuple):
+class FirstSight(NamedTuple):
     """A coarse grid under a load: the contact there, None where it has none, and the refusal of a load far beyond."""
 
     coarse: Grid
@@ -72,19 +72,19 @@ class Sight(NamedTuple):
         return self.raised is not None and len(self.raised.contact.strips) > 1
 
 
-def at_first_sight(scene: Scene) -> Sight:
+def at_first_sight(scene: Scene) -> FirstSight:
     """What a coarse grid shows, and whether it, and a finer one, carry no more than two thirds of the load."""
     load, coarse = scene.problem.pressure, Grid(scene.problem, _coarsest(scene.problem.rho))
     try:
         raised = coarse.raised(load)
     except NoSolutionError:
-        return Sight(coarse, None)
+        return FirstSight(coarse, None)
     limit = _limit(coarse, raised, load) if _FAR_BEYOND * raised.limit < load else None
     beyond = limit is not None and _FAR_BEYOND * limit < load
-    return Sight(coarse, raised, _overloaded(raised.contact, limit) if beyond else None)
+    return FirstSight(coarse, raised, _overloaded(raised.contact, limit) if beyond else None)
 
 
-def by_strips(scene: Scene, rtol: float, seen: Sight | None = None) -> Outcome:
+def by_strips(scene: Scene, rtol: float, seen: FirstSight | None = None) -> Outcome:
     """The contact with as many strips as it has; `seen` is what the first grid shows, where that is known."""
     grids: list[GridContact] = []
     failure, polishes = "", 0
@@ -114,7 +114,7 @@ def by_strips(scene: Scene, rtol: float, seen: Sight | None = None) -> Outcome:
     return _on_grid(scene, grids, rtol)
 
 
-def _contact(scene: Scene, points: int, start: GridContact | None, seen: Sight | None) -> GridContact:
+def _contact(scene: Scene, points: int, start: GridContact | None, seen: FirstSight | None) -> GridContact:
     """The contact on a grid; on the first one that was seen, without raising it from nothing again."""
     if start is not None or seen is None:
         return solve_grid(scene.problem, points, start, depth=scene.depth)
