@@ -20,7 +20,15 @@ from conveyor.contact.grid import Grid, GridContact, Raised, solve_grid
 from conveyor.contact.orders import ORDERS, next_order
 from conveyor.contact.problem import Status
 from conveyor.contact.scene import Scene
-from conveyor.contact.single import LAYER_OVER_ENERGY, LOAD_FLOOR, ROUNDING, SIGN_ORDER, beyond_reach, remarks, resolution
+from conveyor.contact.single import (
+    LAYER_OVER_ENERGY,
+    LOAD_FLOOR,
+    ROUNDING,
+    SIGN_ORDER,
+    beyond_reach,
+    remarks,
+    resolution,
+)
 from conveyor.contact.solution import Found, Outcome
 from conveyor.contact.strips import Strips, friction_by_loss, loads, settle, smallest_gap, too_close
 from conveyor.errors import NoSolutionError
@@ -35,9 +43,9 @@ _SETTLED = 1e-3  # change of friction below which tension is no longer the order
 _POLISHES = 3  # grids whose strips are tried
 _NARROW, _FIT, _FITS = 1e-3, 10.0, 12  # first guess over the nodes' distance, largest step, steps
 _STRIP_NODES, _GAP_NODES = 3.0, 2.0  # that show a strip, and that two strips are apart
-_LIMIT = "the contact comes within a hundredth of the half circle's end at a mean pressure of about {:.3g}"
+_LIMIT = "the contact comes within a hundredth of the half circle's end at a mean pressure of {} {:.3g}"
 _FAR_BEYOND = 1.5  # times the limit of two coarse grids: no finer one will carry the load
-_LEFT = 3.0  # times what Newton leaves: 1.2 of it seen in friction, 2.2 in the edges, 1.0 in the largest pressure
+_LEFT = 3.0  # times what Newton leaves: 1.2 seen in friction, 2.2 in the edges, 1.0 in the largest pressure
 _TWICE = 2.0  # the energy's error: what Newton leaves shows in it once (1.00 seen)
 _CANCELLED = "the strips' forces cancel: friction is that of the loss compliance"
 _ON_GRID = "the strips are known on a grid of {} nodes only"
@@ -51,31 +59,45 @@ class _Start(NamedTuple):
     failures: int
 
 
-def at_first_sight(scene: Scene) -> Outcome | GridContact | None:
-    """The refusal of a load far beyond what a coarse grid carries, or the contact there; None where that has none."""
+class FirstSight(NamedTuple):
+    """A coarse grid under a load: the contact there, None where it has none, and the refusal of a load far beyond."""
+
+    coarse: Grid
+    raised: Raised | None
+    refusal: Outcome | None = None
+
+    @property
+    def several(self) -> bool:
+        """Whether it shows more than one strip."""
+        return self.raised is not None and len(self.raised.contact.strips) > 1
+
+
+def at_first_sight(scene: Scene) -> FirstSight:
+    """What a coarse grid shows, and whether it, and a finer one, carry no more than two thirds of the load."""
     load, coarse = scene.problem.pressure, Grid(scene.problem, _coarsest(scene.problem.rho))
     try:
         raised = coarse.raised(load)
-        limit = _limit(coarse, raised, load) if _FAR_BEYOND * raised.limit < load else math.inf
     except NoSolutionError:
-        return None
-    return _overloaded(raised.contact, limit) if _FAR_BEYOND * limit < load else raised.contact
+        return FirstSight(coarse, None)
+    limit = _limit(coarse, raised, load) if _FAR_BEYOND * raised.limit < load else None
+    beyond = limit is not None and _FAR_BEYOND * limit < load
+    return FirstSight(coarse, raised, _overloaded(raised.contact, limit) if beyond else None)
 
 
-def by_strips(scene: Scene, rtol: float) -> Outcome:
-    """The contact with as many strips as it has."""
-    points = _coarsest(scene.problem.rho)
+def by_strips(scene: Scene, rtol: float, seen: FirstSight | None = None) -> Outcome:
+    """The contact with as many strips as it has; `seen` is what the first grid shows, where that is known."""
     grids: list[GridContact] = []
     failure, polishes = "", 0
     for doubling in range(_FINEST + 1):
+        points = _coarsest(scene.problem.rho) << doubling
         if points > _MOST_POINTS:
             break
         try:
-            grids.append(solve_grid(scene.problem, points, grids[-1] if grids else None, depth=scene.depth))
+            grids.append(_contact(scene, points, grids[-1] if grids else None, seen))
         except NoSolutionError as unsettled:
             failure = str(unsettled)
             break
-        if grids[-1].at_roll_end and (doubling >= _WRAP_LEVEL or points == _MOST_POINTS):
+        if grids[-1].at_roll_end and (doubling >= _WRAP_LEVEL or 2 * points > _MOST_POINTS):
             break
         steady = doubling >= _FIRST_POLISH and len(grids[-1].strips) == len(grids[-2].strips)
         start = _first_strips(scene, grids[-1]) if steady and polishes < _POLISHES else None
@@ -84,13 +106,19 @@ def by_strips(scene: Scene, rtol: float) -> Outcome:
             outcome = _polished(scene, grids[-1], start, rtol)
             if outcome is not None:
                 return outcome
-        points *= 2
     if not grids:
         return Outcome(Status.NOT_CONVERGED, way="grid", remarks=(failure,))
     if grids[-1].at_roll_end:
-        coarse = Grid(scene.problem, _coarsest(scene.problem.rho))
-        return _overloaded(grids[-1], _limit(coarse, None, grids[-1].mean_pressure))
+        coarse, raised = seen[:2] if seen else (Grid(scene.problem, _coarsest(scene.problem.rho)), None)
+        return _overloaded(grids[-1], _limit(coarse, raised, grids[-1].mean_pressure))
     return _on_grid(scene, grids, rtol)
+
+
+def _contact(scene: Scene, points: int, start: GridContact | None, seen: FirstSight | None) -> GridContact:
+    """The contact on a grid; on the first one that was seen, without raising it from nothing again."""
+    if start is not None or seen is None:
+        return solve_grid(scene.problem, points, start, depth=scene.depth)
+    return seen.raised.contact if seen.raised else seen.coarse.exchanged(scene.problem.pressure)
 
 
 def _first_strips(scene: Scene, grid: GridContact) -> _Start | None:
@@ -245,14 +273,16 @@ def _on_grid(scene: Scene, grids: list[GridContact], rtol: float) -> Outcome:
     )
 
 
-def _overloaded(grid: GridContact, limit: float) -> Outcome:
-    return Outcome(Status.WRAP_LIMIT, grid=grid.points, way="grid", remarks=(_LIMIT.format(limit),))
+def _overloaded(grid: GridContact, limit: float | None) -> Outcome:
+    """The refusal of a load beyond `limit`; where that is unknown, what touches the roll's end is more than it."""
+    named = _LIMIT.format("at most" if limit is None else "about", limit or grid.mean_pressure)
+    return Outcome(Status.WRAP_LIMIT, grid=grid.points, way="grid", remarks=(named,))
 
 
-def _limit(coarse: Grid, raised: Raised | None, load: float) -> float:
+def _limit(coarse: Grid, raised: Raised | None, load: float) -> float | None:
     """The mean pressure from which on the contact touches the last of 256 nodes on the roll, `load` at most.
 
-    `raised` is the contact of 64 nodes, the coarse grid's, under the load.
+    `raised` is the contact of 64 nodes, the coarse grid's, under the load. None where a grid does not settle.
     """
     try:
         raised = coarse.raised(load) if raised is None else raised
@@ -261,7 +291,7 @@ def _limit(coarse: Grid, raised: Raised | None, load: float) -> float:
         finer = Grid(coarse.problem, 4 * coarse.points)
         return min(load, finer.raised(load, below).limit)
     except NoSolutionError:
-        return load
+        return None
 
 
 def _coarsest(rho: float) -> int:

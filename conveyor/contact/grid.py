@@ -164,13 +164,19 @@ class Grid:
         self, pressure: float, start: GridContact | None = None, *, depth: float | None = None
     ) -> GridContact:
         """Contact under a mean pressure p̃_m, or at a depth Δ/R in its place."""
-        active = np.abs(self.x) < 0.5 * self.problem.rho if start is None else _inside(self.x, start.strips)
         try:
-            return self._contact(active, pressure, depth)
+            return self.exchanged(pressure, start, depth=depth)
         except NoSolutionError:
             if self.x.size > _FEW or depth is not None:
                 raise
             return self.raised(pressure).contact
+
+    def exchanged(
+        self, pressure: float, start: GridContact | None = None, *, depth: float | None = None
+    ) -> GridContact:
+        """`contact` by block exchanges alone, which may run in circles."""
+        active = np.abs(self.x) < 0.5 * self.problem.rho if start is None else _inside(self.x, start.strips)
+        return self._contact(active, pressure, depth)
 
     def raised(self, pressure: float, start: GridContact | None = None) -> Raised:
         """Contact under a mean pressure p̃_m raised from nothing, and where on the way it touches the roll's end.
@@ -190,7 +196,7 @@ class Grid:
         """`raised` from the nodes in contact under a smaller mean pressure."""
         surface, height = self._surface, 0.0
         if carried:
-            height = _equations(surface, self._drop, np.flatnonzero(active), carried, None)[1]
+            height = _equations(surface, self._drop, np.flatnonzero(active), (carried, None))[1]
         tableau = _Tableau(surface.dense(np.arange(self.x.size)), self._drop, active, height)
         limit = tableau.lower(pressure * self.points, exchanges * self.x.size)
         half = tableau.active_under(0.5 * limit)
@@ -371,7 +377,7 @@ def _pivot(
         costly += int(active.sum() > _DENSE)
         if costly > _COSTLY_PIVOTS:
             break
-        p, raised, dense = _equations(surface, drop, np.flatnonzero(active), mean, depth, dense)
+        p, raised, dense = _equations(surface, drop, np.flatnonzero(active), (mean, depth), dense)
         gap = surface.lifted(p) + drop - raised
         closed = _ROUNDING * max(abs(raised), float(drop.max()))
         wrong = np.where(active, p < 0.0, gap < -closed)
@@ -466,11 +472,14 @@ def _equations(
     surface: _Surface,
     drop: Array,
     nodes: NDArray[np.int_],
-    mean: float,
-    depth: float | None,
+    held: tuple[float, float | None],
     dense: int = _DENSE,
 ) -> tuple[Array, float, int]:
-    """Pressure with w + s = Δ at the active nodes, the raised depth Δ + lift x mean pressure, and `dense` from now on."""
+    """Pressure with w + s = Δ at the active nodes, the raised depth Δ + lift x mean pressure, and the next `dense`.
+
+    `held` are the mean pressure and, in its place, a depth.
+    """
+    mean, depth = held
     right = np.stack([-drop[nodes], np.ones(nodes.size)], axis=1)
     answer, dense = _solved(surface, nodes, right, dense)
     shape, level = answer.T

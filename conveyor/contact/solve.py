@@ -153,17 +153,17 @@ def _solved(scene: Scene, rtol: float, throw: bool, left: Left | Near | None = N
 
 def _found(scene: Scene, rtol: float, left: Left | Near | None) -> Outcome:
     seen = at_first_sight(scene) if left is Left.ANY else None
-    if isinstance(seen, Outcome):
-        return seen
+    if seen is not None and seen.refusal is not None:
+        return seen.refusal
     if left is Left.STRIPS:
         return by_strips(scene, rtol)
-    outcome = by_strips(scene, rtol) if seen is not None and len(seen.strips) > 1 else None
+    outcome = by_strips(scene, rtol, seen) if seen is not None and seen.several else None
     if outcome is not None and (
         outcome.found is None or len(outcome.found.strips) > 1 or outcome.status is Status.OK
     ):
         return outcome
     one = by_half_width(scene, rtol, left if isinstance(left, Near) else None)
-    return one or outcome or by_strips(scene, rtol)
+    return one or outcome or by_strips(scene, rtol, seen)
 
 
 def _solution(problem: ContactProblem, outcome: Outcome, throw: bool) -> ContactSolution:

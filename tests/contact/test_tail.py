@@ -75,8 +75,9 @@ class TestAgainstAllOrdersAtOnce:
     def test_level_and_loss_are_the_same(self, dense_and_closed):
         problem, rule, _, ik, tail, _, whole, core = dense_and_closed
         place, creep = np.array([ALPHA]), problem.creep
-        here = level(rule, creep, place, core.c)[0] + tail.level(ik, core.c[0])
-        assert here == pytest.approx(level(rule, creep, place, whole.c)[0], rel=1e-12)
+        here = level(rule, creep, place, core.c.shape[1])[0] @ core.c[0] + tail.level(ik, core.c[0])
+        beyond = level(rule, creep, place, whole.c.shape[1])[0] @ whole.c[0]
+        assert here == pytest.approx(beyond, rel=1e-12)
         weights = creep.weights * creep.times
         every = ProductIK(LAST, place[:, None] / creep.times)
         v = np.arange(1.0, LAST + 1.0)
