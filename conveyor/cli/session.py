@@ -107,8 +107,6 @@ def command(
         @wraps(function)
         def called(**given: Any) -> None:
             of_session = {one.name: given.pop(one.name) for one in shared}
-            import conveyor.pint_alone  # noqa: F401
-
             function(Session(**of_session), **given)
 
         parameters = [

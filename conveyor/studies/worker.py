@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import conveyor.pint_alone
 import conveyor.studies.points  # noqa: F401
 from conveyor.models import Conveyor, RubberCompound
 
