@@ -186,7 +186,7 @@ covers of the shelf, -30 to 40 °C); more nodes gain nothing, the strain found a
 READ_STRAIN: Final = 5e-4
 """Of the strain, what reading it may miss by what a straight line misses [-]: about its scatter."""
 READ_ERROR: Final = 7e-5
-"""Of indentation, what that changes [-]: with the error of the curves 8e-5 at most, 1e-5 in the median was seen of 550
+"""Of indentation, what that changes [-]: with the error of the curves 6e-5 at most, 8e-6 in the median was seen of 204
 scenes against contacts of 1e-7 with a strain of their own (benchmarks/compare_error.py)."""
 READ_RTOL: Final = 1e-4
 """Finest tolerance of contacts that leaves room for it [-]."""
