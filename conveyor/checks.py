@@ -297,7 +297,7 @@ def drive_grip(result: CalculatedConveyor) -> Iterator[Check]:
 def sag(result: CalculatedConveyor) -> Iterator[Check]:
     """Between no two idler sets the belt sags more than allowed while it runs steadily."""
     settled, shape = result.balance.settled, result.line.loop
-    running = [settled.states[motion.name] for motion in settled.motions if motion.sagging is not None]
+    running = settled.running
     lowest = [np.minimum(state.starts, state.ends) for state in running]
     over = [(tension / shape.least).tolist() for tension in lowest]
     for strand in STRANDS:

@@ -28,7 +28,6 @@ from conveyor.laws.resistance import (
     idler_tilt_resistance,
     plough_resistance,
     pulley_bearing_resistance,
-    pulley_load,
     roll_line_mass,
     secondary_resistance,
     section_main_resistance,
@@ -421,42 +420,22 @@ class Bend:
     wrap: tuple[float, float]
     bearings: float | None
 
-    def newtons(self, tight: float, slack: float, gravity: float) -> tuple[float, float]:
-        """Wrap and bearings at the tensions of both sides [N].
-
-        Raises
-        ------
-        NoSolutionError
-            The belt is slack at the pulley.
-        """
-        if min(tight, slack) < 0.0:
-            raise NoSolutionError(
-                f'the belt is slack at pulley "{self.pulley.name}" ({min(tight, slack):.6g} N): raise the take-up\'s '
-                "tension (route.take_up.tension), or look for a resistance far too large among the forces before it"
-            )
-        base, slope = self.wrap
-        bend = base + slope * 0.5 * (tight + slack)
-        if self.bearings is None:
-            return bend, 0.0
-        load = pulley_load(
-            tight_tension=tight,
-            slack_tension=slack,
-            pulley_mass=self.pulley.mass,
-            gravity=gravity,
-            wrap_angle=self.pulley.wrap_angle,
+    def slack(self, tension: float) -> NoSolutionError:
+        """What to say of a belt that is slack at the pulley [N]."""
+        return NoSolutionError(
+            f'the belt is slack at pulley "{self.pulley.name}" ({tension:.6g} N): raise the take-up\'s '
+            "tension (route.take_up.tension), or look for a resistance far too large among the forces before it"
         )
-        return bend, self.bearings * load
 
-    def forces(self, tight: float, slack: float, gravity: float) -> Iterator[Force]:
-        """Both as forces with their names."""
-        bend, turn = self.newtons(tight, slack, gravity)
+    def forces(self, wrap: float, bearings: float) -> Iterator[Force]:
+        """Bending and bearings [N] as forces with their names."""
         name, assumed = self.pulley.name, self.pulley.assumed
         here = partial(Force, spot=self.pulley.spot, place=self.pulley.place, assumed=assumed)
         law = _law("ISO 5048 / DIN 22101, belt wrap", assumed)
-        yield here("wrap", f"wrap, {name}", "secondary", bend, law)
+        yield here("wrap", f"wrap, {name}", "secondary", wrap, law)
         if self.bearings is not None:
             law = _law("ISO 5048, F_t", assumed)
-            yield here("pulley_bearings", f"bearings, {name}", "secondary", turn, law)
+            yield here("pulley_bearings", f"bearings, {name}", "secondary", bearings, law)
 
     def times(self, factor: float) -> Bend:
         """The same pulley with so much more resistance."""

@@ -42,7 +42,7 @@ from conveyor.line.line import Line
 from conveyor.line.roll_drags import StrandDrags, roll_drags_many
 from conveyor.line.strands import OneStrand, Strands
 from conveyor.line.stretches import STRANDS, Acting, RouteSection, Strand, Stretch, route_sections
-from conveyor.loop.balance import Balance, balance
+from conveyor.loop.balance import Balance, OpenLoop, balances
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
 from conveyor.loop.curves import Convergence, acting, converged, pulls
 from conveyor.loop.drive_duty import DriveDuty, drive_duty
@@ -164,10 +164,7 @@ class CalculatedConveyor:
     def drive_forces(self) -> tuple[float, float]:
         """Drive force with the friction at both ends of its band; lift and acceleration of bulk have none [N]."""
         settled = self.balance.settled
-        low, high = (
-            settled.loop.resistance(settled.loop.singles(settled.bends, friction), friction)
-            for friction in self.friction_band or (self.line.least_friction, 1.0)
-        )
+        low, high = map(settled.resistance, self.friction_band or (self.line.least_friction, 1.0))
         return low, high
 
     @property
@@ -350,11 +347,11 @@ def calculate_many(
             else:
                 refused[i] = one
             told(len(variants) - len(going), len(loaded))
-        for i, contacts in _solved(shared, loaded, going, rtol).items():
-            try:
-                made[i] = _closed(variants[i], loaded[i], contacts)
-            except (NoSolutionError, RangeError, InputError) as error:
-                refused[i] = error
+        for i, result in _closed(variants, loaded, _solved(shared, loaded, going, rtol)).items():
+            if isinstance(result, CalculatedConveyor):
+                made[i] = result
+            else:
+                refused[i] = result
         for i in refused:
             made.pop(i, None)
         if one_take_up:
@@ -473,10 +470,33 @@ def _solved(
     return contacts
 
 
-def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts | NoAnswer) -> CalculatedConveyor:
-    """Close the loop around the forces of the rolls."""
-    if not isinstance(contacts, Contacts):
-        raise contacts
+def _closed(
+    variants: Sequence[Variant], loaded: Mapping[int, _Loaded], contacts: Mapping[int, Contacts | NoAnswer]
+) -> dict[int, CalculatedConveyor | NoAnswer]:
+    """Close the loops around the forces of the rolls, all side by side."""
+    found: dict[int, CalculatedConveyor | NoAnswer] = {}
+    open_loops: dict[int, tuple[Contacts, OpenLoop]] = {}
+    for i, one in contacts.items():
+        try:
+            if isinstance(one, Contacts):
+                open_loops[i] = one, _open(variants[i], loaded[i], one)
+            else:
+                found[i] = one
+        except InputError as error:
+            found[i] = error
+    closed = balances([loop for _, loop in open_loops.values()])
+    for (i, (rolls, _)), made in zip(open_loops.items(), closed, strict=True):
+        at = variants[i]
+        found[i] = (
+            made
+            if isinstance(made, NoSolutionError)
+            else CalculatedConveyor(at.conveyor, at.covers_at, rolls, made, loaded[i].fixed)
+        )
+    return found
+
+
+def _open(variant: Variant, loaded: _Loaded, contacts: Contacts) -> OpenLoop:
+    """The loop with the forces of the rolls along it."""
     level = np.repeat([variant.level.get(strand, 1.0) for strand in STRANDS], loaded.line.count)
     along = along_the_belt(
         loaded.line,
@@ -485,8 +505,7 @@ def _closed(variant: Variant, loaded: _Loaded, contacts: Contacts | NoAnswer) ->
         roll_drag=variant.roll_drag,
         calibration=variant.conveyor.calculation.calibration,
     )
-    closed = balance(loaded.frame, along, float(loaded.fixed.unit_main.sum()), variant.take_up)
-    return CalculatedConveyor(variant.conveyor, variant.covers_at, contacts, closed, loaded.fixed)
+    return OpenLoop(loaded.frame, along, float(loaded.fixed.unit_main.sum()), variant.take_up)
 
 
 def _convergence(result: CalculatedConveyor, step: _Step) -> Convergence | None:

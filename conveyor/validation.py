@@ -343,8 +343,10 @@ def _pulley_shaft() -> Iterator[ReferenceCheck]:
     weight, start = 3200.0 * 9.81, (167.76e3, 171.76e3)
 
     def pull(tight: float, slack: float) -> float:
-        return resistance.pulley_load(
-            tight_tension=tight, slack_tension=slack, pulley_mass=0.0, gravity=9.81, wrap_angle=math.pi
+        return float(
+            resistance.pulley_load(
+                tight_tension=tight, slack_tension=slack, pulley_mass=0.0, gravity=9.81, wrap_angle=math.pi
+            )
         )
 
     # the belt runs on at -2 deg: its pull is 92 deg from straight down

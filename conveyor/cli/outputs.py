@@ -114,11 +114,13 @@ class Outputs:
 
     def report(self, contents: Contents, path: Path) -> None:
         """Make the workbook of a report, or its page, as the name ends."""
-        from conveyor.report import excel, html
-
         if path.suffix.lower() == ".xlsx":
+            from conveyor.report import excel
+
             self.add("workbook", path, excel.files(contents, path))
         else:
+            from conveyor.report import html
+
             self.add("page", path, {path: html.build(contents).encode()})
 
     def tabled(self, contents: Contents, folder: Path, *, parquet: bool) -> None:

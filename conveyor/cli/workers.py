@@ -29,7 +29,7 @@ def begin(scheduler: str | None, workers: int) -> None:
     if scheduler is None and workers > 1 and _method() == "forkserver":
         from multiprocessing import forkserver
 
-        forkserver.set_forkserver_preload(["conveyor.pint_alone", "conveyor.studies.points"])
+        forkserver.set_forkserver_preload(["conveyor.studies.worker"])
         forkserver.ensure_running()
 
 

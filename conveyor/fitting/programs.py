@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
-from scipy.constants import R as GAS_CONSTANT
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.files import marks
 from conveyor.models import RubberCompound
 from conveyor.rubber import WLF, Arrhenius, ShiftTable, fit_wlf
+from conveyor.rubber.shift import GAS_CONSTANT
 from conveyor.units import text
 from conveyor.units.sentences import ZERO_CELSIUS, celsius
 

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
+import numpy as np
+
+from conveyor.errors import NoSolutionError
 from conveyor.forces import Force, ForceSums, by_length_coefficient
 from conveyor.laws.power import belt_power, specific_energy
 from conveyor.laws.resistance import equivalent_friction_factor
@@ -13,7 +17,7 @@ from conveyor.line.line import Line
 from conveyor.loop.equilibrium import Settled, settle
 from conveyor.loop.estimates import CemaEstimate, Classical, cema, classical
 from conveyor.loop.frame import Frame
-from conveyor.loop.tensions import Loop, MotionState
+from conveyor.loop.tensions import Loops, MotionState
 
 
 @dataclass(frozen=True)
@@ -69,12 +73,12 @@ class Balance:
     @property
     def line(self) -> Line:
         """The conveyor in SI."""
-        return self.settled.loop.line
+        return self.settled.line
 
     @property
     def frame(self) -> Frame:
         """What stands where in the loop."""
-        return self.settled.loop.frame
+        return self.settled.frame
 
     @property
     def singles(self) -> tuple[Force, ...]:
@@ -104,15 +108,15 @@ class Balance:
             tight=max(drive.tight for drive in steady.drives),
             slack=min(drive.slack for drive in steady.drives),
             tight_start=max(drive.tight for drive in unsteady.drives),
-            governed_by="take-up" if self.settled.given else self.settled.governed_by.kind,
-            largest=max(state.largest for state in self.settled.states.values()),
+            governed_by="take-up" if self.settled.given else self.settled.governed_by,
+            largest=self.settled.largest,
             smallest=steady.smallest,
         )
 
     @cached_property
     def power(self) -> Power:
         """In steady running."""
-        line, force = self.line, self.forces.total
+        line, force = self.line, self.settled.force
         mains = self.frame.mains(force)
         return Power(
             belt=belt_power(force, belt_speed=line.speed),
@@ -140,7 +144,8 @@ class Balance:
 
     def held(self, setting: float) -> Balance:
         """The same forces along the belt with the take-up at a setting [N]."""
-        return balance(self.frame, self.along, self.unit_main, setting)
+        (found,) = held([self], setting)
+        return found
 
 
 def balance(
@@ -164,16 +169,64 @@ def balance(
     NoSolutionError
         The tensions do not settle (wraps that grow faster than the tension they need), or the belt is slack.
     """
-    line = frame.line
-    further = (by_length_coefficient(line, frame.landing, along),) if line.secondary == "C" else ()
-    return Balance(along, unit_main, settle(Loop(frame, along, further), setting))
+    (found,) = answers(balances([OpenLoop(frame, along, unit_main, setting)]))
+    return found
+
+
+def held(loops: Iterable[Balance], setting: float) -> list[Balance]:
+    """Loops under the same forces along their belts with the take-up at a setting [N]."""
+    return answers(balances([OpenLoop(one.frame, one.along, one.unit_main, setting) for one in loops]))
+
+
+def answers(found: Sequence[Balance | NoSolutionError]) -> list[Balance]:
+    """The loops that were closed; the first refusal is raised."""
+    for one in found:
+        if isinstance(one, NoSolutionError):
+            raise one
+    return [one for one in found if isinstance(one, Balance)]
+
+
+class OpenLoop(NamedTuple):
+    """A loop to be closed, as `balance` takes it."""
+
+    frame: Frame
+    along: tuple[Force, ...]
+    unit_main: float
+    setting: float | None = None
+
+
+def balances(asked: Sequence[OpenLoop]) -> list[Balance | NoSolutionError]:
+    """Close many loops, those that meet the same side by side; no answer depends on the others."""
+    alike: dict[tuple[object, ...], list[int]] = {}
+    given = [one.frame.line.take_up.tension if one.setting is None else one.setting for one in asked]
+    for i, (one, setting) in enumerate(zip(asked, given, strict=True)):
+        alike.setdefault((one.frame.plan.key, setting is None), []).append(i)
+    found: dict[int, Balance | NoSolutionError] = {}
+    for rows in alike.values():
+        these = [asked[i] for i in rows]
+        further = [_further(one) for one in these]
+        loops = Loops([one.frame for one in these], [one.along for one in these], further)
+        held = [setting for i in rows if (setting := given[i]) is not None]
+        closed, refused = settle(loops, np.array(held) if held else None)
+        for row, (i, one) in enumerate(zip(rows, these, strict=True)):
+            settled = Settled(closed, row, (*one.frame.points, *further[row]))
+            found[i] = refused[row] if row in refused else Balance(one.along, one.unit_main, settled)
+    return [found[i] for i in range(len(asked))]
+
+
+def _further(one: OpenLoop) -> tuple[Force, ...]:
+    """Secondary resistances as a whole, where they are not itemised."""
+    frame = one.frame
+    return (
+        (by_length_coefficient(frame.line, frame.landing, one.along),) if frame.line.secondary == "C" else ()
+    )
 
 
 def _points(settled: Settled, state: MotionState) -> Iterator[TensionPoint]:
     """Tensions round the loop in a state, from the head back to it."""
-    line, shape = settled.loop.line, settled.loop.line.loop
+    line, shape = settled.line, settled.line.loop
     way: list[float] = shape.way.tolist()
-    last = settled.loop.frame.boundaries[-1]
+    last = settled.frame.boundaries[-1]
     met = sorted(zip(line.drives, state.drives, strict=True), key=lambda pair: pair[0].spot)
     at_head = [side for drive, side in met if drive.spot.boundary == last]
     head = "drive" if at_head else "head"

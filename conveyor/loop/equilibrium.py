@@ -1,27 +1,27 @@
-"""Settles the loop: wraps and pulley bearings depend on the tensions they add to, and one setting serves all states."""
+"""Settles loops: wraps and pulley bearings depend on the tensions they add to, and one setting serves all states."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from conveyor.errors import NoSolutionError
 from conveyor.forces import Force
+from conveyor.laws.resistance import pulley_load
+from conveyor.line.line import Line
+from conveyor.loop.frame import Frame
 from conveyor.loop.run_up import started
-from conveyor.loop.tensions import STEADY, Condition, Loop, Motion, MotionState, Singles
+from conveyor.loop.tensions import STEADY, Loops, MotionState, Moving, States
+
+Array = NDArray[np.float64]
 
 _LOOP_STEPS = 200
 _LOOP_CLOSED = 1e-13  # relative change of the drive force; wraps add about 1e-3 of it per step
-_EXTRAPOLATED = 3  # steps that show a ratio
-_SHRINKS = 0.5  # ratio below which the steps are a geometric row
+_SHRINKS = 1.0 / 3.0  # q/(1 - q) of two changes of ratio q, half or less or turned: they lead somewhere
 _HELD = 1.0 - 1e-9  # of what is needed; a setting typed to the computed figure is not short of it
-
-Bends = tuple[float, ...]
-"""Wrap and bearings of every pulley together [N]."""
 
 START, BRAKING, LEAST, LEAST_BRAKING, BRAKES = (
     "start",
@@ -30,6 +30,7 @@ START, BRAKING, LEAST, LEAST_BRAKING, BRAKES = (
     "braking, least friction",
     "brakes on",
 )
+COASTING = "drives off"
 
 
 def holds(setting: float, needed: float) -> bool:
@@ -39,43 +40,88 @@ def holds(setting: float, needed: float) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class Settled:
-    """The loop at rest with itself.
+    """A loop at rest with itself, one of those that were closed side by side.
 
     Attributes
     ----------
-    loop : Loop
-        What was settled.
-    bends : tuple of float
-        Wrap and bearings of every pulley together [N].
-    singles : tuple of Force
-        Every force at a single place.
-    force, least_force : float
-        Drive force in steady running, as computed and with the least certain friction [N].
-    motions : tuple of Motion
-        The states that decide the take-up's setting.
-    setting, needed : float
-        Tension the take-up holds, and the least it should [N].
-    governed_by : Condition
-        What asks for the least setting.
-    given : bool
-        Whether the setting was given, by the spec or by other loads of the conveyor, and not looked for.
+    closed : Closed
+        All of them.
+    row : int
+        Which of them.
+    points : tuple of Force
+        Forces at single places that no tension changes.
     """
 
-    loop: Loop
-    bends: Bends
-    singles: tuple[Force, ...]
-    force: float
-    least_force: float
-    motions: tuple[Motion, ...]
-    setting: float
-    needed: float
-    governed_by: Condition
-    given: bool
+    closed: Closed
+    row: int
+    points: tuple[Force, ...]
+
+    @property
+    def frame(self) -> Frame:
+        """What stands where."""
+        return self.closed.loops.frames[self.row]
+
+    @property
+    def line(self) -> Line:
+        """The conveyor in SI."""
+        return self.frame.line
+
+    @property
+    def mass(self) -> float:
+        """Of belt, bulk and rolls [kg]."""
+        return float(self.closed.loops.mass[self.row])
+
+    def resistance(self, friction: float) -> float:
+        """Drive force in steady running with a friction over the computed one; lift and the like alone at 0 [N]."""
+        return float(self.closed.loops.lift[self.row] + friction * self.closed.now.rubbing[self.row])
+
+    @property
+    def force(self) -> float:
+        """Drive force in steady running [N]."""
+        return self.resistance(1.0)
+
+    @property
+    def least_force(self) -> float:
+        """The same with the least certain friction [N]."""
+        return self.resistance(self.line.least_friction)
+
+    @property
+    def setting(self) -> float:
+        """Tension the take-up holds [N]."""
+        return float(self.closed.setting[self.row])
+
+    @property
+    def needed(self) -> float:
+        """The least it should hold [N]."""
+        return float(self.closed.needed[self.row])
+
+    @property
+    def given(self) -> bool:
+        """Whether the setting was given, by the spec or by other loads of the conveyor, and not looked for."""
+        return self.closed.given
+
+    @cached_property
+    def bends(self) -> tuple[float, ...]:
+        """Wrap and bearings of every pulley together [N]."""
+        return tuple(self.closed.pulleys[self.row].sum(axis=-1).tolist())
+
+    @cached_property
+    def singles(self) -> tuple[Force, ...]:
+        """Every force at a single place."""
+        pairs = zip(self.frame.bends, self.closed.pulleys[self.row].tolist(), strict=True)
+        return (*self.points, *(force for bend, newtons in pairs for force in bend.forces(*newtons)))
 
     @cached_property
     def states(self) -> dict[str, MotionState]:
         """Tensions in every state that decides the setting."""
-        return {motion.name: self.loop.state(motion, self.setting) for motion in self.motions}
+        return {name: self.closed.states.state(self.row, k, name) for name, k in self._names.items()}
+
+    @cached_property
+    def _names(self) -> dict[str, int]:
+        """Numbers of the states that occur."""
+        start = START if self.force >= 0.0 else BRAKING
+        occurs = zip(self.closed.now.names, self.closed.now.occurs[self.row].tolist(), strict=True)
+        return {start if kind == START else kind: k for k, (kind, here) in enumerate(occurs) if here}
 
     @property
     def steady(self) -> MotionState:
@@ -87,163 +133,257 @@ class Settled:
         """Start, or a regenerative conveyor's braking, at the start factor."""
         return self.states[START if self.force >= 0.0 else BRAKING]
 
-    def condition_name(self, condition: Condition) -> str:
-        """Write a condition for people."""
-        state, where = condition.where
-        if isinstance(where, str):
-            return f"grip, {where}, {state}"
-        motion = next(motion for motion in self.motions if motion.name == state)
-        stretch = self.loop.line.loop.stretches[self.loop.slackest(motion, where)]
-        return f"sag, {stretch.strand}, {stretch.section}, {state}"
+    @cached_property
+    def coasting(self) -> MotionState | None:
+        """Drives off, no brakes; None where the belt does not slow down."""
+        occurs, states = self.closed.off
+        return states.state(self.row, 0, COASTING) if occurs[self.row] else None
+
+    @property
+    def largest(self) -> float:
+        """Highest tension round the loop in every state that decides the setting [N]."""
+        return float(self.closed.largest[self.row])
+
+    @cached_property
+    def _governing(self) -> tuple[int, int]:
+        """State and condition that asks for the least setting."""
+        asked = self.closed.asked[self.row]
+        k, c = divmod(int(asked.argmax()), asked.shape[-1])
+        return k, c
+
+    @property
+    def governed_by(self) -> str:
+        """What asks for the least setting: "grip" or "sag"."""
+        return "grip" if self._governing[1] < len(self.line.drives) else "sag"
 
     @property
     def governing(self) -> str:
         """Name of the condition that governs the take-up."""
-        return self.condition_name(self.governed_by)
+        k, c = self._governing
+        return self._condition(next(name for name, at in self._names.items() if at == k), c)
+
+    def _condition(self, state: str, c: int) -> str:
+        """Condition c of a state for people: grip of the drives, then sag of the runs, where it is the slackest."""
+        drives, k = self.line.drives, self._names[state]
+        if c < len(drives):
+            return f"grip, {drives[c].name}, {state}"
+        low, high = self.frame.boundaries[c - len(drives) :][:2]
+        along = self.closed.now.moving.along[self.row, k]
+        needed = self.line.loop.least - np.minimum(along[:-1], along[1:])
+        stretch = self.line.loop.stretches[low + int(np.argmax(needed[low:high]))]
+        return f"sag, {stretch.strand}, {stretch.section}, {state}"
 
     @cached_property
     def conditions(self) -> dict[str, float]:
         """Setting of the take-up that each condition asks for [N], by its name."""
         return {
-            self.condition_name(condition): condition.setting
-            for motion in self.motions
-            for condition in self.loop.conditions(motion)
+            self._condition(state, c): setting
+            for state, k in self._names.items()
+            for c, setting in enumerate(self.closed.asked[self.row, k].tolist())
+            if setting > -np.inf
         }
 
     @property
+    def running(self) -> tuple[MotionState, ...]:
+        """States of even motion: in these the sag is looked at."""
+        return tuple(state for state in self.states.values() if state.acceleration == 0.0)
+
+    @property
     def short(self) -> dict[str, float]:
-        """Of these, the ones that the take-up's setting falls short of [N]."""
+        """Conditions that ask for more than the take-up's setting, and for what [N]."""
         return {name: needed for name, needed in self.conditions.items() if not holds(self.setting, needed)}
 
 
-def settle(loop: Loop, setting: float | None = None) -> Settled:
-    """Close the loop of tensions around the forces along the belt.
+@dataclass(frozen=True, eq=False)
+class Now:
+    """States of loops at given resistances of the pulleys; `START` is the braking of a belt that drives.
+
+    `resistance` is what the drives give in even motion at the friction of each, shape (b, m), and `rubbing` what of the
+    steady one friction makes, shape (b,) [N]; `occurs` says which of the states of those names there are, shape (b, m).
+    """
+
+    names: tuple[str, ...]
+    resistance: Array
+    rubbing: Array
+    moving: Moving
+    occurs: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Closed:
+    """Loops at rest with themselves; the conveyors on the first axis, shape (b, ...).
+
+    Attributes
+    ----------
+    loops, now : Loops, Now
+        What was closed, and the states that decide the settings.
+    asked : ndarray, shape (b, m, d + runs)
+        Setting that each condition asks for [N]; -inf of one that there is not.
+    setting, needed : ndarray, shape (b,)
+        Of the take-up, and the least it should be [N].
+    bends : ndarray, shape (b, pulleys)
+        Resistances of the pulleys under which they are closed [N].
+    pulleys : ndarray, shape (b, pulleys, 2)
+        Wrap and bearings of every pulley [N].
+    given : bool
+        Whether the settings were given.
+    """
+
+    loops: Loops
+    now: Now
+    asked: Array
+    setting: Array
+    needed: Array
+    bends: Array
+    pulleys: Array
+    given: bool
+
+    @cached_property
+    def states(self) -> States:
+        """Their tensions."""
+        return States(self.now.moving, self.setting)
+
+    @cached_property
+    def largest(self) -> Array:
+        """Highest tension of every state [N], shape (b,)."""
+        return np.asarray(np.where(self.now.occurs, self.states.extremes[1], -np.inf).max(axis=-1))
+
+    @cached_property
+    def off(self) -> tuple[NDArray[np.bool_], States]:
+        """Whether they come to rest without drives and brakes, shape (b,), and that state."""
+        loops, now = self.loops, self.now
+        drive = now.resistance[:, 0]
+        occurs, acceleration, forces = _coasting(loops, drive, np.zeros_like(loops.standing.brakes))
+        states = np.ones((len(drive), 1)), acceleration[:, None], forces[:, None]
+        moving = loops.moving(*states, self.bends, drive >= 0.0)
+        return occurs, States(moving, self.setting)
+
+
+@np.errstate(over="ignore", invalid="ignore")  # of a row that grows until it is refused
+def settle(loops: Loops, given: Array | None = None) -> tuple[Closed, dict[int, NoSolutionError]]:
+    """Close loops of tensions around the forces along their belts, each as if it were alone.
 
     Parameters
     ----------
-    loop : Loop
-        The forces along the belt.
-    setting : float, optional
-        Of the take-up [N]; without it that of the spec, else the least that every state asks for.
+    loops : Loops
+        Loops of one plan under their forces.
+    given : ndarray, shape (b,), optional
+        Settings of the take-ups [N]; without them the least that every state asks for.
 
-    Raises
-    ------
-    NoSolutionError
-        The tensions do not settle (wraps that grow faster than the tension they need), or the belt is slack at a
-        pulley.
+    Returns
+    -------
+    tuple
+        The loops at rest, and why a row has no answer: its tensions do not settle (wraps that grow faster than the
+        tension they need), or its belt is slack at a pulley.
     """
-    line, frame_bends = loop.line, loop.frame.bends
-    given = line.take_up.tension if setting is None else setting
-    history: list[Bends] = [(0.0,) * len(frame_bends)]
-    drive = math.nan
+    kinds, b, whole = _Kinds(loops), len(loops.frames), np.abs(loops.along[:, :2, -1].sum(axis=-1))
+    bends, drive = np.zeros((b, len(loops.plan.bends))), np.full(b, np.inf)
+    going, refused = np.ones(b, dtype=bool), dict[int, NoSolutionError]()
+    last: tuple[Array, Array] | None = None
     for _ in range(_LOOP_STEPS):
-        bends = history[-1]
-        singles = loop.singles(bends)
-        before, drive = drive, loop.resistance(singles)
-        motions = _motions(loop, bends, singles, drive)
-        governing = max(
-            (condition for motion in motions for condition in loop.conditions(motion)),
-            key=lambda c: c.setting,
-        )
-        held = governing.setting if given is None else given
-        if abs(drive - before) <= _LOOP_CLOSED * max(abs(drive), abs(loop.totals.whole)):
+        before, now = drive, kinds.at(bends)
+        drive = now.resistance[:, 0]
+        asked = np.where(now.occurs[..., None], now.moving.asked(kinds.sagging), -np.inf)
+        needed = asked.max(axis=(1, 2))
+        setting = needed if given is None else given
+        going &= ~(np.abs(drive - before) <= _LOOP_CLOSED * np.maximum(np.abs(drive), whole))
+        wraps, bearings = _pulleys(loops, now.moving, setting, refused)
+        if refused:
+            going[list(refused)] = False
+        if not going.any():
             break
-        sides = loop.at_bends(motions[0], held)
-        newtons = tuple(
-            math.fsum(bend.newtons(*side, line.gravity))
-            for bend, side in zip(frame_bends, sides, strict=True)
-        )
-        history.append(newtons)
-        if len(history) == _EXTRAPOLATED:
-            history = [_extrapolated(*history)]
+        step = (wraps + bearings, wraps + bearings - bends)
+        bends = np.where(going[:, None], step[0] if last is None else _further(last, step), bends)
+        last = step
     else:
-        raise NoSolutionError(
-            "the tensions round the belt do not settle: check pulley diameters and drive friction"
-        )
-    sides = loop.at_bends(motions[0], held)
-    return Settled(
-        loop=loop,
-        bends=bends,
-        singles=(
-            *loop.points,
-            *(
-                force
-                for bend, side in zip(frame_bends, sides, strict=True)
-                for force in bend.forces(*side, line.gravity)
-            ),
-        ),
-        force=drive,
-        least_force=loop.resistance(loop.singles(bends, line.least_friction), line.least_friction),
-        motions=motions,
-        setting=held,
-        needed=governing.setting,
-        governed_by=governing,
-        given=given is not None,
+        refused |= {row: _unsettled() for row in np.flatnonzero(going).tolist()}
+    pulleys = np.stack([wraps, bearings], axis=-1)
+    return Closed(loops, now, asked, setting, needed, bends, pulleys, given is not None), refused
+
+
+def _unsettled() -> NoSolutionError:
+    return NoSolutionError(
+        "the tensions round the belt do not settle: check pulley diameters and drive friction"
     )
 
 
-def _extrapolated(first: Bends, second: Bends, third: Bends) -> Bends:
-    """Where three steps lead to (Aitken); the last of them where they do not shrink."""
-    further = []
-    for a, b, c in zip(first, second, third, strict=True):
-        ratio = (c - b) / (b - a) if b != a else 0.0
-        further.append(c + (c - b) * ratio / (1.0 - ratio) if abs(ratio) < _SHRINKS else c)
-    return tuple(further)
+def _further(last: tuple[Array, Array], step: tuple[Array, Array]) -> Array:
+    """Where two steps lead to: the secant along them (Anderson's mixing of depth one); the last where none shrink.
+
+    A step is what the pulleys' resistances become, and by how much they change.
+    """
+    (before, was), (here, short) = last, step
+    turned = short - was
+    along, whole = (turned * short).sum(axis=-1), (turned * turned).sum(axis=-1)
+    shrinks = (along > -whole) & (along < _SHRINKS * whole)
+    share = np.divide(along, whole, out=np.zeros(len(here)), where=shrinks)
+    return np.asarray(here - share[:, None] * (here - before))
 
 
-def _motions(loop: Loop, bends: Bends, singles: Singles, drive: float) -> tuple[Motion, ...]:
-    """Steady running and every state that the grip of the drives has to hold in."""
-    line, mass = loop.line, loop.masses.whole
-    factor = line.start_over_steady
-
-    def shared(name: str, force: float, friction: float, over: float) -> Motion:
-        forces = [drive.share * over * force for drive in line.drives]
-        push = (over - 1.0) * force / mass
-        here = singles if friction == 1.0 else loop.singles(bends, friction)
-        return loop.motion(
-            name,
-            forces,
-            here,
-            driving=drive >= 0.0,
-            acceleration=push,
-            friction=friction,
-            may_sag=over != 1.0,
-        )
-
-    states = [shared(STEADY, drive, 1.0, 1.0)]
-    if drive > 0.0:
-        pushed, per_drive = started(line, np.asarray(drive), np.asarray(mass))
-        forces = per_drive.tolist()
-        sags = math.fsum(forces) / drive != 1.0
-        states.append(
-            loop.motion(START, forces, singles, driving=True, acceleration=float(pushed), may_sag=sags)
-        )
-    else:
-        states.append(shared(START if drive >= 0.0 else BRAKING, drive, 1.0, factor))
-    certain = line.least_friction
-    least = loop.resistance(loop.singles(bends, certain), certain) if loop.lifts.whole < 0.0 else drive
-    if least < 0.0 and certain < 1.0:
-        states += [shared(LEAST, least, certain, 1.0), shared(LEAST_BRAKING, least, certain, factor)]
-    brakes = braked(loop, bends, certain)
-    return tuple(states if brakes is None else [*states, brakes])
-
-
-def braked(loop: Loop, bends: Bends, friction: float) -> Motion | None:
-    """All brakes on, drives off; None without brakes, or where they do not stop the belt."""
-    brakes = loop.line.brakes
-    return coasting(loop, bends, friction, brakes, BRAKES) if any(brakes) else None
-
-
-def coasting(loop: Loop, bends: Bends, friction: float, brakes: Sequence[float], name: str) -> Motion | None:
-    """Drives off, brakes of given forces on [N]; None where the belt does not slow down."""
-    rotating = [drive.reduced_mass for drive in loop.line.drives]
-    singles = loop.singles(bends, friction)
-    retarding = loop.resistance(singles, friction) + math.fsum(brakes)
-    if retarding <= 0.0:
-        return None
-    slowing = retarding / (loop.masses.whole + math.fsum(rotating))
-    forces = [mass * slowing - brake for mass, brake in zip(rotating, brakes, strict=True)]
-    driving = loop.resistance(loop.singles(bends)) >= 0.0
-    return loop.motion(
-        name, forces, singles, driving=driving, acceleration=-slowing, friction=friction, may_sag=True
+def _pulleys(
+    loops: Loops, moving: Moving, setting: Array, refused: dict[int, NoSolutionError]
+) -> tuple[Array, Array]:
+    """Wrap and bearings of every pulley in steady running [N], shape (b, pulleys); refused are rows slack at one."""
+    standing = loops.standing
+    sides = (setting - moving.anchor[:, 0])[:, None, None] + moving.offsets[:, 0, loops.plan.sides]
+    tight, slack = sides.max(axis=-1), sides.min(axis=-1)
+    lost = ~((slack >= 0.0) & (tight < np.inf))
+    if lost.any():
+        for row in np.flatnonzero(lost.any(axis=-1)).tolist():
+            first = int(np.argmax(lost[row]))
+            why = loops.frames[row].bends[first].slack(float(slack[row, first]))
+            refused.setdefault(row, why if slack[row, first] < 0.0 else _unsettled())
+        tight[list(refused)] = slack[list(refused)] = 0.0
+    load = pulley_load(
+        tight_tension=tight,
+        slack_tension=slack,
+        pulley_mass=standing.pulley_mass,
+        gravity=standing.gravity[:, None],
+        wrap_angle=standing.wrap_angle,
     )
+    return standing.wrap + standing.slope * 0.5 * (tight + slack), standing.bearings * load
+
+
+class _Kinds:
+    """The states that the grip of the drives has to hold in: the friction in each, and how it moves."""
+
+    def __init__(self, loops: Loops) -> None:
+        self.loops, standing, pull = loops, loops.standing, loops.standing.pull
+        self.uncertain = standing.least_friction < 1.0
+        falling = (LEAST, LEAST_BRAKING) if (self.uncertain & (loops.lift < 0.0)).any() else ()
+        self.braked = standing.brakes.any(axis=-1)
+        self.names = (STEADY, START, *falling, *((BRAKES,) if self.braked.any() else ()))
+        self.friction = np.ones((len(loops.frames), len(self.names)))
+        self.friction[:, 2:] = standing.least_friction[:, None]
+        self.sagging = loops.sagging(self.friction)
+        over = np.ones_like(self.friction)
+        over[:, 1::2] = pull.factor[:, None]
+        self.shares, self.pushes = over[..., None] * pull.share[:, None], (over - 1.0) / loops.mass[:, None]
+
+    def at(self, bends: Array) -> Now:
+        """The states at resistances of the pulleys [N], shape (b, pulleys)."""
+        loops, standing = self.loops, self.loops.standing
+        rubbing = loops.rubbing + bends.sum(axis=-1)
+        resistance = loops.lift[:, None] + self.friction * rubbing[:, None]
+        acceleration, forces = self.pushes * resistance, self.shares * resistance[..., None]
+        occurs = np.ones(resistance.shape, dtype=bool)
+        pulls = resistance[:, 0] > 0.0
+        if pulls.any():
+            pushed, pulled = started(standing.pull, np.where(pulls, resistance[:, 0], 1.0), loops.mass)
+            acceleration[:, 1] = np.where(pulls, pushed, acceleration[:, 1])
+            forces[:, 1] = np.where(pulls[:, None], pulled, forces[:, 1])
+        if LEAST in self.names:
+            occurs[:, 2:4] = (self.uncertain & (resistance[:, 2] < 0.0))[:, None]
+        if BRAKES in self.names:
+            slows, acceleration[:, -1], forces[:, -1] = _coasting(loops, resistance[:, -1], standing.brakes)
+            occurs[:, -1] = slows & self.braked
+        moving = loops.moving(self.friction, acceleration, forces, bends, resistance[:, 0] >= 0.0)
+        return Now(self.names, resistance, rubbing, moving, occurs)
+
+
+def _coasting(loops: Loops, resistance: Array, brakes: Array) -> tuple[NDArray[np.bool_], Array, Array]:
+    """Drives off, brakes on [N]: whether the belts slow down, their acceleration [m/s²], forces of the drives [N]."""
+    own = loops.standing.pull.own
+    retarding = resistance + brakes.sum(axis=-1)
+    slowing = retarding / (loops.mass + own.sum(axis=-1))
+    return retarding > 0.0, -slowing, own * slowing[:, None] - brakes

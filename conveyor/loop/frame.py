@@ -2,30 +2,125 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from copy import copy
-from dataclasses import replace
+from dataclasses import dataclass
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.forces import Bend, Force, at_places, bends
 from conveyor.laws.power import belt_power, motor_power
+from conveyor.laws.tension import grip_tension
 from conveyor.line.line import Line
 from conveyor.line.stations import Spot
+from conveyor.loop.run_up import Pull
 
 Array = NDArray[np.float64]
+Places = NDArray[np.intp]
 
 
-class Sums:
-    """Running sums of one kind of force round the loop: everywhere, at the boundaries in use, and their mean."""
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """What the belt meets round the loop from the head, numbered: runs of stretches, and what stands between them.
 
-    def __init__(self, forces: Array, line: Line, boundaries: list[int]) -> None:
-        shape = line.loop
-        self.along = np.concatenate([np.zeros(1), np.cumsum(forces)])
-        self.at: list[float] = self.along[boundaries].tolist()
-        self.mean = float((self.along[:-1] + self.along[1:]) @ shape.length) / (2.0 * float(shape.way[-1]))
-        self.whole = self.at[-1]
+    Attributes
+    ----------
+    key : tuple
+        Equal for loops that meet the same in the same order: they are closed side by side.
+    count : int
+        How much it meets; place k is behind so much of it.
+    boundaries : ndarray
+        Between the stretches, where anything stands.
+    runs, spots, bends, drives : ndarray
+        Numbers of the runs between two boundaries, of the forces at each spot, of the pulleys that bend it, of drives.
+    driven : ndarray, shape (d, 2)
+        Places before and behind every drive.
+    sides : ndarray, shape (pulleys, k)
+        Places whose tensions act on each pulley: of a driven one both sides of its drives.
+    held : int or None
+        Place that the take-up holds; None on the slack side of the drives.
+    station : tuple of int
+        Places before and behind the drives where the first one stands.
+    head : int
+        Place before all that stands at the head.
+    keeps_length : bool
+        Whether the take-up keeps the belt's length.
+    """
+
+    key: tuple[object, ...]
+    count: int
+    boundaries: Places
+    runs: Places
+    spots: Places
+    bends: Places
+    drives: Places
+    driven: Places
+    sides: Places
+    held: int | None
+    station: tuple[int, int]
+    head: int
+    keeps_length: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Standing:
+    """What does not change with the forces along the belt: of one loop; of loops of one plan with a leading axis.
+
+    Attributes
+    ----------
+    met : ndarray, shape (3, count)
+        Forces at single places that no friction makes, those that it makes [N], and masses of the runs [kg].
+    mass : ndarray, shape (2n + 1,)
+        Running sum of the moving masses [kg].
+    least, lengths : ndarray, shape (2n,)
+        Least tension for the sag [N], and length [m] of the stretches.
+    grip, brakes : ndarray, shape (d,)
+        Tension that a newton of each drive needs for its grip [-]; force of its brake [N].
+    wrap, slope, bearings, pulley_mass, wrap_angle : ndarray, shape (pulleys,)
+        Wrap without tension [N] and per newton of mean tension [-], bearings per newton of load [-], kg, rad.
+    least_friction, gravity : ndarray, shape ()
+        Of the line.
+    pull : Pull
+        What the drives can give at a start.
+    """
+
+    met: Array
+    mass: Array
+    least: Array
+    lengths: Array
+    grip: Array
+    brakes: Array
+    wrap: Array
+    slope: Array
+    bearings: Array
+    pulley_mass: Array
+    wrap_angle: Array
+    least_friction: Array
+    gravity: Array
+    pull: Pull
+
+    @classmethod
+    def side_by_side(cls, several: Sequence[Self]) -> Self:
+        """Those of loops of one plan, one in a row."""
+        unlike = {one: k for k, one in enumerate(dict.fromkeys(several))}
+        rows = [unlike[one] for one in several]
+
+        def stacked(parts: Sequence[Standing | Pull]) -> dict[str, Any]:
+            """Arrays of each in rows; what is no array is alike in all."""
+            columns = {name: [getattr(part, name) for part in parts] for name in vars(parts[0])}
+            return {
+                name: _rows(column, rows) if isinstance(column[0], np.ndarray) else column[0]
+                for name, column in columns.items()
+            }
+
+        return cls(**stacked(list(unlike)) | {"pull": Pull(**stacked([one.pull for one in unlike]))})
+
+
+def _rows(column: Sequence[Array], rows: Sequence[int]) -> Array:
+    """Arrays in rows, some of them in several."""
+    return column[0][None] if len(rows) == 1 else np.array(column)[rows]
 
 
 class Frame:
@@ -41,8 +136,6 @@ class Frame:
         Pulleys that bend the belt.
     spots, boundaries : list
         Where anything stands, as the belt meets it from the head.
-    stops : list of int
-        Of each spot the place of its boundary among `boundaries`.
     """
 
     def __init__(self, line: Line) -> None:
@@ -60,19 +153,58 @@ class Frame:
         )
         self.spots: list[Spot] = sorted({*ends, self.landing, *held, *standing})
         self.boundaries: list[int] = sorted({spot.boundary for spot in self.spots})
-        self.runs = np.diff(self.boundaries)
         self.at = {spot: j for j, spot in enumerate(self.spots)}
-        numbered = {boundary: k for k, boundary in enumerate(self.boundaries)}
-        self.stops = [numbered[spot.boundary] for spot in self.spots]
-        self.head = self.stops.index(len(self.boundaries) - 1)
         self.drives: list[list[int]] = [[] for _ in self.spots]
         for i, drive in enumerate(line.drives):
             self.drives[self.at[drive.spot]].append(i)
         self.station = next(stop for stop in self.drives if 0 in stop)
         self.anchor = None if line.take_up.spot is None else self.at[line.take_up.spot]
-        way = line.loop.way
-        self.run_shares: list[float] = (np.diff(way[self.boundaries]) / way[-1]).tolist()
-        self.masses = Sums(line.loop.mass, line, self.boundaries)
+        self.plan = self._plan()
+        self.standing = _standing(self)
+
+    def _plan(self) -> Plan:
+        line, met = self.line, 0
+        runs, spots, drives = [], [], [0] * len(self.line.drives)
+        pulleys, sides = [0] * len(self.bends), [[0]] * len(self.bends)
+        held = None
+        for j, spot in enumerate(self.spots):
+            if j and spot.boundary != self.spots[j - 1].boundary:
+                runs.append(met)
+                met += 1
+            spots.append(met)
+            met += 1
+            here = [p for p, bend in enumerate(self.bends) if bend.pulley.spot == spot]
+            for p in here:
+                pulleys[p] = met
+                met += 1
+            first = met
+            for d in self.drives[j]:
+                drives[d] = met
+                met += 1
+            for p in here:
+                sides[p] = list(range(first, met + 1)) if self.drives[j] else [spots[j]]
+            if j == self.anchor:
+                held = met
+        widest = max(map(len, sides), default=1)
+        padded = [each + each[-1:] * (widest - len(each)) for each in sides]
+        columns = (self.boundaries, runs, spots, pulleys, drives, *padded)
+        station = (drives[self.station[0]], drives[self.station[-1]] + 1)
+        keeps = line.take_up.keeps_length
+        return Plan(
+            key=(*map(tuple, columns), held, station, keeps, Pull.of(line).kind),
+            count=met,
+            boundaries=np.array(self.boundaries),
+            runs=np.array(runs),
+            spots=np.array(spots),
+            bends=np.array(pulleys, dtype=np.intp),
+            drives=np.array(drives),
+            driven=np.array([(d, d + 1) for d in drives]),
+            sides=np.array(padded, dtype=np.intp).reshape(len(padded), widest),
+            held=held,
+            station=station,
+            head=runs[-1] + 1,
+            keeps_length=keeps,
+        )
 
     def of(self, line: Line) -> Frame:
         """The same loop of a line whose rolls drag otherwise."""
@@ -84,10 +216,11 @@ class Frame:
         """The same loop with its forces at single places changed; a pulley's wrap and bearings alike."""
         made = copy(self)
         made.points = tuple(map(change, self.points))
-        units = (replace(next(bend.forces(0.0, 0.0, self.line.gravity)), newtons=1.0) for bend in self.bends)
+        units = (next(bend.forces(1.0, 1.0)) for bend in self.bends)
         made.bends = tuple(
             bend.times(change(unit).total) for bend, unit in zip(self.bends, units, strict=True)
         )
+        made.standing = _standing(made)
         return made
 
     def motor(self, force: float) -> float:
@@ -98,3 +231,31 @@ class Frame:
     def mains(self, force: float) -> float:
         """Power from the mains for a force at the belt, negative when it is fed back [W]."""
         return motor_power(self.motor(force), efficiency=self.line.mains_efficiency)
+
+
+def _standing(frame: Frame) -> Standing:
+    """What stands round a loop, in the order of its plan."""
+    line, plan = frame.line, frame.plan
+    shape, pulleys = line.loop, [bend.pulley for bend in frame.bends]
+    met = np.zeros((3, plan.count))
+    for force in frame.points:
+        if force.spot is not None:
+            met[0 if force.certain else 1, plan.spots[frame.at[force.spot]]] += force.total
+    mass = np.concatenate([[0.0], np.cumsum(shape.mass)])
+    met[2, plan.runs] = np.diff(mass[plan.boundaries])
+    return Standing(
+        met=met,
+        mass=mass,
+        least=shape.least,
+        lengths=shape.length,
+        grip=np.array([grip_tension(1.0, friction=d.friction, wrap_angle=d.wrap_angle) for d in line.drives]),
+        brakes=np.array(line.brakes),
+        wrap=np.array([bend.wrap[0] for bend in frame.bends]),
+        slope=np.array([bend.wrap[1] for bend in frame.bends]),
+        bearings=np.array([bend.bearings or 0.0 for bend in frame.bends]),
+        pulley_mass=np.array([pulley.mass for pulley in pulleys]),
+        wrap_angle=np.array([pulley.wrap_angle for pulley in pulleys]),
+        least_friction=np.array(line.least_friction),
+        gravity=np.array(line.gravity),
+        pull=Pull.of(line),
+    )

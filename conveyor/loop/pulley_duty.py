@@ -174,7 +174,7 @@ def _load(line: Line, pulley: BendPulley, state: str, arriving: float, leaving: 
         gravity=line.gravity,
         wrap_angle=pulley.wrap_angle,
     )
-    whole = pulley_resultant(pull, weight=pulley.mass * line.gravity, pull_angle=pulley.pull_angle)
+    whole = pulley_resultant(float(pull), weight=pulley.mass * line.gravity, pull_angle=pulley.pull_angle)
     return PulleyLoad(state, arriving, leaving, whole, 0.5 * abs(arriving - leaving) * pulley.diameter)
 
 

@@ -14,6 +14,46 @@ from conveyor.line.line import Line
 Array = NDArray[np.float64]
 
 
+@dataclass(frozen=True, eq=False)
+class Pull:
+    """What the drives can give at a start; drives on the last axis, before it one of several loops.
+
+    Attributes
+    ----------
+    share, own : ndarray, shape (d,)
+        Share of each drive in the whole force [-], its rotating masses at the belt [kg].
+    least, most : ndarray, shape (d,)
+        Force of its motors at the belt at their least and largest torque [N]; infinite where not known.
+    factor : ndarray, shape ()
+        Force of a controlled start over the steady one [-].
+    kind : {"uncontrolled", "limited", "asked"}
+        Whether all that the motors give reaches the belt, what they can give is known, or is not.
+    """
+
+    share: Array
+    own: Array
+    least: Array
+    most: Array
+    factor: Array
+    kind: str
+
+    @classmethod
+    def of(cls, line: Line) -> Pull:
+        """Those of a line."""
+        rated, torques = _rated(line), [torque for _, torque in line.torque_curve]
+        least = most = unknown = np.full(len(line.drives), np.inf)
+        if rated is not None and torques:
+            least, most = min(torques) * np.array(rated), max(torques) * np.array(rated)
+        return cls(
+            np.array([drive.share for drive in line.drives]),
+            np.array([drive.reduced_mass for drive in line.drives]),
+            least,
+            most,
+            np.array(line.start_over_steady),
+            "uncontrolled" if uncontrolled(line) else "asked" if least is unknown else "limited",
+        )
+
+
 @dataclass(frozen=True)
 class RunUp:
     """A start, all drives together rigidly coupled by the belt.
@@ -65,8 +105,8 @@ def run_up(line: Line, steady: float, mass: float) -> RunUp:
     Of the motor's force k η P/v each drive keeps what accelerates its own rotating masses: F = k η P/v - m a. A
     controlled start keeps the shares of the drives and is as fast as the weakest motor allows.
     """
-    drives, rated, torques = line.drives, _rated(line), [torque for _, torque in line.torque_curve]
-    pushed, per_drive = started(line, np.asarray(steady), np.asarray(mass))
+    rated, torques, pull = _rated(line), [torque for _, torque in line.torque_curve], Pull.of(line)
+    pushed, per_drive = started(pull, np.asarray(steady), np.asarray(mass))
     forces, acceleration = tuple(per_drive.tolist()), float(pushed)
     factor = math.fsum(forces) / steady
     together = None if rated is None else math.fsum(rated)
@@ -77,13 +117,13 @@ def run_up(line: Line, steady: float, mass: float) -> RunUp:
         )
     if uncontrolled(line):
         return RunUp(forces, acceleration, factor, None, together, standstill, least, largest)
-    own = math.fsum(drive.reduced_mass for drive in drives) / mass
+    own = float(pull.own.sum()) / mass
 
     def of_motors(factor: float) -> float:
         return factor * steady + (factor - 1.0) * steady * own
 
     if rated is not None and torques:
-        least = of_motors(float(_possible(line, np.asarray(steady), np.asarray(mass))))
+        least = of_motors(float(_possible(pull, np.asarray(steady), np.asarray(mass))))
     return RunUp(
         forces, acceleration, factor, of_motors(line.start_over_steady), together, standstill, least, largest
     )
@@ -94,31 +134,24 @@ def uncontrolled(line: Line) -> bool:
     return line.start_factor is None and _rated(line) is not None and bool(line.torque_curve)
 
 
-def started(line: Line, steady: Array, mass: Array) -> tuple[Array, Array]:
-    """Acceleration [m/s²] and force of every drive [N], shape (d, ...), at one or many loads as `run_up` takes them."""
-    shares = np.array([drive.share for drive in line.drives])
-    own = np.array([drive.reduced_mass for drive in line.drives])
-    if uncontrolled(line):
-        given = max(torque for _, torque in line.torque_curve) * np.array(_rated(line))
-        acceleration = np.maximum((given.sum() - steady) / (mass + own.sum()), 0.0)
-        pulled = np.add.outer(given, np.zeros_like(acceleration)) - np.multiply.outer(own, acceleration)
-        return acceleration, np.where(acceleration > 0.0, pulled, np.multiply.outer(shares, steady))
-    factor = np.maximum(1.0, np.minimum(line.start_over_steady, _possible(line, steady, mass)))
-    return (factor - 1.0) * steady / mass, np.multiply.outer(shares, factor * steady)
+def started(pull: Pull, steady: Array, mass: Array) -> tuple[Array, Array]:
+    """Acceleration [m/s²], and force of every drive [N] on a last axis, at one or many loads as `run_up` takes them."""
+    if pull.kind == "uncontrolled":
+        free = pull.most.sum(axis=-1) - steady
+        acceleration = np.maximum(free / (mass + pull.own.sum(axis=-1)), 0.0)
+        pulled = pull.most - pull.own * acceleration[..., None]
+        return acceleration, np.where(acceleration[..., None] > 0.0, pulled, pull.share * steady[..., None])
+    asked = pull.factor if pull.kind == "asked" else np.minimum(pull.factor, _possible(pull, steady, mass))
+    factor = np.maximum(1.0, asked)
+    return (factor - 1.0) * steady / mass, pull.share * (factor * steady)[..., None]
 
 
-def _possible(line: Line, steady: Array, mass: Array) -> Array:
+def _possible(pull: Pull, steady: Array, mass: Array) -> Array:
     """The same at which the weakest motor, at its least torque, still keeps its share; infinite where not known."""
-    rated, torques = _rated(line), [torque for _, torque in line.torque_curve]
-    if rated is None or not torques:
-        return np.full_like(steady, np.inf)
-    factors = [
-        (min(torques) * force / steady + drive.reduced_mass / mass)
-        / (drive.share + drive.reduced_mass / mass)
-        for force, drive in zip(rated, line.drives, strict=True)
-        if drive.share + drive.reduced_mass > 0.0
-    ]
-    return np.asarray(np.min(factors, axis=0))
+    own = pull.own / mass[..., None]
+    asked, given = pull.share + own, pull.least / steady[..., None] + own
+    factors = np.divide(given, asked, out=np.full(given.shape, np.inf), where=asked > 0.0)
+    return np.asarray(factors.min(axis=-1))
 
 
 def _rated(line: Line) -> list[float] | None:

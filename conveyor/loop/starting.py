@@ -11,11 +11,8 @@ from conveyor.laws.motion import Stop, brake_force, bulk_slip_limits, run_up_tim
 from conveyor.laws.resistance.defaults import ROLL_DRAG_STANDSTILL_FACTOR
 from conveyor.line.line import Line
 from conveyor.loop.balance import Balance
-from conveyor.loop.equilibrium import coasting
 from conveyor.loop.run_up import run_up
 from conveyor.loop.tensions import MotionState
-
-COASTING = "drives off"
 
 
 @dataclass(frozen=True)
@@ -135,19 +132,18 @@ def motions(balance: Balance) -> Motions:
         Its forces, and the loop of its tensions.
     """
     settled, line = balance.settled, balance.line
-    loop = settled.loop
-    mass, rotating = loop.masses.whole, math.fsum(drive.reduced_mass for drive in line.drives)
+    mass, rotating = settled.mass, math.fsum(drive.reduced_mass for drive in line.drives)
     least = settled.least_force
     brakes = math.fsum(line.brakes)
     wanted = line.stop_deceleration
-    certain = [force for force in loop.points if force.certain]
-    lift = loop.lifts.whole + math.fsum(force.total for force in certain if force.kind == "lift")
-    moving = math.fsum(force.total for force in certain if force.kind != "lift")
-    hold, back = _holding(lift, least - lift - moving)
+    certain = settled.resistance(0.0)
+    moving = math.fsum(force.total for force in settled.points if force.certain and force.kind != "lift")
+    lift = certain - moving
+    hold, back = _holding(lift, least - certain)
     whole = mass + rotating
     gripping = max(0.0, line.speed - least / whole * line.brake_delay)
     stopped, heat = (None, None) if brakes == 0.0 else _braked(line, least, brakes, whole, gripping)
-    off = coasting(loop, settled.bends, 1.0, [0.0] * len(line.drives), COASTING)
+    off = settled.coasting
     return Motions(
         moving_mass=mass,
         rotating_mass=rotating,
@@ -164,7 +160,7 @@ def motions(balance: Balance) -> Motions:
         brake_to_hold=hold,
         rolls_back=back,
         slip=_slip(line),
-        states={} if off is None else {off.name: loop.state(off, settled.setting)},
+        states={} if off is None else {off.name: off},
     )
 
 

@@ -263,8 +263,8 @@ class Loadings:
         if state.name != START:
             return acceleration, forces
         pulls = resistance > 0.0
-        pushed, pulled = started(self.line, np.where(pulls, resistance, 1.0), mass)
-        return np.where(pulls, pushed, acceleration), np.where(pulls, pulled, forces)
+        pushed, pulled = started(self.full.frame.standing.pull, np.where(pulls, resistance, 1.0), mass)
+        return np.where(pulls, pushed, acceleration), np.where(pulls, pulled.T, forces)
 
     def _offsets(self, state: _State, loading: Loading, acceleration: float, forces: Array) -> Array:
         """Tension over that of the head's return strand before and behind every event [N], shape (e + 1,)."""
@@ -534,7 +534,7 @@ def _singles(full: Balance, empty: Balance, j: int) -> Iterator[_Row]:
     always = math.fsum(
         force for bend, force in zip(frame.bends, full.settled.bends, strict=True) if bend.pulley.spot == spot
     )
-    for force in full.settled.loop.points:
+    for force in full.settled.points:
         if force.spot != spot:
             continue
         if force.key == "secondary_by_length":

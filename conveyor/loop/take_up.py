@@ -16,7 +16,7 @@ from conveyor.laws.take_up import (
     take_up_travel,
 )
 from conveyor.line.line import BeltBody, Line, TakeUpUnit
-from conveyor.loop.balance import Balance
+from conveyor.loop.balance import Balance, held
 from conveyor.loop.equilibrium import holds
 from conveyor.loop.tensions import MotionState
 
@@ -82,7 +82,7 @@ def at_one_setting(loops: Sequence[Balance]) -> list[Balance]:
         return list(loops)
     setting = max(loop.settled.needed for loop in loops)
     for _ in range(_STEPS):
-        closed = [loop.held(setting) for loop in loops]
+        closed = held(loops, setting)
         asked = max(loop.settled.needed for loop in closed)
         if holds(setting, asked):
             return closed

@@ -1,26 +1,23 @@
-"""Tensions round the belt: offsets from resistances, masses and drives, and the level the take-up gives them.
+"""Tensions round belts: offsets from resistances, masses and drives, and the level the take-up gives them.
 
 The tension at a place in a state of motion is T = H + o - a: o the offset over the strand that leaves the head, a the
 offset of what the take-up holds (tension at its place, or the mean of the loop), H the setting, one for all states.
+Loops of one plan are worked out side by side, b of them in m states: no figure of one depends on the others.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.forces import Force
-from conveyor.laws.tension import grip_tension
-from conveyor.loop.frame import Frame, Sums
+from conveyor.loop.frame import Frame, Standing
 
 Array = NDArray[np.float64]
-
-Singles = list[float]
-"""Sum of the single forces at every spot in use, as the belt meets them [N]."""
 
 STEADY = "steady"
 
@@ -69,6 +66,8 @@ class MotionState:
         Tension at the take-up [N].
     spots : tuple of float
         Tension before what stands at every spot of the frame [N].
+    largest, smallest : float
+        Highest and lowest tension round the loop [N].
     """
 
     name: str
@@ -82,12 +81,8 @@ class MotionState:
     arriving: float
     held: float
     spots: tuple[float, ...]
-
-    @property
-    def largest(self) -> float:
-        """Highest tension round the loop [N]."""
-        sides = [drive.tight for drive in self.drives]
-        return max(float(self.starts.max()), float(self.ends.max()), self.leaving, self.arriving, *sides)
+    largest: float
+    smallest: float
 
     def mean(self, lengths: Array) -> float:
         """Mean tension round the loop [N], of stretches of those lengths [m], shape (2n,)."""
@@ -98,220 +93,196 @@ class MotionState:
         """Whether the belt is slack anywhere."""
         return self.smallest < 0.0
 
-    @property
-    def smallest(self) -> float:
-        """Lowest tension round the loop [N]."""
-        sides = [drive.slack for drive in self.drives]
-        return min(float(self.starts.min()), float(self.ends.min()), self.leaving, self.arriving, *sides)
 
-
-@dataclass(frozen=True)
-class Condition:
-    """What asks for tension ("grip" or "sag"), and the setting H of the take-up it needs [N]."""
-
-    kind: str
-    where: tuple[str, str | int]
-    """State, and drive or run of stretches."""
-    setting: float
-
-
-@dataclass(frozen=True)
-class Motion:
-    """A state of motion before the level of its tensions is known: offsets round the loop [N].
-
-    `sagging` are the settings that the sag of each run of stretches asks for; None where it may sag.
-    """
-
-    name: str
-    force: float
-    acceleration: float
-    friction: float
-    before: tuple[float, ...]
-    """At each spot, before what stands there."""
-    arriving: float
-    """At the head, before all that stands there."""
-    drives: tuple[tuple[float, float, float], ...]
-    """Force, offset before, offset behind of every drive."""
-    shifts: tuple[float, ...]
-    """Offset of every run over the running sum of forces."""
-    anchor: float
-    sagging: tuple[float, ...] | None = None
-
-
-class Loop:
-    """The loop of one conveyor under the forces of one analysis.
+class Loops:
+    """Loops of one plan, each under the forces of one analysis.
 
     Parameters
     ----------
-    frame : Frame
+    frames : sequence of Frame
         What stands where.
-    along : iterable of Force
-        Forces along the belt.
-    further : iterable of Force
-        Forces at single places beside those of the frame.
+    along : sequence of sequence of Force
+        Forces along each belt.
+    further : sequence of sequence of Force
+        Forces at single places beside those of each frame.
     """
 
-    def __init__(self, frame: Frame, along: Iterable[Force], further: Iterable[Force] = ()) -> None:
-        self.frame, self.line = frame, frame.line
-        self.points = (*frame.points, *further)
-        total, lift = np.zeros(2 * self.line.count), np.zeros(2 * self.line.count)
-        for force in along:
-            total += force.newtons
-            if force.certain:
-                lift += force.newtons
-        half = self.line.count
-        self.totals = Sums(np.roll(total, half), self.line, frame.boundaries)
-        self.lifts = Sums(np.roll(lift, half), self.line, frame.boundaries)
-        self.masses = frame.masses
-        self._points = [
-            (frame.at[force.spot], force.total, force.certain)
-            for force in self.points
-            if force.spot is not None
-        ]
-        self._bends = [frame.at[bend.pulley.spot] for bend in frame.bends]
-        self._sagging: dict[float, tuple[float, ...]] = {}
+    def __init__(
+        self, frames: Sequence[Frame], along: Sequence[Sequence[Force]], further: Sequence[Sequence[Force]]
+    ) -> None:
+        self.frames, self.plan, count = frames, frames[0].plan, frames[0].line.count
+        self.standing = Standing.side_by_side([frame.standing for frame in frames])
+        forces = np.roll([_summed(each, count) for each in along], count, axis=-1)
+        self.along = np.zeros((len(frames), 3, 2 * count + 1))
+        """Running sums of the forces along the belt that no friction makes, of the others [N], and of the mass [kg]."""
+        np.cumsum(forces, axis=-1, out=self.along[:, :2, 1:])
+        self.along[:, 2] = self.standing.mass
+        self.met = self.standing.met.copy()
+        """Of these what the belt meets between two places of the plan, shape (b, 3, count)."""
+        self.met[:, :2, self.plan.runs] = np.diff(self.along[:, :2, self.plan.boundaries])
+        for met, frame, forces_there in zip(self.met, frames, further, strict=True):
+            for force in forces_there:
+                if force.spot is not None:
+                    met[1, self.plan.spots[frame.at[force.spot]]] += force.total
+        self.lift, self.rubbing = self.met[:, 0].sum(axis=-1), self.met[:, 1].sum(axis=-1)
+        self.mass = self.standing.mass[:, -1]
 
-    def along(self, friction: float, acceleration: float) -> Array:
-        """Running sum of the forces along the belt in a state [N], shape (2n + 1,)."""
-        totals, lifts = self.totals.along, self.lifts.along
-        friction_only = totals if friction == 1.0 else lifts + friction * (totals - lifts)
-        return friction_only if acceleration == 0.0 else friction_only + acceleration * self.masses.along
+    @cached_property
+    def _shares(self) -> Array:
+        """Share of every run in the loop, shape (b, runs)."""
+        lengths = self.standing.lengths
+        runs = np.add.reduceat(lengths, self.plan.boundaries[:-1], axis=-1)
+        return np.asarray(runs / lengths.sum(axis=-1)[:, None])
 
-    def sagging(self, friction: float) -> tuple[float, ...]:
-        """Settings that the sag of each run asks for over its shift, in steady running [N]."""
-        known = self._sagging.get(friction)
-        if known is None:
-            along = self.along(friction, 0.0)
-            needed = self.line.loop.least - np.minimum(along[:-1], along[1:])
-            known = tuple(np.maximum.reduceat(needed, self.frame.boundaries[:-1]).tolist())
-            self._sagging[friction] = known
-        return known
+    @cached_property
+    def _means(self) -> Array:
+        """Mean of each running sum over its value where its run begins, shape (b, 3, 1)."""
+        lengths = self.standing.lengths[:, None]
+        mean = ((self.along[..., :-1] + self.along[..., 1:]) * lengths).sum(axis=-1) / (
+            2.0 * lengths.sum(axis=-1)
+        )
+        begun = self.along[..., self.plan.boundaries[:-1]] * self._shares[:, None]
+        return np.asarray((mean - begun.sum(axis=-1))[..., None])
 
-    def singles(self, bends: Sequence[float], friction: float = 1.0) -> Singles:
-        """Sum of the single forces at every spot [N]."""
-        newtons = [0.0] * len(self.frame.stops)
-        for j, force, certain in self._points:
-            newtons[j] += force if certain else friction * force
-        for j, force in zip(self._bends, bends, strict=True):
-            newtons[j] += friction * force
-        return newtons
+    def moving(
+        self, friction: Array, acceleration: Array, forces: Array, bends: Array, driving: NDArray[np.bool_]
+    ) -> Moving:
+        """States in which every drive gives its force; they and the masses balance the resistances.
 
-    def resistance(self, singles: Singles, friction: float = 1.0) -> float:
-        """What the drives have to give in steady running, lift and all [N]; `singles` at the same friction."""
-        lift = self.lifts.whole
-        return math.fsum((lift, friction * (self.totals.whole - lift), *singles))
-
-    def motion(
-        self,
-        name: str,
-        forces: Sequence[float],
-        singles: Singles,
-        *,
-        driving: bool,
-        acceleration: float = 0.0,
-        friction: float = 1.0,
-        may_sag: bool = False,
-    ) -> Motion:
-        """A state in which every drive gives its force [N]; they and the masses balance the resistances.
-
-        `driving` says whether the drives pull in steady running: a take-up on their slack side stands there always.
+        Parameters
+        ----------
+        friction, acceleration : ndarray, shape (b, m)
+            Over the computed one [-]; of belt and bulk [m/s²].
+        forces : ndarray, shape (b, m, d)
+            Of the drives [N].
+        bends : ndarray, shape (b, pulleys)
+            Resistances of the pulleys [N].
+        driving : ndarray, shape (b,)
+            Whether the drives pull in steady running: a take-up on their slack side stands there always.
         """
-        sides: list[tuple[float, float, float]] = [(0.0, 0.0, 0.0)] * len(forces)
-        along = self._at(friction, acceleration)
-        ins, outs, shifts = [], [], [0.0] * len(along)
-        level, passed = 0.0, 0.0
-        for k, single, drives in zip(self.frame.stops, singles, self.frame.drives, strict=True):
-            level += along[k] - passed
-            passed = along[k]
-            ins.append(level)
-            level += single
-            for i in drives:
-                sides[i] = (forces[i], level, level - forces[i])
-                level -= forces[i]
-            outs.append(level)
-            shifts[k] = level - passed
-        station = self.frame.station
-        slack_side = sides[station[-1]][2] if driving else sides[station[0]][1]
-        anchor = self._anchor(slack_side, outs, shifts, friction, acceleration)
-        return Motion(
-            name, math.fsum(forces), acceleration, friction, tuple(ins), ins[self.frame.head], tuple(sides),
-            tuple(shifts), anchor, None if may_sag else self.sagging(friction),
-        )  # fmt: skip
+        plan = self.plan
+        steps = _in_state(self.met, friction, acceleration)
+        steps[..., plan.bends] = friction[..., None] * bends[:, None]
+        steps[..., plan.drives] = -forces
+        offsets = np.zeros((*friction.shape, plan.count + 1))
+        np.cumsum(steps, axis=-1, out=offsets[..., 1:])
+        if plan.keeps_length:
+            begun = offsets[..., plan.runs] * self._shares[:, None]
+            anchor = _in_state(self._means, friction, acceleration)[..., 0] + begun.sum(axis=-1)
+        elif plan.held is not None:
+            anchor = offsets[..., plan.held]
+        else:
+            before, behind = plan.station
+            anchor = np.where(driving[:, None], offsets[..., behind], offsets[..., before])
+        return Moving(self, friction, acceleration, forces, offsets, anchor)
 
-    def _at(self, friction: float, acceleration: float) -> list[float]:
-        """Running sum of the forces along the belt at the boundaries [N]."""
-        at = self.totals.at
-        if friction != 1.0:
-            at = [lift + friction * (total - lift) for total, lift in zip(at, self.lifts.at, strict=True)]
-        if acceleration != 0.0:
-            at = [force + acceleration * mass for force, mass in zip(at, self.masses.at, strict=True)]
-        return at
+    def sagging(self, friction: Array) -> Array:
+        """What the sag of each run asks for over the tension where it begins, in even motion [N], (b, m, runs)."""
+        along, begins = _in_state(self.along, friction, np.zeros_like(friction)), self.plan.boundaries[:-1]
+        needed = self.standing.least[:, None] - np.minimum(along[..., :-1], along[..., 1:])
+        return np.maximum.reduceat(needed, begins, axis=-1) + along[..., begins]
 
-    def at_bends(self, steady: Motion, setting: float) -> list[tuple[float, float]]:
-        """Tensions on both sides of every pulley in steady running [N], of a driven one those of its drives."""
-        level, pairs = setting - steady.anchor, []
-        for j in self._bends:
-            sides = [offset for i in self.frame.drives[j] for offset in steady.drives[i][1:]] or [
-                steady.before[j]
-            ]
-            pairs.append((level + max(sides), level + min(sides)))
-        return pairs
 
-    def _anchor(
-        self,
-        slack_side: float,
-        outs: Sequence[float],
-        shifts: Sequence[float],
-        friction: float,
-        acceleration: float,
-    ) -> float:
-        """Offset of what the take-up holds [N]."""
-        if self.line.take_up.keeps_length:
-            totals, lifts = self.totals.mean, self.lifts.mean
-            steady = lifts + friction * (totals - lifts) + acceleration * self.masses.mean
-            return steady + math.fsum(
-                s * share for s, share in zip(shifts[:-1], self.frame.run_shares, strict=True)
-            )
-        if self.frame.anchor is not None:
-            return outs[self.frame.anchor]
-        return slack_side
+@dataclass(frozen=True, eq=False)
+class Moving:
+    """States of motion before the level of their tensions is known, as `Loops.moving` takes them.
 
-    def conditions(self, motion: Motion) -> Iterator[Condition]:
-        """What a state asks of the take-up's setting: every drive grips, no stretch sags too much."""
-        for drive, (force, arriving, leaving) in zip(self.line.drives, motion.drives, strict=True):
-            needed = grip_tension(force, friction=drive.friction, wrap_angle=drive.wrap_angle)
-            yield Condition(
-                "grip", (motion.name, drive.name), needed - min(arriving, leaving) + motion.anchor
-            )
-        if motion.sagging is not None:
-            for k, needed in enumerate(motion.sagging):
-                yield Condition("sag", (motion.name, k), needed - motion.shifts[k] + motion.anchor)
+    `offsets` are those of every place [N], shape (b, m, count + 1), `anchor` that of what the take-up holds.
+    """
 
-    def state(self, motion: Motion, setting: float) -> MotionState:
-        """The tensions of a state at a setting of the take-up."""
-        level = setting - motion.anchor
-        along = self.along(motion.friction, motion.acceleration)
-        shifts = level + np.repeat(motion.shifts[:-1], self.frame.runs)
+    loops: Loops
+    friction: Array
+    acceleration: Array
+    forces: Array
+    offsets: Array
+    anchor: Array
+
+    @cached_property
+    def sides(self) -> Array:
+        """Offsets before and behind every drive [N], shape (b, m, d, 2)."""
+        return self.offsets[..., self.loops.plan.driven]
+
+    def asked(self, sagging: Array) -> Array:
+        """Settings that states ask for: every drive grips, no run sags too much while even motion lasts [N].
+
+        Shape (b, m, d + runs).
+        """
+        begun = self.offsets[..., self.loops.plan.runs]
+        grip = np.abs(self.forces) * self.loops.standing.grip[:, None] - self.sides.min(axis=-1)
+        sag = np.where(self.acceleration[..., None] == 0.0, sagging - begun, -np.inf)
+        return np.concatenate([grip, sag], axis=-1) + self.anchor[..., None]
+
+    @cached_property
+    def along(self) -> Array:
+        """Offsets along the belt [N], shape (b, m, 2n + 1), over the single forces before."""
+        return _in_state(self.loops.along, self.friction, self.acceleration)
+
+
+@dataclass(frozen=True, eq=False)
+class States:
+    """States of motion at a setting of each take-up [N], shape (b,)."""
+
+    moving: Moving
+    setting: Array
+
+    @cached_property
+    def level(self) -> Array:
+        """Tension of the strand that leaves the head [N], shape (b, m)."""
+        return self.setting[:, None] - self.moving.anchor
+
+    @cached_property
+    def ends(self) -> Array:
+        """Tension at both ends of every stretch, in loop order [N], shape (2, b, m, 2n)."""
+        plan, along = self.moving.loops.plan, self.moving.along
+        single = self.moving.offsets[..., plan.runs] - along[..., plan.boundaries[:-1]]
+        shift = self.level[..., None] + np.repeat(single, np.diff(plan.boundaries), axis=-1)
+        return np.stack([along[..., :-1] + shift, along[..., 1:] + shift])
+
+    @cached_property
+    def extremes(self) -> tuple[Array, Array]:
+        """Lowest and highest tension round the loop [N], shape (b, m)."""
+        plan, level = self.moving.loops.plan, self.level
+        arriving = self.moving.offsets[..., plan.head]
+        sides = self.moving.sides
+        low = np.minimum(np.minimum(sides.min(axis=(-2, -1)), arriving), 0.0) + level
+        high = np.maximum(np.maximum(sides.max(axis=(-2, -1)), arriving), 0.0) + level
+        return np.minimum(self.ends.min(axis=(0, -1)), low), np.maximum(self.ends.max(axis=(0, -1)), high)
+
+    def state(self, i: int, k: int, name: str) -> MotionState:
+        """State k of loop i."""
+        moving, level = self.moving, float(self.level[i, k])
+        plan, line = moving.loops.plan, moving.loops.frames[i].line
+        forces, sides = moving.forces[i, k].tolist(), (level + moving.sides[i, k]).tolist()
+        spots = (level + moving.offsets[i, k, plan.spots]).tolist()
         return MotionState(
-            name=motion.name,
-            force=motion.force,
-            acceleration=motion.acceleration,
-            friction=motion.friction,
+            name=name,
+            force=float(moving.forces[i, k].sum()),
+            acceleration=float(moving.acceleration[i, k]),
+            friction=float(moving.friction[i, k]),
             drives=tuple(
-                DriveSide(drive.name, force, level + arriving, level + leaving)
-                for drive, (force, arriving, leaving) in zip(self.line.drives, motion.drives, strict=True)
+                DriveSide(drive.name, force, *pair)
+                for drive, force, pair in zip(line.drives, forces, sides, strict=True)
             ),
-            starts=along[:-1] + shifts,
-            ends=along[1:] + shifts,
+            starts=self.ends[0, i, k],
+            ends=self.ends[1, i, k],
             leaving=level,
-            arriving=level + motion.arriving,
-            held=setting,
-            spots=tuple(level + before for before in motion.before),
+            arriving=level + float(moving.offsets[i, k, plan.head]),
+            held=float(self.setting[i]),
+            spots=tuple(spots),
+            largest=float(self.extremes[1][i, k]),
+            smallest=float(self.extremes[0][i, k]),
         )
 
-    def slackest(self, motion: Motion, run: int) -> int:
-        """Stretch of a run whose sag asks for most, as an index in loop order."""
-        low, high = self.frame.boundaries[run : run + 2]
-        along = self.along(motion.friction, motion.acceleration)
-        needed = self.line.loop.least - np.minimum(along[:-1], along[1:])
-        return low + int(np.argmax(needed[low:high]))
+
+def _summed(along: Sequence[Force], count: int) -> Array:
+    """Forces along a belt of n sections that no friction makes, and the others, shape (2, 2n)."""
+    sums = np.zeros((2, 2 * count))
+    for force in along:
+        sums[0 if force.certain else 1] += force.newtons
+    return sums
+
+
+def _in_state(parts: Array, friction: Array, acceleration: Array) -> Array:
+    """Certain forces, those of friction and of masses in states, from shape (b, 3, n) to (b, m, n)."""
+    certain, uncertain, mass = (parts[:, None, k] for k in range(3))
+    return certain + friction[..., None] * uncertain + acceleration[..., None] * mass

@@ -113,6 +113,10 @@ class RubberCompound(Model):
 
     def shift_law(self) -> ShiftLaw | None:
         """Return the shift law in SI, if the compound has one."""
+        return self._law
+
+    @cached_property
+    def _law(self) -> ShiftLaw | None:
         return None if self.shift is None else self.shift.at(si(self.reference_temperature))
 
     def amplitude_factors(self) -> AmplitudeFactors | None:

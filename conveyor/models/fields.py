@@ -13,6 +13,7 @@ from conveyor.errors import InputError
 from conveyor.models.base import Model
 from conveyor.models.compound import RubberCompound
 from conveyor.models.conveyor import Conveyor
+from conveyor.units import is_quantity
 
 Resolve: TypeAlias = Callable[[str], RubberCompound]
 """A compound by its name or path."""
@@ -218,5 +219,7 @@ def _plain(below: Any) -> Any:
 def _frozen(below: Any) -> object:
     """What tells changes apart."""
     if isinstance(below, _Leaf):
-        return type(below.value).__name__, repr(below.value)
+        value = below.value
+        told = (value.magnitude, value.units) if is_quantity(value) else repr(value)
+        return type(value).__name__, told
     return tuple(sorted((key, _frozen(lower)) for key, lower in below.items()))

@@ -8,14 +8,15 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.constants import R as GAS_CONSTANT
-from scipy.constants import zero_Celsius
 
 from conveyor.errors import InputError, RangeError
 from conveyor.rubber.arrays import FloatArray, finite_vector, positive, positive_vector
 from conveyor.rubber.monotone import MonotoneCubic
 from conveyor.rubber.prony import PronySeries
 
+GAS_CONSTANT = 8.31446261815324
+"""N_A k_B, exact since 2019 (SI Brochure, 9th edition, table 1) [J/(mol K)]."""
+_ZERO_CELSIUS = 273.15  # [K], SI Brochure, 2.3.1
 REFERENCE_TOLERANCE = 0.01
 """Decades by which a table may miss log10 a_T = 0 at its reference: tables are printed to 2-3 decimals,
 and 0.01 decade is about 0.1 K for a rubber."""
@@ -25,7 +26,7 @@ MAX_DECADES = 100.0
 
 def celsius(temperature: float) -> str:
     """Write a temperature [K] for a message."""
-    return f"{temperature - zero_Celsius:.2f} degC"
+    return f"{temperature - _ZERO_CELSIUS:.2f} degC"
 
 
 def _kelvin(temperature: ArrayLike) -> FloatArray:

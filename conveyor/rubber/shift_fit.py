@@ -6,11 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.constants import R as GAS_CONSTANT
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.rubber.arrays import FloatArray, finite_vector, non_negative, positive, positive_vector
-from conveyor.rubber.shift import WLF, Arrhenius
+from conveyor.rubber.shift import GAS_CONSTANT, WLF, Arrhenius
 
 POLE_DISTANCE = (0.1, 1.0e4)
 """Searched distance of the WLF pole below the coldest point [K]; at 1e4 K the law is a straight line in T."""

@@ -23,7 +23,7 @@ from scipy.special import chdtrc, stdtrit
 from conveyor.arguments import checked
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.forces import along_the_belt
-from conveyor.loop.balance import balance
+from conveyor.loop.balance import OpenLoop, answers, balances
 from conveyor.models import CALIBRATED, Calibration, Conveyor, MeasuredRun
 from conveyor.models.variants import with_runs
 from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many
@@ -326,16 +326,18 @@ class _Scene:
 
     def power(self, calibration: Calibration) -> Array:
         """Power of every run where it was measured [W], the loop closed again around scaled forces."""
-        known: dict[int, tuple[float, float]] = {}
-        watts = []
-        for k, (one, at) in enumerate(zip(self.found, self.at, strict=True)):
-            first = next(i for i in range(k + 1) if self.found[i] is one)
-            if first not in known:
-                along = along_the_belt(one.line, one.fixed, one.contacts.indentation, calibration=calibration)
-                made = balance(one.balance.frame, along, one.balance.unit_main).power
-                known[first] = made.motor, made.mains
-            watts.append(known[first][at == "mains"])
-        return np.array(watts)
+        runs = dict.fromkeys(self.found)
+        loops = [
+            OpenLoop(
+                one.balance.frame,
+                along_the_belt(one.line, one.fixed, one.contacts.indentation, calibration=calibration),
+                one.balance.unit_main,
+            )
+            for one in runs
+        ]
+        power = {one: made.power for one, made in zip(runs, answers(balances(loops)), strict=True)}
+        pairs = zip(self.found, self.at, strict=True)
+        return np.array([power[one].mains if at == "mains" else power[one].motor for one, at in pairs])
 
     def slopes(self, grouping: Grouping, values: Sequence[float], power: Array) -> Array:
         """Derivatives of the powers by the factors of groups [W], shape (n, groups)."""

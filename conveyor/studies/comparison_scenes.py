@@ -207,7 +207,7 @@ def _scene(
         motor=power.motor,
         motor_low=low,
         motor_high=high,
-        largest_tension=balance.tensions.largest,
+        largest_tension=balance.settled.largest,
         energy_per_tonne_km=power.energy_per_tonne_km,
         energy_per_year=None if year is None else year.energy,
         cost_per_year=None if year is None else year.cost,

@@ -26,7 +26,7 @@ from conveyor.laws.resistance import (
 )
 from conveyor.line.roll_drags import assumed_share
 from conveyor.line.stretches import STRANDS
-from conveyor.loop.balance import balance
+from conveyor.loop.balance import Balance, OpenLoop, balances
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.rubber.anchor import UNANCHORED
 from conveyor.studies.uncertainty import Effect, root_of_squares
@@ -199,16 +199,17 @@ def power_range(result: CalculatedConveyor) -> PowerRange:
     and noted.
     """
     motor = result.balance.power.motor
+    using = [one for one in DEFAULTS if any(_rests(one, result, force) for force in result.balance.every)]
+    bands = [assumed.ends(result) for assumed in using]
+    pairs = zip(using, bands, strict=True)
+    closed = balances([_scaled(result, assumed, factor) for assumed, ends in pairs for factor in ends])
     effects, notes = [], []
-    for assumed in DEFAULTS:
-        if not any(_rests(assumed, result, force) for force in result.balance.every):
+    for assumed, ends, *both in zip(using, bands, closed[::2], closed[1::2], strict=True):
+        why = next((end for end in both if isinstance(end, NoSolutionError)), None)
+        if why is not None:
+            notes.append(f"{assumed.what} at an end of its band: {why}")
             continue
-        try:
-            ends = assumed.ends(result)
-            low, high = (_motor(result, assumed, factor) for factor in ends)
-        except NoSolutionError as error:
-            notes.append(f"{assumed.what} at an end of its band: {error}")
-            continue
+        low, high = (end.power.motor for end in both if isinstance(end, Balance))
         effects.append(
             AssumedEffect(
                 assumed.what, f"x {ends[0]:.3g}", "x 1", f"x {ends[1]:.3g}", low, high,
@@ -224,12 +225,11 @@ def _rests(assumed: Assumed, result: CalculatedConveyor, force: Force) -> bool:
     return bool(np.any(np.asarray(assumed.share(result, force)) * np.asarray(force.newtons)))
 
 
-def _motor(result: CalculatedConveyor, assumed: Assumed, factor: float) -> float:
-    """Motor power with the forces of a default scaled, the loop closed again [W]."""
+def _scaled(result: CalculatedConveyor, assumed: Assumed, factor: float) -> OpenLoop:
+    """The loop with the forces of a default scaled."""
 
     def scaled(force: Force) -> Force:
         return replace(force, newtons=force.newtons * (1.0 + (factor - 1.0) * assumed.share(result, force)))
 
     along = tuple(map(scaled, result.balance.along))
-    frame = result.balance.frame.scaled(scaled)
-    return balance(frame, along, result.balance.unit_main).power.motor
+    return OpenLoop(result.balance.frame.scaled(scaled), along, result.balance.unit_main)

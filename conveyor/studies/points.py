@@ -44,10 +44,10 @@ OUTPUTS: Final[Mapping[str, Output]] = {
     "energy_per_tonne_km": Output(
         "energy", "specific energy", attrgetter("balance.power.energy_per_tonne_km")
     ),
-    "effective_tension": Output("effective tension", "force", attrgetter("balance.forces.total")),
+    "effective_tension": Output("effective tension", "force", attrgetter("balance.settled.force")),
     "indentation": Output("indentation", "force", attrgetter("balance.forces.indentation")),
     "friction_factor": Output("equivalent DIN f", "friction", attrgetter("balance.friction_factor")),
-    "largest_tension": Output("largest tension", "force", attrgetter("balance.tensions.largest")),
+    "largest_tension": Output("largest tension", "force", attrgetter("balance.settled.largest")),
     "take_up": Output("setting of the take-up", "force", attrgetter("balance.settled.setting")),
     "belt_safety": Output("belt safety", "ratio", attrgetter("belt_duty.safety")),
     "energy_per_year": Output(

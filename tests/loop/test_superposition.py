@@ -69,12 +69,12 @@ def added(conveyor):
 def looked_for(found):
     """The figures by the loop itself."""
     settled = found.settled
-    grips = {drive.name: -np.inf for drive in found.line.drives}
-    for motion in settled.motions:
-        for condition in settled.loop.conditions(motion):
-            if condition.kind == "grip":
-                name = condition.where[1]
-                grips[name] = max(grips[name], condition.setting)
+    grips = {
+        drive.name: max(
+            asked for name, asked in settled.conditions.items() if name.startswith(f"grip, {drive.name}, ")
+        )
+        for drive in found.line.drives
+    }
     figures = {
         DRIVE_FORCE: settled.force, LEAST_FORCE: -settled.least_force,
         TENSION: found.tensions.largest, TAKE_UP: settled.needed,

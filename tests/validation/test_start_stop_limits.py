@@ -90,7 +90,7 @@ def test_a_very_slow_start_has_the_quasi_static_tensions():
     factor = 1.3
     conveyor = line(drive=DATA["drive"] | MASSES | {"start_factor": factor}, route={"feeding": NO_RUSH})
     found = closed(conveyor)
-    mass = found.settled.loop.masses.whole
+    mass = found.settled.mass
     time = 0.5 * np.pi * found.line.speed * mass / ((factor - 1.0) * found.settled.force)
     starter = {"kind": "inverter", "ramp": "cosine", "time": f"{time:.6f} s", "slip": "0.5 %"}
     made = followed(

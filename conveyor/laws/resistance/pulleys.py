@@ -8,6 +8,9 @@ from __future__ import annotations
 import math
 from typing import Final
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from conveyor.require import require, require_not_negative, require_positive
 
 FABRIC_WRAP: Final = (9.0, 140.0)  # [-], [N/m]: ISO 5048, in 9 B (140 + 0.01 F/B) d/D
@@ -105,31 +108,31 @@ def steel_cord_wrap_resistance(
 
 def pulley_load(
     *,
-    tight_tension: float,
-    slack_tension: float,
-    pulley_mass: float,
-    gravity: float,
-    wrap_angle: float = math.pi,
-) -> float:
+    tight_tension: ArrayLike,
+    slack_tension: ArrayLike,
+    pulley_mass: ArrayLike,
+    gravity: ArrayLike,
+    wrap_angle: ArrayLike = math.pi,
+) -> NDArray[np.float64]:
     """Load on the bearings of a pulley, F_T = sqrt((T1 + T2)² + (g m_p)²) at half a turn (ISO 5048).
 
     Parameters
     ----------
-    tight_tension : float
+    tight_tension : array_like
         T1 [N], at least 0.
-    slack_tension : float
+    slack_tension : array_like
         T2 [N], at least 0.
-    pulley_mass : float
+    pulley_mass : array_like
         m_p [kg], at least 0.
-    gravity : float
+    gravity : array_like
         g [m/s²], positive.
-    wrap_angle : float
+    wrap_angle : array_like
         Angle α over which the belt lies on it [rad], above 0, at most 2 pi.
 
     Returns
     -------
-    float
-        F_T [N].
+    ndarray
+        F_T [N], of the arguments' common shape.
 
     Raises
     ------
@@ -142,17 +145,19 @@ def pulley_load(
 
     Examples
     --------
-    >>> pulley_load(tight_tension=200.0, slack_tension=100.0, pulley_mass=40.0, gravity=10.0)
+    >>> float(pulley_load(tight_tension=200.0, slack_tension=100.0, pulley_mass=40.0, gravity=10.0))
     500.0
     """
-    require_not_negative(tight_tension=tight_tension, slack_tension=slack_tension, pulley_mass=pulley_mass)
-    require_positive(gravity=gravity)
-    require(
-        0.0 < wrap_angle <= 2.0 * math.pi, "wrap_angle", wrap_angle, "above 0 and at most 2 pi rad is needed"
-    )
+    tight, slack, mass, wrap = map(np.asarray, (tight_tension, slack_tension, pulley_mass, wrap_angle))
+    for name, values in (("tight_tension", tight), ("slack_tension", slack), ("pulley_mass", mass)):
+        borne = bool(((values >= 0.0) & (values < math.inf)).all())
+        require(borne, name, values.tolist(), "a finite number of at least 0 is needed")
+    require_positive(gravity=float(np.min(gravity)))
+    turns = bool(((wrap > 0.0) & (wrap <= 2.0 * math.pi)).all())
+    require(turns, "wrap_angle", wrap.tolist(), "above 0 and at most 2 pi rad is needed")
     # sqrt(T1² + T2² - 2 T1 T2 cos α) without cancellation at small angles
-    across = 2.0 * math.sqrt(tight_tension) * math.sqrt(slack_tension) * math.sin(0.5 * wrap_angle)
-    return math.hypot(tight_tension - slack_tension, across, gravity * pulley_mass)
+    across = 2.0 * np.sqrt(tight) * np.sqrt(slack) * np.sin(0.5 * wrap)
+    return np.asarray(np.hypot(np.hypot(tight - slack, across), gravity * mass))
 
 
 def pulley_bearing_resistance(load: float, *, shaft_diameter: float, pulley_diameter: float) -> float:
