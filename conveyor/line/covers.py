@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 from conveyor.errors import NoSolutionError, RangeError
 from conveyor.indentation import Backing, RollContact, Support, felt
 from conveyor.laws.softening import (
-    STRAIN_RTOL,
     SoftCover,
     WorkedCover,
     WorkingStrain,
@@ -181,11 +180,13 @@ def told_apart(work: StrandAtWork, rtol: float) -> tuple[float, float] | None:
 
 READ_FROM: Final = 5
 """Speeds from which on the working strain is found at three of them, and read between."""
-READ_SPAN: Final = 2.0
+READ_SPAN: Final = 1.65
 """Fastest over slowest of the speeds that a strain is read among: ln strain is a parabola of ln speed to 5e-4 (three
 covers of the shelf, -30 to 40 °C); more nodes gain nothing, the strain found at each speed scatters as much."""
+READ_STRAIN: Final = 5e-4
+"""Of the strain, what reading it may miss by what a straight line misses [-]: about its scatter."""
 READ_ERROR: Final = 7e-5
-"""Of indentation, what that changes [-]: with the error of the curves 8e-5 at most, 1e-5 in the median was seen of 550
+"""Of indentation, what that changes [-]: with the error of the curves 6e-5 at most, 8e-6 in the median was seen of 204
 scenes against contacts of 1e-7 with a strain of their own (benchmarks/compare_error.py)."""
 READ_RTOL: Final = 1e-4
 """Finest tolerance of contacts that leaves room for it [-]."""
@@ -261,7 +262,7 @@ def _read(
     bend = known[1] - known[0] - (known[2] - known[0]) * (middle - slow) / (fast - slow)
     bend = bend * (at - slow) * (at - fast) / ((middle - slow) * (middle - fast))
     miss, span = np.abs(bend).max(axis=0), np.maximum(np.ptp(known, axis=0), np.finfo(float).tiny)
-    if np.any(np.minimum(miss, 4.0 * miss * miss / span) > STRAIN_RTOL):
+    if np.any(np.minimum(miss, 4.0 * miss * miss / span) > READ_STRAIN):
         return {}
     return {
         work: (strain, omega)

@@ -75,7 +75,7 @@ def test_few_speeds_and_speeds_far_apart_have_each_their_own_strain(line, solved
 
 
 def test_a_strain_that_bends_too_much_is_found_at_each_speed(line, solved, monkeypatch):
-    monkeypatch.setattr(covers, "STRAIN_RTOL", 1e-9)  # of what a parabola may miss
+    monkeypatch.setattr(covers, "READ_STRAIN", 1e-9)  # of what a parabola may miss
     calculated(line, SPEEDS, runs=[range(len(SPEEDS))])
     assert sum(solved) == 2 * len(SPEEDS)
 
