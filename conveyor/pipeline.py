@@ -695,24 +695,27 @@ class _Shared:
         return replace(work, cover=replace(work.cover, rubber=less, merged=2.0 * FELT * rtol))
 
     def _still(self, given: Conveyor, on_curves: Acting) -> _Loaded:
-        """The line of a spec, its rolls without drag; specs of one belt, load and idlers share a strand."""
+        """The line of a spec, its rolls without drag."""
         acted = on_curves != Acting()
         kept, belt = self._own if acted else self._kept, self._kept.belt(given.belt)
-        sections = self._kept.once(lambda: route_sections(given), "sections", (given.route,))
-        scene = (*map(_in_order, vars(on_curves).values()), given.ambient.wind_speed)
-        each = []
-        for strand, own in zip(STRANDS, (given.idlers.carry, given.idlers.return_), strict=True):
-            parts = (belt, own, given.material, given.route, given.calculation)
-            made = partial(_strand, given, sections, strand, on_curves)
-            each.append(kept.once(made, "strand", parts, (strand, *scene)))
-        (carry, up), (back, down) = each
-        strands = Strands(sections, (carry, back))
         others = (belt, given.material, given.route, given.drive, given.calculation, given.report)
-        wind = (given.ambient.wind_speed,)
-        like = self._kept.once(lambda: Line.of(given, strands, [(), ()]), "like", others, wind)
-        return kept.once(
-            lambda: _loaded(replace(like, strands=strands), (up, down), acted), "line", (carry, back, like)
-        )
+        scene = (*map(_in_order, vars(on_curves).values()), given.ambient.wind_speed)
+
+        def made() -> _Loaded:
+            """Specs of one belt, load and idlers share a strand; of one strand all but their other idlers."""
+            sections = self._kept.once(lambda: route_sections(given), "sections", (given.route,))
+            each = []
+            for strand, own in zip(STRANDS, sets, strict=True):
+                parts = (belt, own, given.material, given.route, given.calculation)
+                laid = partial(_strand, given, sections, strand, on_curves)
+                each.append(kept.once(laid, "strand", parts, (strand, *scene)))
+            (carry, up), (back, down) = each
+            strands, wind = Strands(sections, (carry, back)), (given.ambient.wind_speed,)
+            like = self._kept.once(lambda: Line.of(given, strands, [(), ()]), "like", others, wind)
+            return _loaded(replace(like, strands=strands), (up, down), acted)
+
+        sets = given.idlers.carry, given.idlers.return_
+        return kept.once(made, "line", (*sets, *others), scene)
 
     def softened(
         self, loaded: Mapping[int, _Loaded], before: Mapping[int, Covers]

@@ -111,7 +111,9 @@ class Creeps:
     def compliance(self, m: Array) -> NDArray[np.complex128]:
         """j(m) of each scene at its wave numbers m, shape (b, k), or at those of all, shape (1, k)."""
         x = m[:, :, None] * self.times[:, None, :]
-        real = 1.0 / (1.0 + x * x)
+        real = x * x
+        real += 1.0
+        np.reciprocal(real, out=real)
         out = np.empty(x.shape[:2], dtype=complex)
         out.real = (real @ self.weights[:, :, None])[..., 0] + self.instantaneous[:, None]
         real *= x

@@ -22,7 +22,7 @@ Places = NDArray[np.intp]
 
 
 @dataclass(frozen=True, eq=False)
-class Plan:
+class LoopPlan:
     """What the belt meets round the loop from the head, numbered: runs of stretches, and what stands between them.
 
     Attributes
@@ -162,7 +162,7 @@ class Frame:
         self.plan = self._plan()
         self.standing = _standing(self)
 
-    def _plan(self) -> Plan:
+    def _plan(self) -> LoopPlan:
         line, met = self.line, 0
         runs, spots, drives = [], [], [0] * len(self.line.drives)
         pulleys, sides = [0] * len(self.bends), [[0]] * len(self.bends)
@@ -190,7 +190,7 @@ class Frame:
         columns = (self.boundaries, runs, spots, pulleys, drives, *padded)
         station = (drives[self.station[0]], drives[self.station[-1]] + 1)
         keeps = line.take_up.keeps_length
-        return Plan(
+        return LoopPlan(
             key=(*map(tuple, columns), held, station, keeps, Pull.of(line).kind),
             count=met,
             boundaries=np.array(self.boundaries),

@@ -43,10 +43,10 @@ def test_a_line_reads_nothing_that_its_key_does_not_hold(path):
     """Found the second time, a line costs the reading of its key; made the first time, no more may be read."""
     read, kept = set(), Kept()
     given = Spied(conveyor.load(path), "", read)
-    made = _Shared(None, [], None, kept)._still(given, Acting())  # noqa: SLF001
+    made = _Shared(None, [], None, kept)._still(given, Acting())
     in_making = set(read)
     read.clear()
-    again = _Shared(None, [], None, kept)._still(given, Acting())  # noqa: SLF001
+    again = _Shared(None, [], None, kept)._still(given, Acting())
     assert again is made
     fields = {one for one in in_making - read if not one.startswith("belt.")}
     assert not fields, "read by a line, not in the key of pipeline._Shared._still"

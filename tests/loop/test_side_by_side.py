@@ -32,7 +32,14 @@ def figures(found):
     states = [
         figure
         for state in settled.states.values()
-        for figure in (state.force, state.acceleration, state.largest, state.smallest, *state.starts, *state.spots)
+        for figure in (
+            state.force,
+            state.acceleration,
+            state.largest,
+            state.smallest,
+            *state.starts,
+            *state.spots,
+        )
     ]
     return [settled.force, settled.least_force, settled.setting, *settled.bends, *states]
 
