@@ -142,7 +142,9 @@ def _converged(
 
 
 def _longest(terms: int) -> int:
-    """The last order of the longest tail: its tables fit in memory and in half a second."""
+    """The last order of the longest tail: its tables fit in memory and in half a second; none of an elastic contact."""
+    if not terms:
+        return 0
     last = _FIRST_TAIL
     while 4 * last <= _LONGEST_TAIL and 4 * last * terms <= _LONGEST_TABLE:
         last *= 4
@@ -150,10 +152,15 @@ def _longest(terms: int) -> int:
 
 
 def _next(orders: tuple[int, int], errors: list[float], rtol: float, longest: int) -> tuple[int, int] | None:
-    """The core and the last order to go on with: longer is what is more at fault; None beyond the longest of both."""
+    """The core and the last order to go on with: longer is what is more at fault; None beyond the longest of both.
+
+    Without a tail the ladder of orders ends it.
+    """
     n, last = orders
     if last == n:
         following = next_order(n, errors[0], rtol)
+        if not longest:
+            return (following, following) if following > n else None
         return (following, following) if following <= DENSE else (_CORE, _FIRST_TAIL)
     core, tail = errors
     if core > max(tail, rtol):

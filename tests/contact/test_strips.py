@@ -287,3 +287,11 @@ def test_a_place_alone_leaves_the_matrices():
     found = solve(SEVERAL["three"])
     assert found.stats.matrices % 3 == 0
     assert found.stats.matrices < 60
+
+
+def test_an_elastic_plate_may_ask_for_more_than_192_coefficients():
+    # a contact that nearly fills the half circle: without retardation terms there is no tail of orders to go on with
+    found = solve(ContactProblem("free", 0.496, 8.25e-6, CreepSpectrum(1.0, [], []), 0.0019))
+    assert found.status is Status.OK
+    assert found.stats.order > 192
+    assert abs(found.friction) < 1e-6
