@@ -732,7 +732,7 @@ class _Shared:
         works = dict.fromkeys(work for one in loaded.values() for work in one.works.values())
         asked = [work for work in works if work not in self._running]
         known = self._kept.covers
-        self._running |= {work: known.pop(work) for work in asked if work in known}
+        self._running |= {work: one for work in asked if (one := known.pop(work, None)) is not None}
         new = [work for work in asked if work not in self._running]
         tests = [work for theory in self._theories for work in theory.works]
         runs = [

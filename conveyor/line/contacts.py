@@ -217,7 +217,7 @@ def _solved(
 ) -> dict[RollContact, IndentationCurve | NoSolutionError]:
     """Curves of all contacts: what is known of exactly such, the others solved side by side."""
     keys = {contact: (contact, *span, rtol) for contact, span in spans.items()}
-    solved = {contact: known.pop(key) for contact, key in keys.items() if key in known}
+    solved = {contact: one for contact, key in keys.items() if (one := known.pop(key, None)) is not None}
     if new := [contact for contact in spans if contact not in solved]:
         lowest, highest = zip(*(spans[contact] for contact in new), strict=True)
         solved |= zip(new, indentation_curves(new, lowest, highest, rtol), strict=True)
