@@ -90,12 +90,11 @@ def rubbers(
     RangeError
         A compound is not known at the temperature of `series`.
     """
-    carry, back = conveyor.carry_compound, conveyor.return_compound
-    behind = series(carry if back == carry else back)
+    behind = series(conveyor.return_compound)
     own = conveyor.belt.top_cover.compound
     turned = conveyor.route.turned_over and own is not None and conveyor.calculation.support == "belt"
     return {
-        "carry": series(carry),
+        "carry": series(conveyor.carry_compound),
         "return": behind,
         "top": series(own) if turned and own is not None else behind,
     }
