@@ -16,14 +16,16 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from conveyor.analysis import (
         Analysis,
-        CalibrationStudy,
         CaseStudy,
-        Comparison,
         DutyStudy,
-        VerificationSheet,
         analyse,
         analyse_cases,
         analyse_duty,
+    )
+    from conveyor.comparisons import (
+        CalibrationStudy,
+        Comparison,
+        VerificationSheet,
         calibrate,
         compare,
         compare_compounds,
@@ -38,6 +40,15 @@ if TYPE_CHECKING:
 
 # Imported on first use: `conveyor --help` must not pay for scipy and pandas.
 _WHERE = {
+    "conveyor.comparisons": (
+        "CalibrationStudy",
+        "Comparison",
+        "VerificationSheet",
+        "calibrate",
+        "compare",
+        "compare_compounds",
+        "verify_sheet",
+    ),
     "conveyor.designs": ("Sizing", "Study", "size", "study"),
     "conveyor.errors": ("ConveyorError", "InputError", "NoSolutionError", "RangeError", "ValidityWarning"),
     "conveyor.models": ("Conveyor", "RubberCompound"),

@@ -6,7 +6,7 @@ these faces.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial, wraps
 from pathlib import Path
@@ -15,23 +15,19 @@ from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 from conveyor import studies as study
 from conveyor.arguments import checked
 from conveyor.checks import Check, checks
-from conveyor.measured.runs import read_runs
-from conveyor.models import Conveyor, MeasuredRun, RubberCompound
+from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor, calculate
 from conveyor.remarks import assumptions, warnings
-from conveyor.studies import calibration as calibration_study
 from conveyor.studies import cases as case_study
-from conveyor.studies import comparison as compound_study
 from conveyor.studies import duty as duty_study
 from conveyor.studies import states as state_study
 from conveyor.studies import uncertainty as range_study
-from conveyor.studies import verification as verification_study
 from conveyor.units.presentation import chosen
 
 if TYPE_CHECKING:
     import pandas as pd
 
-    from conveyor.drawing import AnalysisPlots, ComparisonPlots
+    from conveyor.drawing import AnalysisPlots
     from conveyor.dynamics.follow import CalculatedDynamics
     from conveyor.report.columns import Contents, Table
     from conveyor.report.files import FileKind
@@ -337,138 +333,26 @@ class Studies(study.CalculatedStudies):
         return plain(self)
 
 
-class Comparison(compound_study.CalculatedComparison):
-    """Compounds on one conveyor, with tables, reports and figures."""
-
-    @cached_property
-    def table(self) -> pd.DataFrame:
-        """One row a scene; units in the names."""
-        from conveyor.report import comparison_tables
-
-        return comparison_tables.scenes(self).frame()
-
-    @cached_property
-    def ranking(self) -> pd.DataFrame:
-        """One row a compound and speed, the least mean power first; savings and payback against the base."""
-        from conveyor.report import comparison_tables
-
-        return comparison_tables.ranking(self).frame()
-
-    def contents(self, system: System | None = None) -> Contents:
-        """Everything a report holds, in a system of units."""
-        from conveyor.report.comparison_tables import of_comparison
-
-        return of_comparison(self, chosen(self.conveyor.report.units, system))
-
-    def to_excel(self, path: str | Path, *, system: System | None = None) -> Path:
-        """Write the workbook; as `Analysis.to_excel`."""
-        from conveyor.report.excel import write
-
-        return write(self.contents(system), Path(path))
-
-    def to_tables(
-        self, folder: str | Path, *, system: System | None = None, kind: FileKind = "csv"
-    ) -> tuple[Path, ...]:
-        """Write every table as a file of its own; as `Analysis.to_tables`."""
-        from conveyor.report.files import write
-
-        return write(self.contents(system), Path(folder), kind)
-
-    def to_html(self, path: str | Path, *, system: System | None = None) -> Path:
-        """Write the HTML report; as `Analysis.to_html`."""
-        from conveyor.report.html import write
-
-        return write(self.contents(system), Path(path))
-
-    @property
-    def plots(self) -> ComparisonPlots:
-        """Figures: power over temperature and speed, loss tangents."""
-        from conveyor.drawing import ComparisonPlots
-
-        return ComparisonPlots(self)
-
-    def _repr_html_(self) -> str:
-        """For notebooks: the ranking and what to know of it."""
-        from conveyor.report import comparison_tables
-
-        return comparison_tables.notebook_of_comparison(self)
-
-
-class CalibrationStudy(calibration_study.CalculatedCalibration):
-    """Factors from measured power, with their tables."""
-
-    @cached_property
-    def table(self) -> pd.DataFrame:
-        """One row a factor with its band."""
-        from conveyor.report.calibration_tables import factors
-
-        return factors(self).frame()
-
-    @cached_property
-    def residuals(self) -> pd.DataFrame:
-        """One row a run: measured, calculated before and after; units in the names."""
-        from conveyor.report.calibration_tables import runs
-
-        return runs(self).frame()
-
-    def contents(self, system: System | None = None) -> Contents:
-        """Everything a report holds, in a system of units."""
-        from conveyor.report.calibration_tables import of_calibration
-
-        return of_calibration(self, chosen(self.conveyor.report.units, system))
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain numbers for JSON; units in the keys."""
-        from conveyor.report.calibration_tables import plain
-
-        return plain(self)
-
-
-class VerificationSheet(verification_study.CalculatedVerification):
-    """What compounds lose under rolls, to be held to a maker's tests, with its tables and reports."""
-
-    @cached_property
-    def table(self) -> pd.DataFrame:
-        """One row a compound, cover, roll, speed and temperature; units in the names."""
-        return self.contents()["per_width"].frame()
-
-    def contents(self, system: System = "SI") -> Contents:
-        """Everything a report holds, in a system of units."""
-        from conveyor.report.verification_tables import of_verification
-
-        return of_verification(self, system)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain numbers for JSON; units in the keys."""
-        from conveyor.report.verification_tables import plain
-
-        return plain(self)
-
-
-def _faced(plain: Any, face: Callable[..., Face]) -> Face:
+def faced(plain: Any, face: Callable[..., Face]) -> Face:
     """Results with their face."""
     return face(**{field.name: getattr(plain, field.name) for field in fields(plain)})
 
 
-def _facing(work: Callable[Given, Any], face: Callable[..., Face]) -> Callable[Given, Face]:
+def facing(work: Callable[Given, Any], face: Callable[..., Face]) -> Callable[Given, Face]:
     """A function whose results have their face."""
 
     @wraps(work)
-    def faced(*given: Given.args, **named: Given.kwargs) -> Face:
-        return _faced(work(*given, **named), face)
+    def called(*given: Given.args, **named: Given.kwargs) -> Face:
+        return faced(work(*given, **named), face)
 
-    return faced
-
-
-analyse = _facing(calculate, Analysis)
-analyse_cases = _facing(case_study.analyse_cases, CaseStudy)
-analyse_duty = _facing(duty_study.analyse_duty, DutyStudy)
-study_ranges = _facing(range_study.study, UncertaintyStudy)
-load_states = _facing(state_study.load_states, StateStudy)
-compare_compounds = _facing(compound_study.compare_compounds, Comparison)
+    return called
 
 
-verify_sheet = _facing(verification_study.verification, VerificationSheet)
+analyse = facing(calculate, Analysis)
+analyse_cases = facing(case_study.analyse_cases, CaseStudy)
+analyse_duty = facing(duty_study.analyse_duty, DutyStudy)
+study_ranges = facing(range_study.study, UncertaintyStudy)
+load_states = facing(state_study.load_states, StateStudy)
 
 
 def studies(
@@ -477,10 +361,10 @@ def studies(
     """Calculate the load states and what the spec asks for; as `conveyor.studies.studies`, and its scenarios."""
     made = study.studies(conveyor, given, progress=progress)
     return Studies(
-        states=None if made.states is None else _faced(made.states, StateStudy),
-        cases=None if made.cases is None else _faced(made.cases, CaseStudy),
-        duty=None if made.duty is None else _faced(made.duty, DutyStudy),
-        uncertainty=None if made.uncertainty is None else _faced(made.uncertainty, UncertaintyStudy),
+        states=None if made.states is None else faced(made.states, StateStudy),
+        cases=None if made.cases is None else faced(made.cases, CaseStudy),
+        duty=None if made.duty is None else faced(made.duty, DutyStudy),
+        uncertainty=None if made.uncertainty is None else faced(made.uncertainty, UncertaintyStudy),
         dynamics=_followed(conveyor, progress) if conveyor.scenarios else None,
     )
 
@@ -499,30 +383,3 @@ def _further(studies: Studies | None, system: System) -> Further | None:
     from conveyor.report.dynamics_tables import further
 
     return further(studies.dynamics, system)
-
-
-def calibrate(
-    conveyor: Conveyor, runs: str | Path | Sequence[MeasuredRun], **options: Any
-) -> CalibrationStudy:
-    """Factors on forces from measured power, of a file or of runs; as `conveyor.studies.calibration.calibrate`.
-
-    Examples
-    --------
-    >>> import conveyor
-    >>> line = conveyor.load("examples/specs/overland.yaml")  # doctest: +SKIP
-    >>> conveyor.calibrate(line, "runs.csv").table  # doctest: +SKIP
-    """
-    given = read_runs(runs) if isinstance(runs, str | Path) else runs
-    return _faced(calibration_study.calibrate(conveyor, given, **options), CalibrationStudy)
-
-
-def compare(conveyor: Conveyor, compounds: Iterable[str | RubberCompound], **options: Any) -> pd.DataFrame:
-    """The table of `compare_compounds`, one row a scene; its options are those of `compare_compounds`.
-
-    Examples
-    --------
-    >>> import conveyor
-    >>> line = conveyor.load("examples/specs/overland.yaml")  # doctest: +SKIP
-    >>> conveyor.compare(line, ["s100", "s120"], temperatures=["0 degC", "20 degC"])  # doctest: +SKIP
-    """
-    return compare_compounds(conveyor, compounds, **options).table

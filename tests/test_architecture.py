@@ -99,7 +99,14 @@ RENDERERS = (
 @pytest.mark.parametrize("renderer", RENDERERS)
 def test_renderers_know_no_results(renderer):
     name = f"conveyor.report.{renderer}"
-    below = ("conveyor.line", "conveyor.loop", "conveyor.studies", "conveyor.pipeline", "conveyor.analysis")
+    below = (
+        "conveyor.line",
+        "conveyor.loop",
+        "conveyor.studies",
+        "conveyor.pipeline",
+        "conveyor.analysis",
+        "conveyor.comparisons",
+    )
     assert name in FILES
     assert [used for used in sorted(imports(name)) if used.startswith(below)] == []
 

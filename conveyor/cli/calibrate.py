@@ -11,7 +11,7 @@ from conveyor.cli.session import Session, command
 from conveyor.errors import InputError
 
 if TYPE_CHECKING:
-    from conveyor.analysis import CalibrationStudy
+    from conveyor.comparisons import CalibrationStudy
     from conveyor.units import System
 
 _OF_RUNS = ("run", "flow", "speed", "temperature", "measured", "before", "after", "difference", "note")

@@ -10,7 +10,7 @@ from conveyor.cli.session import Session, command
 from conveyor.errors import InputError
 
 if TYPE_CHECKING:
-    from conveyor.analysis import VerificationSheet
+    from conveyor.comparisons import VerificationSheet
 
 _AXES = {
     "--load": ("line_loads", "N/mm", "N/m", "lbf/in"),

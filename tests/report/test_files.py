@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 
 import conveyor
-from conveyor.analysis import compare_compounds
+from conveyor.comparisons import compare_compounds
 from conveyor.errors import InputError
 from conveyor.files.saving import save
 from conveyor.printable import printable

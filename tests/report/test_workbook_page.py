@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 import conveyor
-from conveyor.analysis import compare_compounds, studies
+from conveyor.analysis import studies
+from conveyor.comparisons import compare_compounds
 from conveyor.models import LoadCase, Scenario
 from conveyor.report.comparison_tables import of_comparison
 from conveyor.report.excel import COMPARISON_SHEETS, FRONT, SHEETS, build

@@ -10,7 +10,7 @@ import pytest
 from openpyxl.utils import range_boundaries
 
 import conveyor
-from conveyor.analysis import compare_compounds
+from conveyor.comparisons import compare_compounds
 from conveyor.errors import InputError
 from conveyor.report.cells import INFINITE, VERDICTS
 from conveyor.units.presentation import unit
