@@ -7,7 +7,6 @@ import sys
 import zipfile
 from contextlib import suppress
 from functools import cache
-from importlib import metadata
 from io import BytesIO
 from typing import Final
 from xml.etree import ElementTree as ET
@@ -36,6 +35,8 @@ _HEAD: Final = 4_000
 @cache
 def version(package: str) -> str:
     """Return the version of an installed package: its own word where it is loaded, else what was installed."""
+    from importlib import metadata  # a tenth of `conveyor --help`, which asks for no version
+
     said = getattr(sys.modules.get(package), "__version__", None)
     return str(said) if said is not None else metadata.version(package)
 
