@@ -130,8 +130,9 @@ class Loadings:
         loadings = {DRIVE_FORCE: candidates[0]}
         for state in self._states:
             for sought in self._candidates(state):
-                begun = candidates[:1] if sought.driving is None else candidates[:2]
-                candidates += [self._ascent(sought, loading) for loading in (sought.more > 0.0, *begun)]
+                begun = [sought.more > 0.0, *candidates[: 1 if sought.driving is None else 2]]
+                starts = {loading.tobytes(): loading for loading in begun}
+                candidates += [self._ascent(sought, loading) for loading in starts.values()]
         tried = {loading.tobytes(): loading for loading in candidates}
         figures = {key: self.figures(loading) for key, loading in tried.items()}
         for name in figures[candidates[0].tobytes()]:
@@ -387,14 +388,14 @@ class Loadings:
         changes = self._single if sought.driving is None or self.count > _PAIRS_TO else self._pairs
         while True:
             values = self._values(sought, loading, changes)
-            if together:
-                gains = values[: self.count] > here
+            gains = values[: self.count] > here
+            if together and gains.any():
                 tried = loading ^ gains
                 value = self._values(sought, tried, self._unchanged)[0]
                 together = bool(value > here)
                 if together:
                     loading, here = tried, value
-                continue
+                    continue
             best = int(np.argmax(values))
             if not values[best] > here:
                 return loading
