@@ -72,6 +72,8 @@ POSITIONS = [
     ("spacing: 1.5 m", "spacing: 1,5 m", '11:14 idlers.carry.spacing: got "1,5 m": a comma is ambiguous;'),
     ("rolls: 3", "rolls: 6", "10:12 idlers.carry.rolls: got 6, allowed: 1, 2, 3, 4 or 5"),
     ("rolls: 3", 'rolls: "3"', '10:12 idlers.carry.rolls: got "3", allowed: 1, 2, 3, 4 or 5'),
+    ("length: 500 m", "length: 500", '21:27 route.sections[0].length: got 500 without a unit; give the unit, e.g. '
+     '"500 m"'),
     ("length: 500 m", "length: 0 ft", "21:27 route.sections[0].length: got 0 ft, allowed: > 0 ft and <= 328084 ft"),
     ("lift: 10 m", "lift: 310 m", "22:40 route.sections[1].lift: got 310 m, but the section is only 300 m long;"),
     ("name: two", "name: one", '22:14 route.sections[1].name: got "one", already the name of sections[0];'),

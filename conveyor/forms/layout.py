@@ -315,8 +315,6 @@ def _lengths(marks: tuple[Any, ...], what: str) -> str:
 
 _BOUND: Final = re.compile(r"([<>≤≥]) ([^ ,]+ [^ ,]+)")
 _DIGITS: Final = 3
-_SMALL: Final = quantity("5 m")
-"""Lengths whose limit is not beyond this are of parts, in inches in the US."""
 
 
 def limits_like(allowed: str, value: Any) -> str:
@@ -376,8 +374,4 @@ def in_system(leaf: Leaf, system: System, units: Iterable[str | None] = ()) -> L
 
 def _unit_in_us(leaf: Leaf) -> str:
     """Unit of reports of the kind; of lengths of parts the inch."""
-    if leaf.measure == "length":
-        largest = [limit for sign, limit in _BOUND.findall(leaf.allowed) if sign in "<≤"]
-        if largest and all(quantity(limit) <= _SMALL for limit in largest):
-            return KINDS["thickness"].us
-    return KINDS[leaf.measure].us
+    return KINDS["thickness" if leaf.measure == "length" else leaf.measure].us

@@ -15,6 +15,7 @@ from conveyor.models.rolls import Roll
 from conveyor.units import (
     Angle,
     Bounds,
+    Distance,
     Force,
     Fraction,
     Length,
@@ -29,7 +30,7 @@ from conveyor.units import (
 SHARE_SUM_TOLERANCE: Final = 1e-9
 """Shares are typed as decimals; anything coarser is a slip (the loading laws use the same figure)."""
 
-Spacing = Annotated[Length, Bounds(gt="0 m", le="20 m")]
+Spacing = Annotated[Distance, Bounds(gt="0 m", le="20 m")]
 Share = Annotated[Fraction, Bounds(ge="0 %", le="100 %")]
 
 

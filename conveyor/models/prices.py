@@ -15,7 +15,7 @@ from conveyor.laws.drives import HORSEPOWER
 from conveyor.laws.resistance.cema import FOOT, POUND, POUND_FORCE
 from conveyor.models.base import Model, Number, Problem, refuse
 from conveyor.models.listed import merged
-from conveyor.units import Bounds, Duration, Fraction, Length, si
+from conveyor.units import Bounds, Distance, Duration, Fraction, si
 
 _WRITTEN: Final = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?)\s*([A-Z]{3})(?:\s*/\s*(\S+))?\s*")
 _SCALES: Final = {
@@ -93,7 +93,7 @@ class Prices(Model):
     """Cover rubber of every compound but the first of the duty's."""
     splice: _PerLength
     """A splice, per width of belt."""
-    roll_of_belt: Annotated[Length, Bounds(gt="10 m", le="10 km")]
+    roll_of_belt: Annotated[Distance, Bounds(gt="10 m", le="10 km")]
     """Belt between splices."""
     textile_life: Years
     """Of a textile belt, years."""

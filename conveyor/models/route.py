@@ -27,6 +27,7 @@ from conveyor.units import (
     Angle,
     AreaMass,
     Bounds,
+    Distance,
     Duration,
     Force,
     Fraction,
@@ -70,9 +71,9 @@ class Section(Model):
 
     name: Name
     """Each its own; feeding, drives and pulleys may name it."""
-    length: Annotated[Length, Bounds(gt="0 m", le="100 km")]
+    length: Annotated[Distance, Bounds(gt="0 m", le="100 km")]
     """Length along the belt."""
-    lift: Annotated[Length, Bounds(ge="-5 km", le="5 km")] | None = None
+    lift: Annotated[Distance, Bounds(ge="-5 km", le="5 km")] | None = None
     """Rise from its tail end to its head end; level without lift and slope."""
     slope: Annotated[Angle, Bounds(ge="-45 deg", le="45 deg")] | None = None
     """Angle to the level, instead of the lift."""
@@ -84,11 +85,11 @@ class Section(Model):
     """Whether the carry strand bears bulk here."""
     curve: Literal["convex", "concave"] | None = None
     """Vertical curve: convex over a hill, concave through a valley; straight without."""
-    curve_radius: Annotated[Length, Bounds(ge="10 m", le="100 km")] | None = None
+    curve_radius: Annotated[Distance, Bounds(ge="10 m", le="100 km")] | None = None
     """Radius of the vertical curve; lift or slope are those of its chord."""
     horizontal_curve: Literal["left", "right"] | None = None
     """Horizontal curve, to the left or right in running direction of the carry strand; straight without."""
-    horizontal_radius: Annotated[Length, Bounds(ge="10 m", le="100 km")] | None = None
+    horizontal_radius: Annotated[Distance, Bounds(ge="10 m", le="100 km")] | None = None
     """Radius of the horizontal curve."""
     carry_banking: Banking | None = None
     """Angle by which the carry sets are raised on the inside of the horizontal curve."""
@@ -167,7 +168,7 @@ class Feeding(Model):
 
     speed: Annotated[Speed, Bounds(ge="0 m/s", le="20 m/s")] = quantity("0 m/s")
     """Speed of the bulk in running direction as it lands."""
-    skirt_length: Annotated[Length, Bounds(ge="0 m", le="1 km")]
+    skirt_length: Annotated[Distance, Bounds(ge="0 m", le="1 km")]
     """Length of the skirts beyond the acceleration zone, which is computed."""
     skirt_width: Annotated[Length, Bounds(gt="0 m", le="5 m")]
     """Distance between the skirts."""
@@ -179,14 +180,14 @@ class Feeding(Model):
     """Section at whose tail end the bulk lands; the first without it."""
     share: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] | None = None
     """Share of the mass flow fed here; needed where there are several feeding points, not of a tripper."""
-    tripper_lift: Annotated[Length, Bounds(ge="0 m", le="50 m")] | None = None
+    tripper_lift: Annotated[Distance, Bounds(ge="0 m", le="50 m")] | None = None
     """Of a tripper or intermediate drive that feeds the belt's own bulk back here: how high it lifts it over the
     line of the section."""
-    skirtboards: Annotated[Length, Bounds(gt="0 m", le="1 km")] | None = None
+    skirtboards: Annotated[Distance, Bounds(gt="0 m", le="1 km")] | None = None
     """Whole length of the skirtboards as they stand, beside the zone of acceleration; not asked without it."""
     seal_drag: Annotated[LineForce, Bounds(ge="0 N/m", le="10 kN/m")] | None = None
     """Drag of the rubber seals of both sides on the belt, per length of skirtboard; none without it."""
-    drop_height: Annotated[Length, Bounds(gt="0 m", le="100 m")] | None = None
+    drop_height: Annotated[Distance, Bounds(gt="0 m", le="100 m")] | None = None
     """Free fall of the bulk onto the belt; impact is not asked without it."""
     lump_mass: Annotated[Mass, Bounds(gt="0 kg", le="100 t")] | None = None
     """Of the heaviest lump; the stream alone without it."""
@@ -215,7 +216,7 @@ class Feeding(Model):
 class Discharge(Model):
     """How the bulk leaves over the head pulley, for its trajectory."""
 
-    drop: Annotated[Length, Bounds(ge="0 m", le="200 m")]
+    drop: Annotated[Distance, Bounds(ge="0 m", le="200 m")]
     """Depth below the axis of the pulley down to which the stream is followed."""
     pulley_diameter: Annotated[Length, Bounds(gt="0 m", le="5 m")] | None = None
     """Of the head pulley with its lagging; that of the first pulley at the head without it."""
@@ -317,7 +318,7 @@ class Pulley(Model):
 class Transition(Model):
     """Where the belt changes between the trough and a flat pulley."""
 
-    length: Annotated[Length, Bounds(gt="0 m", le="200 m")] | None = None
+    length: Annotated[Distance, Bounds(gt="0 m", le="200 m")] | None = None
     """From the pulley's axis to the first set of full trough; what is needed is shown without it."""
     pulley_height: Annotated[Fraction, Bounds(ge="0 %", le="100 %")] | None = None
     """Top of the pulley over the middle roll, over the depth of the trough: 50 % half trough; full trough without."""
@@ -342,7 +343,7 @@ class TakeUp(Model):
     """Strands that pull at the carriage, 4 where the belt goes round it twice: tension = mass g reeving/strands."""
     reserve: Annotated[Fraction, Bounds(ge="0 %", le="200 %")] = quantity(TRAVEL_RESERVE.value, "fraction")
     """Travel kept beyond what is computed, over it."""
-    travel: Annotated[Length, Bounds(gt="0 m", le="1 km")] | None = None
+    travel: Annotated[Distance, Bounds(gt="0 m", le="1 km")] | None = None
     """Way that the carriage has; not checked without it."""
     carriage_mass: Annotated[Mass, Bounds(ge="0 kg", le="1000 t")] = quantity("0 kg")
     """What moves with the carriage beside the weight, for scenarios."""

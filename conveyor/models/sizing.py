@@ -25,6 +25,7 @@ from conveyor.units import (
     Angle,
     AreaMass,
     Bounds,
+    Distance,
     Duration,
     Force,
     Fraction,
@@ -46,7 +47,7 @@ DriveLayout = Literal["head", "head, two pulleys", "head and tail", "head, two p
 Wide = Annotated[Length, Bounds(gt="100 mm", le="5 m")]
 Fast = Annotated[Speed, Bounds(gt="0 m/s", le="20 m/s")]
 Trough = Annotated[Angle, Bounds(ge="0 deg", le="60 deg")]
-Apart = Annotated[Length, Bounds(gt="0.2 m", le="20 m")]
+Apart = Annotated[Distance, Bounds(gt="0.2 m", le="20 m")]
 
 
 _SAME_WIDTH: Final = 1e-9
@@ -176,7 +177,7 @@ class SiteRules(Model):
     """From motor shaft to belt."""
     start_factor: Annotated[Number, Field(ge=1, le=5)] = 1.3
     """Force of a start over the steady one."""
-    take_up_travel: Annotated[Length, Bounds(gt="0 m", le="500 m")] = quantity("30 m")
+    take_up_travel: Annotated[Distance, Bounds(gt="0 m", le="500 m")] = quantity("30 m")
     """Longest travel of the take-up, which keeps textile belts to short conveyors."""
     motor_reserve: Annotated[Number, Field(ge=1, le=3)] = 1.1
     """Rated power of motors over the highest needed."""
@@ -196,9 +197,9 @@ class SizingDuty(Model):
     """Of the bulk."""
     loading: Severity = "medium"
     """How hard the bulk lands on the belt."""
-    length: Annotated[Length, Bounds(gt="2 m", le="100 km")] | None = None
+    length: Annotated[Distance, Bounds(gt="2 m", le="100 km")] | None = None
     """Along the belt, of a conveyor of one slope; instead of route."""
-    lift: Annotated[Length, Bounds(ge="-5 km", le="5 km")] | None = None
+    lift: Annotated[Distance, Bounds(ge="-5 km", le="5 km")] | None = None
     """From tail to head, with length."""
     route: Route | None = None
     """Sections as in a spec; pulleys, take-up and distances of idlers are sized."""

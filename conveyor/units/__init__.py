@@ -9,6 +9,7 @@ from conveyor.units.quantities import (
     BendingStiffness,
     Bounds,
     Density,
+    Distance,
     Duration,
     Energy,
     Force,

@@ -42,6 +42,7 @@ _DIFFERENCES = "K delta_degC delta_degF Δ°C Δ°F"
 
 KINDS: dict[str, Kind] = {
     "length": Kind("a length", "mm cm m km in inch ft", "1200 mm", "m", "ft"),
+    "distance": Kind("a length", "mm cm m km in inch ft", "150 m", "m", "ft"),
     "thickness": Kind("a length", "mm cm m km in inch ft", "6 mm", "mm", "in"),
     "area": Kind("an area", "mm^2 cm^2 m^2 in^2 ft^2", "0.2 m^2", "m^2", "ft^2"),
     "speed": Kind("a speed", "m/s fpm ft/min km/h m/min ft/s mph", "5 m/s", "m/s", "fpm"),
@@ -84,8 +85,8 @@ KINDS: dict[str, Kind] = {
 }
 
 MAGNITUDES: dict[str, tuple[float, float]] = {
-    "length": (1e-9, 1e6), "thickness": (1e-9, 1e6), "area": (1e-9, 1e6), "speed": (1e-6, 1e3),
-    "wind": (1e-6, 1e3),
+    "length": (1e-9, 1e6), "distance": (1e-9, 1e6), "thickness": (1e-9, 1e6), "area": (1e-9, 1e6),
+    "speed": (1e-6, 1e3), "wind": (1e-6, 1e3),
     "acceleration": (1e-6, 1e3), "mass": (1e-6, 1e9), "line mass": (1e-6, 1e6), "area mass": (1e-6, 1e6),
     "belt mass": (1e-6, 1e6), "set mass": (1e-6, 1e6), "density": (1e-3, 1e5),
     "force": (1e-6, 1e10), "line force": (1e-6, 1e10), "spring rate": (1e-6, 1e10),

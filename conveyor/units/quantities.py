@@ -417,6 +417,7 @@ def _rounded(limit: Quantity, like: Quantity) -> str:
 
 
 Length = Annotated[Quantity, Measure("length")]
+Distance = Annotated[Quantity, Measure("distance")]
 Thickness = Annotated[Quantity, Measure("thickness")]
 Area = Annotated[Quantity, Measure("area")]
 Speed = Annotated[Quantity, Measure("speed")]

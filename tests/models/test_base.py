@@ -75,7 +75,7 @@ def test_pickle_copy_hash(conveyor_data: dict[str, Any]) -> None:
     [
         ("rolls", "3", "Input should be 1, 2, 3, 4 or 5"),
         ("rolls", 6, "Input should be 1, 2, 3, 4 or 5"),
-        ("spacing", 1.5, 'give the unit, e.g. "1.5 mm"'),
+        ("spacing", 1.5, 'give the unit, e.g. "1.5 m"'),
         ("trough_angle", "35 degC", r'got "35 degC" \(a temperature\), expected an angle'),
         ("trough_angle", "75 deg", "got 75 deg, allowed: >= 0 deg and <= 60 deg"),
     ],
