@@ -16,7 +16,7 @@ from conveyor.files import marks
 from conveyor.files.saving import growing
 from conveyor.report.files import plain
 from conveyor.studies.evaluation import varied
-from conveyor.studies.points import OUTPUTS
+from conveyor.studies.points import OUTPUTS, kept
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, labelled, unit
 
@@ -78,7 +78,8 @@ class CampaignTable:
         ]
         if isinstance(answer, str):
             return (number, *given, *(None for _ in self._shown), answer)
-        return (number, *given, *(sign.shown(x) for x, sign in zip(answer, self._shown, strict=True)), None)
+        shown = (kept(sign.shown(x)) for x, sign in zip(answer, self._shown, strict=True))
+        return (number, *given, *shown, None)
 
     @property
     def mark(self) -> str:

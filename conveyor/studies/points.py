@@ -199,16 +199,22 @@ def _answer(result: CalculatedConveyor | ConveyorError, asked: Sequence[str]) ->
     if not isinstance(result, CalculatedConveyor):
         return str(result)
     try:
-        return [_parts(result) if key == PARTS else _kept(OUTPUTS[key].get(result)) for key in asked]
+        return [_parts(result) if key == PARTS else kept(OUTPUTS[key].get(result)) for key in asked]
     except ConveyorError as error:
         return str(error)
 
 
-def _kept(value: float | None) -> float | None:
-    """A figure to ten digits: what follows them differs from one run of the same batch to the next."""
+def kept(value: Any) -> Any:
+    """A figure to ten digits: what follows them differs from one run of the same batch to the next.
+
+    Examples
+    --------
+    >>> kept(7197.430288888889), kept("pass")
+    (7197.430289, 'pass')
+    """
     return float(f"{value:.10g}") if isinstance(value, float) else value
 
 
 def _parts(result: CalculatedConveyor) -> list[float | None] | None:
     parts = parts_of(result)
-    return None if parts is None else [_kept(float(value)) for value in vars(parts).values()]
+    return None if parts is None else [kept(float(value)) for value in vars(parts).values()]
