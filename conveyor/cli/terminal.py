@@ -75,25 +75,42 @@ def table(title: str | None = None, heads: Iterable[str] = (), *, left: Collecti
 
 
 def grid(part: Table, system: System, title: str | None = None, *, large: bool = False) -> Grid:
-    """A table of the report, units below names; `large`: in kN where the report has N."""
+    """A table of the report, units below names; `large`: in kN where the report has N, decimals only where needed."""
     made = table(part.heading if title is None else title)
+    every = []
     for column in part.columns:
+        of_words = column.kind == "text"
         sign = unit(column.kind, system, large=large).sign
         heading = f"{column.label}\n[{sign}]" if sign else column.label
-        made.add_column(words(heading), justify="left" if column.kind == "text" else "right")
-    for row in part.rows:
         cells = (
             unit(column.kind, system, large=True) if large else part.unit(column, row, system)
-            for column in part.columns
+            for row in part.rows
         )
-        written = [
-            words(cell.written(column.get(row))) for cell, column in zip(cells, part.columns, strict=True)
-        ]
-        made.add_row(*written)
-        for column, drawn, text in zip(part.columns, made.columns, written, strict=True):
-            if column.kind != "text":  # words break where there is no room, numbers do not
-                drawn.min_width = max(drawn.min_width or 0, text.cell_len)
+        written = [cell.written(column.get(row)) for cell, row in zip(cells, part.rows, strict=True)]
+        if large and not of_words:
+            written = without_zeros(written)
+        every.append([words(text) for text in written])
+        made.add_column(words(heading), justify="left" if of_words else "right")
+        if not of_words:  # words break where there is no room, numbers do not
+            made.columns[-1].min_width = max((text.cell_len for text in every[-1]), default=None)
+    for row in zip(*every, strict=True):
+        made.add_row(*row)
     return made
+
+
+def without_zeros(numbers: Sequence[str]) -> list[str]:
+    """Numbers of a column without the decimals that are zero in all of them.
+
+    Examples
+    --------
+    >>> without_zeros(["800.0", "1,000.0"]), without_zeros(["2.50", "3.00"]), without_zeros(["2.55", "3.00"])
+    (['800', '1,000'], ['2.5', '3.0'], ['2.55', '3.00'])
+    """
+    filled = [number for number in numbers if number]
+    if not all("." in number for number in filled):
+        return list(numbers)
+    zeros = min((len(each) - len(each.rstrip("0").rstrip(".")) for each in filled), default=0)
+    return [number[: len(number) - zeros] for number in numbers]
 
 
 def wrapped(line: str, width: int, *, first: str = "", further: str = "") -> str:
@@ -409,9 +426,12 @@ def show_sizing(contents: Contents) -> None:
     title = f"{contents.document.title}: designs"
     screen = console()
     screen.print(grid(every.only(*_DESIGN), contents.system, title, large=True))
-    why = next(column for column in every.columns if column.key == "why")
     for rank, row in enumerate(every.rows, start=1):
-        screen.print(words(f"{rank}: {why.get(row)}"))
+        top, bottom, safety, why = (
+            unit(column.kind, contents.system).said(column.get(row))
+            for column in every.only("top_cover", "bottom_cover", "belt_safety", "why").columns
+        )
+        screen.print(words(f"{rank}: {why}; top cover {top}, bottom cover {bottom}, belt safety {safety}"))
     screen.print(words("\nbasis and limitations", style="bold"))
     for line in merged(contents.lines("assumption")):
         screen.print(words(wrapped(line, screen.width, first="  - ", further="    ")))
