@@ -23,7 +23,7 @@ NEVER: Final = "never"
 MONEY: Final = "money "
 """Before a currency's code: a kind of its own."""
 _HUGE: Final = 1e12
-_AMPLE: Final = 1.0  # margin beyond which its size says nothing
+_MOST: Final = {"margin": 1.0, "life": 1e6}  # in the unit of reports: beyond it the size says nothing
 _SIGNIFICANT, _DECIMALS = 12, 9  # beyond them is the rounding of a conversion
 _SPELLED: Final = {"degC": "°C", "degF": "°F", "deg": "°", "-": ""}
 
@@ -135,6 +135,8 @@ class Unit:
         --------
         >>> unit("force").written(84147.576), unit("share").written(0.4681), unit("margin").written(102.7)
         ('84,148', '46.8 %', '> 100 %')
+        >>> unit("life").written(3600.0 * 45_678.0), unit("life").written(3600.0 * 6e8)
+        ('45,678', '> 1,000,000')
         """
         number = self.shown(value)
         if isinstance(number, bool):
@@ -148,7 +150,7 @@ class Unit:
         if isinstance(number, int):
             return f"{number:,}"
         if number > self.most:
-            number, digits, more = self.most, ".0%", "> "
+            number, digits, more = self.most, self.digits.replace(".1", ".0"), "> "
         else:
             digits, more = self.digits or ",.6g", ""
         return more + unsigned(f"{number:{digits}}").replace("%", " %")
@@ -235,7 +237,7 @@ class Unit:
         ending = {"%": " %", "E": "E+00"}.get(self.digits[-1], "")
         shown = whole + ("." + "0" * decimals if decimals else "") + ending
         most = self.written(math.inf)
-        return shown if math.isinf(self.most) else f'[>{self.most:g}]"{most}";[<0]-{shown};{shown}'
+        return shown if math.isinf(self.most) else f'[>{self.most:.0f}]"{most}";[<0]-{shown};{shown}'
 
 
 @cache
@@ -253,14 +255,13 @@ def unit(kind: str, system: System = "SI", *, large: bool = False) -> Unit:
     unit_of = _KINDS[system][kind]
     label, digits = unit_of.large if large and unit_of.large else (unit_of.unit, unit_of.digits)
     exact = system == "SI" or _KINDS["SI"][kind].unit == label
-    if kind == "margin":
-        return Unit(label, digits, most=_AMPLE)
+    most = _MOST.get(kind, math.inf)
     if label is None or label in _SIZES:
-        return Unit(label, digits, _SIZES.get(label or "-", 1.0))
+        return Unit(label, digits, _SIZES.get(label or "-", 1.0), most=most)
     if kind == "temperature":
         one = si(quantity("1 K")) if label == "degC" else 5.0 / 9.0
         return Unit(label, digits, one, si(quantity(f"0 {label}", kind)), exact)
-    return Unit(label, digits, si(quantity(f"1 {label}")), exact=exact)
+    return Unit(label, digits, si(quantity(f"1 {label}")), exact=exact, most=most)
 
 
 def spelled(label: str, kind: str, system: System = "SI") -> str:

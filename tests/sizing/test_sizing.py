@@ -186,7 +186,9 @@ def test_the_command_writes_specs_that_run(tmp_path):
     done = run("size", "duty.yaml", "-n", "2", "-o", "best.yaml", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     assert "cheapest: " in done.stdout
-    assert re.search(r"top cover [\d.]+ mm, bottom cover [\d.]+ mm, belt safety \d+\.\d\d$", done.stdout, re.MULTILINE)
+    assert re.search(
+        r"top cover [\d.]+ mm, bottom cover [\d.]+ mm, belt safety \d+\.\d\d$", done.stdout, re.MULTILINE
+    )
     assert re.search(r"^ +1 +\d+ +\d\d ", done.stdout, re.MULTILINE), "width and trough are whole numbers"
     for name in ("best-1.yaml", "best-2.yaml"):
         found = conveyor.analyse(conveyor.load(tmp_path / name))
