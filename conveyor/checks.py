@@ -945,14 +945,15 @@ def _sets_of_strands(result: CalculatedConveyor) -> Iterator[tuple[Strand, list[
 def rubber_coverage(result: CalculatedConveyor) -> Iterator[Check]:
     """The data of each rubber cover the band in which its rolls lose nine tenths of their energy."""
     for strand, compound in compounds_by_strand(result.conveyor).items():
+        if compound.kind == "illustrative":
+            if result.contacts.lossy(strand):
+                yield Check(
+                    "rubber_coverage", said(f"rubber, {strand}"), None, None, "frequency",
+                    said("constructed spectrum"), said("a measured compound required"), "not checked",
+                )  # fmt: skip
+            continue
         band = result.contacts.excited_band(strand)
         if band is None:
-            continue
-        if compound.kind == "illustrative":
-            yield Check(
-                "rubber_coverage", said(f"rubber, {strand}"), None, None, "frequency",
-                said("constructed spectrum"), said("a measured compound required"), "not checked",
-            )  # fmt: skip
             continue
         yield _covering(
             strand, quoted(compound.name), band, compound.frequencies(result.temperature), result.temperature

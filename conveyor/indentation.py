@@ -321,6 +321,11 @@ class IndentationCurve:
         return self.contact.speed / self.contact.spacing * float(harmonics[k])
 
     @property
+    def lossy(self) -> bool:
+        """Whether the rubber loses energy under any load."""
+        return self.curve.lossy
+
+    @property
     def error(self) -> float:
         """Estimated relative error of the resistance [-]."""
         return self.curve.error
@@ -350,6 +355,17 @@ class IndentationCurve:
         """
         (found,) = resistances([self], [np.asarray(line_load, dtype=float)])
         return found
+
+    def penetration(self, line_load: ArrayLike) -> Array:
+        """Penetration Δ [m] at line loads w [N/m], as `at`; the peak pressure is not formed.
+
+        Raises
+        ------
+        RangeError
+            A load outside the curve.
+        """
+        unit = self.curve.problem.pressure / self.highest
+        return self.curve.at(np.asarray(line_load, dtype=float) * unit).penetration * self.contact.radius
 
     def at(self, line_load: ArrayLike) -> Indentation:
         """Back from dimensionless to physical.

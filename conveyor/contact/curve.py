@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from conveyor.contact.excitation import excited_harmonics
 from conveyor.contact.fields import peak
 from conveyor.contact.problem import ContactProblem
-from conveyor.contact.sampling import Sampled, columns, points
+from conveyor.contact.sampling import Sampled, coefficients, columns, points
 from conveyor.contact.scene import Scene, instantly_relaxed
 from conveyor.contact.solution import SolveStats
 from conveyor.contact.spectral import Contact, penetration
@@ -149,6 +149,11 @@ class LoadCurve:
                 f"to {self.highest:.6g}"
             )
 
+    @property
+    def lossy(self) -> bool:
+        """Whether any load of the curve loses energy."""
+        return bool((self._sampled.contacts.friction > 0.0).all())
+
     def _figure(self, t: Array, width: Array, name: str) -> Array:
         if name == "penetration":
             return np.asarray(chebyshev.chebval(t, self._depths) * width**2)
@@ -165,8 +170,15 @@ class LoadCurve:
         return self._excitation(self.lowest)
 
     def _excitation(self, pressure: float) -> Array:
-        if not (self._sampled.contacts.friction > 0.0).all():
+        if not self.lossy:
             return np.empty(0)
+        _, t, _ = self._places(pressure)
+        there = self._contacts(t[None])
+        strip = float(there.eps[0]), float(there.alpha[0]), there.c[0]
+        return excited_harmonics(self.problem.layer, instantly_relaxed(self.problem.creep), [strip])
+
+    def _contacts(self, t: Array) -> Contact:
+        """Contacts of the highest order at places t, shape (b,)."""
         order = self._sampled.best.c.shape[1]
 
         def scaled(contact: Contact) -> Array:
@@ -174,12 +186,11 @@ class LoadCurve:
             c[:, : contact.c.shape[1]] = contact.c / contact.alpha[:, None]
             return c
 
-        there = self.at(pressure)
-        alpha = float(there.half_width) * self.problem.rho
-        t = (math.log(alpha) - self._centre) / self._half
-        c: Array = alpha * np.asarray(chebyshev.chebval(t, self._sampled.interpolated(scaled)))
-        strip = float(there.eccentricity) * self.problem.rho, alpha, c
-        return excited_harmonics(self.problem.layer, instantly_relaxed(self.problem.creep), [strip])
+        alpha = np.exp(self._centre + self._half * t)
+        log_p, drag, eps = chebyshev.chebval(t, self._columns)
+        c: Array = alpha[:, None] * chebyshev.chebval(t, self._sampled.interpolated(scaled)).T
+        friction = drag * alpha / self.problem.rho
+        return Contact(alpha, eps * alpha, c, np.exp(log_p), friction, np.ones(t.shape, dtype=bool))
 
     @cached_property
     def _columns(self) -> Array:
@@ -190,13 +201,9 @@ class LoadCurve:
     def _depths(self) -> Array:
         """Chebyshev coefficients of Δρ²/α²."""
         scene, rho = Scene.of(self.problem), self.problem.rho
-        rule = scene.rule(float(self._sampled.contacts.alpha.max()))
-
-        def scaled(contact: Contact) -> Array:
-            depth = penetration(rule, scene.creep, contact, rho)
-            return (depth * (rho / contact.alpha) ** 2)[:, None]
-
-        return self._sampled.interpolated(scaled)[:, 0]
+        every = self._contacts(points(self._columns.shape[0] - 1))
+        depth = penetration(scene.rule(float(every.alpha[0])), scene.creep, every, rho)
+        return coefficients((depth * (rho / every.alpha) ** 2)[:, None])[:, 0]
 
     @cached_property
     def _peaks(self) -> Array:

@@ -64,6 +64,10 @@ class TensionedCurve(IndentationCurve):
         """As of every curve."""
         return self._mixed([curve.resistance(line_load) for curve in self.solved])
 
+    def penetration(self, line_load: ArrayLike) -> Array:
+        """As of every curve."""
+        return self._mixed([curve.penetration(line_load) for curve in self.solved])
+
     def at(self, line_load: ArrayLike) -> Indentation:
         """As of every curve."""
         indentations = [curve.at(line_load) for curve in self.solved]

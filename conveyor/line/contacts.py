@@ -62,7 +62,7 @@ class RollResult:
     @property
     def pressed_in(self) -> float:
         """Penetration of the cover alone at the highest line load, without what the carcass yields [m]."""
-        return float((self.held or self.curve).at(self.load.peak_line_load).penetration)
+        return float((self.held or self.curve).penetration(self.load.peak_line_load))
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,6 +110,10 @@ class Contacts:
         pairs = zip(self.line.kinds, self.curves, strict=True)
         return tuple(dict.fromkeys(curve for kind, curve in pairs if kind.strand == strand))
 
+    def lossy(self, strand: Strand) -> bool:
+        """Whether any roll of a strand loses energy in its cover."""
+        return any(curve.lossy for curve in self.curves_of(strand))
+
     def excited_band(self, strand: Strand) -> tuple[float, float] | None:
         """Frequencies between which every roll of a strand loses nine tenths of its energy [Hz]; None without loss."""
         low, high = self.slowest_excited(strand), self.fastest_excited(strand)
@@ -145,8 +149,11 @@ class Contacts:
 
     def deepest(self, strand: Strand) -> float:
         """Largest penetration of a strand's rolls over the thickness of their cover [-]: at the highest loads."""
-        pairs = zip(self.line.kinds, self.curves, strict=True)
-        depths = [float(curve.at(kind.highest).penetration) for kind, curve in pairs if kind.strand == strand]
+        highest: dict[IndentationCurve, float] = {}
+        for kind, curve in zip(self.line.kinds, self.curves, strict=True):
+            if kind.strand == strand:
+                highest[curve] = max(kind.highest, highest.get(curve, 0.0))
+        depths = [float(curve.penetration(load)) for curve, load in highest.items()]
         return max(depths) / self.covers[strand].thickness
 
     @property

@@ -16,7 +16,7 @@ from typing import Final
 
 from conveyor.checks import Check, checks
 from conveyor.errors import ConveyorError
-from conveyor.loop.balance import Balance
+from conveyor.loop.balance import Balance, held
 from conveyor.loop.equilibrium import holds
 from conveyor.loop.superposition import DRIVE_FORCE, Loading, Loadings
 from conveyor.loop.take_up import at_one_setting
@@ -252,12 +252,13 @@ def at_one_take_up(
     setting = at_one_setting([*loads, *(state.balance for state in states.states)])[0].settled.setting
     if own.line.take_up.tension is not None or holds(own.balance.settled.setting, setting):
         return states, cases
-    held = _held(own, setting)
-    moved = tuple(replace(state, balance=state.balance.held(setting)) for state in states.states)
+    as_given = _held(own, setting)
+    at_setting = held([state.balance for state in states.states], setting)
+    moved = [replace(state, balance=one) for state, one in zip(states.states, at_setting, strict=True)]
     if cases is not None:
-        at_setting = tuple(replace(result, found=_held(result.found, setting)) for result in results)
-        cases = replace(cases, results=at_setting, as_given=held)
-    return replace(states, own=held, states=moved), cases
+        every = tuple(replace(result, found=_held(result.found, setting)) for result in results)
+        cases = replace(cases, results=every, as_given=as_given)
+    return replace(states, own=as_given, states=tuple(moved)), cases
 
 
 def _held(result: CalculatedConveyor, setting: float) -> CalculatedConveyor:
