@@ -30,7 +30,7 @@ from conveyor.contact.single import (
     resolution,
 )
 from conveyor.contact.solution import Found, Outcome
-from conveyor.contact.strips import Strips, friction_by_loss, loads, settle, smallest_gap, too_close
+from conveyor.contact.strips import Strips, friction_by_loss, loads, settle, too_close
 from conveyor.errors import NoSolutionError
 
 Array = NDArray[np.float64]
@@ -140,11 +140,7 @@ def _first_strips(scene: Scene, grid: GridContact) -> _Start | None:
     for _ in range(_FITS):
         carried = loads(scene, centre[None], alpha[None])[0] * grid.points / force
         alpha[unseen] /= np.sqrt(np.clip(carried[unseen], _FIT**-2, _FIT**2))
-        if (
-            (alpha + np.abs(centre) >= rho).any()
-            or smallest_gap(centre, alpha) <= 0.0
-            or too_close(centre, alpha)
-        ):
+        if (alpha + np.abs(centre) >= rho).any() or too_close(centre, alpha):
             return None
     return _Start(centre, alpha, 0)
 
