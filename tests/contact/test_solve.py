@@ -412,6 +412,22 @@ def test_estimate_of_a_chance_agreement_of_orders():
     assert found.friction == pytest.approx(solve(problem, rtol=1e-11).friction, rel=1e-6)
 
 
+@pytest.mark.parametrize(
+    ("problem", "rtol"),
+    [
+        (ContactProblem("free", 0.02, 2e-4, CreepSpectrum(1e-3, [0.999], [100.0]), 0.02), 1e-4),
+        (ContactProblem("confined", 0.25, 0.53, CreepSpectrum(5.6e-5, [1.0 - 5.6e-5], [0.5]), 77.0), 1e-6),
+        (ContactProblem("half-space", 0.183, 0.423, CreepSpectrum(0.0028, [0.9972], [0.25])), 1e-6),
+    ],
+)
+def test_a_mismatch_of_the_load_is_in_the_errors(problem, rtol):
+    # orders agree to 1e-10 where the load is still 1e-9 off; friction, or the largest pressure, moves by more than that
+    found, finer = solve(problem, rtol), solve(problem, 1e-12)
+    assert found.friction == pytest.approx(finer.friction, rel=found.error_estimate)
+    np.testing.assert_allclose(found.patches, finer.patches, rtol=0, atol=found.edge_error)
+    assert found.peak_pressure == pytest.approx(finer.peak_pressure, rel=found.peak_error)
+
+
 def test_profile_between_rolls_of_a_narrow_contact():
     found = solve(ContactProblem("half-space", 0.07, 1e-6, ONE), rtol=1e-6)
     middle = 0.5 / found.problem.radius
