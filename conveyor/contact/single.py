@@ -27,6 +27,7 @@ from conveyor.contact.spectral import Contact, of_orders
 
 LOAD_FLOOR = 2e-13  # rounding of the load at a condition number of 100
 SIGN_ORDER = 256  # splits show below it; a dip that lasts is an edge layer that friction does not feel
+SETTLED = 1e-3  # change of friction below which tension is no longer the order's ripple
 ROUNDING = 1e-14
 DENSE = 192  # order beyond which a core is closed by a tail
 _CORE, _WIDEST_CORE = 64, 512
@@ -50,10 +51,12 @@ class Near:
     slope: float
 
 
-def by_half_width(scene: Scene, rtol: float, near: Near | None = None) -> Outcome | None:
+def by_half_width(
+    scene: Scene, rtol: float, near: Near | None = None, *, doubtful: bool = False
+) -> Outcome | None:
     """The contact as one strip; None where it splits, overlaps the roll outside or is not single-valued in α.
 
-    `near` is where order `DENSE` did not suffice.
+    `near` is where order `DENSE` did not suffice; where one strip is `doubtful` the gap outside is looked at.
     """
     half_width = _converged(scene, rtol, near)
     if half_width is None:
@@ -65,7 +68,7 @@ def by_half_width(scene: Scene, rtol: float, near: Near | None = None) -> Outcom
         return None
     alpha, eps = float(contact.alpha[0]), float(contact.eps[0])
     depth = None
-    elsewhere = bool(may_touch_elsewhere(contact, rho)[0])
+    elsewhere = doubtful or bool(may_touch_elsewhere(contact, rho)[0])
     if elsewhere or state.system.tail is not None:
         depth = scene.depth_of(state.system, state.contact)
     if elsewhere and depth is not None and overlaps(scene, contact, depth):
@@ -109,13 +112,11 @@ def _converged(
         state = carry(scene, search, n, tolerance, last)
         if state is None:
             return None
-        exponent = search.exponent if scene.depth is None else None
-        pairs = [
-            order_errors(state.contact, of_orders(lower, state.contact, scene.problem.rho), exponent)
-            for lower in state.system.lower
-        ]
+        pairs = _by_order(scene, search, state)
         by_order = OrderErrors(*(np.max(errors, axis=0) for errors in zip(*pairs, strict=True)))
         error = float(by_order.friction[0])
+        if error <= SETTLED and last <= _FIRST_TAIL and _pulls(state, rtol):
+            return None
         following = _next((n, last), [float(pair.friction[0]) for pair in pairs], rtol, longest)
         reach = resolution(scene, state.contact, longest) if last > n else math.inf
         if error <= rtol or following is None or reach < _BEYOND_REACH:
@@ -131,9 +132,7 @@ def _converged(
                 following = None
             here = last, float(energy[0])
             if last > n and not _falls(lost, here):
-                reached = resolution(scene, contact, last)
-                if reached < RESOLVED:
-                    error = max(error, min(_EARLY * reached, LAYER_OVER_ENERGY) * here[1])
+                error = max(error, _by_layer(resolution(scene, contact, last), here[1]))
                 if reach < _BEYOND_REACH and lost is not None and here[1] > _FAR * rtol:
                     following = None
             lost = here
@@ -143,9 +142,28 @@ def _converged(
         search.renew()
 
 
+def _by_order(scene: Scene, search: LoadSearch, state: State) -> list[OrderErrors]:
+    """Errors by each pair of lower orders: of the core, and of its tail."""
+    exponent = search.exponent if scene.depth is None else None
+    return [
+        order_errors(state.contact, of_orders(lower, state.contact, scene.problem.rho), exponent)
+        for lower in state.system.lower
+    ]
+
+
+def _pulls(state: State, rtol: float) -> bool:
+    """Whether the contact, with the orders of its tail, is in tension somewhere: it splits."""
+    return sign(state.system.whole(state.contact), rtol) is Sign.PULLING
+
+
 def _by_load(search: LoadSearch, miss: float) -> float:
     """What a mismatch of the load, or of the depth, does to friction; as much as itself where that is less."""
     return _MISSED * miss * max(1.0, 0.0 if search.exponent is None else float(abs(search.exponent[0])))
+
+
+def _by_layer(reached: float, energy: float) -> float:
+    """What an edge layer does to friction while orders agree and do not see it, from the energy's error."""
+    return min(_EARLY * reached, LAYER_OVER_ENERGY) * energy if reached < RESOLVED else 0.0
 
 
 def _longest(terms: int) -> int:

@@ -428,6 +428,23 @@ def test_a_mismatch_of_the_load_is_in_the_errors(problem, rtol):
     assert found.peak_pressure == pytest.approx(finer.peak_pressure, rel=found.peak_error)
 
 
+def test_strips_that_a_grid_makes_of_an_edge_layer_are_one():
+    # E∞/E0 270,000: every grid shows more strips, one node wide
+    times = [0.00487, 0.0829, 0.0594, 432.0, 0.0149]
+    creep = CreepSpectrum(3.7e-6, [0.00927, 0.113, 0.0204, 0.503, 0.3543263], times)
+    lighter, found, heavier = (
+        solve(ContactProblem("free", 8e-4, pressure, creep, 0.35), throw=False)
+        for pressure in (0.09, 0.0954, 0.1)
+    )
+    assert found.status is Status.TOO_DEEP
+    assert len(found.patches) == 1
+    assert found.energy_error < 1e-6
+    # a power law of the load from its neighbours: to second order in ln(0.1/0.09)
+    share = math.log(0.0954 / 0.09) / math.log(0.1 / 0.09)
+    between = lighter.friction ** (1.0 - share) * heavier.friction**share
+    assert found.friction == pytest.approx(between, rel=math.log(0.1 / 0.09) ** 2)
+
+
 def test_profile_between_rolls_of_a_narrow_contact():
     found = solve(ContactProblem("half-space", 0.07, 1e-6, ONE), rtol=1e-6)
     middle = 0.5 / found.problem.radius
