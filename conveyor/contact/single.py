@@ -8,10 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from conveyor.contact.checks import (
+    STEADY,
     OrderErrors,
     Sign,
     by_energy,
     energy_error,
+    layer_error,
     may_touch_elsewhere,
     order_errors,
     overlaps,
@@ -35,9 +37,9 @@ _FIRST_TAIL, _LONGEST_TAIL = 1 << 10, 1 << 18
 _LONGEST_TABLE = 1 << 20  # orders times terms
 _BEYOND_REACH, _FAR = 2.0, 10.0  # that of the longest tail, and energy's error over rtol, where climbing ends
 _UNRESOLVED = 2.4  # power of n that they fall with before
-# a layer not yet resolved: friction errs by 140 to 220 times that product of the energy's error, which hardly changes;
-# where it peaks, by 2 to 7 times it, and orders agree. Twice that is counted, unless energy falls with this power of n
-_EARLY, LAYER_OVER_ENERGY, _STEADY = 400.0, 10.0, 2.0
+LAYER_OVER_ENERGY = (
+    10.0  # friction's error over that of the energy where a layer is not resolved: 2 to 7 seen
+)
 _MISSED = 2.0  # times the mismatch: 1.05 seen in friction, 2.0 in the largest pressure, which takes both
 _FIRST_LOAD_TOLERANCE = 1e-3  # while the order is still rising
 EDGE_LAYER = "a layer at the contact's edge is thinner than the order resolves: pressure ripples there"
@@ -131,8 +133,8 @@ def _converged(
             if settled and last > n and beyond_reach(scene, contact, (last, longest), error / rtol):
                 following = None
             here = last, float(energy[0])
-            if last > n and not _falls(lost, here):
-                error = max(error, _by_layer(resolution(scene, contact, last), here[1]))
+            if not _falls(lost, here):
+                error = max(error, float(layer_error(energy, scene.creep, contact.alpha, last)[0]))
                 if reach < _BEYOND_REACH and lost is not None and here[1] > _FAR * rtol:
                     following = None
             lost = here
@@ -159,11 +161,6 @@ def _pulls(state: State, rtol: float) -> bool:
 def _by_load(search: LoadSearch, miss: float) -> float:
     """What a mismatch of the load, or of the depth, does to friction; as much as itself where that is less."""
     return _MISSED * miss * max(1.0, 0.0 if search.exponent is None else float(abs(search.exponent[0])))
-
-
-def _by_layer(reached: float, energy: float) -> float:
-    """What an edge layer does to friction while orders agree and do not see it, from the energy's error."""
-    return min(_EARLY * reached, LAYER_OVER_ENERGY) * energy if reached < RESOLVED else 0.0
 
 
 def _longest(terms: int) -> int:
@@ -195,7 +192,7 @@ def _next(orders: tuple[int, int], errors: list[float], rtol: float, longest: in
 
 def _falls(before: tuple[int, float] | None, now: tuple[int, float]) -> bool:
     """Whether the energy's error falls from one last order to the next as it does for layers of every width."""
-    return before is not None and now[1] * now[0] ** _STEADY <= before[1] * before[0] ** _STEADY
+    return before is not None and now[1] * now[0] ** STEADY <= before[1] * before[0] ** STEADY
 
 
 def beyond_reach(scene: Scene, contact: Contact, orders: tuple[int, int], excess: float) -> bool:
