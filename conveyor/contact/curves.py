@@ -17,11 +17,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from conveyor.arguments import checked
 from conveyor.contact.checks import (
-    by_energy,
+    energy_errors,
     may_touch_elsewhere,
     order_errors,
     pulling_and_pressing,
-    relative_difference,
 )
 from conveyor.contact.curve import LoadCurve, LoadSolutions
 from conveyor.contact.narrow import (
@@ -343,7 +342,7 @@ class _Sampler:
                 if n == first.order
                 else self._sample(first.rows[places], points(_FEW if thin else first.count - 1), n, rtol)
             )
-            error, energy, by_loss = self._errors(batch.few(), exponent[places])
+            error, energy, by_loss = self._errors(batch.few(), exponent[places], rtol)
             worst = np.maximum(np.maximum(_BETWEEN * error, by_loss), self.floor)
             pulling, pressing = (
                 flags.reshape(-1, batch.count)
@@ -377,16 +376,17 @@ class _Sampler:
                     )
                     todo.setdefault((more, plain), []).append(place)
 
-    def _errors(self, batch: _Batch, exponent: Array) -> tuple[Array, Array, Array]:
+    def _errors(self, batch: _Batch, exponent: Array, rtol: float) -> tuple[Array, Array, Array]:
         """Largest errors by order of each row, of the energy, and what that says of friction."""
         rho = np.repeat(self.group.rho[batch.rows], batch.count)
         every = np.repeat(batch.rows, batch.count)
         _, lower = equilibrium_of_orders(batch.matrix, batch.contact.alpha, rho, batch.contact.eps, ROUGH)
         by_order = order_errors(batch.contact, lower, exponent.ravel())
-        by_loss = batch.tabled.friction_by_loss(self.check[every], batch.contact, rho)
-        energy = np.abs(relative_difference(by_loss, batch.contact.friction))
-        each = (by_order.friction, energy, by_energy(energy, by_order.most))
-        error, energy, bound = (one.reshape(-1, batch.count).max(axis=1) for one in each)
+        orders = batch.contact, lower
+        each = energy_errors(batch.tabled, self.check[every], orders, rho, most=by_order.most, rtol=rtol)
+        error, energy, bound = (
+            one.reshape(-1, batch.count).max(axis=1) for one in (by_order.friction, *each)
+        )
         return error, energy, bound
 
     def _none(self, row: int, why: str) -> NoSolutionError:

@@ -8,7 +8,8 @@ the spectral window keep the grid's answer with the grid's error.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -24,13 +25,14 @@ from conveyor.contact.single import (
     LAYER_OVER_ENERGY,
     LOAD_FLOOR,
     ROUNDING,
+    SETTLED,
     SIGN_ORDER,
     beyond_reach,
     remarks,
     resolution,
 )
 from conveyor.contact.solution import Found, Outcome
-from conveyor.contact.strips import Strips, friction_by_loss, loads, settle, smallest_gap, too_close
+from conveyor.contact.strips import Strips, friction_by_loss, loads, settle, too_close
 from conveyor.errors import NoSolutionError
 
 Array = NDArray[np.float64]
@@ -39,7 +41,6 @@ _COARSEST = 64  # nodes on the roll of the first grid
 _FIRST_POLISH, _WRAP_LEVEL, _FINEST = 2, 6, 10  # doublings of it
 _MOST_POINTS = 1 << 20
 _LAST_TRY, _FAILURES = 64, 2  # orders that may have no contact near the grid's, where that shows the strips
-_SETTLED = 1e-3  # change of friction below which tension is no longer the order's ripple
 _POLISHES = 3  # grids whose strips are tried
 _NARROW, _FIT, _FITS = 1e-3, 10.0, 12  # first guess over the nodes' distance, largest step, steps
 _STRIP_NODES, _GAP_NODES = 3.0, 2.0  # that show a strip, and that two strips are apart
@@ -59,29 +60,55 @@ class _Start(NamedTuple):
     failures: int
 
 
-class FirstSight(NamedTuple):
-    """A coarse grid under a load: the contact there, None where it has none, and the refusal of a load far beyond."""
+@dataclass(frozen=True, eq=False)
+class FirstSight:
+    """What a coarse grid shows of the contact under a mean pressure p̃_m."""
 
     coarse: Grid
-    raised: Raised | None
-    refusal: Outcome | None = None
+    load: float
+
+    @classmethod
+    def of(cls, scene: Scene, load: float) -> FirstSight:
+        """A scene's, under a load that is not its own where its depth is held."""
+        return cls(Grid(scene.problem, _coarsest(scene.problem.rho)), load)
+
+    @cached_property
+    def raised(self) -> Raised | None:
+        """The contact of 64 nodes on the roll; None where there is none."""
+        try:
+            return self.coarse.raised(self.load)
+        except NoSolutionError:
+            return None
 
     @property
     def several(self) -> bool:
         """Whether it shows more than one strip."""
         return self.raised is not None and len(self.raised.contact.strips) > 1
 
+    @property
+    def refusal(self) -> Outcome | None:
+        """That of a load of which this grid, and a finer one, carry no more than two thirds."""
+        if self.raised is None or _FAR_BEYOND * self.raised.limit >= self.load:
+            return None
+        beyond = self.limit is not None and _FAR_BEYOND * self.limit < self.load
+        return _overloaded(self.raised.contact, self.limit) if beyond else None
 
-def at_first_sight(scene: Scene) -> FirstSight:
-    """What a coarse grid shows, and whether it, and a finer one, carry no more than two thirds of the load."""
-    load, coarse = scene.problem.pressure, Grid(scene.problem, _coarsest(scene.problem.rho))
-    try:
-        raised = coarse.raised(load)
-    except NoSolutionError:
-        return FirstSight(coarse, None)
-    limit = _limit(coarse, raised, load) if _FAR_BEYOND * raised.limit < load else None
-    beyond = limit is not None and _FAR_BEYOND * limit < load
-    return FirstSight(coarse, raised, _overloaded(raised.contact, limit) if beyond else None)
+    @cached_property
+    def limit(self) -> float | None:
+        """The mean pressure from which on the contact touches the last of 256 nodes on the roll, the load at most.
+
+        None where a grid does not settle.
+        """
+        coarse, raised, load = self.coarse, self.raised, self.load
+        if raised is None:
+            return None
+        try:
+            below = coarse.halfway(raised) if raised.limit < load else coarse.contact(0.5 * load)
+            below = Grid(coarse.problem, 2 * coarse.points).contact(below.mean_pressure, below)
+            finer = Grid(coarse.problem, 4 * coarse.points)
+            return min(load, finer.raised(load, below).limit)
+        except NoSolutionError:
+            return None
 
 
 def by_strips(scene: Scene, rtol: float, seen: FirstSight | None = None) -> Outcome:
@@ -109,8 +136,8 @@ def by_strips(scene: Scene, rtol: float, seen: FirstSight | None = None) -> Outc
     if not grids:
         return Outcome(Status.NOT_CONVERGED, way="grid", remarks=(failure,))
     if grids[-1].at_roll_end:
-        coarse, raised = seen[:2] if seen else (Grid(scene.problem, _coarsest(scene.problem.rho)), None)
-        return _overloaded(grids[-1], _limit(coarse, raised, grids[-1].mean_pressure))
+        seen = seen or FirstSight.of(scene, grids[-1].mean_pressure)
+        return _overloaded(grids[-1], seen.limit)
     return _on_grid(scene, grids, rtol)
 
 
@@ -140,11 +167,7 @@ def _first_strips(scene: Scene, grid: GridContact) -> _Start | None:
     for _ in range(_FITS):
         carried = loads(scene, centre[None], alpha[None])[0] * grid.points / force
         alpha[unseen] /= np.sqrt(np.clip(carried[unseen], _FIT**-2, _FIT**2))
-        if (
-            (alpha + np.abs(centre) >= rho).any()
-            or smallest_gap(centre, alpha) <= 0.0
-            or too_close(centre, alpha)
-        ):
+        if (alpha + np.abs(centre) >= rho).any() or too_close(centre, alpha):
             return None
     return _Start(centre, alpha, 0)
 
@@ -174,7 +197,7 @@ def _polished(scene: Scene, grid: GridContact, start: _Start, rtol: float) -> Ou
             scale = _scale(scene, friction)
         error = min(abs(friction_before - friction) / scale, 1.0)
         pressing = sign(strips.contact, rtol)
-        if pressing is Sign.PULLING and error <= _SETTLED:
+        if pressing is Sign.PULLING and error <= SETTLED:
             return None
         hopeless = n >= _LAST_TRY and beyond_reach(scene, strips.contact, (n, ORDERS[-1]), error / rtol)
         if error <= rtol or n == ORDERS[-1] or hopeless:
@@ -277,21 +300,6 @@ def _overloaded(grid: GridContact, limit: float | None) -> Outcome:
     """The refusal of a load beyond `limit`; where that is unknown, what touches the roll's end is more than it."""
     named = _LIMIT.format("at most" if limit is None else "about", limit or grid.mean_pressure)
     return Outcome(Status.WRAP_LIMIT, grid=grid.points, way="grid", remarks=(named,))
-
-
-def _limit(coarse: Grid, raised: Raised | None, load: float) -> float | None:
-    """The mean pressure from which on the contact touches the last of 256 nodes on the roll, `load` at most.
-
-    `raised` is the contact of 64 nodes, the coarse grid's, under the load. None where a grid does not settle.
-    """
-    try:
-        raised = coarse.raised(load) if raised is None else raised
-        below = coarse.halfway(raised) if raised.limit < load else coarse.contact(0.5 * load)
-        below = Grid(coarse.problem, 2 * coarse.points).contact(below.mean_pressure, below)
-        finer = Grid(coarse.problem, 4 * coarse.points)
-        return min(load, finer.raised(load, below).limit)
-    except NoSolutionError:
-        return None
 
 
 def _coarsest(rho: float) -> int:

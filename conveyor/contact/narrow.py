@@ -19,12 +19,11 @@ from numpy.typing import NDArray
 
 from conveyor.contact.checks import (
     WRAPPED,
-    by_energy,
+    energy_errors,
     may_touch_elsewhere,
     order_errors,
     overlaps,
     pulling_and_pressing,
-    relative_difference,
 )
 from conveyor.contact.creep import Creeps, CreepSpectrum
 from conveyor.contact.fields import SpectralFields
@@ -243,6 +242,17 @@ class _Evaluated(NamedTuple):
     place: Array
     known: Array
 
+    def of(self, at: Index | slice) -> _Evaluated:
+        """Some of them."""
+        return _Evaluated(
+            chosen_rows(self.contact, at),
+            chosen_rows(self.lower, at),
+            self.miss[at],
+            self.tabled[at],
+            self.place[at],
+            self.known[:, at],
+        )
+
 
 class Search:
     """Half widths on their way to the load, one scene a row.
@@ -418,8 +428,7 @@ class _Closing:
                 self.peak[rows[at]] = peak[at]
                 self.edges[rows[at]] += _EDGES_CARRIED / _CARRIED * left[at] * met.alpha[at]
                 part = _some(at, rows.size)
-                evaluated, closed = chosen_rows(found.contact, part), chosen_rows(met, part)
-                self._accept((rows[at], found.tabled[part]), evaluated, closed, error[at])
+                self._accept(rows[at], found.of(part), chosen_rows(met, part), error[at])
             for row in rows[alive & ~fine]:
                 self._raise(int(row), n, 0.0)
             rows = rows[fine & ~near]
@@ -433,14 +442,16 @@ class _Closing:
             self.search.alive[row] = False
             self.done[row] = Near(*self.search.place_and_slope(row))
 
-    def _accept(self, scenes: tuple[Index, Tabled], contact: Contact, closed: Contact, error: Array) -> None:
+    def _accept(self, rows: Index, found: _Evaluated, closed: Contact, error: Array) -> None:
         """Check energy, sign and place of contacts whose order suffices; accept them as they carry their loads."""
-        search, rtol, (rows, tabled) = self.search, self.rtol, scenes
+        search, rtol, contact = self.search, self.rtol, found.contact
         grade = grades_for(rtol)[1]
         rho = search.group.rho[rows]
-        by_loss = tabled.friction_by_loss(search.check[_some(rows, search.place.size)], contact, rho)
-        energy = np.abs(relative_difference(by_loss, contact.friction))
-        by_loss_error = by_energy(energy, self.most[rows])
+        check = search.check[_some(rows, search.place.size)]
+        orders = contact, found.lower
+        energy, by_loss_error = energy_errors(
+            found.tabled, check, orders, rho, most=self.most[rows], rtol=rtol
+        )
         estimate = np.maximum(np.maximum(error, by_loss_error), grade.error)
         pulling, pressing = pulling_and_pressing(contact, rtol)
         outside = may_touch_elsewhere(closed, rho)
@@ -487,12 +498,12 @@ class _Closing:
 
 
 def chosen_rows(contact: Contact, at: Index | slice) -> Contact:
-    """Some contacts of a batch."""
+    """Some contacts of a batch, of one order or of several."""
     return Contact(
         contact.alpha[at],
-        contact.eps[at],
-        contact.c[at],
-        contact.pressure[at],
-        contact.friction[at],
-        contact.inside[at],
+        contact.eps[..., at],
+        contact.c[..., at, :],
+        contact.pressure[..., at],
+        contact.friction[..., at],
+        contact.inside[..., at],
     )

@@ -119,24 +119,27 @@ def build_rule(layer: Layer, creep: CreepSpectrum, half_width: float, panels: Pa
 
 
 def series_rule(
-    layer: Layer, creep: CreepSpectrum, *, span: float, end: float
+    layer: Layer, creep: CreepSpectrum, *, span: float, end: float, panels: Panels = SOLVE
 ) -> tuple[Array, NDArray[np.complex128]]:
     """Nodes and weights of the plain sum Σ_{1≤m≤end} S F/m for an F that turns by `span` radians a wave number.
 
-    The same window as `build_rule`, but nothing is taken out in closed form: Σ χ S F/m + ∫ (1-χ) S F/m dm.
+    The same window as `build_rule`, but nothing is taken out in closed form: Σ χ S F/m + ∫ (1-χ) S F/m dm. One by one
+    where that is not longer.
 
     Raises
     ------
     RuleTooLongError
         More than two million nodes.
     """
-    width = _window(span)
+    width = panels.window * _window(span)
     centre = _RAMP * width
+    last = max(end, 2.0 * centre)
+    edges = _panel_edges(creep, panels, span=span, width=width, end=last, ramp_end=2.0 * centre)
+    if last <= 2.0 * centre + panels.points * edges.size:
+        m = np.arange(1.0, math.ceil(last) + 1.0)
+        return m, layer.symbol(m, creep) / m
     integers = np.arange(1.0, math.ceil(2.0 * centre) + 1.0)
-    edges = _panel_edges(
-        creep, SOLVE, span=span, width=width, end=max(end, 2.0 * centre), ramp_end=2.0 * centre
-    )
-    x, gauss = _gauss(SOLVE.points)
+    x, gauss = _gauss(panels.points)
     logs = np.log(edges[1:])
     half = 0.5 * np.diff(logs)
     m = np.exp(logs[:-1, None] + half[:, None] * (x + 1.0))

@@ -8,10 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from conveyor.contact.checks import (
+    STEADY,
     OrderErrors,
     Sign,
     by_energy,
     energy_error,
+    layer_error,
     may_touch_elsewhere,
     order_errors,
     overlaps,
@@ -27,6 +29,7 @@ from conveyor.contact.spectral import Contact, of_orders
 
 LOAD_FLOOR = 2e-13  # rounding of the load at a condition number of 100
 SIGN_ORDER = 256  # splits show below it; a dip that lasts is an edge layer that friction does not feel
+SETTLED = 1e-3  # change of friction below which tension is no longer the order's ripple
 ROUNDING = 1e-14
 DENSE = 192  # order beyond which a core is closed by a tail
 _CORE, _WIDEST_CORE = 64, 512
@@ -34,9 +37,10 @@ _FIRST_TAIL, _LONGEST_TAIL = 1 << 10, 1 << 18
 _LONGEST_TABLE = 1 << 20  # orders times terms
 _BEYOND_REACH, _FAR = 2.0, 10.0  # that of the longest tail, and energy's error over rtol, where climbing ends
 _UNRESOLVED = 2.4  # power of n that they fall with before
-# a layer not yet resolved: friction errs by 140 to 220 times that product of the energy's error, which hardly changes;
-# where it peaks, by 2 to 7 times it, and orders agree. Twice that is counted, unless energy falls with this power of n
-_EARLY, LAYER_OVER_ENERGY, _STEADY = 400.0, 10.0, 2.0
+LAYER_OVER_ENERGY = (
+    10.0  # friction's error over that of the energy where a layer is not resolved: 2 to 7 seen
+)
+_MISSED = 2.0  # times the mismatch: 1.05 seen in friction, 2.0 in the largest pressure, which takes both
 _FIRST_LOAD_TOLERANCE = 1e-3  # while the order is still rising
 EDGE_LAYER = "a layer at the contact's edge is thinner than the order resolves: pressure ripples there"
 
@@ -49,10 +53,12 @@ class Near:
     slope: float
 
 
-def by_half_width(scene: Scene, rtol: float, near: Near | None = None) -> Outcome | None:
+def by_half_width(
+    scene: Scene, rtol: float, near: Near | None = None, *, doubtful: bool = False
+) -> Outcome | None:
     """The contact as one strip; None where it splits, overlaps the roll outside or is not single-valued in α.
 
-    `near` is where order `DENSE` did not suffice.
+    `near` is where order `DENSE` did not suffice; where one strip is `doubtful` the gap outside is looked at.
     """
     half_width = _converged(scene, rtol, near)
     if half_width is None:
@@ -64,7 +70,7 @@ def by_half_width(scene: Scene, rtol: float, near: Near | None = None) -> Outcom
         return None
     alpha, eps = float(contact.alpha[0]), float(contact.eps[0])
     depth = None
-    elsewhere = bool(may_touch_elsewhere(contact, rho)[0])
+    elsewhere = doubtful or bool(may_touch_elsewhere(contact, rho)[0])
     if elsewhere or state.system.tail is not None:
         depth = scene.depth_of(state.system, state.contact)
     if elsewhere and depth is not None and overlaps(scene, contact, depth):
@@ -81,6 +87,7 @@ def by_half_width(scene: Scene, rtol: float, near: Near | None = None) -> Outcom
             energy_error=energy,
             error_estimate=estimate,
             edge_error=edges,
+            peak_error=_MISSED * state.miss,
             fields=SpectralFields(scene.problem.layer, scene.creep, contact, rho, depth),
         ),
         order=int(contact.c.shape[1]),
@@ -107,13 +114,11 @@ def _converged(
         state = carry(scene, search, n, tolerance, last)
         if state is None:
             return None
-        exponent = search.exponent if scene.depth is None else None
-        pairs = [
-            order_errors(state.contact, of_orders(lower, state.contact, scene.problem.rho), exponent)
-            for lower in state.system.lower
-        ]
+        pairs = _by_order(scene, search, state)
         by_order = OrderErrors(*(np.max(errors, axis=0) for errors in zip(*pairs, strict=True)))
         error = float(by_order.friction[0])
+        if error <= SETTLED and last <= _FIRST_TAIL and _pulls(state, rtol):
+            return None
         following = _next((n, last), [float(pair.friction[0]) for pair in pairs], rtol, longest)
         reach = resolution(scene, state.contact, longest) if last > n else math.inf
         if error <= rtol or following is None or reach < _BEYOND_REACH:
@@ -123,15 +128,13 @@ def _converged(
                 continue
             contact = state.system.whole(state.contact)
             energy = energy_error(scene, state.contact, state.system.lost_beyond(contact))
-            error = max(error, state.miss, float(by_energy(energy, by_order.most)[0]))
+            error = max(error, _by_load(search, state.miss), float(by_energy(energy, by_order.most)[0]))
             decided = last >= SIGN_ORDER or sign(contact, rtol) is not Sign.UNDECIDED
             if settled and last > n and beyond_reach(scene, contact, (last, longest), error / rtol):
                 following = None
             here = last, float(energy[0])
-            if last > n and not _falls(lost, here):
-                reached = resolution(scene, contact, last)
-                if reached < RESOLVED:
-                    error = max(error, min(_EARLY * reached, LAYER_OVER_ENERGY) * here[1])
+            if not _falls(lost, here):
+                error = max(error, float(layer_error(energy, scene.creep, contact.alpha, last)[0]))
                 if reach < _BEYOND_REACH and lost is not None and here[1] > _FAR * rtol:
                     following = None
             lost = here
@@ -139,6 +142,25 @@ def _converged(
                 return state, contact, error, here[1], float(by_order.edges[0])
         n, last = following
         search.renew()
+
+
+def _by_order(scene: Scene, search: LoadSearch, state: State) -> list[OrderErrors]:
+    """Errors by each pair of lower orders: of the core, and of its tail."""
+    exponent = search.exponent if scene.depth is None else None
+    return [
+        order_errors(state.contact, of_orders(lower, state.contact, scene.problem.rho), exponent)
+        for lower in state.system.lower
+    ]
+
+
+def _pulls(state: State, rtol: float) -> bool:
+    """Whether the contact, with the orders of its tail, is in tension somewhere: it splits."""
+    return sign(state.system.whole(state.contact), rtol) is Sign.PULLING
+
+
+def _by_load(search: LoadSearch, miss: float) -> float:
+    """What a mismatch of the load, or of the depth, does to friction; as much as itself where that is less."""
+    return _MISSED * miss * max(1.0, 0.0 if search.exponent is None else float(abs(search.exponent[0])))
 
 
 def _longest(terms: int) -> int:
@@ -170,7 +192,7 @@ def _next(orders: tuple[int, int], errors: list[float], rtol: float, longest: in
 
 def _falls(before: tuple[int, float] | None, now: tuple[int, float]) -> bool:
     """Whether the energy's error falls from one last order to the next as it does for layers of every width."""
-    return before is not None and now[1] * now[0] ** _STEADY <= before[1] * before[0] ** _STEADY
+    return before is not None and now[1] * now[0] ** STEADY <= before[1] * before[0] ** STEADY
 
 
 def beyond_reach(scene: Scene, contact: Contact, orders: tuple[int, int], excess: float) -> bool:

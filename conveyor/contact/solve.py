@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from conveyor.arguments import checked
-from conveyor.contact.general import at_first_sight, by_strips
+from conveyor.contact.general import FirstSight, by_strips
 from conveyor.contact.narrow import Left, solve_narrow
 from conveyor.contact.problem import ContactProblem, Status, check_rtol
 from conveyor.contact.quadrature import RuleTooLongError
@@ -152,18 +152,20 @@ def _solved(scene: Scene, rtol: float, throw: bool, left: Left | Near | None = N
 
 
 def _found(scene: Scene, rtol: float, left: Left | Near | None) -> Outcome:
-    seen = at_first_sight(scene) if left is Left.ANY else None
-    if seen is not None and seen.refusal is not None:
-        return seen.refusal
+    seen = FirstSight.of(scene, scene.problem.pressure) if left is Left.ANY else None
+    refusal = seen.refusal if seen is not None else None
+    if refusal is not None:
+        return refusal
     if left is Left.STRIPS:
         return by_strips(scene, rtol)
     outcome = by_strips(scene, rtol, seen) if seen is not None and seen.several else None
-    if outcome is not None and (
-        outcome.found is None or len(outcome.found.strips) > 1 or outcome.status is Status.OK
-    ):
+    if outcome is not None and outcome.status is not Status.NOT_CONVERGED:
         return outcome
-    one = by_half_width(scene, rtol, left if isinstance(left, Near) else None)
-    return one or outcome or by_strips(scene, rtol, seen)
+    near = left if isinstance(left, Near) else None
+    one = by_half_width(scene, rtol, near, doubtful=outcome is not None)
+    if outcome is None:
+        return one or by_strips(scene, rtol, seen)
+    return one if one is not None and one.status is Status.OK else outcome
 
 
 def _solution(problem: ContactProblem, outcome: Outcome, throw: bool) -> ContactSolution:

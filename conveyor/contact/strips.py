@@ -22,7 +22,7 @@ from scipy import special
 from conveyor.contact.bessel import ProductIK, bessel_j
 from conveyor.contact.circle import mean_drop, slope_expansion
 from conveyor.contact.energy import loss
-from conveyor.contact.quadrature import CHECK, Rule, build_rule
+from conveyor.contact.quadrature import CHECK, SOLVE, Panels, Rule, build_rule, series_rule
 from conveyor.contact.scene import Scene
 from conveyor.contact.spectral import Contact, assemble, level, pressed
 
@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 _ALIAS, _RAMP = 12.5, 6.5  # as in quadrature.py
-_LONGEST = 20_000  # terms of the window: gaps below 13 x 12.5/20,000 = 0.008 stay on the grid
+_LONGEST = 20_000  # nodes of the window: gaps below 0.008, or 0.008 of the contact's width, stay on the grid
 _FEW = 8  # orders that tell a strip's load
 _CHUNK = 4_000_000
 _NEWTON_STEPS = 24
@@ -86,9 +86,15 @@ def smallest_gap(centre: Array, alpha: Array) -> float:
     return float(np.min(np.append(low[1:], low[0] + 2.0 * math.pi) - high))
 
 
+def _span(centre: Array, alpha: Array) -> float:
+    """Distance X of the outer edges."""
+    return float((centre + alpha).max() - (centre - alpha).min())
+
+
 def too_close(centre: Array, alpha: Array) -> bool:
-    """Whether the strips' window would need more than 20,000 terms."""
-    return _LONGEST * smallest_gap(centre, alpha) < 2.0 * _RAMP * _ALIAS
+    """Whether strips touch, or their window would need more than some 20,000 nodes."""
+    reach = 2.0 * _RAMP * _ALIAS * min(_span(centre, alpha), 1.0)
+    return _LONGEST * smallest_gap(centre, alpha) < reach
 
 
 def settle(
@@ -110,7 +116,7 @@ def settle(
     before = last = math.inf
     for _ in range(_NEWTON_STEPS):
         x, a = place[:count], np.exp(place[count:])
-        if np.any(a + np.abs(x) >= rho) or smallest_gap(x, a) <= 0.0 or too_close(x, a):
+        if np.any(a + np.abs(x) >= rho) or too_close(x, a):
             return None
         unit = np.concatenate([a, np.ones(count)])
         steps = _DIFFERENCE * unit if jacobian is None else np.empty(0)
@@ -207,11 +213,13 @@ class _Places:
         return Strips(contact, float(self.depth[0].mean()), jacobian, left)
 
 
-def _window(scene: Scene, gap: float, widen: float = 1.0) -> tuple[Array, ComplexArray]:
+def _window(scene: Scene, gap: float, span: float, panels: Panels = SOLVE) -> tuple[Array, ComplexArray]:
     """Wave numbers and χ S/m of the strips' window."""
-    width = widen * _ALIAS / min(gap, math.pi)
-    m = np.arange(1.0, math.ceil(2.0 * _RAMP * width) + 1.0)
-    return m, 0.5 * special.erfc((m - _RAMP * width) / width) * scene.problem.layer.symbol(m, scene.creep) / m
+    width = panels.window * _ALIAS / min(gap, math.pi)
+    m, weights = series_rule(
+        scene.problem.layer, scene.creep, span=span, end=2.0 * _RAMP * width, panels=panels
+    )
+    return m, 0.5 * special.erfc((m - _RAMP * width) / width) * weights
 
 
 def _couple(scene: Scene, n: int, centre: Array, alpha: Array) -> tuple[Array, Array]:
@@ -221,7 +229,7 @@ def _couple(scene: Scene, n: int, centre: Array, alpha: Array) -> tuple[Array, A
     """
     k, count = alpha.shape
     gap = min(smallest_gap(centre[i], alpha[i]) for i in range(k))
-    m, weights = _window(scene, gap)
+    m, weights = _window(scene, gap, max(_span(centre[i], alpha[i]) for i in range(k)))
     i = np.arange(n + 1)
     turn = (1j) ** (i % 4)
     slopes = np.zeros((k, count * (n + 1), count * n))
@@ -252,7 +260,9 @@ def friction_by_loss(scene: Scene, strips: Strips) -> float:
     rule = build_rule(scene.problem.layer, scene.creep, float(contact.alpha.max()), CHECK)
     total = float(loss(rule, scene.creep, contact).sum())
     if contact.alpha.size > 1:
-        m, weights = _window(scene, smallest_gap(contact.eps, contact.alpha), CHECK.window)
+        m, weights = _window(
+            scene, smallest_gap(contact.eps, contact.alpha), _span(contact.eps, contact.alpha), CHECK
+        )
         n = strips.order
         v = np.arange(1, n + 1)
         table = bessel_j(n, np.multiply.outer(contact.alpha, m))[1:]

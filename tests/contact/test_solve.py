@@ -412,6 +412,39 @@ def test_estimate_of_a_chance_agreement_of_orders():
     assert found.friction == pytest.approx(solve(problem, rtol=1e-11).friction, rel=1e-6)
 
 
+@pytest.mark.parametrize(
+    ("problem", "rtol"),
+    [
+        (ContactProblem("free", 0.02, 2e-4, CreepSpectrum(1e-3, [0.999], [100.0]), 0.02), 1e-4),
+        (ContactProblem("confined", 0.25, 0.53, CreepSpectrum(5.6e-5, [1.0 - 5.6e-5], [0.5]), 77.0), 1e-6),
+        (ContactProblem("half-space", 0.183, 0.423, CreepSpectrum(0.0028, [0.9972], [0.25])), 1e-6),
+    ],
+)
+def test_a_mismatch_of_the_load_is_in_the_errors(problem, rtol):
+    # orders agree to 1e-10 where the load is still 1e-9 off; friction, or the largest pressure, moves by more than that
+    found, finer = solve(problem, rtol), solve(problem, 1e-12)
+    assert found.friction == pytest.approx(finer.friction, rel=found.error_estimate)
+    np.testing.assert_allclose(found.patches, finer.patches, rtol=0, atol=found.edge_error)
+    assert found.peak_pressure == pytest.approx(finer.peak_pressure, rel=found.peak_error)
+
+
+def test_strips_that_a_grid_makes_of_an_edge_layer_are_one():
+    # E∞/E0 270,000: every grid shows more strips, one node wide
+    times = [0.00487, 0.0829, 0.0594, 432.0, 0.0149]
+    creep = CreepSpectrum(3.7e-6, [0.00927, 0.113, 0.0204, 0.503, 0.3543263], times)
+    lighter, found, heavier = (
+        solve(ContactProblem("free", 8e-4, pressure, creep, 0.35), throw=False)
+        for pressure in (0.09, 0.0954, 0.1)
+    )
+    assert found.status is Status.TOO_DEEP
+    assert len(found.patches) == 1
+    assert found.energy_error < 1e-6
+    # a power law of the load from its neighbours: to second order in ln(0.1/0.09)
+    share = math.log(0.0954 / 0.09) / math.log(0.1 / 0.09)
+    between = lighter.friction ** (1.0 - share) * heavier.friction**share
+    assert found.friction == pytest.approx(between, rel=math.log(0.1 / 0.09) ** 2)
+
+
 def test_profile_between_rolls_of_a_narrow_contact():
     found = solve(ContactProblem("half-space", 0.07, 1e-6, ONE), rtol=1e-6)
     middle = 0.5 / found.problem.radius

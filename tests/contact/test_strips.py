@@ -8,12 +8,13 @@ from functools import cache
 
 import numpy as np
 import pytest
+from scipy import special
 
 from conveyor.contact import ContactProblem, CreepSpectrum, Status, solve
 from conveyor.contact import general as module
 from conveyor.contact.grid import solve_grid
 from conveyor.contact.scene import Scene
-from conveyor.contact.strips import friction_by_loss, settle, smallest_gap, too_close
+from conveyor.contact.strips import _window, friction_by_loss, settle, smallest_gap, too_close
 
 ROUNDING = 1e-11  # of systems of condition 100 and sums of 100 terms, in whatever order: 1e4 of 2e-16
 ONE = CreepSpectrum(0.1, [0.9], [1.0])
@@ -216,6 +217,40 @@ def test_gap_counts_the_next_roll():
     assert smallest_gap(centre[:1], alpha[:1]) == pytest.approx(2.0 * math.pi, rel=1e-15)
     assert too_close(np.array([0.0, 1.0]), np.array([0.497, 0.497]))
     assert not too_close(np.array([0.0, 1.0]), np.array([0.495, 0.495]))
+
+
+def test_what_counts_is_the_gap_beside_the_contacts_width():
+    assert not too_close(1e-3 * np.array([0.0, 1.0]), 1e-3 * np.array([0.49, 0.49]))
+    assert too_close(1e-3 * np.array([0.0, 1.0]), 1e-3 * np.array([0.495, 0.495]))
+
+
+@pytest.mark.parametrize("width", [1.0, 0.01])
+def test_window_of_near_strips_is_their_sum_wave_by_wave(width):
+    # two line forces a gap g apart: the window, by a quadrature where the contact is narrow, or every m of it
+    scene = Scene.of(ContactProblem("free", 0.3, 0.01, CreepSpectrum(0.1, [0.9], [1e-3]), 0.02))
+    gap = 0.5 * width
+    m, weights = _window(scene, gap, width)
+    ramp = 12.5 / gap
+    every = np.arange(1.0, 13.0 * ramp + 1.0)
+    plain = scene.problem.layer.symbol(every, scene.creep) / every
+    plain *= 0.5 * special.erfc(every / ramp - 6.5)
+    assert m.size <= every.size
+    for distance in (gap, width):
+        sums = (weights @ np.exp(1j * m * distance), plain @ np.exp(1j * every * distance))
+        assert abs(sums[0] - sums[1]) <= 1e-12 * np.abs(plain).sum()  # Gauss panels, quadrature.py
+
+
+def test_two_lines_of_a_small_roll_are_polished():
+    # 0.0022/k apart: the grid of 2^20 nodes was the last word, friction to 6 %
+    thin = ContactProblem("free", 2.46e-4, 7.53e-3, CreepSpectrum(0.48, [0.52], [9e6]), 3.25e-3)
+    found, finer = solve(thin, throw=False), solve(thin, rtol=1e-9, throw=False)
+    assert found.status is finer.status is Status.TOO_DEEP
+    assert found.stats.way == "strips"
+    assert len(found.patches) == 2
+    assert found.friction == pytest.approx(finer.friction, rel=found.error_estimate + finer.error_estimate)
+    grid = solve_grid(thin, 1 << 20)
+    step = 2.0 * math.pi / grid.points / thin.rho
+    np.testing.assert_allclose(found.patches, grid.strips / thin.rho, rtol=0, atol=2.0 * step)
 
 
 def test_strips_that_cannot_be_polished_keep_the_grid_with_its_error(monkeypatch):
