@@ -20,11 +20,10 @@ from conveyor.contact.tabled import Tabled
 Array = NDArray[np.float64]
 
 ENERGY_OVER_ERROR = 10.0  # energy error over true error of friction while n is too small: 5 to 80 seen
+TWICE = 2.0  # times the energy's error, which is that of two frictions: true errors were up to 1.4 of it
 _FOLLOWED = 0.05  # of n²/α: wave numbers that order n follows at an edge, where its nodes are 5 α/n² apart
 _LAYER_OVER_ENERGY = 1.2  # true error over that of the energy, as `layer_error` says: up to 1.1 seen
-STEADY = (
-    2.0  # power of the order that the energy's error falls with at least where no layer is left unresolved
-)
+STEADY = 2.0  # least power of the order that the energy's error falls with where no layer is left unresolved
 MOST = 2.3  # 1/(1 - (3/4)²): of an error that grows like n²
 _LASTING = 16  # samples: a ripple of the highest order changes sign after four
 _TAILS = 4.0  # an unresolved edge layer dips below zero by up to 2.1 tails, a resolved split by more than 20
@@ -78,11 +77,11 @@ def order_errors(contact: Contact, lower: Contact, exponent: Array | None) -> Or
 
 
 def by_energy(energy: Array, most: Array) -> Array:
-    """What the energy's error says of friction's: a tenth of it at least, itself or the bound by order at most.
+    """What the energy's error says of friction's: a tenth of it at least, twice it or the bound by order at most.
 
     Both are upper bounds, so that the smaller one is; the tenth is what is usual.
     """
-    error: Array = np.maximum(energy / ENERGY_OVER_ERROR, np.minimum(energy, most))
+    error: Array = np.maximum(energy / ENERGY_OVER_ERROR, np.minimum(TWICE * energy, most))
     return error
 
 

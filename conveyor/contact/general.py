@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.checks import ENERGY_OVER_ERROR, MOST, Sign, overlaps, sign
+from conveyor.contact.checks import ENERGY_OVER_ERROR, MOST, TWICE, Sign, overlaps, sign
 from conveyor.contact.fields import RESOLVED, GridFields, SpectralFields
 from conveyor.contact.grid import Grid, GridContact, Raised, solve_grid
 from conveyor.contact.orders import ORDERS, next_order
@@ -47,7 +47,6 @@ _STRIP_NODES, _GAP_NODES = 3.0, 2.0  # that show a strip, and that two strips ar
 _LIMIT = "the contact comes within a hundredth of the half circle's end at a mean pressure of {} {:.3g}"
 _FAR_BEYOND = 1.5  # times the limit of two coarse grids: no finer one will carry the load
 _LEFT = 3.0  # times what Newton leaves: 1.2 seen in friction, 2.2 in the edges, 1.0 in the largest pressure
-_TWICE = 2.0  # the energy's error: what Newton leaves shows in it once (1.00 seen)
 _CANCELLED = "the strips' forces cancel: friction is that of the loss compliance"
 _ON_GRID = "the strips are known on a grid of {} nodes only"
 
@@ -209,7 +208,7 @@ def _polished(scene: Scene, grid: GridContact, start: _Start, rtol: float) -> Ou
                 rounding = ROUNDING * strips.gross_friction / scale
                 resolved = resolution(scene, strips.contact, n) >= RESOLVED
                 most = most if resolved else math.inf  # orders agree before an edge layer is seen
-                error = max(error, energy / ENERGY_OVER_ERROR, min(_TWICE * energy, most), rounding)
+                error = max(error, energy / ENERGY_OVER_ERROR, min(TWICE * energy, most), rounding)
             error = max(error, LAYER_OVER_ENERGY * energy if hopeless else ROUNDING, _LEFT * strips.left)
             decided = n >= SIGN_ORDER or pressing is not Sign.UNDECIDED
             if (error <= rtol and decided) or n == ORDERS[-1] or hopeless:

@@ -16,6 +16,7 @@ from conveyor.contact import (
     HalfSpace,
     Layer,
     Status,
+    load_curve,
     solve,
     solve_many,
 )
@@ -461,3 +462,26 @@ def test_edges_and_peak_keep_their_error_estimates(instantaneous, time):
     assert abs(rough.peak_pressure / fine.peak_pressure - 1.0) <= rough.peak_error
     assert fine.edge_error < rough.edge_error
     assert fine.peak_error < rough.peak_error
+
+
+SHARP = {
+    "half-space": ContactProblem("half-space", 0.188, 0.0204, CreepSpectrum(0.00168, [0.99832], [0.00943])),
+    "thin confined": ContactProblem(
+        "confined", 0.36, 0.0371, CreepSpectrum(0.000851, [0.999149], [0.00397]), 0.0395
+    ),
+    "confined": ContactProblem(
+        "confined", 0.31, 0.00249, CreepSpectrum(0.00118, [0.99882], [0.00267]), 0.089
+    ),
+    "free": ContactProblem("free", 0.248, 0.0602, CreepSpectrum(0.0005, [0.9995], [0.0502]), 1.73),
+}
+
+
+@pytest.mark.parametrize("rtol", [1e-2, 1e-3])
+@pytest.mark.parametrize("problem", SHARP.values(), ids=SHARP)
+def test_an_edge_layer_that_no_low_order_resolves_counts_in_the_estimate(problem, rtol):
+    # orders agree there: friction was off by 1.3 to 6.7 times the estimate at one of the two tolerances
+    loose, fine = solve(problem, rtol), solve(problem, 1e-6)
+    assert abs(loose.friction / fine.friction - 1.0) <= loose.error_estimate + fine.error_estimate
+    curve = load_curve(problem, 0.5 * problem.pressure, problem.pressure, rtol)
+    missed = abs(float(curve.at(problem.pressure).friction) / fine.friction - 1.0)
+    assert missed <= curve.error + fine.error_estimate
