@@ -64,6 +64,7 @@ _OFF_ROLL = (
     "a half width has no contact with both edges on the roll: lower the load, enlarge the radius, or solve such loads "
     "one by one, which names the limit"
 )
+_NOT_ENCLOSED = "the curve's ends are not known well enough: solve such loads one by one"
 _SPLITS = (
     "the contact separates into several strips: lower the load, thicken the layer, use the confined support, "
     "or solve such loads one by one"
@@ -301,7 +302,9 @@ class _Sampler:
             first = self._sample(waiting, points(degree), n, rtol)
             for row in waiting[~first.valid]:
                 by_row[int(self.rows[row])] = self._none(row, _OFF_ROLL)
-            first = first[np.flatnonzero(first.valid & self._enclosed(first))]
+            # ends that are known at their own order need not enclose the loads at this one
+            plain = self._enclosed(first) if self.narrow else True
+            first = first[np.flatnonzero(first.valid & plain)]
             waiting = first.rows
             if waiting.size == 0:
                 break
@@ -322,11 +325,11 @@ class _Sampler:
         valid = (contact.inside & (contact.pressure > 0.0)).reshape(-1, t.size).all(axis=1)
         return _Batch(rows, t.size, contact, matrix, tabled, np.asarray(valid))
 
-    def _enclosed(self, first: _Batch) -> NDArray[np.bool_]:
+    def _enclosed(self, batch: _Batch) -> NDArray[np.bool_]:
         """Whether the loads asked for lie within those sampled; where half widths were guessed they may not."""
-        pressure = first.contact.pressure.reshape(-1, first.count)
-        highest = np.exp(self.group.target[first.rows])
-        return np.asarray((pressure[:, 0] >= highest) & (pressure[:, -1] <= self.lowest[first.rows]))
+        pressure = batch.contact.pressure.reshape(-1, batch.count)
+        highest = np.exp(self.group.target[batch.rows])
+        return np.asarray((pressure[:, 0] >= highest) & (pressure[:, -1] <= self.lowest[batch.rows]))
 
     def _settle(
         self, first: _Batch, miss: Array, rtol: float, curves: dict[int, LoadCurve | NoSolutionError]
@@ -348,6 +351,7 @@ class _Sampler:
                 flags.reshape(-1, batch.count)
                 for flags in pulling_and_pressing(batch.contact, max(float(worst.max()), _SIGN_FLOOR))
             )
+            enclosed = self._enclosed(batch)
             for k, place in enumerate(places.tolist()):
                 row = int(first.rows[place])
                 finer = thin and n > first.order
@@ -361,8 +365,11 @@ class _Sampler:
                 elif pulling[k].any():
                     curves[key] = self._none(row, _SPLITS)
                 elif total <= rtol and (plain or n >= SIGN_ORDER):
-                    if not (self.narrow and may_touch_elsewhere(sampled.contacts, self.group.rho[row]).any()):
+                    touches = may_touch_elsewhere(sampled.contacts, self.group.rho[row]).any()
+                    if enclosed[k] and not (self.narrow and touches):
                         curves[key] = self._curve(row, sampled, (total, float(energy[k])), n)
+                    elif not self.narrow:
+                        curves[key] = self._none(row, _NOT_ENCLOSED)
                 elif n == ORDERS[-1]:
                     curves[key] = _unsettled(total)
                 elif worst[k] <= rtol and plain:  # a few points do not carry what the order changes
