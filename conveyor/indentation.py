@@ -193,6 +193,8 @@ class Indentation:
         a, e, Δ [m].
     peak_pressure : ndarray
         Largest contact pressure [Pa].
+    peak_error : float
+        Estimated relative error of it [-].
     error : float
         Estimated relative error of the resistance [-].
     energy_error : float
@@ -205,6 +207,7 @@ class Indentation:
     eccentricity: Array
     penetration: Array
     peak_pressure: Array
+    peak_error: float
     error: float
     energy_error: float
 
@@ -393,6 +396,7 @@ class IndentationCurve:
             eccentricity=dimensionless.eccentricity * radius,
             penetration=dimensionless.penetration * radius,
             peak_pressure=dimensionless.peak_pressure * pascal,
+            peak_error=self.curve.peak_error,
             error=self.curve.error,
             energy_error=self.curve.energy_error,
         )
@@ -509,6 +513,7 @@ def indentation_resistance(contact: RollContact, line_load: float, rtol: float =
         eccentricity=np.asarray(solution.eccentricity * contact.radius),
         penetration=np.asarray(solution.penetration * contact.radius),
         peak_pressure=np.asarray(solution.peak_pressure * pascal),
+        peak_error=solution.peak_error,
         error=solution.error_estimate,
         energy_error=solution.energy_error,
     )

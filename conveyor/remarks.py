@@ -47,7 +47,7 @@ def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
         _rubber_law(conveyor),
         f"Contact is plane strain, frictionless, steady, on cylinders in line: {support}.",
         f"Contacts are solved to a relative tolerance of {conveyor.calculation.rtol:g} of the indentation resistance "
-        "(calculation.rtol); at 1e-4 half widths are good to 0.1 %, peak pressures to about 1.5 %, at 1e-6 to 0.1 %.",
+        "(calculation.rtol); at 1e-4 half widths are good to 0.1 %. Peak pressures stand with their own error.",
         *roll_assumptions(conveyor),
         "The bearings of driven pulleys (at each drive's place the most wrapped ones) are included in the drive's "
         "efficiency; tension changes the load of the rolls on curves only.",

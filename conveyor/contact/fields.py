@@ -132,8 +132,7 @@ class SpectralFields:
     @property
     def _tails(self) -> Array:
         """Last quarter of each strip's series over the largest pressure, shape (l,)."""
-        c = self.contact.c
-        return np.asarray(np.abs(c[:, -(c.shape[1] // 4) :]).sum(axis=1) / peak(c).max())
+        return np.asarray(tail(self.contact.c) / peak(self.contact.c).max())
 
 
 @dataclass(frozen=True, eq=False)
@@ -225,6 +224,12 @@ def peak(c: Array) -> Array:
     refined = np.einsum("bv,bv->b", np.sin(np.multiply.outer(theta, v)), c)
     highest: Array = np.maximum(refined, sampled.max(axis=1))
     return highest
+
+
+def tail(c: Array) -> Array:
+    """Sum of |c_v| over the last quarter of the series of contacts, shape (b,)."""
+    last: Array = np.abs(c[:, -(c.shape[1] // 4) :]).sum(axis=1)
+    return last
 
 
 def surface_series(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -45,8 +45,13 @@ def at_places(degree: int, t: Array) -> Array:
 
 def left_between(values: Array) -> Array:
     """What the interpolant through values at the points, shape (N + 1, f), may miss of each; as in `missed`."""
-    miss = np.abs(_between(values.shape[0] - 1) @ values[::2] - values[1::2]).max(axis=0)
-    return _squared(miss, np.ptp(values, axis=0))
+    return _squared(_half_misses(values), np.ptp(values, axis=0))
+
+
+def _half_misses(values: Array) -> Array:
+    """What the interpolant through every other point misses of each at the points between."""
+    miss: Array = np.abs(_between(values.shape[0] - 1) @ values[::2] - values[1::2]).max(axis=0)
+    return miss
 
 
 def derivative(values: Array) -> Array:
@@ -120,12 +125,20 @@ class Sampled:
 
     def interpolated(self, figures: Callable[[Contact], Array]) -> Array:
         """Chebyshev coefficients of figures of the contacts, which have shape (k, f)."""
-        values = figures(self.contacts)
-        series = coefficients(values)
+        series = coefficients(figures(self.contacts))
         if self.finer is not None:
-            change = figures(self.finer) - values[:: stride(self.contacts, self.finer)]
+            change = self._change(self.finer, figures)
             series[: change.shape[0]] += coefficients(change)
         return series
+
+    def half_misses(self, figures: Callable[[Contact], Array]) -> Array:
+        """What half the points miss of figures between them, shape (f,): more than all do, kinks or not."""
+        missed = _half_misses(figures(self.contacts))
+        return missed if self.finer is None else missed + _half_misses(self._change(self.finer, figures))
+
+    def _change(self, finer: Contact, figures: Callable[[Contact], Array]) -> Array:
+        """By the higher order, at its points."""
+        return figures(finer) - figures(self.contacts)[:: stride(self.contacts, finer)]
 
     def left(self, rho: float) -> float:
         """What reading the higher order's change between its points may do to friction.
@@ -134,11 +147,8 @@ class Sampled:
         """
         if self.finer is None:
             return 0.0
-        change = (
-            columns(rho, self.finer) - columns(rho, self.contacts)[:: stride(self.contacts, self.finer)]
-        )[:, :2]
-        miss = np.abs(_between(change.shape[0] - 1) @ change[::2] - change[1::2]).max(axis=0)
-        left = _squared(miss, np.abs(change).max(axis=0))
+        change = self._change(self.finer, partial(columns, rho))[:, :2]
+        left = _squared(_half_misses(change), np.abs(change).max(axis=0))
         smallest = max(float(np.abs(columns(rho, self.finer)[:, 1]).min()), np.finfo(float).tiny)
         return float(left[0] + left[1] / smallest)
 

@@ -71,18 +71,21 @@ class TensionedCurve(IndentationCurve):
     def at(self, line_load: ArrayLike) -> Indentation:
         """As of every curve."""
         indentations = [curve.at(line_load) for curve in self.solved]
+        peaks = np.array([one.peak_pressure for one in indentations])
+        between = left_between(np.log(peaks.reshape(peaks.shape[0], -1))).max()
         return Indentation(
             line_load=indentations[0].line_load,
             resistance=self._mixed([one.resistance for one in indentations]),
             half_width=self._mixed([one.half_width for one in indentations]),
             eccentricity=self._mixed([one.eccentricity for one in indentations]),
             penetration=self._mixed([one.penetration for one in indentations]),
-            peak_pressure=self._mixed([one.peak_pressure for one in indentations]),
+            peak_pressure=self._mixed(peaks),
+            peak_error=max(one.peak_error for one in indentations) + float(between),
             error=self.error,
             energy_error=self.energy_error,
         )
 
-    def _mixed(self, values: Sequence[Array]) -> Array:
+    def _mixed(self, values: Sequence[Array] | Array) -> Array:
         return np.asarray(np.tensordot(self._weights, np.array(values), axes=1))
 
 

@@ -494,6 +494,7 @@ def rolls(a: CalculatedConveyor) -> Table:
         Column("penetration of cover", "share",
                lambda row: row[1].pressed_in / row[1].curve.contact.cover_thickness, page=None),
         Column("peak pressure", "pressure", "1.peak.peak_pressure"),
+        Column("error of the peak", "share", "1.peak.peak_error"),
         Column("transit frequency", "passing",
                lambda row: row[1].curve.contact.speed / (2.0 * float(row[1].peak.half_width)), page=None),
         Column("indentation", "roll force", "1.resistance"),
@@ -1199,7 +1200,8 @@ def indentation(a: CalculatedConveyor) -> Table:
         solved = curve.at(loads)
         resistance = solved.resistance if level is None else level.factor(loads) * solved.resistance
         columns = (loads, resistance, solved.half_width, solved.peak_pressure)
-        rows += [(label, *point) for point in zip(*(column.tolist() for column in columns), strict=True)]
+        points = zip(*(column.tolist() for column in columns), strict=True)
+        rows += [(label, *point, solved.peak_error) for point in points]
     declared = (
         Column("contact", "text", "0"),
         Column("line load", "line force", "1"),
@@ -1207,6 +1209,7 @@ def indentation(a: CalculatedConveyor) -> Table:
         Column("friction", "friction", lambda row: row[2] / row[1]),
         Column("half width", "thickness", "3"),
         Column("peak pressure", "pressure", "4"),
+        Column("error of the peak", "share", "5"),
     )
     heading = "Indentation against line load, one block a contact"
     return Table("indentation", "Indentation", heading, declared, tuple(rows), printed=False)

@@ -51,6 +51,8 @@ def test_what_is_read_between_tensions_is_what_is_solved_there(found):
         assert curve.at(load).resistance == pytest.approx(float(alone.resistance), rel=RTOL)
         assert float(curve.resistance(load)) == pytest.approx(float(alone.resistance), rel=RTOL)
         assert curve.at(load).half_width == pytest.approx(float(alone.half_width), rel=10.0 * RTOL)
+        read = curve.at(load)
+        assert read.peak_pressure == pytest.approx(float(alone.peak_pressure), rel=read.peak_error)
         assert curve.contact.pull not in [one.contact.pull for one in curve.solved]
     assert found.error_estimate <= RTOL
 

@@ -166,7 +166,7 @@ def test_tables_are_the_analysis_to_the_last_digit(book, overland, sheet, name):
     read.columns = [str(name).replace("[°", "[deg") for name in read.columns]  # people read signs
     read = read[[name for name in read.columns if not name.startswith("Unnamed")]]
     per_cent = {
-        f"{name} [-]": name for name in ("share", "penetration of cover")
+        f"{name} [-]": name for name in ("share", "penetration of cover", "error of the peak")
     }  # cells say %, heads nothing
     expected = expected.rename(columns=per_cent)
     assert list(read.columns) == list(expected.columns)
