@@ -418,8 +418,10 @@ class _Closing:
             if step == 0:
                 by_order = order_errors(found.contact, found.lower, search.exponent(rows, found.place))
                 self.error[rows], self.most[rows], self.edges[rows] = by_order
-            alive = search.alive[rows]
-            fine = (self.error[rows] <= rtol) & alive
+            alive = np.flatnonzero(search.alive[rows])
+            if alive.size < rows.size:
+                rows, found = rows[alive], found.of(alive)
+            fine = self.error[rows] <= rtol
             met, left, peak = search.carried(rows, found)
             error = self.error[rows] + left
             near = fine & met.inside & ((left <= self.tight) | (error <= _LOAD_LOOSE * rtol))
@@ -429,7 +431,7 @@ class _Closing:
                 self.edges[rows[at]] += _EDGES_CARRIED / _CARRIED * left[at] * met.alpha[at]
                 part = _some(at, rows.size)
                 self._accept(rows[at], found.of(part), chosen_rows(met, part), error[at])
-            for row in rows[alive & ~fine]:
+            for row in rows[~fine]:
                 self._raise(int(row), n, 0.0)
             rows = rows[fine & ~near]
             if rows.size == 0:

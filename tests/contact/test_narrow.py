@@ -242,3 +242,11 @@ def test_memory_far_longer_than_the_passage():
     longer = solve(replace(scene, creep=CreepSpectrum(1e-3, [0.999], [3e6])))
     assert long.friction / longer.friction == pytest.approx(10.0, rel=1e-8)
     assert long.energy_error < 1e-9
+
+
+def test_half_widths_far_outside_the_search_are_left_without_a_word():
+    # the search's next place is so far outside that its α is zero to rounding: dividing by it warned
+    creep = CreepSpectrum(0.00322, [0.99678], [0.379])
+    problem = ContactProblem("free", 0.066, 0.0374, creep, 0.603)
+    assert solve_narrow([problem], 1e-3) == [Left.ANY]
+    assert solve(problem, 1e-3, throw=False).status is Status.TOO_DEEP
