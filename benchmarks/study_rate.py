@@ -15,7 +15,6 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"
 
 import sys
 import tempfile
-from itertools import islice
 from multiprocessing import forkserver
 from pathlib import Path
 from time import perf_counter, process_time
@@ -58,9 +57,10 @@ def reference() -> float:
 
 def rate(campaign: running.Campaign) -> None:
     """Batches of one process, the least of three goes at each: whatever else runs makes them longer only."""
-    batches = campaign.listed.points()
-    every = list(iter(lambda: list(islice(batches, running.BATCH)), []))
-    count, unit, least = campaign.listed.count, reference(), [float("inf")] * len(every)
+    with tempfile.TemporaryDirectory() as folder, running.Answers(Path(folder) / "a") as none:
+        listed, count = campaign.listed.points(), campaign.listed.count
+        every = [list(batch.new.values()) for batch in running.batches(campaign, none, listed, count)]
+    unit, least = reference(), [float("inf")] * len(every)
     for _ in range(3):
         points._opened.cache_clear()  # noqa: SLF001 each go makes its strands anew
         for k, batch in enumerate(every):

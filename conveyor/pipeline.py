@@ -568,6 +568,11 @@ class Kept:
         if self.fields.full:
             self.fields = KnownParts()
 
+    def forget_solved(self) -> None:
+        """Forget what was solved side by side: its last digits follow from what stood beside it."""
+        self.covers.clear()
+        self.curves.clear()
+
     def once(
         self, make: Callable[[], T], what: str, parts: Iterable[object], values: tuple[object, ...] = ()
     ) -> T:

@@ -170,21 +170,24 @@ class PartedTable:
         except OSError as error:
             raise InputError(f"{folder}: cannot be written ({error.strerror or error})") from None
 
-    def take(self, before: int, points: Sequence[Keyed]) -> None:
-        """Take points that have answers, with how many there are before them; write the parts that are whole now.
+    def take(self, points: Iterable[tuple[int, Keyed]]) -> None:
+        """Take points by their numbers that have answers; write the parts that are whole now.
 
         Raises
         ------
         InputError
             A part cannot be written.
         """
-        for number, keyed in enumerate(points, start=before):
-            self._waiting.setdefault(number // PART, {})[number] = keyed
-        for part in {before // PART, (before + len(points) - 1) // PART}:
+        touched = set()
+        for number, keyed in points:
+            part = (number - 1) // PART
+            self._waiting.setdefault(part, {})[number] = keyed
+            touched.add(part)
+        for part in sorted(touched):
             if len(self._waiting[part]) == min(PART, self._count - part * PART):
                 held = self._waiting.pop(part)
                 path = self._folder / f"part-{part + 1:05}{self._ending}"
-                self._table.write(path, (self._row(number + 1, held[number]) for number in sorted(held)))
+                self._table.write(path, (self._row(number, held[number]) for number in sorted(held)))
 
 
 def _line(cells: Iterable[Any]) -> str:

@@ -41,6 +41,10 @@ SMALLEST: Final = 8
 """Points of such a batch at least."""
 AHEAD: Final = 2
 """Batches a worker that are handed out at once."""
+WINDOW: Final = 16 * BATCH
+"""Points that are looked through for those which share their rubber, temperature and speed."""
+_SHARED: Final = ("ambient.", "belt.speed", "belt.top_cover.")
+"""Fields that the rolls of both strands feel: points that differ in others alone may share the return rolls."""
 
 _MARK: Final = 0x636F6E76
 """In the head of a file of answers."""
@@ -51,8 +55,8 @@ Point: TypeAlias = tuple[int, tuple[Value, ...], Answer]
 """Number of a point, its values of `plan.paths`, its answer."""
 Keyed: TypeAlias = tuple[bytes, Changes]
 """A point with the key of its answer."""
-Answered: TypeAlias = Callable[[int, Sequence[Keyed]], None]
-"""Called with points in their order that all have answers, and how many there are before them."""
+Answered: TypeAlias = Callable[[Sequence[tuple[int, Keyed]]], None]
+"""Called with points that all have answers, by their numbers from 1."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -337,9 +341,8 @@ def run(
     whole, every = (
         (campaign.listed.count, campaign.listed.points()) if points is None else (len(points), points)
     )
-    asked: dict[Future[list[Answer]], _Batch] = {}
-    size = min(BATCH, max(SMALLEST, -(-whole // SHARES)))
-    new, most = _batches(campaign, known, every, size), 1 if executor is None else AHEAD * workers
+    asked: dict[Future[list[Answer]], Batch] = {}
+    new, most = batches(campaign, known, every, whole), 1 if executor is None else AHEAD * workers
     done = without = 0
     try:
         while True:
@@ -356,7 +359,7 @@ def run(
                 done += len(batch.new)
                 without += sum(isinstance(answer, str) for answer in fresh)
                 if answered is not None:
-                    answered(batch.before, batch.every)
+                    answered(batch.every)
     except (BrokenExecutor, CancelledError):
         raise ConveyorError(
             "a worker of the study was lost (out of memory, or stopped); what is done is kept: run it again to go on"
@@ -366,15 +369,14 @@ def run(
             future.cancel()
 
 
-class _Batch(NamedTuple):
-    """Points in their order, how many there are before them, and by key those without an answer."""
+class Batch(NamedTuple):
+    """Points by their numbers, and by key those without an answer."""
 
-    before: int
-    every: list[Keyed]
+    every: list[tuple[int, Keyed]]
     new: dict[bytes, Changes]
 
 
-def _asked(job: Job, batch: _Batch, executor: Executor | None) -> Future[list[Answer]]:
+def _asked(job: Job, batch: Batch, executor: Executor | None) -> Future[list[Answer]]:
     """The answers of what is new in a batch: on the executor, or calculated in this process."""
     points = list(batch.new.values())
     if executor is not None and points:
@@ -384,13 +386,23 @@ def _asked(job: Job, batch: _Batch, executor: Executor | None) -> Future[list[An
     return future
 
 
-def _batches(campaign: Campaign, known: Answers, points: Iterable[Changes], size: int) -> Iterator[_Batch]:
-    """Points without an answer, of every `size` points in their order: whoever calculates them, the same batches."""
-    keyed, before = ((campaign.key(point), point) for point in points), 0
-    while every := list(islice(keyed, size)):
-        there = known.among([key for key, _ in every])
-        yield _Batch(before, every, {key: point for key, point in every if key not in there})
-        before += len(every)
+def batches(campaign: Campaign, known: Answers, points: Iterable[Changes], whole: int) -> Iterator[Batch]:
+    """Points without an answer, a few hundred of all `whole` at a time: whoever calculates them, the same batches.
+
+    What is solved side by side has its last digits in common, so the order is that of the plan and nothing else's; only
+    points of a window that share what the rolls of both strands feel come one after the other.
+    """
+    size = min(BATCH, max(SMALLEST, -(-whole // SHARES)))
+    felt = [path for path in campaign.plan.paths if path.startswith(_SHARED)]
+    numbered = enumerate(((campaign.key(point), point) for point in points), start=1)
+    while window := list(islice(numbered, WINDOW)):
+        alike: dict[tuple[Value, ...], list[tuple[int, Keyed]]] = {}
+        for number, (key, point) in window:
+            alike.setdefault(tuple(point[path] for path in felt), []).append((number, (key, point)))
+        ordered = [one for each in alike.values() for one in each]
+        for every in (ordered[at : at + size] for at in range(0, len(ordered), size)):
+            there = known.among([key for _, (key, _) in every])
+            yield Batch(every, {key: point for _, (key, point) in every if key not in there})
 
 
 def rows(campaign: Campaign, known: Answers) -> Iterator[Point]:

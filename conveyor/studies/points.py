@@ -143,9 +143,17 @@ class Job:
     @classmethod
     def of(cls, base: Conveyor, asked: Sequence[str], compounds: Mapping[str, RubberCompound]) -> Self:
         """Pack a spec, what is `asked_of` its points, and the compounds that they give by name."""
-        every = (base.carry_compound, base.return_compound, *compounds.values())
-        packed = pickle.dumps((base, tuple(asked), dict(compounds), anchors_of(base, every)))
+        every = _every(base, compounds)
+        anchors = anchors_of(base, every)
+        # a compound that is unpickled is another object
+        levels = [[level for one, *level in anchors if one is compound] for compound in every]
+        packed = pickle.dumps((base, tuple(asked), dict(compounds), levels))
         return cls(hashlib.sha256(packed).digest(), packed)
+
+
+def _every(base: Conveyor, compounds: Mapping[str, RubberCompound]) -> tuple[RubberCompound, ...]:
+    """The compounds of all points."""
+    return base.carry_compound, base.return_compound, *compounds.values()
 
 
 class _Opened(NamedTuple):
@@ -161,7 +169,9 @@ class _Opened(NamedTuple):
 @lru_cache(maxsize=1)
 def _opened(job: Job) -> _Opened:
     """A job unpacked, once in a process that does many batches of it."""
-    base, asked, compounds, anchors = pickle.loads(job.packed)  # noqa: S301 packed by this program
+    base, asked, compounds, levels = pickle.loads(job.packed)  # noqa: S301 packed by this program
+    every = zip(_every(base, compounds), levels, strict=True)
+    anchors = [(compound, how, level) for compound, known in every for how, level in known]
     return _Opened(base, asked, compounds, anchors, Kept())
 
 
@@ -183,6 +193,7 @@ def answers(job: Job, points: Sequence[Changes], rtol: float = RTOL) -> list[Ans
         In their order what is asked for in SI, or why a point has none.
     """
     base, asked, compounds, anchors, kept = _opened(job)
+    kept.forget_solved()
     known = kept.fields
     made: list[Conveyor | str] = []
     for point in points:
@@ -191,7 +202,7 @@ def answers(job: Job, points: Sequence[Changes], rtol: float = RTOL) -> list[Ans
         except ConveyorError as error:
             made.append(str(error))
     variants = [Variant(one) for one in made if isinstance(one, Conveyor)]
-    results = iter(calculate_many(variants, rtol, anchors=anchors, kept=kept))
+    results = iter(calculate_many(variants, rtol, anchors=list(anchors), kept=kept))
     return [one if isinstance(one, str) else _answer(next(results), asked) for one in made]
 
 
