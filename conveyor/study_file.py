@@ -15,7 +15,16 @@ from conveyor.files.content import file_content
 from conveyor.laboratory.encoding import decoded
 from conveyor.laboratory.separated import headed_lines
 from conveyor.models.sizing import SizingDuty
-from conveyor.models.study import DUTY, HOURS, SearchPlan, StudyPlan, Value, VariedSpec, hours_of
+from conveyor.models.study import (
+    DUTY,
+    HOURS,
+    SearchPlan,
+    StudyPlan,
+    Value,
+    VariedSpec,
+    alike_as_one,
+    hours_of,
+)
 
 LARGEST_FILE: Final = 10_000_000
 """Bytes; a year of hourly values has a tenth."""
@@ -94,7 +103,8 @@ def read_states(path: Path) -> tuple[dict[str, Value], ...]:
             f'{path}: expected a column a field, such as "ambient.temperature [degC]", and hours [h]'
         )
     named = [(one[1], one[2] or "") for one in heads if one is not None]
-    hours: dict[tuple[Value, ...], float] = {}
+    timed = any(name == HOURS for name, _ in named)
+    rows: list[dict[str, Value]] = []
     for number, cells, *_ in lines[1:]:
         if len(cells) != len(named) or not all(cells):
             raise InputError(f"{path}: row {number}: expected {len(named)} cells, none of them empty")
@@ -102,14 +112,8 @@ def read_states(path: Path) -> tuple[dict[str, Value], ...]:
         time = hours_of(given.pop(HOURS, 1.0))
         if time is None:
             raise InputError(f"{path}: row {number}: hours: expected a time above 0")
-        alike = tuple(given.values())
-        hours[alike] = hours.get(alike, 0.0) + time
-    paths = [name for name, _ in named if name != HOURS]
-    timed = any(name == HOURS for name, _ in named)
-    return tuple(
-        dict(zip(paths, alike, strict=True)) | ({HOURS: time} if timed else {})
-        for alike, time in hours.items()
-    )
+        rows.append(given | ({HOURS: time} if timed else {}))
+    return alike_as_one(rows)
 
 
 def _cell(cell: str, unit: str) -> Value:

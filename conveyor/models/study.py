@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from typing import Annotated, Any, Literal, Self, TypeAlias, TypeVar
 
@@ -70,6 +71,24 @@ def hours_of(given: Value) -> float | None:
     return time if 0.0 < time < math.inf else None
 
 
+Listed = TypeVar("Listed")
+
+
+def _again(given: Sequence[Listed]) -> list[Listed]:
+    """What is listed more than once."""
+    return [one for one, times in Counter(given).items() if times > 1]
+
+
+def alike_as_one(rows: Iterable[Mapping[str, Value]]) -> tuple[dict[str, Value], ...]:
+    """States of the same fields and hours, or none; those that are alike are one, for the hours of all."""
+    hours: dict[tuple[tuple[str, Value], ...], float | None] = {}
+    for row in rows:
+        alike = tuple((path, value) for path, value in row.items() if path != HOURS)
+        time = hours_of(row[HOURS]) if HOURS in row else None
+        hours[alike] = time if time is None else time + (hours.get(alike) or 0.0)
+    return tuple(dict(alike) | ({} if time is None else {HOURS: time}) for alike, time in hours.items())
+
+
 class SampledRange(Model):
     """Between what a field is drawn."""
 
@@ -81,9 +100,11 @@ class SampledRange(Model):
     @model_validator(mode="after")
     def _alike(self) -> Self:
         try:
-            self.at(0.5)
+            ends = self.at(0.0), self.at(1.0)
         except InputError as error:
             refuse("SampledRange", [Problem((), str(error))])
+        if ends[0] == ends[1]:
+            refuse("SampledRange", [Problem((), f"both ends are {ends[0]}; change the base instead")])
         return self
 
     def at(self, share: float) -> Value:
@@ -235,6 +256,7 @@ class VariedSpec(Model):
         for name, given in (("together", self.together), ("states", rows)):
             if len({frozenset(row) for row in given}) > 1:
                 problems.append(Problem((name,), "every row has to change the same fields"))
+        problems += self._repeated()
         if any(set(row) <= {HOURS} for row in rows):
             problems.append(Problem(("states",), "every state has to change a field"))
         if rows and HOURS in rows[0]:
@@ -251,6 +273,18 @@ class VariedSpec(Model):
             problems.append(Problem((), f"nothing varies; give {self._ways}"))
         refuse(type(self).__name__, problems)
         return self
+
+    def _repeated(self) -> Iterator[Problem]:
+        """Values and rows that are listed twice: their points would be one."""
+        for path, values in self.axes.items():
+            for value in _again(values):
+                yield Problem(("axes", path), f'"{value}" is given twice; leave one of both')
+        for name, rows in (("together", self.together), ("states", self.rows)):
+            changes = [tuple((path, row[path]) for path in sorted(row) if path != HOURS) for row in rows]
+            for row in _again(changes):
+                said = ", ".join(f"{path}: {value}" for path, value in row)
+                more = "; add its hours" if name == "states" else ""
+                yield Problem((name,), f"{{{said}}} is given twice; leave one of both{more}")
 
     @property
     def _ways(self) -> str:
@@ -416,4 +450,4 @@ def with_states(plan: Given, base: Conveyor) -> Given:
                 air = si(ambient.temperature) + si(at) - si(ambient.belt)
                 row |= {"ambient.temperature": f"{air:.9g} K", "ambient.belt_temperature": text(at)}
         rows.append(row)
-    return plan.replace(states=tuple(rows))
+    return plan.replace(states=alike_as_one(rows))

@@ -250,6 +250,13 @@ def test_what_is_no_file_of_answers_is_refused(tmp_path, held):
         ({"axes": {"belt..speed": ["1 m/s"]}}, "no path of a field"),
         ({"axes": {}}, "nothing varies"),
         ({"together": [{"belt.speed": "1 m/s"}]}, "belt.speed: varied twice"),
+        ({"axes": {"belt.speed": ["1 m/s", "2 m/s", "1 m/s"]}}, 'axes.belt.speed: "1 m/s" is given twice'),
+        ({"together": [{"a": 1}, {"a": 1}]}, "together: {a: 1} is given twice; leave one of both$"),
+        (
+            {"states": [{"a": 1, "hours": "1 h"}, {"a": 1, "hours": "2 h"}]},
+            "states: {a: 1} is given twice; leave one of both; add its hours",
+        ),
+        ({"samples": {"count": 2, "fields": {"x": {"low": "1 m", "high": "100 cm"}}}}, "both ends are 1 m"),
         ({"together": [{"a": 1}, {"b": 1}]}, "every row has to change the same fields"),
         ({"samples": {"count": 2, "fields": {"x": {"low": "1 m", "high": "1 kg"}}}}, "expected two of one kind"),
         ({"outputs": ["power"]}, 'no figure "power"; there are motor_power'),

@@ -99,6 +99,17 @@ def test_the_front_is_that_of_the_definition():
         assert front(costs).tolist() == [not each for each in beaten]
 
 
+def test_entries_of_a_duty_that_are_alike_are_one_state(line):
+    """A key stands for one answer: two points of one key would be solved in other batches by other workers."""
+    parted = [DUTY[0] | {"hours": "1500 h"}, *DUTY[1:], DUTY[0] | {"hours": "500 h"}]
+    once, twice = (
+        campaign(line.replace(operation={"price": "0.1 EUR/kWh", "duty": duty})).plan
+        for duty in (DUTY, parted)
+    )
+    assert twice.hours == pytest.approx(once.hours)
+    assert list(twice.points_of({})) == list(once.points_of({}))
+
+
 def test_a_climate_table_gives_states_and_alike_rows_are_one(tmp_path):
     (tmp_path / "year.csv").write_text(
         "hours [h];ambient.temperature [degC]\n10;5\n20;6\n30;5\n", encoding="utf-8"
