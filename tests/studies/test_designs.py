@@ -20,6 +20,7 @@ from conveyor.studies.duty import analyse_duty
 from conveyor.studies.evaluation import explored, sought_of
 from conveyor.studies.points import OUTPUTS
 from conveyor.study_file import read_plan
+from conveyor.units import si
 from tests.command_line import run as command
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -274,6 +275,7 @@ def test_figures_of_all_loads_are_those_of_power(tmp_path):
         for key in ("motor_power", "belt_safety")
     )
     assert own.figures["all_loads_motor_power"] == pytest.approx(1e3 * power)
+    assert own.figures["all_loads_motor_use"] == pytest.approx(1e3 * power / si(given.drive.installed_power))
     assert own.figures["all_loads_belt_safety"] == pytest.approx(safety)
     assert own.figures["all_loads_tension"] > own.figures["all_loads_take_up"]
 
