@@ -186,16 +186,30 @@ class Sign(Enum):
 
 def sign(contact: Contact, rtol: float) -> Sign:
     """Worst sign in the batch of the single-patch pressure at 4n + 1 points, against the tail of its series."""
-    pulling, pressing = pulling_and_pressing(contact, rtol)
+    return sign_and_tension(contact, rtol)[0]
+
+
+def sign_and_tension(contact: Contact, rtol: float) -> tuple[Sign, float]:
+    """That sign; where all press, the largest share of a load that tension carries all the same [-], else zero."""
+    pulling, pressing, tension = pulling_and_pressing(contact, rtol)
     if pressing.all():
-        return Sign.PRESSING
-    return Sign.PULLING if pulling.any() else Sign.UNDECIDED
+        return Sign.PRESSING, float(tension.max())
+    return (Sign.PULLING if pulling.any() else Sign.UNDECIDED), 0.0
 
 
-def pulling_and_pressing(contact: Contact, rtol: float) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Which contacts are PULLING and which PRESSING, shape (b,) twice.
+class Signs(NamedTuple):
+    """Which contacts are PULLING, which PRESSING, and the share of the load that the tension of each carries [-]."""
 
-    A contact presses where its tension carries no more than `rtol` of the load. Beyond that it pulls if the tension
+    pulling: NDArray[np.bool_]
+    pressing: NDArray[np.bool_]
+    tension: Array
+
+
+def pulling_and_pressing(contact: Contact, rtol: Array | float) -> Signs:
+    """What the sampled pressure says of each contact, shape (b,).
+
+    A contact presses where its tension carries no more than `rtol` of the load; so much its friction may then be off,
+    which another strip would change. Beyond that it pulls if the tension
     exceeds the ripple of the order, or lasts longer than a ripple of it does: a thin plate that follows the roll
     presses with little more than the mean pressure between two high peaks, its lift-off is far below the peaks' tails.
     """
@@ -204,13 +218,15 @@ def pulling_and_pressing(contact: Contact, rtol: float) -> tuple[NDArray[np.bool
     tension = np.maximum(-p, 0.0)
     step = np.pi / (4 * n + 2)
     pulled = step * (tension @ np.sin(step * np.arange(1, 4 * n + 2)))
-    pressing = pulled <= rtol * (0.5 * np.pi) * contact.c[:, 0]
+    share = pulled / (0.5 * np.pi * contact.c[:, 0])
+    pressing = share <= rtol
     if pressing.all():
-        return ~pressing, pressing
+        return Signs(~pressing, pressing, share)
     highest = p.max(axis=1)
     tail = np.abs(contact.c[:, -(n // 4) :]).sum(axis=1) / highest
     ripple = tension.max(axis=1) <= _TAILS * tail * highest
-    return ~pressing & (~ripple | (_longest_run(tension > 0.0) >= _LASTING)), pressing
+    pulling = ~pressing & (~ripple | (_longest_run(tension > 0.0) >= _LASTING))
+    return Signs(pulling, pressing, share)
 
 
 def _longest_run(flags: NDArray[np.bool_]) -> NDArray[np.int_]:

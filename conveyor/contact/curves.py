@@ -347,10 +347,9 @@ class _Sampler:
             )
             error, energy, by_loss = self._errors(batch.few(), exponent[places], rtol)
             worst = np.maximum(np.maximum(_BETWEEN * error, by_loss), self.floor)
-            pulling, pressing = (
-                flags.reshape(-1, batch.count)
-                for flags in pulling_and_pressing(batch.contact, max(float(worst.max()), _SIGN_FLOOR))
-            )
+            most = np.repeat(np.maximum(worst, _SIGN_FLOOR), batch.count)
+            signs = pulling_and_pressing(batch.contact, most)
+            pulling, pressing = (one.reshape(-1, batch.count) for one in (signs.pulling, signs.pressing))
             enclosed = self._enclosed(batch)
             for k, place in enumerate(places.tolist()):
                 row = int(first.rows[place])

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.checks import ENERGY_OVER_ERROR, MOST, TWICE, Sign, overlaps, sign
+from conveyor.contact.checks import ENERGY_OVER_ERROR, MOST, TWICE, Sign, overlaps, sign_and_tension
 from conveyor.contact.fields import RESOLVED, GridFields, SpectralFields
 from conveyor.contact.grid import Grid, GridContact, Raised, solve_grid
 from conveyor.contact.orders import ORDERS, next_order
@@ -195,7 +195,7 @@ def _polished(scene: Scene, grid: GridContact, start: _Start, rtol: float) -> Ou
             friction = friction_by_loss(scene, strips)
             scale = _scale(scene, friction)
         error = min(abs(friction_before - friction) / scale, 1.0)
-        pressing = sign(strips.contact, rtol)
+        pressing, tension = sign_and_tension(strips.contact, rtol)
         if pressing is Sign.PULLING and error <= SETTLED:
             return None
         hopeless = n >= _LAST_TRY and beyond_reach(scene, strips.contact, (n, ORDERS[-1]), error / rtol)
@@ -209,7 +209,9 @@ def _polished(scene: Scene, grid: GridContact, start: _Start, rtol: float) -> Ou
                 resolved = resolution(scene, strips.contact, n) >= RESOLVED
                 most = most if resolved else math.inf  # orders agree before an edge layer is seen
                 error = max(error, energy / ENERGY_OVER_ERROR, min(TWICE * energy, most), rounding)
-            error = max(error, LAYER_OVER_ENERGY * energy if hopeless else ROUNDING, _LEFT * strips.left)
+            error = max(
+                error, LAYER_OVER_ENERGY * energy if hopeless else ROUNDING, _LEFT * strips.left, tension
+            )
             decided = n >= SIGN_ORDER or pressing is not Sign.UNDECIDED
             if (error <= rtol and decided) or n == ORDERS[-1] or hopeless:
                 if overlaps(scene, strips.contact, strips.depth):

@@ -456,7 +456,8 @@ class _Closing:
             found.tabled, check, orders, rho, most=self.most[rows], rtol=rtol
         )
         estimate = np.maximum(np.maximum(error, by_loss_error), grade.error)
-        pulling, pressing = pulling_and_pressing(contact, rtol)
+        pulling, pressing, tension = pulling_and_pressing(contact, rtol)
+        estimate = np.maximum(estimate, np.where(pressing, tension, 0.0))
         outside = may_touch_elsewhere(closed, rho)
         n = int(contact.c.shape[1])
         for k, row in enumerate(rows.tolist()):

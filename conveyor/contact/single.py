@@ -18,6 +18,7 @@ from conveyor.contact.checks import (
     order_errors,
     overlaps,
     sign,
+    sign_and_tension,
 )
 from conveyor.contact.fields import RESOLVED, SpectralFields, edge_layer
 from conveyor.contact.load import LoadSearch, carry, guess
@@ -65,7 +66,7 @@ def by_half_width(
         return None
     state, contact, error, energy, edges = half_width
     rho = scene.problem.rho
-    pressing = sign(contact, rtol)
+    pressing, tension = sign_and_tension(contact, rtol)
     if pressing is Sign.PULLING:
         return None
     alpha, eps = float(contact.alpha[0]), float(contact.eps[0])
@@ -75,7 +76,7 @@ def by_half_width(
         depth = scene.depth_of(state.system, state.contact)
     if elsewhere and depth is not None and overlaps(scene, contact, depth):
         return None
-    estimate = max(error, ROUNDING)
+    estimate = max(error, ROUNDING, tension)
     return Outcome(
         status=Status.OK if estimate <= rtol else Status.NOT_CONVERGED,
         found=Found(

@@ -57,8 +57,23 @@ def test_a_contact_presses_where_its_tension_carries_no_more_than_is_tolerated(t
     )
     one = np.ones(1)
     contact = Contact(one, 0.0 * one, np.array([[1.0, 0.6, *[0.0] * 6]]), one, one, one > 0.0)
-    _, found = pulling_and_pressing(contact, tolerated * pull / (0.5 * np.pi))
-    assert found.tolist() == [pressing]
+    found = pulling_and_pressing(contact, tolerated * pull / (0.5 * np.pi))
+    assert found.pressing.tolist() == [pressing]
+    step = np.pi / 34  # of the places that it is summed over
+    assert found.tension == pytest.approx(pull / (0.5 * np.pi), rel=2.0 * step**2)
+
+
+def test_tension_that_a_loose_tolerance_leaves_counts_in_the_estimate():
+    """Two strips by a finer tolerance: one with a little tension between them at 1e-2."""
+    creep = CreepSpectrum(
+        0.0021489983093827547,
+        [0.060369781933128, 0.9374812197574892],
+        [0.010941449437009183, 0.1389151530545967],
+    )
+    problem = ContactProblem("free", 0.32784203927435696, 0.005178492755181766, creep, 0.30307285720734056)
+    loose, fine = solve(problem, 1e-2), solve(problem, 1e-3)
+    assert (len(loose.patches), len(fine.patches)) == (1, 2)
+    assert 1e-4 < abs(loose.friction / fine.friction - 1.0) <= loose.error_estimate <= 1e-2
 
 
 def spectrum(seed: int, terms: int = 7) -> CreepSpectrum:
