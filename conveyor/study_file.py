@@ -12,7 +12,9 @@ from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.explain import read_model
 from conveyor.files.content import file_content
+from conveyor.files.document import first_lines
 from conveyor.laboratory.encoding import decoded
+from conveyor.laboratory.grid import TextLine, refusal
 from conveyor.laboratory.separated import headed_lines
 from conveyor.models.sizing import SizingDuty
 from conveyor.models.study import (
@@ -25,6 +27,7 @@ from conveyor.models.study import (
     alike_as_one,
     hours_of,
 )
+from conveyor.units import quantity
 
 LARGEST_FILE: Final = 10_000_000
 """Bytes; a year of hourly values has a tenth."""
@@ -95,31 +98,61 @@ def read_states(path: Path) -> tuple[dict[str, Value], ...]:
     InputError
         It cannot be read, or a cell is empty or of another kind.
     """
+    return alike_as_one(row for _, row in _rows(path))
+
+
+def _rows(path: Path) -> list[tuple[int, dict[str, Value]]]:
+    """Rows of a table of states with their numbers; all that is wrong in them is said at once."""
     text, _ = decoded(file_content(path, largest=LARGEST_FILE, expected="table of states"), path.name)
-    lines = [line for line in headed_lines(text) if not line.comment]
-    heads = [_HEAD.fullmatch(name) for line in lines[:1] for name in line.cells]
-    if len(lines) < 2 or not all(heads):
+    head, *lines = [line for line in headed_lines(text) if not line.comment] or [
+        TextLine(1, ("",), "", False)
+    ]
+    heads = [_HEAD.fullmatch(name) for name in head.cells]
+    named = [(one[1], one[2] or "") for one in heads if one is not None]
+    if not lines or len(named) < len(heads):
         raise InputError(
             f'{path}: expected a column a field, such as "ambient.temperature [degC]", and hours [h]'
         )
-    named = [(one[1], one[2] or "") for one in heads if one is not None]
-    timed = any(name == HOURS for name, _ in named)
-    rows: list[dict[str, Value]] = []
-    for number, cells, *_ in lines[1:]:
+    names = [name for name, _ in named]
+    wrong = [
+        refusal(str(path), head.number, i, f"{name} has a column already; leave one of both")
+        for i, name in enumerate(names)
+        if name in names[:i]
+    ]
+    if wrong:
+        raise InputError("\n".join(map(str, wrong)))
+    rows: list[tuple[int, dict[str, Value]]] = []
+    for number, cells, *_ in lines:
         if len(cells) != len(named) or not all(cells):
-            raise InputError(f"{path}: row {number}: expected {len(named)} cells, none of them empty")
-        given = {name: _cell(cell, unit) for cell, (name, unit) in zip(cells, named, strict=True)}
-        time = hours_of(given.pop(HOURS, 1.0))
-        if time is None:
-            raise InputError(f"{path}: row {number}: hours: expected a time above 0")
-        rows.append(given | ({HOURS: time} if timed else {}))
-    return alike_as_one(rows)
+            wrong.append(InputError(f"{path}:{number}: expected {len(named)} cells, none of them empty"))
+            continue
+        given: dict[str, Value] = {}
+        for i, (cell, (name, unit)) in enumerate(zip(cells, named, strict=True)):
+            try:
+                given[name] = _cell(cell, unit, timed=name == HOURS)
+            except InputError as error:
+                wrong.append(refusal(str(path), number, i, str(error), header=head.cells[i]))
+        rows.append((number, given))
+    if wrong:
+        raise InputError(first_lines(wrong, str, str(path)))
+    return rows
 
 
-def _cell(cell: str, unit: str) -> Value:
-    """A value as specs write it."""
+def _cell(cell: str, unit: str, *, timed: bool) -> Value:
+    """A value as specs write it; of a time its hours."""
+    value = f"{cell} {unit}" if unit else _number(cell)
     if unit:
-        return f"{cell} {unit}"
+        quantity(value)
+    if not timed:
+        return value
+    time = hours_of(value)
+    if time is None:
+        raise InputError(f'got "{value}", expected a time above 0')
+    return time
+
+
+def _number(cell: str) -> Value:
+    """A number; else the text."""
     try:
         return float(cell)
     except ValueError:

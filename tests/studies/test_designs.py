@@ -122,9 +122,21 @@ def test_a_climate_table_gives_states_and_alike_rows_are_one(tmp_path):
     assert plan.count == 4 * 2
     for table, said in (
         ("hours\n1\n", "every state has to change a field"),
-        ("hours,ambient.temperature [degC]\n,5\n", "row 2: expected 2 cells"),
-        ("hours,ambient.temperature [degC]\n-1,5\n", "row 2: hours: expected a time above 0"),
-        ("# measured\nhours,ambient.temperature [degC]\n\n-1,5\n", "row 4: hours: expected a time above 0"),
+        ("hours,ambient.temperature [degC]\n,5\n", r"year.csv:2: expected 2 cells"),
+        (
+            "hours,ambient.temperature [degC]\n-1,5\n",
+            r'year.csv:2: column 1 "hours": got "-1.0", expected a time above 0',
+        ),
+        ("# measured\nhours,ambient.temperature [degC]\n\n-1,5\n", r"year.csv:4: column 1"),
+        (
+            "hours,a.b [degC],a.b [degC]\n1,5,6\n",
+            r"year.csv:1: column 3: a.b has a column already; leave one",
+        ),
+        ("# 2026\nhours,a.b [degC],hours [h]\n1,5,6\n", r"year.csv:2: column 3: hours has a column already"),
+        (
+            "hours,a.b [degC]\n1,warm\n2,5\n-1,cold\n",
+            r'(?s):2: column 2 "a.b \[degC\]": expected a number.*:4: .*:4: ',
+        ),
         ("hours,ambient temperature\n1,5\n", "expected a column a field"),
         ("hours,belt.speed [m/s]\n1,5\n", "belt.speed: varied twice"),
     ):
