@@ -360,7 +360,7 @@ def run(
                 without += sum(isinstance(answer, str) for answer in fresh)
                 if answered is not None:
                     answered(batch.every)
-    except (BrokenExecutor, CancelledError):
+    except (BrokenExecutor, CancelledError, BrokenPipeError):
         raise ConveyorError(
             "a worker of the study was lost (out of memory, or stopped); what is done is kept: run it again to go on"
         ) from None

@@ -7,6 +7,7 @@ import errno
 import json
 import os
 import re
+import signal
 import sqlite3
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import closing
@@ -17,6 +18,7 @@ import pytest
 
 import conveyor
 from conveyor import shelf
+from conveyor.cli.workers import executor_of
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models.fields import with_fields
 from conveyor.models.study import StudyPlan
@@ -227,6 +229,31 @@ def test_a_lost_worker_loses_nothing_that_was_done(line, tmp_path, monkeypatch):
         assert 2 <= kept < 6
         run(study, known)
         assert list(rows(study, known)) == answered(study, tmp_path / "whole")
+
+
+def test_a_pipe_to_a_lost_worker_is_an_error_and_ends_nothing(line, tmp_path):
+    class Broken(ThreadPoolExecutor):
+        def submit(self, *_):
+            raise BrokenPipeError
+
+    with (
+        Answers(tmp_path / "a") as known,
+        pytest.raises(ConveyorError, match="a worker of the study was lost"),
+    ):
+        run(campaign(line), known, executor=Broken(1))
+    if not hasattr(signal, "SIGPIPE"):
+        return
+    before = signal.signal(signal.SIGPIPE, signal.SIG_DFL)
+    try:
+        with executor_of(None, 2):
+            read, write = os.pipe()
+            os.close(read)
+            with pytest.raises(BrokenPipeError):
+                os.write(write, b"work")
+            os.close(write)
+        assert signal.getsignal(signal.SIGPIPE) == signal.SIG_DFL
+    finally:
+        signal.signal(signal.SIGPIPE, before)
 
 
 def test_a_folder_in_the_place_of_the_answers_is_refused(tmp_path):
