@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import signal
 from collections.abc import Iterator
@@ -90,6 +91,7 @@ def executor_of(scheduler: str | None, workers: int) -> Iterator[Executor | None
         from distributed import Client, KilledWorker, LocalCluster
     except ImportError:
         raise InputError('--scheduler: needs distributed (pip install "conveyor[cluster]")') from None
+    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # a lost scheduler is said once, below
     try:
         alone = scheduler == LOCAL
         cluster = (
