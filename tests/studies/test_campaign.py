@@ -317,6 +317,13 @@ def test_the_command_writes_a_table_in_the_units_of_the_plan(tmp_path):
         "study", file, "-o", tmp_path / "t.csv", "--units", "us", "--json", "--set", "material.flow=100 t/h"
     )
     assert json.loads(again.stdout)["calculated"] == 0
+    more = PLAN | {"base": str(SPECS / "shuttle.yaml"), "outputs": ["motor_power"]}
+    file.write_text(json.dumps(more | {"axes": {"belt.speed": ["1 m/s"]}}), encoding="utf-8")
+    replaced = command("study", file, "-o", tmp_path / "t.csv")  # the table of the study as it was
+    assert replaced.returncode == 0, replaced.stderr
+    (tmp_path / "mine.csv").write_text("\ufeffroll,force [N]\r\n", encoding="utf-8")
+    refused = command("study", file, "-o", tmp_path / "mine.csv")
+    assert "exists and is another output of conveyor" in refused.stderr
     (tmp_path / "mine.csv").write_text("mine", encoding="utf-8")
     refused = command("study", file, "-o", tmp_path / "mine.csv")
     assert refused.returncode == 2
@@ -376,6 +383,11 @@ def test_a_table_in_a_folder_grows_while_its_study_runs(line, tmp_path, monkeypa
     assert len(calls) <= 6 + 2  # what was under way is lost, no more
     assert found == run_into(tmp_path / "whole", tmp_path / "b")
     assert sorted(found) == [f"part-00001.{ending}", f"part-00002.{ending}"]
+    whole = (folder / f"part-00001.{ending}").read_bytes()
+    (folder / f"part-00001.{ending}").write_bytes(whole[:300] if ending == "parquet" else whole[:20])
+    with pytest.raises(InputError, match="is damaged, or no table that conveyor wrote; remove it"):
+        run_into(folder, tmp_path / "a")
+    (folder / f"part-00001.{ending}").unlink()
     (folder / "mine.csv").write_text("mine", encoding="utf-8")
     with pytest.raises(InputError, match="is no part of such a table"):
         run_into(folder, tmp_path / "a")

@@ -226,7 +226,9 @@ def test_the_command_writes_page_figures_designs_and_specs_that_power_reads(tmp_
     assert {path.name for path in (tmp_path / "plots").iterdir()} == {"effects.png", "lines.png", "map.png"}
     page = (tmp_path / "p.html").read_text(encoding="utf-8")
     assert "Main effects" in page
-    assert '<section aria-labelledby="effects">' in page  # paper has the figure, if not the table that is folded away
+    assert (
+        '<section aria-labelledby="effects">' in page
+    )  # paper has the figure, if not the table that is folded away
     assert "<svg" in page
     specs = sorted((tmp_path / "best").iterdir())
     assert len(specs) == 2
