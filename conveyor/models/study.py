@@ -18,7 +18,8 @@ from conveyor.models.conveyor import Conveyor
 from conveyor.models.fields import check_path
 from conveyor.models.prices import Prices
 from conveyor.models.variants import scaled
-from conveyor.ranges import MOST, spaced
+from conveyor.models.wording import shown
+from conveyor.ranges import spaced, why_not_spaced
 from conveyor.units import between, quantity, si, text
 from conveyor.units.presentation import MONEY, unit
 
@@ -37,26 +38,31 @@ DUTY = "duty"
 """As states: those of the spec."""
 
 
+_LIKE = 'from:to:step with a unit, such as "-20:40:5 degC"'
+
+
 def _listed(given: Any) -> Any:
-    """Values of `from:to:step unit`; lists as they are."""
-    if not isinstance(given, str):
+    """Values of `from:to:step unit`; lists as they are, of what a field may be."""
+    if isinstance(given, list | tuple):
+        for value in given:
+            if not isinstance(value, Value) or (isinstance(value, float) and not math.isfinite(value)):
+                raise _no_axis(f"got {shown(value)} among the values, expected numbers, texts, true or false")
         return given
-    *numbers, unit = given.partition(" ")
-    if given.count(":") == 2:
-        try:
-            numbers_of = spaced(numbers[0])
-        except ValueError:
-            numbers_of = []
-        if numbers_of:
-            return [
-                f"{value:.12g} {unit}".strip() if unit else float(f"{value:.12g}") for value in numbers_of
-            ]
-    raise PydanticCustomError(
-        "axis",
-        '{message}',
-        {"message": f'got "{given}", expected a list, or from:to:step with a unit (at most {MOST} values), '
-                    'such as "-20:40:5 degC"'},
-    )  # fmt: skip
+    numbers, _, sign = str(given).strip().partition(" ")
+    if not isinstance(given, str) or numbers.count(":") != 2:
+        raise _no_axis(f"got {shown(given)}, expected a list, or {_LIKE}")
+    try:
+        why = why_not_spaced(numbers)
+    except ValueError:
+        why = f"expected {_LIKE}"
+    if why:
+        raise _no_axis(f"got {shown(given)}: {why}")
+    values = [f"{value:.12g}" for value in spaced(numbers)]
+    return [f"{value} {sign.strip()}" for value in values] if sign else [float(value) for value in values]
+
+
+def _no_axis(message: str) -> PydanticCustomError:
+    return PydanticCustomError("conflict", "{message}", {"message": message})
 
 
 Axis = Annotated[tuple[Value, ...], BeforeValidator(_listed), Field(min_length=1)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import errno
 import json
+import math
 import os
 import re
 import signal
@@ -274,6 +275,15 @@ def test_what_is_no_file_of_answers_is_refused(tmp_path, held):
     ("changes", "said"),
     [
         ({"axes": {"belt.speed": "1:2 m/s"}}, "expected a list, or from:to:step"),
+        ({"axes": {"belt.speed": "5 m/s"}}, 'got "5 m/s", expected a list, or from:to:step with a unit, such'),
+        ({"axes": {"belt.speed": "6:1:1 m/s"}}, 'got "6:1:1 m/s": it ends below where it begins$'),
+        ({"axes": {"belt.speed": "1:6:0 m/s"}}, "the step has to be above 0$"),
+        ({"axes": {"belt.speed": "1:6:1e-9 m/s"}}, "more than 1000 values; take a larger step$"),
+        ({"axes": {"belt.speed": "1:x:1 m/s"}}, 'got "1:x:1 m/s": expected from:to:step'),
+        ({"axes": {"belt.speed": ["1 m/s", math.nan]}}, "^axes.belt.speed: got nan among the values, expected"),
+        ({"axes": {"belt.speed": ["1 m/s", math.inf]}}, "^axes.belt.speed: got inf among the values, expected"),
+        ({"axes": {"belt.speed": ["1 m/s", None]}}, "^axes.belt.speed: got nothing among the values, expected"),
+        ({"axes": {"belt.speed": ["1 m/s", ["2 m/s"]]}}, "^axes.belt.speed: got a list among the values"),
         ({"axes": {"belt..speed": ["1 m/s"]}}, "no path of a field"),
         ({"axes": {}}, "nothing varies"),
         ({"together": [{"belt.speed": "1 m/s"}]}, "belt.speed: varied twice"),
