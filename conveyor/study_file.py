@@ -9,13 +9,14 @@ from pathlib import Path
 from typing import Final, TypeVar
 
 from conveyor import shelf
-from conveyor.errors import InputError
+from conveyor.errors import InputError, PlacedError
 from conveyor.explain import read_model
 from conveyor.files.content import file_content
-from conveyor.files.document import first_lines
+from conveyor.files.document import Document, Fault, first_lines, listing, read_document
 from conveyor.laboratory.encoding import decoded
 from conveyor.laboratory.grid import TextLine, refusal
 from conveyor.laboratory.separated import headed_lines
+from conveyor.models.base import field_path
 from conveyor.models.sizing import SizingDuty
 from conveyor.models.study import (
     DUTY,
@@ -27,6 +28,7 @@ from conveyor.models.study import (
     alike_as_one,
     hours_of,
 )
+from conveyor.models.wording import Location
 from conveyor.units import quantity
 
 LARGEST_FILE: Final = 10_000_000
@@ -74,8 +76,57 @@ def named(path: str | Path) -> Iterator[None]:
     """
     try:
         yield
+    except PlacedError as error:
+        raise InputError(_listed(read_document(Path(path)), error)) from None
     except InputError as error:
         raise InputError("\n".join(f"{path}: {line}" for line in str(error).splitlines())) from None
+
+
+def _listed(document: Document, error: PlacedError) -> str:
+    """Problems of a plan with their lines: of its file, or of its table of states."""
+    faults, of_states = [], []
+    table = document.data.get("states")
+    for place, said in error.problems:
+        if place[0] == "states" and len(place) == 3 and isinstance(table, str) and table != DUTY:
+            of_states.append((place[1], place[2], said))
+        else:
+            faults.append(Fault(document.place(place, of_key=True), field_path(place), _without(place, said)))
+    lines = [listing(document.path, sorted(faults, key=lambda fault: fault.place))] if faults else []
+    if of_states:
+        path = Path(document.path).parent / str(table)
+        firsts: dict[tuple[tuple[str, Value], ...], int] = {}
+        rows = _rows(path)
+        for number, row in rows:
+            firsts.setdefault(tuple((name, value) for name, value in row.items() if name != HOURS), number)
+        numbers = list(firsts.values())
+        columns = list(rows[0][1])
+        lines += [
+            str(refusal(str(path), numbers[int(i)], columns.index(str(field)), said))
+            for i, field, said in of_states
+        ]
+    return "\n".join(lines)
+
+
+def _without(place: Location, said: str) -> str:
+    """What is said of a place without its name, which stands before it."""
+    for part in place:
+        said = said.removeprefix(f"{part}: ")
+    return said
+
+
+def base_of(plan: VariedSpec, path: str | Path) -> Path:
+    """The spec of a plan, beside its file.
+
+    Raises
+    ------
+    InputError
+        It is not there.
+    """
+    base = Path(path).parent / plan.base
+    with named(path):
+        if not base.exists():
+            raise PlacedError([(("base",), f"{base}: no such file")])
+    return base
 
 
 def _with_states(plan: Given, path: Path) -> Given:

@@ -64,10 +64,10 @@ def study(
     from conveyor.report import design_tables, point_tables
     from conveyor.studies import campaign as running
     from conveyor.studies.evaluation import explored
-    from conveyor.study_file import named, read_plan
+    from conveyor.study_file import base_of, named, read_plan
 
     plan = read_plan(plan_file)
-    spec, answers = plan_file.parent / plan.base, output.with_name(f"{output.name}.answers")
+    spec, answers = base_of(plan, plan_file), output.with_name(f"{output.name}.answers")
     line = session.read(spec)
     system = session.system(line)
     with named(plan_file):

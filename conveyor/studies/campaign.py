@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from importlib.metadata import version
 from itertools import islice
 from pathlib import Path
@@ -25,13 +25,12 @@ from typing import Final, NamedTuple, Self, TypeAlias
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.fields import field as field_of
-from conveyor.models.fields import with_fields
 from conveyor.models.study import Changes, StudyPlan, Value, VariedSpec, with_states
 from conveyor.spec import fingerprint
 from conveyor.studies.costs import unpriced
 from conveyor.studies.designs import Design, DesignFigure, figures_of, reduced
 from conveyor.studies.points import OUTPUTS, Answer, Job, answers, asked_of, outputs_of, priced
-from conveyor.units import Quantity, is_quantity, quantity
+from conveyor.studies.refusals import refuse_unknown
 
 BATCH: Final = 256
 """Points solved side by side at most, and lost at most where a run is stopped."""
@@ -90,6 +89,8 @@ class Campaign:
             A compound, a figure or a field is not known, or the spec has no duty that the plan asks for.
         """
         plan = with_states(plan, base)
+        resolve = cache(resolve)
+        refuse_unknown(plan, base, resolve)
         columns = {path: field_of(base, path) for path in plan.paths}
         rubber = [path for path, value in columns.items() if isinstance(value, RubberCompound)]
         given = {
@@ -103,7 +104,6 @@ class Campaign:
         if plan.outputs or plan.figures or plan.best or plan.limits:
             _refuse_unpriced(plan, base, outputs)
         compounds = {name: resolve(name) for name in sorted(named)}
-        _refuse_other_kinds(plan, base, compounds)
         return cls(plan, base, compounds, outputs)
 
     @property
@@ -178,22 +178,6 @@ class Campaign:
         rubber = [known.get(point[path]) for path, known in self._rubber.items()]
         digest.update(json.dumps([point, rubber], sort_keys=True).encode())
         return digest.digest()[:16]
-
-
-def _refuse_other_kinds(plan: VariedSpec, base: Conveyor, compounds: Mapping[str, RubberCompound]) -> None:
-    """Refuse values in units that their fields never have; what is beyond a range has no answer, and says so there."""
-    for row in plan.given:
-        for path, value in row.items():
-            like = field_of(base, path)
-            if is_quantity(like) and not _alike(value, like):
-                with_fields(base, row, resolve=compounds.__getitem__)
-
-
-def _alike(value: Value, like: Quantity) -> bool:
-    try:
-        return isinstance(value, str) and quantity(value).dimensionality == like.dimensionality
-    except InputError:
-        return False
 
 
 def _unpriced(plan: VariedSpec, base: Conveyor) -> Iterator[str]:

@@ -294,6 +294,14 @@ def test_what_is_no_file_of_answers_is_refused(tmp_path, held):
             "states: {a: 1} is given twice; leave one of both; add its hours",
         ),
         ({"samples": {"count": 2, "fields": {"x": {"low": "1 m", "high": "100 cm"}}}}, "both ends are 1 m"),
+        (
+            {"samples": {"count": 2, "fields": {"x": {"low": "2 m", "high": "100 cm"}}}},
+            "low is 2 m, above high, which is 1 m",
+        ),
+        (
+            {"samples": {"count": 2, "fields": {"idlers.carry.rolls": {"low": 2, "high": 5}}}},
+            "idlers.carry.rolls: has no values between two others; list its values under axes",
+        ),
         ({"together": [{"a": 1}, {"b": 1}]}, "every row has to change the same fields"),
         ({"samples": {"count": 2, "fields": {"x": {"low": "1 m", "high": "1 kg"}}}}, "expected two of one kind"),
         ({"outputs": ["power"]}, 'no figure "power"; there are motor_power'),
