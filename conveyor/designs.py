@@ -73,6 +73,11 @@ class Study:
     points: tuple[Point, ...]
     explored: Explored
 
+    def __repr__(self) -> str:
+        name, without = self.campaign.plan.name, sum(isinstance(answer, str) for *_, answer in self.points)
+        kept = f"{self.explored.count} designs, {int(self.explored.keeps.sum())} keep the limits"
+        return f'Study("{name}": {len(self.points)} points, {without} without an answer; {kept})'
+
     @cached_property
     def table(self) -> pd.DataFrame:
         """One row a point; units in the names."""

@@ -108,6 +108,24 @@ def test_python_has_the_points_of_a_file_and_of_data(line, tmp_path):
     assert found.table["motor power [kW]"].tolist() == pytest.approx(power, rel=1e-9)
     assert found.contents("US")["best"].rows
     same(conveyor.study(StudyPlan.from_data(PLAN), line).points, found.points)
+    assert repr(found) == 'Study("speeds": 6 points, 0 without an answer; 6 designs, 6 keep the limits)'
+
+
+def test_a_study_that_is_stopped_says_that_it_goes_on(tmp_path):
+    def stop(*_, **__):
+        raise KeyboardInterrupt
+
+    file = tmp_path / "study.json"
+    file.write_text(json.dumps(PLAN | {"base": str(SPECS / "shuttle.yaml")}), encoding="utf-8")
+    done = command(
+        "study",
+        file,
+        "-o",
+        tmp_path / "t.csv",
+        spoil=lambda patched: patched.setattr("conveyor.studies.campaign.run", stop),
+    )
+    assert done.returncode == 130
+    assert done.stderr == "conveyor: stopped by Ctrl-C; what is done is kept: run it again to go on\n"
 
 
 def test_a_point_without_an_answer_says_why(line, tmp_path):
