@@ -17,7 +17,7 @@ from conveyor.models.study import StudyPlan
 from conveyor.spec import load
 from conveyor.studies.campaign import Answers, Campaign, Point, designs, rows, run
 from conveyor.studies.evaluation import Explored, explored
-from conveyor.study_file import named, read_duty, read_plan
+from conveyor.study_file import base_of, named, read_duty, read_plan
 from conveyor.units.presentation import chosen
 
 if TYPE_CHECKING:
@@ -72,6 +72,11 @@ class Study:
     campaign: Campaign
     points: tuple[Point, ...]
     explored: Explored
+
+    def __repr__(self) -> str:
+        name, without = self.campaign.plan.name, sum(isinstance(answer, str) for *_, answer in self.points)
+        kept = f"{self.explored.count} designs, {int(self.explored.keeps.sum())} keep the limits"
+        return f'Study("{name}": {len(self.points)} points, {without} without an answer; {kept})'
 
     @cached_property
     def table(self) -> pd.DataFrame:
@@ -141,6 +146,8 @@ def study(
     """
     given = plan if isinstance(plan, StudyPlan) else read_plan(plan)
     spec = Path(given.base) if isinstance(plan, StudyPlan) else Path(plan).parent / given.base
+    if not isinstance(plan, StudyPlan) and conveyor is None:
+        spec = base_of(given, plan)
     base = load(spec, shelves=shelves) if conveyor is None else conveyor
     resolve = shelf.resolver(extra=shelves, base=spec.parent)
     with nullcontext() if isinstance(plan, StudyPlan) else named(plan):

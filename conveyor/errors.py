@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from typing import Final
 
 _WORD: Final = re.compile(r"(\S{200})\S{100,}")
@@ -32,6 +33,14 @@ def shortened(quoted: str, longest: int = 80) -> str:
 
 class InputError(ConveyorError, ValueError):
     """An input is outside what is allowed; the message names it, its value and the allowed range."""
+
+
+class PlacedError(InputError):
+    """What is wrong with a plan, all of it, each with its place as pydantic locates it."""
+
+    def __init__(self, problems: Iterable[tuple[tuple[int | str, ...], str]]) -> None:
+        self.problems = tuple(problems)
+        super().__init__("\n".join(said for _, said in self.problems))
 
 
 class NoSolutionError(ConveyorError):

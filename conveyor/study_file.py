@@ -9,11 +9,14 @@ from pathlib import Path
 from typing import Final, TypeVar
 
 from conveyor import shelf
-from conveyor.errors import InputError
+from conveyor.errors import InputError, PlacedError
 from conveyor.explain import read_model
 from conveyor.files.content import file_content
+from conveyor.files.document import Document, Fault, first_lines, listing, read_document
 from conveyor.laboratory.encoding import decoded
+from conveyor.laboratory.grid import TextLine, refusal
 from conveyor.laboratory.separated import headed_lines
+from conveyor.models.base import field_path
 from conveyor.models.sizing import SizingDuty
 from conveyor.models.study import (
     DUTY,
@@ -25,6 +28,8 @@ from conveyor.models.study import (
     alike_as_one,
     hours_of,
 )
+from conveyor.models.wording import Location
+from conveyor.units import quantity
 
 LARGEST_FILE: Final = 10_000_000
 """Bytes; a year of hourly values has a tenth."""
@@ -71,8 +76,57 @@ def named(path: str | Path) -> Iterator[None]:
     """
     try:
         yield
+    except PlacedError as error:
+        raise InputError(_listed(read_document(Path(path)), error)) from None
     except InputError as error:
         raise InputError("\n".join(f"{path}: {line}" for line in str(error).splitlines())) from None
+
+
+def _listed(document: Document, error: PlacedError) -> str:
+    """Problems of a plan with their lines: of its file, or of its table of states."""
+    faults, of_states = [], []
+    table = document.data.get("states")
+    for place, said in error.problems:
+        if place[0] == "states" and len(place) == 3 and isinstance(table, str) and table != DUTY:
+            of_states.append((place[1], place[2], said))
+        else:
+            faults.append(Fault(document.place(place, of_key=True), field_path(place), _without(place, said)))
+    lines = [listing(document.path, sorted(faults, key=lambda fault: fault.place))] if faults else []
+    if of_states:
+        path = Path(document.path).parent / str(table)
+        firsts: dict[tuple[tuple[str, Value], ...], int] = {}
+        rows = _rows(path)
+        for number, row in rows:
+            firsts.setdefault(tuple((name, value) for name, value in row.items() if name != HOURS), number)
+        numbers = list(firsts.values())
+        columns = list(rows[0][1])
+        lines += [
+            str(refusal(str(path), numbers[int(i)], columns.index(str(field)), said))
+            for i, field, said in of_states
+        ]
+    return "\n".join(lines)
+
+
+def _without(place: Location, said: str) -> str:
+    """What is said of a place without its name, which stands before it."""
+    for part in place:
+        said = said.removeprefix(f"{part}: ")
+    return said
+
+
+def base_of(plan: VariedSpec, path: str | Path) -> Path:
+    """The spec of a plan, beside its file.
+
+    Raises
+    ------
+    InputError
+        It is not there.
+    """
+    base = Path(path).parent / plan.base
+    with named(path):
+        if not base.exists():
+            raise PlacedError([(("base",), f"{base}: no such file")])
+    return base
 
 
 def _with_states(plan: Given, path: Path) -> Given:
@@ -95,31 +149,61 @@ def read_states(path: Path) -> tuple[dict[str, Value], ...]:
     InputError
         It cannot be read, or a cell is empty or of another kind.
     """
+    return alike_as_one(row for _, row in _rows(path))
+
+
+def _rows(path: Path) -> list[tuple[int, dict[str, Value]]]:
+    """Rows of a table of states with their numbers; all that is wrong in them is said at once."""
     text, _ = decoded(file_content(path, largest=LARGEST_FILE, expected="table of states"), path.name)
-    lines = [line for line in headed_lines(text) if not line.comment]
-    heads = [_HEAD.fullmatch(name) for line in lines[:1] for name in line.cells]
-    if len(lines) < 2 or not all(heads):
+    head, *lines = [line for line in headed_lines(text) if not line.comment] or [
+        TextLine(1, ("",), "", False)
+    ]
+    heads = [_HEAD.fullmatch(name) for name in head.cells]
+    named = [(one[1], one[2] or "") for one in heads if one is not None]
+    if not lines or len(named) < len(heads):
         raise InputError(
             f'{path}: expected a column a field, such as "ambient.temperature [degC]", and hours [h]'
         )
-    named = [(one[1], one[2] or "") for one in heads if one is not None]
-    timed = any(name == HOURS for name, _ in named)
-    rows: list[dict[str, Value]] = []
-    for number, cells, *_ in lines[1:]:
+    names = [name for name, _ in named]
+    wrong = [
+        refusal(str(path), head.number, i, f"{name} has a column already; leave one of both")
+        for i, name in enumerate(names)
+        if name in names[:i]
+    ]
+    if wrong:
+        raise InputError("\n".join(map(str, wrong)))
+    rows: list[tuple[int, dict[str, Value]]] = []
+    for number, cells, *_ in lines:
         if len(cells) != len(named) or not all(cells):
-            raise InputError(f"{path}: row {number}: expected {len(named)} cells, none of them empty")
-        given = {name: _cell(cell, unit) for cell, (name, unit) in zip(cells, named, strict=True)}
-        time = hours_of(given.pop(HOURS, 1.0))
-        if time is None:
-            raise InputError(f"{path}: row {number}: hours: expected a time above 0")
-        rows.append(given | ({HOURS: time} if timed else {}))
-    return alike_as_one(rows)
+            wrong.append(InputError(f"{path}:{number}: expected {len(named)} cells, none of them empty"))
+            continue
+        given: dict[str, Value] = {}
+        for i, (cell, (name, unit)) in enumerate(zip(cells, named, strict=True)):
+            try:
+                given[name] = _cell(cell, unit, timed=name == HOURS)
+            except InputError as error:
+                wrong.append(refusal(str(path), number, i, str(error), header=head.cells[i]))
+        rows.append((number, given))
+    if wrong:
+        raise InputError(first_lines(wrong, str, str(path)))
+    return rows
 
 
-def _cell(cell: str, unit: str) -> Value:
-    """A value as specs write it."""
+def _cell(cell: str, unit: str, *, timed: bool) -> Value:
+    """A value as specs write it; of a time its hours."""
+    value = f"{cell} {unit}" if unit else _number(cell)
     if unit:
-        return f"{cell} {unit}"
+        quantity(value)
+    if not timed:
+        return value
+    time = hours_of(value)
+    if time is None:
+        raise InputError(f'got "{value}", expected a time above 0')
+    return time
+
+
+def _number(cell: str) -> Value:
+    """A number; else the text."""
     try:
         return float(cell)
     except ValueError:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 import re
 import sys
+from contextlib import nullcontext
 from pathlib import Path
+from unittest.mock import MagicMock
 
 import pytest
 
@@ -179,6 +181,17 @@ def test_no_bar_where_output_is_piped():
         assert told is None
     with progress(silent=True) as told:
         assert told is None
+
+
+def test_what_was_done_before_a_bar_appears_is_no_speed(monkeypatch):
+    now, bar = [0.0], MagicMock()
+    monkeypatch.setattr(sys.modules["conveyor.cli.app"], "perf_counter", lambda: now[0])
+    monkeypatch.setattr(sys.modules["conveyor.cli.app"], "_bar", lambda: nullcontext(bar))
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    with progress(silent=False) as told:
+        now[0] = 1.5
+        told("points", 500, 6000)
+    assert bar.add_task.call_args.kwargs["completed"] == 500
 
 
 def test_bar_appears_after_a_second_and_names_what_runs(monkeypatch, capsys):

@@ -240,7 +240,7 @@ def progress(what: str = "", *, silent: bool) -> Iterator[Progress | None]:
             if not bars:
                 bars[""] = stack.enter_context(_bar())
             if what not in bars:
-                bars[what] = bars[""].add_task(what, total=whole, note="")
+                bars[what] = bars[""].add_task(what, total=whole, completed=done, note="")
             bars[""].update(bars[what], completed=done, total=whole, note=note)
 
         yield partial(told, what) if what else told

@@ -38,10 +38,10 @@ def optimise(
     from conveyor import shelf as shelves
     from conveyor.studies.campaign import Answers, Campaign
     from conveyor.studies.optimise import optimise as search
-    from conveyor.study_file import named, read_search
+    from conveyor.study_file import base_of, named, read_search
 
     plan = read_search(plan_file)
-    spec = plan_file.parent / plan.base
+    spec = base_of(plan, plan_file)
     line = session.read(spec)
     system = session.system(line)
     with named(plan_file):

@@ -167,9 +167,9 @@ class Outputs:
         except OSError as error:
             raise InputError(f"{path}: exists and cannot be read ({error.strerror or error})") from None
         if mark != kind:
-            what = (
-                "" if kind == marks.TO_FILL_IN else f" and is no {kind.partition(':')[0]} that conveyor wrote"
-            )
+            named = kind.partition(":")[0]
+            unlike = f"no {named} that conveyor wrote" if mark is None else "another output of conveyor"
+            what = "" if kind == marks.TO_FILL_IN else f" and is {unlike}"
             raise InputError(f"{path}: exists{what}; choose another name, or replace it with --force")
 
 

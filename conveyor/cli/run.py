@@ -24,6 +24,8 @@ NO_SOLUTION: Final = 1
 WRONG_INPUT: Final = 2
 INTERRUPTED: Final = 130
 """128 + SIGINT, as shells give it."""
+_GO_ON: Final = (["study"], ["optimise"])
+"""Commands that keep what they did when they are stopped."""
 
 _UsageError: type[Exception] = next(t for t in typer.BadParameter.__mro__ if t.__name__ == "UsageError")
 _SPECS: Final = (".yaml", ".yml", ".json", ".xlsx")
@@ -52,7 +54,8 @@ def main() -> None:
         _discard_output()
         _leave(f"conveyor: {error.filename or 'output'}: {error.strerror or error}", WRONG_INPUT)
     if code == INTERRUPTED:
-        _leave("conveyor: stopped by Ctrl-C", INTERRUPTED)
+        kept = "; what is done is kept: run it again to go on" if sys.argv[1:2] in _GO_ON else ""
+        _leave(f"conveyor: stopped by Ctrl-C{kept}", INTERRUPTED)
     sys.exit(code if isinstance(code, int) else DONE)
 
 

@@ -19,7 +19,6 @@ from conveyor.printable import printable
 
 if TYPE_CHECKING:
     from conveyor.report.columns import Contents
-    from conveyor.report.point_tables import CampaignTable
     from conveyor.studies.campaign import Campaign, Keyed, Point
     from conveyor.studies.designs import Design
     from conveyor.studies.evaluation import Explored
@@ -65,10 +64,10 @@ def study(
     from conveyor.report import design_tables, point_tables
     from conveyor.studies import campaign as running
     from conveyor.studies.evaluation import explored
-    from conveyor.study_file import named, read_plan
+    from conveyor.study_file import base_of, named, read_plan
 
     plan = read_plan(plan_file)
-    spec, answers = plan_file.parent / plan.base, output.with_name(f"{output.name}.answers")
+    spec, answers = base_of(plan, plan_file), output.with_name(f"{output.name}.answers")
     line = session.read(spec)
     system = session.system(line)
     with named(plan_file):
@@ -79,8 +78,8 @@ def study(
     to = session.outputs(plan_file, spec)
     parted = not output.suffix
     to.folder("--output", output if parted else None)
-    _asked(to, "--output", None if parted else output, table)
-    _asked(to, "--designs", designs, designed)
+    _asked(to, "--output", None if parted else output)
+    _asked(to, "--designs", designs)
     to.reports(html=html)
     to.folder("--plots", plots)
     to.folder("--specs", specs)
@@ -127,10 +126,10 @@ def study(
     session.answer(lambda: plain | design_tables.plain(evaluated), to, show)
 
 
-def _asked(to: Outputs, option: str, path: Path | None, table: CampaignTable) -> None:
+def _asked(to: Outputs, option: str, path: Path | None) -> None:
     """Refuse the file of a table that cannot be written, or must not."""
     csv = path is not None and path.suffix == ".csv"
-    to.file(option, path, ".csv", ".parquet", kind=table.mark if csv else marks.TABLE)
+    to.file(option, path, ".csv", ".parquet", kind=marks.STUDY if csv else marks.TABLE)
 
 
 def _made(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import logging
 import os
+import signal
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
 from typing import TYPE_CHECKING, Annotated
@@ -56,6 +58,19 @@ def _ends_with_its_parent() -> None:
 
 
 @contextmanager
+def _pipes_may_break() -> Iterator[None]:
+    """Hear of a pipe to a worker that is gone as an error; else it would end this process without a word."""
+    if not hasattr(signal, "SIGPIPE"):
+        yield
+        return
+    before = signal.signal(signal.SIGPIPE, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGPIPE, before)
+
+
+@contextmanager
 def executor_of(scheduler: str | None, workers: int) -> Iterator[Executor | None]:
     """Processes of this machine, or a cluster; this process alone where one is enough."""
     if scheduler is None:
@@ -66,13 +81,17 @@ def executor_of(scheduler: str | None, workers: int) -> Iterator[Executor | None
             yield None
             return
         context = get_context(_method())
-        with ProcessPoolExecutor(workers, mp_context=context, initializer=_ends_with_its_parent) as pool:
+        with (
+            _pipes_may_break(),
+            ProcessPoolExecutor(workers, mp_context=context, initializer=_ends_with_its_parent) as pool,
+        ):
             yield pool
         return
     try:
         from distributed import Client, KilledWorker, LocalCluster
     except ImportError:
         raise InputError('--scheduler: needs distributed (pip install "conveyor[cluster]")') from None
+    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # a lost scheduler is said once, below
     try:
         alone = scheduler == LOCAL
         cluster = (
@@ -81,7 +100,7 @@ def executor_of(scheduler: str | None, workers: int) -> Iterator[Executor | None
         client = Client(scheduler if cluster is None else cluster, timeout="10s")
     except (OSError, ValueError) as error:
         raise InputError(f"--scheduler: {scheduler}: no cluster answers ({error})") from None
-    with nullcontext() if cluster is None else cluster, client:
+    with _pipes_may_break(), nullcontext() if cluster is None else cluster, client:
         try:
             yield client.get_executor()
         except KilledWorker as error:

@@ -16,6 +16,9 @@ PAGE: Final = "report page"
 FIGURE: Final = "figure"
 COMPOUND: Final = "compound file"
 TABLE: Final = "table"
+STUDY: Final = "table: of a study"
+UNANSWERED: Final = "no answer because"
+"""Heading of the last column of a table of a study."""
 TO_FILL_IN: Final = "file to fill in"
 """A template or a starter: made to be edited, so without a mark, and no older one is replaced unasked."""
 
@@ -57,7 +60,7 @@ def mark(content: bytes) -> str | None:
     Returns
     -------
     str or None
-        Of a table with its headings, units apart; None of what this program did not write.
+        Of a table with its headings, units apart, unless it is of a study; None of what this program did not write.
 
     Examples
     --------
@@ -65,6 +68,8 @@ def mark(content: bytes) -> str | None:
     'compound file'
     >>> mark("\ufeffroll,force [N]\r\n1,5\r\n".encode())
     'table: roll,force'
+    >>> mark("\ufeffpoint,belt.speed [m/s],no answer because\r\n".encode())
+    'table: of a study'
     >>> mark(b"name: mine\n") is None
     True
     """
@@ -81,6 +86,8 @@ def mark(content: bytes) -> str | None:
     kind_there = next((kind for kind, known in signs.items() if known), None)
     if kind_there is None and content.startswith(_BOM):
         headings = content.partition(b"\r\n")[0].decode("utf-8-sig", "replace")
+        if headings.startswith(("point,", "design,")) and headings.endswith(f",{UNANSWERED}"):
+            return STUDY
         return f"{TABLE}: {_UNIT.sub('', headings)}"
     return kind_there
 

@@ -175,7 +175,10 @@ class Model(BaseModel):
     @classmethod
     def refusal(cls, error: ValidationError) -> InputError:
         """What a validation found wrong, every refusal on its own line."""
-        lines = [f"{field_path(item['loc'])}: {message(item, cls)}" for item in real_errors(error)]
+        lines = (
+            ": ".join(filter(None, (field_path(item["loc"]), message(item, cls))))
+            for item in real_errors(error)
+        )
         return InputError("\n".join(lines))
 
     @classmethod

@@ -12,14 +12,15 @@ from typing import Annotated, Any, Literal, Self, TypeAlias, TypeVar
 from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from conveyor.errors import InputError
+from conveyor.errors import InputError, PlacedError
 from conveyor.models.base import Model, Name, Problem, refuse
 from conveyor.models.conveyor import Conveyor
 from conveyor.models.fields import check_path
 from conveyor.models.operation import PRICE
 from conveyor.models.prices import Prices
 from conveyor.models.variants import scaled
-from conveyor.ranges import MOST, spaced
+from conveyor.models.wording import Location, shown
+from conveyor.ranges import spaced, why_not_spaced
 from conveyor.units import between, quantity, si, text
 from conveyor.units.presentation import MONEY, unit
 
@@ -38,26 +39,31 @@ DUTY = "duty"
 """As states: those of the spec."""
 
 
+_LIKE = 'from:to:step with a unit, such as "-20:40:5 degC"'
+
+
 def _listed(given: Any) -> Any:
-    """Values of `from:to:step unit`; lists as they are."""
-    if not isinstance(given, str):
+    """Values of `from:to:step unit`; lists as they are, of what a field may be."""
+    if isinstance(given, list | tuple):
+        for value in given:
+            if not isinstance(value, Value) or (isinstance(value, float) and not math.isfinite(value)):
+                raise _no_axis(f"got {shown(value)} among the values, expected numbers, texts, true or false")
         return given
-    *numbers, unit = given.partition(" ")
-    if given.count(":") == 2:
-        try:
-            numbers_of = spaced(numbers[0])
-        except ValueError:
-            numbers_of = []
-        if numbers_of:
-            return [
-                f"{value:.12g} {unit}".strip() if unit else float(f"{value:.12g}") for value in numbers_of
-            ]
-    raise PydanticCustomError(
-        "axis",
-        '{message}',
-        {"message": f'got "{given}", expected a list, or from:to:step with a unit (at most {MOST} values), '
-                    'such as "-20:40:5 degC"'},
-    )  # fmt: skip
+    numbers, _, sign = str(given).strip().partition(" ")
+    if not isinstance(given, str) or numbers.count(":") != 2:
+        raise _no_axis(f"got {shown(given)}, expected a list, or {_LIKE}")
+    try:
+        why = why_not_spaced(numbers)
+    except ValueError:
+        why = f"expected {_LIKE}"
+    if why:
+        raise _no_axis(f"got {shown(given)}: {why}")
+    values = [f"{value:.12g}" for value in spaced(numbers)]
+    return [f"{value} {sign.strip()}" for value in values] if sign else [float(value) for value in values]
+
+
+def _no_axis(message: str) -> PydanticCustomError:
+    return PydanticCustomError("conflict", "{message}", {"message": message})
 
 
 Axis = Annotated[tuple[Value, ...], BeforeValidator(_listed), Field(min_length=1)]
@@ -106,7 +112,22 @@ class SampledRange(Model):
             refuse("SampledRange", [Problem((), str(error))])
         if ends[0] == ends[1]:
             refuse("SampledRange", [Problem((), f"both ends are {ends[0]}; change the base instead")])
+        if self.falls:
+            refuse("SampledRange", [Problem((), f"low is {ends[0]}, above high, which is {ends[1]}")])
         return self
+
+    @property
+    def falls(self) -> bool:
+        """Whether low is above high."""
+        if isinstance(self.low, float) and isinstance(self.high, float):
+            return self.low > self.high
+        low, high, _ = _ends(*self._written)
+        return low > high
+
+    @property
+    def _written(self) -> tuple[str, str]:
+        low, high = (end if isinstance(end, str) else f"{end:g}" for end in (self.low, self.high))
+        return low, high
 
     def at(self, share: float) -> Value:
         """Value a share of the way from low to high.
@@ -118,8 +139,7 @@ class SampledRange(Model):
         """
         if isinstance(self.low, float) and isinstance(self.high, float):
             return self.low + share * (self.high - self.low)
-        low, high = (end if isinstance(end, str) else f"{end:g}" for end in (self.low, self.high))
-        ends = _ends(low, high)
+        ends = _ends(*self._written)
         return f"{ends[0] + share * (ends[1] - ends[0]):.9g} {ends[2]}".strip()
 
 
@@ -186,7 +206,10 @@ class Limit(Model):
         InputError
             They are of another kind.
         """
-        return _limit(self.least, name, kind), _limit(self.most, name, kind)
+        least, most = _limit(self.least, name, kind), _limit(self.most, name, kind)
+        if least is not None and most is not None and least > most:
+            raise InputError(f"limits: {name}: least, {self.least}, is above most, {self.most}")
+        return least, most
 
 
 def _limit(end: str | float | None, name: str, kind: str) -> float | None:
@@ -234,14 +257,21 @@ class VariedSpec(Model):
         return {}
 
     @property
-    def given(self) -> Iterator[Changes]:
-        """Every value that is listed, and the ends of ranges; of rows what changes together."""
+    def placed(self) -> Iterator[tuple[Location, str, Value]]:
+        """Every value that is listed, and the ends of ranges: its place in the plan, its path, itself."""
         for path, values in self.axes.items():
-            yield from ({path: value} for value in values)
+            yield from ((("axes", path, i), path, value) for i, value in enumerate(values))
         for path, span in self.drawn.items():
-            yield from ({path: end} for end in (span.low, span.high))
-        yield from self.together
-        yield from ({path: value for path, value in row.items() if path != HOURS} for row in self.rows)
+            for name, end in (("low", span.low), ("high", span.high)):
+                yield (*self._ranged, path, name), path, end
+        for name, rows in (("together", self.together), ("states", self.rows)):
+            for i, row in enumerate(rows):
+                yield from (((name, i, path), path, value) for path, value in row.items() if path != HOURS)
+
+    @property
+    def _ranged(self) -> Location:
+        """Where ranges are."""
+        return ("ranges",)
 
     @model_validator(mode="after")
     def _distinct(self) -> Self:
@@ -367,6 +397,10 @@ class StudyPlan(VariedSpec):
         """Ranges of fields that are drawn."""
         return {} if self.samples is None else self.samples.fields
 
+    @property
+    def _ranged(self) -> Location:
+        return "samples", "fields"
+
     @model_validator(mode="after")
     def _countable(self) -> Self:
         if self.count > MOST_POINTS:
@@ -441,9 +475,10 @@ def with_states(plan: Given, base: Conveyor) -> Given:
     if not isinstance(plan.states, str):
         return plan
     if plan.states != DUTY:
-        raise InputError(f'states: "{plan.states}" was not read; read_plan reads a study with its files')
+        said = f'states: "{plan.states}" was not read; read_plan reads a study with its files'
+        raise PlacedError([(("states",), said)])
     if not base.duty:
-        raise InputError("states: duty: the spec has no operation.duty")
+        raise PlacedError([(("states",), "states: duty: the spec has no operation.duty")])
     ambient, rows = base.ambient, []
     for entry in base.duty:
         row: dict[str, Value] = {

@@ -85,8 +85,9 @@ def _part(contents: Contents, name: str, heading: str) -> Part:
         if any(place.printed for place in places) and shown.note and shown.key != "defaults":
             content.append(element("p", shown.note, class_="note"))
     every = [place for shown in contents.parts for place in shown.places if place.part == name]
-    folded_only = bool(every) and not any(place.printed for place in every) and name not in _OWN
-    return Part(name, heading, joined(content), printed=not folded_only)
+    drawn = any(drawing.above == name for drawing in contents.drawings)
+    shown_on_paper = not every or any(place.printed for place in every) or name in _OWN or drawn
+    return Part(name, heading, joined(content), printed=shown_on_paper)
 
 
 def _table(shown: Table, caption: str, system: System) -> Html:

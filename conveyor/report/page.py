@@ -154,7 +154,7 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
   h2, h3, caption { break-after: avoid; }
   tbody tr:nth-child(-n+2) { break-after: avoid; }
   tbody tr:nth-last-child(-n+3), tfoot tr { break-before: avoid; }
-  figure, tr, .tiles, .facts, .keep { break-inside: avoid; }
+  figure, tr, .tiles, .facts, .keep, .beside { break-inside: avoid; }
   thead { display: table-header-group; }
   tfoot { display: table-row-group; }
   .scroll { overflow: visible; }
@@ -162,6 +162,8 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
   th, td { padding: .07rem .35rem; }
   figure { display: inline-block; width: 49%; vertical-align: top; }
   .drawing svg { max-width: 80mm; max-height: 40mm; }
+  figure:only-of-type { display: block; width: auto; }
+  figure:only-of-type svg { max-width: 130mm; max-height: 65mm; }
   .wide table { font-size: 6.5pt; }
   .wide th, .wide td { padding: .07rem .2rem; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }

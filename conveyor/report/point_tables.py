@@ -65,7 +65,7 @@ class CampaignTable:
         self._shown = [unit(priced(kind, currency), system) for _, kind in figures]
         headed = [labelled(label, sign.label) for (label, _), sign in zip(figures, self._shown, strict=True)]
         inputs = (labelled(field.path, field.unit) for field in fields)
-        self.headings = (row, *inputs, *headed, "no answer because")
+        self.headings = (row, *inputs, *headed, marks.UNANSWERED)
         given = ("text" if field.words else "number" for field in fields)
         self._kinds = ("count", *given, *(_STORED.get(kind, "number") for _, kind in figures), "text")
 
@@ -81,11 +81,6 @@ class CampaignTable:
         stored = self._kinds[1 + len(given) : -1]
         shown = (_shown(x, sign, kind) for x, sign, kind in zip(answer, self._shown, stored, strict=True))
         return (number, *given, *shown, None)
-
-    @property
-    def mark(self) -> str:
-        """What an older file of this table is."""
-        return marks.mark(_line(self.headings).encode("utf-8-sig")) or marks.TABLE
 
     def write(self, path: Path, points: Iterable[Row]) -> int:
         """Write the table as its name ends, `.csv` or `.parquet`; the file is there when it is whole.
@@ -166,10 +161,13 @@ class PartedTable:
             folder.mkdir(exist_ok=True)
             older = sorted(folder.iterdir())
             for path in older:
-                known = {marks.TABLE, table.mark}
-                if _PART_NAME.fullmatch(path.name) is None or marks.mark(path.read_bytes()) not in known:
+                if _PART_NAME.fullmatch(path.name) is None:
                     raise InputError(
                         f"{path}: is no part of such a table; give an empty folder, or a new one"
+                    )
+                if marks.mark(path.read_bytes()) not in {marks.TABLE, marks.STUDY}:
+                    raise InputError(
+                        f"{path}: is damaged, or no table that conveyor wrote; remove it, or give another folder"
                     )
             for path in older:
                 path.unlink()

@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from importlib.metadata import version
 from itertools import islice
 from pathlib import Path
@@ -41,7 +41,7 @@ from conveyor.studies.points import (
     outputs_of,
     priced,
 )
-from conveyor.units import Quantity, is_quantity, quantity
+from conveyor.studies.refusals import refuse_unknown
 
 BATCH: Final = 256
 """Points solved side by side at most, and lost at most where a run is stopped."""
@@ -100,6 +100,8 @@ class Campaign:
             A compound, a figure or a field is not known, or the spec has no duty that the plan asks for.
         """
         plan = with_states(plan, base)
+        resolve = cache(resolve)
+        refuse_unknown(plan, base, resolve)
         columns = {path: field_of(base, path) for path in plan.paths}
         rubber = [path for path, value in columns.items() if isinstance(value, RubberCompound)]
         given = {
@@ -113,7 +115,6 @@ class Campaign:
         if plan.outputs or plan.figures or plan.best or plan.limits:
             _refuse_unpriced(plan, base, outputs)
         compounds = {name: resolve(name) for name in sorted(named)}
-        _refuse_other_kinds(plan, base, compounds)
         return cls(plan, base, compounds, outputs)
 
     @property
@@ -198,33 +199,6 @@ class Campaign:
         rubber = [known.get(point[path]) for path, known in self._rubber.items()]
         digest.update(json.dumps([point, rubber], sort_keys=True).encode())
         return digest.digest()[:16]
-
-
-def _refuse_other_kinds(plan: VariedSpec, base: Conveyor, compounds: Mapping[str, RubberCompound]) -> None:
-    """Refuse values in units that their fields never have; what is beyond a range has no answer, and says so there."""
-    for row in plan.given:
-        for path, value in row.items():
-            like = field_of(base, path)
-            if is_quantity(like) and not _alike(value, like):
-                with_fields(base, row, resolve=compounds.__getitem__)
-            if path == "operation.price":
-                _refuse_other_currency(plan, base, value)
-
-
-def _refuse_other_currency(plan: VariedSpec, base: Conveyor, value: Value) -> None:
-    """Refuse a price of energy that costs of the study cannot be summed with."""
-    price = (
-        None if (varied := with_fields(base, {"operation.price": value}).operation) is None else varied.price
-    )
-    if price is not None and price.currency != plan.currency(base):
-        raise InputError(f"operation.price: got {price}, the study's costs are in {plan.currency(base)}")
-
-
-def _alike(value: Value, like: Quantity) -> bool:
-    try:
-        return isinstance(value, str) and quantity(value).dimensionality == like.dimensionality
-    except InputError:
-        return False
 
 
 def _unpriced(plan: VariedSpec, base: Conveyor) -> Iterator[str]:
@@ -391,7 +365,7 @@ def run(
                 without += sum(isinstance(answer, str) for answer in fresh)
                 if answered is not None:
                     answered(batch.every)
-    except (BrokenExecutor, CancelledError):
+    except (BrokenExecutor, CancelledError, BrokenPipeError):
         raise ConveyorError(
             "a worker of the study was lost (out of memory, or stopped); what is done is kept: run it again to go on"
         ) from None

@@ -11,12 +11,13 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.errors import InputError
+from conveyor.errors import InputError, PlacedError
 from conveyor.laws.energy import YEAR, DutyStep, duty_sums
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.loop.year import year_cost
 from conveyor.models import Conveyor, Operation
 from conveyor.models.study import Changes, Limit, VariedSpec
+from conveyor.models.wording import Location
 from conveyor.studies.points import OUTPUTS, Answer, outputs_of
 
 Array: TypeAlias = NDArray[np.float64]
@@ -79,13 +80,21 @@ def figures_of(plan: VariedSpec, base: Conveyor) -> dict[str, DesignFigure]:
     hours = plan.hours
     weights = np.ones(max(len(plan.rows), 1)) if hours is None else np.array(hours)
     if float(weights.sum()) * 3600.0 > YEAR and hours is not None:
-        raise InputError(f"states: {weights.sum():g} h together; a year has at most {YEAR / 3600.0:g} h")
-    figures = {
-        name: _figure(name, plan, base.operation, weights)
-        for name in dict.fromkeys((*named, *plan.best, *plan.limits))
-    }
-    for name, limit in plan.limits.items():
-        limit.ends(name, figures[name].kind)
+        said = f"states: {weights.sum():g} h together; a year has at most {YEAR / 3600.0:g} h"
+        raise PlacedError([(("states",), said)])
+    figures: dict[str, DesignFigure] = {}
+    wrong: list[tuple[Location, str]] = []
+    places: list[tuple[Location, str]] = [(("figures", i), name) for i, name in enumerate(named)]
+    places += [((key, name), name) for key in ("best", "limits") for name in getattr(plan, key)]
+    for place, name in places:
+        try:
+            figures.setdefault(name, _figure(name, plan, base.operation, weights))
+            if place[0] == "limits":
+                plan.limits[name].ends(name, figures[name].kind)
+        except InputError as error:
+            wrong.append((place, str(error)))
+    if wrong:
+        raise PlacedError(wrong)
     return figures
 
 
@@ -112,7 +121,9 @@ def _figure(name: str, plan: VariedSpec, operation: Operation | None, weights: A
         return DesignFigure(label, output.kind, (key,), lambda values, _: float(end(values[0])))
     share = float(percent) / 100.0
     if not 0.0 < share < 1.0:
-        raise InputError(f'figure "{name}": a percentile lies between 0 and 100 %')
+        raise InputError(
+            f'figure "{name}": expected a percentile above 0 and below 100 %; of all there is {key} highest'
+        )
     return DesignFigure(label, output.kind, (key,), lambda values, _: percentile(values[0], weights, share))
 
 

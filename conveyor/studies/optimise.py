@@ -23,6 +23,7 @@ from conveyor.errors import InputError, NoSolutionError
 from conveyor.models.study import SearchPlan, Value
 from conveyor.studies.campaign import Answers, Campaign, design_of, run
 from conveyor.studies.designs import Design, violation
+from conveyor.units.presentation import MONEY, unit
 
 Array: TypeAlias = NDArray[np.float64]
 Generation: TypeAlias = Callable[[int, int, Design], None]
@@ -119,7 +120,7 @@ def optimise(
     )
     best = search.best
     if not best.keeps:
-        why = best.why or f"the least beyond them breaks {', '.join(best.broken)}"
+        why = best.why or f"the closest has {', '.join(map(search.told, best.broken))}"
         raise NoSolutionError(f"none of {len(search.designs)} designs keeps the limits: {why}")
     return SearchResult(best, len(search.designs), int(evolved.nit), bool(evolved.success), tuple(history))
 
@@ -154,6 +155,20 @@ class _Search:
         limits = self._plan.limits.items()
         kinds = self._campaign.figures
         return math.fsum(violation(one, name, kinds[name].kind, design.figures[name]) for name, one in limits)
+
+    def told(self, name: str) -> str:
+        """A figure of the best, and the limit that it does not keep."""
+        kind, value, limit = (
+            self._campaign.figures[name].kind,
+            self.best.figures[name],
+            self._plan.limits[name],
+        )
+        if value is None:
+            return f"no {name}"
+        shown = unit(f"{MONEY}{self._campaign.currency}" if kind == "money" else kind).brief(value)
+        ends = (("least", limit.least), ("most", limit.most))
+        kept = " and ".join(f"{word} {end}" for word, end in ends if end is not None)
+        return f"{name} {shown} against {kept}"
 
     @property
     def best(self) -> Design:

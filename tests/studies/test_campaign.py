@@ -5,8 +5,10 @@ from __future__ import annotations
 import csv
 import errno
 import json
+import math
 import os
 import re
+import signal
 import sqlite3
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import closing
@@ -17,6 +19,7 @@ import pytest
 
 import conveyor
 from conveyor import shelf
+from conveyor.cli.workers import executor_of
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models.fields import with_fields
 from conveyor.models.study import StudyPlan
@@ -105,6 +108,24 @@ def test_python_has_the_points_of_a_file_and_of_data(line, tmp_path):
     assert found.table["motor power [kW]"].tolist() == pytest.approx(power, rel=1e-9)
     assert found.contents("US")["best"].rows
     same(conveyor.study(StudyPlan.from_data(PLAN), line).points, found.points)
+    assert repr(found) == 'Study("speeds": 6 points, 0 without an answer; 6 designs, 6 keep the limits)'
+
+
+def test_a_study_that_is_stopped_says_that_it_goes_on(tmp_path):
+    def stop(*_, **__):
+        raise KeyboardInterrupt
+
+    file = tmp_path / "study.json"
+    file.write_text(json.dumps(PLAN | {"base": str(SPECS / "shuttle.yaml")}), encoding="utf-8")
+    done = command(
+        "study",
+        file,
+        "-o",
+        tmp_path / "t.csv",
+        spoil=lambda patched: patched.setattr("conveyor.studies.campaign.run", stop),
+    )
+    assert done.returncode == 130
+    assert done.stderr == "conveyor: stopped by Ctrl-C; what is done is kept: run it again to go on\n"
 
 
 def test_a_point_without_an_answer_says_why(line, tmp_path):
@@ -229,6 +250,31 @@ def test_a_lost_worker_loses_nothing_that_was_done(line, tmp_path, monkeypatch):
         assert list(rows(study, known)) == answered(study, tmp_path / "whole")
 
 
+def test_a_pipe_to_a_lost_worker_is_an_error_and_ends_nothing(line, tmp_path):
+    class Broken(ThreadPoolExecutor):
+        def submit(self, *_):
+            raise BrokenPipeError
+
+    with (
+        Answers(tmp_path / "a") as known,
+        pytest.raises(ConveyorError, match="a worker of the study was lost"),
+    ):
+        run(campaign(line), known, executor=Broken(1))
+    if not hasattr(signal, "SIGPIPE"):
+        return
+    before = signal.signal(signal.SIGPIPE, signal.SIG_DFL)
+    try:
+        with executor_of(None, 2):
+            read, write = os.pipe()
+            os.close(read)
+            with pytest.raises(BrokenPipeError):
+                os.write(write, b"work")
+            os.close(write)
+        assert signal.getsignal(signal.SIGPIPE) == signal.SIG_DFL
+    finally:
+        signal.signal(signal.SIGPIPE, before)
+
+
 def test_a_folder_in_the_place_of_the_answers_is_refused(tmp_path):
     with pytest.raises(InputError, match=r"cannot be written \(unable to open database file\)"):
         Answers(tmp_path)
@@ -247,6 +293,15 @@ def test_what_is_no_file_of_answers_is_refused(tmp_path, held):
     ("changes", "said"),
     [
         ({"axes": {"belt.speed": "1:2 m/s"}}, "expected a list, or from:to:step"),
+        ({"axes": {"belt.speed": "5 m/s"}}, 'got "5 m/s", expected a list, or from:to:step with a unit, such'),
+        ({"axes": {"belt.speed": "6:1:1 m/s"}}, 'got "6:1:1 m/s": it ends below where it begins$'),
+        ({"axes": {"belt.speed": "1:6:0 m/s"}}, "the step has to be above 0$"),
+        ({"axes": {"belt.speed": "1:6:1e-9 m/s"}}, "more than 1000 values; take a larger step$"),
+        ({"axes": {"belt.speed": "1:x:1 m/s"}}, 'got "1:x:1 m/s": expected from:to:step'),
+        ({"axes": {"belt.speed": ["1 m/s", math.nan]}}, "^axes.belt.speed: got nan among the values, expected"),
+        ({"axes": {"belt.speed": ["1 m/s", math.inf]}}, "^axes.belt.speed: got inf among the values, expected"),
+        ({"axes": {"belt.speed": ["1 m/s", None]}}, "^axes.belt.speed: got nothing among the values, expected"),
+        ({"axes": {"belt.speed": ["1 m/s", ["2 m/s"]]}}, "^axes.belt.speed: got a list among the values"),
         ({"axes": {"belt..speed": ["1 m/s"]}}, "no path of a field"),
         ({"axes": {}}, "nothing varies"),
         ({"together": [{"belt.speed": "1 m/s"}]}, "belt.speed: varied twice"),
@@ -257,6 +312,14 @@ def test_what_is_no_file_of_answers_is_refused(tmp_path, held):
             "states: {a: 1} is given twice; leave one of both; add its hours",
         ),
         ({"samples": {"count": 2, "fields": {"x": {"low": "1 m", "high": "100 cm"}}}}, "both ends are 1 m"),
+        (
+            {"samples": {"count": 2, "fields": {"x": {"low": "2 m", "high": "100 cm"}}}},
+            "low is 2 m, above high, which is 1 m",
+        ),
+        (
+            {"samples": {"count": 2, "fields": {"idlers.carry.rolls": {"low": 2, "high": 5}}}},
+            "idlers.carry.rolls: has no values between two others; list its values under axes",
+        ),
         ({"together": [{"a": 1}, {"b": 1}]}, "every row has to change the same fields"),
         ({"samples": {"count": 2, "fields": {"x": {"low": "1 m", "high": "1 kg"}}}}, "expected two of one kind"),
         ({"outputs": ["power"]}, 'no figure "power"; there are motor_power'),
@@ -290,6 +353,13 @@ def test_the_command_writes_a_table_in_the_units_of_the_plan(tmp_path):
         "study", file, "-o", tmp_path / "t.csv", "--units", "us", "--json", "--set", "material.flow=100 t/h"
     )
     assert json.loads(again.stdout)["calculated"] == 0
+    more = PLAN | {"base": str(SPECS / "shuttle.yaml"), "outputs": ["motor_power"]}
+    file.write_text(json.dumps(more | {"axes": {"belt.speed": ["1 m/s"]}}), encoding="utf-8")
+    replaced = command("study", file, "-o", tmp_path / "t.csv")  # the table of the study as it was
+    assert replaced.returncode == 0, replaced.stderr
+    (tmp_path / "mine.csv").write_text("\ufeffroll,force [N]\r\n", encoding="utf-8")
+    refused = command("study", file, "-o", tmp_path / "mine.csv")
+    assert "exists and is another output of conveyor" in refused.stderr
     (tmp_path / "mine.csv").write_text("mine", encoding="utf-8")
     refused = command("study", file, "-o", tmp_path / "mine.csv")
     assert refused.returncode == 2
@@ -349,6 +419,11 @@ def test_a_table_in_a_folder_grows_while_its_study_runs(line, tmp_path, monkeypa
     assert len(calls) <= 6 + 2  # what was under way is lost, no more
     assert found == run_into(tmp_path / "whole", tmp_path / "b")
     assert sorted(found) == [f"part-00001.{ending}", f"part-00002.{ending}"]
+    whole = (folder / f"part-00001.{ending}").read_bytes()
+    (folder / f"part-00001.{ending}").write_bytes(whole[:300] if ending == "parquet" else whole[:20])
+    with pytest.raises(InputError, match="is damaged, or no table that conveyor wrote; remove it"):
+        run_into(folder, tmp_path / "a")
+    (folder / f"part-00001.{ending}").unlink()
     (folder / "mine.csv").write_text("mine", encoding="utf-8")
     with pytest.raises(InputError, match="is no part of such a table"):
         run_into(folder, tmp_path / "a")

@@ -126,9 +126,21 @@ def test_a_climate_table_gives_states_and_alike_rows_are_one(tmp_path):
     assert plan.count == 4 * 2
     for table, said in (
         ("hours\n1\n", "every state has to change a field"),
-        ("hours,ambient.temperature [degC]\n,5\n", "row 2: expected 2 cells"),
-        ("hours,ambient.temperature [degC]\n-1,5\n", "row 2: hours: expected a time above 0"),
-        ("# measured\nhours,ambient.temperature [degC]\n\n-1,5\n", "row 4: hours: expected a time above 0"),
+        ("hours,ambient.temperature [degC]\n,5\n", r"year.csv:2: expected 2 cells"),
+        (
+            "hours,ambient.temperature [degC]\n-1,5\n",
+            r'year.csv:2: column 1 "hours": got "-1.0", expected a time above 0',
+        ),
+        ("# measured\nhours,ambient.temperature [degC]\n\n-1,5\n", r"year.csv:4: column 1"),
+        (
+            "hours,a.b [degC],a.b [degC]\n1,5,6\n",
+            r"year.csv:1: column 3: a.b has a column already; leave one",
+        ),
+        ("# 2026\nhours,a.b [degC],hours [h]\n1,5,6\n", r"year.csv:2: column 3: hours has a column already"),
+        (
+            "hours,a.b [degC]\n1,warm\n2,5\n-1,cold\n",
+            r'(?s):2: column 2 "a.b \[degC\]": expected a number.*:4: .*:4: ',
+        ),
         ("hours,ambient temperature\n1,5\n", "expected a column a field"),
         ("hours,belt.speed [m/s]\n1,5\n", "belt.speed: varied twice"),
     ):
@@ -137,15 +149,48 @@ def test_a_climate_table_gives_states_and_alike_rows_are_one(tmp_path):
             read_plan(file)
 
 
+def test_every_fault_of_a_study_has_its_file_line_and_column(tmp_path):
+    (tmp_path / "year.csv").write_text("hours [h],ambient.temperature [m]\n1,5\n2,5\n3,6\n", encoding="utf-8")
+    file = tmp_path / "study.yaml"
+    file.write_text(
+        f"name: n\nbase: {SPECS / 'shuttle.yaml'}\naxes:\n  belt.sped: [1 m/s]\n  belt.speed: [1 m/s, 1 kg]\n"
+        "  belt: [1 m/s]\n  belt.top_cover.compound: [standard-cover, nope]\nstates: year.csv\n"
+        "outputs: [motor_power, power]\n",
+        encoding="utf-8",
+    )
+    with pytest.raises(InputError) as refused:
+        conveyor.study(file)
+    told = [line.removeprefix(f"{tmp_path}/") for line in str(refused.value).splitlines()]
+    for line, said in zip(
+        told,
+        (
+            "study.yaml:4:3 axes.belt.sped: no such field; did you mean speed?",
+            'study.yaml:5:23 axes.belt.speed[1]: got "1 kg" (a mass), expected a speed such as',
+            'study.yaml:6:10 axes.belt[0]: got "1 m/s" for a group of fields; name one field of it',
+            'study.yaml:7:45 axes.belt.top_cover.compound[1]: unknown compound "nope"',
+            'study.yaml:9:24 outputs[1]: no figure "power"; there are motor_power',
+            'year.csv:2: column 2: ambient.temperature: got "5 m" (a length), expected a temperature',
+            'year.csv:4: column 2: ambient.temperature: got "6 m" (a length), expected a temperature',
+        ),
+        strict=True,
+    ):
+        assert line.startswith(said)
+    file.write_text("name: n\nbase: no.yaml\naxes: {belt.speed: [1 m/s]}\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r"study.yaml:2:1 base: .*no.yaml: no such file$"):
+        conveyor.study(file)
+
+
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
+        ({"limits": {"motor_power": {"least": "3 MW", "most": "1 kW"}}}, "least, 3 MW, is above most, 1 kW"),
+        ({"axes": {"belt": ["1 m/s"]}}, 'belt: got "1 m/s" for a group of fields'),
         ({"states": [{"hours": "1 h", "belt.speed": "1 m/s"}]}, "belt.speed: varied twice"),
         ({"states": [{"hours": "1 kg", "material.flow": "1 t/h"}]}, "expected a time"),
         ({"states": [{"hours": "9000 h", "material.flow": "1 t/h"}]}, "a year has at most 8784 h"),
         ({"states": [{"material.flow": "1 t/h"}, {"material.flow": "2 t/h"}]}, "the states have no hours"),
         ({"figures": ["motor_power most"]}, 'no figure "motor_power most"; expected'),
-        ({"figures": ["motor_power 100 %"]}, "a percentile lies between"),
+        ({"figures": ["motor_power 100 %"]}, "above 0 and below 100 %; of all there is motor_power highest"),
         (
             {"limits": {"motor_power": {"most": "3 kg"}}},
             'limits: motor_power: got "3 kg", expected a value such as',
@@ -219,6 +264,9 @@ def test_the_command_writes_page_figures_designs_and_specs_that_power_reads(tmp_
     assert {path.name for path in (tmp_path / "plots").iterdir()} == {"effects.png", "lines.png"}
     page = (tmp_path / "p.html").read_text(encoding="utf-8")
     assert "Main effects" in page
+    assert (
+        '<section aria-labelledby="effects">' in page
+    )  # paper has the figure, if not the table that is folded away
     assert "<svg" in page
     specs = sorted((tmp_path / "best").iterdir())
     assert len(specs) == 2

@@ -1,0 +1,113 @@
+"""What a plan names that its spec does not know: all of it at once, each with its place in the plan."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from conveyor.errors import InputError, PlacedError
+from conveyor.models import Conveyor, RubberCompound
+from conveyor.models.base import Model
+from conveyor.models.fields import field, with_fields
+from conveyor.models.study import Value, VariedSpec
+from conveyor.models.wording import Location
+from conveyor.studies.designs import figures_of
+from conveyor.studies.points import outputs_of
+from conveyor.units import Quantity, is_quantity, quantity
+
+_MOST = 100
+"""Problems that are looked for."""
+
+
+class Problems:
+    """What is wrong with a plan, gathered."""
+
+    def __init__(self) -> None:
+        self._found: list[tuple[Location, str]] = []
+
+    @contextmanager
+    def at(self, *location: int | str) -> Iterator[None]:
+        """Keep what is refused, with its place."""
+        try:
+            yield
+        except PlacedError as error:
+            self._found += error.problems
+        except InputError as error:
+            self._found.append((location, str(error)))
+
+    def __len__(self) -> int:
+        return len(self._found)
+
+    def refuse(self) -> None:
+        """Refuse the plan if anything is wrong."""
+        if self._found:
+            raise PlacedError(self._found)
+
+
+def refuse_unknown(plan: VariedSpec, base: Conveyor, resolve: Callable[[str], RubberCompound]) -> None:
+    """Refuse fields, values, compounds, figures and limits of a plan that cannot be right on its spec.
+
+    What is beyond a range is a point without an answer, and says so there.
+
+    Raises
+    ------
+    PlacedError
+        Everything that is wrong.
+    """
+    problems = Problems()
+    known: dict[str, object] = {}
+    seen: set[tuple[str, Value]] = set()
+    for place, path, value in plan.placed:
+        if path not in known:
+            known[path] = None
+            with problems.at(*place[: place.index(path) + 1]):
+                known[path] = field(base, path)
+                _refuse_drawn(plan, path, known[path])
+        if (path, value) not in seen and len(problems) < _MOST:
+            seen.add((path, value))
+            with problems.at(*place):
+                _refuse_other_kind(base, path, known[path], value, resolve)
+                if path == "operation.price":
+                    _refuse_other_currency(plan, base, value)
+    for i, key in enumerate(plan.outputs):
+        with problems.at("outputs", i):
+            outputs_of([key])
+    if not len(problems):
+        with problems.at("figures"):
+            figures_of(plan, base)
+    problems.refuse()
+
+
+def _refuse_drawn(plan: VariedSpec, path: str, like: object) -> None:
+    if path in plan.drawn and isinstance(like, int):
+        raise InputError(f"{path}: has no values between two others; list its values under axes")
+
+
+def _refuse_other_kind(
+    base: Conveyor, path: str, like: object, value: Value, resolve: Callable[[str], RubberCompound]
+) -> None:
+    """Refuse a compound that is not there, a value in units that the field never has, a value for a group of fields."""
+    if isinstance(like, RubberCompound) and isinstance(value, str):
+        resolve(value)
+    elif is_quantity(like) and not _alike(value, like):
+        with_fields(base, {path: value})
+    elif isinstance(like, Model | tuple):
+        try:
+            with_fields(base, {path: value})
+        except InputError:
+            raise InputError(f'{path}: got "{value}" for a group of fields; name one field of it') from None
+
+
+def _refuse_other_currency(plan: VariedSpec, base: Conveyor, value: Value) -> None:
+    """Refuse a price of energy that costs of the study cannot be summed with."""
+    operation = with_fields(base, {"operation.price": value}).operation
+    price = None if operation is None else operation.price
+    if price is not None and price.currency != plan.currency(base):
+        raise InputError(f"operation.price: got {price}, the study's costs are in {plan.currency(base)}")
+
+
+def _alike(value: Value, like: Quantity) -> bool:
+    try:
+        return isinstance(value, str) and quantity(value).dimensionality == like.dimensionality
+    except InputError:
+        return False
