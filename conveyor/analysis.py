@@ -22,6 +22,7 @@ from conveyor.studies import cases as case_study
 from conveyor.studies import duty as duty_study
 from conveyor.studies import states as state_study
 from conveyor.studies import uncertainty as range_study
+from conveyor.studies.loads import Progress
 from conveyor.units.presentation import chosen
 
 if TYPE_CHECKING:
@@ -356,7 +357,7 @@ load_states = facing(state_study.load_states, StateStudy)
 
 
 def studies(
-    conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: study.Progress | None = None
+    conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: Progress | None = None
 ) -> Studies:
     """Calculate the load states and what the spec asks for; as `conveyor.studies.studies`, and its scenarios."""
     made = study.studies(conveyor, given, progress=progress)
@@ -369,7 +370,7 @@ def studies(
     )
 
 
-def _followed(conveyor: Conveyor, progress: study.Progress | None) -> CalculatedDynamics:
+def _followed(conveyor: Conveyor, progress: Progress | None) -> CalculatedDynamics:
     """Scenarios of a spec through time."""
     from conveyor.dynamics.follow import follow
 

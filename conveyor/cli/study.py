@@ -158,7 +158,8 @@ def show_best(contents: Contents, deciding: Set[str]) -> None:
     from conveyor.cli.terminal import console, grid
 
     if "best" in contents:
-        best, title = contents["best"], f"{contents.document.title}: {dict(contents.document.facts)['study']}"
+        facts = dict(contents.document.facts)
+        best, title = contents["best"], f"{contents.document.title}: {facts['study']}; {facts['sought']}"
         shown = tuple(one for one in best.columns if one.kind in {"text", "count"} or one.key in deciding)
         console().print(grid(replace(best, columns=shown), contents.system, title))
 

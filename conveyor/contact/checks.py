@@ -30,7 +30,7 @@ _TAILS = 4.0  # an unresolved edge layer dips below zero by up to 2.1 tails, a r
 WRAPPED = 0.5  # (a + |e|)/R beyond which a second eccentricity and a gap outside are looked for
 _GAP_TOLERANCE = 1e-4  # of the depth
 _GAP_REACH = 100.0  # m α of the series: (m α)^(-5/2) = 1e-5 of the depth
-_GAP_POINTS = 24
+_GAP_PLACES = np.arange(1.0, 25.0) / 25.0
 
 
 class OrderErrors(NamedTuple):
@@ -239,10 +239,9 @@ def overlaps(scene: Scene, contact: Contact, depth: float | None = None) -> bool
     rho = scene.problem.rho
     rank = np.argsort(contact.eps)
     low, high = (contact.eps - contact.alpha)[rank], (contact.eps + contact.alpha)[rank]
-    place = np.linspace(0.0, 1.0, _GAP_POINTS + 2)[1:-1]
     starts, ends = np.append(-rho, high), np.append(low, rho)
     inside = contact.eps[0] + 0.5 * contact.alpha[0]
-    x = np.append((starts[:, None] + place * (ends - starts)[:, None]).ravel(), inside)
+    x = np.append((starts[:, None] + _GAP_PLACES * (ends - starts)[:, None]).ravel(), inside)
     roll = np.sqrt(np.maximum(1.0 - (x / rho) ** 2, 0.0)) - 1.0
     gap = SpectralFields(scene.problem.layer, scene.creep, contact, rho).outside(x, _GAP_REACH) - roll
     depth = float(gap[-1]) if depth is None else depth

@@ -51,7 +51,7 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int_]
 
 _SEARCH = 10
-ROUGH = 1e-9  # relative error of eccentricities on the way
+ROUGH = 1e-6  # relative error of eccentricities on the way: a tenth of the cubics'
 _SAMPLES, RANGE = 4, 0.25  # half widths sampled, to both sides of the guess in ln α
 _SPAN = 2.0 * math.cos(0.5 * math.pi / _SAMPLES)  # of the samples, over that range
 _OUTSIDE = 0.2  # of the samples' span of ln p: farther beyond them, the guess was wrong
@@ -402,12 +402,13 @@ class _Closing:
         """By row; none of those that are left to other ways."""
         waiting = np.flatnonzero(self.search.alive)
         while waiting.size:
-            n = int(self.wanted[waiting].min())
-            untried = np.ones(waiting.size, dtype=bool)
-            untried[np.flatnonzero(self.wanted[waiting] == n)[: max(1, _MOST_ENTRIES // (n * n))]] = False
-            self._close(waiting[~untried], n)
+            wanted = self.wanted[waiting]
+            n = int(wanted.min())
+            rows, step = waiting[wanted == n], max(1, _MOST_ENTRIES // (n * n))
+            for start in range(0, rows.size, step):
+                self._close(rows[start : start + step], n)
             # those that were neither closed nor are to be raised did not meet their load
-            waiting = waiting[((self.wanted[waiting] > n) | untried) & self.search.alive[waiting]]
+            waiting = waiting[(self.wanted[waiting] > n) & self.search.alive[waiting]]
         return self.done
 
     def _close(self, rows: Index, n: int) -> None:

@@ -27,7 +27,7 @@ from conveyor.contact.short_rule import ShortRule
 Array = NDArray[np.float64]
 
 _SETTLED = 1e-14  # relative, of the eccentricity
-_NEAR = 0.9  # (a + |e|)/R up to which a step or two find it
+_NEAR = 0.95  # (a + |e|)/R up to which a step or two find it
 _STEPS = 2
 
 

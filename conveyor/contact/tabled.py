@@ -186,6 +186,8 @@ class Tabled:
 
     def friction_by_loss(self, rule: ShortRule, contact: Contact, rho: Array) -> Array:
         """`energy.friction_by_loss` of the contacts, shape (b,)."""
+        if not (self.creeps.weights.any() or rule.weights.imag.any()):
+            return np.zeros(self.alpha.size)
         n = contact.c.shape[1]
         rows = self._rows(rule, n)
         if rows is None:

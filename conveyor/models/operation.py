@@ -23,7 +23,8 @@ YEAR_HOURS: Final = 8784.0
 HOURS_TOLERANCE: Final = 1e-9
 """Hours are typed as decimals; a sum that differs by more is another year's."""
 _LONGEST: Final = 80
-_PRICE = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?)\s*([A-Z]{3})\s*/\s*kWh\s*")
+PRICE: Final = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?)\s*([A-Z]{3})\s*/\s*kWh\s*")
+"""Of energy, as specs write it: amount and currency."""
 _EMISSION = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?)\s*(kg|g|t)\s*/\s*(kWh|MWh)\s*")
 _KILOGRAMS: Final = {"g": 1e-3, "kg": 1.0, "t": 1e3}
 _KILOWATT_HOURS: Final = {"kWh": 1.0, "MWh": 1e3}
@@ -69,7 +70,7 @@ def _parsed(pattern: re.Pattern[str], value: Any, kind: str, wanted: str) -> re.
 def _price(value: Any) -> Any:
     if isinstance(value, EnergyPrice):
         return value
-    match = _parsed(_PRICE, value, "price", 'a price with the currency\'s code such as "0.12 EUR/kWh"')
+    match = _parsed(PRICE, value, "price", 'a price with the currency\'s code such as "0.12 EUR/kWh"')
     return EnergyPrice(float(match[1]), match[2])
 
 
@@ -85,7 +86,7 @@ def _written(read: Callable[[Any], Any], pattern: re.Pattern[str], example: str)
     return BeforeValidator(read), PlainSerializer(str, when_used="json"), WithJsonSchema(schema)
 
 
-Price = Annotated[EnergyPrice, *_written(_price, _PRICE, "0.12 EUR/kWh")]
+Price = Annotated[EnergyPrice, *_written(_price, PRICE, "0.12 EUR/kWh")]
 Emission = Annotated[EmissionFactor, *_written(_emission, _EMISSION, "0.35 kg/kWh")]
 
 

@@ -16,6 +16,7 @@ from conveyor.errors import InputError, PlacedError
 from conveyor.models.base import Model, Name, Problem, refuse
 from conveyor.models.conveyor import Conveyor
 from conveyor.models.fields import check_path
+from conveyor.models.operation import PRICE
 from conveyor.models.prices import Prices
 from conveyor.models.variants import scaled
 from conveyor.models.wording import Location, shown
@@ -145,6 +146,9 @@ class SampledRange(Model):
 @cache
 def _ends(low: str, high: str) -> tuple[float, float, str]:
     """Both ends in the unit of the lower, and that unit."""
+    least, most = PRICE.fullmatch(low), PRICE.fullmatch(high)
+    if least and most and least[2] == most[2]:
+        return float(least[1]), float(most[1]), f"{least[2]}/kWh"
     one, other = quantity(low), between(quantity(low), quantity(high), 1.0)
     return float(one.magnitude), float(other.magnitude), text(one).partition(" ")[2]
 
@@ -345,7 +349,12 @@ class VariedSpec(Model):
     @property
     def paths(self) -> tuple[str, ...]:
         """Every field that varies, the slowest first: of designs, then of states."""
-        return (*self.designed, *(path for path in (self.rows[0] if self.rows else ()) if path != HOURS))
+        return (*self.designed, *self.met)
+
+    @property
+    def met(self) -> tuple[str, ...]:
+        """Fields of states."""
+        return tuple(path for path in (self.rows[0] if self.rows else ()) if path != HOURS)
 
     def points_of(self, design: Changes) -> Iterator[dict[str, Value]]:
         """A design in each of its states."""

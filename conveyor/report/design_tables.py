@@ -42,7 +42,6 @@ _MOST: Final = 50  # rows of the front on the page
 
 def of_study(study: Explored, system: System) -> Contents:
     """Tables and figures of a study's designs in a unit system."""
-    name = next(iter(study.sought))
     parts = (
         best(study),
         on_the_front(study),
@@ -54,7 +53,7 @@ def of_study(study: Explored, system: System) -> Contents:
         ("study", study.plan.name),
         ("designs", f"{study.count:,}, {int(study.keeps.sum()):,} of them keep the limits"),
         ("states of each", f"{max(len(study.plan.rows), 1):,}"),
-        ("sought", f"the {study.sought[name]} {study.figures[name].label}"),
+        ("sought", _order(study)),
         (
             "limits",
             "; ".join(_limit(study.figures[name].label, one) for name, one in study.plan.limits.items())
@@ -67,6 +66,13 @@ def of_study(study: Explored, system: System) -> Contents:
         every = Shown(study, system).every
         drawn = tuple(Drawing(key, _CAPTIONS[key], draw, key) for key, draw in every.items())
     return Contents(about, parts, system, drawn, PARTS)
+
+
+def _order(study: Explored) -> str:
+    """What orders the designs."""
+    name, direction = next(iter(study.sought.items()))
+    first = "those that keep the limits first, then " if study.plan.limits else ""
+    return f"{first}the {direction} {study.figures[name].label}"
 
 
 def _limit(label: str, limit: Limit) -> str:
@@ -85,7 +91,7 @@ def best(study: Explored) -> Table:
         ),
         Column("breaks", "text", lambda row: ", ".join(row.broken) or None, sparse=True),
     )
-    heading = f"The best {len(study.best)}"
+    heading = f"The best {len(study.best)}: {_order(study)}"
     return Table("best", "Best", heading, columns, study.best, "best")
 
 

@@ -18,7 +18,7 @@ from conveyor.report.files import plain
 from conveyor.studies.evaluation import varied
 from conveyor.studies.points import OUTPUTS, kept
 from conveyor.units import System
-from conveyor.units.presentation import MONEY, labelled, unit
+from conveyor.units.presentation import MONEY, Unit, labelled, unit
 
 if TYPE_CHECKING:
     from conveyor.models.study import Value
@@ -78,7 +78,8 @@ class CampaignTable:
         ]
         if isinstance(answer, str):
             return (number, *given, *(None for _ in self._shown), answer)
-        shown = (kept(sign.shown(x)) for x, sign in zip(answer, self._shown, strict=True))
+        stored = self._kinds[1 + len(given) : -1]
+        shown = (_shown(x, sign, kind) for x, sign, kind in zip(answer, self._shown, stored, strict=True))
         return (number, *given, *shown, None)
 
     def write(self, path: Path, points: Iterable[Row]) -> int:
@@ -119,6 +120,11 @@ class CampaignTable:
                 writer.write_table(pa.table(cells, schema=schema))
                 count += len(part)
         return count
+
+
+def _shown(value: Any, sign: Unit, kind: str) -> Any:
+    shown = kept(sign.shown(value))
+    return int(shown) if kind == "count" and shown is not None else shown
 
 
 _STORED: Final = {"count": "count", "text": "text", "verdict": "text"}

@@ -17,7 +17,7 @@ from typing import Any, Final, NamedTuple, TypeVar
 
 import numpy as np
 
-from conveyor.checks import Check, checks, deciding, leading, reach
+from conveyor.checks import Check, deciding, leading
 from conveyor.files.marks import version
 from conveyor.laws.drives import next_preferred
 from conveyor.laws.power import JOULE_PER_KWH
@@ -66,6 +66,7 @@ from conveyor.spec import fingerprint
 from conveyor.studies import CalculatedStudies
 from conveyor.studies.defaults import PowerRange, power_range
 from conveyor.studies.duty import CalculatedYear
+from conveyor.studies.loads import every_check
 from conveyor.units import Quantity, System
 from conveyor.units.presentation import MONEY, rating_of, strength_of, unit
 from conveyor.units.sentences import band_words, degrees, figure, plain_figure
@@ -188,11 +189,8 @@ def of_analysis(
 def _every_check(
     analysis: CalculatedConveyor, studies: CalculatedStudies | None, further: Further | None
 ) -> tuple[Check, ...]:
-    """Of the conveyor as given, then of its load cases and load states, then of other calculations."""
-    of_cases = () if studies is None or studies.cases is None else studies.cases.checks
-    of_states = () if studies is None or studies.states is None else studies.states.checks
-    together = () if studies is None or studies.cases is None else reach(studies.cases.take_up)
-    return (*checks(analysis), *together, *of_cases, *of_states, *(() if further is None else further.checks))
+    states, cases = (None, None) if studies is None else (studies.states, studies.cases)
+    return every_check(analysis, states, cases, () if further is None else further.checks)
 
 
 def document(

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import TypeAlias
 
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor
@@ -13,14 +12,12 @@ from conveyor.studies.cases import (
     CalculatedCases,
     Governing,
     MotorChoice,
-    analyse_cases,
     governing,
 )
 from conveyor.studies.duty import CalculatedYear, analyse_duty
-from conveyor.studies.states import CalculatedStates, at_one_take_up, load_states
+from conveyor.studies.loads import Progress, every_load
+from conveyor.studies.states import CalculatedStates
 from conveyor.studies.uncertainty import CalculatedRanges, study
-
-Progress: TypeAlias = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -84,12 +81,10 @@ def studies(
     def told(name: str) -> Callable[[int, int], None] | None:
         return None if progress is None else partial(progress, name)
 
-    cases = analyse_cases(conveyor, progress=told("load cases")) if conveyor.cases else None
-    own = given if cases is None else cases.as_given
-    states, cases = at_one_take_up(load_states(conveyor, own, cases, progress=told("load states")), cases)
+    loads = every_load(conveyor, given, progress=progress)
     return CalculatedStudies(
-        states=states,
-        cases=cases,
+        states=loads.states,
+        cases=loads.cases,
         duty=analyse_duty(conveyor, progress=told("duty of a year")) if conveyor.duty else None,
         uncertainty=None
         if conveyor.uncertainty is None

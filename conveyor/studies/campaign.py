@@ -25,11 +25,22 @@ from typing import Final, NamedTuple, Self, TypeAlias
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.fields import field as field_of
+from conveyor.models.fields import with_fields
+from conveyor.models.operation import Operation
 from conveyor.models.study import Changes, StudyPlan, Value, VariedSpec, with_states
 from conveyor.spec import fingerprint
 from conveyor.studies.costs import unpriced
 from conveyor.studies.designs import Design, DesignFigure, figures_of, reduced
-from conveyor.studies.points import OUTPUTS, Answer, Job, answers, asked_of, outputs_of, priced
+from conveyor.studies.points import (
+    OUTPUTS,
+    Answer,
+    Job,
+    answers,
+    asked_of,
+    loads_asked,
+    outputs_of,
+    priced,
+)
 from conveyor.studies.refusals import refuse_unknown
 
 BATCH: Final = 256
@@ -99,7 +110,7 @@ class Campaign:
         }
         named = {value for values in given.values() for value in values if isinstance(value, str)}
         needed = dict.fromkeys(key for figure in figures_of(plan, base).values() for key in figure.needs)
-        asked = plan.outputs or (() if plan.figures or plan.best or plan.limits else tuple(OUTPUTS))
+        asked = plan.outputs or (() if plan.figures or plan.best or plan.limits else tuple(outputs_of(())))
         outputs = tuple(outputs_of((*asked, *(key for key in needed if key not in asked))))
         if plan.outputs or plan.figures or plan.best or plan.limits:
             _refuse_unpriced(plan, base, outputs)
@@ -132,35 +143,45 @@ class Campaign:
     @cached_property
     def job(self) -> Job:
         """What its batches follow from."""
-        return Job.of(self.base, self.asked, self.compounds)
+        return Job.of(self.base, self.asked, self.compounds, self.plan.met)
 
     @cached_property
     def asked(self) -> tuple[str, ...]:
         """What is calculated of points."""
         return asked_of(self.outputs)
 
-    @cached_property
-    def _pricing(self) -> tuple[Mapping[str, float], float]:
-        """Prices of parts, none where they have none, and the time that parts wear in a year [s]."""
-        hours, operation = self.plan.hours, self.base.operation
-        if any(_unpriced(self.plan, self.base)):
-            return {}, 0.0
+    def answer(self, known: Answers, keyed: Keyed) -> Answer:
+        """Figures asked for of a point whose answer is known."""
+        key, point = keyed
+        if not self._costed:
+            return priced(known[key], self.asked, self.outputs, {}, 0.0)
+        hours, operation = self.plan.hours, self.operation(point)
         seconds = (
             operation.seconds_per_year if hours is None and operation else 3600.0 * math.fsum(hours or ())
         )
-        return self.plan.prices.amounts, seconds
+        return priced(known[key], self.asked, self.outputs, self.plan.prices.amounts, seconds)
 
-    def answer(self, known: Answers, point: bytes) -> Answer:
-        """Figures asked for of a point whose answer is known by its key."""
-        return priced(known[point], self.asked, self.outputs, *self._pricing)
+    @cached_property
+    def _costed(self) -> bool:
+        """Whether parts have prices."""
+        return not any(_unpriced(self.plan, self.base))
+
+    def operation(self, changes: Changes) -> Operation | None:
+        """Hours and price of energy of a point or a design."""
+        own = {path: value for path, value in changes.items() if path.startswith("operation.")}
+        return with_fields(self.base, own).operation if own else self.base.operation
 
     @cached_property
     def _common(self) -> hashlib._Hash:
         """Hash of what every point follows from: without those fields of the spec that no answer does."""
-        idle = ("name", "notes", "cases", "scenarios", "uncertainty")
-        yearly = ("energy_per_year", "cost_per_year")
-        timed = () if any(key in self.asked for key in yearly) else ("operation",)
-        return _hash([version("conveyor"), fingerprint(self.base, without=(*idle, *timed)), self.asked])
+        idle, said = ["name", "notes", "scenarios", "uncertainty"], [self.asked]
+        if loads_asked(self.asked):
+            said.append(self.plan.met)
+        else:
+            idle.append("cases")
+        if not {"energy_per_year", "cost_per_year"}.intersection(self.asked):
+            idle.append("operation")
+        return _hash([version("conveyor"), fingerprint(self.base, without=idle), *said])
 
     @cached_property
     def _rubber(self) -> dict[str, dict[Value, str]]:
@@ -192,7 +213,7 @@ def _unpriced(plan: VariedSpec, base: Conveyor) -> Iterator[str]:
 def _refuse_unpriced(plan: VariedSpec, base: Conveyor, outputs: Iterable[str]) -> None:
     """Refuse costs of parts that are asked for where no point has them."""
     for key in outputs:
-        why = list(_unpriced(plan, base)) if OUTPUTS[key].priced else []
+        why = list(_unpriced(plan, base)) if OUTPUTS[key].of == "parts" else []
         if why:
             raise InputError(f"{key}: {'; '.join(why)}")
 
@@ -402,8 +423,8 @@ def keyed_points(campaign: Campaign) -> Iterator[tuple[int, Keyed]]:
 
 def point_of(campaign: Campaign, known: Answers, number: int, keyed: Keyed) -> Point:
     """A point of a number whose answer is known."""
-    key, point = keyed
-    return number, tuple(point[path] for path in campaign.plan.paths), campaign.answer(known, key)
+    _, point = keyed
+    return number, tuple(point[path] for path in campaign.plan.paths), campaign.answer(known, keyed)
 
 
 def designs(campaign: Campaign, known: Answers) -> Iterator[Design]:
@@ -414,6 +435,7 @@ def designs(campaign: Campaign, known: Answers) -> Iterator[Design]:
 
 def design_of(campaign: Campaign, known: Answers, design: Changes, number: int = 1) -> Design:
     """A design whose points have answers, over its states."""
-    answers = [campaign.answer(known, campaign.key(point)) for point in campaign.plan.points_of(design)]
-    made = reduced(campaign.plan, campaign.figures, campaign.outputs, answers)
+    keyed = ((campaign.key(point), point) for point in campaign.plan.points_of(design))
+    answers = [campaign.answer(known, one) for one in keyed]
+    made = reduced(campaign.plan, campaign.figures, campaign.outputs, answers, campaign.operation(design))
     return Design(number, design, *made)

@@ -28,12 +28,12 @@ _BUILT: Final = ("capital_cost", "parts_cost_per_year")
 
 @dataclass(frozen=True)
 class DesignFigure:
-    """A figure of a design: words, kind of quantity, outputs it is made of, and how [SI]."""
+    """A figure of a design: words, kind of quantity, outputs it is made of, and how, at its operation [SI]."""
 
     label: str
     kind: str
     needs: tuple[str, ...]
-    get: Callable[[Sequence[Array]], float | None]
+    get: Callable[[Sequence[Array], Operation | None], float | None]
 
 
 @dataclass(frozen=True)
@@ -109,33 +109,34 @@ def _figure(name: str, plan: VariedSpec, operation: Operation | None, weights: A
     output, many = OUTPUTS[key], len(weights) > 1
     if how is None and key in _YEARLY and (many or plan.hours is not None):
         return _yearly(key, plan, operation, weights)
-    if how is None and key in _BUILT:  # a take-up follows from the worst state
-        return DesignFigure(output.label, output.kind, (key,), lambda values: float(np.max(values[0])))
+    if how is None and (key in _BUILT or output.of == "loads"):  # a take-up follows from the worst state
+        return DesignFigure(output.label, output.kind, (key,), lambda values, _: float(np.max(values[0])))
     if how is None or how == "mean":
         label = f"{output.label}, mean" if many else output.label
         kind = "ratio" if many and output.kind == "count" else output.kind
-        return DesignFigure(label, kind, (key,), lambda values: mean(values[0], weights))
+        return DesignFigure(label, kind, (key,), lambda values, _: mean(values[0], weights))
     label = f"{output.label}, {how}" if many else output.label
     if percent is None:
         end = np.min if how == "lowest" else np.max
-        return DesignFigure(label, output.kind, (key,), lambda values: float(end(values[0])))
+        return DesignFigure(label, output.kind, (key,), lambda values, _: float(end(values[0])))
     share = float(percent) / 100.0
     if not 0.0 < share < 1.0:
         raise InputError(
             f'figure "{name}": expected a percentile above 0 and below 100 %; of all there is {key} highest'
         )
-    return DesignFigure(label, output.kind, (key,), lambda values: percentile(values[0], weights, share))
+    return DesignFigure(label, output.kind, (key,), lambda values, _: percentile(values[0], weights, share))
 
 
 def _yearly(key: str, plan: VariedSpec, operation: Operation | None, hours: Array) -> DesignFigure:
     """Energy and its cost over the states' hours, as of a duty; with that of the parts."""
     if plan.hours is None:
         raise InputError(f"{key}: the states have no hours; give them hours, or ask for {key} mean")
-    if key != "energy_per_year" and (operation is None or operation.price is None):
+    unpriced = (operation is None or operation.price is None) and "operation.price" not in plan.paths
+    if key != "energy_per_year" and unpriced:
         raise InputError(f"{key}: the spec has no operation.price")
     parts = ("parts_cost_per_year",) if key == "total_cost_per_year" else ()
 
-    def get(values: Sequence[Array]) -> float | None:
+    def get(values: Sequence[Array], operation: Operation | None) -> float | None:
         steps = zip((3600.0 * hours).tolist(), *(one.tolist() for one in values[:2]), strict=True)
         sums = duty_sums([DutyStep(*step) for step in steps])
         if key == "energy_per_year":
@@ -185,7 +186,11 @@ def percentile(values: Array, weights: Array, share: float) -> float:
 
 
 def reduced(
-    plan: VariedSpec, figures: Mapping[str, DesignFigure], outputs: Sequence[str], answers: Sequence[Answer]
+    plan: VariedSpec,
+    figures: Mapping[str, DesignFigure],
+    outputs: Sequence[str],
+    answers: Sequence[Answer],
+    operation: Operation | None,
 ) -> tuple[dict[str, float | None], str | None, tuple[str, ...]]:
     """Figures of a design of the answers of its states; why it has none; limits that it does not keep.
 
@@ -199,6 +204,8 @@ def reduced(
         Keys of the answers' figures.
     answers : sequence
         One a state.
+    operation : Operation or None
+        Of the design.
     """
     known: list[Sequence[float | int | None]] = []
     for i, answer in enumerate(answers, start=1):
@@ -210,7 +217,8 @@ def reduced(
     for name, figure in figures.items():
         needed = [columns[key] for key in figure.needs]
         missing = any(value is None for column in needed for value in column)
-        values[name] = None if missing else figure.get([np.array(column, dtype=float) for column in needed])
+        arrays = [np.array(column, dtype=float) for column in needed if not missing]
+        values[name] = None if missing else figure.get(arrays, operation)
     limits = plan.limits.items()
     broken = (name for name, one in limits if violation(one, name, figures[name].kind, values[name]) > 0.0)
     return values, None, tuple(broken)

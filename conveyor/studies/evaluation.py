@@ -19,6 +19,7 @@ from conveyor.models import Conveyor
 from conveyor.models.study import Direction, StudyPlan, Value
 from conveyor.studies.campaign import Campaign
 from conveyor.studies.designs import Design, DesignFigure, front
+from conveyor.studies.points import OUTPUTS
 from conveyor.units import quantity
 
 Array: TypeAlias = NDArray[np.float64]
@@ -96,7 +97,7 @@ class Explored:
     base : Conveyor
         Its spec.
     fields : tuple of VariedField
-        What tells designs apart.
+        What tells designs apart; not those that are the same in all.
     figures : mapping of str to DesignFigure
         Of designs, by name.
     sought : mapping of str to {"least", "most"}
@@ -182,14 +183,17 @@ def signs(sought: dict[str, Direction]) -> Array:
 
 
 def sought_of(plan: StudyPlan, figures: Iterable[str], base: Conveyor) -> dict[str, Direction]:
-    """What is sought: as the plan says, else cost and energy of a year if designs have them, else the first figure."""
+    """What is sought: as the plan says, else cost and energy of a year if designs have them, else the first figure.
+
+    Of a safety and of the flow the most, of all else the least.
+    """
     known, operation = tuple(figures), base.operation
     priced = (
         operation is not None and operation.price is not None and (plan.hours is not None or not base.duty)
     )
     cost = "total_cost_per_year" if plan.figures and "total_cost_per_year" in known else "cost_per_year"
     usual = tuple(name for name in (cost, "energy_per_year") if priced and name in known)
-    return dict(plan.best) or dict.fromkeys(usual or known[:1], "least")
+    return dict(plan.best) or {name: OUTPUTS[name.partition(" ")[0]].better for name in usual or known[:1]}
 
 
 def explored(campaign: Campaign, designs: Iterable[Design]) -> Explored:
@@ -203,7 +207,8 @@ def explored(campaign: Campaign, designs: Iterable[Design]) -> Explored:
         All of them; numbers of each are kept, of the best ten everything.
     """
     plan = campaign.listed
-    fields = varied(plan)
+    every = varied(plan)
+    fields = tuple(field for field in every if len(set(_given(plan, field.path))) > 1) or every
     sought = sought_of(plan, campaign.figures, campaign.base)
     sign = signs(sought)
     values, reached, keeps, numbers = array("d"), array("d"), bytearray(), array("q")

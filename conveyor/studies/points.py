@@ -8,20 +8,20 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from operator import attrgetter
-from typing import Any, Final, NamedTuple, Self, TypeAlias
+from typing import Any, Final, Literal, Self, TypeAlias
 
 from conveyor.checks import checks
 from conveyor.errors import ConveyorError, InputError
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.fields import with_fields
-from conveyor.models.study import Changes
+from conveyor.models.study import Changes, Direction, Value
 from conveyor.pipeline import Anchors, CalculatedConveyor, Kept, Variant, anchors_of, calculate_many
 from conveyor.studies.costs import Parts, costs, parts_of
+from conveyor.studies.loads import every_load
 
-RTOL: Final = 1e-4
-"""Of the contacts of a study: their true error is a fifth of it, far below what a spec knows."""
-
+Loads: TypeAlias = Mapping[str, Any]
+"""Figures of every load of a design, by key."""
 Answer: TypeAlias = list[Any] | str
 """Figures of a point, SI, in the order asked for; or why it has none."""
 
@@ -33,14 +33,16 @@ class Output:
     label: str
     kind: str
     get: Callable[[Any], float | int | None]
-    priced: bool = False
-    """Whether it is read from the costs of the parts instead of the calculated conveyor."""
+    of: Literal["point", "parts", "loads"] = "point"
+    """What it is read from: the calculated conveyor, the costs of its parts, every load of the design."""
+    better: Direction = "least"
+    """What is sought of it where a study does not say."""
 
 
 OUTPUTS: Final[Mapping[str, Output]] = {
     "motor_power": Output("motor power", "power", attrgetter("balance.power.motor")),
     "mains_power": Output("mains power", "power", attrgetter("balance.power.mains")),
-    "flow": Output("mass flow", "mass flow", attrgetter("line.flow")),
+    "flow": Output("mass flow", "mass flow", attrgetter("line.flow"), better="most"),
     "energy_per_tonne_km": Output(
         "energy", "specific energy", attrgetter("balance.power.energy_per_tonne_km")
     ),
@@ -49,25 +51,48 @@ OUTPUTS: Final[Mapping[str, Output]] = {
     "friction_factor": Output("equivalent DIN f", "friction", attrgetter("balance.friction_factor")),
     "largest_tension": Output("largest tension", "force", attrgetter("balance.settled.largest")),
     "take_up": Output("setting of the take-up", "force", attrgetter("balance.settled.setting")),
-    "belt_safety": Output("belt safety", "ratio", attrgetter("belt_duty.safety")),
+    "belt_safety": Output("belt safety, starts and stops included", "ratio", attrgetter("belt_duty.safety")),
+    "belt_safety_steady": Output(
+        "belt safety, steady", "ratio", attrgetter("belt_duty.safety_steady"), better="most"
+    ),
     "energy_per_year": Output(
         "energy per year", "energy", lambda a: None if a.year is None else JOULE_PER_KWH * a.year.energy
     ),
     "cost_per_year": Output("cost per year", "money", lambda a: None if a.year is None else a.year.cost),
-    "capital_cost": Output("capital cost", "money", lambda costs: float(costs.whole_capital), priced=True),
+    "capital_cost": Output("capital cost", "money", lambda costs: float(costs.whole_capital), of="parts"),
     "parts_cost_per_year": Output(
-        "cost per year of the parts", "money", lambda costs: float(costs.parts_year), priced=True
+        "cost per year of the parts", "money", lambda costs: float(costs.parts_year), of="parts"
     ),
     "total_cost_per_year": Output(
         "total cost per year",
         "money",
         lambda costs: float(costs.year) if "energy" in costs.yearly else None,
-        priced=True,
+        of="parts",
     ),
     "failed": Output(
         "failed checks of the own load",
         "count",
         lambda a: sum(check.failed for check in checks(a)),
+    ),
+    "all_loads_failed": Output("failed checks, all loads", "count", attrgetter("failed"), of="loads"),
+    "all_loads_motor_power": Output(
+        "motor power, highest of all loads", "power", attrgetter("motor_power"), of="loads"
+    ),
+    "all_loads_motor_use": Output(
+        "motor power over that installed, all loads", "ratio", attrgetter("motor_use"), of="loads"
+    ),
+    "all_loads_tension": Output(
+        "largest tension, all loads", "force", attrgetter("largest_tension"), of="loads"
+    ),
+    "all_loads_belt_safety": Output(
+        "belt safety, steady, lowest of all loads",
+        "ratio",
+        attrgetter("belt_safety"),
+        of="loads",
+        better="most",
+    ),
+    "all_loads_take_up": Output(
+        "setting of the take-up for all loads", "force", attrgetter("take_up"), of="loads"
     ),
     "error_estimate": Output("largest error estimate of the contacts", "error", attrgetter("error_estimate")),
 }
@@ -77,24 +102,29 @@ PARTS: Final = "parts"
 
 
 def outputs_of(keys: Iterable[str]) -> dict[str, Output]:
-    """Figures asked for; all of them of none.
+    """Figures asked for; of none all but those of every load, which take a hundred times as long.
 
     Raises
     ------
     InputError
         A key is not known.
     """
-    asked = tuple(keys) or tuple(OUTPUTS)
+    asked = tuple(keys) or tuple(key for key, one in OUTPUTS.items() if one.of != "loads")
     for key in asked:
         if key not in OUTPUTS:
             raise InputError(f'outputs: no figure "{key}"; there are {", ".join(OUTPUTS)}')
     return {key: OUTPUTS[key] for key in asked}
 
 
+def loads_asked(asked: Iterable[str]) -> tuple[str, ...]:
+    """What of things asked for is read from every load of a design."""
+    return tuple(key for key in asked if key != PARTS and OUTPUTS[key].of == "loads")
+
+
 def asked_of(outputs: Iterable[str]) -> tuple[str, ...]:
     """What is calculated of points for figures: those that are priced follow from parts, whatever they cost."""
     keys = dict.fromkeys(outputs)
-    read = [key for key in keys if not OUTPUTS[key].priced]
+    read = [key for key in keys if OUTPUTS[key].of != "parts"]
     energy = ("cost_per_year",) if "total_cost_per_year" in keys else ()
     return tuple(dict.fromkeys([*read, *energy, *((PARTS,) if len(read) < len(keys) else ())]))
 
@@ -122,7 +152,10 @@ def priced(
     if amounts and parts is not None:
         costed = costs(Parts(*parts), amounts, seconds=seconds, energy=known.get("cost_per_year"))
     read = ((OUTPUTS[key], key) for key in outputs)
-    return [(None if costed is None else one.get(costed)) if one.priced else known[key] for one, key in read]
+    return [
+        (None if costed is None else one.get(costed)) if one.of == "parts" else known[key]
+        for one, key in read
+    ]
 
 
 @dataclass(frozen=True)
@@ -134,20 +167,26 @@ class Job:
     key : bytes
         Hash of all of it.
     packed : bytes
-        Spec, what is asked of points, compounds, and the levels of all compounds.
+        Spec, what is asked of points, compounds, paths of states, and the levels of all compounds.
     """
 
     key: bytes
     packed: bytes = field(compare=False, repr=False)
 
     @classmethod
-    def of(cls, base: Conveyor, asked: Sequence[str], compounds: Mapping[str, RubberCompound]) -> Self:
-        """Pack a spec, what is `asked_of` its points, and the compounds that they give by name."""
+    def of(
+        cls,
+        base: Conveyor,
+        asked: Sequence[str],
+        compounds: Mapping[str, RubberCompound],
+        met: Sequence[str] = (),
+    ) -> Self:
+        """Pack a spec, what is `asked_of` its points, compounds that they give by name, paths of their states."""
         every = _every(base, compounds)
         anchors = anchors_of(base, every)
         # a compound that is unpickled is another object
         levels = [[level for one, *level in anchors if one is compound] for compound in every]
-        packed = pickle.dumps((base, tuple(asked), dict(compounds), levels))
+        packed = pickle.dumps((base, tuple(asked), dict(compounds), tuple(met), levels))
         return cls(hashlib.sha256(packed).digest(), packed)
 
 
@@ -156,26 +195,50 @@ def _every(base: Conveyor, compounds: Mapping[str, RubberCompound]) -> tuple[Rub
     return base.carry_compound, base.return_compound, *compounds.values()
 
 
-class _Opened(NamedTuple):
+class _Opened:
     """A job where it is done: the very same parts for all its batches, and what batches before made of them."""
 
-    base: Conveyor
-    asked: tuple[str, ...]
-    compounds: Mapping[str, RubberCompound]
-    anchors: Anchors
-    kept: Kept
+    def __init__(self, job: Job) -> None:
+        self.base: Conveyor
+        self.asked: tuple[str, ...]
+        self.compounds: Mapping[str, RubberCompound]
+        self.base, self.asked, self.compounds, self._met, levels = pickle.loads(job.packed)  # noqa: S301 by this program
+        every = zip(_every(self.base, self.compounds), levels, strict=True)
+        self.anchors: Anchors = [(compound, how, level) for compound, known in every for how, level in known]
+        self.kept = Kept()
+        self._loads: dict[tuple[tuple[str, Value], ...], Loads] = {}
+
+    def made(self, point: Changes) -> Conveyor:
+        """The spec of a point.
+
+        Raises
+        ------
+        InputError
+            A change is refused.
+        """
+        return with_fields(self.base, point, resolve=self.compounds.__getitem__, known=self.kept.fields)
+
+    def loads(self, point: Changes) -> Loads:
+        """Every load of the design of a point, whatever state it is in; or why there is none.
+
+        Calculated for itself: whatever batch asks first, it is the same.
+        """
+        design = {path: value for path, value in point.items() if path not in self._met}
+        key = tuple(design.items())
+        if key not in self._loads:
+            if len(self._loads) >= Kept.MOST:
+                self._loads.clear()
+            self._loads[key] = _loads(self.made(design), self.asked)
+        return self._loads[key]
 
 
 @lru_cache(maxsize=1)
 def _opened(job: Job) -> _Opened:
     """A job unpacked, once in a process that does many batches of it."""
-    base, asked, compounds, levels = pickle.loads(job.packed)  # noqa: S301 packed by this program
-    every = zip(_every(base, compounds), levels, strict=True)
-    anchors = [(compound, how, level) for compound, known in every for how, level in known]
-    return _Opened(base, asked, compounds, anchors, Kept())
+    return _Opened(job)
 
 
-def answers(job: Job, points: Sequence[Changes], rtol: float = RTOL) -> list[Answer]:
+def answers(job: Job, points: Sequence[Changes]) -> list[Answer]:
     """Figures of points, calculated side by side.
 
     Parameters
@@ -184,35 +247,49 @@ def answers(job: Job, points: Sequence[Changes], rtol: float = RTOL) -> list[Ans
         The study's.
     points : sequence of mapping
         New values of the spec's fields, by path.
-    rtol : float
-        Relative tolerance of the contacts [-].
 
     Returns
     -------
     list
         In their order what is asked for in SI, or why a point has none.
     """
-    base, asked, compounds, anchors, kept = _opened(job)
-    kept.forget_solved()
-    known = kept.fields
+    opened = _opened(job)
+    opened.kept.forget_solved()
     made: list[Conveyor | str] = []
     for point in points:
         try:
-            made.append(with_fields(base, point, resolve=compounds.__getitem__, known=known))
+            made.append(opened.made(point))
         except ConveyorError as error:
             made.append(str(error))
     variants = [Variant(one) for one in made if isinstance(one, Conveyor)]
-    results = iter(calculate_many(variants, rtol, anchors=list(anchors), kept=kept))
-    return [one if isinstance(one, str) else _answer(next(results), asked) for one in made]
+    results = iter(calculate_many(variants, anchors=list(opened.anchors), kept=opened.kept))
+    return [
+        one if isinstance(one, str) else _answer(next(results), opened, point)
+        for one, point in zip(made, points, strict=True)
+    ]
 
 
-def _answer(result: CalculatedConveyor | ConveyorError, asked: Sequence[str]) -> Answer:
+def _answer(result: CalculatedConveyor | ConveyorError, opened: _Opened, point: Changes) -> Answer:
     if not isinstance(result, CalculatedConveyor):
         return str(result)
+    answer = []
     try:
-        return [_parts(result) if key == PARTS else kept(OUTPUTS[key].get(result)) for key in asked]
+        for key in opened.asked:
+            if key == PARTS:
+                answer.append(_parts(result))
+            elif OUTPUTS[key].of == "loads":
+                answer.append(opened.loads(point)[key])
+            else:
+                answer.append(kept(OUTPUTS[key].get(result)))
     except ConveyorError as error:
         return str(error)
+    return answer
+
+
+def _loads(design: Conveyor, asked: Iterable[str]) -> Loads:
+    """Figures of every load of a design that are asked for."""
+    loads = every_load(design)
+    return {key: kept(OUTPUTS[key].get(loads)) for key in loads_asked(asked)}
 
 
 def kept(value: Any) -> Any:

@@ -66,7 +66,10 @@ def refuse_unknown(plan: VariedSpec, base: Conveyor, resolve: Callable[[str], Ru
         if (path, value) not in seen and len(problems) < _MOST:
             seen.add((path, value))
             with problems.at(*place):
-                _refuse_other_kind(base, path, known[path], value, resolve)
+                if path == "operation.price":
+                    _refuse_other_currency(plan, base, value)
+                else:
+                    _refuse_other_kind(base, path, known[path], value, resolve)
     for i, key in enumerate(plan.outputs):
         with problems.at("outputs", i):
             outputs_of([key])
@@ -94,6 +97,14 @@ def _refuse_other_kind(
             with_fields(base, {path: value})
         except InputError:
             raise InputError(f'{path}: got "{value}" for a group of fields; name one field of it') from None
+
+
+def _refuse_other_currency(plan: VariedSpec, base: Conveyor, value: Value) -> None:
+    """Refuse a price of energy that costs of the study cannot be summed with."""
+    varied = with_fields(base, {"operation.price": value}).operation
+    price = None if varied is None else varied.price
+    if price is not None and price.currency != plan.currency(base):
+        raise InputError(f"operation.price: got {price}, the study's costs are in {plan.currency(base)}")
 
 
 def _alike(value: Value, like: Quantity) -> bool:

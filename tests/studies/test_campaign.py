@@ -26,7 +26,7 @@ from conveyor.models.study import StudyPlan
 from conveyor.pipeline import Kept, calculate
 from conveyor.report.point_tables import CampaignTable, PartedTable, of_points
 from conveyor.studies.campaign import BATCH, Answers, Campaign, point_of, rows, run
-from conveyor.studies.points import OUTPUTS, RTOL, _opened, answers
+from conveyor.studies.points import OUTPUTS, _opened, answers
 from tests.command_line import run as command
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -95,8 +95,8 @@ def test_answers_are_those_of_single_analyses(line, tmp_path):
     assert [number for number, *_ in found] == list(range(1, 7))
     for _, values, answer in found:
         alone = calculate(with_fields(line, dict(zip(study.plan.paths, values, strict=True))))
-        assert answer[0] == pytest.approx(alone.balance.power.motor, rel=2.0 * RTOL)
-        assert answer[1] == pytest.approx(alone.belt_duty.safety, rel=2.0 * RTOL)
+        assert answer[0] == pytest.approx(alone.balance.power.motor, rel=2e-4)
+        assert answer[1] == pytest.approx(alone.belt_duty.safety, rel=2e-4)
 
 
 def test_python_has_the_points_of_a_file_and_of_data(line, tmp_path):
@@ -525,3 +525,11 @@ def test_every_figure_can_be_asked_for(line, tmp_path):
     assert len(answer) == len(OUTPUTS)
     assert None not in answer
     assert BATCH > 1
+
+
+def test_the_contacts_have_the_tolerance_of_the_spec(line, tmp_path):
+    calculation = line.calculation
+    finer = campaign(line.replace(calculation=calculation.replace(rtol=1e-8)), outputs=["error_estimate"])
+    coarse = campaign(line, outputs=["error_estimate"])
+    told = [answered(one, tmp_path / "a")[0][-1][0] for one in (finer, coarse)]
+    assert told[0] <= 1e-8 < told[1] <= calculation.rtol

@@ -1,0 +1,125 @@
+"""Every load of a conveyor with the take-up at the one setting that serves them all, and every check of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from functools import cached_property, partial
+from typing import TypeAlias
+
+from conveyor.checks import Check, checks, deciding, reach
+from conveyor.models import Conveyor
+from conveyor.pipeline import CalculatedConveyor
+from conveyor.studies.cases import CalculatedCases, analyse_cases
+from conveyor.studies.states import CalculatedStates, at_one_take_up, load_states
+
+Progress: TypeAlias = Callable[[str, int, int], None]
+"""Called with a name, what is done of it and its whole."""
+
+
+@dataclass(frozen=True, eq=False)
+class EveryLoad:
+    """The load of a spec, its load states and its load cases.
+
+    Attributes
+    ----------
+    states : CalculatedStates
+        With the spec's own load.
+    cases : CalculatedCases or None
+        Of `cases`.
+    """
+
+    states: CalculatedStates
+    cases: CalculatedCases | None
+
+    @property
+    def own(self) -> CalculatedConveyor:
+        """The spec's own load."""
+        return self.states.own
+
+    @cached_property
+    def governing(self) -> tuple[Check, ...]:
+        """Of each criterion and subject the check that governs, as `conveyor power` lists them; without scenarios."""
+        return deciding(every_check(self.own, self.states, self.cases))
+
+    @property
+    def failed(self) -> int:
+        """Criteria that are not met in one of the loads."""
+        return sum(check.failed for check in self.governing)
+
+    @cached_property
+    def designing(self) -> tuple[CalculatedConveyor, ...]:
+        """Loads to design by: cases that the rubber's data do not cover are none."""
+        cases = () if self.cases is None else self.cases.results
+        of_states = (load for _, load in self.states.loads)
+        return (self.own, *of_states, *(result.found for result in cases if result.covered))
+
+    @property
+    def motor_power(self) -> float:
+        """Highest [W]."""
+        return max(load.balance.power.motor for load in self.designing)
+
+    @property
+    def motor_use(self) -> float | None:
+        """Power over that installed, of the drive that is used most [-]; None without an installed power."""
+        used = (check for check in self.governing if check.key == "motor_power")
+        return max(
+            (one.calculated / one.required for one in used if one.calculated and one.required), default=None
+        )
+
+    @property
+    def largest_tension(self) -> float:
+        """Of all states of motion [N]."""
+        return max(load.balance.tensions.largest for load in self.designing)
+
+    @property
+    def belt_safety(self) -> float | None:
+        """Lowest in steady running, which is what is checked [-]; None without the belt's strength."""
+        safeties = [load.belt_duty.safety_steady for load in self.designing]
+        return min((one for one in safeties if one is not None), default=None)
+
+    @property
+    def take_up(self) -> float:
+        """Its setting [N]."""
+        return self.states.setting
+
+
+def every_load(
+    conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: Progress | None = None
+) -> EveryLoad:
+    """Calculate the load states and load cases of a spec.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        The spec.
+    given : CalculatedConveyor, optional
+        The spec's own load, where it is calculated already.
+    progress : callable, optional
+        Called with "load cases" or "load states", what is done of them and their whole.
+
+    Raises
+    ------
+    NoSolutionError, RangeError, InputError
+        The spec's own load has no answer, or no setting of the take-up serves all; cases without an answer are listed.
+    """
+
+    def told(name: str) -> Callable[[int, int], None] | None:
+        return None if progress is None else partial(progress, name)
+
+    cases = analyse_cases(conveyor, progress=told("load cases")) if conveyor.cases else None
+    own = given if cases is None else cases.as_given
+    return EveryLoad(*at_one_take_up(load_states(conveyor, own, cases, progress=told("load states")), cases))
+
+
+def every_check(
+    own: CalculatedConveyor,
+    states: CalculatedStates | None,
+    cases: CalculatedCases | None,
+    further: Iterable[Check] = (),
+) -> tuple[Check, ...]:
+    """Of the conveyor as given, then of its load cases and load states, then of other calculations."""
+    together = () if cases is None else reach(cases.take_up)
+    of_cases = () if cases is None else cases.checks
+    of_states = () if states is None else states.checks
+    return (*checks(own), *together, *of_cases, *of_states, *further)
