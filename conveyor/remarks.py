@@ -250,6 +250,17 @@ def _contact(result: CalculatedConveyor) -> Iterator[Said]:
                 (give.tensions[0], "line force"),
                 (give.tensions[2], "line force"),
             )
+        if conveyor.calculation.flexure is None:
+            yield said(
+                "the flexure of the belt by load and sag, {} on a stiff carcass, is not added: the belt that bends "
+                "over the rolls holds it, with the loss that its carcass is given",
+                (contacts.flexure_left_out, "force"),
+            )
+        if conveyor.belt.carcass.bending_loss == 0.0:
+            yield said(
+                "belt.carcass.bending_loss is 0: no figure holds what the carcass loses as it bends, which must be "
+                "known before the power on a belt that gives is"
+            )
         if conveyor.belt.carcass.bending_stiffness is None:
             yield said(
                 f"belt.carcass.bending_stiffness not given: {CARCASS_BENDING.value:g} N m² per metre of width taken "

@@ -6,6 +6,7 @@ its resistance is read at any tension between: sections differ in tension, not i
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -18,9 +19,11 @@ from conveyor.contact import solve
 from conveyor.contact.sampling import at_places, left_between, points
 from conveyor.errors import NoSolutionError
 from conveyor.indentation import Indentation, IndentationCurve, RollContact, indentation_curves, to_problem
+from conveyor.laws.resistance import FLEXURE_COEFFICIENT, sag_flexure_resistance
 from conveyor.line.contacts import Contacts, RollResult, along_the_rolls
 from conveyor.line.covers import backing, roll_contact
 from conveyor.line.stretches import Strand
+from conveyor.units import si
 
 Array = NDArray[np.float64]
 
@@ -173,6 +176,24 @@ class BeltContacts(Contacts):
     def gives(self) -> tuple[Give, ...]:
         """What the belt's give changes, of each strand."""
         return tuple(self._give(strand) for strand in ("carry", "return"))
+
+    @cached_property
+    def flexure_left_out(self) -> float:
+        """Flexure of the belt, without bulk, by the law of load and sag [N]: it stands on a stiff carcass.
+
+        The belt over the rolls holds it: bending and sag are part of its contacts, with the loss that its carcass has.
+        """
+        weight = self.line.gravity
+        return math.fsum(
+            stretch.sets
+            * sag_flexure_resistance(
+                stretch.belt_mass * weight * math.cos(stretch.inclination),
+                spacing=stretch.spacing,
+                relative_sag=si(stretch.idlers.sag),
+                coefficient=FLEXURE_COEFFICIENT.value,
+            )
+            for stretch in self.line.stretches
+        )
 
     def _give(self, strand: Strand) -> Give:
         chosen = np.array([stretch.strand == strand for stretch in self.line.stretches])

@@ -24,6 +24,7 @@ from conveyor.laws.resistance import (
     SERVICE_DRAG,
     Default,
 )
+from conveyor.line.belts import BeltContacts
 from conveyor.line.roll_drags import assumed_share
 from conveyor.line.stretches import STRANDS
 from conveyor.loop.balance import Balance, OpenLoop, balances
@@ -111,6 +112,19 @@ def _tests_band(result: CalculatedConveyor) -> tuple[float, float]:
     return math.exp(-half), math.exp(half)
 
 
+def _bending(result: CalculatedConveyor, force: Force) -> Shares:
+    """Indentation under a belt that gives without a loss of its own."""
+    given = result.conveyor.belt.carcass.bending_loss > 0.0
+    return float(force.key == "indentation" and isinstance(result.contacts, BeltContacts) and not given)
+
+
+def _bending_band(result: CalculatedConveyor) -> tuple[float, float]:
+    """Up to the flexure that the law of load and sag has on a stiff carcass, over the indentation."""
+    contacts = result.contacts
+    left_out = contacts.flexure_left_out if isinstance(contacts, BeltContacts) else 0.0
+    return 1.0, 1.0 + left_out / result.balance.forces.indentation
+
+
 def _pressed(result: CalculatedConveyor, force: Force) -> float:
     """Whether a cleaner is given without its pressure."""
     names = [each.name for each in result.balance.singles if each.key == "cleaner"]
@@ -134,6 +148,8 @@ DEFAULTS: Final = (
             _unanchored),
     Assumed("tested_level", "level of the indentation, band of its tests", 1.0, 1.0, "tests of the belt itself",
             _tested, _tests_band),
+    Assumed("bending_loss", "loss of the carcass that bends, 0", 1.0, 1.0, "belt.carcass.bending_loss", _bending,
+            _bending_band),
     Assumed("pulleys", "usual head and tail pulleys", 0.5, 2.0, "route.pulleys", usual("wrap", "pulley_bearings")),
 )  # fmt: skip
 """Every default with a band; one more line is one more default.

@@ -243,7 +243,7 @@ def test_window_of_near_strips_is_their_sum_wave_by_wave(width):
 def test_two_lines_of_a_small_roll_are_polished():
     # 0.0022/k apart: the grid of 2^20 nodes was the last word, friction to 6 %
     thin = ContactProblem("free", 2.46e-4, 7.53e-3, CreepSpectrum(0.48, [0.52], [9e6]), 3.25e-3)
-    found, finer = solve(thin, throw=False), solve(thin, rtol=1e-9, throw=False)
+    found, finer = solve(thin, throw=False), solve(thin, rtol=1e-8, throw=False)  # rounding leaves 1e-9
     assert found.status is finer.status is Status.TOO_DEEP
     assert found.stats.way == "strips"
     assert len(found.patches) == 2

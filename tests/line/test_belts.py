@@ -132,6 +132,8 @@ def test_what_stands_in_is_said(found):
         "the belt gives under the carry rolls",
         "bending_stiffness not given: 15",
         "stiffness not given",
+        "flexure of the belt by load and sag",
+        "bending_loss is 0: no figure holds what the carcass loses",
     ):
         assert words in told
 

@@ -155,3 +155,19 @@ def test_rubber_without_tests_may_lose_two_and_a_half_times_as_much(bare):
     assert level.motor_low == pytest.approx(found.balance.power.motor, rel=ROUNDING)
     more = 1.5 * found.balance.forces.indentation * watts
     assert level.motor_high - level.motor_low == pytest.approx(more, rel=ROUNDING)
+
+
+def test_the_loss_of_a_carcass_that_bends_reaches_up_to_the_flexure_that_is_left_out():
+    """On a stiff carcass the law of load and sag has bulk and belt; under a belt that gives it has the bulk."""
+    stiff = conveyor.load(SPECS / "shuttle.yaml")
+    gives = calculated(stiff, support="belt")
+    found, fast = calculate(gives), calculate(stiff)
+    left_out = found.contacts.flexure_left_out
+    law, bulk = (one.balance.forces.parts["flexure"] for one in (fast, found))
+    assert left_out == pytest.approx(law - bulk)
+    (bends,) = (one for one in power_range(found).effects if one.key == "bending_loss")
+    assert bends.low_factor == 1.0
+    assert bends.high_factor - 1.0 == pytest.approx(left_out / found.balance.forces.indentation)
+    carcass = gives.belt.carcass.replace(bending_loss=0.1)
+    known = calculate(gives.replace(belt=gives.belt.replace(carcass=carcass)))
+    assert "bending_loss" not in {one.key for one in power_range(known).effects}
