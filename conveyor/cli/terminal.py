@@ -328,7 +328,8 @@ def _ranges(screen: Console, contents: Contents) -> None:
     inputs = contents["sensitivity"]
     first = ", ".join(inputs.columns[0].get(row) for row in inputs.rows[:_MATTERS])
     screen.print(words("\nuncertainty", style="bold"))
-    said = f"motor power {said} (90 % interval){''.join(exact)}; most sensitive to: {first}"
+    of = "90 % interval of the inputs' ranges, first order"
+    said = f"motor power {said} ({of}){''.join(exact)}; most sensitive to: {first}"
     screen.print(words(wrapped(said, screen.width, first="  ", further="  ")))
 
 

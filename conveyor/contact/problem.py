@@ -46,8 +46,8 @@ class Status(Enum):
         "linear problem; lower the load, tighten or thicken the layer"
     )
     WRAP_LIMIT = (
-        "the load presses the roll in beyond its half circle: no contact with an edge inside the roll "
-        "carries it; lower the load, or enlarge the radius"
+        "the load presses the roll in to, or beyond its half circle: an edge that is still inside is nearer to the end "
+        "than grids tell; lower the load, or enlarge the radius"
     )
     TOO_THIN = (
         "the layer is so thin against the contact that its quadrature would need more than two million nodes; "

@@ -82,6 +82,10 @@ class Uncertainty(Model):
             problems.append(
                 Problem(("draws",), f"got {self.draws}, expected at least {FEWEST}, or 0 for none")
             )
+        if self.correlations and not self.draws:
+            problems.append(
+                Problem(("correlations",), "only draws take them: give draws: 256, or leave them out")
+            )
         for i, pair in enumerate(self.correlations):
             named = frozenset(pair.between)
             missing = [name for name in pair.between if getattr(self, name) is None]

@@ -291,11 +291,12 @@ def band(study: CalculatedRanges) -> Table:
         Column("motor power, high", "power", "1.1"),
     )
     exact, rows = study.monte_carlo, [
-        ("root sum of squares", study.band), ("Latin hypercube, first order", study.sampled),
+        ("root sum of squares, first order", study.band), ("Latin hypercube, first order", study.sampled),
     ]  # fmt: skip
     if exact is not None:
         rows.append((f"Monte Carlo, {len(exact.power)} draws in full", exact.band))
-    return Table("power_band", "Uncertainty", "Motor power, 90 % interval", columns, rows, _UNCERTAINTY)
+    heading = "Motor power, 90 % interval of the inputs' ranges"
+    return Table("power_band", "Uncertainty", heading, columns, rows, _UNCERTAINTY)
 
 
 def convergence_of_draws(study: CalculatedRanges) -> Table:

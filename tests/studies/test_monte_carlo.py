@@ -81,6 +81,8 @@ def test_contradictions_are_refused(line):
     given = [{"between": [a, b], "coefficient": c} for a, b, c in pairs]
     with pytest.raises(InputError, match="contradict each other"):
         exact(line, **ranges, correlations=given)
+    with pytest.raises(InputError, match="correlations: only draws take them: give draws"):
+        Uncertainty.from_data({"flow": "5 %", "skirt_friction": "20 %", "correlations": given[:1]})
     with pytest.raises(InputError, match=r"correlations\[0\].between: temperature has no range here"):
         Uncertainty.from_data(ranges | {"correlations": [given[0] | {"between": ["flow", "temperature"]}]})
     with pytest.raises(InputError, match="expected at least 64"):

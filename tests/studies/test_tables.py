@@ -169,7 +169,7 @@ def test_tornado_and_band(line):
     data = json.loads(json.dumps(found.to_dict()["uncertainty"], allow_nan=False))
     assert data["tornado"][0]["motor power at high [kW]"] == pytest.approx(effects[0].motor_high / 1e3)
     assert [row["combined by"] for row in data["band"]] == [
-        "root sum of squares",
+        "root sum of squares, first order",
         "Latin hypercube, first order",
     ]
     assert [row["motor power, high [kW]"] for row in data["band"]] == pytest.approx(
