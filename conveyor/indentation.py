@@ -193,7 +193,7 @@ class Indentation:
         a, e, Δ [m].
     peak_pressure : ndarray
         Largest contact pressure [Pa].
-    peak_error : float
+    peak_error : ndarray
         Estimated relative error of it [-].
     error : float
         Estimated relative error of the resistance [-].
@@ -207,7 +207,7 @@ class Indentation:
     eccentricity: Array
     penetration: Array
     peak_pressure: Array
-    peak_error: float
+    peak_error: Array
     error: float
     energy_error: float
 
@@ -396,7 +396,7 @@ class IndentationCurve:
             eccentricity=dimensionless.eccentricity * radius,
             penetration=dimensionless.penetration * radius,
             peak_pressure=dimensionless.peak_pressure * pascal,
-            peak_error=self.curve.peak_error,
+            peak_error=dimensionless.peak_error,
             error=self.curve.error,
             energy_error=self.curve.energy_error,
         )
@@ -513,7 +513,7 @@ def indentation_resistance(contact: RollContact, line_load: float, rtol: float =
         eccentricity=np.asarray(solution.eccentricity * contact.radius),
         penetration=np.asarray(solution.penetration * contact.radius),
         peak_pressure=np.asarray(solution.peak_pressure * pascal),
-        peak_error=solution.peak_error,
+        peak_error=np.asarray(solution.peak_error),
         error=solution.error_estimate,
         energy_error=solution.energy_error,
     )

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from conveyor.contact.creep import Creeps, CreepSpectrum
 from conveyor.contact.energy import friction_by_loss
-from conveyor.contact.fields import SpectralFields, sampled_sines
+from conveyor.contact.fields import SpectralFields
+from conveyor.contact.pressure import FOLLOWED, sampled_sines
 from conveyor.contact.quadrature import CHECK, build_rule
 from conveyor.contact.scene import Scene
 from conveyor.contact.short_rule import ShortRule
@@ -21,7 +22,6 @@ Array = NDArray[np.float64]
 
 ENERGY_OVER_ERROR = 10.0  # energy error over true error of friction while n is too small: 5 to 80 seen
 TWICE = 2.0  # times the energy's error, which is that of two frictions: true errors were up to 1.4 of it
-_FOLLOWED = 0.05  # of n²/α: wave numbers that order n follows at an edge, where its nodes are 5 α/n² apart
 _LAYER_OVER_ENERGY = 1.2  # true error over that of the energy, as `layer_error` says: up to 1.1 seen
 STEADY = 2.0  # least power of the order that the energy's error falls with where no layer is left unresolved
 MOST = 2.3  # 1/(1 - (3/4)²): of an error that grows like n²
@@ -94,7 +94,7 @@ def layer_error(energy: Array, creep: Creeps | CreepSpectrum, alpha: Array, n: i
     E∞/E0 2 to 10,000). Rubber of many times has this tangent at every length: the error is less than a third of that
     of the energy, which then falls with `STEADY` or a higher power of the order.
     """
-    j = creep.compliance(_FOLLOWED * n**2 / alpha[:, None])[:, 0]
+    j = creep.compliance(FOLLOWED * n**2 / alpha[:, None])[:, 0]
     tangent = j.imag / j.real
     error: Array = _LAYER_OVER_ENERGY * tangent * np.minimum(tangent, 1.0) ** 2 * energy
     return error

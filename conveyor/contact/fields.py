@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property
 from typing import Final, Protocol
 
 import numpy as np
@@ -15,6 +15,7 @@ from conveyor.contact.creep import CreepSpectrum
 from conveyor.contact.energy import Strip
 from conveyor.contact.grid import GridContact
 from conveyor.contact.layers import Layer
+from conveyor.contact.pressure import growth, peak, peak_error, settled, sines, tail
 from conveyor.contact.quadrature import build_rule, series_rule, window_end
 from conveyor.contact.spectral import Contact, penetration
 
@@ -24,11 +25,8 @@ SERIES_REACH = 600.0  # m α where the series outside ends: cut by (m α)^(-5/2)
 _FAR = 64.0
 _PLAIN = 500.0  # wave numbers up to which the series is summed one by one: a window has as many nodes
 _CHUNK = 4_000_000
-_PEAK_STEPS = 8
-_TABLED = 1 << 16  # entries of a table of sines: a product with it costs no more than a transform
 RESOLVED: Final = 4.0
 """n² times an edge layer's share of the half width, from where on errors fall exponentially."""
-_TAILS = 4.0
 
 
 class Fields(Protocol):
@@ -95,10 +93,10 @@ class SpectralFields:
     def pressure(self, x: Array) -> Array:
         """Sum over the strips of p̃ = Σ c_v sin(vθ), X = X_l + α_l cos θ."""
         out = np.zeros(x.shape)
-        for centre, alpha, c in zip(self.contact.eps, self.contact.alpha, self.contact.c, strict=True):
+        for centre, alpha, c in zip(self.contact.eps, self.contact.alpha, self._settled, strict=True):
             s = (x - centre) / alpha
             inside = np.abs(s) < 1.0
-            out[inside] += _sines(c, np.arccos(s[inside]))
+            out[inside] += sines(c, np.arccos(s[inside]))
         return out
 
     def outside(self, x: Array, reach: float = SERIES_REACH) -> Array:
@@ -115,24 +113,22 @@ class SpectralFields:
         return float(peak(self.contact.c).max())
 
     def peak_error(self) -> float:
-        """Four times the tail of any strip; where an edge layer is not resolved, as many times more as the order lacks.
-
-        Towards such a layer the pressure grows at most like x^-1/2: by the ratio of the order that resolves it to n.
-        """
-        n = self.contact.c.shape[1]
-        layer = min(edge_layer(self.creep, float(alpha)) for alpha in self.contact.alpha)
-        lacks: float = max(1.0, math.sqrt(RESOLVED / layer) / n)
-        return _TAILS * float(self._tails.max()) * lacks
+        """That of the strip of which most is told, over the largest pressure."""
+        c, alpha = self.contact.c, self.contact.alpha
+        grown = np.array([growth(self.creep, float(half), c.shape[1]) for half in alpha])
+        highest = peak(c)
+        return float((peak_error(c, grown) * highest).max() / highest.max())
 
     def edge_error(self) -> float:
         """α/n of the tail; with the change by order two of 284 sharp scenes were off by more, 1.2 and 1.5 times."""
-        worst = float((self.contact.alpha * self._tails).max())
-        return worst / float(self.contact.c.shape[1])
+        c = self.contact.c
+        worst = float((self.contact.alpha * tail(c)).max() / peak(c).max())
+        return worst / float(c.shape[1])
 
-    @property
-    def _tails(self) -> Array:
-        """Last quarter of each strip's series over the largest pressure, shape (l,)."""
-        return np.asarray(tail(self.contact.c) / peak(self.contact.c).max())
+    @cached_property
+    def _settled(self) -> Array:
+        """Coefficients that the pressure is summed with, shape (l, n)."""
+        return settled(self.contact.c)
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,63 +169,6 @@ class GridFields:
     def depth(self) -> float:
         """Δ/R."""
         return self.grid.depth
-
-
-def _sines(c: Array, angle: Array) -> Array:
-    """Σ_v c_v sin(vθ) at any angles, shape (p,): v = q w + r takes 2 sqrt(n) exponentials an angle in place of n."""
-    width = math.isqrt(c.size) + 1
-    table = np.zeros((c.size // width + 1, width))
-    table.ravel()[1 : c.size + 1] = c
-    sums = []
-    for part in np.array_split(angle, 1 + angle.size * 2 * width // _CHUNK):
-        low = np.exp(1j * np.multiply.outer(part, np.arange(width)))
-        high = np.exp(1j * np.multiply.outer(part, width * np.arange(table.shape[0])))
-        sums.append(((low @ table.T) * high).sum(axis=1).imag)
-    return np.concatenate(sums)
-
-
-@lru_cache(maxsize=16)
-def _waves(n: int, count: int) -> Array:
-    """Sin(vθ) of v = 1 … n there, shape (n, count + 1)."""
-    turn = np.outer(np.arange(1, n + 1), np.arange(count + 1)) % (2 * count)
-    waves: Array = np.sin(turn * (math.pi / count))
-    return waves
-
-
-def sampled_sines(c: Array, count: int) -> Array:
-    """Σ_v c_v sin(vθ) at θ = 0, π/count … π, shape (b, count + 1), for c of shape (b, n)."""
-    if c.shape[1] * count <= _TABLED:
-        return c @ _waves(c.shape[1], count)
-    waves = np.zeros((c.shape[0], c.shape[1] + 1), dtype=complex)
-    waves[:, 1:] = -1j * count * c
-    sampled: Array = np.fft.irfft(waves, 2 * count)[:, : count + 1]
-    return sampled
-
-
-def peak(c: Array) -> Array:
-    """Largest pressure of contacts with coefficients c, shape (b, n): sampled, then Newton on dp/dθ = 0."""
-    n = c.shape[1]
-    v = np.arange(1.0, n + 1.0)
-    angle = np.linspace(0.0, np.pi, 8 * n + 17)
-    sampled = sampled_sines(c, 8 * n + 16)
-    best = np.argmax(sampled, axis=1)
-    theta = angle[best]
-    for _ in range(_PEAK_STEPS):
-        turn = np.multiply.outer(theta, v)
-        first = np.einsum("bv,bv->b", np.cos(turn), v * c)
-        second = -np.einsum("bv,bv->b", np.sin(turn), v * v * c)
-        curved = second < 0.0
-        theta = np.where(curved, theta - first / np.where(curved, second, -1.0), theta)
-        theta = np.clip(theta, angle[best] - angle[1], angle[best] + angle[1])
-    refined = np.einsum("bv,bv->b", np.sin(np.multiply.outer(theta, v)), c)
-    highest: Array = np.maximum(refined, sampled.max(axis=1))
-    return highest
-
-
-def tail(c: Array) -> Array:
-    """Sum of |c_v| over the last quarter of the series of contacts, shape (b,)."""
-    last: Array = np.abs(c[:, -(c.shape[1] // 4) :]).sum(axis=1)
-    return last
 
 
 def surface_series(

@@ -45,11 +45,11 @@ def at_places(degree: int, t: Array) -> Array:
 
 def left_between(values: Array) -> Array:
     """What the interpolant through values at the points, shape (N + 1, f), may miss of each; as in `missed`."""
-    return _squared(_half_misses(values), np.ptp(values, axis=0))
+    return _squared(half_misses(values), np.ptp(values, axis=0))
 
 
-def _half_misses(values: Array) -> Array:
-    """What the interpolant through every other point misses of each at the points between."""
+def half_misses(values: Array) -> Array:
+    """What the interpolant through every other point misses of each at the points between: more than all do."""
     miss: Array = np.abs(_between(values.shape[0] - 1) @ values[::2] - values[1::2]).max(axis=0)
     return miss
 
@@ -131,11 +131,6 @@ class Sampled:
             series[: change.shape[0]] += coefficients(change)
         return series
 
-    def half_misses(self, figures: Callable[[Contact], Array]) -> Array:
-        """What half the points miss of figures between them, shape (f,): more than all do, kinks or not."""
-        missed = _half_misses(figures(self.contacts))
-        return missed if self.finer is None else missed + _half_misses(self._change(self.finer, figures))
-
     def _change(self, finer: Contact, figures: Callable[[Contact], Array]) -> Array:
         """By the higher order, at its points."""
         return figures(finer) - figures(self.contacts)[:: stride(self.contacts, finer)]
@@ -148,7 +143,7 @@ class Sampled:
         if self.finer is None:
             return 0.0
         change = self._change(self.finer, partial(columns, rho))[:, :2]
-        left = _squared(_half_misses(change), np.abs(change).max(axis=0))
+        left = _squared(half_misses(change), np.abs(change).max(axis=0))
         smallest = max(float(np.abs(columns(rho, self.finer)[:, 1]).min()), np.finfo(float).tiny)
         return float(left[0] + left[1] / smallest)
 

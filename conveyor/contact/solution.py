@@ -226,7 +226,7 @@ class ContactSolution:
 
     @cached_property
     def peak_error(self) -> float:
-        """Estimated relative error of the largest pressure [-], from the tail of its series."""
+        """Estimated relative error of the largest pressure [-]."""
         solved = self._need()
         return solved.peak_error + solved.fields.peak_error() + self.error_estimate
 

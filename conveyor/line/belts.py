@@ -83,7 +83,7 @@ class TensionedCurve(IndentationCurve):
             eccentricity=self._mixed([one.eccentricity for one in indentations]),
             penetration=self._mixed([one.penetration for one in indentations]),
             peak_pressure=self._mixed(peaks),
-            peak_error=max(one.peak_error for one in indentations) + float(between),
+            peak_error=np.max([one.peak_error for one in indentations], axis=0) + float(between),
             error=self.error,
             energy_error=self.energy_error,
         )

@@ -1197,9 +1197,8 @@ def indentation(a: CalculatedConveyor) -> Table:
         loads = np.geomspace(curve.lowest, curve.highest, CURVE_POINTS)
         solved = curve.at(loads)
         resistance = solved.resistance if level is None else level.factor(loads) * solved.resistance
-        columns = (loads, resistance, solved.half_width, solved.peak_pressure)
-        points = zip(*(column.tolist() for column in columns), strict=True)
-        rows += [(label, *point, solved.peak_error) for point in points]
+        columns = (loads, resistance, solved.half_width, solved.peak_pressure, solved.peak_error)
+        rows += [(label, *point) for point in zip(*(column.tolist() for column in columns), strict=True)]
     declared = (
         Column("contact", "text", "0"),
         Column("line load", "line force", "1"),

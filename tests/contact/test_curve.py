@@ -82,12 +82,12 @@ def test_peak_error_holds_for_a_cold_cover_of_the_shelf():
     curve = indentation_curve(roll, 250.0, 4500.0, rtol=1e-4)
     loads = np.geomspace(250.0, 4500.0, 9)
     read = curve.at(loads)
-    # of orders 96 and 128 in place of 24: nearer by twenty times and more
     single = [indentation_resistance(roll, load, rtol=1e-7).peak_pressure for load in loads]
     true = np.abs(read.peak_pressure / single - 1.0)
-    assert true.max() > 1e-2  # worth telling
     assert np.all(true <= read.peak_error)
-    assert read.peak_error < 0.2  # and told to some purpose
+    # friction's order, 24, is off by 3 %; told the most under the lightest loads, where a thick cover's peak leans
+    assert read.peak_error[-1] < 5e-3
+    assert read.peak_error.max() < 0.1
 
 
 def test_shape_is_that_of_the_loads():

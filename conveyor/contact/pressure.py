@@ -1,0 +1,152 @@
+"""Pressure of a strip from its sine series, p̃ = Σ c_v sin(vθ); its largest value, and how far that is off.
+
+Where rubber has loss at every length no order follows the pressure into the edges: the last coefficients ripple over
+the whole strip, by far more than the mean over a wave of them is off. So the upper half of the series is summed with
+weights that fall to zero (those of de la Vallée-Poussin, rounded off). Where every layer is resolved, and the series
+falls exponentially, it is summed as it is.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.contact.creep import CreepSpectrum
+
+Array = NDArray[np.float64]
+
+FOLLOWED: Final = 0.05
+"""Of n²/α: wave numbers that order n follows at an edge, where its nodes are 5 α/n² apart."""
+_PEAK_STEPS = 8
+_CHUNK = 4_000_000
+_TABLED = 1 << 16  # entries of a table of sines: a product with it costs no more than a transform
+_TAILS = 4.0  # errors of a series summed as it is over its tail
+_FALLS = 8.0  # times, from a quarter of the series to the next: powers up to the fifth fall by less
+_EDGE = 8  # samples between an edge and the wave of the order next to it
+_PER_DECADE = 24  # wave numbers at which the growth toward an edge is followed
+
+
+def sines(c: Array, angle: Array) -> Array:
+    """Σ_v c_v sin(vθ) at any angles, shape (p,): v = q w + r takes 2 sqrt(n) exponentials an angle in place of n."""
+    width = math.isqrt(c.size) + 1
+    table = np.zeros((c.size // width + 1, width))
+    table.ravel()[1 : c.size + 1] = c
+    sums = []
+    for part in np.array_split(angle, 1 + angle.size * 2 * width // _CHUNK):
+        low = np.exp(1j * np.multiply.outer(part, np.arange(width)))
+        high = np.exp(1j * np.multiply.outer(part, width * np.arange(table.shape[0])))
+        sums.append(((low @ table.T) * high).sum(axis=1).imag)
+    return np.concatenate(sums)
+
+
+@lru_cache(maxsize=16)
+def _waves(n: int, count: int) -> Array:
+    """Sin(vθ) of v = 1 … n there, shape (n, count + 1)."""
+    turn = np.outer(np.arange(1, n + 1), np.arange(count + 1)) % (2 * count)
+    waves: Array = np.sin(turn * (math.pi / count))
+    return waves
+
+
+def sampled_sines(c: Array, count: int) -> Array:
+    """Σ_v c_v sin(vθ) at θ = 0, π/count … π, shape (b, count + 1), for c of shape (b, n)."""
+    if c.shape[1] * count <= _TABLED:
+        return c @ _waves(c.shape[1], count)
+    waves = np.zeros((c.shape[0], c.shape[1] + 1), dtype=complex)
+    waves[:, 1:] = -1j * count * c
+    sampled: Array = np.fft.irfft(waves, 2 * count)[:, : count + 1]
+    return sampled
+
+
+def settled(c: Array) -> Array:
+    """Coefficients to sum the pressure with, shape (b, n) as those that the equations give."""
+    return np.where(_plain(c)[:, None], c, _smoothed(c))
+
+
+def peak(c: Array) -> Array:
+    """Largest pressure of contacts with coefficients c, shape (b, n): sampled, then Newton on dp/dθ = 0."""
+    return _highest(settled(c))
+
+
+def peak_error(c: Array, growth: Array) -> Array:
+    """How far the largest pressures are off, relative, shape (b,); c has shape (b, n), `growth` (b,).
+
+    What it changes by when only half, and three quarters, of the series are summed; or four times the tail of a series
+    that is summed as it is. Toward an edge that the order does not resolve the pressure may grow: to beyond the largest
+    one, and the more the later coefficients matter.
+    """
+    n, highest = c.shape[1], peak(c)
+    parts = (_highest(_smoothed(c[:, :part])) for part in (n // 2, (3 * n) // 4))
+    change = np.where(_plain(c), _TAILS * tail(c), sum(np.abs(part - highest) for part in parts))
+    sampled = np.abs(sampled_sines(c, _EDGE * n))
+    edge = np.maximum(sampled[:, : _EDGE + 1].max(axis=1), sampled[:, -_EDGE - 1 :].max(axis=1))
+    error: Array = change / highest * growth**2 + np.maximum(edge / highest * growth - 1.0, 0.0)
+    return error
+
+
+def growth(creep: CreepSpectrum, alpha: float, n: int) -> float:
+    """How many times the pressure may grow from what order n sees of an edge to what it does not.
+
+    Over shorter lengths x it falls like x^1/2 where rubber is elastic, and grows at most like x^-1/2 where it flows:
+    where its loss tangent exceeds one, up to m = Σ d/ζ over j∞ at most.
+    """
+    lasting = creep.times > 0.0
+    first = FOLLOWED * n**2 / alpha
+    glass = creep.instantaneous + float(creep.weights[~lasting].sum())
+    last = float(np.sum(creep.weights[lasting] / creep.times[lasting])) / glass
+    if last <= first:
+        return 1.0
+    count = 2 + math.ceil(_PER_DECADE * math.log10(last / first))
+    j = creep.compliance(np.geomspace(first, last, count))
+    step = 0.5 * math.log(last / first) / (count - 1)
+    rise = float(np.cumsum(np.where(j.imag > j.real, step, -step)).max())
+    return math.exp(max(rise, 0.0))
+
+
+def tail(c: Array) -> Array:
+    """Sum of |c_v| over the last quarter of the series of contacts, shape (b,)."""
+    last: Array = np.abs(c[:, -(c.shape[1] // 4) :]).sum(axis=1)
+    return last
+
+
+def _plain(c: Array) -> NDArray[np.bool_]:
+    """Whether a series is summed as it is: it falls faster over its last half than a power of the order does."""
+    n = c.shape[1]
+    before = np.abs(c[:, n // 2 : n - n // 4]).sum(axis=1)
+    return np.asarray(_FALLS * tail(c) < before)
+
+
+@lru_cache(maxsize=32)
+def _weights(n: int) -> Array:
+    """1 up to half of the series, falling like a cosine squared to 0 beyond its end."""
+    place = np.arange(1.0, n + 1.0) / (n + 1.0)
+    weights: Array = np.cos(np.pi * np.maximum(place - 0.5, 0.0)) ** 2
+    return weights
+
+
+def _smoothed(c: Array) -> Array:
+    smoothed: Array = c * _weights(c.shape[1])
+    return smoothed
+
+
+def _highest(c: Array) -> Array:
+    """Largest value of the series, shape (b,): sampled, then Newton on dp/dθ = 0."""
+    n = c.shape[1]
+    v = np.arange(1.0, n + 1.0)
+    angle = np.linspace(0.0, np.pi, 8 * n + 17)
+    sampled = sampled_sines(c, 8 * n + 16)
+    best = np.argmax(sampled, axis=1)
+    theta = angle[best]
+    for _ in range(_PEAK_STEPS):
+        turn = np.multiply.outer(theta, v)
+        first = np.einsum("bv,bv->b", np.cos(turn), v * c)
+        second = -np.einsum("bv,bv->b", np.sin(turn), v * v * c)
+        curved = second < 0.0
+        theta = np.where(curved, theta - first / np.where(curved, second, -1.0), theta)
+        theta = np.clip(theta, angle[best] - angle[1], angle[best] + angle[1])
+    refined = np.einsum("bv,bv->b", np.sin(np.multiply.outer(theta, v)), c)
+    highest: Array = np.maximum(refined, sampled.max(axis=1))
+    return highest
