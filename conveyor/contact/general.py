@@ -176,7 +176,7 @@ def _polished(scene: Scene, grid: GridContact, start: _Start, rtol: float) -> Ou
     centre, alpha, allowed = start
     scene.rules.clear()  # made for wider strips, and longer
     tight = max(1e-3 * rtol, LOAD_FLOOR)
-    n, before, failures, friction_before = ORDERS[0], None, 0, math.inf
+    n, before, failures, friction_before, change_before = ORDERS[0], None, 0, math.inf, 1.0
     while True:
         strips = settle(
             scene, n, centre, alpha, tight, jacobian=before.jacobian if before is not None else None
@@ -194,11 +194,14 @@ def _polished(scene: Scene, grid: GridContact, start: _Start, rtol: float) -> Ou
         if cancelled:
             friction = friction_by_loss(scene, strips)
             scale = _scale(scene, friction)
-        error = min(abs(friction_before - friction) / scale, 1.0)
+        error = change = min(abs(friction_before - friction) / scale, 1.0)
         pressing, tension = sign_and_tension(strips.contact, rtol)
         if pressing is Sign.PULLING and error <= SETTLED:
             return None
-        hopeless = n >= _LAST_TRY and beyond_reach(scene, strips.contact, (n, ORDERS[-1]), error / rtol)
+        falls = math.log(change_before / change) / math.log(n / before.order) if before and change else 0.0
+        hopeless = n >= _LAST_TRY and beyond_reach(
+            scene, strips.contact, (n, ORDERS[-1]), error / rtol, falls
+        )
         if error <= rtol or n == ORDERS[-1] or hopeless:
             by_loss = friction if cancelled else friction_by_loss(scene, strips)
             energy = abs(by_loss - strips.friction) / scale
@@ -227,7 +230,8 @@ def _polished(scene: Scene, grid: GridContact, start: _Start, rtol: float) -> Ou
                     way="strips",
                     remarks=(*remarks(pressing), *((_CANCELLED,) if cancelled else ())),
                 )
-        before, centre, alpha, friction_before = strips, strips.contact.eps, strips.contact.alpha, friction
+        before, centre, alpha = strips, strips.contact.eps, strips.contact.alpha
+        friction_before, change_before = friction, change
         n = next_order(n, error if error < 1.0 else 0.0, rtol)
 
 

@@ -120,7 +120,7 @@ def _converged(
         error = float(by_order.friction[0])
         if error <= SETTLED and last <= _FIRST_TAIL and _pulls(state, rtol):
             return None
-        following = _next((n, last), [float(pair.friction[0]) for pair in pairs], rtol, longest)
+        following = _next((n, last), pairs, rtol, longest)
         reach = resolution(scene, state.contact, longest) if last > n else math.inf
         if error <= rtol or following is None or reach < _BEYOND_REACH:
             settled = error <= rtol or following is None
@@ -129,7 +129,9 @@ def _converged(
                 continue
             contact = state.system.whole(state.contact)
             energy = energy_error(scene, state.contact, state.system.lost_beyond(contact))
-            error = max(error, _by_load(search, state.miss), float(by_energy(energy, by_order.most)[0]))
+            by_loss = float(by_energy(energy, by_order.most)[0])
+            error = max(error, _by_load(search, state.miss), by_loss)
+            following = _next((n, last), pairs, rtol, longest, bounds=by_loss > rtol)
             decided = last >= SIGN_ORDER or sign(contact, rtol) is not Sign.UNDECIDED
             if settled and last > n and beyond_reach(scene, contact, (last, longest), error / rtol):
                 following = None
@@ -174,18 +176,21 @@ def _longest(terms: int) -> int:
     return last
 
 
-def _next(orders: tuple[int, int], errors: list[float], rtol: float, longest: int) -> tuple[int, int] | None:
+def _next(
+    orders: tuple[int, int], pairs: list[OrderErrors], rtol: float, longest: int, *, bounds: bool = False
+) -> tuple[int, int] | None:
     """The core and the last order to go on with: longer is what is more at fault; None beyond the longest of both.
 
-    Without a tail the ladder of orders ends it.
+    Without a tail the ladder of orders ends it. What is at fault is told by the errors of core and tail; where the
+    energy lets no more than their `bounds` stand, by these.
     """
     n, last = orders
     if last == n:
-        following = next_order(n, errors[0], rtol)
+        following = next_order(n, float(pairs[0].friction[0]), rtol)
         if not longest:
             return (following, following) if following > n else None
         return (following, following) if following <= DENSE else (_CORE, _FIRST_TAIL)
-    core, tail = errors
+    core, tail = (float((pair.most if bounds else pair.friction)[0]) for pair in pairs)
     if core > max(tail, rtol):
         return (2 * n, max(last, 8 * n)) if n < _WIDEST_CORE else None
     return (n, 4 * last) if 4 * last <= longest else None
@@ -196,13 +201,16 @@ def _falls(before: tuple[int, float] | None, now: tuple[int, float]) -> bool:
     return before is not None and now[1] * now[0] ** STEADY <= before[1] * before[0] ** STEADY
 
 
-def beyond_reach(scene: Scene, contact: Contact, orders: tuple[int, int], excess: float) -> bool:
+def beyond_reach(
+    scene: Scene, contact: Contact, orders: tuple[int, int], excess: float, falls: float = _UNRESOLVED
+) -> bool:
     """Whether the longest order does not reach the edge layer, nor falls an error that exceeds rtol so far below it.
 
-    `orders` are the present and the longest one.
+    `orders` are the present and the longest one, `falls` is the power of them that the error is seen to fall with.
     """
     now, longest = orders
-    return excess * (now / longest) ** _UNRESOLVED > 1.0 and resolution(scene, contact, longest) < RESOLVED
+    enough = excess * (now / longest) ** max(falls, _UNRESOLVED) <= 1.0
+    return not enough and resolution(scene, contact, longest) < RESOLVED
 
 
 def resolution(scene: Scene, contact: Contact, last: int) -> float:

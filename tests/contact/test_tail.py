@@ -10,7 +10,7 @@ from conveyor.contact import ContactProblem, CreepSpectrum, Status, solve
 from conveyor.contact.bessel import ProductIK
 from conveyor.contact.quadrature import build_rule
 from conveyor.contact.scene import Scene
-from conveyor.contact.single import Near, by_half_width
+from conveyor.contact.single import Near, beyond_reach, by_half_width
 from conveyor.contact.spectral import assemble, equilibrium, level, nested
 from conveyor.contact.tail import Tail, neighbour_ratios
 
@@ -108,3 +108,25 @@ def test_a_long_tail_gives_what_a_dense_matrix_does():
     assert long.found.friction == pytest.approx(dense.friction, rel=2e-8)
     assert long.found.fields.depth() == pytest.approx(dense.penetration, rel=1e-8)
     assert long.found.fields.peak() == pytest.approx(dense.peak_pressure, rel=1e-6)
+
+
+def test_a_core_that_the_energy_doubts_is_lengthened_not_its_tail():
+    # a thin cover, its contact 17 times as wide: a core of 64 left 7e-9 at any tail
+    creep = CreepSpectrum(0.37120710068382384, [0.62879289931617616], [2.61086272e-05])
+    problem = ContactProblem(
+        "confined", 0.22029309106284228, 0.018418492740884012, creep, 0.0047395977, 0.38083557
+    )
+    found = solve(problem, rtol=1e-9)
+    assert found.status is Status.OK
+    assert found.stats.order == 1024
+    tighter = solve(problem, rtol=1e-11)
+    assert abs(tighter.friction / found.friction - 1.0) <= found.error_estimate
+
+
+def test_an_error_that_falls_fast_is_not_beyond_reach():
+    creep = CreepSpectrum(1e-4, [1.0 - 1e-4], [1e-9])  # its layer is beyond order 512
+    scene = Scene.of(ContactProblem("half-space", 0.05, 1e-3, creep))
+    alpha = 0.0075
+    contact = equilibrium(scene.system(alpha, 96, 96).matrix, np.array([alpha]), scene.problem.rho)
+    assert beyond_reach(scene, contact, (96, 512), 1e3)
+    assert not beyond_reach(scene, contact, (96, 512), 1e3, falls=8.0)
