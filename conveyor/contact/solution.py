@@ -70,7 +70,9 @@ class Found:
     error_estimate: float
     edge_error: float  # X
     fields: Fields
-    peak_error: float = 0.0  # of the largest pressure, relative, beside that of `fields`
+    peak_error: float = (
+        0.0  # by the strips' places: of the largest pressure, relative, beside that of `fields`
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -228,7 +230,7 @@ class ContactSolution:
     def peak_error(self) -> float:
         """Estimated relative error of the largest pressure [-]."""
         solved = self._need()
-        return solved.peak_error + solved.fields.peak_error() + self.error_estimate
+        return solved.peak_error + solved.fields.peak_error(self.problem) + self.error_estimate
 
     @property
     def patches(self) -> Array:
