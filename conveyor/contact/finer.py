@@ -48,10 +48,11 @@ def peak_error(problem: ContactProblem, contact: Contact) -> float:
 
 
 def flows_to(creep: CreepSpectrum, alpha: float, n: int) -> float:
-    """The order that follows the shortest length in which rubber flows at the edges of a half width α; n at least.
+    """The order that follows the pressure to where it may be largest at the edges of a half width α; n at least.
 
-    Towards an edge the pressure falls like x^1/2 where rubber is elastic and may grow like x^-1/2 where it flows: where
-    its loss tangent exceeds one, up to m = Σ d/ζ over j∞ at most.
+    Beyond what order n follows it falls toward an edge like x^1/2 where rubber is elastic and may grow like x^-1/2
+    where it flows: where its loss tangent exceeds one, up to m = Σ d/ζ over j∞ at most. Flow that does not make up for
+    the fall before it is not followed.
     """
     lasting = creep.times > 0.0
     first = FOLLOWED * n**2 / alpha
@@ -61,8 +62,9 @@ def flows_to(creep: CreepSpectrum, alpha: float, n: int) -> float:
         return n
     m = np.geomspace(first, last, 2 + math.ceil(_PER_DECADE * math.log10(last / first)))
     j = creep.compliance(m)
-    flowing = m[j.imag > j.real]
-    return math.sqrt(alpha * float(flowing[-1]) / FOLLOWED) if flowing.size else n
+    rise = np.cumsum(np.where(j.imag > j.real, 1, -1))
+    highest = int(rise.argmax())
+    return math.sqrt(alpha * float(m[highest]) / FOLLOWED) if rise[highest] > 0 else n
 
 
 def _finer(scene: Scene, contact: Contact) -> tuple[Contact, float]:

@@ -117,6 +117,9 @@ def test_orders_are_asked_for_down_to_the_lengths_in_which_rubber_flows():
             assert flows_to(creep, alpha, n) == pytest.approx(expected, rel=0.06)  # 24 wave numbers a decade
     assert flows_to(CreepSpectrum(0.3, [0.7], [1e-6]), alpha, n) == n  # tangent 0.64 at most
     assert flows_to(CreepSpectrum(1.0), alpha, n) == n
+    # six decades in which pressure falls before two in which it grows
+    later = CreepSpectrum(1e-3, [0.9, 0.099], [1e3 / seen, 1e-6 / seen])
+    assert flows_to(later, alpha, n) == n
 
 
 @pytest.mark.parametrize("rtol", [1e-4, 1e-6])
