@@ -61,9 +61,10 @@ def exact(problem: ContactProblem) -> ContactSolution | None:
     """The finer solution, which need not have reached its tolerance; None where there is none."""
     try:
         found = solve(problem, FINE, throw=False)
+        known = found.status in (Status.OK, Status.NOT_CONVERGED) and found.strips is not None
     except ConveyorError:
         return None
-    return found if found.status in (Status.OK, Status.NOT_CONVERGED) and found.strips else None
+    return found if known else None
 
 
 def report(name: str, pairs: Iterable[tuple[float, float, ContactSolution | None]]) -> None:

@@ -23,8 +23,8 @@ _STEP = 64  # orders that a core with a tail is a multiple of
 _LONG_CORE = 128
 _PER_DECADE = 24  # wave numbers at which the loss tangent is looked at
 _MARGIN: Final = 3.0
-"""Errors over what the finer contact differs by: 1.1 seen in 1,100 contacts where it has a seventh of the error, and
-enough where it has two thirds."""
+"""Errors over what the finer contact differs by: about one in the median of 1,100 covers and sharp scenes, 1.5 at most
+(docs/accuracy.md)."""
 
 
 def peak_error(problem: ContactProblem, contact: Contact) -> float:

@@ -228,7 +228,7 @@ class ContactSolution:
 
     @cached_property
     def peak_error(self) -> float:
-        """Estimated relative error of the largest pressure [-]."""
+        """Estimated relative error of the largest pressure [-]; formed now, by a contact of higher order."""
         solved = self._need()
         return solved.peak_error + solved.fields.peak_error(self.problem) + self.error_estimate
 
