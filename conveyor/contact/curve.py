@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 import numpy as np
@@ -16,12 +16,13 @@ from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike, NDArray
 
 from conveyor.contact.excitation import excited_harmonics
-from conveyor.contact.pressure import growth, peak, peak_error
+from conveyor.contact.finer import flows_to, peak_error
+from conveyor.contact.pressure import peak
 from conveyor.contact.problem import ContactProblem
 from conveyor.contact.sampling import Sampled, coefficients, columns, half_misses, points
 from conveyor.contact.scene import Scene, instantly_relaxed
 from conveyor.contact.solution import SolveStats
-from conveyor.contact.spectral import Contact, assemble, equilibrium, penetration
+from conveyor.contact.spectral import Contact, assemble, chosen_rows, equilibrium_of_orders, penetration
 from conveyor.errors import RangeError
 
 Array = NDArray[np.float64]
@@ -182,12 +183,19 @@ class LoadCurve:
     def _peak_errors(self) -> Array:
         """That of the largest pressure at the sampled half widths, shape (k,).
 
-        By the order, as `pressure.peak_error` has it, and by interpolation: the largest pressure has kinks where it
-        leaps from one hump to another.
+        By what half the order changes; where rubber flows at lengths that the order does not follow, by contacts that
+        do; and by interpolation: the largest pressure has kinks where it leaps from one hump to another.
         """
-        fine, creep = self._fine, instantly_relaxed(self.problem.creep)
+        fine, lower = self._fine
         n = fine.c.shape[1]
-        by_order = peak_error(fine.c, np.array([growth(creep, float(alpha), n) for alpha in fine.alpha]))
+        half_loads = np.where(lower.inside[0], lower.pressure[0], self._sampled_load)
+        half = self._carried(lower.c[0, :, : n // 2], half_loads)
+        by_order = np.where(lower.inside[0], np.abs(half / self._carried(fine.c, fine.pressure) - 1.0), 1.0)
+        creep = instantly_relaxed(self.problem.creep)
+        for k, load in enumerate(self._sampled_load):
+            if flows_to(creep, float(fine.alpha[k]), n) > n:
+                here = chosen_rows(fine, slice(k, k + 1))
+                by_order[k] += peak_error(replace(self.problem, pressure=float(load)), here)
         moved = np.abs(self._sampled_load / fine.pressure - 1.0)
         between = float(half_misses(self._sampled_peaks)[0] / self._sampled_peaks.min())
         return by_order + _OTHERWISE * moved + between + self.error
@@ -239,13 +247,13 @@ class LoadCurve:
         return coefficients((depth * (rho / every.alpha) ** 2)[:, None])[:, 0]
 
     @cached_property
-    def _fine(self) -> Contact:
-        """Contacts at the sampled half widths, of the order that the largest pressure asks for."""
+    def _fine(self) -> tuple[Contact, Contact]:
+        """Contacts at the sampled half widths, of the order that the largest pressure asks for; and of lower orders."""
         every = self._contacts(points(self._columns.shape[0] - 1))
         scene = Scene.of(self.problem)
         order = max(every.c.shape[1], _PEAK_ORDER)
         matrix = assemble(scene.rule(float(every.alpha[0])), scene.creep, every.alpha, order)
-        return equilibrium(matrix, every.alpha, self.problem.rho, every.eps, _PEAK_PLACE)
+        return equilibrium_of_orders(matrix, every.alpha, self.problem.rho, every.eps, _PEAK_PLACE)
 
     @cached_property
     def _sampled_load(self) -> Array:
@@ -255,10 +263,14 @@ class LoadCurve:
 
     @cached_property
     def _sampled_peaks(self) -> Array:
-        """p̂ρ/α there, shape (k, 1): of the finer contacts, carried to the curve's loads."""
-        fine = self._fine
-        carried = (self._sampled_load / fine.pressure) ** _PEAK_EXPONENT
-        return np.asarray(peak(fine.c) * carried * self.problem.rho / fine.alpha)[:, None]
+        """p̂ρ/α there, shape (k, 1)."""
+        fine, _ = self._fine
+        return np.asarray(self._carried(fine.c, fine.pressure) * self.problem.rho / fine.alpha)[:, None]
+
+    def _carried(self, c: Array, loads: Array) -> Array:
+        """Largest pressures of contacts there under loads of their own, carried to the curve's, shape (k,)."""
+        carried: Array = peak(c) * (self._sampled_load / loads) ** _PEAK_EXPONENT
+        return carried
 
     @cached_property
     def _peaks(self) -> Array:

@@ -31,7 +31,6 @@ from conveyor.contact.narrow import (
     ROUGH,
     Group,
     alike,
-    chosen_rows,
     fits,
     guess,
 )
@@ -44,7 +43,7 @@ from conveyor.contact.short_rule import ShortRule, full_rule, grades_for, panels
 from conveyor.contact.single import ROUNDING, SIGN_ORDER
 from conveyor.contact.solution import ContactSolution, SolveStats
 from conveyor.contact.solve import solve
-from conveyor.contact.spectral import Contact, equilibrium, equilibrium_of_orders
+from conveyor.contact.spectral import Contact, chosen_rows, equilibrium, equilibrium_of_orders
 from conveyor.contact.tabled import Tabled
 from conveyor.errors import InputError, NoSolutionError
 

@@ -13,9 +13,11 @@ from numpy.typing import NDArray
 from conveyor.contact.bessel import bessel_j, enough_orders
 from conveyor.contact.creep import CreepSpectrum
 from conveyor.contact.energy import Strip
+from conveyor.contact.finer import peak_error
 from conveyor.contact.grid import GridContact
 from conveyor.contact.layers import Layer
-from conveyor.contact.pressure import growth, peak, peak_error, settled, sines, tail
+from conveyor.contact.pressure import peak, settled, sines, tail
+from conveyor.contact.problem import ContactProblem
 from conveyor.contact.quadrature import build_rule, series_rule, window_end
 from conveyor.contact.spectral import Contact, penetration
 
@@ -41,8 +43,8 @@ class Fields(Protocol):
     def peak(self) -> float:
         """Largest p̃."""
 
-    def peak_error(self) -> float:
-        """What resolution may do to the largest p̃, relative."""
+    def peak_error(self, problem: ContactProblem) -> float:
+        """What resolution may do to the largest p̃ under the problem's load, relative."""
 
     def edge_error(self) -> float:
         """What an edge layer that is not resolved may do to the edges, X."""
@@ -112,12 +114,9 @@ class SpectralFields:
         """Largest pressure of any strip."""
         return float(peak(self.contact.c).max())
 
-    def peak_error(self) -> float:
-        """That of the strip of which most is told, over the largest pressure."""
-        c, alpha = self.contact.c, self.contact.alpha
-        grown = np.array([growth(self.creep, float(half), c.shape[1]) for half in alpha])
-        highest = peak(c)
-        return float((peak_error(c, grown) * highest).max() / highest.max())
+    def peak_error(self, problem: ContactProblem) -> float:
+        """By a contact that follows the pressure further."""
+        return peak_error(problem, self.contact)
 
     def edge_error(self) -> float:
         """α/n of the tail; with the change by order two of 284 sharp scenes were off by more, 1.2 and 1.5 times."""
@@ -156,7 +155,7 @@ class GridFields:
         """Largest pressure of a node."""
         return float(self.grid.pressure.max())
 
-    def peak_error(self) -> float:
+    def peak_error(self, problem: ContactProblem) -> float:  # noqa: ARG002 as every field has it
         """The step to the lower neighbour of the highest node."""
         p = np.concatenate([[0.0], self.grid.pressure, [0.0]])
         at = int(p.argmax())

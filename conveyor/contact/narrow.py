@@ -41,11 +41,12 @@ from conveyor.contact.short_rule import (
     panels_beyond,
     short_rules,
 )
-from conveyor.contact.single import DENSE, LOAD_FLOOR, Near
+from conveyor.contact.single import LOAD_FLOOR, Near
 from conveyor.contact.solution import Found, Outcome
-from conveyor.contact.spectral import Contact, equilibrium, equilibrium_of_orders
+from conveyor.contact.spectral import Contact, chosen_rows, equilibrium, equilibrium_of_orders
 from conveyor.contact.stack import Stack, kind, stacked
 from conveyor.contact.tabled import Tabled
+from conveyor.contact.tail import DENSE
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int_]
@@ -63,7 +64,6 @@ PLACE_SHARE = 1e-4  # of rtol: what may be left of an eccentricity
 # times the mismatch of load, times what the search's order is off by: what carrying a contact to its load misses of
 # friction (seen: 0.2 to 1 in the median, 7 to 30 in 99 % of scenes), and of its edges over α (0.3; 0.2 to 70)
 _CARRIED, _EDGES_CARRIED = 20.0, 100.0
-_SHAPE_CARRIED = 2.0  # the same of the largest pressure, times Σ v |c_v/c_1| that is not carried (0.7 seen)
 _CUT = 0.03  # of a cubic's last coefficient: what the cubic itself is off by between its points
 _MOST_PANELS = 12
 _ROLL = 0.98  # of its radius: the widest half width
@@ -343,10 +343,10 @@ class Search:
         self.move(rows[good])
         return _Evaluated(contact, lower, miss, tabled, y, known)
 
-    def carried(self, rows: Index, found: _Evaluated) -> tuple[Contact, Array, Array]:
+    def carried(self, rows: Index, found: _Evaluated) -> tuple[Contact, Array]:
         """Contacts just evaluated, carried to their loads as those of the low order go.
 
-        With the friction and the largest pressure that this may miss, relative.
+        With the friction that this may miss, relative.
         """
         contact, miss, y_from, here = found.contact, found.miss, found.place, found.known
         y_to = self.place[rows]
@@ -356,16 +356,12 @@ class Search:
         wider, heavier = np.exp(log_wider), np.exp(y_to - y_from)
         alpha = contact.alpha * wider
         eps = wider * contact.eps + alpha * shifted
-        first, c = contact.c[:, :1], contact.c * (heavier / wider)[:, None]
+        c = contact.c * (heavier / wider)[:, None]
         c[:, 1:_SEARCH] += c[:, :1] * change[3:].T
-        # what the cubics are off by: of friction, of the load, of the pressure's shape
+        # what the cubics are off by: of friction, of the load
         cut = _CUT * np.abs(self.cubics.parts[3][:, rows]) * (self.span[rows] / _SPAN) ** 3
         off = np.where(lossy, np.abs(_log(contact.friction, lossy) - here[2]) + cut[2], 0.0)
         off += np.abs(self.group.target[rows] + miss - y_from) + cut[0] * self.span[rows] / (_SPAN * RANGE)
-        shape = np.abs(contact.c[:, 1:] / first)
-        shape[:, : _SEARCH - 1] = np.abs(contact.c[:, 1:_SEARCH] / first - here[3:].T)
-        unlike = shape @ np.arange(2.0, c.shape[1] + 1.0)
-        missed = np.abs(miss)
         met = Contact(
             alpha,
             eps,
@@ -374,7 +370,7 @@ class Search:
             contact.friction * np.exp(np.where(lossy, dragged, 0.0)),
             contact.inside & (alpha + np.abs(eps) < self.group.rho[rows]),
         )
-        return met, _CARRIED * off * missed, _SHAPE_CARRIED * unlike * missed
+        return met, _CARRIED * off * np.abs(miss)
 
 
 def _some(rows: Index, size: int) -> Index | slice:
@@ -394,7 +390,7 @@ class _Closing:
     def __init__(self, search: Search, rtol: float) -> None:
         self.search, self.rtol = search, rtol
         self.tight = max(_LOAD_SHARE * rtol, LOAD_FLOOR)
-        self.error, self.most, self.edges, self.peak = np.ones((4, search.place.size))
+        self.error, self.most, self.edges = np.ones((3, search.place.size))
         self.wanted = np.full(search.place.size, lowest_order(rtol))
         self.done: dict[int, Outcome | Near | Left] = {}
 
@@ -423,12 +419,11 @@ class _Closing:
             if alive.size < rows.size:
                 rows, found = rows[alive], found.of(alive)
             fine = self.error[rows] <= rtol
-            met, left, peak = search.carried(rows, found)
+            met, left = search.carried(rows, found)
             error = self.error[rows] + left
             near = fine & met.inside & ((left <= self.tight) | (error <= _LOAD_LOOSE * rtol))
             at = np.flatnonzero(near)
             if at.size:
-                self.peak[rows[at]] = peak[at]
                 self.edges[rows[at]] += _EDGES_CARRIED / _CARRIED * left[at] * met.alpha[at]
                 part = _some(at, rows.size)
                 self._accept(rows[at], found.of(part), chosen_rows(met, part), error[at])
@@ -490,7 +485,6 @@ class _Closing:
                 energy_error=errors[1],
                 error_estimate=errors[0],
                 edge_error=float(self.edges[row]),
-                peak_error=float(self.peak[row]),
                 fields=SpectralFields(problem.layer, creep, contact, problem.rho),
             ),
             order=int(contact.c.shape[1]),
@@ -499,15 +493,3 @@ class _Closing:
             terms=creep.weights.size,
             way="one strip" if outside else "narrow",
         )
-
-
-def chosen_rows(contact: Contact, at: Index | slice) -> Contact:
-    """Some contacts of a batch, of one order or of several."""
-    return Contact(
-        contact.alpha[at],
-        contact.eps[..., at],
-        contact.c[..., at, :],
-        contact.pressure[..., at],
-        contact.friction[..., at],
-        contact.inside[..., at],
-    )

@@ -1,4 +1,4 @@
-"""Pressure of a strip from its sine series, p̃ = Σ c_v sin(vθ); its largest value, and how far that is off.
+"""Pressure of a strip from its sine series, p̃ = Σ c_v sin(vθ), and its largest value.
 
 Where rubber has loss at every length no order follows the pressure into the edges: the last coefficients ripple over
 the whole strip, by far more than the mean over a wave of them is off. So the upper half of the series is summed with
@@ -15,8 +15,6 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.creep import CreepSpectrum
-
 Array = NDArray[np.float64]
 
 FOLLOWED: Final = 0.05
@@ -24,11 +22,7 @@ FOLLOWED: Final = 0.05
 _PEAK_STEPS = 8
 _CHUNK = 4_000_000
 _TABLED = 1 << 16  # entries of a table of sines: a product with it costs no more than a transform
-_TAILS = 4.0  # errors of a series summed as it is over its tail
-_RIPPLE = 0.03  # of a smoothed ripple: up to 0.023 of it was the error of covers at orders 96 and 128
 _FALLS = 8.0  # times, from a quarter of the series to the next: powers up to the fifth fall by less
-_EDGE = 8  # samples between an edge and the wave of the order next to it
-_PER_DECADE = 24  # wave numbers at which the growth toward an edge is followed
 
 
 def sines(c: Array, angle: Array) -> Array:
@@ -70,42 +64,6 @@ def settled(c: Array) -> Array:
 def peak(c: Array) -> Array:
     """Largest pressure of contacts with coefficients c, shape (b, n): sampled, then Newton on dp/dθ = 0."""
     return _highest(settled(c))
-
-
-def peak_error(c: Array, growth: Array) -> Array:
-    """How far the largest pressures are off, relative, shape (b,); c has shape (b, n), `growth` (b,).
-
-    What it changes by when only half, and three quarters, of the series are summed, and a share of the ripple that is
-    smoothed away; or four times the tail of a series that is summed as it is. Toward an edge that the order does not
-    resolve the pressure may grow: to beyond the largest one, and the more the later coefficients matter.
-    """
-    n, highest = c.shape[1], peak(c)
-    parts = (_highest(_smoothed(c[:, :part])) for part in (n // 2, (3 * n) // 4))
-    change = sum((np.abs(part - highest) for part in parts), _RIPPLE * np.abs(_highest(c) - highest))
-    change = np.where(_plain(c), _TAILS * tail(c), change)
-    sampled = np.abs(sampled_sines(c, _EDGE * n))
-    edge = np.maximum(sampled[:, : _EDGE + 1].max(axis=1), sampled[:, -_EDGE - 1 :].max(axis=1))
-    error: Array = change / highest * growth**2 + np.maximum(edge / highest * growth - 1.0, 0.0)
-    return error
-
-
-def growth(creep: CreepSpectrum, alpha: float, n: int) -> float:
-    """How many times the pressure may grow from what order n sees of an edge to what it does not.
-
-    Over shorter lengths x it falls like x^1/2 where rubber is elastic, and grows at most like x^-1/2 where it flows:
-    where its loss tangent exceeds one, up to m = Σ d/ζ over j∞ at most.
-    """
-    lasting = creep.times > 0.0
-    first = FOLLOWED * n**2 / alpha
-    glass = creep.instantaneous + float(creep.weights[~lasting].sum())
-    last = float(np.sum(creep.weights[lasting] / creep.times[lasting])) / glass
-    if last <= first:
-        return 1.0
-    count = 2 + math.ceil(_PER_DECADE * math.log10(last / first))
-    j = creep.compliance(np.geomspace(first, last, count))
-    step = 0.5 * math.log(last / first) / (count - 1)
-    rise = float(np.cumsum(np.where(j.imag > j.real, step, -step)).max())
-    return math.exp(max(rise, 0.0))
 
 
 def tail(c: Array) -> Array:

@@ -27,21 +27,19 @@ from conveyor.contact.problem import Status
 from conveyor.contact.scene import Scene, State
 from conveyor.contact.solution import Found, Outcome
 from conveyor.contact.spectral import Contact, of_orders
+from conveyor.contact.tail import DENSE, FIRST_TAIL, longest_tail
 
 LOAD_FLOOR = 2e-13  # rounding of the load at a condition number of 100
 SIGN_ORDER = 256  # splits show below it; a dip that lasts is an edge layer that friction does not feel
 SETTLED = 1e-3  # change of friction below which tension is no longer the order's ripple
 ROUNDING = 1e-14
-DENSE = 192  # order beyond which a core is closed by a tail
 _CORE, _WIDEST_CORE = 64, 512
-_FIRST_TAIL, _LONGEST_TAIL = 1 << 10, 1 << 18
-_LONGEST_TABLE = 1 << 20  # orders times terms
 _BEYOND_REACH, _FAR = 2.0, 10.0  # that of the longest tail, and energy's error over rtol, where climbing ends
 _UNRESOLVED = 2.4  # power of n that they fall with before
 LAYER_OVER_ENERGY = (
     10.0  # friction's error over that of the energy where a layer is not resolved: 2 to 7 seen
 )
-_MISSED = 2.0  # times the mismatch: 1.05 seen in friction, 2.0 in the largest pressure, which takes both
+_MISSED = 2.0  # times the mismatch: 1.05 seen in friction
 _FIRST_LOAD_TOLERANCE = 1e-3  # while the order is still rising
 EDGE_LAYER = "a layer at the contact's edge is thinner than the order resolves: pressure ripples there"
 
@@ -88,7 +86,6 @@ def by_half_width(
             energy_error=energy,
             error_estimate=estimate,
             edge_error=edges,
-            peak_error=_MISSED * state.miss,
             fields=SpectralFields(scene.problem.layer, scene.creep, contact, rho, depth),
         ),
         order=int(contact.c.shape[1]),
@@ -108,8 +105,8 @@ def _converged(
     search = LoadSearch(scene.target, *(guess(scene) if near is None else (near.log_alpha, near.slope)))
     tight = max(1e-3 * rtol, LOAD_FLOOR)
     tolerance = _FIRST_LOAD_TOLERANCE
-    n, last = (ORDERS[0], ORDERS[0]) if near is None else (_CORE, _FIRST_TAIL)
-    longest = _longest(scene.creep.weights.size)
+    n, last = (ORDERS[0], ORDERS[0]) if near is None else (_CORE, FIRST_TAIL)
+    longest = longest_tail(scene.creep.weights.size)
     lost: tuple[int, float] | None = None
     while True:
         state = carry(scene, search, n, tolerance, last)
@@ -118,7 +115,7 @@ def _converged(
         pairs = _by_order(scene, search, state)
         by_order = OrderErrors(*(np.max(errors, axis=0) for errors in zip(*pairs, strict=True)))
         error = float(by_order.friction[0])
-        if error <= SETTLED and last <= _FIRST_TAIL and _pulls(state, rtol):
+        if error <= SETTLED and last <= FIRST_TAIL and _pulls(state, rtol):
             return None
         following = _next((n, last), pairs, rtol, longest)
         reach = resolution(scene, state.contact, longest) if last > n else math.inf
@@ -166,16 +163,6 @@ def _by_load(search: LoadSearch, miss: float) -> float:
     return _MISSED * miss * max(1.0, 0.0 if search.exponent is None else float(abs(search.exponent[0])))
 
 
-def _longest(terms: int) -> int:
-    """The last order of the longest tail: its tables fit in memory and in half a second; none of an elastic contact."""
-    if not terms:
-        return 0
-    last = _FIRST_TAIL
-    while 4 * last <= _LONGEST_TAIL and 4 * last * terms <= _LONGEST_TABLE:
-        last *= 4
-    return last
-
-
 def _next(
     orders: tuple[int, int], pairs: list[OrderErrors], rtol: float, longest: int, *, bounds: bool = False
 ) -> tuple[int, int] | None:
@@ -189,7 +176,7 @@ def _next(
         following = next_order(n, float(pairs[0].friction[0]), rtol)
         if not longest:
             return (following, following) if following > n else None
-        return (following, following) if following <= DENSE else (_CORE, _FIRST_TAIL)
+        return (following, following) if following <= DENSE else (_CORE, FIRST_TAIL)
     core, tail = (float((pair.most if bounds else pair.friction)[0]) for pair in pairs)
     if core > max(tail, rtol):
         return (2 * n, max(last, 8 * n)) if n < _WIDEST_CORE else None

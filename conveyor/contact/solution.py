@@ -70,7 +70,9 @@ class Found:
     error_estimate: float
     edge_error: float  # X
     fields: Fields
-    peak_error: float = 0.0  # of the largest pressure, relative, beside that of `fields`
+    peak_error: float = (
+        0.0  # by the strips' places: of the largest pressure, relative, beside that of `fields`
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -226,9 +228,9 @@ class ContactSolution:
 
     @cached_property
     def peak_error(self) -> float:
-        """Estimated relative error of the largest pressure [-]."""
+        """Estimated relative error of the largest pressure [-]; formed now, by a contact of higher order."""
         solved = self._need()
-        return solved.peak_error + solved.fields.peak_error() + self.error_estimate
+        return solved.peak_error + solved.fields.peak_error(self.problem) + self.error_estimate
 
     @property
     def patches(self) -> Array:

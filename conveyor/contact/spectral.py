@@ -46,6 +46,18 @@ class Contact:
     inside: NDArray[np.bool_]
 
 
+def chosen_rows(contact: Contact, at: NDArray[np.int_] | slice) -> Contact:
+    """Some contacts of a batch, of one order or of several."""
+    return Contact(
+        contact.alpha[at],
+        contact.eps[..., at],
+        contact.c[..., at, :],
+        contact.pressure[..., at],
+        contact.friction[..., at],
+        contact.inside[..., at],
+    )
+
+
 @lru_cache(maxsize=32)
 def _signs(n: int) -> tuple[Array, Array, Array]:
     """Factors of Re S and Im S in the matrix, and of the retardation products, shape (n+1, n)."""

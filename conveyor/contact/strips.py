@@ -159,6 +159,11 @@ def loads(scene: Scene, centre: Array, alpha: Array) -> Array:
     return carried
 
 
+def at_places(scene: Scene, n: int, contact: Contact) -> Contact:
+    """Strips of order n at the places of others."""
+    return _Places(scene, n, contact.eps[None], contact.alpha[None]).contact
+
+
 class _Places:
     """Strips at several trial places at once: their coefficients and what is not yet in balance.
 
@@ -209,8 +214,12 @@ class _Places:
 
     def strips(self, jacobian: Array, left: float) -> Strips:
         """The first place as a contact."""
-        contact = pressed(self.c[0], self.slope[0], (self.alpha[0], self.centre[0]), self.scene.problem.rho)
-        return Strips(contact, float(self.depth[0].mean()), jacobian, left)
+        return Strips(self.contact, float(self.depth[0].mean()), jacobian, left)
+
+    @property
+    def contact(self) -> Contact:
+        """The strips at the first place."""
+        return pressed(self.c[0], self.slope[0], (self.alpha[0], self.centre[0]), self.scene.problem.rho)
 
 
 def _window(scene: Scene, gap: float, span: float, panels: Panels = SOLVE) -> tuple[Array, ComplexArray]:

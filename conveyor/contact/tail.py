@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,8 +24,24 @@ from conveyor.contact.creep import CreepSpectrum
 
 Array = NDArray[np.float64]
 
+DENSE: Final = 192
+"""Order beyond which a core is closed by a tail."""
+FIRST_TAIL: Final = 1 << 10
+"""Last order of the first tail that is tried."""
+_LONGEST_TAIL = 1 << 18
+_LONGEST_TABLE = 1 << 20  # orders times terms
 _BLOCK = 32
 _SEGMENT = 4096  # orders whose tables are held together
+
+
+def longest_tail(terms: int) -> int:
+    """The last order of the longest tail: its tables fit in memory and in half a second; none of an elastic contact."""
+    if not terms:
+        return 0
+    last = FIRST_TAIL
+    while 4 * last <= _LONGEST_TAIL and 4 * last * terms <= _LONGEST_TABLE:
+        last *= 4
+    return last
 
 
 class _Segment:

@@ -22,8 +22,8 @@ from conveyor.contact.inside import FAR, HARMONICS, MIDDLE, NEAR, OCTAVE, RAMP, 
 from conveyor.contact.interior import interior, path_amplitude
 from conveyor.contact.layer_shapes import incompressible_shapes
 from conveyor.contact.layers import Confined, confined_symbol
-from conveyor.contact.single import DENSE
 from conveyor.contact.solution import ContactSolution
+from conveyor.contact.tail import DENSE
 
 Array = NDArray[np.float64]
 
