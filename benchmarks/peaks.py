@@ -36,7 +36,6 @@ from conveyor.indentation import RollContact, to_problem
 
 RTOLS, FINE = (1e-2, 1e-4, 1e-6), 1e-10
 KNOWN, LEAST = 0.3, 1e-9  # error told of the finer solution over the error seen; errors that are rounding
-
 LIGHTER = 0.1  # lightest load of a curve over the heaviest
 
 
@@ -89,7 +88,7 @@ def main() -> None:
     kinds = {
         "covers": covers(),
         "sharp": scenes(5),
-        "extreme": [random_problem(np.random.default_rng([606, k])) for k in range(400)],
+        "extreme": [random_problem(np.random.default_rng([606, k])) for k in range(200)],
     }
     for kind, problems in kinds.items():
         best = [exact(problem) for problem in problems]

@@ -58,12 +58,28 @@ def sampled_sines(c: Array, count: int) -> Array:
 
 def settled(c: Array) -> Array:
     """Coefficients to sum the pressure with, shape (b, n) as those that the equations give."""
-    return np.where(_plain(c)[:, None], c, _smoothed(c))
+    return np.where(_plain(c)[:, None], c, c * _weights(c.shape[1]))
 
 
 def peak(c: Array) -> Array:
     """Largest pressure of contacts with coefficients c, shape (b, n): sampled, then Newton on dp/dθ = 0."""
-    return _highest(settled(c))
+    c = settled(c)
+    n = c.shape[1]
+    v = np.arange(1.0, n + 1.0)
+    angle = np.linspace(0.0, np.pi, 8 * n + 17)
+    sampled = sampled_sines(c, 8 * n + 16)
+    best = np.argmax(sampled, axis=1)
+    theta = angle[best]
+    for _ in range(_PEAK_STEPS):
+        turn = np.multiply.outer(theta, v)
+        first = np.einsum("bv,bv->b", np.cos(turn), v * c)
+        second = -np.einsum("bv,bv->b", np.sin(turn), v * v * c)
+        curved = second < 0.0
+        theta = np.where(curved, theta - first / np.where(curved, second, -1.0), theta)
+        theta = np.clip(theta, angle[best] - angle[1], angle[best] + angle[1])
+    refined = np.einsum("bv,bv->b", np.sin(np.multiply.outer(theta, v)), c)
+    highest: Array = np.maximum(refined, sampled.max(axis=1))
+    return highest
 
 
 def tail(c: Array) -> Array:
@@ -85,28 +101,3 @@ def _weights(n: int) -> Array:
     place = np.arange(1.0, n + 1.0) / (n + 1.0)
     weights: Array = np.cos(np.pi * np.maximum(place - 0.5, 0.0)) ** 2
     return weights
-
-
-def _smoothed(c: Array) -> Array:
-    smoothed: Array = c * _weights(c.shape[1])
-    return smoothed
-
-
-def _highest(c: Array) -> Array:
-    """Largest value of the series, shape (b,): sampled, then Newton on dp/dθ = 0."""
-    n = c.shape[1]
-    v = np.arange(1.0, n + 1.0)
-    angle = np.linspace(0.0, np.pi, 8 * n + 17)
-    sampled = sampled_sines(c, 8 * n + 16)
-    best = np.argmax(sampled, axis=1)
-    theta = angle[best]
-    for _ in range(_PEAK_STEPS):
-        turn = np.multiply.outer(theta, v)
-        first = np.einsum("bv,bv->b", np.cos(turn), v * c)
-        second = -np.einsum("bv,bv->b", np.sin(turn), v * v * c)
-        curved = second < 0.0
-        theta = np.where(curved, theta - first / np.where(curved, second, -1.0), theta)
-        theta = np.clip(theta, angle[best] - angle[1], angle[best] + angle[1])
-    refined = np.einsum("bv,bv->b", np.sin(np.multiply.outer(theta, v)), c)
-    highest: Array = np.maximum(refined, sampled.max(axis=1))
-    return highest

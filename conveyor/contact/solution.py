@@ -70,9 +70,7 @@ class Found:
     error_estimate: float
     edge_error: float  # X
     fields: Fields
-    peak_error: float = (
-        0.0  # by the strips' places: of the largest pressure, relative, beside that of `fields`
-    )
+    peak_error: float = 0.0  # of the largest pressure, relative: what its strips' places are off by
 
 
 @dataclass(frozen=True, eq=False)
