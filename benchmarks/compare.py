@@ -1,6 +1,6 @@
-"""A full factorial: 50 compounds x 15 temperatures x 10 speeds on one conveyor, one core.
+"""A full factorial: 50 compounds x 15 temperatures x 10 speeds on one conveyor, in one process or several.
 
-    python benchmarks/compare.py [COMPOUNDS]
+    python benchmarks/compare.py [COMPOUNDS] [WORKERS]
 
 The compounds are the shelf's illustrative covers with other loss and stiffness: as different for the solver as fifty
 measured ones. Printed beside ten 200x200 NumPy solves, as benchmarks/speed.py does.
@@ -20,6 +20,7 @@ import numpy as np
 
 import conveyor
 from conveyor import shelf
+from conveyor.cli.workers import executor_of
 from conveyor.models import RubberCompound
 from conveyor.units import si
 
@@ -56,18 +57,21 @@ def reference() -> float:
     return min(times)
 
 
-def main(count: int) -> None:
+def main(count: int, workers: int) -> None:
     line = conveyor.load(SPEC)
     compounds = varied(count)
     temperatures = [f"{t:g} degC" for t in np.linspace(-30, 40, 15)]
     speeds = [f"{v:g} m/s" for v in np.linspace(4.5, 7.2, 10)]
     conveyor.compare_compounds(line, compounds[:1], temperatures=temperatures[:2])
-    start, cpu = time.perf_counter(), time.process_time()
-    found = conveyor.compare_compounds(line, compounds, temperatures=temperatures, speeds=speeds)
-    wall, cpu = time.perf_counter() - start, time.process_time() - cpu
+    with executor_of(None, workers) as executor:
+        start, cpu = time.perf_counter(), time.process_time()
+        found = conveyor.compare_compounds(
+            line, compounds, temperatures=temperatures, speeds=speeds, executor=executor, workers=workers
+        )
+        wall, cpu = time.perf_counter() - start, time.process_time() - cpu
     scenes = len(found.scenes)
     print(f"{scenes} scenes ({count} compounds x 15 temperatures x 10 speeds), {len(found.refused)} refused")
-    print(f"{wall:.1f} s, {cpu:.1f} s of processor time: {1e3 * cpu / scenes:.2f} ms a scene")
+    print(f"{wall:.1f} s, {1e3 * wall / scenes:.2f} ms a scene; {cpu:.1f} s of this process")
     print(
         f"largest error estimate {max(s.error for s in found.scenes):.1e}; "
         f"ten 200x200 solves {1e3 * reference():.2f} ms"
@@ -78,4 +82,4 @@ def main(count: int) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 50)
+    main(*(int(given) for given in (sys.argv[1:] + ["50", "1"][len(sys.argv) - 1 :])))

@@ -254,7 +254,7 @@ def test_compare_writes_what_it_is_asked_for(tmp_path: Path) -> None:
     tangents = tmp_path / "tan.svg"
     done = run(
         "compare", OVERLAND, "-c", "s100", "-c", "s120", "--temperature", "-25,20 degC", "-o", book,
-        "--csv", table, "--plot", figure, "--tan-delta", tangents,
+        "--csv", table, "--plot", figure, "--tan-delta", tangents, "--workers", 2,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert "S100" in done.stdout

@@ -19,6 +19,7 @@ from conveyor.cli.app import (
 )
 from conveyor.cli.outputs import FIGURE
 from conveyor.cli.session import Session, command
+from conveyor.cli.workers import begin, executor_of
 from conveyor.errors import InputError, NoSolutionError
 
 
@@ -28,6 +29,7 @@ from conveyor.errors import InputError, NoSolutionError
         "conveyor compare overland.yaml -c standard-cover -c low-rolling-resistance-cover",
         "conveyor compare overland.yaml -c s100 -c mine.yaml --temperature -30:40:5",
         "conveyor compare overland.yaml -c s100 -c s120 --speed 5,6 -o compounds.xlsx --html compounds.html",
+        "conveyor compare overland.yaml -c s100 -c s120 -c mine.yaml --temperature -40:40:2 --workers 3",
         'conveyor compare overland.yaml -c s100 -c s120 --temperature "0:100:20 degF" --units us',
     ),
 )
@@ -76,8 +78,10 @@ def compare(
     tan_delta: Annotated[
         Path | None, option("Draw the loss tangents and the band the rolls excite to this file.", "FILE")
     ] = None,
+    workers: Annotated[int, option("Processes.", "N", min=1, max=1024)] = 1,
 ) -> None:
     """Compare rubber compounds on a conveyor: power, energy, cost and payback over temperature and speed."""
+    begin(None, workers)
     to = session.outputs(spec, *compounds)
     to.reports(output, html, tables, parquet=parquet)
     to.file("--csv", csv, ".csv")
@@ -87,7 +91,7 @@ def compare(
 
     line = session.read(spec)
     system = session.system(line)
-    with session.progress("compounds") as told:
+    with session.progress("compounds") as told, executor_of(None, workers) as executor:
         comparison = compare_compounds(
             line,
             compounds,
@@ -99,6 +103,8 @@ def compare(
             base=base,
             extra_costs=dict(_amount(item) for item in extra_costs or ()),
             shelves=session.shelf or (),
+            executor=executor,
+            workers=workers,
             progress=told,
         )
     if not comparison.scenes:

@@ -7,10 +7,12 @@ reason, never filled in.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import BrokenExecutor, CancelledError, Executor
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
-from typing import Final, get_args
+from typing import Final, NamedTuple, get_args
 
 from pydantic import TypeAdapter, ValidationError
 
@@ -21,9 +23,16 @@ from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.operation import BeltSpeed
 from conveyor.models.variants import CoverChoice, distinct, with_compound
 from conveyor.pipeline import Kept, Progress
-from conveyor.studies.comparison_scenes import ComparedScene, Coverage, Refusal, of_compound, strands_of
+from conveyor.studies.comparison_scenes import (
+    ComparedScene,
+    CompoundStudy,
+    Coverage,
+    Refusal,
+    of_compound,
+    strands_of,
+)
 from conveyor.studies.duty import CalculatedYear, analyse_duty
-from conveyor.units import Quantity, quantity
+from conveyor.units import Quantity, quantity, text
 
 __all__ = [
     "CalculatedComparison",
@@ -114,6 +123,8 @@ def compare_compounds(
     extra_costs: Mapping[str, float] | None = None,
     rtol: float = RTOL,
     shelves: Iterable[str | Path] = (),
+    executor: Executor | None = None,
+    workers: int = 1,
     progress: Progress | None = None,
 ) -> CalculatedComparison:
     """Calculate a conveyor with every compound at every temperature and speed.
@@ -136,6 +147,10 @@ def compare_compounds(
         Relative tolerance of the contacts [-].
     shelves : iterable of path
         Further folders of compounds.
+    executor : concurrent.futures.Executor, optional
+        Where groups of compounds are calculated; one after the other here without one.
+    workers : int
+        Of the executor: as many groups.
     progress : callable, optional
         Called with the number of compounds done and their total.
 
@@ -148,6 +163,8 @@ def compare_compounds(
     ------
     InputError
         No compound, one twice, an unknown base or name, a value without unit or outside its range.
+    ConveyorError
+        A worker was lost.
     """
     if cover not in get_args(CoverChoice):
         raise InputError(f'cover = "{cover}": allowed are {", ".join(get_args(CoverChoice))}')
@@ -156,13 +173,16 @@ def compare_compounds(
     runs = [conveyor.belt.speed] if speeds is None else _quantities(speeds, "speed")
     costs = {_named(name, chosen): cost for name, cost in (extra_costs or {}).items()}
     reference = chosen[0].name if base is None else _named(base, chosen)
-    studies, kept = [], Kept()
-    for done, compound in enumerate(chosen):
-        if progress is not None:
-            progress(done, len(chosen))
-        studies.append(of_compound(conveyor, compound, at, runs, cover=cover, rtol=rtol, kept=kept))
+    job = _Job(conveyor, tuple(map(text, at)), tuple(map(text, runs)), cover, rtol)
+    answers: list[_Answer] = []
     if progress is not None:
-        progress(len(chosen), len(chosen))
+        progress(0, len(chosen))
+    for some in _in_turn(job, chosen) if executor is None else _on(executor, workers, job, chosen):
+        answers += some
+        if progress is not None:
+            progress(len(answers), len(chosen))
+    studies = [answer.study for answer in answers]
+    years = zip(chosen, (answer.year for answer in answers), strict=True)
     return CalculatedComparison(
         conveyor,
         chosen,
@@ -172,28 +192,83 @@ def compare_compounds(
         tuple(one for study in studies for one in study.refused),
         tuple(one for study in studies for one in study.coverage),
         costs,
-        _years(conveyor, chosen, cover, rtol),
+        {compound.name: year for compound, year in years if year is not None},
     )
 
 
-def _years(
-    conveyor: Conveyor, compounds: Sequence[RubberCompound], cover: CoverChoice, rtol: float
-) -> dict[str, CalculatedYear]:
-    """The year of a duty with each compound; none of one that a bar of it has no answer for, or no data."""
-    years: dict[str, CalculatedYear] = {}
-    if conveyor.duty:
-        for compound in compounds:
-            changed = with_compound(conveyor, compound, cover)
-            try:
-                year = analyse_duty(changed, rtol=rtol)
-            except ConveyorError:
-                continue  # its scenes say why; the report's remarks says that it has no year
-            strands = strands_of(changed, cover)
-            bands = [(row.temperature, row.excited[strand]) for row in year.rows for strand in strands]
-            asked = [Coverage(compound.name, t, band, compound.frequencies(t)) for t, band in bands if band]
-            if all(one.covered for one in asked):
-                years[compound.name] = year
-    return years
+class _Answer(NamedTuple):
+    """One compound: its scenes, and its year where it has one."""
+
+    study: CompoundStudy
+    year: CalculatedYear | None
+
+
+@dataclass(frozen=True, eq=False)
+class _Job:
+    """What every compound is asked, in whatever process: quantities as text, as specs pickle theirs."""
+
+    conveyor: Conveyor
+    temperatures: tuple[str, ...]
+    speeds: tuple[str, ...]
+    cover: CoverChoice
+    rtol: float
+
+    def of(self, compound: RubberCompound, kept: Kept) -> _Answer:
+        """What one answers."""
+        study = of_compound(
+            self.conveyor,
+            compound,
+            [quantity(one, "temperature") for one in self.temperatures],
+            [quantity(one, "speed") for one in self.speeds],
+            cover=self.cover,
+            rtol=self.rtol,
+            kept=kept,
+        )
+        return _Answer(study, _year(self.conveyor, compound, self.cover, self.rtol))
+
+
+def _in_turn(job: _Job, compounds: Sequence[RubberCompound]) -> Iterator[list[_Answer]]:
+    """Every compound after the other; what those before had in common with it is not made again."""
+    kept = Kept()
+    return ([job.of(compound, kept)] for compound in compounds)
+
+
+def _on(
+    executor: Executor, workers: int, job: _Job, compounds: Sequence[RubberCompound]
+) -> Iterator[list[_Answer]]:
+    """Compounds in as many groups as there are workers."""
+    count = max(1, min(workers, len(compounds)))
+    ends = [len(compounds) * k // count for k in range(count + 1)]
+    asked = [executor.submit(_several, job, compounds[a:b]) for a, b in pairwise(ends)]
+    try:
+        for future in asked:
+            yield future.result()
+    except (BrokenExecutor, CancelledError, BrokenPipeError):
+        raise ConveyorError("a worker of the comparison was lost (out of memory, or stopped)") from None
+    finally:
+        for future in asked:
+            future.cancel()
+
+
+def _several(job: _Job, compounds: Sequence[RubberCompound]) -> list[_Answer]:
+    return [answer for some in _in_turn(job, compounds) for answer in some]
+
+
+def _year(
+    conveyor: Conveyor, compound: RubberCompound, cover: CoverChoice, rtol: float
+) -> CalculatedYear | None:
+    """The year of a duty; None without one, or where a bar of it has no answer, or no data."""
+    if not conveyor.duty:
+        return None
+    changed = with_compound(conveyor, compound, cover)
+    try:
+        year = analyse_duty(changed, rtol=rtol)
+    except ConveyorError:
+        return None  # its scenes say why; the report's remarks say that it has no year
+    strands = strands_of(changed, cover)
+    bands = [(row.temperature, row.excited[strand]) for row in year.rows for strand in strands]
+    asked = [Coverage(compound.name, t, band, compound.frequencies(t)) for t, band in bands if band]
+    return year if all(one.covered for one in asked) else None
 
 
 def _compounds(

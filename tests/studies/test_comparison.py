@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import astuple
+from multiprocessing import get_context
+
 import numpy as np
 import pytest
 
 from conveyor import shelf
-from conveyor.errors import InputError
+from conveyor.errors import ConveyorError, InputError
 from conveyor.models import RubberCompound
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
@@ -193,6 +197,42 @@ def test_softened_compounds_are_compared_softened(line):
 def test_refusals(line, names, options, message):
     with pytest.raises(InputError, match=message):
         compare_compounds(line, names, **options)
+
+
+def test_workers_find_what_one_process_does(line, found):
+    seen = []
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as processes:
+        beside = compare_compounds(
+            line,
+            NAMES,
+            temperatures=[quantity(one) for one in TEMPERATURES],
+            speeds=SPEEDS,
+            executor=processes,
+            workers=2,
+            progress=lambda *told: seen.append(told),
+        )
+    assert seen == [(0, 3), (1, 3), (3, 3)]
+    assert len(beside.scenes) == len(found.scenes)
+    for one, other in zip(beside.scenes, found.scenes, strict=True):
+        # rounding of contacts solved beside others
+        assert astuple(one)[0] == astuple(other)[0]
+        for mine, theirs in zip(astuple(one)[1:-1], astuple(other)[1:-1], strict=True):
+            assert mine == (theirs if theirs is None else pytest.approx(theirs, rel=1e-8))
+    assert [(o.compound, o.temperature, o.covered) for o in beside.coverage] == [
+        (o.compound, o.temperature, o.covered) for o in found.coverage
+    ]
+
+
+def test_a_lost_worker_is_told(line):
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as processes:
+
+        def told(*_):
+            processes.submit(int).result()
+            for process in processes._processes.values():
+                process.kill()
+
+        with pytest.raises(ConveyorError, match="a worker of the comparison was lost"):
+            compare_compounds(line, NAMES, executor=processes, progress=told)
 
 
 def test_progress_counts_the_compounds(line):
