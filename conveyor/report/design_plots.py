@@ -60,7 +60,10 @@ class Shown:
         return self.units[k].beside(self.labels[k])
 
     def effects(self) -> Figure:
-        """Effect of each field to what is sought first: means over all other fields, and from least to most."""
+        """Effect of each field to what is sought first: means over all other fields, and from least to most.
+
+        Bars are two standard errors of a mean of draws to both sides.
+        """
         from matplotlib.figure import Figure
 
         order = self.found.ordered
@@ -78,6 +81,13 @@ class Shown:
             )
             axis.fill_between(at, low, high, color=colour(0), alpha=0.12, linewidth=0)
             axis.plot(at, middle, color=colour(0), marker="o", markersize=4)
+            known = [effect for effect in effects if effect.error is not None]
+            if known:
+                spread = self.units[0]([2.0 * (effect.error or 0.0) for effect in known])
+                means = self.units[0]([effect.mean for effect in known])
+                axis.errorbar(
+                    [effect.at for effect in known], means, spread, fmt="none", ecolor=colour(0), capsize=3
+                )
             axis.grid(visible=True, color="0.9")
             axis.spines[["top", "right"]].set_visible(False)
             grouped(axis.yaxis)

@@ -32,7 +32,8 @@ _CAPTIONS: Final = {
     "front": "Every design by the first two figures that are sought; of those that keep the limits none beats "
     "the joined ones in both. Numbers are those of the designs.",
     "effects": "Mean of what is sought first over all other fields, at each value of a field; shaded from the least to "
-    "the most of any design. The field that matters most comes first.",
+    "the most of any design. The field that matters most comes first. Bars, where fields are drawn: two standard "
+    "errors of the mean to both sides.",
     "map": "Best over all other fields at each pair of values, of designs that keep the limits; in brackets where none "
     "does.",
     "lines": "A line a design, light where what is sought first is best; grey do not keep the limits.",
@@ -145,13 +146,15 @@ def effects(study: Explored) -> Table:
     )
     figure = study.figures[next(iter(study.sought))]
     kind = priced(figure.kind, study.currency)
+    told = {"mean": "mean", "least": "least", "most": "most"}
+    if study.plan.drawn:
+        told["error"] = "standard error of the mean"
     columns = (
         Column("field", "text", "0"),
         Column("value", "text", "1.value"),
         Column("designs", "count", "1.count"),
-        *(Column(f"{figure.label}, {words}", kind, f"1.{get}", key=get)
-          for words, get in (("mean", "mean"), ("least", "least"), ("most", "most"))),
-    )  # fmt: skip
+        *(Column(f"{figure.label}, {words}", kind, f"1.{get}", key=get) for get, words in told.items()),
+    )
     heading = "Effect of each field"
     return Table(
         "effects", "Effects", heading, columns, rows, (OnPage("effects", heading, printed=False),), named=2

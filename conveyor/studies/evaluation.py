@@ -76,6 +76,9 @@ class MainEffect:
         Designs.
     mean, least, most : float
         Of what is sought first [SI].
+    error : float or None
+        Standard error of the mean, of a field that is drawn [SI]: the fields drawn beside it have other values in every
+        part. None of one draw, and of a field all of whose values meet the same others.
     """
 
     at: float
@@ -84,6 +87,7 @@ class MainEffect:
     mean: float
     least: float
     most: float
+    error: float | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,10 +165,19 @@ class Explored:
                 float(values_of[rows].mean()),
                 float(values_of[rows].min()),
                 float(values_of[rows].max()),
+                self._standard_error(rows) if varied.path in self.plan.drawn else None,
             )
             for value, rows in groups
             if len(rows)
         )
+
+    def _standard_error(self, rows: NDArray[np.int64]) -> float | None:
+        """Of the mean of what is sought first of some designs, each draw counted once; None of one draw."""
+        drawn = [k for k, field in enumerate(self.fields) if field.path in self.plan.drawn]
+        values = self.values[rows][:, drawn]
+        _, draw, count = np.unique(values, axis=0, return_inverse=True, return_counts=True)
+        means = np.bincount(draw.ravel(), self.found[rows, 0]) / count
+        return float(means.std(ddof=1) / math.sqrt(len(means))) if len(means) > 1 else None
 
     @property
     def ordered(self) -> tuple[int, ...]:

@@ -14,6 +14,7 @@ from conveyor import shelf
 from conveyor.analysis import studies
 from conveyor.errors import InputError
 from conveyor.models.study import StudyPlan
+from conveyor.report.design_tables import of_study
 from conveyor.studies.campaign import Answers, Campaign, designs, run
 from conveyor.studies.designs import front, mean, percentile
 from conveyor.studies.duty import analyse_duty
@@ -227,6 +228,36 @@ def test_limits_and_front_and_what_fields_do(line, answers):
         effects = found.effects(field)
         assert [effect.count for effect in effects] == [2, 2]
         assert np.mean([effect.mean for effect in effects]) == pytest.approx(found.found[:, 0].mean())
+
+
+def test_means_of_draws_have_a_standard_error_that_counts_each_draw_once(line, answers):
+    drawn = {"belt.speed": {"low": "1 m/s", "high": "1.4 m/s"}}
+    study, every = designed(
+        line,
+        answers,
+        axes={"idlers.carry.spacing": ["1 m", "1.2 m"]},
+        samples={"count": 12, "fields": drawn},
+        states=[],
+        figures=["motor_power"],
+        best={},
+    )
+    found = explored(study, every)
+    by_path = {one.path: found.effects(k) for k, one in enumerate(found.fields)}
+    assert [effect.error for effect in by_path["idlers.carry.spacing"]] == [None, None]
+    speeds = found.values[:, [one.path for one in found.fields].index("belt.speed")]
+    edges = np.linspace(speeds.min(), speeds.max(), 9)
+    for effect in by_path["belt.speed"]:
+        low, high = edges[np.searchsorted(edges, effect.at) - 1 :][:2]
+        inside = (speeds >= low) & ((speeds < high) | (high == edges[-1]))
+        means = [found.found[inside & (speeds == one), 0].mean() for one in np.unique(speeds[inside])]
+        assert effect.count == 2 * len(means)
+        if len(means) == 1:
+            assert effect.error is None
+        else:
+            assert effect.error == pytest.approx(np.std(means, ddof=1) / np.sqrt(len(means)), rel=1e-9)
+    assert any(effect.error for effect in by_path["belt.speed"])
+    table = of_study(found, "SI")["effects"]
+    assert [column.key for column in table.columns][-1] == "error"
 
 
 def test_a_design_with_a_state_without_an_answer_says_which(line, answers):
