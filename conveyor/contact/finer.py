@@ -7,7 +7,7 @@ the matrix does not follow, a tail down to the shortest of them.
 from __future__ import annotations
 
 import math
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -15,36 +15,77 @@ from conveyor.contact.creep import CreepSpectrum
 from conveyor.contact.pressure import FOLLOWED, peak
 from conveyor.contact.problem import ContactProblem
 from conveyor.contact.scene import Scene
-from conveyor.contact.spectral import Contact, equilibrium
+from conveyor.contact.spectral import Contact, assemble, equilibrium
 from conveyor.contact.strips import at_places
 from conveyor.contact.tail import DENSE, longest_tail
 
 _STEP = 64  # orders that a core with a tail is a multiple of
 _LONG_CORE = 128
+_LOW, _APART = 16, 1e-3  # order and ln α of the contacts that tell what moves with the load
 _PER_DECADE = 24  # wave numbers at which the loss tangent is looked at
 _MARGIN: Final = 3.0
 """Errors over what the finer contact differs by: about one in the median of 1,100 covers and sharp scenes, 1.5 at most
 (docs/accuracy.md)."""
 
 
-def peak_error(problem: ContactProblem, contact: Contact) -> float:
-    """How far the largest pressure of a contact under the problem's load is off, relative.
+class Errors(NamedTuple):
+    """How far the largest pressure is off, relative, and how far the edges are, X."""
 
-    Three times what the finer contact's differs by at the same load, and what the load differs by at the same half
-    widths: the largest pressure goes like its square root, by a power between -1/2 and 3/2. As much as itself where the
-    finer order has no contact on the roll.
+    peak: float
+    edges: float
+
+
+def errors(problem: ContactProblem, contact: Contact) -> Errors:
+    """What a finer contact says of a contact's largest pressure and of its edges under the problem's load.
+
+    Of what the finer contact's load differs by, the largest pressure takes as much as the half width for that load has
+    another one. Where a thin plate gives, the load hardly rises with the half width: both feel it by a multiple.
     """
-    scene, n = Scene.of(problem), contact.c.shape[1]
+    scene = Scene.of(problem)
+    shape, load, shift = _differences(scene, contact)
+    if contact.alpha.size > 1:
+        return Errors(shape + load, shift)
+    peak_moves, edges_move = _with_the_load(scene, contact)
+    return Errors(shape + max(1.0, abs(peak_moves - 0.5)) * load, shift + edges_move * load)
+
+
+def peak_error(problem: ContactProblem, contact: Contact) -> float:
+    """How far the largest pressure of a contact under the problem's load is off, relative; of a curve's contact."""
+    shape, load, _ = _differences(Scene.of(problem), contact)
+    return shape + load
+
+
+def _differences(scene: Scene, contact: Contact) -> tuple[float, float, float]:
+    """Three times what the finer contact's largest pressure differs by at the same load; what load and centres do.
+
+    All at the same half widths. With the load the largest pressure goes like its square root, by a power between -1/2
+    and 3/2. As much as itself where the finer order has no contact on the roll.
+    """
+    n = contact.c.shape[1]
     if contact.alpha.size > 1:
         finer, lacks = at_places(scene, max(_STEP, 2 * n), contact), 1.0
     else:
         finer, lacks = _finer(scene, contact)
     load = float(finer.pressure.sum())
     if not (finer.inside.all() and load > 0.0):
-        return 1.0
+        return 1.0, 0.0, float(contact.alpha.max())
     carried = math.sqrt(float(contact.pressure.sum()) / load)
     change = float(peak(finer.c).max() / peak(contact.c).max()) * carried - 1.0
-    return _MARGIN * abs(change) * lacks + abs(math.log(load / problem.pressure))
+    shift = float(np.abs(finer.eps - contact.eps).max())
+    return _MARGIN * abs(change) * lacks, abs(math.log(load / scene.problem.pressure)), shift
+
+
+def _with_the_load(scene: Scene, contact: Contact) -> tuple[float, float]:
+    """What ln of the largest pressure, and the edges, change by as ln p̃_m does, by low orders at two half widths."""
+    alpha = contact.alpha[0] * np.exp([-_APART, _APART])
+    matrix = assemble(scene.rule(float(alpha[1])), scene.creep, alpha, _LOW)
+    found = equilibrium(matrix, alpha, scene.problem.rho, np.repeat(contact.eps, 2))
+    if not (found.inside.all() and found.pressure[1] > found.pressure[0] > 0.0):
+        return 1.0, float(contact.alpha[0])
+    rise = math.log(found.pressure[1] / found.pressure[0])
+    highest = peak(found.c)
+    edges = np.diff([found.eps - found.alpha, found.eps + found.alpha])
+    return math.log(highest[1] / highest[0]) / rise, float(np.abs(edges).max()) / rise
 
 
 def flows_to(creep: CreepSpectrum, alpha: float, n: int) -> float:

@@ -14,6 +14,7 @@ from conveyor.contact.belt import BeltSupport
 from conveyor.contact.energy import Strip, belt_losses
 from conveyor.contact.excitation import SHARES, excited_harmonics
 from conveyor.contact.fields import Fields, SpectralFields
+from conveyor.contact.finer import Errors
 from conveyor.contact.layers import Confined, HalfSpace
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.errors import InputError, NoSolutionError
@@ -218,17 +219,18 @@ class ContactSolution:
 
     @property
     def edge_error(self) -> float:
-        """Estimated error of the edges' places over R [-]: of patches, half width and eccentricity."""
-        solved = self._need()
-        return (
-            solved.edge_error + solved.fields.edge_error()
-        ) / self.problem.rho + self.outer_edge * self.error_estimate
+        """Estimated error of the edges' places over R [-]: of patches, half width and eccentricity; formed as below."""
+        resolved = self._need().edge_error + self._errors.edges
+        return resolved / self.problem.rho + self.outer_edge * self.error_estimate
 
-    @cached_property
+    @property
     def peak_error(self) -> float:
         """Estimated relative error of the largest pressure [-]; formed now, by a contact of higher order."""
-        solved = self._need()
-        return solved.peak_error + solved.fields.peak_error(self.problem) + self.error_estimate
+        return self._need().peak_error + self._errors.peak + self.error_estimate
+
+    @cached_property
+    def _errors(self) -> Errors:
+        return self._need().fields.errors(self.problem)
 
     @property
     def patches(self) -> Array:

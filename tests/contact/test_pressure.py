@@ -130,3 +130,20 @@ def test_a_solved_cover_tells_its_largest_pressure(rtol):
     assert found.peak_error < {1e-4: 0.05, 1e-6: 5e-3}[rtol]
     x = np.linspace(*found.patches[0], 4001)
     assert found.pressure(x).max() == pytest.approx(found.peak_pressure, rel=1e-5)
+
+
+def test_errors_where_the_load_hardly_rises_with_the_half_width():
+    # a thin elastic plate gives: d ln p̃_m/d ln α is 0.2, the half width is off by five times what the load is
+    plate = ContactProblem(
+        "free",
+        0.394,
+        thickness=0.00102,
+        pressure=7.77e-12,
+        creep=CreepSpectrum(1.0, [], []),
+        poisson=0.14,
+    )
+    found, fine = solve(plate), solve(plate, rtol=1e-12)
+    off = abs(fine.peak_pressure / found.peak_pressure - 1.0)
+    assert 0.0 < off <= found.peak_error <= 5.0 * off
+    moved = float(np.abs(fine.patches - found.patches).max())
+    assert 0.0 < moved <= found.edge_error <= 5.0 * moved
