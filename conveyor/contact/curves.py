@@ -238,7 +238,15 @@ def _narrow_sampler(group: Group, lowest: Array, guesses: tuple[Array, Array], r
     rule, check = short_rules(group.layers, group.creeps, np.exp(high), grades)
     rows = np.arange(lowest.size)
     return _Sampler(
-        group, lowest, 0.5 * (low + high), 0.5 * (high - low), rule, check, grades[0].error, rows, narrow=True
+        group,
+        lowest,
+        0.5 * (low + high),
+        0.5 * (high - low),
+        rule,
+        check,
+        grades[0].floor(group.layers),
+        rows,
+        narrow=True,
     )
 
 

@@ -346,10 +346,10 @@ class Search:
     def carried(self, rows: Index, found: _Evaluated) -> tuple[Contact, Array]:
         """Contacts just evaluated, carried to their loads as those of the low order go.
 
-        With the friction that this may miss, relative.
+        With the friction that this may miss, relative: by what the low order is off, and by its other slope.
         """
         contact, miss, y_from, here = found.contact, found.miss, found.place, found.known
-        y_to = self.place[rows]
+        y_to = y_from - miss
         change = self.cubics.value(rows, y_to) - here
         log_wider, shifted, dragged = change[:3]
         lossy = self.lossy[rows] & (contact.friction != 0.0)
@@ -370,7 +370,8 @@ class Search:
             contact.friction * np.exp(np.where(lossy, dragged, 0.0)),
             contact.inside & (alpha + np.abs(eps) < self.group.rho[rows]),
         )
-        return met, _CARRIED * off * np.abs(miss)
+        share = np.abs(self._share[rows] / (1.0 - self._share[rows]))
+        return met, np.maximum(_CARRIED * off, share) * np.abs(miss)
 
 
 def _some(rows: Index, size: int) -> Index | slice:
@@ -450,7 +451,7 @@ class _Closing:
         energy, by_loss_error = energy_errors(
             found.tabled, check, orders, rho, most=self.most[rows], rtol=rtol
         )
-        estimate = np.maximum(np.maximum(error, by_loss_error), grade.error)
+        estimate = np.maximum(np.maximum(error, by_loss_error), grade.floor(search.group.layers))
         pulling, pressing, tension = pulling_and_pressing(contact, rtol)
         estimate = np.maximum(estimate, np.where(pressing, tension, 0.0))
         outside = may_touch_elsewhere(closed, rho)

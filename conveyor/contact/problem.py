@@ -105,6 +105,8 @@ class ContactProblem:
             value = getattr(self, name)
             if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
                 raise InputError(f"{name} = {value!r}: a number is needed")
+            if isinstance(value, np.floating):  # single precision would go on into every scale
+                object.__setattr__(self, name, float(value))
         if not _SMALLEST_ROLL <= self.radius <= 0.5:
             raise InputError(
                 f"radius = {self.radius!r}: R/λ lies in (0, 0.5], rolls must not overlap; at least {_SMALLEST_ROLL:g}"
@@ -121,6 +123,10 @@ class ContactProblem:
             )
         if not 0.0 <= self.poisson <= 0.5:
             raise InputError(f"poisson = {self.poisson!r}: Poisson's ratio lies in [0, 0.5]")
+        for name in ("radius", "thickness", "pressure", "poisson"):
+            object.__setattr__(
+                self, name, float(getattr(self, name))
+            )  # single precision would go on into every scale
         self._check_support()
 
     def _check_support(self) -> None:

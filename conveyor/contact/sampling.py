@@ -45,12 +45,14 @@ def at_places(degree: int, t: Array) -> Array:
 
 def left_between(values: Array) -> Array:
     """What the interpolant through values at the points, shape (N + 1, f), may miss of each; as in `missed`."""
-    return _squared(half_misses(values), np.ptp(values, axis=0))
+    return _left(values, np.ptp(values, axis=0))
 
 
 def half_misses(values: Array) -> Array:
     """What the interpolant through every other point misses of each at the points between: more than all do."""
-    miss: Array = np.abs(_between(values.shape[0] - 1) @ values[::2] - values[1::2]).max(axis=0)
+    miss: Array = np.abs(_between(values.shape[-2] - 1) @ values[..., ::2, :] - values[..., 1::2, :]).max(
+        axis=-2
+    )
     return miss
 
 
@@ -88,22 +90,27 @@ def missed(contact: Contact, rho: Array | float, degree: int) -> Array:
 
     `contact` holds the curves one after the other, each with its degree + 1 points. The points of half the degree are
     every other one: what the interpolant through those misses at the points between, where the error of Chebyshev
-    interpolation peaks, squares with the degree. With m missed of a variation A, m²/A is left; four times that at
-    most, and m.
+    interpolation peaks, squares with the degree. With m missed of a variation A, m²/A is left, four times that at most.
+    Where a part of it varies faster than the whole, the series falls more slowly in the end: with sums of absolute
+    coefficients E of its last half and e of its last quarter, e²/E is left by a fall that goes on. Four times that, too;
+    m at most.
     """
     shape = (-1, degree + 1)
     drag = (contact.friction * rho / contact.alpha).reshape(shape)
     values = np.stack([np.log(contact.pressure).reshape(shape), drag], axis=-1)
-    miss = np.abs(_between(degree) @ values[:, ::2] - values[:, 1::2]).max(axis=1)
-    left = _squared(miss, np.ptp(values, axis=1))
+    left = _left(values, np.ptp(values, axis=1))
     smallest = np.maximum(np.abs(drag).min(axis=1), np.finfo(float).tiny)
     worst: Array = left[:, 0] + left[:, 1] / smallest
     return worst
 
 
-def _squared(miss: Array, size: Array) -> Array:
-    """What the full degree misses of a variation of that size where half of it misses so much."""
-    left: Array = np.minimum(miss, 4.0 * miss * miss / np.maximum(size, np.finfo(float).tiny))
+def _left(values: Array, size: Array) -> Array:
+    """What the interpolant through values at the points, shape (…, N + 1, f), may miss of a variation of that size."""
+    miss, series = half_misses(values), np.abs(coefficients(values))
+    count, tiny = series.shape[-2] - 1, np.finfo(float).tiny
+    half, quarter = (series[..., -(count // part) :, :].sum(axis=-2) for part in (2, 4))
+    squared = 4.0 * miss * miss / np.maximum(size, tiny)
+    left: Array = np.minimum(miss, np.maximum(squared, 4.0 * quarter * quarter / np.maximum(half, tiny)))
     return left
 
 
@@ -143,7 +150,7 @@ class Sampled:
         if self.finer is None:
             return 0.0
         change = self._change(self.finer, partial(columns, rho))[:, :2]
-        left = _squared(half_misses(change), np.abs(change).max(axis=0))
+        left = _left(change, np.abs(change).max(axis=0))
         smallest = max(float(np.abs(columns(rho, self.finer)[:, 1]).min()), np.finfo(float).tiny)
         return float(left[0] + left[1] / smallest)
 

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from scipy import special
 
 from conveyor.contact.creep import Creeps
+from conveyor.contact.layers import Layers
 from conveyor.contact.moved import POINTS, logs, moved, stencils
 from conveyor.contact.quadrature import Rule
 from conveyor.contact.stack import Stack
@@ -44,7 +45,9 @@ class Grade:
     """How fine a rule is: window width w, Gauss points and coarse nodes beyond what the phase needs.
 
     `stretch` and `phase` limit the panels beyond the window as in quadrature.Panels; `depth` is the q = m k h beyond
-    which L = 1 is taken, |L-1| < 4 q² exp(-2q). `error` is what all of it may do to friction (seen: a quarter of it).
+    which L = 1 is taken, |L-1| < 4 q² exp(-2q). `error` is what all of it may do to friction (seen: a quarter of it),
+    `other` what it may do under belts and layers of the user's own, whose symbol is no product of j and a layer's own
+    (seen: 2.4e-5 loose, 3.0e-8 coarse, of 800 belts).
     The window is one up to m = 1 and zero from its end 2 m0 on: m0 = `ramp` w.
     """
 
@@ -55,13 +58,21 @@ class Grade:
     phase: float
     depth: float
     error: float
+    other: float
     ramp: float = 6.5  # as in quadrature.py
+
+    def floor(self, layers: Stack) -> float:
+        """What the rule may do to friction over such layers."""
+        return self.error if isinstance(layers, Layers) else self.other
 
 
 # to rounding, to 1e-9 and to 1e-7 of the largest entry; the rules of a pair have no node in common
-FINE = (Grade(2.4, 16, 11, 1.7, 14.0, 20.0, 5e-11), Grade(2.8, 18, 14, 1.9, 15.0, 20.0, 5e-11))
-COARSE = (Grade(2.4, 12, 5, 1.7, 13.0, 13.5, 2e-8), Grade(2.8, 13, 6, 1.8, 13.0, 14.0, 2e-8))
-LOOSE = (Grade(1.55, 9, 3, 1.7, 10.0, 10.5, 5e-6, 4.6), Grade(1.7, 10, 4, 1.8, 10.0, 11.0, 5e-6, 4.6))
+FINE = (Grade(2.4, 16, 11, 1.7, 14.0, 20.0, 5e-11, 1e-10), Grade(2.8, 18, 14, 1.9, 15.0, 20.0, 5e-11, 1e-10))
+COARSE = (Grade(2.4, 12, 5, 1.7, 13.0, 13.5, 2e-8, 6e-8), Grade(2.8, 13, 6, 1.8, 13.0, 14.0, 2e-8, 6e-8))
+LOOSE = (
+    Grade(1.55, 9, 3, 1.7, 10.0, 10.5, 5e-6, 5e-5, 4.6),
+    Grade(1.7, 10, 4, 1.8, 10.0, 11.0, 5e-6, 5e-5, 4.6),
+)
 LOOSE_FROM, COARSE_FROM, FINE_FROM = 1e-4, 1e-7, 1e-10  # rtol down to which the pairs serve
 
 

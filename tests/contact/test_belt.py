@@ -239,3 +239,39 @@ def test_the_compression_named_is_the_limit():
 def test_covers_of_a_belt_are_incompressible():
     with pytest.raises(InputError, match=r"poisson = 0\.45: the covers of a Belt are incompressible"):
         ContactProblem(conveyor_belt(), 0.066, 0.0037, TERMS, poisson=0.45)
+
+
+SHARP = CreepSpectrum(1.27e-4, [1.0 - 1.27e-4], [107.0])
+
+
+@pytest.mark.parametrize("rtol", [1e-3, 1e-4, 1e-6, 1e-7])
+def test_a_belt_tells_what_the_short_rules_do_to_it(rtol):
+    # off by 2.4e-5 and 3.0e-8, more than the rules do to a layer alone
+    top = CreepSpectrum(6.5e-4, [1.0 - 6.5e-4], [52.7])
+    belt = Belt(0.003767, 0.0, top, 0.642, tension=0.01102, bending=5.78e-6, stretching=40.5)
+    problem = ContactProblem(belt, 0.2251, 1.106e-6, SHARP)
+    found, fine = solve(problem, rtol), solve(problem, 1e-10)
+    off = abs(found.friction / fine.friction - 1.0)
+    assert off <= found.error_estimate + fine.error_estimate
+    assert found.error_estimate <= rtol
+
+
+def test_a_belt_carries_the_load_it_is_asked_for():
+    # where its load rises with the half width unlike that of the low order, the load is met all the same
+    creep = CreepSpectrum(0.0151929, [0.03258744, 0.95221966], [1.57812578, 1.10680536])
+    top = CreepSpectrum(
+        0.03783249, [0.09653433, 0.24264424, 0.62298894], [101.80438, 725.213112, 3.40981167e-7]
+    )
+    belt = Belt(
+        0.00462876377,
+        0.00462876377,
+        top,
+        1.588459306,
+        tension=4.1443963896e-4,
+        bending=1.9477955636e-5 + 9.738977818e-6j,
+    )
+    problem = ContactProblem(belt, 0.3012064997664983, 1.3685980859436065e-5, creep)
+    found, fine = solve(problem, 1e-7), solve(problem, 1e-10)
+    carried = sum(0.25 * alpha * c[0] for _, alpha, c in found.strips)
+    assert carried == pytest.approx(problem.pressure, rel=1e-12)
+    assert abs(found.friction / fine.friction - 1.0) <= found.error_estimate <= 1e-7

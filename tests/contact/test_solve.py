@@ -485,3 +485,13 @@ def test_an_edge_layer_that_no_low_order_resolves_counts_in_the_estimate(problem
     curve = load_curve(problem, 0.5 * problem.pressure, problem.pressure, rtol)
     missed = abs(float(curve.at(problem.pressure).friction) / fine.friction - 1.0)
     assert missed <= curve.error + fine.error_estimate
+
+
+@pytest.mark.parametrize("kind", [np.float32, np.float16])
+def test_numbers_of_single_precision_are_solved_in_double(kind):
+    given = {"radius": kind(0.05), "pressure": kind(1e-3), "thickness": kind(0.05)}
+    creep = CreepSpectrum(0.1, [0.9], [1.0])
+    found = solve(ContactProblem("confined", creep=creep, **given), 1e-9)
+    same = ContactProblem("confined", creep=creep, **{name: float(value) for name, value in given.items()})
+    assert found.problem == same
+    assert found.friction == pytest.approx(solve(same, 1e-9).friction, rel=1e-12)
