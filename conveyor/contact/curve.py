@@ -23,7 +23,7 @@ from conveyor.contact.sampling import Sampled, coefficients, columns, half_misse
 from conveyor.contact.scene import Scene, instantly_relaxed
 from conveyor.contact.solution import SolveStats
 from conveyor.contact.spectral import Contact, assemble, chosen_rows, equilibrium_of_orders, penetration
-from conveyor.errors import RangeError
+from conveyor.errors import InputError, RangeError
 
 Array = NDArray[np.float64]
 
@@ -138,18 +138,20 @@ class LoadCurve:
         RangeError
             As `at`.
         """
-        (found,) = frictions([self], [np.asarray(pressure, dtype=float)])
+        (found,) = frictions([self], [pressure])
         return found
 
     def _places(self, pressure: ArrayLike) -> tuple[Array, Array, Array]:
         """Mean pressures p̃_m, their places t and half widths a/R."""
-        p = np.asarray(pressure, dtype=float)
+        p = _numbers(pressure)
         self._check(p)
         t = _places(self._columns[:, :1], [np.log(p).ravel()]).reshape(p.shape)
         return p, t, np.exp(self._centre + self._half * t) / self.problem.rho
 
     def _check(self, p: Array) -> None:
         """Refuse pressures outside the curve."""
+        if not p.size:
+            return
         slack = 1e-12
         low, high = float(p.min()), float(p.max())
         if not self.lowest * (1.0 - slack) <= low <= high <= self.highest * (1.0 + slack):
@@ -274,30 +276,45 @@ class LoadCurve:
         return coefficients(self._sampled_peaks)[:, 0]
 
 
-def frictions(curves: Sequence[LoadCurve], pressures: Sequence[Array]) -> list[Array]:
+def frictions(curves: Sequence[LoadCurve], pressures: Sequence[ArrayLike]) -> list[Array]:
     """Friction μ on each of many curves at its own mean pressures p̃_m, as `LoadCurve.friction`; side by side.
 
     Raises
     ------
+    InputError
+        Pressures that are no numbers, or not those of as many curves.
     RangeError
         A pressure outside its curve.
     """
+    if len(curves) != len(pressures):
+        raise InputError(
+            f"pressures: those of {len(pressures)} curves are given, of {len(curves)} are needed"
+        )
+    given = [_numbers(each) for each in pressures]
     by_degree: dict[int, list[int]] = {}
-    for i, (curve, p) in enumerate(zip(curves, pressures, strict=True)):
+    for i, (curve, p) in enumerate(zip(curves, given, strict=True)):
         curve._check(p)  # noqa: SLF001 of this module
         by_degree.setdefault(curve._columns.shape[0], []).append(i)  # noqa: SLF001
     found: dict[int, Array] = {}
     for members in by_degree.values():
         chosen = [curves[i] for i in members]
-        sizes = [pressures[i].size for i in members]
+        sizes = [given[i].size for i in members]
         log_p, drags = np.stack([curve._columns[:, :2] for curve in chosen], axis=-1).swapaxes(0, 1)  # noqa: SLF001
-        t = _places(log_p, [np.log(pressures[i]).ravel() for i in members])
+        t = _places(log_p, [np.log(given[i]).ravel() for i in members])
         widths = np.array([(c._centre - math.log(c.problem.rho), c._half) for c in chosen])  # noqa: SLF001
         centre, half = np.repeat(widths, sizes, axis=0).T
         friction = chebyshev.chebval(t, drags.repeat(sizes, axis=1), tensor=False) * np.exp(centre + half * t)
         parts = np.split(friction, np.cumsum(sizes)[:-1])
-        found.update((i, part.reshape(pressures[i].shape)) for i, part in zip(members, parts, strict=True))
+        found.update((i, part.reshape(given[i].shape)) for i, part in zip(members, parts, strict=True))
     return [found[i] for i in range(len(curves))]
+
+
+def _numbers(pressure: ArrayLike) -> Array:
+    """Mean pressures as an array."""
+    try:
+        return np.asarray(pressure, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(f"pressure = {pressure!r}: numbers are needed") from None
 
 
 def _places(columns: Array, log_p: Sequence[Array]) -> Array:

@@ -123,6 +123,8 @@ class Inside:
         """(σ difference/2, τ, σ sum/2,) ε difference/2, γ/2, dilatation (, k u_x, k u_z), each (nz, nx)."""
         count = 3 if strains_only else 8
         out = np.zeros((count, z.size, x.size))
+        if not out.size:
+            return list(out)
         for strip in self.strips:
             away = x - strip.centre
             away -= 2.0 * math.pi * np.round(away / (2.0 * math.pi))

@@ -181,6 +181,7 @@ def interior(solution: ContactSolution, *, depths: int = 16, points: int = 48) -
     >>> round(inside.working_strain, 4), inside.energy_error < 1e-3
     (0.0153, True)
     """
+    _refuse_unsolved(solution)
     for name, value, least in (("depths", depths, _FEWEST_DEPTHS), ("points", points, _FEWEST_POINTS)):
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
             raise InputError(f"{name} = {value!r}: a whole number, at least {least}")
@@ -219,10 +220,14 @@ def interior_fields(
     -----
     The window blurs over R α/(ρ `points`): of use below that depth, and at the surface away from the edges.
     """
+    _refuse_unsolved(solution)
     if isinstance(points, bool) or not isinstance(points, (int, np.integer)) or points < _FEWEST_POINTS:
         raise InputError(f"points = {points!r}: a whole number, at least {_FEWEST_POINTS}")
     problem, inside = solution.problem, Inside(solution, points)
-    at, z = np.atleast_1d(np.asarray(x, dtype=float)), np.atleast_1d(np.asarray(depth, dtype=float))
+    try:
+        at, z = (np.atleast_1d(np.asarray(given, dtype=float)) for given in (x, depth))
+    except (TypeError, ValueError):
+        raise InputError(f"x, depth: numbers are needed, not {x!r}, {depth!r}") from None
     bottom = inside.thickness / problem.rho
     if at.ndim != 1 or z.ndim != 1 or not (np.all(np.isfinite(at)) and np.all((z >= 0.0) & (z <= bottom))):
         raise InputError(f"x, depth: finite lists, depths z/R from 0 to {bottom:g}, the far face")
@@ -238,6 +243,11 @@ def interior_fields(
         displacement_x=u_x / problem.rho,
         displacement_z=u_z / problem.rho,
     )
+
+
+def _refuse_unsolved(solution: object) -> None:
+    if not isinstance(solution, ContactSolution):
+        raise InputError(f"solution = {solution!r}: a ContactSolution is needed")
 
 
 def path_amplitude(*, difference: Array, shear: Array, dilatation: Array) -> Array:

@@ -92,8 +92,8 @@ def missed(contact: Contact, rho: Array | float, degree: int) -> Array:
     every other one: what the interpolant through those misses at the points between, where the error of Chebyshev
     interpolation peaks, squares with the degree. With m missed of a variation A, m²/A is left, four times that at most.
     Where a part of it varies faster than the whole, the series falls more slowly in the end: with sums of absolute
-    coefficients E of its last half and e of its last quarter, e²/E is left by a fall that goes on. Four times that, too;
-    m at most.
+    coefficients E of its last half and e of its last quarter, e²/E is left by a fall that goes on. Four times that,
+    too; m at most.
     """
     shape = (-1, degree + 1)
     drag = (contact.friction * rho / contact.alpha).reshape(shape)

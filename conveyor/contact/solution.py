@@ -262,7 +262,11 @@ class ContactSolution:
         NoSolutionError
             Nothing is lost (an elastic layer), or the contact is known on a grid only.
         """
-        if not np.all(np.diff([0.0, *shares, 1.0]) > 0.0):
+        try:
+            ascending = bool(np.all(np.diff(np.array([0.0, *shares, 1.0], dtype=float)) > 0.0))
+        except (TypeError, ValueError):
+            ascending = False
+        if not ascending:
             raise InputError(f"shares = {shares!r}: ascending numbers between 0 and 1")
         fields = self._lossy("excitation")
         return excited_harmonics(fields.layer, fields.creep, fields.strips, shares)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from conveyor.contact import ContactProblem, CreepSpectrum, load_curve, solve, solve_loads
+from conveyor.contact import ContactProblem, CreepSpectrum, frictions, load_curve, solve, solve_loads
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.indentation import RollContact, indentation_curve, indentation_resistance
 from conveyor.shelf import compound
@@ -200,3 +200,19 @@ def test_a_curve_whose_sharp_part_varies_faster_than_the_whole_tells_its_error()
     off = np.abs(curve.friction(loads) / fine - 1.0).max()
     assert off <= curve.error + 1e-9
     assert curve.error <= 6.6e-5
+
+
+def test_no_loads_have_no_figures_and_what_is_no_number_is_refused():
+    problem = ContactProblem("confined", 0.05, 1e-3, CreepSpectrum(0.1, [0.9], [1.0]), 0.05)
+    curve = load_curve(problem, 1e-4, 1e-3)
+    none = curve.at([])
+    assert none.friction.size == none.half_width.size == none.penetration.size == none.peak_error.size == 0
+    assert curve.friction([]).shape == (0,)
+    assert frictions([curve], [[5e-4]])[0] == pytest.approx(curve.friction([5e-4]), rel=1e-12)
+    for refused in (
+        lambda: curve.at("a"),
+        lambda: curve.friction([[1e-3], 2]),
+        lambda: frictions([curve], []),
+    ):
+        with pytest.raises(InputError, match="pressure"):
+            refused()

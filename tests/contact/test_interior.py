@@ -424,3 +424,15 @@ def test_an_incompressible_layer_alone_is_the_confined_one():
     found = incompressible_shapes(q, share * q, (1.0 - share) * q)
     assert found[0] == pytest.approx(difference, rel=1e-9)
     assert found[1] == pytest.approx(shear, rel=1e-9)
+
+
+def test_what_is_no_number_is_refused_and_no_place_has_no_fields():
+    found = solve(SCENES["free"])
+    assert interior_fields(found, [], [0.01]).stress_xx.shape == (1, 0)
+    for refused in (
+        lambda: interior("a"),
+        lambda: interior_fields(found, "a", [0.01]),
+        lambda: found.excitation(["a"]),
+    ):
+        with pytest.raises(InputError):
+            refused()
