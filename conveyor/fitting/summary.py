@@ -134,7 +134,8 @@ def _outliers(fit: PronyFit) -> Iterator[str]:
                 for k in stray[:_STRAYS]
             )
             more = f" and {stray.size - _STRAYS} more" if stray.size > _STRAYS else ""
-            yield f"  {name} of {stray.size} rows stands off by five times what the others scatter: {rows}{more}:"
+            beyond = "more than four times what the fit misses of others"
+            yield f"  {name} of {stray.size} rows stands off by {beyond}: {rows}{more}:"
             yield "    a resonance, a bad contact? They hardly pull the fit, and count in its errors above"
 
 
@@ -142,7 +143,7 @@ def _criterion(fitted: Fitted) -> Iterator[str]:
     candidates = fitted.fit.candidates
     if len(candidates) < 2:
         return
-    yield "  number of terms by AICc (best first): per decade, penalty, terms, effective parameters, residual, score"
+    yield "  number of terms by AICc, chosen first: per decade, penalty, terms, effective parameters, residual, score"
     for candidate in candidates[:_CANDIDATES]:
         yield (
             f"    {candidate.terms_per_decade:5.2f} {candidate.regularisation:7.3g} {candidate.terms:4d} "

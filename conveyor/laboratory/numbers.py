@@ -11,6 +11,7 @@ _THOUSANDS_LIKE: Final = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
 _THOUSANDS: Final = (
     r"[+-]?\d[\d,' ]*[,' ][\d,' ]*\.?\d*(?:[eE][+-]?\d+)?|[+-]?\d[\d.' ]*[.' ][\d.' ]*,\d*(?:[eE][+-]?\d+)?"
 )
+_GROUPED: Final = re.compile(r"[+-]?\d{1,3}(?:(?:[.']\d{3})+,\d*|(?:[,']\d{3})+\.\d*)")
 _DATE: Final = (
     r"\d{1,4}[./-]\d{1,2}[./-]\d{1,4}.*|\d{1,2}[-. ]{1,2}(?:[A-Za-zäÄ]{3,9})\.?.*|.*\d{1,2}:\d{2}.*"
 )
@@ -43,6 +44,17 @@ def is_number(cell: str) -> bool:
     (True, False, False)
     """
     return _NUMBER.fullmatch(cell) is not None
+
+
+def looks_like_number(cell: str) -> bool:
+    """Whether a cell is a number, or would be without its thousands separators.
+
+    Examples
+    --------
+    >>> looks_like_number("3.781,12"), looks_like_number("0,5;3.781"), looks_like_number("E' [kPa]")
+    (True, False, False)
+    """
+    return is_number(cell) or _GROUPED.fullmatch(cell) is not None
 
 
 def decimal_mark(cells: Iterable[str]) -> tuple[str, str | None]:

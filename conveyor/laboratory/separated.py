@@ -9,7 +9,7 @@ from contextlib import suppress
 from typing import Final
 
 from conveyor.laboratory.grid import TextGrid, TextLine
-from conveyor.laboratory.numbers import is_number
+from conveyor.laboratory.numbers import is_number, looks_like_number
 
 _SEPARATORS: Final = {"\t": "tab", ";": "semicolon", ",": "comma", " ": "blanks"}
 _COMMENT: Final = re.compile(r"\s*(?:#+|%+|//+|!+)\s?")
@@ -67,7 +67,7 @@ def _separator(lines: list[str]) -> tuple[str, int]:
     best, best_score, best_width = ",", (0, 0), 0
     for separator in _SEPARATORS:
         rows = [_split(line, separator) for line in sample]
-        counts = [(len(row), sum(map(is_number, row)), sum(map(bool, row))) for row in rows]
+        counts = [(len(row), sum(map(looks_like_number, row)), sum(map(bool, row))) for row in rows]
         widths = [width for width, numbers, filled in counts if numbers >= 2 and 2 * numbers >= filled]
         score = (sum(numbers == filled and numbers >= 2 for _, numbers, filled in counts), len(widths))
         if score > best_score:

@@ -202,7 +202,7 @@ def fit_prony(
     A decade loses it 13 %, and the penalty holds the spectrum there to the slope that E'' has at the end of the
     window (see `Penalised`). So E_e is what does not relax within ten times the slowest measured period.
 
-    There, too, a row that stands off by more than some five robust standard deviations of its modulus loses its
+    There, too, a row that stands off by more than four robust standard deviations of its modulus loses its
     pull (`misfit.trust`); it still counts in the misfits.
 
     The number of terms: densities of 2 to 8 a decade and seven strengths of the penalty are fitted, spectra of few

@@ -26,7 +26,7 @@ MODULI = {"both": (0, 1), "storage": (0,), "loss": (1,)}
 LEAST_ISOTHERMS = 3
 """Isotherms in which a frequency must be measured to be told from one bad row [-]."""
 STRAY = 0.5
-"""Trust below which a row stands off its curve: more than five robust standard deviations, see `trust` [-]."""
+"""Trust below which a row stands off: by 4.4 robust standard deviations of the residuals, see `trust` [-]."""
 SAME_FREQUENCY = 1.0e-4
 """Frequencies closer than this are one setting of the instrument [decades]."""
 LEAST_VERTICAL = 0.004

@@ -271,3 +271,9 @@ def test_endless_cells_are_refused_at_once(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"pad\.csv:2: column 2 .*\.\.\.' is not a number") as refused:
         read_dma(file)
     assert len(str(refused.value)) < 250
+
+
+def test_decimal_commas_with_thousands_points_name_the_cell_not_the_header(tmp_path: Path) -> None:
+    rows = ("0,00100;3.781,12;415,09", "0,00142;3.894,27;457,81", "0,00202;4.073,11;505,70")
+    said = refusal(tmp_path, "\n".join(["f [Hz];E' [kPa];E'' [kPa]", *rows]))
+    assert ":2: column 2 \"E' [kPa]\": '3.781,12' has a thousands separator" in said
