@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import TYPE_CHECKING, Any, Final
@@ -58,7 +58,7 @@ def of_comparison(comparison: CalculatedComparison, system: System) -> Contents:
         every,
         coverage(comparison),
         refused(comparison),
-        remarks_table(comparison),
+        remarks_table(comparison, system),
         compounds(comparison),
         provenance(fingerprint(comparison.conveyor), "Notes"),
     )
@@ -441,10 +441,10 @@ def compounds(comparison: CalculatedComparison) -> Table:
     return Table("compounds", "Notes", "Compounds", columns, comparison.compounds)
 
 
-def remarks_table(comparison: CalculatedComparison) -> Table:
+def remarks_table(comparison: CalculatedComparison, system: System) -> Table:
     """What to know of a comparison."""
     columns = (Column("remark", "text", "text"),)
-    rows = tuple(Remark("warning", line) for line in remarks(comparison))
+    rows = tuple(Remark("warning", line) for line in remarks(comparison, system))
     return Table("remarks", "Notes", "Remarks", columns, rows)
 
 
@@ -506,41 +506,42 @@ def _unequal_levels(comparison: CalculatedComparison) -> Iterator[str]:
         )
 
 
-def _where(comparison: CalculatedComparison) -> Iterator[str]:
+def _where(comparison: CalculatedComparison, system: System) -> Iterator[str]:
     """At which temperatures the comparison stands."""
     asked = {s.temperature for s in comparison.scenes} | {row.temperature for row in comparison.refused}
     for speed in sorted({scene.speed for scene in comparison.scenes}):
+        run = unit("speed", system).brief(speed)
         common, known = comparison.common(speed), {s.compound for s in comparison.covered if s.speed == speed}
         if comparison.base not in known or (len(known) < 2 < 1 + len(comparison.compounds)):
-            yield f"at {speed:g} m/s nothing is compared: the data of the base, or of all others, do not reach"
+            yield f"at {run} nothing is compared: the data of the base, or of all others, do not reach"
         elif not common:
-            yield f"at {speed:g} m/s nothing is compared: no temperature that the data of all compounds reach"
+            yield f"at {run} nothing is compared: no temperature that the data of all compounds reach"
         elif len(common) < len(asked):
-            at = _listed([celsius(t) for t in common])
-            yield f"at {speed:g} m/s the comparison stands at {at} °C, which the data of all compounds in it reach"
+            at = _listed(common, system)
+            yield f"at {run} the comparison stands at {at}, which the data of all compounds in it reach"
 
 
-def remarks(comparison: CalculatedComparison) -> tuple[str, ...]:
-    """Notes of a comparison: where it stands, what it rests on."""
-    lines = [*_where(comparison), *_unequal_levels(comparison)]
+def remarks(comparison: CalculatedComparison, system: System = "SI") -> tuple[str, ...]:
+    """Notes of a comparison in a system of units: where it stands, what it rests on."""
+    lines = [*_where(comparison, system), *_unequal_levels(comparison)]
     for compound in comparison.compounds:
         if compound.kind == "illustrative":
             said = "is illustrative, not measured: compare with it, do not design with it"
             lines.append(f'compound "{compound.name}" {said}')
         rows = [row for row in comparison.coverage if row.compound == compound.name and not row.covered]
         if rows:
-            at = _listed([celsius(row.temperature) for row in rows])
+            at = _listed([row.temperature for row in rows], system)
             lacking = (
                 "do not cover what the rolls excite"
                 if compound.range
                 else "state no range, it counts for none"
             )
             lines.append(
-                f'compound "{compound.name}": its data {lacking} at {at} °C: not averaged, ranked, priced'
+                f'compound "{compound.name}": its data {lacking} at {at}: not averaged, ranked, priced'
             )
         reasons = {row.reason: row for row in comparison.refused if row.compound == compound.name}
         lines.extend(f'compound "{compound.name}": no answer for some scenes: {reason}' for reason in reasons)
-    lines += turned(comparison)
+    lines += turned(comparison, system)
     price = comparison.conveyor.operation is not None and comparison.conveyor.operation.price is not None
     if not price:
         lines.append("operation.price not given: no cost, saving or payback")
@@ -567,7 +568,7 @@ def remarks(comparison: CalculatedComparison) -> tuple[str, ...]:
     return tuple(lines)
 
 
-def turned(comparison: CalculatedComparison) -> list[str]:
+def turned(comparison: CalculatedComparison, system: System = "SI") -> list[str]:
     """Speeds at which the ranking is another at another temperature, beyond the errors; the order at each."""
     lines = []
     for speed in sorted({scene.speed for scene in comparison.scenes}):
@@ -586,16 +587,19 @@ def turned(comparison: CalculatedComparison) -> list[str]:
         if any((second, first) in before for first, second in before):
             by_order: dict[tuple[str, ...], list[float]] = {}
             for warmth, row in shared.items():
-                by_order.setdefault(tuple(s.compound for s in row), []).append(celsius(warmth))
-            orders = (f"{_listed(warm)} °C: {' < '.join(order)}" for order, warm in by_order.items())
-            lines.append(
-                f"the ranking changes with temperature; motor power at {speed:g} m/s: {'; '.join(orders)}"
-            )
+                by_order.setdefault(tuple(s.compound for s in row), []).append(warmth)
+            run = unit("speed", system).brief(speed)
+            orders = (f"{_listed(warm, system)}: {' < '.join(order)}" for order, warm in by_order.items())
+            lines.append(f"the ranking changes with temperature; motor power at {run}: {'; '.join(orders)}")
     return lines
 
 
-def _listed(values: list[float]) -> str:
-    return ", ".join(f"{value:g}" for value in values)
+def _listed(temperatures: Sequence[float], system: System) -> str:
+    """Temperatures [K] one after the other, their unit at the end."""
+    shown = unit("temperature", system)
+    return (
+        f"{', '.join(f'{value:.4g}' for value in shown(temperatures).tolist())} {degrees(shown.label or '')}"
+    )
 
 
 def plain(comparison: CalculatedComparison) -> dict[str, Any]:
@@ -620,4 +624,8 @@ def plain(comparison: CalculatedComparison) -> dict[str, Any]:
 def notebook_of_comparison(comparison: CalculatedComparison) -> Html:
     """The ranking and its notes."""
     tables = [(comparison.conveyor.name, ranking(comparison))]
-    return notebook(comparison.conveyor.report.units, tables, {"notes": remarks(comparison)})
+    return notebook(
+        comparison.conveyor.report.units,
+        tables,
+        {"notes": remarks(comparison, comparison.conveyor.report.units)},
+    )

@@ -14,6 +14,7 @@ from conveyor.errors import ConveyorError, InputError
 from conveyor.models import RubberCompound
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
+from conveyor.report.comparison_tables import remarks
 from conveyor.spec import load
 from conveyor.studies.comparison import RTOL, compare_compounds
 from conveyor.studies.duty import analyse_duty
@@ -233,6 +234,18 @@ def test_a_lost_worker_is_told(line):
 
         with pytest.raises(ConveyorError, match="a worker of the comparison was lost"):
             compare_compounds(line, NAMES, executor=processes, progress=told)
+
+
+def test_remarks_are_in_the_units_asked_for():
+    line = load("examples/specs/in_plant_us.yaml")
+    turning = compare_compounds(line, NAMES[:2], temperatures=["0 degF", "100 degF"], speeds=["400 fpm"])
+    metric, us = (" ".join(remarks(turning, system)) for system in ("SI", "US"))
+    assert (
+        "motor power at 2.032 m/s: -17.78 °C: standard-cover < low-rolling-resistance-cover; 37.78 °C:"
+        in metric
+    )
+    assert "motor power at 400 fpm: 0 °F: standard-cover < low-rolling-resistance-cover; 100 °F:" in us
+    assert "m/s" not in us
 
 
 def test_progress_counts_the_compounds(line):
