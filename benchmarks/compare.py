@@ -82,4 +82,5 @@ def main(count: int, workers: int) -> None:
 
 
 if __name__ == "__main__":
-    main(*(int(given) for given in (sys.argv[1:] + ["50", "1"][len(sys.argv) - 1 :])))
+    given = [int(argument) for argument in sys.argv[1:]]
+    main(*given, *(50, 1)[len(given) :])

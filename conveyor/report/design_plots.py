@@ -81,13 +81,11 @@ class Shown:
             )
             axis.fill_between(at, low, high, color=colour(0), alpha=0.12, linewidth=0)
             axis.plot(at, middle, color=colour(0), marker="o", markersize=4)
-            known = [effect for effect in effects if effect.error is not None]
-            if known:
-                spread = self.units[0]([2.0 * (effect.error or 0.0) for effect in known])
-                means = self.units[0]([effect.mean for effect in known])
-                axis.errorbar(
-                    [effect.at for effect in known], means, spread, fmt="none", ecolor=colour(0), capsize=3
-                )
+            bars = [(one.at, one.mean, 2.0 * one.error) for one in effects if one.error is not None]
+            if bars:
+                places, means, spread = zip(*bars, strict=True)
+                mean, error = self.units[0](means), self.units[0](spread)
+                axis.errorbar(places, mean, error, fmt="none", ecolor=colour(0), capsize=3)
             axis.grid(visible=True, color="0.9")
             axis.spines[["top", "right"]].set_visible(False)
             grouped(axis.yaxis)
