@@ -267,7 +267,10 @@ def take_up_of(loads: Sequence[CalculatedConveyor]) -> TakeUpDuty:
 
 
 def calculate(conveyor: Conveyor) -> CalculatedConveyor:
-    """Calculate one conveyor.
+    """Calculate one conveyor under its own load.
+
+    The take-up is at its given setting, else at the least that serves this load; reports have the least that serves
+    every load, of `conveyor.studies`.
 
     Raises
     ------

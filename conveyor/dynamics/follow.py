@@ -30,7 +30,8 @@ from conveyor.line.scenes import ScenarioUnit
 from conveyor.models import Conveyor, LoadCase, Scenario
 from conveyor.models.variants import slowed, with_case, with_temperature
 from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many
-from conveyor.studies.states import load_states
+from conveyor.studies.loads import every_load
+from conveyor.studies.states import CalculatedStates
 from conveyor.units import from_si
 from conveyor.units.sentences import percent
 
@@ -184,7 +185,7 @@ class CalculatedDynamics:
     conveyor : Conveyor
         The spec.
     given : CalculatedConveyor
-        Its steady result, the take-up at the one setting of all loads here.
+        Its steady result, the take-up at the one setting of every load of the spec.
     followed : tuple of Followed
         In order of the scenarios.
     sized : tuple of Size
@@ -356,7 +357,9 @@ def _only(record: Record, i: int, size: int, duration: float) -> Record:
 def prepared_rides(
     conveyor: Conveyor, scenarios: Sequence[Scenario]
 ) -> tuple[list[Ride], CalculatedConveyor]:
-    """Every scenario on its load; loads that several have are calculated once, all with one take-up."""
+    """Every scenario on its load, the take-up at the setting of `every_load`; a load of several is calculated once."""
+    loads = every_load(conveyor)
+    setting = loads.take_up
     loaded: dict[tuple[object, ...], Conveyor] = {}
     keys = []
     for scenario in scenarios:
@@ -364,43 +367,42 @@ def prepared_rides(
         key = (scenario.loading, scenario.sections, str(scenario.share), temperature)
         keys.append(key)
         if key not in loaded:
-            case = _case(conveyor, scenario)
+            case = _case(loads.states, scenario)
             made = with_case(conveyor, case)
             if temperature is not None:
                 made = with_temperature(made, from_si(temperature, "temperature", "K"))
             loaded[key] = made
-    given, *steady = _answers([Variant(conveyor), *map(Variant, loaded.values())], one_take_up=True)
-    setting = given.balance.settled.setting
+    steady = _answers([Variant(one, take_up=setting) for one in loaded.values()])
     slower = _answers([
         Variant(slowed(one, share), take_up=setting)
         for one in (conveyor, *loaded.values()) for share in SPEEDS
     ])  # fmt: skip
     loops = [
         CutLoop.of(one, slower[len(SPEEDS) * i : len(SPEEDS) * (i + 1)])
-        for i, one in enumerate((given, *steady))
+        for i, one in enumerate((loads.own, *steady))
     ]
     of_key = dict(zip(loaded, loops[1:], strict=True))
     rides = [
         Ride(ScenarioUnit.of(scenario, conveyor), of_key[key], loops[0], setting)
         for scenario, key in zip(scenarios, keys, strict=True)
     ]
-    return rides, given
+    return rides, loads.own
 
 
-def _case(conveyor: Conveyor, scenario: Scenario) -> LoadCase:
+def _case(states: CalculatedStates, scenario: Scenario) -> LoadCase:
     """What a scenario loads."""
     loading, sections = scenario.loading, scenario.sections
     if loading == "worst":
-        state = load_states(conveyor).state("worst")
+        state = states.state("worst")
         if state is None:
             raise NoSolutionError(f'scenario "{scenario.name}": no loading is worst; name the sections')
         loading, sections = ("sections", state.loaded) if state.loaded else ("empty", ())
     return LoadCase(name=scenario.name, loading=loading, sections=sections, share=scenario.share)
 
 
-def _answers(variants: list[Variant], *, one_take_up: bool = False) -> list[CalculatedConveyor]:
+def _answers(variants: list[Variant]) -> list[CalculatedConveyor]:
     results = []
-    for one in calculate_many(variants, one_take_up=one_take_up):
+    for one in calculate_many(variants):
         if not isinstance(one, CalculatedConveyor):
             raise one
         results.append(one)

@@ -8,10 +8,12 @@ from functools import cached_property, partial
 from typing import TypeAlias
 
 from conveyor.checks import Check, checks, deciding, reach
+from conveyor.loop.take_up import TakeUpDuty
 from conveyor.models import Conveyor
-from conveyor.pipeline import CalculatedConveyor
+from conveyor.pipeline import CalculatedConveyor, take_up_of
 from conveyor.studies.cases import CalculatedCases, analyse_cases
 from conveyor.studies.states import CalculatedStates, at_one_take_up, load_states
+from conveyor.units.sentences import Said, quoted, said
 
 Progress: TypeAlias = Callable[[str, int, int], None]
 """Called with a name, what is done of it and its whole."""
@@ -112,6 +114,20 @@ def every_load(
     return EveryLoad(*at_one_take_up(load_states(conveyor, own, cases, progress=told("load states")), cases))
 
 
+def asked_of_take_up(
+    own: CalculatedConveyor, states: CalculatedStates | None, cases: CalculatedCases | None
+) -> tuple[TakeUpDuty, Said]:
+    """What all loads, at one setting, ask of the take-up; the load and the condition that ask for the setting."""
+    loads = [
+        (said("as given"), own),
+        *(() if states is None else states.loads),
+        *((result.label, result.found) for result in (() if cases is None else cases.results)),
+    ]
+    duty = take_up_of([load for _, load in loads])
+    condition, (label, _) = quoted(duty.governed_by), loads[duty.governing]
+    return duty, said(condition) if len(loads) == 1 else said(f"{label.words}: {condition}", *label.figures)
+
+
 def every_check(
     own: CalculatedConveyor,
     states: CalculatedStates | None,
@@ -119,7 +135,7 @@ def every_check(
     further: Iterable[Check] = (),
 ) -> tuple[Check, ...]:
     """Of the conveyor as given, then of its load cases and load states, then of other calculations."""
-    together = () if cases is None else reach(cases.take_up)
+    together = reach(asked_of_take_up(own, states, cases)[0])
     of_cases = () if cases is None else cases.checks
     of_states = () if states is None else states.checks
     return (*checks(own), *together, *of_cases, *of_states, *further)

@@ -1,0 +1,69 @@
+"""One counterweight: what reports, studies and scenarios of a conveyor have is set for every load of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from conveyor.analysis import analyse, studies
+from conveyor.dynamics.follow import prepared_rides, standard_scenarios
+from conveyor.spec import load
+from conveyor.studies.loads import every_load
+from conveyor.units import si
+
+SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
+RTOL = 1e-6
+"""Of the loop's settling where tension acts on rolls; without curves settings agree to rounding."""
+
+
+@pytest.fixture(scope="module")
+def line():
+    """A load state asks for more of the take-up than the load that is given."""
+    given = load(SPECS / "in_plant_us.yaml")
+    return given.replace(
+        operation={"duty": [{"hours": "2000 h", "share": "100 %"}, {"hours": "1000 h", "share": "50 %"}]},
+        uncertainty={"roll_drag": "30 %", "draws": 64},
+    )
+
+
+@pytest.fixture(scope="module")
+def found(line):
+    return studies(line)
+
+
+def test_one_setting_serves_every_load(line, found):
+    alone = analyse(line)
+    assert every_load(line).take_up > 1.05 * alone.balance.settled.setting
+    told = alone.to_dict(found)["take_up"]
+    assert told["setting_N"] == pytest.approx(every_load(line).take_up, rel=RTOL)
+    assert told["least_setting_N"] == pytest.approx(told["setting_N"], rel=1e-3)  # wraps bend it a little
+    assert told["governed_by"].startswith("load state inclines only")
+    assert found.to_dict()["take_up"] == told
+
+
+def test_studies_of_one_report_have_its_power(found):
+    own = found.states.own.balance.power
+    assert found.uncertainty.motor == pytest.approx(own.motor, rel=RTOL)
+    assert found.uncertainty.monte_carlo.power.min() < own.motor < found.uncertainty.monte_carlo.power.max()
+    assert found.duty.rows[0].shaft == pytest.approx(own.motor, rel=RTOL)
+
+
+def test_scenarios_begin_with_the_weight_of_the_report(line, found):
+    rides, given = prepared_rides(line, standard_scenarios(line))
+    assert {ride.setting for ride in rides} == {given.balance.settled.setting}
+    assert given.balance.settled.setting == pytest.approx(found.states.setting, rel=RTOL)
+
+
+def test_travel_of_the_carriage_counts_every_load(line, found):
+    alone, told = analyse(line).take_up.travel, analyse(line).to_dict(found)["take_up"]
+    lowest = min(
+        state.balance.settled.steady.mean(state.balance.line.loop.length) for state in found.states.states
+    )
+    assert lowest < analyse(line).take_up.steady_means[0]
+    assert told["travel_m"] > alone.whole
+
+
+def test_a_weight_that_is_given_stands(line):
+    heavy = line.replace(route=line.route.replace(take_up={"kind": "gravity", "tension": "40 kN"}))
+    assert every_load(heavy).take_up == pytest.approx(si(heavy.route.take_up.tension), rel=RTOL)
