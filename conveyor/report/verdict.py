@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Final, NamedTuple
 
-from conveyor.checks import Check, leading
+from conveyor.checks import BELT_USE, Check, highest_use, leading
 from conveyor.line.covers import compounds_by_strand
 from conveyor.loop.equilibrium import START
 from conveyor.loop.take_up import TakeUpDuty
@@ -152,13 +152,8 @@ def _rows(
 
 def _utilisation(governing: Sequence[Check], system: System) -> Iterator[GoverningRow]:
     """Of what the belt may bear the share that it bears; the higher of steady running and all states."""
-    used = []
-    for check in governing:
-        if check.key in {"belt_safety", "belt_rating"} and check.calculated and check.required:
-            ratio = check.calculated / check.required
-            used.append((ratio if check.relation == "at most" else 1.0 / ratio, check))
-    if used:
-        share, check = max(used, key=lambda pair: pair[0])
+    share, check = highest_use(governing, BELT_USE)
+    if share is not None and check is not None:
         case = AS_GIVEN if check.case is None else check.case.text(system)
         words = f"{check.subject.text(system)} {check.found.text(system)}, {check.asked.text(system)}; {case}"
         yield GoverningRow("belt utilisation", percent(share), words)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import TypeAlias
 
-from conveyor.checks import Check, checks, deciding, reach
+from conveyor.checks import BELT_USE, Check, checks, deciding, highest_use, reach
 from conveyor.loop.take_up import TakeUpDuty
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor, take_up_of
@@ -64,10 +64,7 @@ class EveryLoad:
     @property
     def motor_use(self) -> float | None:
         """Power over that installed, of the drive that is used most [-]; None without an installed power."""
-        used = (check for check in self.governing if check.key == "motor_power")
-        return max(
-            (one.calculated / one.required for one in used if one.calculated and one.required), default=None
-        )
+        return highest_use(self.governing, {"motor_power"})[0]
 
     @property
     def largest_tension(self) -> float:
@@ -79,6 +76,11 @@ class EveryLoad:
         """Lowest in steady running, which is what is checked [-]; None without the belt's strength."""
         safeties = [load.belt_duty.safety_steady for load in self.designing]
         return min((one for one in safeties if one is not None), default=None)
+
+    @property
+    def belt_use(self) -> float | None:
+        """What the belt bears over what its strength or rating allows [-]; None where neither is given."""
+        return highest_use(self.governing, BELT_USE)[0]
 
     @property
     def take_up(self) -> float:
