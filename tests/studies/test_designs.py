@@ -361,7 +361,7 @@ def test_figures_of_all_loads_are_those_of_power(tmp_path):
 
 def test_a_belt_by_its_rating_has_a_use_and_no_safety(tmp_path):
     given = conveyor.load(SPECS / "in_plant_us.yaml")
-    plan = {"axes": {"belt.speed": ["450 fpm"]}, "states": [], "best": {}}
+    plan = {"axes": {"belt.speed": ["600 fpm"]}, "states": [], "best": {}}
     with pytest.raises(InputError, match=r"all_loads_belt_safety: the spec has no belt\.carcass\.strength"):
         campaign(given, **plan, limits={"all_loads_belt_safety": {"least": 6.7}})
     campaign(
@@ -377,7 +377,7 @@ def test_a_belt_by_its_rating_has_a_use_and_no_safety(tmp_path):
     rows = [row for row in found.to_dict(studies(given, found))["checks"] if row["key"] == "belt_rating"]
     highest = max(row["calculated"] / row["required"] for row in rows)
     assert one.figures["all_loads_belt_use"] == pytest.approx(highest)
-    assert 0.5 < one.figures["belt_use"] <= one.figures["all_loads_belt_use"] < 1.0
+    assert 0.4 < one.figures["belt_use"] <= one.figures["all_loads_belt_use"] < 1.0
 
 
 def test_what_is_sought_without_a_word_is_the_least_power_and_the_most_safety(line):
