@@ -32,6 +32,7 @@ from conveyor.models.variants import slowed, with_case, with_temperature
 from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many
 from conveyor.studies.loads import every_load
 from conveyor.studies.states import CalculatedStates
+from conveyor.studies.workers import workers_of
 from conveyor.units import from_si
 from conveyor.units.sentences import percent
 
@@ -281,6 +282,7 @@ def follow(
     return CalculatedDynamics(conveyor, given, followed)
 
 
+@workers_of("scenarios")
 def refined(
     rides: Sequence[Ride],
     error: float = ERROR,

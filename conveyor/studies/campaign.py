@@ -13,7 +13,7 @@ import json
 import math
 import sqlite3
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache, cached_property
@@ -42,6 +42,7 @@ from conveyor.studies.points import (
     priced,
 )
 from conveyor.studies.refusals import refuse_unknown
+from conveyor.studies.workers import workers_of
 
 BATCH: Final = 256
 """Points solved side by side at most, and lost at most where a run is stopped."""
@@ -309,6 +310,7 @@ class Answers:
         self._file.close()
 
 
+@workers_of("study", "; what is done is kept: run it again to go on")
 def run(
     campaign: Campaign,
     known: Answers,
@@ -365,10 +367,6 @@ def run(
                 without += sum(isinstance(answer, str) for answer in fresh)
                 if answered is not None:
                     answered(batch.every)
-    except (BrokenExecutor, CancelledError, BrokenPipeError):
-        raise ConveyorError(
-            "a worker of the study was lost (out of memory, or stopped); what is done is kept: run it again to go on"
-        ) from None
     finally:
         for future in asked:
             future.cancel()

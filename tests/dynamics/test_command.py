@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
-from concurrent.futures import ThreadPoolExecutor
+import os
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
 
 import pytest
 from openpyxl import load_workbook
@@ -12,7 +14,7 @@ from conveyor.dynamics import design
 from conveyor.dynamics import follow as following
 from conveyor.dynamics.design import size
 from conveyor.dynamics.follow import follow, standard_scenarios
-from conveyor.errors import InputError, NoSolutionError
+from conveyor.errors import ConveyorError, InputError, NoSolutionError
 from conveyor.models import Scenario
 from conveyor.report.dynamics_tables import of_dynamics, plain
 from conveyor.report.result_schema import result_schema
@@ -206,6 +208,15 @@ def test_an_executor_gives_the_same_answers():
     for one, other in zip(here.followed, there.followed, strict=True):
         assert other.way == pytest.approx(one.way, rel=1e-3)
         assert other.lowest == pytest.approx(one.lowest, rel=1e-2)
+
+
+@pytest.mark.usefixtures("rigged")
+def test_a_lost_worker_is_told():
+    conveyor = from_data(data() | {"scenarios": [BRAKED | {"name": "stop"}]})
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as processes:
+        processes.submit(os._exit, 1)
+        with pytest.raises(ConveyorError, match="a worker of the scenarios was lost"):
+            follow(conveyor, executor=processes)
 
 
 def test_power_reports_the_scenarios_of_a_spec(spec, tmp_path):
