@@ -493,6 +493,7 @@ class _Motion:
         if self.at.size:
             new, lacking = self._driven(i, new, lacking, rolling)
         new, lacking, lumped = self._rubbed(new, lacking, rolling)
+        acted = np.diff(new, axis=1)
         free = new + self.resisting * self.over_mass
         allowed = np.where(self.speed == 0.0, self.still, rolling * self.over_mass)
         rubbed = np.minimum(np.maximum(free, -allowed), allowed)
@@ -502,7 +503,7 @@ class _Motion:
         self.pulled = chain.held - lacking / self.dt
         earlier, self.stretching = self.stretching, np.diff(new, axis=1)
         # half of the old and half of the new one are solved for with all of τ k; what sag eases is taken off the old
-        damping = self.tau_k * (0.5 * (earlier + self.stretching) - (1.0 - self.law.eased) * earlier)
+        damping = self.tau_k * (0.5 * (earlier + acted) - (1.0 - self.law.eased) * earlier)
         self.ledger.belts(self.speed, new, self.resisting, self.pulled, damping + self.law.branch)
         self.shown = self.tension + damping
         self.speed = new
