@@ -490,9 +490,9 @@ class _Motion:
             wanted = chain.winch[0] * _winding(self.pulled / chain.held - 1.0, chain.winch[1])
         change, lacking = self.solver.change(self.dt * self._acting(), self.speed, wanted)
         new, rolling = self.speed + change, chain.resisting(self.speed)
+        new, lacking, lumped = self._rubbed(new, lacking, rolling)
         if self.at.size:
             new, lacking = self._driven(i, new, lacking, rolling)
-        new, lacking, lumped = self._rubbed(new, lacking, rolling)
         acted = np.diff(new, axis=1)
         free = new + self.resisting * self.over_mass
         allowed = np.where(self.speed == 0.0, self.still, rolling * self.over_mass)
