@@ -6,8 +6,8 @@ exactly, and nothing is damped that the belt does not damp. The damping T = k (�
 and new speeds: one tridiagonal system a step, stable at any τ. Friction is a set-valued force: what a mass would need
 to stand still, limited to what there is; so nothing chatters where the motion turns. The same holds for the grip of a
 belt on its driven pulley, for brakes and for backstops. What lies along the belt is taken on every mass alone; what
-stands at one place on the answer of the whole belt, for the mass there gets as small as the cell and it does not. Between the idlers the belt hangs: as its tension falls the sag
-takes in belt, so that it softens and never pushes.
+stands at one place on the answer of the whole belt: it stays as it is while the mass there gets as small as its cell.
+Between the idlers the belt hangs: as its tension falls the sag takes in belt, so that it softens and never pushes.
 
 Source: derived (Newton, Hooke, Kelvin and Voigt, Maxwell, the shallow parabola); leapfrog, its stability (Courant,
 Friedrichs, Lewy 1928) and the projection of friction are textbook numerics.
@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -305,17 +306,19 @@ class _BeltLaw:
 
 @dataclass(frozen=True, eq=False)
 class _Answer:
-    """Of a belt to an impulse of 1 N s at each of some places: all speeds [m/s], shape (s, d, n + 1); what the take-up
-    lacks [N s]; speeds at the places themselves, shape (s, d, d)."""
+    """Of a belt to an impulse of 1 N s at each of some places.
+
+    All speeds [m/s], shape (s, d, n + 1); what the take-up lacks [N s]; speeds of the places, shape (s, d, d).
+    """
 
     columns: Array
     of_take_up: Array
     mutual: Array
 
-    @property
+    @cached_property
     def own(self) -> Array:
-        """Speed of each place."""
-        return np.asarray(np.einsum("sdd->sd", self.mutual))
+        """Speed of each place by its own impulse."""
+        return np.einsum("sdd->sd", self.mutual).copy()
 
     def moved(self, impulse: Array, speed: Array, lacking: Array) -> tuple[Array, Array]:
         """Speeds, and what the take-up lacks, after impulses at the places."""
@@ -493,7 +496,8 @@ class _Motion:
         new, lacking, lumped = self._rubbed(new, lacking, rolling)
         if self.at.size:
             new, lacking = self._driven(i, new, lacking, rolling)
-        acted = np.diff(new, axis=1)
+        # what acts: all of τ k on half the new speeds, before masses rub alone, and on half the old less what sag eases
+        damping = self.tau_k * (0.5 * np.diff(new, axis=1) + (self.law.eased - 0.5) * self.stretching)
         free = new + self.resisting * self.over_mass
         allowed = np.where(self.speed == 0.0, self.still, rolling * self.over_mass)
         rubbed = np.minimum(np.maximum(free, -allowed), allowed)
@@ -501,12 +505,9 @@ class _Motion:
         self.resisting = rubbed * self.under_mass
         self.resisting[self.rows, chain.lumps] = lumped
         self.pulled = chain.held - lacking / self.dt
-        earlier, self.stretching = self.stretching, np.diff(new, axis=1)
-        # half of the old and half of the new one are solved for with all of τ k; what sag eases is taken off the old
-        damping = self.tau_k * (0.5 * (earlier + acted) - (1.0 - self.law.eased) * earlier)
         self.ledger.belts(self.speed, new, self.resisting, self.pulled, damping + self.law.branch)
         self.shown = self.tension + damping
-        self.speed = new
+        self.speed, self.stretching = new, np.diff(new, axis=1)
         self.tension = self.law.stretch(self.dt * self.stretching)
         self.strained = self.tension + self.tau_k * self.law.eased * self.stretching
 
@@ -555,18 +556,18 @@ class _Motion:
         return self.solver.pulleys.moved((moved.belt - going) / answer, new, lacking)
 
     def _rubbed(self, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array, Array]:
-        """Speeds with the friction of the lumps, each with what those before it have changed; what the take-up lacks
-        with it, and the friction."""
+        """Speeds with the friction of the lumps, one after the other, what the take-up lacks with it, and itself."""
         rows, at, answer = self.rows, self.chain.lumps, self.solver.lumps
-        loose, own = self.loose[rows, at], answer.own
-        earlier = self.resisting[rows, at]
-        most = loose * np.where(self.lumps_rest, self.chain.sticking[rows, at], rolling[rows, at])
-        speed, impulse = new[rows, at], np.zeros_like(most)
+        earlier, speed = self.resisting[rows, at], new[rows, at]
+        most = self.loose[rows, at] * np.where(
+            self.lumps_rest, self.chain.sticking[rows, at], rolling[rows, at]
+        )
+        over_force, impulse = self.dt * answer.own, np.zeros_like(most)
+        free, allowed = over_force * earlier, over_force * most
         for j in range(at.shape[1]):
-            limit = self.dt * own[:, j] * most[:, j]
-            left = _rest(speed[:, j] + self.dt * own[:, j] * earlier[:, j], limit, limit)
+            left = _rest(speed[:, j] + free[:, j], allowed[:, j], allowed[:, j])
             self.lumps_rest[:, j] = left == 0.0
-            impulse[:, j] = (left - speed[:, j]) / own[:, j]
+            impulse[:, j] = (left - speed[:, j]) / answer.own[:, j]
             speed = speed + impulse[:, j, None] * answer.mutual[:, j]
         return *answer.moved(impulse, new, lacking), earlier - impulse / self.dt
 

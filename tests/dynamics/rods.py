@@ -35,7 +35,8 @@ def clamped(cells: int, *nodes: int) -> dict[str, Any]:
     sticking[:, list(nodes)] = 1e12
     friction = np.zeros((3, 1, cells + 1))
     friction[0] = sticking
-    return {"sticking": sticking, "friction": friction}
+    lumps = np.arange(cells + 1)[None, list(nodes)]
+    return {"sticking": sticking, "friction": friction, "lumps": lumps}
 
 
 def begun(chain: Chain, **changes: Any) -> Beginning:
