@@ -318,7 +318,7 @@ class _Answer:
     @cached_property
     def own(self) -> Array:
         """Speed of each place by its own impulse."""
-        return np.einsum("sdd->sd", self.mutual).copy()
+        return np.asarray(np.einsum("sdd->sd", self.mutual))
 
     def moved(self, impulse: Array, speed: Array, lacking: Array) -> tuple[Array, Array]:
         """Speeds, and what the take-up lacks, after impulses at the places."""
