@@ -186,8 +186,8 @@ class Ride:
         unit = self.starters[d]
         if unit.kind != "inverter" or unit.stop_time is None:
             raise NoSolutionError(
-                f'scenario "{self.scene.name}": drive "{self.drives[d].name}" has no inverter ({unit.kind}) and cannot '
-                'ramp down; say "power off", or give it a starter'
+                f'drive "{self.drives[d].name}" has no inverter ({unit.kind}) and cannot ramp down; say "power off", '
+                "or give it a starter"
             )
         return unit.stop_time
 
