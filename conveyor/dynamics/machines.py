@@ -294,6 +294,7 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
         winch=np.outer([speed * unit.strands, band], np.ones(held.size)),
         sag=filled([one.sag for one in cells], 0.0, most - 1),
         relaxing=line.belt.relaxing or (0.0, 1.0),
+        known=line.speed,
     )  # fmt: skip
     moving = np.array([[line.speed * ride.scene.running] for ride in rides])
     start = Beginning(

@@ -55,7 +55,7 @@ class Chain:
     weight : ndarray
         Force of gravity against the running direction [N].
     friction : ndarray, shape (3, s, n + 1)
-        Force at a speed, f0 + f1 |v| + f2 v² [N].
+        Force at a speed, f0 + f1 |v| + f2 v² [N], beyond `known` as there.
     sticking : ndarray
         Force up to which a mass at rest stays there [N].
     end : ndarray of int, shape (s,)
@@ -77,6 +77,8 @@ class Chain:
         Its mass over the square of its strands [kg]; infinite where it is fixed.
     winch : ndarray, shape (2, s)
         Speed at which a winch takes in belt [m/s], 0 without one; tension over `held` within which it rests [-].
+    known : float
+        Speed up to which friction is known [m/s].
     """
 
     mass: Array
@@ -96,6 +98,7 @@ class Chain:
     winch: Array
     sag: Array
     relaxing: tuple[float, float] = (0.0, 1.0)
+    known: float = math.inf
 
     @property
     def longest_step(self) -> float:
@@ -106,7 +109,7 @@ class Chain:
 
     def resisting(self, speed: Array) -> Array:
         """Friction of every mass at a speed [N]."""
-        size = np.abs(speed)
+        size = np.minimum(np.abs(speed), self.known)
         return np.asarray(self.friction[0] + size * (self.friction[1] + size * self.friction[2]))
 
 
