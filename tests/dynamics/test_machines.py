@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from conveyor.dynamics.criteria import CRITERIA, at_pulley, peaks
+from conveyor.dynamics.machines import prepared
 from conveyor.dynamics.wave import Machines, run
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.waves import STEEPEST, ramp
@@ -259,6 +260,15 @@ def test_drag_brakes_a_drive_without_power_whose_belt_slips():
     found = run(chain, replace(idle(60, 1), drag=np.array([[drag]])), start, step=chain.longest_step)
     rims = found.drives["rim"][:, 0, 0]
     assert np.diff(rims) == pytest.approx(-drag / rim * found.step, rel=1e-9)
+
+
+def test_a_belt_that_runs_away_has_the_friction_of_full_speed():
+    """The parabola through three speeds up to that says nothing beyond: it may even turn and push."""
+    ride = ridden(line(drive=DATA["drive"] | MASSES), START)
+    _, chain, _ = prepared([ride], 0.1)
+    falling = replace(chain, friction=np.stack([chain.friction[0], 0.0 * chain.mass, -chain.friction[0]]))
+    full = np.full_like(chain.mass, ride.loop.line.speed)
+    assert np.array_equal(falling.resisting(3.0 * full), falling.resisting(full))
 
 
 def test_only_an_inverter_ramps_down():
