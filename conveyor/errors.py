@@ -42,6 +42,9 @@ class PlacedError(InputError):
         self.problems = tuple(problems)
         super().__init__("\n".join(said for _, said in self.problems))
 
+    def __reduce__(self) -> tuple[type[PlacedError], tuple[tuple[tuple[tuple[int | str, ...], str], ...]]]:
+        return type(self), (self.problems,)
+
 
 class NoSolutionError(ConveyorError):
     """The calculation has no answer for valid input; the message says why and what to change."""

@@ -17,6 +17,10 @@ TAN_DELTA_AGREEMENT: Final = 0.05
 """Relative difference allowed between tan delta and E''/E' of one row: two printed digits."""
 TAN_DELTA_DIGIT: Final = 0.01
 """Absolute difference allowed besides: tan delta printed with two decimals."""
+_NEAR: Final = (
+    0.4  # of what E''/E' misses tan delta by: what it misses another reading by, where that is the right one
+)
+_ROUNDING: Final = 1e-6  # up to which all of them are the same
 _SHEAR_WORDS: Final = re.compile(
     r"\b(shear\w*|torsion\w*|rheom\w*|parallel plates?|plate[- ]plate|cone|ares|rpa|mcr|scher\w*|schub\w*)\b|전단|비틀",
     re.IGNORECASE,
@@ -46,7 +50,7 @@ def dynamic_moduli(table: DataTable, series: Mapping[str, Series]) -> Moduli | N
     storage, loss, whole = (series.get(q) for q in ("storage", "loss", "complex"))
     angle = series.get("tan_delta") or series.get("phase")
     if angle is None:
-        return Moduli(storage.values, loss.values, storage, loss) if storage and loss else None
+        return _without_angle(table, storage, loss, whole)
     is_phase = angle.meaning.quantity == "phase"
     tangent = np.tan(angle.values) if is_phase else angle.values
     name = "tan(phase)" if is_phase else "tan delta"
@@ -64,8 +68,27 @@ def dynamic_moduli(table: DataTable, series: Mapping[str, Series]) -> Moduli | N
     return None
 
 
+def _without_angle(
+    table: DataTable, storage: Series | None, loss: Series | None, whole: Series | None
+) -> Moduli | None:
+    """E' beside E'' as it stands, else what E'' leaves of |E*|."""
+    if storage and loss:
+        return Moduli(storage.values, loss.values, storage, loss)
+    if not (whole and loss):
+        return None
+    square = whole.values**2 - loss.values**2
+    if (square <= 0.0).any():
+        row = int((loss.values / whole.values).argmax())
+        ratio = loss.values[row] / whole.values[row]
+        raise table.refusal(
+            whole.column, f"E'' is {ratio:.3g} times |E*|, of which it is a part: columns mixed up?", row
+        )
+    return Moduli(np.sqrt(square), loss.values, whole, loss, "E' from |E*| and E'' of each row")
+
+
 def _agrees(table: DataTable, storage: Series, loss: Series, angle: Series, tangent: FloatArray) -> str:
     ratio = loss.values / storage.values
+    _refuse_near(table, storage, angle, ratio, tangent)
     apart = np.abs(ratio - tangent) - TAN_DELTA_AGREEMENT * tangent
     worst = int(np.argmax(apart))
     if apart[worst] > TAN_DELTA_DIGIT:
@@ -76,6 +99,31 @@ def _agrees(table: DataTable, storage: Series, loss: Series, angle: Series, tang
             worst,
         )
     return f"{table.label(angle.column)} agrees with E''/E' and is not needed"
+
+
+def _refuse_near(
+    table: DataTable, storage: Series, angle: Series, ratio: FloatArray, tangent: FloatArray
+) -> None:
+    """Refuse |E*| named E', and a phase angle named tan delta, which most rows alone do not tell."""
+    lossy = tangent > 0.0
+
+    def missed(other: FloatArray) -> float:
+        return float(np.sqrt(np.mean((ratio[lossy] / other[lossy] - 1.0) ** 2)))
+
+    if not lossy.any() or (named := missed(tangent)) <= _ROUNDING:
+        return
+    if missed(tangent / np.sqrt(1.0 + tangent**2)) < _NEAR * named:
+        raise table.refusal(
+            storage.column,
+            "E''/E' is sin delta of the tan delta beside it: what is named E' is |E*|; name the column |E*|",
+            0,
+        )
+    if angle.meaning.quantity == "tan_delta" and missed(np.tan(tangent)) < _NEAR * named:
+        raise table.refusal(
+            angle.column,
+            "E''/E' is the tangent of it: what is named tan delta is the phase angle; name the column 'phase [rad]'",
+            0,
+        )
 
 
 def to_tensile(
