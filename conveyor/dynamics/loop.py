@@ -188,6 +188,7 @@ class CutLoop:
             mass[k] += lump.mass
             weight[k] += lump.weight
             friction[:, k] += lump.friction, 0.0, lump.square
+            stuck[k] -= lump.square * self.line.speed**2  # at rest nothing is fed
             if lump.friction or lump.square:
                 rubbing.add(k)
         nodes = np.array([int(np.argmin(np.abs(time - t))) for t in arriving], dtype=int)

@@ -9,11 +9,13 @@ import numpy as np
 import pytest
 
 from conveyor.dynamics.criteria import CRITERIA, at_pulley, peaks
+from conveyor.dynamics.loop import CutLoop
 from conveyor.dynamics.machines import prepared
 from conveyor.dynamics.wave import Machines, run
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.waves import STEEPEST, ramp
 from conveyor.models import Scenario, Starter
+from conveyor.pipeline import calculate
 from conveyor.spec import from_data, load
 from tests.dynamics.rods import EA, LENGTH, PULL, WAVE, begun, clamped, follow, idle, rod
 from tests.loop.loop_lines import BOOSTER, DATA, SECOND, data, line
@@ -45,6 +47,18 @@ def pulled(force, steps, *, time, cells=CELLS, grip=1e9, rim=HEAVY, **changes):
         np.full((1, 1, 65), force), 1.0, np.zeros((1, 1)),
     )  # fmt: skip
     return run(chain, driving, begun(chain), step=step, samples=steps)
+
+
+def test_nothing_is_fed_to_a_belt_at_rest():
+    """What holds it there is all friction but that of bulk which is fed, and what rolls resist more at rest."""
+    steady = calculate(load(SPECS / "in_plant_us.yaml"))
+    loop = CutLoop.of(steady)
+    cells, speed = loop.cells(0.01), steady.line.speed
+    fed = sum(one.total for one in steady.balance.singles if one.key in {"acceleration", "loading_skirts"})
+    assert fed > 500.0
+    running, holding = cells.resisting(speed, 1.0), cells.resisting(speed, 1.0) + cells.stuck
+    assert holding.sum() == pytest.approx(running.sum() - fed + loop.stuck.sum(), rel=1e-9)
+    assert holding.min() >= 0.0
 
 
 @pytest.mark.parametrize("share", [0.3, 0.7, 1.5])
