@@ -168,6 +168,12 @@ class CalculatedConveyor:
         return low, high
 
     @property
+    def motor_asked(self) -> float:
+        """Power that the motors give or hold with the friction at the less favourable end [W]; negative: held."""
+        least, most = map(self.balance.frame.motor, self.drive_forces)
+        return least if abs(least) > abs(most) else most
+
+    @property
     def line(self) -> Line:
         """The conveyor in SI."""
         return self.balance.line

@@ -60,10 +60,11 @@ from conveyor.report.study_tables import of_studies, plain_take_up, take_up_of
 from conveyor.report.study_tables import plain as plain_studies
 from conveyor.report.transfer_tables import drawing as of_discharge
 from conveyor.report.transfer_tables import of_transfer
-from conveyor.report.verdict import AS_GIVEN, governing_figures, loads, maximum_motor_power
+from conveyor.report.verdict import governing_figures, loads, maximum_motor_power
 from conveyor.report.what_if import what_if
 from conveyor.spec import fingerprint
 from conveyor.studies import CalculatedStudies
+from conveyor.studies.cases import AS_GIVEN
 from conveyor.studies.defaults import PowerRange, power_range
 from conveyor.studies.duty import CalculatedYear
 from conveyor.studies.loads import every_check

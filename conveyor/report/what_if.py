@@ -28,7 +28,7 @@ def what_if(a: CalculatedConveyor, studies: CalculatedStudies | None, motor: flo
 
 def _motor(motor: float) -> Iterator[Figure]:
     needed = abs(motor)
-    yield Figure("maximum motor power", "power", needed)
+    yield Figure("maximum motor power, driving or braking", "power", needed, key="maximum_motor_power")
     yield Figure("motor reserve", "ratio", MOTOR_RESERVE, on="input")
     formula = "what_if_maximum_motor_power*what_if_motor_reserve"
     yield Figure("required rated power", "power", needed * MOTOR_RESERVE, formula=formula)

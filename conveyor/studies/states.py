@@ -24,7 +24,7 @@ from conveyor.models import Conveyor, LoadCase
 from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
 from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate, calculate_many
-from conveyor.studies.cases import CalculatedCases, CaseResult
+from conveyor.studies.cases import AS_GIVEN, CalculatedCases, CaseResult
 from conveyor.units import from_si
 from conveyor.units.sentences import Said, quoted, said
 
@@ -139,8 +139,9 @@ class CalculatedStates:
 
     @property
     def as_cases(self) -> tuple[CaseResult, ...]:
-        """The same as load cases, for the figures that a case governs."""
-        return tuple(CaseResult(LoadCase(name=state.title), self._found(state)) for state in self._others)
+        """The spec's own load and every other state as load cases, for the figures that a case governs."""
+        loads = ((state.title, self._found(state)) for state in self._others)
+        return tuple(CaseResult(LoadCase(name=name), found) for name, found in ((AS_GIVEN, self.own), *loads))
 
     @property
     def _others(self) -> tuple[LoadState, ...]:

@@ -87,3 +87,33 @@ def test_rolls_bear_the_tension_of_the_one_setting_in_every_load_state(line):
         [Variant(with_case(gives, LoadCase(name="empty", loading="empty")), take_up=loads.take_up)]
     )
     assert empty.balance.power.motor == pytest.approx(again.balance.power.motor, rel=gives.calculation.rtol)
+
+
+def test_the_load_as_given_is_among_those_that_govern():
+    """Of a spec whose cases leave out the full belt the motors are for it all the same."""
+    given = load(SPECS / "downhill.yaml").replace(cases=[{"name": "empty", "loading": "empty"}])
+    found = studies(given)
+    own, (motor,) = found.states.own, found.motors
+    every = [own, *(one for _, one in found.states.loads), *(case.found for case in found.cases.results)]
+    held = min(one.motor_asked for one in every)
+    assert motor.needed == pytest.approx(held, rel=RTOL)
+    assert motor.rated * motor.count >= -held
+    level = load(SPECS / "curved.yaml").replace(cases=[{"name": "empty", "loading": "empty"}])
+    found = studies(level)
+    assert [row.result.case.name for row in found.governing if row.key.startswith("largest_motor")] == [
+        "as given"
+    ]
+    assert found.motors[0].needed == pytest.approx(found.states.own.balance.power.motor, rel=RTOL)
+
+
+def test_motor_power_of_all_loads_is_that_of_the_report():
+    """A belt that drives its motors asks more of them than the empty one does of its own power."""
+    given = load(SPECS / "downhill.yaml")
+    loads, found = every_load(given), analyse(given)
+    asked = studies(given)
+    told = next(c for c in found.to_dict(asked)["checks"] if c["key"] == "motor_power" and c["governs"])
+    assert told["where"] == "least friction"
+    assert loads.motor_power == pytest.approx(1e3 * told["calculated"], rel=RTOL)
+    rows = {row.key: row for row in found.contents(asked)["what_if"].rows}
+    assert rows["what_if_maximum_motor_power"].label == "maximum motor power, driving or braking"
+    assert rows["what_if_maximum_motor_power"].value == pytest.approx(loads.motor_power, rel=RTOL)
