@@ -253,7 +253,7 @@ class CalculatedConveyor:
     def year(self) -> Year | None:
         """Energy of a year at even load and its cost; None without hours, or where a duty has its own year."""
         operation = self.conveyor.operation
-        if operation is None:
+        if operation is None or operation.duty:
             return None
         return year(operation, self.balance.power.mains, self.line.flow)
 
