@@ -168,7 +168,8 @@ def governing(study: CalculatedCases, governing: Sequence[Governing]) -> Table:
     )
     rows = tuple(Figure(row.figure, row.kind, row, key=f"governing_{row.key}") for row in governing)
     left_out = [row.label.text() for row in study.results if not row.covered]
-    note = f"friction factor {low:g}-{high:g}, least favourable"
+    held = "; negative: the motors hold the belt" if any(row.value < 0.0 for row in governing) else ""
+    note = f"friction factor {low:g}-{high:g}, least favourable{held}"
     if left_out:
         note += f"; without {'; '.join(left_out)}: the rubber data do not cover the excitation band there"
     return Table("governing_cases", "Load cases", "Governing cases", columns, rows, _CASES, note, links=True)

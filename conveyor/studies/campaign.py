@@ -30,7 +30,7 @@ from conveyor.models.operation import Operation
 from conveyor.models.study import Changes, StudyPlan, Value, VariedSpec, with_states
 from conveyor.spec import fingerprint
 from conveyor.studies.costs import unpriced
-from conveyor.studies.designs import Design, DesignFigure, figures_of, reduced
+from conveyor.studies.designs import Design, DesignFigure, figures_of, reduced, require_year
 from conveyor.studies.points import (
     OUTPUTS,
     Answer,
@@ -113,6 +113,8 @@ class Campaign:
         needed = dict.fromkeys(key for figure in figures_of(plan, base).values() for key in figure.needs)
         asked = plan.outputs or (() if plan.figures or plan.best or plan.limits else tuple(outputs_of(())))
         outputs = tuple(outputs_of((*asked, *(key for key in needed if key not in asked))))
+        for key in plan.outputs:
+            require_year(key, plan, base)
         if plan.outputs or plan.figures or plan.best or plan.limits:
             _refuse_unpriced(plan, base, outputs)
         compounds = {name: resolve(name) for name in sorted(named)}

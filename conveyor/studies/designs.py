@@ -92,6 +92,7 @@ def figures_of(plan: VariedSpec, base: Conveyor) -> dict[str, DesignFigure]:
             figures.setdefault(name, _figure(name, plan, base.operation, weights))
             if place[0] != "figures" or plan.figures:
                 _require_needed(name, plan, base)
+                require_year(name, plan, base)
             if place[0] == "limits":
                 plan.limits[name].ends(name, figures[name].kind)
         except InputError as error:
@@ -108,6 +109,19 @@ def _require_needed(name: str, plan: VariedSpec, base: Conveyor) -> None:
     given = (field(base, need) or any(f"{need}.".startswith(path) for path in varied) for need in needs)
     if needs and not any(given):
         raise InputError(f"{name}: the spec has no {' or '.join(needs)}")
+
+
+def require_year(name: str, plan: VariedSpec, base: Conveyor) -> None:
+    """Refuse energy or cost of a year that no state of a spec's duty has alone.
+
+    Raises
+    ------
+    InputError
+        It is asked for without states, or as a mean or an extreme of them.
+    """
+    key, _, how = name.partition(" ")
+    if base.duty and key in _YEARLY and (how or plan.hours is None):
+        raise InputError(f"{name}: the year of this spec is that of its duty; give states: duty, and {key}")
 
 
 def _figure(name: str, plan: VariedSpec, operation: Operation | None, weights: Array) -> DesignFigure:

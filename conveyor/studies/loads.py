@@ -11,7 +11,7 @@ from conveyor.checks import BELT_USE, Check, checks, deciding, highest_use, reac
 from conveyor.loop.take_up import TakeUpDuty
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor, take_up_of
-from conveyor.studies.cases import CalculatedCases, analyse_cases
+from conveyor.studies.cases import AS_GIVEN, CalculatedCases, analyse_cases
 from conveyor.studies.states import CalculatedStates, at_one_take_up, load_states
 from conveyor.units.sentences import Said, quoted, said
 
@@ -58,8 +58,8 @@ class EveryLoad:
 
     @property
     def motor_power(self) -> float:
-        """Highest [W]."""
-        return max(load.balance.power.motor for load in self.designing)
+        """Highest that motors give or hold, at the less favourable end of the friction [W]."""
+        return max(abs(load.motor_asked) for load in self.designing)
 
     @property
     def motor_use(self) -> float | None:
@@ -121,7 +121,7 @@ def asked_of_take_up(
 ) -> tuple[TakeUpDuty, Said]:
     """What all loads, at one setting, ask of the take-up; the load and the condition that ask for the setting."""
     loads = [
-        (said("as given"), own),
+        (said(AS_GIVEN), own),
         *(() if states is None else states.loads),
         *((result.label, result.found) for result in (() if cases is None else cases.results)),
     ]

@@ -93,7 +93,7 @@ OUTPUTS: Final[Mapping[str, Output]] = {
     ),
     "all_loads_failed": Output("failed checks, all loads", "count", attrgetter("failed"), of="loads"),
     "all_loads_motor_power": Output(
-        "motor power, highest of all loads", "power", attrgetter("motor_power"), of="loads"
+        "motor power given or held, highest of all loads", "power", attrgetter("motor_power"), of="loads"
     ),
     "all_loads_motor_use": Output(
         "motor power over that installed, all loads",

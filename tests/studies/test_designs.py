@@ -69,6 +69,28 @@ def designed(line, known, **changes):
     return study, list(designs(study, known))
 
 
+@pytest.mark.parametrize(
+    "plan",
+    [
+        {"states": [], "figures": ["energy_per_year"], "best": {}},
+        {"states": [], "figures": [], "best": {"cost_per_year": "least"}},
+        {"states": [], "figures": [], "best": {}, "outputs": ["motor_power", "energy_per_year"]},
+        {"figures": ["cost_per_year mean"], "best": {}},
+    ],
+)
+def test_a_year_beside_that_of_the_duty_is_refused(line, plan):
+    with pytest.raises(
+        InputError, match=r"per_year.*: the year of this spec is that of its duty; give states: duty"
+    ):
+        campaign(line, **plan)
+
+
+def test_points_of_a_spec_with_a_duty_have_no_year_of_their_own(line, answers):
+    study = campaign(line, states=[], figures=[], best={}, outputs=[])
+    run(study, answers)
+    assert {one.figures["energy_per_year"] for one in designs(study, answers)} <= {None}
+
+
 def test_a_design_over_the_duty_is_the_year_that_the_duty_gives(line, answers):
     _, (first, *_) = designed(line, answers)
     changed = line.replace(
