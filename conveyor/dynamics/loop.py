@@ -223,6 +223,10 @@ class Cells:
             friction * (self.friction[0] + speed * (self.friction[1] + speed * self.friction[2]))
         )
 
+    def sticking(self, friction: float) -> Array:
+        """Force up to which every mass stays at rest, after standstill [N]: what grows with speed is not there yet."""
+        return self.resisting(0.0, friction) + friction * self.stuck
+
 
 def _cut(line: Line, *, pulls: bool) -> tuple[Spot, bool]:
     """Where the take-up stands, and whether behind what else stands at that spot: else the slack side of the drives."""

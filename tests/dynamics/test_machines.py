@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from conveyor.dynamics.criteria import CRITERIA, at_pulley, peaks
+from conveyor.dynamics.machines import prepared
 from conveyor.dynamics.wave import Machines, run
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.waves import STEEPEST, ramp
@@ -237,6 +238,18 @@ def test_a_loaded_incline_restarts_from_its_backstop_or_rolls_back(backstop):
         assert found.belt_speed[-1] == pytest.approx(found.line.speed, rel=0.05)
     else:
         assert "dynamic_backstop" not in said
+
+
+def test_bulk_that_is_not_fed_holds_no_belt_at_rest():
+    """What brings it to speed falls with the square of the belt's: no mass breaks loose from it with a jump."""
+    rides = [
+        ridden(line(drive=DATA["drive"] | MASSES, route={"feeding": feeding}), START)
+        for feeding in (DATA["route"]["feeding"], NO_RUSH)
+    ]
+    fed, calm = (float(prepared([ride], 0.04)[1].sticking.sum()) for ride in rides)
+    singles = rides[0].loop.steady.balance.singles
+    bringing = next(force.total for force in singles if force.key == "acceleration")
+    assert fed == pytest.approx(calm, abs=0.05 * bringing)  # wraps feel the tension
 
 
 def test_a_backstop_that_is_assumed_is_said():
