@@ -523,7 +523,8 @@ def _assumed_drives(ride: Ride) -> Iterator[str]:
             yield f"{drive.name}: torque limit not given: {TORQUE_LIMIT.value:g} x rated, general knowledge"
         if drive.power is None:
             yield f"{drive.name}: installed power not given: motors rated for the largest steady force"
-        if not drive.mass_given:
-            yield f"{drive.name}: rotating masses not given: typical of its power"
+        if not (drive.mass_given and drive.reduced_mass):
+            given = "of 0 kg" if drive.mass_given else "not given"
+            yield f"{drive.name}: rotating masses {given}: typical of its power"
     if ride.assumed_backstop:
         yield f"{ride.drives[0].name}: backstop not given: one is assumed, the loaded belt would roll back"

@@ -188,7 +188,6 @@ class CutLoop:
             mass[k] += lump.mass
             weight[k] += lump.weight
             friction[:, k] += lump.friction, 0.0, lump.square
-            stuck[k] -= lump.square * self.line.speed**2  # at rest nothing is fed
             if lump.friction or lump.square:
                 rubbing.add(k)
         nodes = np.array([int(np.argmin(np.abs(time - t))) for t in arriving], dtype=int)
@@ -220,6 +219,10 @@ class Cells:
         return np.asarray(
             friction * (self.friction[0] + speed * (self.friction[1] + speed * self.friction[2]))
         )
+
+    def sticking(self, friction: float) -> Array:
+        """Force up to which every mass stays at rest, after standstill [N]: what grows with speed is not there yet."""
+        return self.resisting(0.0, friction) + friction * self.stuck
 
 
 def _cut(line: Line, *, pulls: bool) -> tuple[Spot, bool]:

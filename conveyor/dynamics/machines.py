@@ -282,7 +282,7 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
         retardation=retardation(line.belt),
         weight=filled([one.weight for one in cells], 0.0, most),
         friction=np.moveaxis(filled([one.friction for one in cells], 0.0, most), 1, 0) * friction[:, None],
-        sticking=filled([one.resisting(line.speed, 1.0) + one.stuck for one in cells], 0.0, most) * friction[:, None],
+        sticking=filled([one.sticking(rest) for one, rest in zip(cells, friction, strict=True)], 0.0, most),
         end=np.array([one.at.size - 1 for one in cells]),
         nodes=np.array([one.nodes for one in cells]),
         lumps=_even(cells),
@@ -334,7 +334,7 @@ def _begin(ride: Ride, cells: Cells) -> tuple[Array, Array, Array]:
         resisting = cells.resisting(line.speed, friction)
         driving = shares * float(resisting.sum() + cells.weight.sum())
     else:
-        most = friction * (cells.resisting(line.speed, 1.0) + cells.stuck)
+        most = cells.sticking(friction)
         share = -float(cells.weight.sum()) / float(most.sum())
         resisting = most * min(1.0, max(-1.0, share))
         resisting = _taut(ride.setting, resisting, most, cells)
