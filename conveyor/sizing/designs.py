@@ -276,29 +276,31 @@ def settled(
     anchors : list
         Of the compounds, from calculations before; what is new is added.
     every_load : bool
-        Whether empty, inclines only, declines only and the worst loadings count, too, not the full belt alone.
+        Whether empty, inclines only, declines only and the worst loadings count, too, not the full belt alone; then
+        also at the temperature of the duty, where less friction relieves a brake.
     made : sequence of SizedDesign
         The same candidates as designs for the full belt: what is calculated of them is not calculated again.
     """
     now = {i: chosen for i, (_, chosen, _) in enumerate(begin)}
     designs: dict[int, SizedDesign | str] = {}
     sized: dict[int, tuple[Chosen, Conveyor, tuple[CalculatedConveyor, ...]]] = {}
+    mild: dict[int, CalculatedConveyor] = {}
     for _ in range(_SIZINGS):
-        specs: dict[int, Conveyor] = {}
-        for i, chosen in now.items():
-            try:
-                specs[i] = task.spec(begin[i][0], chosen, task.duty.name)
-            except InputError as error:
-                designs[i] = str(error)
+        specs, refused = _specs(task, {i: (begin[i][0], chosen) for i, chosen in now.items()})
+        designs |= refused
         coldest = {i: task.colder(spec) if task.cold else spec for i, spec in specs.items()}
-        held = {i: made[i].coldest for i in coldest if made and now[i] == made[i].chosen}
-        new = _calculated({i: spec for i, spec in coldest.items() if i not in held}, anchors)
+        alike = {i: made[i] for i in specs if made and now[i] == made[i].chosen}
+        cold = _calculated(coldest, anchors, {i: one.coldest for i, one in alike.items()})
+        warm = dict[int, CalculatedConveyor | NoAnswer]()
+        if every_load and task.cold:
+            warm = _calculated(specs, anchors, {i: one.found for i, one in alike.items()})
         again = {}
-        for i, answer in {**held, **new}.items():
+        for i, answer in cold.items():
             try:
-                if not isinstance(answer, CalculatedConveyor):
-                    raise answer
-                loads = tuple(_loads(answer)) if every_load else (answer,)
+                loads = _loads(answer, every_load=every_load)
+                if i in warm:
+                    mild[i], *others = _loads(warm[i], every_load=True)
+                    loads += (mild[i], *others)
                 wanted = _chosen(task, begin[i][0], now[i], loads)
             except (NoSolutionError, RangeError, InputError) as error:
                 designs[i] = str(error)
@@ -310,11 +312,13 @@ def settled(
         now = again
         if not now:
             break
-    held = {i: made[i].found for i, (chosen, _, _) in sized.items() if made and chosen == made[i].chosen}
-    left = {i: spec for i, (_, spec, _) in sized.items() if task.cold and i not in held}
-    warm = {**held, **_calculated(left, anchors)}
+    held = {
+        i: made[i].found for i, (chosen, _, _) in sized.items() if made and chosen == made[i].chosen
+    } | mild
+    left = {i: spec for i, (_, spec, _) in sized.items() if task.cold}
+    found = _calculated(left, anchors, {i: one for i, one in held.items() if i in left})
     for i, (chosen, _, loads) in sized.items():
-        answer = warm.get(i, loads[0])
+        answer = found.get(i, loads[0])
         designs[i] = (
             _design(task, begin[i], chosen, answer, loads)
             if isinstance(answer, CalculatedConveyor)
@@ -323,22 +327,41 @@ def settled(
     return [designs.get(i, "belt class and motors do not settle") for i in range(len(begin))]
 
 
-def _calculated(specs: Mapping[int, Conveyor], anchors: Anchors) -> dict[int, CalculatedConveyor | NoAnswer]:
-    """Calculations of specs, side by side."""
-    return dict(
-        zip(
-            specs,
-            calculate_many([Variant(spec) for spec in specs.values()], RTOL, anchors=anchors),
-            strict=True,
-        )
-    )
+def _specs(
+    task: SizingTask, now: Mapping[int, tuple[Choice, Chosen]]
+) -> tuple[dict[int, Conveyor], dict[int, str]]:
+    """Specs of candidates as they are chosen now, and why others have none."""
+    specs, refused = dict[int, Conveyor](), dict[int, str]()
+    for i, (choice, chosen) in now.items():
+        try:
+            specs[i] = task.spec(choice, chosen, task.duty.name)
+        except InputError as error:
+            refused[i] = str(error)
+    return specs, refused
 
 
-def _loads(one: CalculatedConveyor) -> Iterator[CalculatedConveyor]:
-    """The full belt and every other load at one take-up."""
-    states, _ = at_one_take_up(load_states(one.conveyor, one), None)
-    yield states.own
-    yield from (load for _, load in states.loads)
+def _calculated(
+    specs: Mapping[int, Conveyor], anchors: Anchors, known: Mapping[int, CalculatedConveyor]
+) -> dict[int, CalculatedConveyor | NoAnswer]:
+    """Calculations of specs, those that are not known side by side."""
+    new = {i: Variant(spec) for i, spec in specs.items() if i not in known}
+    return {**known, **dict(zip(new, calculate_many(list(new.values()), RTOL, anchors=anchors), strict=True))}
+
+
+def _loads(answer: CalculatedConveyor | NoAnswer, *, every_load: bool) -> tuple[CalculatedConveyor, ...]:
+    """The full belt, and every other load at one take-up where they count.
+
+    Raises
+    ------
+    NoSolutionError, RangeError, InputError
+        It has no answer.
+    """
+    if not isinstance(answer, CalculatedConveyor):
+        raise answer
+    if not every_load:
+        return (answer,)
+    states, _ = at_one_take_up(load_states(answer.conveyor, answer), None)
+    return (states.own, *(load for _, load in states.loads))
 
 
 def _chosen(task: SizingTask, choice: Choice, before: Chosen, pair: Sequence[CalculatedConveyor]) -> Chosen:

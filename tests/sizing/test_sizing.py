@@ -26,6 +26,7 @@ from conveyor.sizing.around import around
 from conveyor.sizing.designs import settled
 from conveyor.sizing.screen import Candidates, first_levels, screen
 from conveyor.sizing.spacing import graduated_spacings, section_spacings
+from conveyor.studies.loads import every_load
 from conveyor.study_file import read_duty
 from conveyor.units import si, text
 from tests.command_line import run
@@ -93,6 +94,14 @@ def test_every_design_passes_its_checks_and_is_ranked_by_its_year(sized):
     for design in sized.designs:
         assert not [check.subject for one in design.pair for check in checks(one) if check.failed]
         assert design.year == pytest.approx(math.fsum(float(x) for x in design.costs.yearly.values()))
+
+
+def test_a_design_holds_what_its_report_checks():
+    """In every load at its own temperature too, where less friction than in the cold helps a backstop; one take-up."""
+    best = size(read_duty(DUTIES / "overland.yaml"), best=1).best
+    loads = every_load(best.conveyor)
+    assert not [check.subject.text() for check in loads.governing if check.failed]
+    assert best.found.balance.settled.setting == pytest.approx(loads.take_up, rel=1e-6)
 
 
 def test_no_weaker_class_and_no_smaller_motor_would_do(small, sized):
