@@ -128,7 +128,7 @@ class Analysis(CalculatedConveyor):
         """
         from conveyor.report.tables import plain
 
-        return plain(self, studies, _further(studies, "SI"))
+        return plain(self.beside(studies), studies, _further(studies, "SI"))
 
     @checked
     def to_excel(

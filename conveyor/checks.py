@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Final, Literal
 
@@ -109,6 +109,24 @@ class Check:
             return None
         over = (self.calculated - self.required) / abs(self.required)
         return over if self.relation == "at least" else -over
+
+    @property
+    def use(self) -> float | None:
+        """Of what is allowed the share that is used [-]; None where a figure is missing or 0."""
+        if not self.calculated or not self.required:
+            return None
+        ratio = self.calculated / self.required
+        return ratio if self.relation == "at most" else 1.0 / ratio
+
+
+def highest_use(checks: Iterable[Check], keys: Collection[str]) -> tuple[float | None, Check | None]:
+    """The highest use of criteria [-] and its check; None where no check of these keys says one."""
+    used = [(one.use, one) for one in checks if one.key in keys and one.use is not None]
+    return max(used, key=lambda pair: pair[0] or 0.0, default=(None, None))
+
+
+BELT_USE: Final = frozenset({"belt_safety", "belt_rating"})
+"""Criteria of what a belt bears, by its strength or its rating."""
 
 
 def verdict(*, holds: bool) -> Verdict:

@@ -168,6 +168,12 @@ class CalculatedConveyor:
         return low, high
 
     @property
+    def motor_asked(self) -> float:
+        """Power that the motors give or hold with the friction at the less favourable end [W]; negative: held."""
+        least, most = map(self.balance.frame.motor, self.drive_forces)
+        return least if abs(least) > abs(most) else most
+
+    @property
     def line(self) -> Line:
         """The conveyor in SI."""
         return self.balance.line
@@ -247,7 +253,7 @@ class CalculatedConveyor:
     def year(self) -> Year | None:
         """Energy of a year at even load and its cost; None without hours, or where a duty has its own year."""
         operation = self.conveyor.operation
-        if operation is None:
+        if operation is None or operation.duty:
             return None
         return year(operation, self.balance.power.mains, self.line.flow)
 
@@ -267,7 +273,10 @@ def take_up_of(loads: Sequence[CalculatedConveyor]) -> TakeUpDuty:
 
 
 def calculate(conveyor: Conveyor) -> CalculatedConveyor:
-    """Calculate one conveyor.
+    """Calculate one conveyor under its own load.
+
+    The take-up is at its given setting, else at the least that serves this load; reports have the least that serves
+    every load, of `conveyor.studies`.
 
     Raises
     ------

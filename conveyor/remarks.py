@@ -27,6 +27,7 @@ from conveyor.loop.year import earns_nothing
 from conveyor.models import Conveyor, IdlerSet, Roll
 from conveyor.models.listed import Listed, without
 from conveyor.models.rolls import BearingDrag, MakerDrag
+from conveyor.models.unlikely import unlikely
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.units import quantity, same, text
 from conveyor.units.sentences import Said, figure, percent, quoted, said
@@ -140,6 +141,7 @@ def warnings(result: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Said
     return tuple(
         dict.fromkeys(
             (
+                *unlikely(conveyor),
                 *_rubber(conveyor),
                 *_strain(result),
                 *_level(result),

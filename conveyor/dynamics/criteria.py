@@ -261,7 +261,7 @@ CRITERIA: Final[tuple[Callable[[Followed], Iterator[Check]], ...]] = (
 
 def checks_of(dynamics: CalculatedDynamics) -> tuple[Check, ...]:
     """Every criterion of every scenario; of a backstop, which has no limit, the scenario that loads it most."""
-    every = [
+    every = [*_unanswered(dynamics)] + [
         replace(check, case=scenario_case(followed))
         for followed in dynamics.followed
         for criterion in CRITERIA
@@ -274,6 +274,15 @@ def checks_of(dynamics: CalculatedDynamics) -> tuple[Check, ...]:
                 most.get(check.subject, check), check, key=lambda one: one.calculated or 0.0
             )
     return tuple(check for check in every if check is most.get(check.subject, check))
+
+
+def _unanswered(dynamics: CalculatedDynamics) -> Iterator[Check]:
+    count = f"{len(dynamics.refused)} of {len(dynamics.followed) + len(dynamics.refused)}"
+    for refusal in dynamics.refused:
+        yield Check(
+            "dynamic_answer", said("answer to every scenario"), None, None, "number", said(f"none to {count}"),
+            said("an answer"), "FAIL", refusal.reason, case=said(quoted(refusal.scenario)),
+        )  # fmt: skip
 
 
 def scenario_case(scenario: Followed) -> Said:

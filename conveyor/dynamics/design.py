@@ -91,7 +91,7 @@ def sized(
     """Size every scenario, and follow it with what was found; arguments and errors as of `size` and `follow`."""
     sizes = tuple(size(conveyor, one, sought) for one in scenarios)
     _, given = prepared_rides(conveyor, scenarios)
-    return CalculatedDynamics(conveyor, given, refined([one.ride for one in sizes], error, **how), sizes)
+    return CalculatedDynamics(conveyor, given, *refined([one.ride for one in sizes], error, **how), sizes)
 
 
 def _ramped(ride: Ride) -> tuple[Callable[[float], Ride], tuple[float, float], str]:

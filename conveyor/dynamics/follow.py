@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Final
+from typing import Final, TypeAlias, TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,9 +30,11 @@ from conveyor.line.scenes import ScenarioUnit
 from conveyor.models import Conveyor, LoadCase, Scenario
 from conveyor.models.variants import slowed, with_case, with_temperature
 from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many
-from conveyor.studies.states import load_states
+from conveyor.studies.loads import every_load
+from conveyor.studies.states import CalculatedStates
+from conveyor.studies.workers import workers_of
 from conveyor.units import from_si
-from conveyor.units.sentences import percent
+from conveyor.units.sentences import Said, percent, quoted, said
 
 Array = NDArray[np.float64]
 
@@ -40,6 +42,7 @@ ERROR: Final = 0.01
 """Error of the peaks asked for without a word [-]."""
 _CELLS = 100  # of the longest belt at first
 _REFINED = 4  # times at most
+_CLOSER = 0.75  # change over the one before up to which halving helps: a half at first order, 1/√2 at a jump of speed
 _REST = 1e-3  # of the steady speed, below which a belt away from the drives rests
 _COURANT = 0.95  # of the longest stable step: at that itself the swing from cell to cell is never damped
 
@@ -175,6 +178,17 @@ class Followed:
         return missing / max(work.values())
 
 
+@dataclass(frozen=True)
+class ScenarioRefusal:
+    """A scenario without an answer, and why."""
+
+    scenario: str
+    reason: Said
+
+
+_Answer: TypeAlias = Followed | ScenarioRefusal
+
+
 @dataclass(frozen=True, eq=False)
 class CalculatedDynamics:
     """Scenarios of a conveyor.
@@ -184,9 +198,11 @@ class CalculatedDynamics:
     conveyor : Conveyor
         The spec.
     given : CalculatedConveyor
-        Its steady result, the take-up at the one setting of all loads here.
+        Its steady result, the take-up at the one setting of every load of the spec.
     followed : tuple of Followed
         In order of the scenarios.
+    refused : tuple of ScenarioRefusal
+        Those without an answer.
     sized : tuple of Size
         Figures that were sought for them, where any were.
     """
@@ -194,6 +210,7 @@ class CalculatedDynamics:
     conveyor: Conveyor
     given: CalculatedConveyor
     followed: tuple[Followed, ...]
+    refused: tuple[ScenarioRefusal, ...] = ()
     sized: tuple[Size, ...] = ()
 
     @cached_property
@@ -260,14 +277,14 @@ def follow(
     Returns
     -------
     CalculatedDynamics
-        One result a scenario.
+        One result a scenario; those without an answer beside them.
 
     Raises
     ------
     InputError
         A loading does not fit the belt, or an argument is outside its range.
     NoSolutionError, RangeError
-        A load has no steady answer, the belt's stiffness is not known, or the peaks do not hold at the finest cells.
+        A load has no steady answer, the belt's stiffness is not known, or no scenario has an answer.
     """
     if not 0.0 < error < 1.0:
         raise InputError(f"error = {error}: between 0 and 1 is needed")
@@ -275,11 +292,12 @@ def follow(
         conveyor, tuple(scenarios or conveyor.scenarios or standard_scenarios(conveyor))
     )
     if step is not None:
-        return CalculatedDynamics(conveyor, given, tuple(side_by_side(rides, step)))
-    followed = refined(rides, error, executor=executor, workers=workers, progress=progress)
-    return CalculatedDynamics(conveyor, given, followed)
+        return CalculatedDynamics(conveyor, given, *_sorted(_each(rides, step)))
+    answers = refined(rides, error, executor=executor, workers=workers, progress=progress)
+    return CalculatedDynamics(conveyor, given, *answers)
 
 
+@workers_of("scenarios")
 def refined(
     rides: Sequence[Ride],
     error: float = ERROR,
@@ -287,40 +305,100 @@ def refined(
     executor: Executor | None = None,
     workers: int = 1,
     progress: Progress | None = None,
-) -> tuple[Followed, ...]:
-    """Follow scenarios, cells halved until the peaks hold to an error [-]; arguments and errors as of `follow`."""
+) -> tuple[tuple[Followed, ...], tuple[ScenarioRefusal, ...]]:
+    """Follow scenarios, cells halved until the peaks hold to an error [-]; arguments and errors as of `follow`.
 
-    def beside(some: list[Ride], step: float) -> list[Followed]:
+    Those whose peaks do not hold at the finest cells are refused as those without an answer are.
+    """
+
+    def beside(some: list[Ride], step: float) -> list[_Answer]:
         """A group for every worker; every scenario keeps its place."""
         if executor is None:
-            return side_by_side(some, step)
+            return _each(some, step)
         groups = [some[k::workers] for k in range(min(workers, len(some)))]
-        made = list(executor.map(side_by_side, groups, itertools.repeat(step)))
+        made = list(executor.map(_each, groups, itertools.repeat(step)))
         return [made[i % len(groups)][i // len(groups)] for i in range(len(some))]
 
     step = max(float(ride.loop.travel[-1]) for ride in rides) / _CELLS
-    open_ones, followed = list(range(len(rides))), dict(enumerate(beside(list(rides), step)))
+    answers = beside(list(rides), step)
+    earlier = list(answers)
     for _ in range(_REFINED):
+        open_ones = [i for i, one in enumerate(answers) if _open(one, error)]
+        if not open_ones:
+            break
         if progress is not None:
             progress(len(rides) - len(open_ones), len(rides))
         step *= 0.5
         for i, now in zip(open_ones, beside([rides[i] for i in open_ones], step), strict=True):
-            followed[i] = replace(now, error=_error(followed[i], now))
-        open_ones = [i for i in open_ones if (followed[i].error or 0.0) > error]
-        if not open_ones:
-            return tuple(followed[i] for i in range(len(rides)))
-    worst = max((followed[i] for i in open_ones), key=lambda one: one.error or 0.0)
-    raise NoSolutionError(
-        f'scenario "{worst.name}": its peaks still change by {percent(worst.error or 0.0, 1)} at cells of {step:.3g} '
-        "s: ask for a "
-        "larger error, or look for a drive of hardly any mass"
-    )
+            earlier[i], answers[i] = answers[i], _with_error(answers[i], now)
+    return _sorted([
+        _unsettled(before, one) if _open(one, error) and _open(before, error) else one
+        for before, one in zip(earlier, answers, strict=True)
+    ])  # fmt: skip
 
 
-def _error(coarse: Followed, fine: Followed) -> float:
-    """Of the fine one's peaks: their change at half the cells, as if of first order, which it is at pulleys."""
+def _open(one: _Answer, error: float) -> TypeGuard[Followed]:
+    """Whether its peaks do not hold yet."""
+    return isinstance(one, Followed) and (one.error is None or one.error > error)
+
+
+def _with_error(coarse: _Answer, fine: _Answer) -> _Answer:
+    """The fine one with the error of its peaks: their change at half the cells, as if of first order."""
+    if isinstance(coarse, ScenarioRefusal) or isinstance(fine, ScenarioRefusal):
+        return fine
     changes = (fine.highest - coarse.highest, fine.lowest - coarse.lowest)
-    return float(max(map(abs, changes)) / fine.highest)
+    return replace(fine, error=float(max(map(abs, changes)) / fine.highest))
+
+
+def _unsettled(coarse: Followed, fine: Followed) -> ScenarioRefusal:
+    """A scenario whose peaks change by more than was asked for: both figures, where, and what helps."""
+    record, error = fine.record, fine.error or 0.0
+    high = abs(fine.highest - coarse.highest) > abs(fine.lowest - coarse.lowest)
+    i = int(record.highest.argmax() if high else record.lowest.argmin())
+    at = float((record.highest_at if high else record.lowest_at)[i])
+    helps = (
+        f"they come closer: an error of {percent(math.ceil(1e3 * error) / 1e3, 1)} can be asked for"
+        if error < _CLOSER * (coarse.error or 0.0)
+        else "shorter cells bring them no closer, a larger error would only hide it: look for what jumps there, as a "
+        "winch that is at its speed at once or a drive of hardly any mass"
+    )
+    figures = [
+        figure
+        for one in (coarse, fine)
+        for figure in ((one.highest, "force"), (one.lowest, "force"), (one.record.step, "time"))
+    ]
+    return ScenarioRefusal(fine.name, said(
+        "highest and lowest tension are {} and {} at steps of {}, {} and {} at steps of {}, "
+        f"{percent(error, 1)} of the highest apart, most in {quoted(fine.place(i))} after {at:.1f} s; {helps}", *figures
+    ))  # fmt: skip
+
+
+def _sorted(answers: Sequence[_Answer]) -> tuple[tuple[Followed, ...], tuple[ScenarioRefusal, ...]]:
+    """Scenarios with an answer, and those without.
+
+    Raises
+    ------
+    NoSolutionError
+        None has one.
+    """
+    followed = tuple(one for one in answers if isinstance(one, Followed))
+    refused = tuple(one for one in answers if isinstance(one, ScenarioRefusal))
+    if not followed:
+        named: dict[str, list[str]] = {}
+        for one in refused:
+            named.setdefault(one.reason.text(), []).append(f'"{one.scenario}"')
+        raise NoSolutionError("\n".join(f"scenario {', '.join(of)}: {why}" for why, of in named.items()))
+    return followed, refused
+
+
+def _each(rides: list[Ride], step: float) -> list[_Answer]:
+    """Scenarios side by side; each alone where one of them has no answer."""
+    try:
+        return list(side_by_side(rides, step))
+    except NoSolutionError as error:
+        if len(rides) == 1:
+            return [ScenarioRefusal(rides[0].scene.name, said(quoted(str(error))))]
+    return [answer for one in rides for answer in _each([one], step)]
 
 
 def side_by_side(rides: Sequence[Ride], step: float) -> list[Followed]:
@@ -356,7 +434,9 @@ def _only(record: Record, i: int, size: int, duration: float) -> Record:
 def prepared_rides(
     conveyor: Conveyor, scenarios: Sequence[Scenario]
 ) -> tuple[list[Ride], CalculatedConveyor]:
-    """Every scenario on its load; loads that several have are calculated once, all with one take-up."""
+    """Every scenario on its load, the take-up at the setting of `every_load`; a load of several is calculated once."""
+    loads = every_load(conveyor)
+    setting = loads.take_up
     loaded: dict[tuple[object, ...], Conveyor] = {}
     keys = []
     for scenario in scenarios:
@@ -364,43 +444,42 @@ def prepared_rides(
         key = (scenario.loading, scenario.sections, str(scenario.share), temperature)
         keys.append(key)
         if key not in loaded:
-            case = _case(conveyor, scenario)
+            case = _case(loads.states, scenario)
             made = with_case(conveyor, case)
             if temperature is not None:
                 made = with_temperature(made, from_si(temperature, "temperature", "K"))
             loaded[key] = made
-    given, *steady = _answers([Variant(conveyor), *map(Variant, loaded.values())], one_take_up=True)
-    setting = given.balance.settled.setting
+    steady = _answers([Variant(one, take_up=setting) for one in loaded.values()])
     slower = _answers([
         Variant(slowed(one, share), take_up=setting)
         for one in (conveyor, *loaded.values()) for share in SPEEDS
     ])  # fmt: skip
     loops = [
         CutLoop.of(one, slower[len(SPEEDS) * i : len(SPEEDS) * (i + 1)])
-        for i, one in enumerate((given, *steady))
+        for i, one in enumerate((loads.own, *steady))
     ]
     of_key = dict(zip(loaded, loops[1:], strict=True))
     rides = [
         Ride(ScenarioUnit.of(scenario, conveyor), of_key[key], loops[0], setting)
         for scenario, key in zip(scenarios, keys, strict=True)
     ]
-    return rides, given
+    return rides, loads.own
 
 
-def _case(conveyor: Conveyor, scenario: Scenario) -> LoadCase:
+def _case(states: CalculatedStates, scenario: Scenario) -> LoadCase:
     """What a scenario loads."""
     loading, sections = scenario.loading, scenario.sections
     if loading == "worst":
-        state = load_states(conveyor).state("worst")
+        state = states.state("worst")
         if state is None:
             raise NoSolutionError(f'scenario "{scenario.name}": no loading is worst; name the sections')
         loading, sections = ("sections", state.loaded) if state.loaded else ("empty", ())
     return LoadCase(name=scenario.name, loading=loading, sections=sections, share=scenario.share)
 
 
-def _answers(variants: list[Variant], *, one_take_up: bool = False) -> list[CalculatedConveyor]:
+def _answers(variants: list[Variant]) -> list[CalculatedConveyor]:
     results = []
-    for one in calculate_many(variants, one_take_up=one_take_up):
+    for one in calculate_many(variants):
         if not isinstance(one, CalculatedConveyor):
             raise one
         results.append(one)

@@ -182,21 +182,18 @@ class CutLoop:
         sag = np.diff(np.interp(at, self.way, hanging))
         mass, weight, stuck = lumped(self.mass), lumped(self.weight), lumped(self.stuck)
         friction = np.stack([lumped(part) for part in self.friction])
+        rubbing = {0, at.size - 1}
         for lump in self.lumps:
-            i = min(int(np.searchsorted(at, lump.at, side="right")) - 1, at.size - 2)
-            share = (lump.at - at[i]) / (at[i + 1] - at[i])
-            for k, part in ((i, 1.0 - share), (i + 1, share)):
-                mass[k] += part * lump.mass
-                weight[k] += part * lump.weight
-                friction[0, k] += part * lump.friction
-                friction[2, k] += part * lump.square
+            k = int(np.argmin(np.abs(at - lump.at)))
+            mass[k] += lump.mass
+            weight[k] += lump.weight
+            friction[:, k] += lump.friction, 0.0, lump.square
+            stuck[k] -= lump.square * self.line.speed**2  # at rest nothing is fed
+            if lump.friction or lump.square:
+                rubbing.add(k)
         nodes = np.array([int(np.argmin(np.abs(time - t))) for t in arriving], dtype=int)
-        for end, beside in ((0, 1), (-1, -2)):  # masses beside the take-up bear no friction
-            if end % at.size not in nodes:
-                friction[:, beside] += friction[:, end]
-                stuck[beside] += stuck[end]
-                friction[:, end], stuck[end] = 0.0, 0.0
-        return Cells(at, mass, self.stiffness / np.diff(at), weight, friction, stuck, nodes, sag)
+        lumps = np.array(sorted(rubbing.difference(nodes.tolist())), dtype=int)
+        return Cells(at, mass, self.stiffness / np.diff(at), weight, friction, stuck, nodes, lumps, sag)
 
 
 @dataclass(frozen=True, eq=False)
@@ -210,6 +207,7 @@ class Cells:
     friction: Array
     stuck: Array
     nodes: NDArray[np.int_]
+    lumps: NDArray[np.int_]
     sag: Array
 
     @cached_property

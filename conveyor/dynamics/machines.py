@@ -186,8 +186,8 @@ class Ride:
         unit = self.starters[d]
         if unit.kind != "inverter" or unit.stop_time is None:
             raise NoSolutionError(
-                f'scenario "{self.scene.name}": drive "{self.drives[d].name}" has no inverter ({unit.kind}) and cannot '
-                'ramp down; say "power off", or give it a starter'
+                f'drive "{self.drives[d].name}" has no inverter ({unit.kind}) and cannot ramp down; say "power off", '
+                "or give it a starter"
             )
         return unit.stop_time
 
@@ -285,6 +285,7 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
         sticking=filled([one.resisting(line.speed, 1.0) + one.stuck for one in cells], 0.0, most) * friction[:, None],
         end=np.array([one.at.size - 1 for one in cells]),
         nodes=np.array([one.nodes for one in cells]),
+        lumps=_even(cells),
         rim=np.array([ride.rims for ride in rides]),
         grip=np.array([[math.expm1(drive.friction * drive.wrap_angle) for drive in ride.drives] for ride in rides]),
         backstop=np.array([ride.backstops for ride in rides]),
@@ -293,6 +294,7 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
         winch=np.outer([speed * unit.strands, band], np.ones(held.size)),
         sag=filled([one.sag for one in cells], 0.0, most - 1),
         relaxing=line.belt.relaxing or (0.0, 1.0),
+        known=line.speed,
     )  # fmt: skip
     moving = np.array([[line.speed * ride.scene.running] for ride in rides])
     start = Beginning(
@@ -303,6 +305,14 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
         rims=moving * np.ones_like(chain.rim),
     )
     return cells, chain, start
+
+
+def _even(cells: list[Cells]) -> NDArray[np.int_]:
+    """Lumps of every belt, filled up with its first drive, which has its friction already."""
+    most = max(one.lumps.size for one in cells)
+    return np.array([
+        np.pad(one.lumps, (0, most - one.lumps.size), constant_values=one.nodes[0]) for one in cells
+    ])  # fmt: skip
 
 
 def retardation(belt: BeltBody) -> float:

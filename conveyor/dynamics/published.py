@@ -73,6 +73,7 @@ class EvenLoop:
                 np.zeros((1, n + 1)),
             ]),
             sticking=(1.0 - self.rising) * friction[None], end=np.array([n]), nodes=np.array([[node]]),
+            lumps=np.zeros((1, 0), int),
             rim=np.ones((1, 1)), grip=np.full((1, 1), 1e12), backstop=np.zeros((1, 1), bool),
             held=np.array([self.held]), carriage=np.array([self.carriage]), winch=np.zeros((2, 1)),
             sag=np.zeros((1, n)),

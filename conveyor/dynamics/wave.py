@@ -5,8 +5,9 @@ steps, speeds between them (leapfrog), so at a step of one travel time of a cell
 exactly, and nothing is damped that the belt does not damp. The damping T = k (Δu + τ Δu̇) is taken at the mean of old
 and new speeds: one tridiagonal system a step, stable at any τ. Friction is a set-valued force: what a mass would need
 to stand still, limited to what there is; so nothing chatters where the motion turns. The same holds for the grip of a
-belt on its driven pulley, for brakes and for backstops. Between the idlers the belt hangs: as its tension falls the sag
-takes in belt, so that it softens and never pushes.
+belt on its driven pulley, for brakes and for backstops. What lies along the belt is taken on every mass alone; what
+stands at one place on the answer of the whole belt: it stays as it is while the mass there gets as small as its cell.
+Between the idlers the belt hangs: as its tension falls the sag takes in belt, so that it softens and never pushes.
 
 Source: derived (Newton, Hooke, Kelvin and Voigt, Maxwell, the shallow parabola); leapfrog, its stability (Courant,
 Friedrichs, Lewy 1928) and the projection of friction are textbook numerics.
@@ -16,6 +17,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,13 +55,16 @@ class Chain:
     weight : ndarray
         Force of gravity against the running direction [N].
     friction : ndarray, shape (3, s, n + 1)
-        Force at a speed, f0 + f1 |v| + f2 v² [N].
+        Force at a speed, f0 + f1 |v| + f2 v² [N], beyond `known` as there.
     sticking : ndarray
         Force up to which a mass at rest stays there [N].
     end : ndarray of int, shape (s,)
         Mass right before the take-up; mass 0 is right behind it.
     nodes : ndarray of int, shape (s, d)
         Masses on driven pulleys, all of them different.
+    lumps : ndarray of int, shape (s, l)
+        Masses on which friction stands that does not get less with the cell, and those beside the take-up; a driven
+        one has its friction with its pulley.
     rim : ndarray, shape (s, d)
         Rotating mass of each drive reduced to the belt [kg].
     grip : ndarray, shape (s, d)
@@ -67,11 +72,13 @@ class Chain:
     backstop : ndarray of bool, shape (s, d)
         Whether a pulley cannot turn backward.
     held : ndarray, shape (s,)
-        Tension that the take-up gives at rest [N]; masses beside it bear no friction.
+        Tension that the take-up gives at rest [N].
     carriage : ndarray, shape (s,)
         Its mass over the square of its strands [kg]; infinite where it is fixed.
     winch : ndarray, shape (2, s)
         Speed at which a winch takes in belt [m/s], 0 without one; tension over `held` within which it rests [-].
+    known : float
+        Speed up to which friction is known [m/s].
     """
 
     mass: Array
@@ -82,6 +89,7 @@ class Chain:
     sticking: Array
     end: Integers
     nodes: Integers
+    lumps: Integers
     rim: Array
     grip: Array
     backstop: NDArray[np.bool_]
@@ -90,6 +98,7 @@ class Chain:
     winch: Array
     sag: Array
     relaxing: tuple[float, float] = (0.0, 1.0)
+    known: float = math.inf
 
     @property
     def longest_step(self) -> float:
@@ -100,7 +109,7 @@ class Chain:
 
     def resisting(self, speed: Array) -> Array:
         """Friction of every mass at a speed [N]."""
-        size = np.abs(speed)
+        size = np.minimum(np.abs(speed), self.known)
         return np.asarray(self.friction[0] + size * (self.friction[1] + size * self.friction[2]))
 
 
@@ -298,6 +307,30 @@ class _BeltLaw:
         return np.where(self.bears, own, 0.0).sum(axis=1), held.sum(axis=1)
 
 
+@dataclass(frozen=True, eq=False)
+class _Answer:
+    """Of a belt to an impulse of 1 N s at each of some places.
+
+    All speeds [m/s], shape (s, d, n + 1); what the take-up lacks [N s]; speeds of the places, shape (s, d, d).
+    """
+
+    columns: Array
+    of_take_up: Array
+    mutual: Array
+
+    @cached_property
+    def own(self) -> Array:
+        """Speed of each place by its own impulse."""
+        return np.asarray(np.einsum("sdd->sd", self.mutual))
+
+    def moved(self, impulse: Array, speed: Array, lacking: Array) -> tuple[Array, Array]:
+        """Speeds, and what the take-up lacks, after impulses at the places."""
+        return (
+            speed + np.einsum("sd,sdn->sn", impulse, self.columns),
+            lacking + (self.of_take_up * impulse).sum(axis=1),
+        )
+
+
 class _Solver:
     """One step's linear system: masses, damping, the take-up between both ends; pulleys' responses beside it."""
 
@@ -323,15 +356,19 @@ class _Solver:
         finite = np.where(stiff, 0.0, chain.carriage)
         self.kappa = np.where(stiff, 1.0 / own, finite / (1.0 + finite * own))
         self.stiff = stiff
-        count = chain.nodes.shape[1]
-        self.columns, self.of_take_up = np.zeros((s, count, n + 1)), np.zeros((s, count))
+        self.pulleys, self.lumps = self._answer(chain.nodes), self._answer(chain.lumps)
+
+    def _answer(self, places: Integers) -> _Answer:
+        """To impulses at places."""
+        (s, count), n = places.shape, self.pair.shape[1]
+        columns, of_take_up = np.zeros((s, count, n)), np.zeros((s, count))
         for d in range(count):
-            unit = np.zeros((s, n + 1))
-            unit[self.rows, chain.nodes[:, d]] = 1.0
+            unit = np.zeros((s, n))
+            unit[self.rows, places[:, d]] = 1.0
             column = self._banded(unit)
-            self.of_take_up[:, d] = self.kappa * self._apart(column)
-            self.columns[:, d] = column - self.pair * self.of_take_up[:, d, None]
-        self.answer = np.take_along_axis(self.columns, chain.nodes[:, :, None], axis=2)[:, :, 0]
+            of_take_up[:, d] = self.kappa * self._apart(column)
+            columns[:, d] = column - self.pair * of_take_up[:, d, None]
+        return _Answer(columns, of_take_up, np.take_along_axis(columns, places[:, None, :], axis=2))
 
     def _banded(self, right: Array) -> Array:
         solution, _ = dpttrs(self.lower, self.off, right.ravel())
@@ -396,6 +433,7 @@ class _Motion:
         self.on_pulleys = start.speed[
             self.rows, self.at
         ]  # at rest exactly 0, which the solver's rounding blurs
+        self.lumps_rest = start.speed[self.rows, chain.lumps] == 0.0
         self.pulled, self.taken = chain.held, np.zeros(s)
         self.extremes = _Extremes((s, n))
         names = ("force", "motor", "rim", "belt", "arriving", "leaving", "holding")
@@ -411,9 +449,12 @@ class _Motion:
         chain, step, n = self.chain, self.dt, self.chain.stiffness.shape[1]
         self.one, self.rows = np.arange(chain.end.size), np.arange(chain.end.size)[:, None]
         self.at = at = chain.nodes
+        self.answer = self.solver.pulleys.own
         self.loose = np.ones_like(chain.mass)
         self.loose[self.rows, at] = 0.0  # friction there is taken with the pulley's
-        self.over_mass, self.under_mass = self.loose * step / chain.mass, self.loose * chain.mass / step
+        alone = self.loose.copy()
+        alone[self.rows, chain.lumps] = 0.0
+        self.over_mass, self.under_mass = alone * step / chain.mass, alone * chain.mass / step
         self.still, self.stuck = chain.sticking * self.over_mass, chain.sticking[self.rows, at]
         self.tau_k = chain.retardation * chain.stiffness
         self.first, self.last = (
@@ -421,7 +462,7 @@ class _Motion:
             at == chain.end[:, None],
         )  # beside the take-up pulleys bear its tension
         self.before, self.behind = np.maximum(at - 1, 0), np.minimum(at, n - 1)
-        self.of_take_up = self.solver.of_take_up / (self.solver.answer * step)
+        self.of_take_up = self.solver.pulleys.of_take_up / (self.answer * step)
         self.here = np.where(
             self.first | self.last, 1.0, 0.5
         )  # of what lies on a pulley's mass, on either side
@@ -455,20 +496,21 @@ class _Motion:
             wanted = chain.winch[0] * _winding(self.pulled / chain.held - 1.0, chain.winch[1])
         change, lacking = self.solver.change(self.dt * self._acting(), self.speed, wanted)
         new, rolling = self.speed + change, chain.resisting(self.speed)
+        new, lacking, lumped = self._rubbed(new, lacking, rolling)
         if self.at.size:
             new, lacking = self._driven(i, new, lacking, rolling)
+        # what acts: all of τ k on half the new speeds, before masses rub alone, and on half the old less what sag eases
+        damping = self.tau_k * (0.5 * np.diff(new, axis=1) + (self.law.eased - 0.5) * self.stretching)
         free = new + self.resisting * self.over_mass
         allowed = np.where(self.speed == 0.0, self.still, rolling * self.over_mass)
         rubbed = np.minimum(np.maximum(free, -allowed), allowed)
         new = free - rubbed
         self.resisting = rubbed * self.under_mass
+        self.resisting[self.rows, chain.lumps] = lumped
         self.pulled = chain.held - lacking / self.dt
-        earlier, self.stretching = self.stretching, np.diff(new, axis=1)
-        # half of the old and half of the new one are solved for with all of τ k; what sag eases is taken off the old
-        damping = self.tau_k * (0.5 * (earlier + self.stretching) - (1.0 - self.law.eased) * earlier)
         self.ledger.belts(self.speed, new, self.resisting, self.pulled, damping + self.law.branch)
         self.shown = self.tension + damping
-        self.speed = new
+        self.speed, self.stretching = new, np.diff(new, axis=1)
         self.tension = self.law.stretch(self.dt * self.stretching)
         self.strained = self.tension + self.tau_k * self.law.eased * self.stretching
 
@@ -484,7 +526,7 @@ class _Motion:
 
     def _driven(self, i: int, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array]:
         """Speeds with the pulleys' new forces, and what the take-up lacks with them."""
-        chain, solver, rows, at = self.chain, self.solver, self.rows, self.at
+        chain, answer, rows, at = self.chain, self.answer, self.rows, self.at
         at_nodes, going = self.speed[rows, at], new[rows, at]
         softer = self.law.eased * (self.dt * (self.law.k + self.law.branch_k) + self.tau_k)
         yields = (
@@ -497,12 +539,11 @@ class _Motion:
         arriving = np.where(self.first, tight, coming[rows, self.before] + lying)
         leaving = np.where(self.last, tight, coming[rows, self.behind] - lying)
         moved = _pulleys(
-            chain, self.machines, i, step=self.dt, answer=solver.answer, rim=self.rims,
-            free=going - solver.answer * self.dt * (self.driving - self.rubbing),
+            chain, self.machines, i, step=self.dt, answer=answer, rim=self.rims,
+            free=going - answer * self.dt * (self.driving - self.rubbing),
             arriving=arriving - yields[0] * going, leaving=leaving + yields[1] * going,
             yields=yields, friction=np.where(self.on_pulleys == 0.0, self.stuck, rolling[rows, at]),
         )  # fmt: skip
-        push = (moved.belt - going) / solver.answer
         for name, values in self.drives.items():
             values[i] = getattr(moved, name)
         over = np.where(moved.grips, 0.0, self.dt * (moved.rim - moved.belt))
@@ -515,8 +556,23 @@ class _Motion:
             moved.rim,
             moved.belt,
         )
-        new = new + np.einsum("sd,sdn->sn", push, solver.columns)
-        return new, lacking + (solver.of_take_up * push).sum(axis=1)
+        return self.solver.pulleys.moved((moved.belt - going) / answer, new, lacking)
+
+    def _rubbed(self, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array, Array]:
+        """Speeds with the friction of the lumps, one after the other, what the take-up lacks with it, and itself."""
+        rows, at, answer = self.rows, self.chain.lumps, self.solver.lumps
+        earlier, speed = self.resisting[rows, at], new[rows, at]
+        most = self.loose[rows, at] * np.where(
+            self.lumps_rest, self.chain.sticking[rows, at], rolling[rows, at]
+        )
+        over_force, impulse = self.dt * answer.own, np.zeros_like(most)
+        free, allowed = over_force * earlier, over_force * most
+        for j in range(at.shape[1]):
+            left = _rest(speed[:, j] + free[:, j], allowed[:, j], allowed[:, j])
+            self.lumps_rest[:, j] = left == 0.0
+            impulse[:, j] = (left - speed[:, j]) / answer.own[:, j]
+            speed = speed + impulse[:, j, None] * answer.mutual[:, j]
+        return *answer.moved(impulse, new, lacking), earlier - impulse / self.dt
 
     def _keep(self, i: int) -> None:
         """Note extremes, samples, and what the take-up does."""

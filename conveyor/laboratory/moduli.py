@@ -81,12 +81,12 @@ def _tangent(angle: Series) -> tuple[FloatArray, str]:
 
 def _beside(table: DataTable, whole: Series, loss: Series) -> FloatArray:
     """E' of |E*| and E''."""
-    square = whole.values**2 - loss.values**2
-    if square.min() <= 0.0:
-        row = int(np.argmin(square))
-        what = f"E'' = {loss.values[row]:.4g} Pa is no smaller than |E*| = {whole.values[row]:.4g} Pa: columns or units"
-        raise table.refusal(loss.column, what + " mixed up? correct them", row)
-    return np.asarray(np.sqrt(square))
+    share = loss.values / whole.values
+    row = int(np.argmax(share))
+    if share[row] >= 1.0:
+        what = f"E'' is {share[row]:.3g} times |E*|, of which it is a part: columns mixed up?"
+        raise table.refusal(whole.column, what, row)
+    return np.asarray(whole.values * np.sqrt(1.0 - share**2))
 
 
 def _with_angle(table: DataTable, moduli: Moduli, angle: Series | None) -> Moduli:
@@ -142,19 +142,19 @@ def _readings(moduli: Moduli, angle: Series) -> Iterator[tuple[DataColumn, Float
     if moduli.storage_from.meaning.quantity == "storage":
         letter = moduli.storage_from.meaning.letter
         named = f"|{letter}*|" if letter else "complex modulus"
-        advice = f"if what is named {letter or 'E'}' is |{letter or 'E'}*|: name the column '{named}'"
+        advice = f"if what is named {letter or 'E'}' is |{letter or 'E'}*|; name the column '{named}'"
         yield moduli.storage_from.column, -np.log(np.hypot(1.0, _tangent(angle)[0])), advice
     if angle.meaning.quantity == "tan_delta":
         for unit, factor in (("rad", 1.0), ("deg", np.pi / 180.0)):
             if value.max() * factor < np.pi / 2:
-                advice = f"if what is named tan delta is the phase angle: name the column 'phase [{unit}]'"
+                advice = f"if what is named tan delta is the phase angle; name the column 'phase [{unit}]'"
                 yield angle.column, np.log(np.tan(value * factor) / value), advice
 
 
 def _digits(table: DataTable, series: Series) -> FloatArray:
-    """Most that the printed digits of each value leave open, of a phase in its tangent [-]."""
+    """Most that rounding to the printed digits changes each value by, a phase in its tangent [-]."""
     base = series.meaning.log_base
-    digit = np.array([last_digit(line.cells[series.column.index]) for line in table.rows])
+    digit = 0.5 * np.array([last_digit(line.cells[series.column.index]) for line in table.rows])
     if base is not None:
         return np.asarray(digit * np.log(base))
     if series.meaning.quantity == "phase":

@@ -84,7 +84,7 @@ def at_one_setting(loops: Sequence[Balance]) -> list[Balance]:
     for _ in range(_STEPS):
         closed = held(loops, setting)
         asked = max(loop.settled.needed for loop in closed)
-        if holds(setting, asked):
+        if holds(setting, asked) and holds(asked, setting):
             return closed
         setting = asked
     raise NoSolutionError(

@@ -26,6 +26,7 @@ from conveyor.units import (
     display,
     is_kind,
     si,
+    system_of,
     text,
 )
 
@@ -178,7 +179,8 @@ class Belt(Listed):
                 Problem(
                     ("thickness",),
                     f"got {text(self.thickness)}, but top cover + bottom cover + carcass are {listed} = "
-                    f"{display(total, 'thickness')}; correct belt.thickness or the part that is wrong",
+                    f"{display(total, 'thickness', system_of(self.thickness))}; correct belt.thickness or the "
+                    "part that is wrong",
                 )
             )
         low, high = self.lowest_temperature, self.highest_temperature
@@ -200,7 +202,7 @@ class Belt(Listed):
                 Problem(
                     ("mass",),
                     f"got {self._mass_as_given()}, but the rubber of the covers alone weighs "
-                    f"{display(self._cover_line_mass, 'line mass')}; correct belt.mass (per area or per length?) "
+                    f"{self._in_words(self._cover_line_mass)}; correct belt.mass (per area or per length?) "
                     "or the covers",
                 )
             )
@@ -208,7 +210,14 @@ class Belt(Listed):
 
     def _mass_as_given(self) -> str:
         given: Quantity | None = self.mass
-        return display(self.line_mass, "line mass") if given is None else text(given)
+        return self._in_words(self.line_mass) if given is None else text(given)
+
+    def _in_words(self, line_mass: float) -> str:
+        """A mass per length, per area where the belt's is given so; in the system that the width has."""
+        system = system_of(self.width)
+        if self.mass is None or is_kind(self.mass, "line mass"):
+            return display(line_mass, "line mass", system)
+        return display(line_mass / si(self.width), "area mass", system)
 
     @property
     def _cover_line_mass(self) -> float:

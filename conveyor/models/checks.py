@@ -18,7 +18,7 @@ from conveyor.models.idlers import IdlerSet, overlap_problems
 from conveyor.models.parts import ConveyorParts
 from conveyor.models.route import Feeding
 from conveyor.models.wording import Location
-from conveyor.units import Quantity, display, from_si, si, text
+from conveyor.units import Quantity, display, from_si, si, system_of, text
 
 
 def _sets(conveyor: ConveyorParts) -> tuple[tuple[str, IdlerSet], tuple[str, IdlerSet]]:
@@ -73,12 +73,13 @@ def _flow_fits(conveyor: ConveyorParts) -> Iterator[Problem]:
     if sections is None or sections[0] <= sections[1]:
         return
     needed, area = sections
+    system = system_of(belt.width)
     most = from_si(si(material.flow) * area / needed, "mass flow", text(material.flow).split()[1])
     least = from_si(si(belt.speed) * needed / area, "speed", text(belt.speed).split()[1])
     yield Problem(
         ("material", "flow"),
         f"got {text(material.flow)}, which at {text(belt.speed)} (belt.speed) needs a cross-section of "
-        f"{display(needed, 'area')}, the belt holds {display(area, 'area')}: reduce material.flow to "
+        f"{display(needed, 'area', system)}, the belt holds {display(area, 'area', system)}: reduce material.flow to "
         f"{_rounded(most, down=True)} or less, raise belt.speed to {_rounded(least, down=False)} or more, "
         "or take a wider belt",
     )

@@ -168,6 +168,7 @@ def scenario_drives(dynamics: CalculatedDynamics) -> Table:
         Column("brake", "force", held(np.max, lambda ride: ride.brakes), json="brake_N"),
         Column("backstop", "force", held(lambda force: max(0.0, -np.min(force)), lambda ride: ride.backstops),
                json="backstop_N"),
+        Column("take-up, setting", "force", "1.ride.setting", json="take_up_setting_N"),
         Column("take-up, lowest", "force", take_up(pull, np.min), json="take_up_min_N"),
         Column("take-up, highest", "force", take_up(pull, np.max), json="take_up_max_N"),
         Column("carriage, out", "length", take_up(attrgetter("travel"), np.max), json="carriage_out_m"),

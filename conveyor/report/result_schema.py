@@ -103,7 +103,7 @@ _SCENARIOS: Final = {
         "scenario", "drive",
         numbers=(
             "torque_max", "torque_min", "force_max_N", "force_min_N", "power_kW", "slip_m", "slip_heat_MJ", "brake_N",
-            "backstop_N", "take_up_min_N", "take_up_max_N", "carriage_out_m", "carriage_in_m",
+            "backstop_N", "take_up_setting_N", "take_up_min_N", "take_up_max_N", "carriage_out_m", "carriage_in_m",
         ),
     ),
     "pulleys": _rows("scenario", "pulley", numbers=_EXTREMES, also=("safety",)),

@@ -13,9 +13,10 @@ from conveyor.report import analysis_plots
 from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, Table, figures
 from conveyor.report.page import notebook
 from conveyor.report.plots import Over
+from conveyor.studies.loads import asked_of_take_up
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, unit
-from conveyor.units.sentences import Said, degrees, quoted, said
+from conveyor.units.sentences import Said, degrees
 
 if TYPE_CHECKING:
     from conveyor.loop.take_up import TakeUpDuty
@@ -167,7 +168,8 @@ def governing(study: CalculatedCases, governing: Sequence[Governing]) -> Table:
     )
     rows = tuple(Figure(row.figure, row.kind, row, key=f"governing_{row.key}") for row in governing)
     left_out = [row.label.text() for row in study.results if not row.covered]
-    note = f"friction factor {low:g}-{high:g}, least favourable"
+    held = "; negative: the motors hold the belt" if any(row.value < 0.0 for row in governing) else ""
+    note = f"friction factor {low:g}-{high:g}, least favourable{held}"
     if left_out:
         note += f"; without {'; '.join(left_out)}: the rubber data do not cover the excitation band there"
     return Table("governing_cases", "Load cases", "Governing cases", columns, rows, _CASES, note, links=True)
@@ -210,10 +212,10 @@ def _case_drawings(study: CalculatedCases, system: System) -> Iterator[Drawing]:
 
 
 def take_up_of(a: CalculatedConveyor, studies: CalculatedStudies | None) -> tuple[TakeUpDuty, Said]:
-    """What all loads ask of the take-up, and which of them governs: those of the cases, else the one calculated."""
-    if studies is None or studies.cases is None:
-        return a.take_up, said(quoted(a.take_up.governed_by))
-    return studies.cases.take_up, studies.cases.take_up_governed_by
+    """What all loads ask of the take-up, and which of them governs."""
+    return asked_of_take_up(
+        a, None if studies is None else studies.states, None if studies is None else studies.cases
+    )
 
 
 def plain_take_up(duty: TakeUpDuty, governed_by: Said) -> dict[str, Any]:
@@ -329,9 +331,9 @@ def plain(studies: CalculatedStudies) -> dict[str, Any]:
         named = {key: _plain_state(state) for state in studies.states.states for key in state.keys}
         parts["states"] = {key: named[key] for key in _STATE_KEYS if key in named}
         parts["worst_states"] = [_plain_state(state) for state in studies.states.states if state.worst_for]
+        parts["take_up"] = plain_take_up(*take_up_of(studies.states.own, studies))
     study = studies.cases
     if study is not None:
-        parts["take_up"] = plain_take_up(study.take_up, study.take_up_governed_by)
         parts["load_cases"] = {
             "conveyor": study.conveyor.name,
             "friction_band": list(study.friction_band),

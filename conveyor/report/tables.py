@@ -60,10 +60,11 @@ from conveyor.report.study_tables import of_studies, plain_take_up, take_up_of
 from conveyor.report.study_tables import plain as plain_studies
 from conveyor.report.transfer_tables import drawing as of_discharge
 from conveyor.report.transfer_tables import of_transfer
-from conveyor.report.verdict import AS_GIVEN, governing_figures, loads, maximum_motor_power
+from conveyor.report.verdict import governing_figures, loads, maximum_motor_power
 from conveyor.report.what_if import what_if
 from conveyor.spec import fingerprint
 from conveyor.studies import CalculatedStudies
+from conveyor.studies.cases import AS_GIVEN
 from conveyor.studies.defaults import PowerRange, power_range
 from conveyor.studies.duty import CalculatedYear
 from conveyor.studies.loads import every_check
@@ -243,12 +244,11 @@ def results(a: CalculatedConveyor, left_open: PowerRange) -> Table:
     conveyor, balance = a.conveyor, a.balance
     forces, power, tensions_at, classic = balance.forces, balance.power, balance.tensions, balance.classical
     low, high = (left_open.low, left_open.high) if left_open.effects else (None, None)
-    even = not conveyor.duty  # a duty has its own year
     share = forces.indentation / forces.main
     error, energy_error = a.contacts.error, a.contacts.energy_error
-    safety, of_year = a.belt_duty.safety, a.year if even else None
+    safety, of_year = a.belt_duty.safety, a.year
     energy, cost = (None, None) if of_year is None else (of_year.energy * JOULE_PER_KWH, of_year.cost)
-    money = f"{MONEY}{(a.year and a.year.currency) or '-'}"
+    money = f"{MONEY}{(of_year and of_year.currency) or '-'}"
     rows = (
         Figure("length", "length", conveyor.route.length, json="length_m"),
         Figure("lift", "length", conveyor.route.rise, json="lift_m"),
@@ -1547,18 +1547,15 @@ def plain(
 
 def _energy(a: CalculatedConveyor, duty: CalculatedYear | None) -> dict[str, Any]:
     """In operation as given, and of a year: at even load, or of the duty where there is one."""
-    year = None if a.conveyor.duty else a.year
+    price = None if a.conveyor.operation is None else a.conveyor.operation.price
+    kwh, cost = (None, None) if a.year is None else (a.year.energy, a.year.cost)
     if duty is not None:
-        kwh, cost, currency = duty.year.net_kwh, duty.cost, duty.currency
-    elif year is not None:
-        kwh, cost, currency = year.energy, year.cost, year.currency
-    else:
-        kwh, cost, currency = None, None, None if a.year is None else a.year.currency
+        kwh, cost = duty.year.net_kwh, duty.cost
     return {
         "kWh_per_tonne_km": a.balance.power.energy_per_tonne_km,
         "kWh_per_year": kwh,
         "cost_per_year": cost,
-        "currency": currency,
+        "currency": None if price is None else price.currency,
     }
 
 

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Final, NamedTuple
 
-from conveyor.checks import Check, leading
+from conveyor.checks import BELT_USE, Check, highest_use, leading
 from conveyor.line.covers import compounds_by_strand
 from conveyor.loop.equilibrium import START
 from conveyor.loop.take_up import TakeUpDuty
@@ -15,13 +15,12 @@ from conveyor.models import RubberCompound
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.columns import Column, Table
 from conveyor.studies import CalculatedStudies
+from conveyor.studies.cases import AS_GIVEN
 from conveyor.studies.defaults import PowerRange
 from conveyor.units import System
-from conveyor.units.presentation import unit
+from conveyor.units.presentation import Unit, unit
 from conveyor.units.sentences import Said, figure, percent, said
 
-AS_GIVEN: Final = "as given"
-"""Load of a spec itself."""
 _SET: Final = ("take_up_tension", "sag")
 """Criteria that the least setting of the take-up meets without margin."""
 _SETS: Final = (
@@ -57,14 +56,9 @@ def loads(
     yield from (Load(*load) for load in (studies.states.loads if studies and studies.states else ()))
 
 
-def _asked(result: CalculatedConveyor) -> float:
-    """Motor power at the less favourable end of the friction [W]; negative where it brakes."""
-    return max(map(result.balance.frame.motor, result.drive_forces), key=abs)
-
-
 def maximum_motor_power(a: CalculatedConveyor, studies: CalculatedStudies | None) -> float:
     """Of all calculated loads at the less favourable end of the friction [W]; negative where it brakes."""
-    return max((_asked(load.found) for load in loads(a, studies, covered=True)), key=abs)
+    return max((load.found.motor_asked for load in loads(a, studies, covered=True)), key=abs)
 
 
 def _place(result: CalculatedConveyor, state: MotionState, tension: float) -> str:
@@ -108,9 +102,8 @@ def _rows(
         unit(kind, system, large=True) for kind in ("power", "force", "mass", "length")
     )
     every = list(loads(a, studies, covered=True))
-    case, most = max(((load.case, _asked(load.found)) for load in every), key=lambda pair: abs(pair[1]))
-    braking = ", braking" if most < 0.0 else ""
-    yield GoverningRow("maximum motor power", power.short(abs(most)) + braking, case.text(system))
+    case, most = max(every, key=lambda load: abs(load.found.motor_asked))
+    yield GoverningRow("maximum motor power", _held(power, most.motor_asked), case.text(system))
     where = figure(a.temperature, "temperature", system)
     if left_open.effects:
         low, high = power.short(left_open.low).rpartition(" ")[0], power.short(left_open.high)
@@ -123,7 +116,7 @@ def _rows(
     for motor in () if studies is None else studies.motors:
         yield GoverningRow(
             f"selected standard motors, {motor.drive}", f"{motor.count} x {power.short(motor.rated)}",
-            f"{power.short(motor.needed)} needed in {motor.case}, reserve {motor.reserve:.2f}",
+            f"{_held(power, motor.needed)}, needed in {motor.case}, reserve {motor.reserve:.2f}",
         )  # fmt: skip
     duty, asks = take_up
     sized = [] if duty.mass is None else [f"weight {mass.short(duty.mass)}"]
@@ -150,15 +143,15 @@ def _rows(
         yield from _rubber(a)
 
 
+def _held(power: Unit, watts: float) -> str:
+    """Motor power, and whether it is held."""
+    return power.short(abs(watts)) + (", braking" if watts < 0.0 else "")
+
+
 def _utilisation(governing: Sequence[Check], system: System) -> Iterator[GoverningRow]:
     """Of what the belt may bear the share that it bears; the higher of steady running and all states."""
-    used = []
-    for check in governing:
-        if check.key in {"belt_safety", "belt_rating"} and check.calculated and check.required:
-            ratio = check.calculated / check.required
-            used.append((ratio if check.relation == "at most" else 1.0 / ratio, check))
-    if used:
-        share, check = max(used, key=lambda pair: pair[0])
+    share, check = highest_use(governing, BELT_USE)
+    if share is not None and check is not None:
         case = AS_GIVEN if check.case is None else check.case.text(system)
         words = f"{check.subject.text(system)} {check.found.text(system)}, {check.asked.text(system)}; {case}"
         yield GoverningRow("belt utilisation", percent(share), words)

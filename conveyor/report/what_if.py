@@ -28,7 +28,7 @@ def what_if(a: CalculatedConveyor, studies: CalculatedStudies | None, motor: flo
 
 def _motor(motor: float) -> Iterator[Figure]:
     needed = abs(motor)
-    yield Figure("maximum motor power", "power", needed)
+    yield Figure("maximum motor power, driving or braking", "power", needed, key="maximum_motor_power")
     yield Figure("motor reserve", "ratio", MOTOR_RESERVE, on="input")
     formula = "what_if_maximum_motor_power*what_if_motor_reserve"
     yield Figure("required rated power", "power", needed * MOTOR_RESERVE, formula=formula)
@@ -37,15 +37,16 @@ def _motor(motor: float) -> Iterator[Figure]:
 def _energy(a: CalculatedConveyor, studies: CalculatedStudies | None) -> Iterator[Figure]:
     """Energy, cost and carbon dioxide of a year: of the duty, else of even load."""
     operation, duty = a.conveyor.operation, None if studies is None else studies.duty
-    if operation is None or (duty is None and a.year is None):
+    if operation is None:
         return
-    if duty is None:
-        hours, net = operation.seconds_per_year, a.year.energy if a.year is not None else 0.0
-        drawn, fed_back = max(net, 0.0), max(-net, 0.0)
-        cost, emission = None if a.year is None else a.year.cost, None
-    else:
+    if duty is not None:
         hours, drawn, fed_back = duty.year.time, duty.year.drawn_kwh, duty.year.fed_back_kwh
         cost, emission = duty.cost, duty.emission
+    elif a.year is not None:
+        hours, cost, emission = operation.seconds_per_year, a.year.cost, None
+        drawn, fed_back = max(a.year.energy, 0.0), max(-a.year.energy, 0.0)
+    else:
+        return
     yield Figure("energy drawn", "energy", drawn * JOULE_PER_KWH)
     yield Figure("energy fed back", "energy", fed_back * JOULE_PER_KWH)
     yield from to_change(operation, hours, emission=emission is not None)

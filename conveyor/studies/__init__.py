@@ -9,10 +9,13 @@ from functools import cached_property, partial
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.studies.cases import (
+    MOTOR_RESERVE,
     CalculatedCases,
+    CaseResult,
     Governing,
     MotorChoice,
     governing,
+    recommended_motors,
 )
 from conveyor.studies.duty import CalculatedYear, analyse_duty
 from conveyor.studies.loads import Progress, every_load
@@ -43,18 +46,21 @@ class CalculatedStudies:
 
     @cached_property
     def governing(self) -> tuple[Governing, ...]:
-        """For every figure of the design the load case or load state that decides it."""
-        if self.cases is None or not self.cases.governing:
-            return ()
-        covered = [result for result in self.cases.results if result.covered]
-        return governing([*covered, *(() if self.states is None else self.states.as_cases)])
+        """For every figure of the design the load that decides it: as given, a load case or a load state."""
+        return governing(self._loads)
 
     @property
     def motors(self) -> tuple[MotorChoice, ...]:
-        """Motors of every drive pulley for the governing of cases and load states; none without a case to design by."""
-        if self.cases is None or not self.cases.governing:
-            return ()
-        return self.cases.motors(states=() if self.states is None else self.states.loads)
+        """Motors of every drive pulley for the governing load of all; none without a case to design by."""
+        loads = [(load.label, load.found) for load in self._loads]
+        return recommended_motors(loads, reserve=MOTOR_RESERVE) if loads else ()
+
+    @cached_property
+    def _loads(self) -> tuple[CaseResult, ...]:
+        """As given, load cases that the rubber's data cover, load states; none without such a case."""
+        covered = () if self.cases is None else tuple(one for one in self.cases.results if one.covered)
+        states = () if self.states is None else self.states.as_cases
+        return (*states[:1], *covered, *states[1:]) if covered else ()
 
 
 def studies(
@@ -85,8 +91,10 @@ def studies(
     return CalculatedStudies(
         states=loads.states,
         cases=loads.cases,
-        duty=analyse_duty(conveyor, progress=told("duty of a year")) if conveyor.duty else None,
+        duty=analyse_duty(conveyor, take_up=loads.take_up, progress=told("duty of a year"))
+        if conveyor.duty
+        else None,
         uncertainty=None
         if conveyor.uncertainty is None
-        else study(conveyor, progress=told("ranges of the inputs")),
+        else study(conveyor, take_up=loads.take_up, progress=told("ranges of the inputs")),
     )

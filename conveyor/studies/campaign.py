@@ -13,7 +13,7 @@ import json
 import math
 import sqlite3
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache, cached_property
@@ -30,7 +30,7 @@ from conveyor.models.operation import Operation
 from conveyor.models.study import Changes, StudyPlan, Value, VariedSpec, with_states
 from conveyor.spec import fingerprint
 from conveyor.studies.costs import unpriced
-from conveyor.studies.designs import Design, DesignFigure, figures_of, reduced
+from conveyor.studies.designs import Design, DesignFigure, figures_of, reduced, require_year
 from conveyor.studies.points import (
     OUTPUTS,
     Answer,
@@ -42,6 +42,7 @@ from conveyor.studies.points import (
     priced,
 )
 from conveyor.studies.refusals import refuse_unknown
+from conveyor.studies.workers import workers_of
 
 BATCH: Final = 256
 """Points solved side by side at most, and lost at most where a run is stopped."""
@@ -112,6 +113,8 @@ class Campaign:
         needed = dict.fromkeys(key for figure in figures_of(plan, base).values() for key in figure.needs)
         asked = plan.outputs or (() if plan.figures or plan.best or plan.limits else tuple(outputs_of(())))
         outputs = tuple(outputs_of((*asked, *(key for key in needed if key not in asked))))
+        for key in plan.outputs:
+            require_year(key, plan, base)
         if plan.outputs or plan.figures or plan.best or plan.limits:
             _refuse_unpriced(plan, base, outputs)
         compounds = {name: resolve(name) for name in sorted(named)}
@@ -309,6 +312,7 @@ class Answers:
         self._file.close()
 
 
+@workers_of("study", "; what is done is kept: run it again to go on")
 def run(
     campaign: Campaign,
     known: Answers,
@@ -365,10 +369,6 @@ def run(
                 without += sum(isinstance(answer, str) for answer in fresh)
                 if answered is not None:
                     answered(batch.every)
-    except (BrokenExecutor, CancelledError, BrokenPipeError):
-        raise ConveyorError(
-            "a worker of the study was lost (out of memory, or stopped); what is done is kept: run it again to go on"
-        ) from None
     finally:
         for future in asked:
             future.cancel()

@@ -26,7 +26,9 @@ from conveyor.units.sentences import Said, quoted, said
 
 MOTOR_RESERVE: Final = 1.1
 """Rated power over the largest needed one [-]; general knowledge (10 to 15 % is customary), not a source."""
-_CARRYING: Final = frozenset({"as given", "full", "part load"})
+AS_GIVEN: Final = "as given"
+"""Load of a spec itself."""
+_CARRYING: Final = frozenset({AS_GIVEN, "full", "part load"})
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,7 +192,7 @@ class CalculatedCases:
     @cached_property
     def _loads(self) -> list[tuple[Said, CalculatedConveyor]]:
         """The spec's own load and the cases."""
-        own = [] if self.as_given is None else [(said("as given"), self.as_given)]
+        own = [] if self.as_given is None else [(said(AS_GIVEN), self.as_given)]
         loads = own + [(result.label, result.found) for result in self.results]
         if not loads:
             raise NoSolutionError("no load has an answer: see why each case has none")
@@ -374,11 +376,8 @@ def recommended_motors(
         raise InputError(
             f"reserve = {reserve}: at least 1 is needed" if loads else "no case has an answer to design by"
         )
-    asked = [
-        (max(map(result.balance.frame.motor, reversed(result.drive_forces)), key=abs), label, result)
-        for label, result in loads
-    ]
-    power, label, decisive = max(asked, key=lambda load: abs(load[0]))
+    label, decisive = max(loads, key=lambda load: abs(load[1].motor_asked))
+    power = decisive.motor_asked
     case = label.text(decisive.conveyor.report.units)
     name, series = ("NEMA", NEMA_MOTORS) if decisive.line.us_sizes else ("IEC 60072-1", MOTOR_SERIES)
     choices = []

@@ -8,7 +8,7 @@ reason, never filled in.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import BrokenExecutor, CancelledError, Executor
+from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
@@ -32,6 +32,7 @@ from conveyor.studies.comparison_scenes import (
     strands_of,
 )
 from conveyor.studies.duty import CalculatedYear, analyse_duty
+from conveyor.studies.workers import workers_of
 from conveyor.units import Quantity, quantity, text
 
 __all__ = [
@@ -241,10 +242,9 @@ def _on(
     ends = [len(compounds) * k // count for k in range(count + 1)]
     asked = [executor.submit(_several, job, compounds[a:b]) for a, b in pairwise(ends)]
     try:
-        for future in asked:
-            yield future.result()
-    except (BrokenExecutor, CancelledError, BrokenPipeError):
-        raise ConveyorError("a worker of the comparison was lost (out of memory, or stopped)") from None
+        with workers_of("comparison"):
+            for future in asked:
+                yield future.result()
     finally:
         for future in asked:
             future.cancel()

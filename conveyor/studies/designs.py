@@ -16,6 +16,7 @@ from conveyor.laws.energy import YEAR, DutyStep, duty_sums
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.loop.year import year_cost
 from conveyor.models import Conveyor, Operation
+from conveyor.models.fields import field
 from conveyor.models.study import Changes, Limit, VariedSpec
 from conveyor.models.wording import Location
 from conveyor.studies.points import OUTPUTS, Answer, outputs_of
@@ -89,6 +90,9 @@ def figures_of(plan: VariedSpec, base: Conveyor) -> dict[str, DesignFigure]:
     for place, name in places:
         try:
             figures.setdefault(name, _figure(name, plan, base.operation, weights))
+            if place[0] != "figures" or plan.figures:
+                _require_needed(name, plan, base)
+                require_year(name, plan, base)
             if place[0] == "limits":
                 plan.limits[name].ends(name, figures[name].kind)
         except InputError as error:
@@ -96,6 +100,28 @@ def figures_of(plan: VariedSpec, base: Conveyor) -> dict[str, DesignFigure]:
     if wrong:
         raise PlacedError(wrong)
     return figures
+
+
+def _require_needed(name: str, plan: VariedSpec, base: Conveyor) -> None:
+    """Refuse a figure without any field that it needs, in the spec and among those that vary."""
+    needs = OUTPUTS[name.partition(" ")[0]].needs
+    varied = [f"{path}." for path in plan.paths]
+    given = (field(base, need) or any(f"{need}.".startswith(path) for path in varied) for need in needs)
+    if needs and not any(given):
+        raise InputError(f"{name}: the spec has no {' or '.join(needs)}")
+
+
+def require_year(name: str, plan: VariedSpec, base: Conveyor) -> None:
+    """Refuse energy or cost of a year that no state of a spec's duty has alone.
+
+    Raises
+    ------
+    InputError
+        It is asked for without states, or as a mean or an extreme of them.
+    """
+    key, _, how = name.partition(" ")
+    if base.duty and key in _YEARLY and (how or plan.hours is None):
+        raise InputError(f"{name}: the year of this spec is that of its duty; give states: duty, and {key}")
 
 
 def _figure(name: str, plan: VariedSpec, operation: Operation | None, weights: Array) -> DesignFigure:

@@ -104,7 +104,11 @@ class CalculatedYear:
 
 @checked
 def analyse_duty(
-    conveyor: Conveyor, *, rtol: float | None = None, progress: Progress | None = None
+    conveyor: Conveyor,
+    *,
+    take_up: float | None = None,
+    rtol: float | None = None,
+    progress: Progress | None = None,
 ) -> CalculatedYear:
     """Calculate every bar of a conveyor's duty and sum up the year.
 
@@ -112,6 +116,9 @@ def analyse_duty(
     ----------
     conveyor : Conveyor
         With operation; without a duty there, all its hours are at the flow and temperature of the spec.
+    take_up : float, optional
+        Its setting through the year, as `conveyor.studies` finds it for every load [N]; without it the least of each
+        bar, as `analyse` has it.
     rtol : float, optional
         Relative tolerance of the contacts [-]; that of the spec without it.
     progress : callable, optional
@@ -141,7 +148,7 @@ def analyse_duty(
     entries = operation.duty or (DutyEntry(hours=operation.hours_per_year, share=quantity("100 %")),)
     variants = [_variant(conveyor, i, entry) for i, entry in enumerate(entries)]
     rows = []
-    answers = calculate_many([Variant(variant) for variant in variants], rtol, progress)
+    answers = calculate_many([Variant(one, take_up=take_up) for one in variants], rtol, progress)
     for i, (entry, result) in enumerate(zip(entries, answers, strict=True)):
         if not isinstance(result, CalculatedConveyor):
             raise NoSolutionError(f"operation.duty[{i}] ({entry}): {result}")

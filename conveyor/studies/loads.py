@@ -7,11 +7,13 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import TypeAlias
 
-from conveyor.checks import Check, checks, deciding, reach
+from conveyor.checks import BELT_USE, Check, checks, deciding, highest_use, reach
+from conveyor.loop.take_up import TakeUpDuty
 from conveyor.models import Conveyor
-from conveyor.pipeline import CalculatedConveyor
-from conveyor.studies.cases import CalculatedCases, analyse_cases
+from conveyor.pipeline import CalculatedConveyor, take_up_of
+from conveyor.studies.cases import AS_GIVEN, CalculatedCases, analyse_cases
 from conveyor.studies.states import CalculatedStates, at_one_take_up, load_states
+from conveyor.units.sentences import Said, quoted, said
 
 Progress: TypeAlias = Callable[[str, int, int], None]
 """Called with a name, what is done of it and its whole."""
@@ -56,16 +58,13 @@ class EveryLoad:
 
     @property
     def motor_power(self) -> float:
-        """Highest [W]."""
-        return max(load.balance.power.motor for load in self.designing)
+        """Highest that motors give or hold, at the less favourable end of the friction [W]."""
+        return max(abs(load.motor_asked) for load in self.designing)
 
     @property
     def motor_use(self) -> float | None:
         """Power over that installed, of the drive that is used most [-]; None without an installed power."""
-        used = (check for check in self.governing if check.key == "motor_power")
-        return max(
-            (one.calculated / one.required for one in used if one.calculated and one.required), default=None
-        )
+        return highest_use(self.governing, {"motor_power"})[0]
 
     @property
     def largest_tension(self) -> float:
@@ -77,6 +76,11 @@ class EveryLoad:
         """Lowest in steady running, which is what is checked [-]; None without the belt's strength."""
         safeties = [load.belt_duty.safety_steady for load in self.designing]
         return min((one for one in safeties if one is not None), default=None)
+
+    @property
+    def belt_use(self) -> float | None:
+        """What the belt bears over what its strength or rating allows [-]; None where neither is given."""
+        return highest_use(self.governing, BELT_USE)[0]
 
     @property
     def take_up(self) -> float:
@@ -112,6 +116,20 @@ def every_load(
     return EveryLoad(*at_one_take_up(load_states(conveyor, own, cases, progress=told("load states")), cases))
 
 
+def asked_of_take_up(
+    own: CalculatedConveyor, states: CalculatedStates | None, cases: CalculatedCases | None
+) -> tuple[TakeUpDuty, Said]:
+    """What all loads, at one setting, ask of the take-up; the load and the condition that ask for the setting."""
+    loads = [
+        (said(AS_GIVEN), own),
+        *(() if states is None else states.loads),
+        *((result.label, result.found) for result in (() if cases is None else cases.results)),
+    ]
+    duty = take_up_of([load for _, load in loads])
+    condition, (label, _) = quoted(duty.governed_by), loads[duty.governing]
+    return duty, said(condition) if len(loads) == 1 else said(f"{label.words}: {condition}", *label.figures)
+
+
 def every_check(
     own: CalculatedConveyor,
     states: CalculatedStates | None,
@@ -119,7 +137,7 @@ def every_check(
     further: Iterable[Check] = (),
 ) -> tuple[Check, ...]:
     """Of the conveyor as given, then of its load cases and load states, then of other calculations."""
-    together = () if cases is None else reach(cases.take_up)
+    together = reach(asked_of_take_up(own, states, cases)[0])
     of_cases = () if cases is None else cases.checks
     of_states = () if states is None else states.checks
     return (*checks(own), *together, *of_cases, *of_states, *further)

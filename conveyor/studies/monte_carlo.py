@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TypeAlias
 
@@ -107,33 +107,33 @@ def percentiles(power: Array) -> Percentiles:
 
 
 def drawn(
-    conveyor: Conveyor,
+    given: CalculatedConveyor,
     inputs: Sequence[DrawnInput],
     ranges: Uncertainty,
     *,
     end: float,
+    take_up: float | None = None,
     rtol: float | None = None,
     progress: Progress | None = None,
-    known: CalculatedConveyor | None = None,
 ) -> MonteCarlo:
     """Draw inputs together and calculate every draw.
 
     Parameters
     ----------
-    conveyor : Conveyor
-        The spec.
+    given : CalculatedConveyor
+        The spec calculated.
     inputs : sequence of DrawnInput
         What is drawn.
     ranges : Uncertainty
         Draws, seed and correlations.
     end : float
         Standard deviations from the middle to an end of a range [-].
+    take_up : float, optional
+        Its setting in every draw [N]; the least of each without it.
     rtol : float, optional
         Relative tolerance of the contacts [-]; that of the spec without it.
     progress : callable, optional
         Called with what is done and the whole.
-    known : CalculatedConveyor, optional
-        The spec calculated.
 
     Raises
     ------
@@ -151,10 +151,11 @@ def drawn(
         variants: list[Variant] = []
         for row in normal[at : at + _BATCH]:
             try:
-                variants.append(_variant(conveyor, inputs, row.tolist(), end))
+                made = _variant(given.conveyor, inputs, row.tolist(), end)
+                variants.append(replace(made, take_up=take_up))
             except ConveyorError as error:
                 refused[str(error)] += 1
-        for result in calculate_many(variants, rtol, known=known, anchors=anchors):
+        for result in calculate_many(variants, rtol, known=given, anchors=anchors):
             if isinstance(result, CalculatedConveyor):
                 power.append(result.balance.power.motor)
             else:

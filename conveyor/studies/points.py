@@ -10,7 +10,7 @@ from functools import lru_cache
 from operator import attrgetter
 from typing import Any, Final, Literal, Self, TypeAlias
 
-from conveyor.checks import checks
+from conveyor.checks import BELT_USE, belt_rating, belt_safety, checks, highest_use
 from conveyor.errors import ConveyorError, InputError
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.models import Conveyor, RubberCompound
@@ -37,7 +37,12 @@ class Output:
     """What it is read from: the calculated conveyor, the costs of its parts, every load of the design."""
     better: Direction = "least"
     """What is sought of it where a study does not say."""
+    needs: tuple[str, ...] = ()
+    """Fields of a spec without any of which there is no such figure."""
 
+
+_STRENGTH: Final = ("belt.carcass.strength",)
+_BELT: Final = (*_STRENGTH, "belt.carcass.rating")
 
 OUTPUTS: Final[Mapping[str, Output]] = {
     "motor_power": Output("motor power", "power", attrgetter("balance.power.motor")),
@@ -51,9 +56,21 @@ OUTPUTS: Final[Mapping[str, Output]] = {
     "friction_factor": Output("equivalent DIN f", "friction", attrgetter("balance.friction_factor")),
     "largest_tension": Output("largest tension", "force", attrgetter("balance.settled.largest")),
     "take_up": Output("setting of the take-up", "force", attrgetter("balance.settled.setting")),
-    "belt_safety": Output("belt safety, starts and stops included", "ratio", attrgetter("belt_duty.safety")),
+    "belt_safety": Output(
+        "belt safety, starts and stops included",
+        "ratio",
+        attrgetter("belt_duty.safety"),
+        better="most",
+        needs=_STRENGTH,
+    ),
     "belt_safety_steady": Output(
-        "belt safety, steady", "ratio", attrgetter("belt_duty.safety_steady"), better="most"
+        "belt safety, steady", "ratio", attrgetter("belt_duty.safety_steady"), better="most", needs=_STRENGTH
+    ),
+    "belt_use": Output(
+        "belt utilisation",
+        "ratio",
+        lambda a: highest_use((*belt_safety(a), *belt_rating(a)), BELT_USE)[0],
+        needs=_BELT,
     ),
     "energy_per_year": Output(
         "energy per year", "energy", lambda a: None if a.year is None else JOULE_PER_KWH * a.year.energy
@@ -76,10 +93,14 @@ OUTPUTS: Final[Mapping[str, Output]] = {
     ),
     "all_loads_failed": Output("failed checks, all loads", "count", attrgetter("failed"), of="loads"),
     "all_loads_motor_power": Output(
-        "motor power, highest of all loads", "power", attrgetter("motor_power"), of="loads"
+        "motor power given or held, highest of all loads", "power", attrgetter("motor_power"), of="loads"
     ),
     "all_loads_motor_use": Output(
-        "motor power over that installed, all loads", "ratio", attrgetter("motor_use"), of="loads"
+        "motor power over that installed, all loads",
+        "ratio",
+        attrgetter("motor_use"),
+        of="loads",
+        needs=("drive.installed_power", "drive.pulleys"),
     ),
     "all_loads_tension": Output(
         "largest tension, all loads", "force", attrgetter("largest_tension"), of="loads"
@@ -90,6 +111,10 @@ OUTPUTS: Final[Mapping[str, Output]] = {
         attrgetter("belt_safety"),
         of="loads",
         better="most",
+        needs=_STRENGTH,
+    ),
+    "all_loads_belt_use": Output(
+        "belt utilisation, highest of all loads", "ratio", attrgetter("belt_use"), of="loads", needs=_BELT
     ),
     "all_loads_take_up": Output(
         "setting of the take-up for all loads", "force", attrgetter("take_up"), of="loads"

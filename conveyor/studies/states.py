@@ -7,6 +7,7 @@ calculated in full besides: its own tensions press on the rolls of vertical curv
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -15,20 +16,20 @@ from operator import itemgetter
 from typing import Final
 
 from conveyor.checks import Check, checks
-from conveyor.errors import ConveyorError
-from conveyor.loop.balance import Balance, held
-from conveyor.loop.equilibrium import holds
+from conveyor.errors import ConveyorError, NoSolutionError
+from conveyor.loop.balance import Balance
 from conveyor.loop.superposition import DRIVE_FORCE, Loading, Loadings
 from conveyor.loop.take_up import at_one_setting
 from conveyor.models import Conveyor, LoadCase
 from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
 from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate, calculate_many
-from conveyor.studies.cases import CalculatedCases, CaseResult
+from conveyor.studies.cases import AS_GIVEN, CalculatedCases, CaseResult
 from conveyor.units import from_si
 from conveyor.units.sentences import Said, quoted, said
 
 _ROW: Final = 3  # sections from which a row of them is named by its ends
+_ROUNDS: Final = 20  # of loading the rolls anew; their share in the tensions is a hundredth of it
 _KEYS: Final = {"full": "full", "empty": "empty", "inclines only": "inclines", "declines only": "declines"}
 
 
@@ -138,8 +139,9 @@ class CalculatedStates:
 
     @property
     def as_cases(self) -> tuple[CaseResult, ...]:
-        """The same as load cases, for the figures that a case governs."""
-        return tuple(CaseResult(LoadCase(name=state.title), self._found(state)) for state in self._others)
+        """The spec's own load and every other state as load cases, for the figures that a case governs."""
+        loads = ((state.title, self._found(state)) for state in self._others)
+        return tuple(CaseResult(LoadCase(name=name), found) for name, found in ((AS_GIVEN, self.own), *loads))
 
     @property
     def _others(self) -> tuple[LoadState, ...]:
@@ -235,6 +237,8 @@ def at_one_take_up(
 ) -> tuple[CalculatedStates, CalculatedCases | None]:
     """The same loads with the take-up at the least setting that serves the load states too; a given one stands.
 
+    Where tension acts on the rolls, every load is loaded anew until setting and rolls agree.
+
     Parameters
     ----------
     states : CalculatedStates
@@ -247,24 +251,30 @@ def at_one_take_up(
     NoSolutionError
         No setting serves every load, or a load has no answer at it.
     """
-    own, results = states.own, () if cases is None else cases.results
-    loads = [own.balance, *(result.found.balance for result in results)]
-    setting = at_one_setting([*loads, *(state.balance for state in states.states)])[0].settled.setting
-    if own.line.take_up.tension is not None or holds(own.balance.settled.setting, setting):
+    if states.own.line.take_up.tension is not None:
         return states, cases
-    as_given = _held(own, setting)
-    at_setting = held([state.balance for state in states.states], setting)
-    moved = [replace(state, balance=one) for state, one in zip(states.states, at_setting, strict=True)]
-    if cases is not None:
-        every = tuple(replace(result, found=_held(result.found, setting)) for result in results)
-        cases = replace(cases, results=every, as_given=as_given)
-    return replace(states, own=as_given, states=tuple(moved)), cases
+    for _ in range(_ROUNDS):
+        before, results = states.own, () if cases is None else cases.results
+        loads = [before.balance, *(result.found.balance for result in results)]
+        own, *closed = at_one_setting([*loads, *(state.balance for state in states.states)])
+        found = [replace(r.found, balance=one) for r, one in zip(results, closed, strict=False)]
+        as_given, setting = replace(before, balance=own), own.settled.setting
+        near = math.isclose(before.balance.settled.setting, setting, rel_tol=before.line.rtol)
+        if before.line.tension_acts and not near:
+            as_given, *found = (_loaded_anew(one, setting) for one in (as_given, *found))
+        if cases is not None:
+            every = tuple(replace(r, found=one) for r, one in zip(results, found, strict=True))
+            cases = replace(cases, results=every, as_given=as_given)
+        if near or not before.line.tension_acts:
+            pairs = zip(states.states, closed[len(results) :], strict=True)
+            moved = (replace(s, balance=own if s.balance is before.balance else one) for s, one in pairs)
+            return replace(states, own=as_given, states=tuple(moved)), cases
+        states = load_states(before.conveyor, as_given, cases)
+    raise NoSolutionError("the setting of the take-up and what it does to the rolls do not settle")
 
 
-def _held(result: CalculatedConveyor, setting: float) -> CalculatedConveyor:
-    """A load with the take-up at a setting [N]; where tension acts on the rolls, they are loaded anew."""
-    if not result.line.tension_acts:
-        return replace(result, balance=result.balance.held(setting))
+def _loaded_anew(result: CalculatedConveyor, setting: float) -> CalculatedConveyor:
+    """A load whose rolls bear what the take-up at a setting [N] does to them."""
     (again,) = calculate_many([Variant(result.conveyor, result.temperature, take_up=setting)], known=result)
     if not isinstance(again, CalculatedConveyor):
         raise again

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Final
 
@@ -126,6 +126,7 @@ def study(
     conveyor: Conveyor,
     ranges: Uncertainty | None = None,
     *,
+    take_up: float | None = None,
     rtol: float | None = None,
     samples: int = SAMPLES,
     seed: int = 0,
@@ -139,6 +140,9 @@ def study(
         The spec.
     ranges : Uncertainty, optional
         Ranges; those of the spec without it.
+    take_up : float, optional
+        Its setting in every variant, as `conveyor.studies` finds it for every load [N]; without it the least of each,
+        as `analyse` has it.
     rtol : float, optional
         Relative tolerance of the contacts [-]; that of the spec without it.
     samples : int
@@ -174,12 +178,12 @@ def study(
     if given is None:
         raise InputError("uncertainty: missing; give the spec ranges, or pass them: nothing to vary")
     notes: list[str] = []
-    middle = _answer(calculate_many([Variant(conveyor)], rtol)[0])
+    middle = _answer(calculate_many([Variant(conveyor, take_up=take_up)], rtol)[0])
     variations = list(_variations(middle, given, notes))
     if not variations:
         why = "; ".join(notes) or "uncertainty: missing; give the spec ranges, or pass them"
         raise InputError(f"{why}: nothing to vary")
-    variants = [each for variation in variations for each in variation.variants]
+    variants = [replace(each, take_up=take_up) for variation in variations for each in variation.variants]
     answers = calculate_many(variants, rtol, progress, known=middle)
     powers = [_answer(result).balance.power.motor for result in answers]
     motor, at = middle.balance.power.motor, 0
@@ -193,7 +197,7 @@ def study(
     inputs = [variation.drawn for variation in variations if variation.drawn is not None]
     notes += [f"{one.name}: is not drawn" for one in variations if one.drawn is None and given.draws]
     exact = (
-        drawn(conveyor, inputs, given, end=END, rtol=rtol, progress=progress, known=middle)
+        drawn(middle, inputs, given, end=END, take_up=take_up, rtol=rtol, progress=progress)
         if given.draws
         else None
     )

@@ -51,6 +51,7 @@ from conveyor.units.quantities import (
     same,
     si,
     si_with_unit,
+    system_of,
     text,
     written,
 )

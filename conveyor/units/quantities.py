@@ -227,6 +227,20 @@ def text(value: Quantity) -> str:
     return f"{number} {spelled}" if spelled else number
 
 
+_OF_US = re.compile(r"\b(?:in|ft|yd|mi|lb|lbf|short_ton|psi|hp|fpm|mph|PIW|stph|degF|delta_degF)\b|°F")
+
+
+def system_of(value: Quantity) -> System:
+    """Return the system of units that a quantity was entered in.
+
+    Examples
+    --------
+    >>> system_of(quantity("48 in")), system_of(quantity("90 lb/ft^3")), system_of(quantity("1.2 m"))
+    ('US', 'US', 'SI')
+    """
+    return "US" if _OF_US.search(text(value)) else "SI"
+
+
 def is_quantity(value: object) -> TypeGuard[Quantity]:
     """Tell whether a value is a quantity of this package."""
     return isinstance(value, REGISTRY.Quantity)

@@ -22,6 +22,7 @@ def rod(cells: int, **changes: Any) -> Chain:
         "mass": mass, "stiffness": np.full((1, cells), EA / size), "retardation": 0.0,
         "weight": np.zeros((1, cells + 1)), "friction": np.zeros((3, 1, cells + 1)),
         "sticking": np.zeros((1, cells + 1)), "end": np.array([cells]), "nodes": np.zeros((1, 0), int),
+        "lumps": np.zeros((1, 0), int),
         "rim": np.zeros((1, 0)), "grip": np.zeros((1, 0)), "backstop": np.zeros((1, 0), bool),
         "held": np.array([PULL]), "carriage": np.zeros(1), "winch": np.zeros((2, 1)), "sag": np.zeros((1, cells)),
     }  # fmt: skip
@@ -34,7 +35,8 @@ def clamped(cells: int, *nodes: int) -> dict[str, Any]:
     sticking[:, list(nodes)] = 1e12
     friction = np.zeros((3, 1, cells + 1))
     friction[0] = sticking
-    return {"sticking": sticking, "friction": friction}
+    lumps = np.arange(cells + 1)[None, list(nodes)]
+    return {"sticking": sticking, "friction": friction, "lumps": lumps}
 
 
 def begun(chain: Chain, **changes: Any) -> Beginning:

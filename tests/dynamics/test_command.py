@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
-from concurrent.futures import ThreadPoolExecutor
+import os
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
 
 import pytest
 from openpyxl import load_workbook
@@ -12,7 +14,7 @@ from conveyor.dynamics import design
 from conveyor.dynamics import follow as following
 from conveyor.dynamics.design import size
 from conveyor.dynamics.follow import follow, standard_scenarios
-from conveyor.errors import InputError, NoSolutionError
+from conveyor.errors import ConveyorError, InputError, NoSolutionError
 from conveyor.models import Scenario
 from conveyor.report.dynamics_tables import of_dynamics, plain
 from conveyor.report.result_schema import result_schema
@@ -121,6 +123,45 @@ def test_peaks_hold_and_tables_say_so():
     assert plain(found)["conveyor"] == "loop"
 
 
+QUIET = STOP | {"name": "nothing happens", "events": [{"at": "1 h", "do": "power off"}]}
+
+
+@pytest.mark.usefixtures("rigged")
+def test_a_scenario_without_an_answer_leaves_the_others_theirs():
+    """It is named with its reason among the checks and remarks; alone, or with its like, it is refused."""
+    led = STOP | {"name": "led stop", "events": [{"do": "ramp down"}], "starter": {"kind": "direct"}}
+    drive = data()["drive"] | {"reduced_mass": "4 t"}
+    found = follow(from_data(data() | {"scenarios": [led, QUIET], "drive": drive}))
+    assert [one.name for one in found.followed] == ["nothing happens"]
+    (check,) = (one for one in plain(found)["checks"] if one["key"] == "dynamic_answer")
+    assert (check["case"], check["verdict"]) == ("led stop", "fail")
+    (warned,) = (one for one in of_dynamics(found, "SI").lines("warning") if "led stop" in one)
+    assert "has no inverter (direct) and cannot ramp down" in warned
+    again = [led, led | {"name": "again"}]
+    with pytest.raises(NoSolutionError, match='scenario "led stop", "again": drive "drive" has no inverter'):
+        follow(from_data(data() | {"scenarios": again, "drive": drive}))
+
+
+@pytest.mark.usefixtures("rigged")
+def test_peaks_that_do_not_hold_are_refused_with_both_figures_and_what_helps(monkeypatch):
+    """A winch at its speed at once pulls the belt the harder the shorter the cell."""
+    monkeypatch.setattr(following, "_REFINED", 2)
+    winch = {"kind": "winch", "position": "tail", "winch_speed": "1 m/s", "winch_band": "1 %"}
+    given = data(route={"take_up": winch}, drive={"reduced_mass": "4 t"})
+    found = follow(from_data(given | {"scenarios": [STOP, QUIET]}))
+    assert [one.name for one in found.followed] == ["nothing happens"]
+    (refusal,) = found.refused
+    assert refusal.scenario == "power failure"
+    why = refusal.reason.text()
+    assert why.count("kN") == 4
+    assert why.count(" s, ") == 2
+    assert "shorter cells bring them no closer" in why
+    assert "larger error" in why
+    once = from_data(data() | {"scenarios": [STOP], "drive": data()["drive"] | {"reduced_mass": "4 t"}})
+    with pytest.raises(NoSolutionError, match="they come closer: an error of"):
+        follow(once, error=1e-6)
+
+
 @pytest.mark.usefixtures("rigged")
 def test_the_shortest_ramp_keeps_every_criterion():
     """Shorter ones do not; without an inverter there is none."""
@@ -206,6 +247,15 @@ def test_an_executor_gives_the_same_answers():
     for one, other in zip(here.followed, there.followed, strict=True):
         assert other.way == pytest.approx(one.way, rel=1e-3)
         assert other.lowest == pytest.approx(one.lowest, rel=1e-2)
+
+
+@pytest.mark.usefixtures("rigged")
+def test_a_lost_worker_is_told():
+    conveyor = from_data(data() | {"scenarios": [BRAKED | {"name": "stop"}]})
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as processes:
+        processes.submit(os._exit, 1)
+        with pytest.raises(ConveyorError, match="a worker of the scenarios was lost"):
+            follow(conveyor, executor=processes)
 
 
 def test_power_reports_the_scenarios_of_a_spec(spec, tmp_path):

@@ -9,10 +9,13 @@ import numpy as np
 import pytest
 
 from conveyor.dynamics.criteria import CRITERIA, at_pulley, peaks
+from conveyor.dynamics.loop import CutLoop
+from conveyor.dynamics.machines import prepared
 from conveyor.dynamics.wave import Machines, run
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.waves import STEEPEST, ramp
 from conveyor.models import Scenario, Starter
+from conveyor.pipeline import calculate
 from conveyor.spec import from_data, load
 from tests.dynamics.rods import EA, LENGTH, PULL, WAVE, begun, clamped, follow, idle, rod
 from tests.loop.loop_lines import BOOSTER, DATA, SECOND, data, line
@@ -44,6 +47,18 @@ def pulled(force, steps, *, time, cells=CELLS, grip=1e9, rim=HEAVY, **changes):
         np.full((1, 1, 65), force), 1.0, np.zeros((1, 1)),
     )  # fmt: skip
     return run(chain, driving, begun(chain), step=step, samples=steps)
+
+
+def test_nothing_is_fed_to_a_belt_at_rest():
+    """What holds it there is all friction but that of bulk which is fed, and what rolls resist more at rest."""
+    steady = calculate(load(SPECS / "in_plant_us.yaml"))
+    loop = CutLoop.of(steady)
+    cells, speed = loop.cells(0.01), steady.line.speed
+    fed = sum(one.total for one in steady.balance.singles if one.key in {"acceleration", "loading_skirts"})
+    assert fed > 500.0
+    running, holding = cells.resisting(speed, 1.0), cells.resisting(speed, 1.0) + cells.stuck
+    assert holding.sum() == pytest.approx(running.sum() - fed + loop.stuck.sum(), rel=1e-9)
+    assert holding.min() >= 0.0
 
 
 @pytest.mark.parametrize("share", [0.3, 0.7, 1.5])
@@ -259,6 +274,15 @@ def test_drag_brakes_a_drive_without_power_whose_belt_slips():
     found = run(chain, replace(idle(60, 1), drag=np.array([[drag]])), start, step=chain.longest_step)
     rims = found.drives["rim"][:, 0, 0]
     assert np.diff(rims) == pytest.approx(-drag / rim * found.step, rel=1e-9)
+
+
+def test_a_belt_that_runs_away_has_the_friction_of_full_speed():
+    """The parabola through three speeds up to that says nothing beyond: it may even turn and push."""
+    ride = ridden(line(drive=DATA["drive"] | MASSES), START)
+    _, chain, _ = prepared([ride], 0.1)
+    falling = replace(chain, friction=np.stack([chain.friction[0], 0.0 * chain.mass, -chain.friction[0]]))
+    full = np.full_like(chain.mass, ride.loop.line.speed)
+    assert np.array_equal(falling.resisting(3.0 * full), falling.resisting(full))
 
 
 def test_only_an_inverter_ramps_down():

@@ -69,7 +69,7 @@ def test_what_is_right_is_read_with_any_digits_and_scatter(
     storage, loss = moduli(middle)
     for seed in range(10):
         noise = np.random.default_rng(seed).standard_normal((3, FREQUENCY.size))
-        for scatter in (0.0, 0.001, 0.01):
+        for scatter in (0.0, 0.001, 0.01) if digits > 2 else (0.0,):  # two digits are 5 % themselves
             columns = (
                 c * (1.0 + scatter * e) for c, e in zip((storage, loss, loss / storage), noise, strict=True)
             )
@@ -108,13 +108,13 @@ def test_complex_modulus_and_loss_give_the_storage(tmp_path: Path, names: tuple[
     assert read.loss == pytest.approx(3e6 * loss, rel=1e-6)
     assert any("E' from |E*| and E''" in said for said in read.understood)
     exchanged = written(tmp_path, (loss, np.hypot(storage, loss), loss / storage), 7, names)
-    assert "is no smaller than |E*|" in told(exchanged)
+    assert "of which it is a part" in told(exchanged)
 
 
 def test_a_shear_file_is_told_in_its_own_letters(tmp_path: Path) -> None:
     storage, loss = moduli(0.3)
     columns = (np.hypot(storage, loss), loss, loss / storage)
     said = told(written(tmp_path, columns, 5, ("G' [MPa]", "G'' [MPa]", "Damping factor")))
-    assert "if what is named G' is |G*|: name the column '|G*|'" in said
+    assert "if what is named G' is |G*|; name the column '|G*|'" in said
     said = told(written(tmp_path, columns, 5, ("Storage modulus [MPa]", "Loss modulus [MPa]", "tan delta")))
     assert "name the column 'complex modulus'" in said

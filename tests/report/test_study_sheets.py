@@ -62,7 +62,7 @@ def test_yes_and_no_are_words(book):
 def test_spec_without_studies_studies_nothing():
     none = studies(conveyor.load("examples/specs/downhill.yaml"))
     assert (none.cases, none.duty, none.uncertainty) == (None, None, None)
-    assert set(none.to_dict()) == {"states", "worst_states"}
+    assert set(none.to_dict()) == {"states", "worst_states", "take_up"}
 
 
 def test_json_holds_what_was_asked(asked):

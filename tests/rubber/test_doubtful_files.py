@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from conveyor import shelf
 from conveyor.cli import app
 from conveyor.errors import InputError
 from conveyor.fitting.compound import Request, fit_file
@@ -71,6 +72,72 @@ def test_good_rubber_is_not_doubted(seed: int) -> None:
     omega = 2.0 * np.pi * f
     curve = (f, series.storage(omega) * noise[0], series.loss(omega) * noise[1])
     assert check_findings("good", curve, frozenset(), 3.0) == ()
+
+
+NEARLY = {
+    "E' and E''": (lambda e1, e2: (e1, e2), None),
+    "|E*| named E', E''": (lambda e1, e2: (np.hypot(e1, e2), e2), "if what is named E' is |E*|"),
+    "|E*| named E', tan delta": (
+        lambda e1, e2: (np.hypot(e1, e2), np.hypot(e1, e2) * e2 / e1),
+        "E'' was made of it by tan",
+    ),
+    "phase named tan delta": (
+        lambda e1, e2: (e1, e1 * np.arctan(e2 / e1)),
+        "if its tan delta is the phase angle in rad",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", NEARLY)
+@pytest.mark.parametrize("noise", [0.0, 0.002])
+def test_a_modulus_that_is_nearly_another_is_named(name: str, noise: float) -> None:
+    """Through the glass transition of the shelf's constructed rubbers."""
+    made, words = NEARLY[name]
+    rng, f = np.random.default_rng(5), np.logspace(2.0, 9.0, 36)
+    for compound in ("standard-cover", "low-rolling-resistance-cover"):
+        rubber = shelf.compound(compound).series(293.15)
+        moduli = [
+            one(2.0 * np.pi * f) * np.exp(noise * rng.standard_normal(f.size))
+            for one in (rubber.storage, rubber.loss)
+        ]
+        curve = (f, *made(*moduli))
+        if words is None:
+            assert check_findings("right", curve, frozenset(), 3.0) == ()
+        else:
+            with pytest.raises(InputError, match=re.escape(words)):
+                check_findings("wrong", curve, frozenset(), 3.0)
+
+
+def written(folder: Path, head: str, *columns: np.ndarray) -> Path:
+    path = folder / "master.csv"
+    rows = ("; ".join(f"{value:.4g}" for value in row) for row in zip(*columns, strict=True))
+    path.write_text("\n".join([f"f [Hz]; {head}", *rows]) + "\n", encoding="utf-8")
+    return path
+
+
+def test_three_columns_tell_which_is_which(tmp_path: Path) -> None:
+    """At four digits, on a plateau where the curve alone tells nothing."""
+    f, rubber = np.logspace(-2.0, 2.0, 21), shelf.compound("standard-cover").series(293.15)
+    storage, loss = rubber.storage(2.0 * np.pi * f) / 1e6, rubber.loss(2.0 * np.pi * f) / 1e6
+    whole, tangent, phase = np.hypot(storage, loss), loss / storage, np.arctan2(loss, storage)
+    three = "E' [MPa]; E'' [MPa]; tan delta"
+    assert read_dma(written(tmp_path, three, f, storage, loss, tangent)).storage[0] == pytest.approx(
+        1e6 * storage[0], 1e-3
+    )
+    with pytest.raises(InputError, match=r"what is named E' is \|E\*\|; name the column"):
+        read_dma(written(tmp_path, three, f, whole, loss, tangent))
+    with pytest.raises(InputError, match="what is named tan delta is the phase angle"):
+        read_dma(written(tmp_path, three, f, storage, loss, phase))
+
+
+def test_whole_modulus_beside_the_loss(tmp_path: Path) -> None:
+    f, rubber = np.logspace(-2.0, 2.0, 21), shelf.compound("standard-cover").series(293.15)
+    storage, loss = rubber.storage(2.0 * np.pi * f), rubber.loss(2.0 * np.pi * f)
+    head = "|E*| [MPa]; E'' [MPa]"
+    found = read_dma(written(tmp_path, head, f, np.hypot(storage, loss) / 1e6, loss / 1e6))
+    assert found.storage == pytest.approx(storage, rel=1e-3)  # four digits
+    with pytest.raises(InputError, match=r"E'' is 1.1 times \|E\*\|"):
+        read_dma(written(tmp_path, head, f, loss / 1e6 / 1.1, loss / 1e6))
 
 
 @pytest.mark.parametrize(

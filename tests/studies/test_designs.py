@@ -69,6 +69,28 @@ def designed(line, known, **changes):
     return study, list(designs(study, known))
 
 
+@pytest.mark.parametrize(
+    "plan",
+    [
+        {"states": [], "figures": ["energy_per_year"], "best": {}},
+        {"states": [], "figures": [], "best": {"cost_per_year": "least"}},
+        {"states": [], "figures": [], "best": {}, "outputs": ["motor_power", "energy_per_year"]},
+        {"figures": ["cost_per_year mean"], "best": {}},
+    ],
+)
+def test_a_year_beside_that_of_the_duty_is_refused(line, plan):
+    with pytest.raises(
+        InputError, match=r"per_year.*: the year of this spec is that of its duty; give states: duty"
+    ):
+        campaign(line, **plan)
+
+
+def test_points_of_a_spec_with_a_duty_have_no_year_of_their_own(line, answers):
+    study = campaign(line, states=[], figures=[], best={}, outputs=[])
+    run(study, answers)
+    assert {one.figures["energy_per_year"] for one in designs(study, answers)} <= {None}
+
+
 def test_a_design_over_the_duty_is_the_year_that_the_duty_gives(line, answers):
     _, (first, *_) = designed(line, answers)
     changed = line.replace(
@@ -357,6 +379,27 @@ def test_figures_of_all_loads_are_those_of_power(tmp_path):
     assert own.figures["all_loads_motor_use"] == pytest.approx(1e3 * power / si(given.drive.installed_power))
     assert own.figures["all_loads_belt_safety"] == pytest.approx(safety)
     assert own.figures["all_loads_tension"] > own.figures["all_loads_take_up"]
+
+
+def test_a_belt_by_its_rating_has_a_use_and_no_safety(tmp_path):
+    given = conveyor.load(SPECS / "in_plant_us.yaml")
+    plan = {"axes": {"belt.speed": ["600 fpm"]}, "states": [], "best": {}}
+    with pytest.raises(InputError, match=r"all_loads_belt_safety: the spec has no belt\.carcass\.strength"):
+        campaign(given, **plan, limits={"all_loads_belt_safety": {"least": 6.7}})
+    campaign(
+        given,
+        **plan | {"axes": {"belt.carcass.strength": ["6000 lbf/in"]}},
+        limits={"belt_safety": {"least": 6.7}},
+    )
+    uses = {"belt_use": {"most": 1}, "all_loads_belt_use": {"most": 1}}
+    with Answers(tmp_path / "a") as known:
+        _, (one,) = designed(given, known, **plan, figures=[*uses], limits=uses)
+    assert one.keeps
+    found = conveyor.analyse(given)
+    rows = [row for row in found.to_dict(studies(given, found))["checks"] if row["key"] == "belt_rating"]
+    highest = max(row["calculated"] / row["required"] for row in rows)
+    assert one.figures["all_loads_belt_use"] == pytest.approx(highest)
+    assert 0.4 < one.figures["belt_use"] <= one.figures["all_loads_belt_use"] < 1.0
 
 
 def test_what_is_sought_without_a_word_is_the_least_power_and_the_most_safety(line):

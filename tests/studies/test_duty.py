@@ -237,3 +237,13 @@ def test_refusals_name_the_bar(line):
         InputError, match=r"operation.duty\[0\] \(5 h, share 100 %, 190 degC\): ambient.temperature"
     ):
         analyse_duty(operated(line, {"hours": "5 h", "share": "100 %", "temperature": "190 degC"}))
+
+
+def test_a_duty_has_the_only_year(line):
+    """Not that of the own load through all hours beside it: scenes of a comparison told 10 % more on the 10 km belt."""
+    spec = operated(line, HOURS, {"hours": "1000 h", "share": "50 %"}, price="0.1 EUR/kWh")
+    assert calculate(spec).year is None
+    name = spec.carry_compound.name
+    compared = compare_compounds(spec, [name])
+    assert compared.years[name].cost == pytest.approx(analyse_duty(spec).cost, rel=RTOL)
+    assert {(one.energy_per_year, one.cost_per_year) for one in compared.scenes} == {(None, None)}

@@ -72,12 +72,12 @@ def test_first_periods(nodes, waves):
     assert max(swing(80, waves, 3.0, 0.0, *nodes)) < 5e-4
 
 
-def test_damping_ratio_is_half_of_frequency_times_retardation_and_second_order():
-    """Ratio 0.079 here, of a rod with free ends; four times less error at half the step. First order at clamps."""
-    coarse, fine = (np.array(swing(cells, 0.5, 2.0, 0.1)) for cells in (20, 40))
+@pytest.mark.parametrize("nodes", [(), (0, -1)])
+def test_damping_ratio_is_half_of_frequency_times_retardation_and_second_order(nodes):
+    """Ratio 0.079 here, of a rod with free ends or held by friction; four times less error at half the step."""
+    coarse, fine = (np.array(swing(cells, 0.5, 2.0, 0.1, *nodes)) for cells in (20, 40))
     assert np.log2(coarse / fine) == pytest.approx([2.0, 2.0], abs=0.15)
     assert fine.max() < 2e-3
-    assert max(swing(80, 0.5, 2.0, 0.1, 0, -1)) < 0.03
 
 
 def test_friction_stops_a_mode_without_chatter():

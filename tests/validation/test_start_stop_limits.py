@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from conveyor.dynamics.follow import side_by_side
+from conveyor.dynamics.follow import ERROR, side_by_side
 from conveyor.dynamics.loop import CutLoop
 from conveyor.dynamics.machines import Ride
 from conveyor.forces import without_rubber
@@ -123,6 +124,31 @@ def test_a_very_stiff_belt_stops_as_a_rigid_one():
         trips = 3.0 * ride.loop.travel[-1]
         assert made.rests_at == pytest.approx(steady.motions.coasting.time * heavier, abs=trips)
         assert made.way == pytest.approx(steady.motions.coasting.distance * heavier, rel=0.01)
+
+
+LONG_SKIRTS = {"speed": "1 m/s", "skirt_length": "80 m", "skirt_width": "600 mm"}
+"""Their friction stands at one place."""
+
+
+@pytest.mark.parametrize("take_up", [
+    {"kind": "gravity", "position": "tail"}, {"kind": "fixed", "position": "tail"}, {"kind": "gravity"},
+    {"kind": "gravity", "position": "return", "section": "a"},
+])  # fmt: skip
+@pytest.mark.parametrize("scenario", [
+    {"begins": "at rest", "events": [{"do": "start"}], "starter": {"time": "3 s"}, "duration": "3 s"},
+    {"begins": "running", "events": [{"do": "power off"}], "duration": "4 s"},
+])  # fmt: skip
+def test_peaks_hold_as_cells_get_shorter_where_friction_stands_at_one_place(take_up, scenario):
+    """The mass there goes to zero, its friction does not: where it sticks and breaks away the tension stays."""
+    sections = [{"name": "a", "length": "30 m"}, {"name": "b", "length": "120 m", "lift": "6 m"}]
+    route = {"sections": sections, "feeding": LONG_SKIRTS, "take_up": take_up | {"tension": "40 kN"},
+             "pulleys": DATA["route"]["pulleys"][:3]}  # fmt: skip
+    ride = ridden(line(drive=DATA["drive"] | MASSES, route=route), scenario)
+    made = [side_by_side([ride], float(ride.loop.travel[-1]) / cells)[0] for cells in (40, 80, 160)]
+    for coarse, fine in itertools.pairwise(made):
+        assert fine.highest == pytest.approx(coarse.highest, rel=ERROR)
+        assert fine.lowest == pytest.approx(coarse.lowest, abs=ERROR * fine.highest)
+    assert max(one.missing_energy for one in made) < 1e-4
 
 
 @pytest.mark.parametrize(

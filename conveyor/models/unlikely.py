@@ -1,0 +1,102 @@
+"""Inputs that are possible and hardly meant: a figure of another unit, a slipped decimal point, a set of a wider belt.
+
+Bounds lie well outside what is in use; where no source is named they are general knowledge.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Final
+
+from conveyor.errors import InputError
+from conveyor.laws.resistance import roll_rotation
+from conveyor.laws.sizing import carcass_mass
+from conveyor.models.conveyor import Conveyor
+from conveyor.units import si, text
+from conveyor.units.sentences import Said, percent, quoted, said
+
+HEAVIEST_BULK: Final = 5000.0
+"""Bulk density of what belts carry [kg/m³]; iron ore and concentrates have 2000 to 3500."""
+FASTEST_ROLL: Final = 750.0 / 60.0
+"""Rotation of long-lived rolls [1/s]; rolls are accepted at 650 rpm."""
+WIDEST_SET: Final = 1.5
+"""Rolls of a set side by side over the belt's width [-]; at most 1.25 in the lists after ISO 1537 and DIN 22107."""
+POOREST_DRIVE: Final = 0.5
+"""Efficiency from motor to belt [-]; that of a worm gear."""
+CARCASS: Final = (0.5, 1.4)
+"""Mass of a carcass over that of `laws.sizing.carcass_mass` [-]; of belts in lists and examples 0.65 to 1.2."""
+
+
+def unlikely(conveyor: Conveyor) -> Iterator[Said]:
+    """What of a spec to look at twice, and what may be meant."""
+    yield from _flow(conveyor)
+    yield from _density(conveyor)
+    yield from _carcass(conveyor)
+    yield from _sets(conveyor)
+    efficiency = si(conveyor.drive.efficiency)
+    if efficiency < POOREST_DRIVE:
+        lost = percent(1.0 - efficiency)
+        yield said(
+            f"drive.efficiency {text(conveyor.drive.efficiency)}: {lost} of the power is lost; look again"
+        )
+
+
+def _flow(conveyor: Conveyor) -> Iterator[Said]:
+    flow = conveyor.material.flow
+    if text(flow).endswith("tph") and not text(flow).endswith("stph") and conveyor.report.units == "US":
+        yield said(
+            f"material.flow {text(flow)}: tph are metric tonnes per hour, {{}}; short tons per hour are stph",
+            (si(flow), "mass flow"),
+        )
+
+
+def _density(conveyor: Conveyor) -> Iterator[Said]:
+    density = conveyor.material.density
+    if si(density) > HEAVIEST_BULK:
+        yield said(
+            f"material.density {text(density)}: no bulk that belts carry is heavier than {{}} (general knowledge); "
+            "look again",
+            (HEAVIEST_BULK, "density"),
+        )
+
+
+def _carcass(conveyor: Conveyor) -> Iterator[Said]:
+    """A mass per length that is meant per area, or the other way round, leaves a carcass that none is."""
+    belt, carcass = conveyor.belt, conveyor.belt.carcass
+    steel = carcass.kind == "steel cord"
+    if steel and carcass.strength is None:
+        return
+    strength = 1.0 if carcass.strength is None else si(carcass.strength)
+    try:
+        usual = carcass_mass(strength, thickness=si(carcass.thickness), steel_cord=steel)
+    except InputError as error:
+        yield said(quoted(f"belt.carcass: {text(carcass.thickness)} thick: {error}"))
+        return
+    left = belt.line_mass / si(belt.width) - belt.top_cover.area_mass - belt.bottom_cover.area_mass
+    if not CARCASS[0] * usual <= left <= CARCASS[1] * usual:
+        yield said(
+            f"belt.mass leaves {{}} for the carcass of {text(carcass.thickness)}, {{}} is usual (laws.sizing): "
+            "is it per area or per length, are the covers right?",
+            (left, "area mass"),
+            (usual, "area mass"),
+        )
+
+
+def _sets(conveyor: Conveyor) -> Iterator[Said]:
+    width, speed = si(conveyor.belt.width), si(conveyor.belt.speed)
+    for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
+        side_by_side = idlers.rolls * si(idlers.roll.length)
+        if side_by_side > WIDEST_SET * width:
+            yield said(
+                f"idlers.{strand}: {idlers.rolls} x {text(idlers.roll.length)} side by side are {{}} times as wide as "
+                "the belt, listed sets at most 1.25 times (ISO 1537, DIN 22107): rolls of a wider belt?",
+                (side_by_side / width, "safety"),
+            )
+        rotation = roll_rotation(speed, roll_diameter=si(idlers.roll.diameter))
+        if rotation > FASTEST_ROLL:
+            yield said(
+                f"idlers.{strand}: its rolls turn at {{}}, long-lived ones at no more than {{}} (general knowledge): "
+                "take larger rolls",
+                (rotation, "rotation"),
+                (FASTEST_ROLL, "rotation"),
+            )

@@ -1,0 +1,47 @@
+"""What hardly anybody means is asked about; what examples and the shelf have is not."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from conveyor.models.fields import with_fields
+from conveyor.models.unlikely import unlikely
+from conveyor.spec import load
+
+SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
+
+
+@pytest.mark.parametrize("path", sorted(SPECS.glob("*.yaml")), ids=lambda path: path.stem)
+def test_nothing_is_asked_about_the_examples(path):
+    assert list(unlikely(load(path))) == []
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        (
+            {"material.density": "14 t/m^3"},
+            "material.density 14 t/m^3: no bulk that belts carry is heavier than 312 lb/ft³",
+        ),
+        ({"material.flow": "1000 tph"}, "tph are metric tonnes per hour, 1,100 stph; short tons"),
+        ({"drive.efficiency": "9.4 %"}, "drive.efficiency 9.4 %: 91 % of the power is lost"),
+        (
+            {"idlers.carry.roll.length": "30 in"},
+            "idlers.carry: 3 x 30 in side by side are 1.88 times as wide as the belt",
+        ),
+        ({"idlers.return.roll.diameter": "2.5 in"}, "idlers.return: its rolls turn at 917 rpm"),
+        ({"belt.mass": "16 lb/ft"}, "belt.mass leaves 0.261 lb/ft² for the carcass of"),
+        ({"belt.mass": "24 lb/ft"}, "is it per area or per length"),
+    ],
+)
+def test_what_is_hardly_meant_is_asked_about(changes, words):
+    made = with_fields(load(SPECS / "in_plant_us.yaml"), changes)
+    assert [said for one in unlikely(made) if words in (said := one.text("US"))], [
+        one.text("US") for one in unlikely(made)
+    ]
+
+
+def test_tonnes_are_no_question_in_a_metric_report():
+    assert list(unlikely(with_fields(load(SPECS / "overland.yaml"), {"material.flow": "2000 tph"}))) == []

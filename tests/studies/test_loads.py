@@ -1,0 +1,119 @@
+"""One counterweight: what reports, studies and scenarios of a conveyor have is set for every load of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from conveyor.analysis import analyse, studies
+from conveyor.dynamics.follow import prepared_rides, standard_scenarios
+from conveyor.models import LoadCase
+from conveyor.models.variants import with_case
+from conveyor.pipeline import Variant, calculate_many
+from conveyor.spec import load
+from conveyor.studies.loads import every_load
+from conveyor.units import si
+
+SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
+RTOL = 1e-6
+"""Of the loop's settling where tension acts on rolls; without curves settings agree to rounding."""
+
+
+@pytest.fixture(scope="module")
+def line():
+    """A load state asks for more of the take-up than the load that is given."""
+    given = load(SPECS / "in_plant_us.yaml")
+    return given.replace(
+        operation={"duty": [{"hours": "2000 h", "share": "100 %"}, {"hours": "1000 h", "share": "50 %"}]},
+        uncertainty={"roll_drag": "30 %", "draws": 64},
+    )
+
+
+@pytest.fixture(scope="module")
+def found(line):
+    return studies(line)
+
+
+def test_one_setting_serves_every_load(line, found):
+    alone = analyse(line)
+    assert every_load(line).take_up > 1.05 * alone.balance.settled.setting
+    told = alone.to_dict(found)["take_up"]
+    assert told["setting_N"] == pytest.approx(every_load(line).take_up, rel=RTOL)
+    assert told["least_setting_N"] == pytest.approx(told["setting_N"], rel=2e-9)  # the least, both ways
+    assert told["governed_by"].startswith("load state inclines only")
+    assert found.to_dict()["take_up"] == told
+
+
+def test_studies_of_one_report_have_its_power(found):
+    own = found.states.own.balance.power
+    assert found.uncertainty.motor == pytest.approx(own.motor, rel=RTOL)
+    assert found.uncertainty.monte_carlo.power.min() < own.motor < found.uncertainty.monte_carlo.power.max()
+    assert found.duty.rows[0].shaft == pytest.approx(own.motor, rel=RTOL)
+
+
+def test_scenarios_begin_with_the_weight_of_the_report(line, found):
+    rides, given = prepared_rides(line, standard_scenarios(line))
+    assert {ride.setting for ride in rides} == {given.balance.settled.setting}
+    assert given.balance.settled.setting == pytest.approx(found.states.setting, rel=RTOL)
+
+
+def test_travel_of_the_carriage_counts_every_load(line, found):
+    alone, told = analyse(line).take_up.travel, analyse(line).to_dict(found)["take_up"]
+    lowest = min(
+        state.balance.settled.steady.mean(state.balance.line.loop.length) for state in found.states.states
+    )
+    assert lowest < analyse(line).take_up.steady_means[0]
+    assert told["travel_m"] > alone.whole
+
+
+def test_a_weight_that_is_given_stands(line):
+    heavy = line.replace(route=line.route.replace(take_up={"kind": "gravity", "tension": "40 kN"}))
+    assert every_load(heavy).take_up == pytest.approx(si(heavy.route.take_up.tension), rel=RTOL)
+
+
+def test_the_own_load_is_no_load_state_beside_itself(found):
+    assert not [case.words for case, _ in found.states.loads if case.words.startswith("load state full")]
+
+
+def test_rolls_bear_the_tension_of_the_one_setting_in_every_load_state(line):
+    """Where tension acts on the rolls, the full belt is the same conveyor as given and as a load state."""
+    gives = line.replace(calculation=line.calculation.replace(support="belt"), uncertainty=None)
+    loads = every_load(gives)
+    full = loads.states.state("full")
+    assert full.balance.power.motor == pytest.approx(loads.own.balance.power.motor, rel=RTOL)
+    empty = loads.states.state("empty")
+    (again,) = calculate_many(
+        [Variant(with_case(gives, LoadCase(name="empty", loading="empty")), take_up=loads.take_up)]
+    )
+    assert empty.balance.power.motor == pytest.approx(again.balance.power.motor, rel=gives.calculation.rtol)
+
+
+def test_the_load_as_given_is_among_those_that_govern():
+    """Of a spec whose cases leave out the full belt the motors are for it all the same."""
+    given = load(SPECS / "downhill.yaml").replace(cases=[{"name": "empty", "loading": "empty"}])
+    found = studies(given)
+    own, (motor,) = found.states.own, found.motors
+    every = [own, *(one for _, one in found.states.loads), *(case.found for case in found.cases.results)]
+    held = min(one.motor_asked for one in every)
+    assert motor.needed == pytest.approx(held, rel=RTOL)
+    assert motor.rated * motor.count >= -held
+    level = load(SPECS / "curved.yaml").replace(cases=[{"name": "empty", "loading": "empty"}])
+    found = studies(level)
+    assert [row.result.case.name for row in found.governing if row.key.startswith("largest_motor")] == [
+        "as given"
+    ]
+    assert found.motors[0].needed == pytest.approx(found.states.own.balance.power.motor, rel=RTOL)
+
+
+def test_motor_power_of_all_loads_is_that_of_the_report():
+    """A belt that drives its motors asks more of them than the empty one does of its own power."""
+    given = load(SPECS / "downhill.yaml")
+    loads, found = every_load(given), analyse(given)
+    asked = studies(given)
+    told = next(c for c in found.to_dict(asked)["checks"] if c["key"] == "motor_power" and c["governs"])
+    assert told["where"] == "least friction"
+    assert loads.motor_power == pytest.approx(1e3 * told["calculated"], rel=RTOL)
+    rows = {row.key: row for row in found.contents(asked)["what_if"].rows}
+    assert rows["what_if_maximum_motor_power"].label == "maximum motor power, driving or braking"
+    assert rows["what_if_maximum_motor_power"].value == pytest.approx(loads.motor_power, rel=RTOL)
