@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from typing import Final
+from typing import Any, Final
 
 _WORD: Final = re.compile(r"(\S{200})\S{100,}")
 _LINE: Final = re.compile(r"(.{800}).{100,}(.{100})")
@@ -42,8 +42,9 @@ class PlacedError(InputError):
         self.problems = tuple(problems)
         super().__init__("\n".join(said for _, said in self.problems))
 
-    def __reduce__(self) -> tuple[type[PlacedError], tuple[tuple[tuple[tuple[int | str, ...], str], ...]]]:
-        return type(self), (self.problems,)
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Sent from a worker as what it was made of: its message alone makes none."""
+        return type(self), (self.problems,), self.__dict__
 
 
 class NoSolutionError(ConveyorError):

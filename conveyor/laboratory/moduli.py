@@ -3,24 +3,27 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
 
 from conveyor.laboratory.columns import Series
-from conveyor.laboratory.layout import DataTable
+from conveyor.laboratory.layout import DataColumn, DataTable
+from conveyor.laboratory.numbers import last_digit
 from conveyor.laboratory.table import FloatArray
 
 TAN_DELTA_AGREEMENT: Final = 0.05
 """Relative difference allowed between tan delta and E''/E' of one row: two printed digits."""
 TAN_DELTA_DIGIT: Final = 0.01
 """Absolute difference allowed besides: tan delta printed with two decimals."""
-_NEAR: Final = (
-    0.4  # of what E''/E' misses tan delta by: what it misses another reading by, where that is the right one
-)
-_ROUNDING: Final = 1e-6  # up to which all of them are the same
+BETTER: Final = 0.25
+"""Share of what columns as they are named leave that the right reading of them leaves at most [-]."""
+FEWEST_TOLD: Final = 5
+"""Rows that tell one reading from another: of fewer, chance agrees with either."""
+MOST_TOLD: Final = 0.75
+"""Share of them that has to say so: the rest may be misprints [-]."""
 _SHEAR_WORDS: Final = re.compile(
     r"\b(shear\w*|torsion\w*|rheom\w*|parallel plates?|plate[- ]plate|cone|ares|rpa|mcr|scher\w*|schub\w*)\b|전단|비틀",
     re.IGNORECASE,
@@ -49,81 +52,114 @@ def dynamic_moduli(table: DataTable, series: Mapping[str, Series]) -> Moduli | N
     """
     storage, loss, whole = (series.get(q) for q in ("storage", "loss", "complex"))
     angle = series.get("tan_delta") or series.get("phase")
-    if angle is None:
-        return _without_angle(table, storage, loss, whole)
-    is_phase = angle.meaning.quantity == "phase"
-    tangent = np.tan(angle.values) if is_phase else angle.values
-    name = "tan(phase)" if is_phase else "tan delta"
+    if loss and whole and not storage:
+        note = "E' from |E*| and E'' of each row"
+        return _with_angle(table, Moduli(_beside(table, whole, loss), loss.values, whole, loss, note), angle)
     if storage and loss:
-        note = _agrees(table, storage, loss, angle, tangent)
-        return Moduli(storage.values, loss.values, storage, loss, note)
-    if storage:
-        made, note = storage.values * tangent, f"E'' = E' {name} from each row"
-        return Moduli(storage.values, made, storage, angle, note)
+        return _with_angle(table, Moduli(storage.values, loss.values, storage, loss), angle)
+    return None if angle is None else _by_angle(storage or whole, loss, angle)
+
+
+def _by_angle(known: Series | None, loss: Series | None, angle: Series) -> Moduli | None:
+    """E' and E'' of one modulus, E', |E*| or E'', and the angle."""
+    tangent, name = _tangent(angle)
     if loss:
         return Moduli(loss.values / tangent, loss.values, angle, loss, f"E' = E''/{name} from each row")
-    if whole:
-        made = whole.values * (1.0 / np.sqrt(1.0 + tangent**2))
-        return Moduli(made, made * tangent, whole, angle, f"E' and E'' from |E*| and {name} of each row")
-    return None
-
-
-def _without_angle(
-    table: DataTable, storage: Series | None, loss: Series | None, whole: Series | None
-) -> Moduli | None:
-    """E' beside E'' as it stands, else what E'' leaves of |E*|."""
-    if storage and loss:
-        return Moduli(storage.values, loss.values, storage, loss)
-    if not (whole and loss):
+    if known is None:
         return None
-    square = whole.values**2 - loss.values**2
-    if (square <= 0.0).any():
-        row = int((loss.values / whole.values).argmax())
-        ratio = loss.values[row] / whole.values[row]
-        raise table.refusal(
-            whole.column, f"E'' is {ratio:.3g} times |E*|, of which it is a part: columns mixed up?", row
-        )
-    return Moduli(np.sqrt(square), loss.values, whole, loss, "E' from |E*| and E'' of each row")
+    if known.meaning.quantity == "storage":
+        return Moduli(known.values, known.values * tangent, known, angle, f"E'' = E' {name} from each row")
+    made = known.values * (1.0 / np.sqrt(1.0 + tangent**2))
+    return Moduli(made, made * tangent, known, angle, f"E' and E'' from |E*| and {name} of each row")
 
 
-def _agrees(table: DataTable, storage: Series, loss: Series, angle: Series, tangent: FloatArray) -> str:
-    ratio = loss.values / storage.values
-    _refuse_near(table, storage, angle, ratio, tangent)
-    apart = np.abs(ratio - tangent) - TAN_DELTA_AGREEMENT * tangent
+def _tangent(angle: Series) -> tuple[FloatArray, str]:
+    if angle.meaning.quantity == "phase":
+        return np.tan(angle.values), "tan(phase)"
+    return angle.values, "tan delta"
+
+
+def _beside(table: DataTable, whole: Series, loss: Series) -> FloatArray:
+    """E' of |E*| and E''."""
+    share = loss.values / whole.values
+    row = int(np.argmax(share))
+    if share[row] >= 1.0:
+        what = f"E'' is {share[row]:.3g} times |E*|, of which it is a part: columns mixed up?"
+        raise table.refusal(whole.column, what, row)
+    return np.asarray(whole.values * np.sqrt(1.0 - share**2))
+
+
+def _with_angle(table: DataTable, moduli: Moduli, angle: Series | None) -> Moduli:
+    """Moduli beside which an angle stands, refused where it contradicts them by more than the digits allow."""
+    if angle is None:
+        return moduli
+    tangent, ratio = _tangent(angle)[0], moduli.loss / moduli.storage
+    columns = (moduli.storage_from, moduli.loss_from, angle)
+    printed = np.sum([_digits(table, column) for column in columns], axis=0)
+    _refuse_another_reading(table, moduli, angle, printed)
+    allowed = np.maximum(TAN_DELTA_AGREEMENT * tangent + TAN_DELTA_DIGIT, printed * tangent)
+    apart = np.abs(ratio - tangent) - allowed
     worst = int(np.argmax(apart))
-    if apart[worst] > TAN_DELTA_DIGIT:
+    if apart[worst] > 0.0:
         raise table.refusal(
             angle.column,
             f"tan delta is {tangent[worst]:.4g}, but E''/E' = {ratio[worst]:.4g}: are columns or units mixed up?"
             " correct them, or rename the column that is wrong",
             worst,
         )
-    return f"{table.label(angle.column)} agrees with E''/E' and is not needed"
+    note = f"{table.label(angle.column)} agrees with E''/E' and is not needed"
+    return replace(moduli, note="; ".join(filter(None, (moduli.note, note))))
 
 
-def _refuse_near(
-    table: DataTable, storage: Series, angle: Series, ratio: FloatArray, tangent: FloatArray
-) -> None:
-    """Refuse |E*| named E', and a phase angle named tan delta, which most rows alone do not tell."""
-    lossy = tangent > 0.0
+def _refuse_another_reading(table: DataTable, moduli: Moduli, angle: Series, printed: FloatArray) -> None:
+    """Refuse what digits (see `_digits`) and scatter of the rows tell from columns that hold what they are named.
 
-    def missed(other: FloatArray) -> float:
-        return float(np.sqrt(np.mean((ratio[lossy] / other[lossy] - 1.0) ** 2)))
-
-    if not lossy.any() or (named := missed(tangent)) <= _ROUNDING:
-        return
-    if missed(tangent / np.sqrt(1.0 + tangent**2)) < _NEAR * named:
+    Only rows count in which the other reading differs by more than twice what their digits allow.
+    """
+    tangent = _tangent(angle)[0]
+    apart = np.log(moduli.loss / moduli.storage / tangent)
+    found = []
+    for column, difference, advice in _readings(moduli, angle):
+        told = np.abs(difference) > 2.0 * printed
+        if np.count_nonzero(told) >= FEWEST_TOLD:
+            beyond = np.maximum(np.abs([apart - difference, apart]) - printed, 0.0)
+            as_read, as_named = np.quantile(beyond[:, told], MOST_TOLD, axis=1).tolist()
+            row = int(np.argmax(np.where(told, np.abs(apart), 0.0)))
+            found += [(as_read, row, column, advice)] if as_read < BETTER * as_named else []
+    if found:
+        _, row, column, advice = min(found, key=lambda one: one[0])
         raise table.refusal(
-            storage.column,
-            "E''/E' is sin delta of the tan delta beside it: what is named E' is |E*|; name the column |E*|",
-            0,
+            column,
+            f"E''/E' = {moduli.loss[row] / moduli.storage[row]:.4g}, but tan delta is {tangent[row]:.4g}; row by row"
+            f" they agree {advice}, or rename the column that is wrong",
+            row,
         )
-    if angle.meaning.quantity == "tan_delta" and missed(np.tan(tangent)) < _NEAR * named:
-        raise table.refusal(
-            angle.column,
-            "E''/E' is the tangent of it: what is named tan delta is the phase angle; name the column 'phase [rad]'",
-            0,
-        )
+
+
+def _readings(moduli: Moduli, angle: Series) -> Iterator[tuple[DataColumn, FloatArray, str]]:
+    """Another thing that a column may hold, ln(E''/E' over tan delta) if it does, and the words for it."""
+    value = angle.values
+    if moduli.storage_from.meaning.quantity == "storage":
+        letter = moduli.storage_from.meaning.letter
+        named = f"|{letter}*|" if letter else "complex modulus"
+        advice = f"if what is named {letter or 'E'}' is |{letter or 'E'}*|; name the column '{named}'"
+        yield moduli.storage_from.column, -np.log(np.hypot(1.0, _tangent(angle)[0])), advice
+    if angle.meaning.quantity == "tan_delta":
+        for unit, factor in (("rad", 1.0), ("deg", np.pi / 180.0)):
+            if value.max() * factor < np.pi / 2:
+                advice = f"if what is named tan delta is the phase angle; name the column 'phase [{unit}]'"
+                yield angle.column, np.log(np.tan(value * factor) / value), advice
+
+
+def _digits(table: DataTable, series: Series) -> FloatArray:
+    """Most that rounding to the printed digits changes each value by, a phase in its tangent [-]."""
+    base = series.meaning.log_base
+    digit = 0.5 * np.array([last_digit(line.cells[series.column.index]) for line in table.rows])
+    if base is not None:
+        return np.asarray(digit * np.log(base))
+    if series.meaning.quantity == "phase":
+        return np.asarray(2.0 * digit * series.unit.factor / np.sin(2.0 * series.values))
+    return np.asarray(digit * series.unit.factor / series.values)
 
 
 def to_tensile(

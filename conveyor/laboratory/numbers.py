@@ -46,6 +46,20 @@ def is_number(cell: str) -> bool:
     return _NUMBER.fullmatch(cell) is not None
 
 
+def last_digit(cell: str) -> float:
+    """What one more in the last digit of a number is worth; zeros at the end of a whole number are no digits.
+
+    Examples
+    --------
+    >>> last_digit("6,80"), last_digit("1.2E+06"), last_digit("6800000")
+    (0.01, 100000.0, 100000.0)
+    """
+    mantissa, _, power = cell.replace(",", ".").lower().partition("e")
+    whole, mark, decimals = mantissa.partition(".")
+    place = -len(decimals) if mark else len(whole) - len(whole.rstrip("0"))
+    return float(10.0 ** (place + int(power or 0)))
+
+
 def looks_like_number(cell: str) -> bool:
     """Whether a cell is a number, or would be without its thousands separators.
 
