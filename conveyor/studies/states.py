@@ -261,7 +261,7 @@ def at_one_take_up(
         as_given, setting = replace(before, balance=own), own.settled.setting
         near = math.isclose(before.balance.settled.setting, setting, rel_tol=before.line.rtol)
         if before.line.tension_acts and not near:
-            as_given, *found = (_loaded_anew(one, setting) for one in (as_given, *found))
+            as_given, *found = _loaded_anew([as_given, *found], setting)
         if cases is not None:
             every = tuple(replace(r, found=one) for r, one in zip(results, found, strict=True))
             cases = replace(cases, results=every, as_given=as_given)
@@ -273,12 +273,15 @@ def at_one_take_up(
     raise NoSolutionError("the setting of the take-up and what it does to the rolls do not settle")
 
 
-def _loaded_anew(result: CalculatedConveyor, setting: float) -> CalculatedConveyor:
-    """A load whose rolls bear what the take-up at a setting [N] does to them."""
-    (again,) = calculate_many([Variant(result.conveyor, result.temperature, take_up=setting)], known=result)
-    if not isinstance(again, CalculatedConveyor):
-        raise again
-    return replace(again, friction_band=result.friction_band)
+def _loaded_anew(loads: Sequence[CalculatedConveyor], setting: float) -> list[CalculatedConveyor]:
+    """Loads whose rolls bear what the take-up at a setting [N] does to them; the first is the spec's own."""
+    variants = [Variant(one.conveyor, one.temperature, take_up=setting) for one in loads]
+    made = []
+    for before, again in zip(loads, calculate_many(variants, known=loads[0]), strict=True):
+        if not isinstance(again, CalculatedConveyor):
+            raise again
+        made.append(replace(again, friction_band=before.friction_band))
+    return made
 
 
 _Ends = tuple[Balance, Balance]
