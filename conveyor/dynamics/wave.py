@@ -462,6 +462,8 @@ class _Motion:
             at == chain.end[:, None],
         )  # beside the take-up pulleys bear its tension
         self.before, self.behind = np.maximum(at - 1, 0), np.minimum(at, n - 1)
+        apart = at[:, :, None] - at[:, None, :]
+        self.alone = ~self.first & np.all(apart != 1, axis=2), ~self.last & np.all(apart != -1, axis=2)
         self.of_take_up = self.solver.pulleys.of_take_up / (self.answer * step)
         self.here = np.where(
             self.first | self.last, 1.0, 0.5
@@ -469,7 +471,7 @@ class _Motion:
 
     def followed(self) -> Record:
         """Take every step."""
-        self.extremes.tell(self.tension)
+        self.extremes.tell(self._at_pulleys(self.tension))
         for i in range(self.steps):
             self._step(i)
             self._keep(i)
@@ -576,7 +578,7 @@ class _Motion:
 
     def _keep(self, i: int) -> None:
         """Note extremes, samples, and what the take-up does."""
-        self.extremes.tell(self.shown)
+        self.extremes.tell(self._at_pulleys(self.shown))
         self.taken = self.taken + self.dt * (self.speed[self.one, self.chain.end] - self.speed[:, 0])
         self.take_up["tension"][i], self.take_up["belt"][i] = self.pulled, self.taken
         if i % self.every == 0:
@@ -588,6 +590,14 @@ class _Motion:
                     np.minimum(change, self.slowest),
                 )
             self.sampled = self.speed
+
+    def _at_pulleys(self, tension: Array) -> Array:
+        """Tension of every cell, of one that ends on a driven pulley that at the pulley: there it has its extremes."""
+        told, rows = tension.copy(), self.rows
+        lying = self.here * (self.chain.weight[rows, self.at] + self.rubbing)
+        told[rows, self.before] += np.where(self.alone[0], lying, 0.0)
+        told[rows, self.behind] -= np.where(self.alone[1], lying, 0.0)
+        return told
 
 
 def _winding(over: Array, band: Array) -> Array:

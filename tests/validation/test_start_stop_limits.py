@@ -86,6 +86,13 @@ def test_a_running_belt_keeps_its_steady_tensions(changes):
     assert found.belt_speed == pytest.approx(found.line.speed, rel=1e-9)
 
 
+@pytest.mark.parametrize("step", [0.02, 0.1])
+def test_a_running_belt_has_its_highest_steady_tension_at_the_pulley_however_long_its_cells(step):
+    """Half of what lies along a cell stands between its middle and the pulley: 5 % of this belt's in cells of 150 m."""
+    found = followed(line(drive=DATA["drive"] | MASSES), NOTHING, step)
+    assert found.highest == pytest.approx(found.ride.loop.steady.balance.settled.steady.largest, rel=1e-9)
+
+
 def test_a_very_slow_start_has_the_quasi_static_tensions():
     """Half way up a ramp of 1 - cos the acceleration is that of the package's own start, and so are the tensions."""
     factor = 1.3
