@@ -12,13 +12,13 @@ from conveyor.errors import InputError
 from conveyor.laws.resistance import roll_rotation
 from conveyor.laws.sizing import carcass_mass
 from conveyor.models.conveyor import Conveyor
-from conveyor.units import si, text
+from conveyor.units import si, system_of, text
 from conveyor.units.sentences import Said, percent, quoted, said
 
 HEAVIEST_BULK: Final = 5000.0
 """Bulk density of what belts carry [kg/m³]; iron ore and concentrates have 2000 to 3500."""
-FASTEST_ROLL: Final = 750.0 / 60.0
-"""Rotation of long-lived rolls [1/s]; rolls are accepted at 650 rpm."""
+FASTEST_ROLL: Final = roll_rotation(8.5, roll_diameter=0.178)
+"""Fastest rolls of a published conveyor [1/s]: KPC, 8.5 m/s on 178 mm (tests/validation/conveyors/kpc.yaml)."""
 WIDEST_SET: Final = 1.5
 """Rolls of a set side by side over the belt's width [-]; at most 1.25 in the lists after ISO 1537 and DIN 22107."""
 POOREST_DRIVE: Final = 0.5
@@ -43,7 +43,8 @@ def unlikely(conveyor: Conveyor) -> Iterator[Said]:
 
 def _flow(conveyor: Conveyor) -> Iterator[Said]:
     flow = conveyor.material.flow
-    if text(flow).endswith("tph") and not text(flow).endswith("stph") and conveyor.report.units == "US":
+    us = "US" in {conveyor.report.units, system_of(conveyor.belt.width)}
+    if us and text(flow).endswith(" tph"):
         yield said(
             f"material.flow {text(flow)}: tph are metric tonnes per hour, {{}}; short tons per hour are stph",
             (si(flow), "mass flow"),
@@ -93,9 +94,9 @@ def _sets(conveyor: Conveyor) -> Iterator[Said]:
                 (side_by_side / width, "safety"),
             )
         rotation = roll_rotation(speed, roll_diameter=si(idlers.roll.diameter))
-        if rotation > FASTEST_ROLL:
+        if rotation > 1.01 * FASTEST_ROLL:
             yield said(
-                f"idlers.{strand}: its rolls turn at {{}}, long-lived ones at no more than {{}} (general knowledge): "
+                f"idlers.{strand}: its rolls turn at {{}}, the fastest of a published conveyor at {{}} (KPC, 8.5 m/s): "
                 "take larger rolls",
                 (rotation, "rotation"),
                 (FASTEST_ROLL, "rotation"),

@@ -11,10 +11,13 @@ from conveyor.models.unlikely import unlikely
 from conveyor.spec import load
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
+PUBLISHED = Path(__file__).parent.parent / "validation" / "conveyors"
 
 
-@pytest.mark.parametrize("path", sorted(SPECS.glob("*.yaml")), ids=lambda path: path.stem)
-def test_nothing_is_asked_about_the_examples(path):
+@pytest.mark.parametrize(
+    "path", sorted([*SPECS.glob("*.yaml"), *PUBLISHED.glob("*.yaml")]), ids=lambda path: path.stem
+)
+def test_nothing_is_asked_about_examples_and_published_conveyors(path):
     assert list(unlikely(load(path))) == []
 
 
@@ -26,12 +29,13 @@ def test_nothing_is_asked_about_the_examples(path):
             "material.density 14 t/m^3: no bulk that belts carry is heavier than 312 lb/ft³",
         ),
         ({"material.flow": "1000 tph"}, "tph are metric tonnes per hour, 1,100 stph; short tons"),
+        ({"material.flow": "1000 tph", "report.units": "SI"}, "tph are metric tonnes per hour"),
         ({"drive.efficiency": "9.4 %"}, "drive.efficiency 9.4 %: 91 % of the power is lost"),
         (
             {"idlers.carry.roll.length": "30 in"},
             "idlers.carry: 3 x 30 in side by side are 1.88 times as wide as the belt",
         ),
-        ({"idlers.return.roll.diameter": "2.5 in"}, "idlers.return: its rolls turn at 917 rpm"),
+        ({"idlers.return.roll.diameter": "2.4 in"}, "idlers.return: its rolls turn at 955 rpm"),
         ({"belt.mass": "16 lb/ft"}, "belt.mass leaves 0.261 lb/ft² for the carcass of"),
         ({"belt.mass": "24 lb/ft"}, "is it per area or per length"),
     ],
