@@ -33,7 +33,16 @@ from conveyor.laws.sizing import (
 from conveyor.laws.tension import least_pulley_diameter
 from conveyor.line.defaults import SHAFT, usual_lump_factor
 from conveyor.models import Conveyor
-from conveyor.models.sizing import CarcassRow, DriveLayout, SiteRules, Sizes, SizingDuty, same_width, sizes
+from conveyor.models.sizing import (
+    CarcassRow,
+    DriveLayout,
+    SiteRules,
+    Sizes,
+    SizingDuty,
+    same_width,
+    sizes,
+    within,
+)
 from conveyor.units import from_si, in_si, si, text
 from conveyor.units.sentences import figure
 
@@ -271,7 +280,7 @@ class SizingTask:
     def _largest_motor(self) -> float:
         """That the rules allow and the series has [W]; the rule itself where the series has none so small."""
         most = si(self.rules.largest_motor)
-        return max((each for each in self._motors if each <= most), default=most)
+        return max((each for each in self._motors if within(each, most)), default=most)
 
     @property
     def largest_drive(self) -> float:
@@ -320,7 +329,7 @@ class SizingTask:
             ("return", rules.return_spacings, self.sizes.return_spacings),
         ):
             widest = in_si(libraries.entries("spacing")[f"{strand}{wide}"].fields["to"], "length")
-            pairs.append(tuple(map(si, asked)) or tuple(a for a in map(si, series) if a <= widest))
+            pairs.append(tuple(map(si, asked)) or tuple(a for a in map(si, series) if within(a, widest)))
         return pairs[0], pairs[1]
 
     @property
@@ -343,7 +352,7 @@ class SizingTask:
         for row in self.sizes.widths:
             belt, vee = si(row.belt), si(row.belt) >= si(self.sizes.vee_from)
             width = WidthSize(belt, si(row.one), si(row.two), si(row.three), vee)
-            if belt < least and not same_width(belt, least):
+            if not within(least, belt):
                 continue
             if asked and not any(same_width(belt, one) for one in asked):
                 continue
@@ -370,7 +379,7 @@ class SizingTask:
             si(duty.lump), surcharge_angle=duty.material.surcharge, share=duty.lumps
         )
         widest = max(map(si, rules.widths or [row.belt for row in self.sizes.widths]))
-        if lumps > widest:
+        if not within(lumps, widest):
             asked, had = (figure(width, "thickness", system) for width in (lumps, widest))
             raise NoSolutionError(
                 f"lump: {text(duty.lump)} asks for a belt of {asked}, the widest has {had} (rules.widths)"
@@ -389,7 +398,7 @@ class SizingTask:
         fastest = (
             si(given) if given else recommended_speed(trough.width.belt, abrasiveness=self.duty.abrasiveness)
         )
-        return speed <= fastest
+        return within(speed, fastest)
 
     def filling(self, trough: Trough, speed: float) -> float | None:
         """Share of the cross-section under bulk [-]; None where rules of speed, filling or edges are not kept."""

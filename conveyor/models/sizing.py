@@ -50,13 +50,18 @@ Trough = Annotated[Angle, Bounds(ge="0 deg", le="60 deg")]
 Apart = Annotated[Distance, Bounds(gt="0.2 m", le="20 m")]
 
 
-_SAME_WIDTH: Final = 1e-9
-"""Widths are typed as decimals: a larger difference is another width."""
+_SAME_SIZE: Final = 1e-9
+"""Sizes are typed as decimals, in any unit: a larger difference is another size."""
 
 
 def same_width(one: float, other: float) -> bool:
     """Whether two widths are one [m]."""
-    return math.isclose(one, other, rel_tol=_SAME_WIDTH)
+    return math.isclose(one, other, rel_tol=_SAME_SIZE)
+
+
+def within(size: float, most: float) -> bool:
+    """Whether a size of a series is at most that of a rule: 300 hp are within "300 hp", however each came to SI."""
+    return size <= most * (1.0 + _SAME_SIZE)
 
 
 class WidthRow(Model):

@@ -28,7 +28,7 @@ from conveyor.sizing.screen import Candidates, first_levels, screen
 from conveyor.sizing.spacing import graduated_spacings, section_spacings
 from conveyor.studies.loads import every_load
 from conveyor.study_file import read_duty
-from conveyor.units import si, text
+from conveyor.units import quantity, si, text
 from tests.command_line import run
 
 DUTIES = Path(__file__).parent.parent.parent / "examples" / "duties"
@@ -309,6 +309,19 @@ def test_prices_of_the_library_count_at_what_a_euro_costs():
             Prices.from_data({"euro": wrong})
     with pytest.raises(InputError, match=r"roll: got EUR, USD; give every price in one currency"):
         Prices.from_data({"euro": "1.1 USD", "roll": "15 EUR"})
+
+
+def test_a_size_of_the_series_keeps_the_rule_that_names_it(small):
+    """Horsepower of the series and of the rule come to watts on two ways, speeds in two units: so the last digit."""
+
+    def task(**rules):
+        return SizingTask(small.replace(rules=rules, report={"units": "US"}))
+
+    for horses in ("100 hp", "300 hp", "1000 hp"):
+        assert task(largest_motor=horses).largest_drive == pytest.approx(si(quantity(horses)), rel=1e-9)
+    per_minute = task(speeds=["2.62 m/s"], fastest="157.2 m/min")
+    assert per_minute.allows(per_minute.troughs[0], 2.62)
+    assert not per_minute.allows(per_minute.troughs[0], 2.63)
 
 
 def test_a_design_in_us_units_is_of_the_us_trade(small):
