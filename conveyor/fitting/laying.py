@@ -22,6 +22,7 @@ from conveyor.fitting.rows import (
     sweeps,
 )
 from conveyor.laboratory import DmaData
+from conveyor.laboratory.arrange import SAME_TEMPERATURE as SAME_PRINTED
 from conveyor.laboratory.groups import ISOTHERM_GAP
 from conveyor.rubber import (
     WLF,
@@ -79,6 +80,7 @@ def laid_out(
     dynamic = [part for part in parts if read[part.file].kind != "relaxation"]
     chain = dynamic if len(dynamic) > 1 else parts
     if len(chain) > 1:
+        _check_sweeps(read, chain)
         isotherms = [part.isotherm for part in chain]
         superposition = superpose(isotherms, kelvin, vertical=request.vertical, by=request.by)
         if shifts is not None:
@@ -222,6 +224,19 @@ def _stated(read: DmaData) -> Iterator[tuple[str, str]]:
     if constant and read.temperature is not None and float(np.ptp(read.temperature)) <= ISOTHERM_GAP:
         mean = float(np.mean(read.temperature)) - ZERO_CELSIUS
         yield f"{data}:{read.row_numbers[0]}: column of the temperature", f"{mean:.{DIGITS}g} degC"
+
+
+def _check_sweeps(read: Sequence[DmaData], chain: Sequence[Sweep]) -> None:
+    """Refuse, by its rows, the second isotherm at one temperature."""
+    in_files = sorted(chain, key=lambda part: (part.file, part.first_row))
+    for first, second in combinations(in_files, 2):
+        t = second.isotherm.temperature
+        if abs(t - first.isotherm.temperature) < SAME_PRINTED:
+            begins = f"{read[first.file].source}:{first.first_row}"
+            raise InputError(
+                f"{read[second.file].source}:{second.first_row}: a second sweep at {celsius(t):.2f} degC, the first "
+                f"begins at {begins}: leave one of them out with --exclude, or average them"
+            )
 
 
 def _check_order(

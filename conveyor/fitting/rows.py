@@ -128,16 +128,13 @@ def sweeps(reads: Sequence[DmaData], stated: Mapping[int, float]) -> tuple[list[
     said = []
     for number, read in enumerate(reads):
         if read.kind == "isotherms":
-            rows = read.isotherms()
             taken += [
-                Sweep(
-                    number, Isotherm(s.temperature, s.frequency, s.storage, s.loss), int(s.row_numbers.min())
-                )
-                for s in rows
+                _sweep(read, number, s.temperature, (s.frequency, s.storage, s.loss), s.row_numbers)
+                for s in read.isotherms()
             ]
         elif read.kind == "master curve":
             at = _temperature(read, number, stated)
-            taken.append(Sweep(number, Isotherm(at, *moduli_of(read)), int(read.row_numbers.min())))
+            taken.append(_sweep(read, number, at, moduli_of(read), read.row_numbers))
         elif read.kind == "relaxation":
             converted = list(_relaxed(read, number, stated))
             taken += converted
@@ -146,6 +143,19 @@ def sweeps(reads: Sequence[DmaData], stated: Mapping[int, float]) -> tuple[list[
                 "says the same, a decade inside its window"
             )
     return taken, tuple(said)
+
+
+def _sweep(
+    read: DmaData, number: int, temperature: float, moduli: tuple[Array, Array, Array], rows: Numbers
+) -> Sweep:
+    """Frequency, E' and E'' of some rows of a file, refused by the first of them."""
+    try:
+        return Sweep(number, Isotherm(temperature, *moduli), int(rows.min()))
+    except InputError as error:
+        raise InputError(
+            f"{read.source}:{rows.min()}: {error}; leave its rows out with --exclude, or put those of another strain "
+            "into a file of their own"
+        ) from None
 
 
 def _temperature(read: DmaData, number: int, stated: Mapping[int, float]) -> float:

@@ -102,6 +102,10 @@ def _loss_doubts(table: DataTable, moduli: Moduli) -> Iterator[Question]:
             f"makes tan delta {tangent[row]:.3g}; rubber stays {limit}: columns of E' and E'' swapped, or two units?"
             " rename the columns, or correct the units in the header or unit row"
         )
+        if moduli.loss_from.meaning.quantity == "tan_delta":
+            what = (
+                f"is too much; rubber stays {limit}: a phase angle in degrees? name the column 'phase [deg]'"
+            )
         yield _question(table, moduli.loss_from, row, what)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace
@@ -29,6 +30,8 @@ from conveyor.laboratory.separated import text_grid
 from conveyor.laboratory.table import DmaData, FloatArray
 from conveyor.laboratory.workbook import workbook_grids
 
+_COMPLIANCE: Final = re.compile(r"^\W*[DJ]\W*['′″\"(12*]|compliance|nachgiebigkeit", re.IGNORECASE)
+"""Names of compliances: D', J'', J(t), |D*|, storage compliance."""
 KINDS: Final = tuple(NEEDS)
 """What a file can hold."""
 LARGEST_FILE: Final = 50_000_000
@@ -335,6 +338,11 @@ def _kind(
 
 def _missing(table: DataTable, present: set[str], what: str) -> InputError:
     unknown = next((c for c in table.columns if c.meaning is None), table.columns[-1])
+    compliance = next((c for c in table.columns if c.meaning is None and _COMPLIANCE.search(c.header)), None)
+    if compliance is not None:
+        return table.refusal(
+            compliance, "compliances are not read; give moduli: E' = D'/(D'^2 + D''^2), E'' likewise"
+        )
     have = ", ".join(sorted(present | {c.meaning.quantity for c in table.columns if c.meaning is not None}))
     advice = "; give temperature (--temperature)" if {"storage", "loss", "frequency"} <= present else ""
     return table.refusal(
