@@ -22,7 +22,7 @@ from conveyor.studies import cases as case_study
 from conveyor.studies import duty as duty_study
 from conveyor.studies import states as state_study
 from conveyor.studies import uncertainty as range_study
-from conveyor.studies.loads import Progress
+from conveyor.studies.loads import EveryLoad, Progress
 from conveyor.units.presentation import chosen
 
 if TYPE_CHECKING:
@@ -366,15 +366,19 @@ def studies(
         cases=None if made.cases is None else faced(made.cases, CaseStudy),
         duty=None if made.duty is None else faced(made.duty, DutyStudy),
         uncertainty=None if made.uncertainty is None else faced(made.uncertainty, UncertaintyStudy),
-        dynamics=_followed(conveyor, progress) if conveyor.scenarios else None,
+        dynamics=_followed(conveyor, made, progress) if conveyor.scenarios else None,
     )
 
 
-def _followed(conveyor: Conveyor, progress: Progress | None) -> CalculatedDynamics:
-    """Scenarios of a spec through time."""
+def _followed(
+    conveyor: Conveyor, made: study.CalculatedStudies, progress: Progress | None
+) -> CalculatedDynamics:
+    """Scenarios of a spec through time, with the take-up of its loads."""
     from conveyor.dynamics.follow import follow
 
-    return follow(conveyor, progress=None if progress is None else partial(progress, "scenarios"))
+    loads = None if made.states is None else EveryLoad(made.states, made.cases)
+    told = None if progress is None else partial(progress, "scenarios")
+    return follow(conveyor, progress=told, loads=loads)
 
 
 def _further(studies: Studies | None, system: System) -> Further | None:

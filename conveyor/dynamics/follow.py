@@ -30,7 +30,7 @@ from conveyor.line.scenes import ScenarioUnit
 from conveyor.models import Conveyor, LoadCase, Scenario
 from conveyor.models.variants import slowed, with_case, with_temperature
 from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many
-from conveyor.studies.loads import every_load
+from conveyor.studies.loads import EveryLoad, every_load
 from conveyor.studies.states import CalculatedStates
 from conveyor.studies.workers import workers_of
 from conveyor.units import from_si
@@ -254,6 +254,7 @@ def follow(
     executor: Executor | None = None,
     workers: int = 1,
     progress: Progress | None = None,
+    loads: EveryLoad | None = None,
 ) -> CalculatedDynamics:
     """Follow scenarios through time.
 
@@ -273,6 +274,8 @@ def follow(
         Of the executor: as many groups.
     progress : callable, optional
         Called with what is done and the whole.
+    loads : EveryLoad, optional
+        Every load of the spec, where they are calculated already.
 
     Returns
     -------
@@ -289,7 +292,7 @@ def follow(
     if not 0.0 < error < 1.0:
         raise InputError(f"error = {error}: between 0 and 1 is needed")
     rides, given = prepared_rides(
-        conveyor, tuple(scenarios or conveyor.scenarios or standard_scenarios(conveyor))
+        conveyor, tuple(scenarios or conveyor.scenarios or standard_scenarios(conveyor)), loads
     )
     if step is not None:
         return CalculatedDynamics(conveyor, given, *_sorted(_each(rides, step)))
@@ -432,10 +435,10 @@ def _only(record: Record, i: int, size: int, duration: float) -> Record:
 
 
 def prepared_rides(
-    conveyor: Conveyor, scenarios: Sequence[Scenario]
+    conveyor: Conveyor, scenarios: Sequence[Scenario], loads: EveryLoad | None = None
 ) -> tuple[list[Ride], CalculatedConveyor]:
     """Every scenario on its load, the take-up at the setting of `every_load`; a load of several is calculated once."""
-    loads = every_load(conveyor)
+    loads = every_load(conveyor) if loads is None else loads
     setting = loads.take_up
     loaded: dict[tuple[object, ...], Conveyor] = {}
     keys = []

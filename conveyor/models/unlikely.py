@@ -13,7 +13,7 @@ from conveyor.laws.resistance import roll_rotation
 from conveyor.laws.sizing import carcass_mass
 from conveyor.models.conveyor import Conveyor
 from conveyor.units import si, system_of, text
-from conveyor.units.sentences import Said, percent, quoted, said
+from conveyor.units.sentences import Said, percent, said
 
 HEAVIEST_BULK: Final = 5000.0
 """Bulk density of what belts carry [kg/m³]; iron ore and concentrates have 2000 to 3500."""
@@ -70,8 +70,10 @@ def _carcass(conveyor: Conveyor) -> Iterator[Said]:
     strength = 1.0 if carcass.strength is None else si(carcass.strength)
     try:
         usual = carcass_mass(strength, thickness=si(carcass.thickness), steel_cord=steel)
-    except InputError as error:
-        yield said(quoted(f"belt.carcass: {text(carcass.thickness)} thick: {error}"))
+    except InputError:
+        yield said(
+            f"belt.carcass.thickness {text(carcass.thickness)}: cords of this strength need more steel"
+        )
         return
     left = belt.line_mass / si(belt.width) - belt.top_cover.area_mass - belt.bottom_cover.area_mass
     if not CARCASS[0] * usual <= left <= CARCASS[1] * usual:

@@ -183,12 +183,6 @@ class CalculatedCases:
         """
         return take_up_of([load for _, load in self._loads])
 
-    @property
-    def take_up_governed_by(self) -> Said:
-        """The load and the condition that ask for the take-up's setting."""
-        label = self._loads[self.take_up.governing][0]
-        return Said(f"{label.words}: {quoted(self.take_up.governed_by)}", label.figures)
-
     @cached_property
     def _loads(self) -> list[tuple[Said, CalculatedConveyor]]:
         """The spec's own load and the cases."""
@@ -208,17 +202,13 @@ class CalculatedCases:
         """Every criterion in every case; those without an answer say why."""
         return (*_unanswered(self), *(check for result in self.results for check in result.checks))
 
-    def motors(
-        self, reserve: float = MOTOR_RESERVE, states: Sequence[tuple[Said, CalculatedConveyor]] = ()
-    ) -> tuple[MotorChoice, ...]:
+    def motors(self, reserve: float = MOTOR_RESERVE) -> tuple[MotorChoice, ...]:
         """Motors of every drive pulley from the series, for the governing load.
 
         Parameters
         ----------
         reserve : float
             Rated power over needed power [-], at least 1.
-        states : sequence of (Said, CalculatedConveyor)
-            Load states that the motors must give or hold, too.
 
         Raises
         ------
@@ -226,7 +216,7 @@ class CalculatedCases:
             The reserve is below 1, or no case has an answer.
         """
         covered = [(result.label, result.found) for result in self.results if result.covered]
-        return recommended_motors([*covered, *states] if covered else [], reserve=reserve)
+        return recommended_motors(covered, reserve=reserve)
 
 
 @checked

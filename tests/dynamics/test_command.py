@@ -45,7 +45,7 @@ def spec(tmp_path_factory):
 def rigged(monkeypatch):
     """Loads without contacts: what they resist is a share of them."""
 
-    def rides(conveyor, scenarios):
+    def rides(conveyor, scenarios, _loads=None):
         made = [ridden(conveyor, one.as_data()) for one in scenarios]
         return made, made[0].loop.steady
 
