@@ -263,12 +263,15 @@ class CalculatedConveyor:
         return self.contacts.error
 
 
-def take_up_of(loads: Sequence[CalculatedConveyor]) -> TakeUpDuty:
-    """What several loads of one conveyor, calculated at one setting, ask of its take-up."""
+def take_up_of(loads: Sequence[CalculatedConveyor], temperatures: Iterable[float] = ()) -> TakeUpDuty:
+    """What several loads of one conveyor, calculated at one setting, ask of its take-up.
+
+    Its carriage follows the belt's length at further `temperatures` of the belt, too [K].
+    """
     return take_up_duty(
         [load.balance for load in loads],
         [load.every_state for load in loads],
-        [load.temperature for load in loads],
+        [*(load.temperature for load in loads), *temperatures],
     )
 
 
@@ -302,7 +305,7 @@ def calculate_many(
     rtol: float | None = None,
     progress: Progress | None = None,
     *,
-    one_take_up: bool = False,
+    one_take_up: Callable[[CalculatedConveyor], bool] | None = None,
     known: CalculatedConveyor | None = None,
     anchors: Anchors | None = None,
     kept: Kept | None = None,
@@ -318,9 +321,9 @@ def calculate_many(
         Relative tolerance of the contacts; that of each spec without it [-].
     progress : callable, optional
         Called as variants are loaded, and when they are solved; a variant counts half for each.
-    one_take_up : bool
-        Whether the take-up has one setting in all of them, the least that serves every state of each; else the least
-        of each. A setting that the spec gives stands.
+    one_take_up : callable, optional
+        The take-up has one setting in all of them: the least that serves every state of those that this is true of.
+        Without it the least of each. A setting that the spec gives stands.
     known : CalculatedConveyor, optional
         A variant that is calculated already: the anchors of its compounds are taken over.
     anchors : list, optional
@@ -363,8 +366,9 @@ def calculate_many(
                 refused[i] = result
         for i in refused:
             made.pop(i, None)
-        if one_take_up:
-            level = at_one_setting([result.balance for result in made.values()])
+        if one_take_up is not None:
+            asking = list(map(one_take_up, made.values()))
+            level = at_one_setting([result.balance for result in made.values()], asking)
             made = {i: replace(made[i], balance=one) for i, one in zip(made, level, strict=True)}
         acted = [i for i in going if i in made and made[i].line.tension_acts]
         again: dict[int, _Step] = {}
@@ -377,7 +381,7 @@ def calculate_many(
                 del made[i]
         moving = {i for i in again if not _settled(made[i])}
         # one that still moves the common setting moves the tensions of all
-        going = again if one_take_up and moving else {i: again[i] for i in moving}
+        going = again if one_take_up is not None and moving else {i: again[i] for i in moving}
         told(len(variants) - len(going), 0)
     return [refused[i] if i in refused else made[i] for i in range(len(variants))]
 

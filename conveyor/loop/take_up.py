@@ -65,13 +65,15 @@ class TakeUpDuty:
     speed: float | None
 
 
-def at_one_setting(loops: Sequence[Balance]) -> list[Balance]:
-    """Close loops of one conveyor under several loads at the least setting of its take-up that serves them all.
+def at_one_setting(loops: Sequence[Balance], asking: Sequence[bool] = ()) -> list[Balance]:
+    """Close loops of one conveyor under several loads at the least setting of its take-up that serves them.
 
     Parameters
     ----------
     loops : sequence of Balance
         Closed at whatever setting. Where the spec gives one they all have it already.
+    asking : sequence of bool
+        Which of them the setting must serve; the others are closed at it. All, where none is.
 
     Raises
     ------
@@ -80,10 +82,11 @@ def at_one_setting(loops: Sequence[Balance]) -> list[Balance]:
     """
     if not loops or loops[0].line.take_up.tension is not None:
         return list(loops)
-    setting = max(loop.settled.needed for loop in loops)
+    served = [i for i, asks in enumerate(asking) if asks] or range(len(loops))
+    setting = max(loops[i].settled.needed for i in served)
     for _ in range(_STEPS):
         closed = held(loops, setting)
-        asked = max(loop.settled.needed for loop in closed)
+        asked = max(closed[i].settled.needed for i in served)
         if holds(setting, asked) and holds(asked, setting):
             return closed
         setting = asked

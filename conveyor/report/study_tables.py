@@ -150,7 +150,10 @@ def cases(study: CalculatedCases) -> Table:
         Column("energy", "specific energy", "energy_per_tonne_km", page=None),
         Column("error estimate", "error", "found.error_estimate", page=None),
     )  # fmt: skip
-    note = "covered: NO where the rubber data do not cover the excitation band: not for design."
+    note = (
+        "covered: NO where the rubber data do not cover the excitation band: not for design, and left out of tables of "
+        "all cases."
+    )
     covered = all(row.covered for row in study.results)
     return Table(
         "load_cases", "Load cases", "Load cases", columns, study.results, note="" if covered else note

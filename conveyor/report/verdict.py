@@ -46,19 +46,17 @@ class Load(NamedTuple):
     found: CalculatedConveyor
 
 
-def loads(
-    a: CalculatedConveyor, studies: CalculatedStudies | None, *, covered: bool = False
-) -> Iterator[Load]:
-    """The conveyor as given, its load cases and its load states; `covered`: only what the rubber's data cover."""
+def loads(a: CalculatedConveyor, studies: CalculatedStudies | None) -> Iterator[Load]:
+    """Loads to design by: the conveyor as given, load cases that the rubber's data cover, load states."""
     yield Load(said(AS_GIVEN), a)
-    cases = () if studies is None or studies.cases is None else studies.cases.results
-    yield from (Load(case.label, case.found) for case in cases if case.covered or not covered)
+    cases = () if studies is None or studies.cases is None else studies.cases.designing
+    yield from (Load(case.label, case.found) for case in cases)
     yield from (Load(*load) for load in (studies.states.loads if studies and studies.states else ()))
 
 
 def maximum_motor_power(a: CalculatedConveyor, studies: CalculatedStudies | None) -> float:
     """Of all calculated loads at the less favourable end of the friction [W]; negative where it brakes."""
-    return max((load.found.motor_asked for load in loads(a, studies, covered=True)), key=abs)
+    return max((load.found.motor_asked for load in loads(a, studies)), key=abs)
 
 
 def _place(result: CalculatedConveyor, state: MotionState, tension: float) -> str:
@@ -101,7 +99,7 @@ def _rows(
     power, force, mass, length = (
         unit(kind, system, large=True) for kind in ("power", "force", "mass", "length")
     )
-    every = list(loads(a, studies, covered=True))
+    every = list(loads(a, studies))
     case, most = max(every, key=lambda load: abs(load.found.motor_asked))
     yield GoverningRow("maximum motor power", _held(power, most.motor_asked), case.text(system))
     where = figure(a.temperature, "temperature", system)

@@ -58,9 +58,9 @@ class CalculatedStudies:
     @cached_property
     def _loads(self) -> tuple[CaseResult, ...]:
         """As given, load cases that the rubber's data cover, load states; none without such a case."""
-        covered = () if self.cases is None else tuple(one for one in self.cases.results if one.covered)
+        cases = () if self.cases is None else self.cases.designing
         states = () if self.states is None else self.states.as_cases
-        return (*states[:1], *covered, *states[1:]) if covered else ()
+        return (*states[:1], *cases, *states[1:]) if cases else ()
 
 
 def studies(

@@ -173,29 +173,36 @@ class CalculatedCases:
         return f'CaseStudy("{name}": {len(self.cases)} cases, {answered} answered, {len(self.refused)} not)'
 
     @cached_property
+    def designing(self) -> tuple[CaseResult, ...]:
+        """Cases to design by: those that the rubber's data cover."""
+        return tuple(result for result in self.results if result.covered)
+
+    @property
+    def temperatures(self) -> tuple[float, ...]:
+        """Of the belt in every case with an answer [K]."""
+        return tuple(result.temperature for result in self.results)
+
+    @cached_property
     def take_up(self) -> TakeUpDuty:
-        """What the spec's own load and all cases ask of the one take-up.
+        """What the spec's own load and the cases to design by ask of the one take-up; all cases, if there is neither.
 
         Raises
         ------
         NoSolutionError
             Nothing has an answer.
         """
-        return take_up_of([load for _, load in self._loads])
-
-    @cached_property
-    def _loads(self) -> list[tuple[Said, CalculatedConveyor]]:
-        """The spec's own load and the cases."""
-        own = [] if self.as_given is None else [(said(AS_GIVEN), self.as_given)]
-        loads = own + [(result.label, result.found) for result in self.results]
+        own = [] if self.as_given is None else [self.as_given]
+        loads = [*own, *(result.found for result in self.designing)] or [
+            result.found for result in self.results
+        ]
         if not loads:
             raise NoSolutionError("no load has an answer: see why each case has none")
-        return loads
+        return take_up_of(loads, self.temperatures)
 
     @cached_property
     def governing(self) -> tuple[Governing, ...]:
-        """For every figure of the design the case that decides it, of those that the rubber's data cover."""
-        return governing([result for result in self.results if result.covered])
+        """For every figure of the design the case that decides it, of those to design by."""
+        return governing(self.designing)
 
     @cached_property
     def checks(self) -> tuple[Check, ...]:
@@ -215,8 +222,8 @@ class CalculatedCases:
         InputError
             The reserve is below 1, or no case has an answer.
         """
-        covered = [(result.label, result.found) for result in self.results if result.covered]
-        return recommended_motors(covered, reserve=reserve)
+        designing = [(result.label, result.found) for result in self.designing]
+        return recommended_motors(designing, reserve=reserve)
 
 
 @checked
@@ -277,7 +284,9 @@ def analyse_cases(
         if not isinstance(s.conveyor, Conveyor)
     ]
     variants = [Variant(conveyor), *(Variant(variant) for _, _, variant in made)]
-    as_given, *answers = calculate_many(variants, rtol, progress, one_take_up=True)
+    as_given, *answers = calculate_many(
+        variants, rtol, progress, one_take_up=lambda one: one.conveyor is conveyor or covered(one)
+    )
     results = []
     for (case, setting, _), result in zip(made, answers, strict=True):
         if isinstance(result, CalculatedConveyor):

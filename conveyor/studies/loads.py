@@ -52,9 +52,8 @@ class EveryLoad:
     @cached_property
     def designing(self) -> tuple[CalculatedConveyor, ...]:
         """Loads to design by: cases that the rubber's data do not cover are none."""
-        cases = () if self.cases is None else self.cases.results
-        of_states = (load for _, load in self.states.loads)
-        return (self.own, *of_states, *(result.found for result in cases if result.covered))
+        cases = () if self.cases is None else self.cases.designing
+        return (self.own, *(load for _, load in self.states.loads), *(result.found for result in cases))
 
     @property
     def motor_power(self) -> float:
@@ -119,13 +118,13 @@ def every_load(
 def asked_of_take_up(
     own: CalculatedConveyor, states: CalculatedStates | None, cases: CalculatedCases | None
 ) -> tuple[TakeUpDuty, Said]:
-    """What all loads, at one setting, ask of the take-up; the load and the condition that ask for the setting."""
+    """What all loads to design by, at one setting, ask of the take-up; the load and the condition that ask for it."""
     loads = [
         (said(AS_GIVEN), own),
         *(() if states is None else states.loads),
-        *((result.label, result.found) for result in (() if cases is None else cases.results)),
+        *(() if cases is None else ((result.label, result.found) for result in cases.designing)),
     ]
-    duty = take_up_of([load for _, load in loads])
+    duty = take_up_of([load for _, load in loads], () if cases is None else cases.temperatures)
     condition, (label, _) = quoted(duty.governed_by), loads[duty.governing]
     return duty, said(condition) if len(loads) == 1 else said(f"{label.words}: {condition}", *label.figures)
 

@@ -237,6 +237,8 @@ def at_one_take_up(
 ) -> tuple[CalculatedStates, CalculatedCases | None]:
     """The same loads with the take-up at the least setting that serves the load states too; a given one stands.
 
+    Cases that the rubber's data do not cover are at the setting, and do not ask for it.
+
     Where tension acts on the rolls, every load is loaded anew until setting and rolls agree.
 
     Parameters
@@ -256,7 +258,8 @@ def at_one_take_up(
     for _ in range(_ROUNDS):
         before, results = states.own, () if cases is None else cases.results
         loads = [before.balance, *(result.found.balance for result in results)]
-        own, *closed = at_one_setting([*loads, *(state.balance for state in states.states)])
+        asking = [True, *(result.covered for result in results), *(True for _ in states.states)]
+        own, *closed = at_one_setting([*loads, *(state.balance for state in states.states)], asking)
         found = [replace(r.found, balance=one) for r, one in zip(results, closed, strict=False)]
         as_given, setting = replace(before, balance=own), own.settled.setting
         near = math.isclose(before.balance.settled.setting, setting, rel_tol=before.line.rtol)

@@ -13,6 +13,7 @@ from conveyor.analysis import Analysis, CaseStudy, Studies, analyse_cases
 from conveyor.checks import Check, checks, deciding, leading
 from conveyor.models.variants import with_case, with_temperature
 from conveyor.pipeline import calculate
+from conveyor.studies.loads import every_load
 from conveyor.units import quantity
 from conveyor.units.sentences import said
 
@@ -218,6 +219,34 @@ def test_a_case_the_data_do_not_cover_says_so_and_governs_nothing(cold: tuple[An
     assert {row.result for row in found.governing} <= set(others)
     assert "-25 degC" not in found.motors()[0].case
     assert governing(found, "rubber_coverage", "carry").case.text() == "winter, -25 °C"
+
+
+def test_the_take_up_and_the_pulleys_are_sized_without_a_case_that_the_data_do_not_cover(
+    cold: tuple[Analysis, CaseStudy],
+) -> None:
+    given, found = cold
+    beyond, *others = found.results
+    settled = beyond.found.balance.settled
+    assert settled.needed > 1.01 * settled.setting
+    needed = max(one.found.balance.settled.needed for one in others)
+    assert settled.setting == pytest.approx(needed, rel=1e-9)
+    assert found.take_up.needed == pytest.approx(needed, rel=1e-9)
+    assert found.take_up.warmth == pytest.approx(45.0)  # its cold is no figure of the rubber
+    both = every_load(found.conveyor)
+    assert both.cases is not None
+    assert both.take_up == pytest.approx(both.cases.results[0].found.balance.settled.setting, rel=1e-12)
+    asked = max(load.balance.settled.needed for load in both.designing)  # by a load state at -5 °C
+    assert needed < both.take_up == pytest.approx(asked, rel=1e-9)
+    assert beyond.temperature not in {load.temperature for load in both.designing}
+    contents = given.contents(Studies(cases=found)).by_key
+    largest = max(row[2].largest.resultant for row in contents["pulley_loads"].rows)
+    loads = [load.largest.resultant for one in others for load in one.found.pulley_duty]
+    assert largest == pytest.approx(max(loads), rel=1e-9)
+    assert {row[1] for row in contents["pulley_states"].rows} == {
+        "as given",
+        "winter, -5 °C",
+        "winter, 20 °C",
+    }
 
 
 def test_a_case_without_an_answer_is_a_failure_that_says_why(cold: tuple[Analysis, CaseStudy]) -> None:
