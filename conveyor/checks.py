@@ -41,6 +41,8 @@ _AT_MOST: Final[Relation] = "at most"
 _AT_LEAST: Final[Relation] = "at least"
 _HALF_TROUGH: Final = 0.5
 _FIGURE: Final = re.compile(r"(?<!{){(?:calculated|required)}(?!})")
+_DIGITS: Final = 9
+"""Of margins: what rounding parts is equal, see `conveyor.ties`."""
 DEEP: Final = 0.2
 """Δ/h beyond which a linear small-strain cover is a stretch of the law; strain is about Δ/h [-]."""
 
@@ -229,7 +231,7 @@ def severity(check: Check) -> tuple[int, float]:
         if check.required is not None and check.calculated is not None:
             over = check.calculated - check.required
             margin = over if check.relation == "at least" else -over
-    return ("FAIL", "pass", "not checked").index(check.verdict), margin
+    return ("FAIL", "pass", "not checked").index(check.verdict), round(margin, _DIGITS)
 
 
 def filling(result: CalculatedConveyor) -> Iterator[Check]:

@@ -28,6 +28,7 @@ from conveyor.loop.equilibrium import BRAKES, LEAST, LEAST_BRAKING, START
 from conveyor.loop.frame import Frame
 from conveyor.loop.run_up import started, uncontrolled
 from conveyor.loop.tensions import STEADY
+from conveyor.ties import largest
 
 Array = NDArray[np.float64]
 Loading = NDArray[np.bool_]
@@ -136,8 +137,9 @@ class Loadings:
         tried = {loading.tobytes(): loading for loading in candidates}
         figures = {key: self.figures(loading) for key, loading in tried.items()}
         for name in figures[candidates[0].tobytes()]:
-            best = max(figures, key=lambda key: figures[key][name])
-            if name != LEAST_FORCE or figures[best][name] > 0.0:
+            known = {key: of[name] for key, of in figures.items()}
+            best = largest(known, known.__getitem__)
+            if name != LEAST_FORCE or known[best] > 0.0:
                 loadings[name] = tried[best]
         return loadings
 

@@ -19,6 +19,7 @@ from conveyor.line.line import BeltBody, Line, TakeUpUnit
 from conveyor.loop.balance import Balance, held
 from conveyor.loop.equilibrium import holds
 from conveyor.loop.tensions import MotionState
+from conveyor.ties import largest
 
 _STEPS = 50  # wraps add about 1e-3 of what they are bent by: a few are enough
 
@@ -110,7 +111,7 @@ def take_up_duty(
         Of the belt [K].
     """
     line = loops[0].line
-    governing = max(range(len(loops)), key=lambda i: loops[i].settled.needed)
+    governing = largest(range(len(loops)), lambda i: loops[i].settled.needed)
     settled = loops[governing].settled
     means = [loop.settled.steady.mean(loop.line.loop.length) for loop in loops]
     every = [

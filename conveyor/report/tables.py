@@ -68,6 +68,7 @@ from conveyor.studies.cases import AS_GIVEN
 from conveyor.studies.defaults import PowerRange, power_range
 from conveyor.studies.duty import CalculatedYear
 from conveyor.studies.loads import every_check
+from conveyor.ties import largest
 from conveyor.units import Quantity, System
 from conveyor.units.presentation import MONEY, rating_of, strength_of, unit
 from conveyor.units.sentences import band_words, degrees, figure, plain_figure
@@ -545,7 +546,7 @@ def idler_sets(a: CalculatedConveyor, studies: CalculatedStudies | None = None) 
     rows = []
     for of in alike.values():
         duties, sets = [duty for _, duty in of], [duty.stretch.sets for case, duty in of if case == of[0][0]]
-        heaviest = max(of, key=lambda pair: pair[1].limits.load)
+        heaviest = largest(of, lambda pair: pair[1].limits.load)
         closest = min(duties, key=lambda duty: duty.distance)  # to resonance
         rows.append((duties[0], math.fsum(sets), *heaviest, closest, duties))
     columns = (
@@ -923,7 +924,7 @@ def pulley_loads(a: CalculatedConveyor, studies: CalculatedStudies | None = None
     rows = []
     for own in a.pulley_duty:
         of = [(label, duty) for label, duty in every if duty.pulley.name == own.pulley.name]
-        rows.append((own, *max(of, key=lambda pair: pair[1].largest.resultant), [duty for _, duty in of]))
+        rows.append((own, *largest(of, lambda pair: pair[1].largest.resultant), [duty for _, duty in of]))
 
     columns = (
         Column("pulley", "text", "0.pulley.name"),

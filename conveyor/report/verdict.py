@@ -17,6 +17,7 @@ from conveyor.report.columns import Column, Table
 from conveyor.studies import CalculatedStudies
 from conveyor.studies.cases import AS_GIVEN
 from conveyor.studies.defaults import PowerRange
+from conveyor.ties import largest, least
 from conveyor.units import System
 from conveyor.units.presentation import Unit, unit
 from conveyor.units.sentences import Said, figure, percent, said
@@ -56,7 +57,7 @@ def loads(a: CalculatedConveyor, studies: CalculatedStudies | None) -> Iterator[
 
 def maximum_motor_power(a: CalculatedConveyor, studies: CalculatedStudies | None) -> float:
     """Of all calculated loads at the less favourable end of the friction [W]; negative where it brakes."""
-    return max((load.found.motor_asked for load in loads(a, studies)), key=abs)
+    return largest((load.found.motor_asked for load in loads(a, studies)), abs)
 
 
 def _place(result: CalculatedConveyor, state: MotionState, tension: float) -> str:
@@ -100,7 +101,7 @@ def _rows(
         unit(kind, system, large=True) for kind in ("power", "force", "mass", "length")
     )
     every = list(loads(a, studies))
-    case, most = max(every, key=lambda load: abs(load.found.motor_asked))
+    case, most = largest(every, lambda load: abs(load.found.motor_asked))
     yield GoverningRow("maximum motor power", _held(power, most.motor_asked), case.text(system))
     where = figure(a.temperature, "temperature", system)
     if left_open.effects:
@@ -122,11 +123,11 @@ def _rows(
     asked = f"required by {asks.text(system)}"
     yield GoverningRow(f"take-up, {duty.unit.kind}", force.short(duty.setting), "; ".join([*sized, asked]))
     states = [(load, state) for load in every for state in load.found.every_state]
-    largest = max(states, key=lambda pair: pair[1].largest)
-    smallest = min(states, key=lambda pair: pair[1].smallest)
+    tightest = largest(states, lambda pair: pair[1].largest)
+    slackest = least(states, lambda pair: pair[1].smallest)
     for name, (load, state), newtons in (
-        ("maximum belt tension", largest, largest[1].largest),
-        ("minimum belt tension", smallest, smallest[1].smallest),
+        ("maximum belt tension", tightest, tightest[1].largest),
+        ("minimum belt tension", slackest, slackest[1].smallest),
     ):
         where = f"{_place(load.found, state, newtons)}; {state.name}; {load.case.text(system)}"
         yield GoverningRow(name, force.short(newtons), where)

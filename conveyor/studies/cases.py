@@ -22,6 +22,7 @@ from conveyor.loop.take_up import TakeUpDuty
 from conveyor.models import Conveyor, LoadCase, standard_cases
 from conveyor.models.variants import case_settings
 from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many, take_up_of
+from conveyor.ties import largest, least
 from conveyor.units.sentences import Said, quoted, said
 
 MOTOR_RESERVE: Final = 1.1
@@ -335,8 +336,8 @@ def governing(results: Sequence[CaseResult]) -> tuple[Governing, ...]:
     if not results:
         return ()
     rows = []
-    for key, (figure, kind, largest, value) in _FIGURES.items():
-        chosen = max(results, key=value) if largest else min(results, key=value)
+    for key, (figure, kind, most, value) in _FIGURES.items():
+        chosen = (largest if most else least)(results, value)
         rows.append(Governing(key, figure, value(chosen), kind, chosen))
     return tuple(rows)
 
@@ -375,7 +376,7 @@ def recommended_motors(
         raise InputError(
             f"reserve = {reserve}: at least 1 is needed" if loads else "no case has an answer to design by"
         )
-    label, decisive = max(loads, key=lambda load: abs(load[1].motor_asked))
+    label, decisive = largest(loads, lambda load: abs(load[1].motor_asked))
     power = decisive.motor_asked
     case = label.text(decisive.conveyor.report.units)
     name, series = ("NEMA", NEMA_MOTORS) if decisive.line.us_sizes else ("IEC 60072-1", MOTOR_SERIES)

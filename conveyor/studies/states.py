@@ -25,6 +25,7 @@ from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
 from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate, calculate_many
 from conveyor.studies.cases import AS_GIVEN, CalculatedCases, CaseResult
+from conveyor.ties import largest
 from conveyor.units import from_si
 from conveyor.units.sentences import Said, quoted, said
 
@@ -345,12 +346,11 @@ def _worst(
     adding: Mapping[float, Loadings],
 ) -> dict[tuple[float, bytes], tuple[Loading, tuple[str, ...]]]:
     """The worst loadings at whichever temperature, each with the figures it is worst for."""
-    best: dict[str, tuple[float, float, Loading]] = {}
+    every: dict[str, list[tuple[float, float, Loading]]] = {}
     for temperature, states in adding.items():
         for figure, loading in states.worst().items():
-            value = states.figures(loading)[figure]
-            if figure not in best or value > best[figure][0]:
-                best[figure] = (value, temperature, loading)
+            every.setdefault(figure, []).append((states.figures(loading)[figure], temperature, loading))
+    best = {figure: largest(found, itemgetter(0)) for figure, found in every.items()}
     loadings: dict[tuple[float, bytes], tuple[Loading, tuple[str, ...]]] = {}
     for figure, (_, temperature, loading) in best.items():
         key = (temperature, loading.tobytes())
