@@ -346,6 +346,7 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
             skirt_distance=point.skirt_width,
             skirt_friction=point.skirt_friction,
             gravity=line.gravity,
+            passing=max(0.0, point.flow_beyond - point.flow) / line.density,
         )
         law = _law("ISO 5048, F_f", point.assumed)
         yield here("loading_skirts", f"skirts in the loading zone{name}", "secondary", zone, law,

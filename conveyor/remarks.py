@@ -151,6 +151,7 @@ def warnings(result: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Said
                 *_trippers(result.line),
                 *_calibration(conveyor),
                 *_drive(result),
+                *_slack_side(result),
                 *(
                     _of_case(check, check.why)
                     for check in checked
@@ -368,6 +369,16 @@ def _drive(result: CalculatedConveyor) -> Iterator[Said]:
             )
     if balance.power.mains < 0.0 and earns_nothing(result.conveyor.operation):
         yield said("operation.feed_in_price not given: energy that is fed back earns nothing")
+
+
+def _slack_side(result: CalculatedConveyor) -> Iterator[Said]:
+    """Of a take-up that would have to change its place as the belt drives or is driven."""
+    given = result.conveyor.route.take_up
+    if given is not None and given.position == "drive" and result.balance.settled.force < 0.0:
+        yield said(
+            "route.take_up.position is the slack side of the drive: before it while the belt drives it, behind it in "
+            "loads that it pulls; give the place where the take-up is built"
+        )
 
 
 COLD_OIL = (

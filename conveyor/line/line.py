@@ -266,6 +266,10 @@ class TakeUpUnit:
         """Whether it keeps the belt's length, and so the mean tension of the loop, instead of the tension there."""
         return self.kind in {"fixed", "screw", "locked winch"}
 
+    def pulls(self, pulley: BendPulley) -> bool:
+        """Whether the belt of a pulley has the tension it keeps: of one on its carriage."""
+        return pulley.position == "take-up" and not self.keeps_length
+
 
 @dataclass(frozen=True)
 class CemaFactors:

@@ -326,6 +326,7 @@ def _pulleys(
     """Wrap and bearings of every pulley in steady running [N], shape (b, pulleys); refused are rows slack at one."""
     standing = loops.standing
     sides = (setting - moving.anchor[:, 0])[:, None, None] + moving.offsets[:, 0, loops.plan.sides]
+    sides = np.where(loops.plan.carried[:, None], setting[:, None, None], sides)
     tight, slack = sides.max(axis=-1), sides.min(axis=-1)
     lost = ~((slack >= 0.0) & (tight < np.inf))
     if lost.any():

@@ -39,6 +39,8 @@ class LoopPlan:
         Places before and behind every drive.
     sides : ndarray, shape (pulleys, k)
         Places whose tensions act on each pulley: of a driven one both sides of its drives.
+    carried : ndarray of bool, shape (pulleys,)
+        Whether it has the take-up's tension instead.
     held : int or None
         Place that the take-up holds; None on the slack side of the drives.
     station : tuple of int
@@ -58,6 +60,7 @@ class LoopPlan:
     drives: Places
     driven: Places
     sides: Places
+    carried: NDArray[np.bool_]
     held: int | None
     station: tuple[int, int]
     head: int
@@ -190,8 +193,9 @@ class Frame:
         columns = (self.boundaries, runs, spots, pulleys, drives, *padded)
         station = (drives[self.station[0]], drives[self.station[-1]] + 1)
         keeps = line.take_up.keeps_length
+        carried = [line.take_up.pulls(bend.pulley) for bend in self.bends]
         return LoopPlan(
-            key=(*map(tuple, columns), held, station, keeps, Pull.of(line).kind),
+            key=(*map(tuple, columns), tuple(carried), held, station, keeps, Pull.of(line).kind),
             count=met,
             boundaries=np.array(self.boundaries),
             runs=np.array(runs),
@@ -200,6 +204,7 @@ class Frame:
             drives=np.array(drives),
             driven=np.array([(d, d + 1) for d in drives]),
             sides=np.array(padded, dtype=np.intp).reshape(len(padded), widest),
+            carried=np.array(carried, dtype=bool),
             held=held,
             station=station,
             head=runs[-1] + 1,

@@ -185,6 +185,8 @@ def sides(balance: Balance, i: int, state: MotionState) -> tuple[float, float]:
     several they share its force alike.
     """
     line, pulley = balance.line, balance.line.pulleys[i]
+    if line.take_up.pulls(pulley):
+        return state.held, state.held
     if not pulley.driven:
         before = state.spots[balance.frame.at[pulley.spot]]
         return before, before

@@ -101,6 +101,24 @@ def test_skirts_in_the_acceleration_zone_meet_the_skirts_beyond_it_at_equal_spee
     assert slow == pytest.approx(4 * zone, rel=ROUNDING)
 
 
+def test_bulk_that_passes_a_later_feeding_point_lies_between_its_skirts_too():
+    skirt = {
+        "bulk_density": 900.0,
+        "length": 3.0,
+        "skirt_distance": 0.8,
+        "skirt_friction": 0.7,
+        "gravity": 9.81,
+    }
+    law = resistance.acceleration_skirt_resistance
+    still = law(**skirt, volume_flow=0.3, passing=0.4, belt_speed=4.0, initial_speed=4.0)
+    assert still == pytest.approx(
+        resistance.skirt_resistance(**skirt, volume_flow=0.7, bulk_speed=4.0), rel=ROUNDING
+    )
+    # from rest the fresh bulk lies at half the speed, twice as deep: 2 * 0.3 + 0.4 beside 0.7
+    slow = law(**skirt, volume_flow=0.3, passing=0.4, belt_speed=4.0, initial_speed=0.0)
+    assert slow == pytest.approx(still * (1.0 / 0.7) ** 2, rel=ROUNDING)
+
+
 def test_skirt_resistance_is_hydrostatic_pressure_times_friction():
     # bulk of depth d = Q/(v b1) presses both skirts with ρ g d²/2 per length
     depth = 0.7 / (4.0 * 0.8)

@@ -6,6 +6,7 @@ import math
 
 import pytest
 
+from conveyor import analyse
 from conveyor.checks import lagging, pulley_bearings, pulley_shaft, transitions
 from conveyor.errors import InputError
 from conveyor.forces import without_rubber
@@ -16,7 +17,7 @@ from conveyor.loop.belt_duty import belt_duty
 from conveyor.loop.starting import every_state, motions
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.spec import from_data
-from tests.loop.loop_lines import DATA, SECOND, closed, data, line
+from tests.loop.loop_lines import DATA, DOWN, SECOND, closed, data, line
 
 SHAFT = {"bearing_centres": "1.9 m", "hub_centres": "1.4 m", "hub_shaft_diameter": "180 mm", "shaft_steel": "C1045",
          "bearing_rating": "800 kN"}  # fmt: skip
@@ -227,6 +228,38 @@ def test_a_belt_that_is_not_known_is_not_checked(changes, missing):
     assert [(check.verdict, check.asked.text()) for check in transitions(found)] == [
         ("not checked", missing)
     ] * 2
+
+
+PLACES = {
+    "behind the head": ({"kind": "gravity", "position": "head", "mass": "20 t"}, {}),
+    "behind a section": ({"kind": "winch", "position": "return", "section": "c", "tension": "98.1 kN"}, {}),
+    "slack side": ({"kind": "gravity", "mass": "20 t"}, {}),
+    "slack side, driven by the belt": ({"kind": "gravity", "mass": "20 t"}, {"sections": DOWN}),
+}
+
+
+@pytest.mark.parametrize(("take_up", "route"), PLACES.values(), ids=PLACES)
+def test_the_pulley_of_a_take_up_bears_what_it_pulls_with(take_up, route):
+    """20 t on two strands: 98.1 kN each, in every state, whatever friction stands beside it."""
+    found = calculated(route={"take_up": take_up, "pulleys": [HEAD, BEND, TAIL]} | route)
+    for load in duties(found)["bend"].loads:
+        assert load.resultant == pytest.approx((20e3 + 1e3) * 9.81, rel=1e-9)
+    (turn,) = [force.total for force in found.balance.singles if force.name == "bearings, bend"]
+    assert turn == pytest.approx(0.005 * 0.2 * math.hypot(20e3 * 9.81, 1e3 * 9.81), rel=1e-9)
+
+
+def test_a_take_up_on_the_slack_side_of_a_regenerative_drive_is_asked_where_it_is_built():
+    words = "give the place where the take-up is built"
+    said = {
+        key: any(words in one for one in analyse(line(route=route)).to_dict()["warnings"])
+        for key, route in {
+            "driven by the belt": {"take_up": {"kind": "gravity"}, "sections": DOWN},
+            "pulled": {"take_up": {"kind": "gravity"}},
+            "none": {"sections": DOWN},
+            "built": {"take_up": {"kind": "gravity", "position": "tail"}, "sections": DOWN},
+        }.items()
+    }
+    assert said == {"driven by the belt": True, "pulled": False, "none": False, "built": False}
 
 
 def test_curves_show_the_tension_of_their_strips():

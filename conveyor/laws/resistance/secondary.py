@@ -154,13 +154,17 @@ def acceleration_skirt_resistance(
     skirt_distance: float,
     skirt_friction: float,
     gravity: float,
+    passing: float = 0.0,
 ) -> float:
     """Friction on skirts in the acceleration zone, F_f = μ2 Q_v² ρ g l_b/([(v + v0)/2]² b1²) (ISO 5048).
+
+    Where bulk of an earlier feeding point passes at belt speed, the skirts bear the depth of both together,
+    [2 Q_v/(v + v0) + Q_p/v]/b1 (derived).
 
     Parameters
     ----------
     volume_flow : float
-        Q_v [m³/s], at least 0.
+        Q_v, of the bulk that lands [m³/s], at least 0.
     bulk_density : float
         ρ [kg/m³], positive.
     length : float
@@ -175,6 +179,8 @@ def acceleration_skirt_resistance(
         μ2 [-], at least 0.
     gravity : float
         g [m/s²], positive.
+    passing : float
+        Q_p, of the bulk that lies there already [m³/s], at least 0.
 
     Returns
     -------
@@ -204,11 +210,13 @@ def acceleration_skirt_resistance(
     2390.38
     """
     _require_speeds(belt_speed, initial_speed)
+    require_not_negative(passing=passing)
+    mean = (belt_speed + initial_speed) / 2.0
     return skirt_resistance(
-        volume_flow=volume_flow,
+        volume_flow=volume_flow + passing * mean / belt_speed,
         bulk_density=bulk_density,
         length=length,
-        bulk_speed=(belt_speed + initial_speed) / 2.0,
+        bulk_speed=mean,
         skirt_distance=skirt_distance,
         skirt_friction=skirt_friction,
         gravity=gravity,
