@@ -46,7 +46,7 @@ from conveyor.loop.balance import Balance, OpenLoop, balances
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
 from conveyor.loop.curves import Convergence, acting, converged, pulls
 from conveyor.loop.drive_duty import DriveDuty, drive_duty
-from conveyor.loop.frame import Frame
+from conveyor.loop.frame import Frame, TakeUpSetting
 from conveyor.loop.horizontal import HorizontalCheck, horizontal_checks
 from conveyor.loop.pulley_duty import PulleyDuty, pulley_duty
 from conveyor.loop.set_duty import SetDuty, set_duty
@@ -83,15 +83,15 @@ class Variant:
         Indentation of a strand over the computed one; 1 without [-].
     roll_drag : float
         Drag of all rolls over the computed one [-].
-    take_up : float, optional
-        Setting of the take-up that other loads ask for, instead of the spec's or the least [N].
+    take_up : TakeUpSetting, optional
+        Setting of the take-up that other loads ask for, instead of the spec's or the least [N], and its side.
     """
 
     conveyor: Conveyor
     temperature: float | None = None
     level: Mapping[Strand, float] = field(default_factory=dict)
     roll_drag: float = 1.0
-    take_up: float | None = None
+    take_up: TakeUpSetting | None = None
 
     @property
     def covers_at(self) -> float:
@@ -518,7 +518,7 @@ def _open(variant: Variant, loaded: _Loaded, contacts: Contacts) -> OpenLoop:
         roll_drag=variant.roll_drag,
         calibration=variant.conveyor.calculation.calibration,
     )
-    return OpenLoop(loaded.frame, along, float(loaded.fixed.unit_main.sum()), variant.take_up)
+    return OpenLoop.of(loaded.frame, along, float(loaded.fixed.unit_main.sum()), variant.take_up)
 
 
 def _convergence(result: CalculatedConveyor, step: _Step) -> Convergence | None:

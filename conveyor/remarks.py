@@ -372,12 +372,12 @@ def _drive(result: CalculatedConveyor) -> Iterator[Said]:
 
 
 def _slack_side(result: CalculatedConveyor) -> Iterator[Said]:
-    """Of a take-up that would have to change its place as the belt drives or is driven."""
-    given = result.conveyor.route.take_up
-    if given is not None and given.position == "drive" and result.balance.settled.force < 0.0:
+    """Of a take-up that stands before the drive because the belt drives it."""
+    unit = result.line.take_up
+    if unit.spot is None and not unit.keeps_length and result.balance.settled.force < 0.0:
         yield said(
-            "route.take_up.position is the slack side of the drive: before it while the belt drives it, behind it in "
-            "loads that it pulls; give the place where the take-up is built"
+            "the belt drives its drives: their slack side, where the take-up stands under every load, is before them; "
+            "give route.take_up.position if it is built elsewhere"
         )
 
 

@@ -439,7 +439,6 @@ def prepared_rides(
 ) -> tuple[list[Ride], CalculatedConveyor]:
     """Every scenario on its load, the take-up at the setting of `every_load`; a load of several is calculated once."""
     loads = every_load(conveyor) if loads is None else loads
-    setting = loads.take_up
     loaded: dict[tuple[object, ...], Conveyor] = {}
     keys = []
     for scenario in scenarios:
@@ -452,9 +451,9 @@ def prepared_rides(
             if temperature is not None:
                 made = with_temperature(made, from_si(temperature, "temperature", "K"))
             loaded[key] = made
-    steady = _answers([Variant(one, take_up=setting) for one in loaded.values()])
+    steady = _answers([Variant(one, take_up=loads.states.take_up) for one in loaded.values()])
     slower = _answers([
-        Variant(slowed(one, share), take_up=setting)
+        Variant(slowed(one, share), take_up=loads.states.take_up)
         for one in (conveyor, *loaded.values()) for share in SPEEDS
     ])  # fmt: skip
     loops = [
@@ -463,7 +462,7 @@ def prepared_rides(
     ]
     of_key = dict(zip(loaded, loops[1:], strict=True))
     rides = [
-        Ride(ScenarioUnit.of(scenario, conveyor), of_key[key], loops[0], setting)
+        Ride(ScenarioUnit.of(scenario, conveyor), of_key[key], loops[0], loads.take_up)
         for scenario, key in zip(scenarios, keys, strict=True)
     ]
     return rides, loads.own

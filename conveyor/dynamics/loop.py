@@ -114,7 +114,7 @@ class CutLoop:
                 "the belt's stiffness is not known: give belt.carcass.stiffness or belt.carcass.strength"
             )
         ways, count = line.loop.way, 2 * line.count
-        cut, after = _cut(line, pulls=settled.force >= 0.0)
+        cut, after = _cut(line, behind=settled.take_up.behind)
         first = cut.boundary % count
         order = (first + np.arange(count)) % count
         friction, weight = _along(steady)
@@ -225,12 +225,12 @@ class Cells:
         return self.resisting(0.0, friction) + friction * self.stuck
 
 
-def _cut(line: Line, *, pulls: bool) -> tuple[Spot, bool]:
+def _cut(line: Line, *, behind: bool) -> tuple[Spot, bool]:
     """Where the take-up stands, and whether behind what else stands at that spot: else the slack side of the drives."""
     if line.take_up.spot is not None:
         return line.take_up.spot, True
     spot = line.drives[0].spot
-    return Spot(spot.boundary, Stand(spot.stand)), pulls
+    return Spot(spot.boundary, Stand(spot.stand)), behind
 
 
 def _turned(values: Array, line: Line) -> Array:

@@ -245,8 +245,9 @@ class DriveUnit:
 
 @dataclass(frozen=True)
 class TakeUpUnit:
-    """The take-up; `spot` is None on the slack side of the drives at the first one's place, whichever that is.
+    """The take-up; `spot` is None on the slack side of the drives at the first one's place.
 
+    `behind` them or before them is then that side under the spec's own load, None where that is not calculated yet.
     `tension` is what it is set to [N], None where the least needed is looked for; `reserve` of its travel [-]; mass of
     its `carriage` [kg]; speed of the `winch` [m/s] and the band of tension in which it rests [-]; `travel` it has [m].
     """
@@ -260,6 +261,7 @@ class TakeUpUnit:
     carriage: float = 0.0
     winch: tuple[float, float] | None = None
     travel: float | None = None
+    behind: bool | None = None
 
     @property
     def keeps_length(self) -> bool:

@@ -16,7 +16,7 @@ from conveyor.laws.resistance import equivalent_friction_factor
 from conveyor.line.line import Line
 from conveyor.loop.equilibrium import Settled, settle
 from conveyor.loop.estimates import CemaEstimate, Classical, cema, classical
-from conveyor.loop.frame import Frame
+from conveyor.loop.frame import Frame, TakeUpSetting
 from conveyor.loop.tensions import Loops, MotionState
 
 
@@ -144,7 +144,7 @@ class Balance:
 
     def held(self, setting: float) -> Balance:
         """The same forces along the belt with the take-up at a setting [N]."""
-        (found,) = held([self], setting)
+        (found,) = held([self], self.settled.take_up._replace(tension=setting))
         return found
 
 
@@ -173,9 +173,9 @@ def balance(
     return found
 
 
-def held(loops: Iterable[Balance], setting: float) -> list[Balance]:
-    """Loops under the same forces along their belts with the take-up at a setting [N]."""
-    return answers(balances([OpenLoop(one.frame, one.along, one.unit_main, setting) for one in loops]))
+def held(loops: Iterable[Balance], kept: TakeUpSetting) -> list[Balance]:
+    """Loops under the same forces along their belts with the take-up at a setting."""
+    return answers(balances([OpenLoop.of(one.frame, one.along, one.unit_main, kept) for one in loops]))
 
 
 def answers(found: Sequence[Balance | NoSolutionError]) -> list[Balance]:
@@ -193,6 +193,15 @@ class OpenLoop(NamedTuple):
     along: tuple[Force, ...]
     unit_main: float
     setting: float | None = None
+
+    @classmethod
+    def of(
+        cls, frame: Frame, along: tuple[Force, ...], unit_main: float, kept: TakeUpSetting | None
+    ) -> OpenLoop:
+        """With the take-up at a setting, on its side of the drives."""
+        if kept is None:
+            return cls(frame, along, unit_main)
+        return cls(frame.standing_on(behind=kept.behind), along, unit_main, kept.tension)
 
 
 def balances(asked: Sequence[OpenLoop]) -> list[Balance | NoSolutionError]:

@@ -12,7 +12,7 @@ from conveyor.errors import NoSolutionError
 from conveyor.forces import Force
 from conveyor.laws.resistance import pulley_load
 from conveyor.line.line import Line
-from conveyor.loop.frame import Frame
+from conveyor.loop.frame import Frame, TakeUpSetting
 from conveyor.loop.run_up import started
 from conveyor.loop.tensions import STEADY, Loops, MotionState, Moving, States
 
@@ -89,6 +89,12 @@ class Settled:
     def setting(self) -> float:
         """Tension the take-up holds [N]."""
         return float(self.closed.setting[self.row])
+
+    @property
+    def take_up(self) -> TakeUpSetting:
+        """What the take-up keeps, and on which side of the drives where it stands on their slack side."""
+        given = self.line.take_up.behind
+        return TakeUpSetting(self.setting, self.force >= 0.0 if given is None else given)
 
     @property
     def needed(self) -> float:

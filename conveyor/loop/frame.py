@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from copy import copy
-from dataclasses import dataclass
-from typing import Any, Self
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -126,6 +126,13 @@ def _rows(column: Sequence[Array], rows: Sequence[int]) -> Array:
     return column[0][None] if len(rows) == 1 else np.array(column)[rows]
 
 
+class TakeUpSetting(NamedTuple):
+    """What a take-up keeps [N]; of one on the slack side of the drives whether that is behind or before them."""
+
+    tension: float
+    behind: bool
+
+
 class Frame:
     """The loop of a line, ready for the forces along the belt; scenes that differ in rubber share it.
 
@@ -162,54 +169,17 @@ class Frame:
             self.drives[self.at[drive.spot]].append(i)
         self.station = next(stop for stop in self.drives if 0 in stop)
         self.anchor = None if line.take_up.spot is None else self.at[line.take_up.spot]
-        self.plan = self._plan()
+        self.plan = _plan(self)
         self.standing = _standing(self)
 
-    def _plan(self) -> LoopPlan:
-        line, met = self.line, 0
-        runs, spots, drives = [], [], [0] * len(self.line.drives)
-        pulleys, sides = [0] * len(self.bends), [[0]] * len(self.bends)
-        held = None
-        for j, spot in enumerate(self.spots):
-            if j and spot.boundary != self.spots[j - 1].boundary:
-                runs.append(met)
-                met += 1
-            spots.append(met)
-            met += 1
-            here = [p for p, bend in enumerate(self.bends) if bend.pulley.spot == spot]
-            for p in here:
-                pulleys[p] = met
-                met += 1
-            first = met
-            for d in self.drives[j]:
-                drives[d] = met
-                met += 1
-            for p in here:
-                sides[p] = list(range(first, met + 1)) if self.drives[j] else [spots[j]]
-            if j == self.anchor:
-                held = met
-        widest = max(map(len, sides), default=1)
-        padded = [each + each[-1:] * (widest - len(each)) for each in sides]
-        columns = (self.boundaries, runs, spots, pulleys, drives, *padded)
-        station = (drives[self.station[0]], drives[self.station[-1]] + 1)
-        keeps = line.take_up.keeps_length
-        carried = [line.take_up.pulls(bend.pulley) for bend in self.bends]
-        return LoopPlan(
-            key=(*map(tuple, columns), tuple(carried), held, station, keeps, Pull.of(line).kind),
-            count=met,
-            boundaries=np.array(self.boundaries),
-            runs=np.array(runs),
-            spots=np.array(spots),
-            bends=np.array(pulleys, dtype=np.intp),
-            drives=np.array(drives),
-            driven=np.array([(d, d + 1) for d in drives]),
-            sides=np.array(padded, dtype=np.intp).reshape(len(padded), widest),
-            carried=np.array(carried, dtype=bool),
-            held=held,
-            station=station,
-            head=runs[-1] + 1,
-            keeps_length=keeps,
-        )
+    def standing_on(self, *, behind: bool) -> Frame:
+        """The same loop, its take-up behind the drives or before them if it stands on their slack side."""
+        unit = self.line.take_up
+        if unit.keeps_length or unit.spot is not None or unit.behind is behind:
+            return self
+        made = self.of(replace(self.line, take_up=replace(unit, behind=behind)))
+        made.plan = _plan(made)
+        return made
 
     def of(self, line: Line) -> Frame:
         """The same loop of a line whose rolls drag otherwise."""
@@ -236,6 +206,56 @@ class Frame:
     def mains(self, force: float) -> float:
         """Power from the mains for a force at the belt, negative when it is fed back [W]."""
         return motor_power(self.motor(force), efficiency=self.line.mains_efficiency)
+
+
+def _plan(frame: Frame) -> LoopPlan:
+    """What the belt meets round a loop, place by place."""
+    line, met = frame.line, 0
+    runs, spots, drives = [], [], [0] * len(frame.line.drives)
+    pulleys, sides = [0] * len(frame.bends), [[0]] * len(frame.bends)
+    held = None
+    for j, spot in enumerate(frame.spots):
+        if j and spot.boundary != frame.spots[j - 1].boundary:
+            runs.append(met)
+            met += 1
+        spots.append(met)
+        met += 1
+        here = [p for p, bend in enumerate(frame.bends) if bend.pulley.spot == spot]
+        for p in here:
+            pulleys[p] = met
+            met += 1
+        first = met
+        for d in frame.drives[j]:
+            drives[d] = met
+            met += 1
+        for p in here:
+            sides[p] = list(range(first, met + 1)) if frame.drives[j] else [spots[j]]
+        if j == frame.anchor:
+            held = met
+    widest = max(map(len, sides), default=1)
+    padded = [each + each[-1:] * (widest - len(each)) for each in sides]
+    columns = (frame.boundaries, runs, spots, pulleys, drives, *padded)
+    station = (drives[frame.station[0]], drives[frame.station[-1]] + 1)
+    if held is None and line.take_up.behind is not None:
+        held = station[line.take_up.behind]
+    keeps = line.take_up.keeps_length
+    carried = [line.take_up.pulls(bend.pulley) for bend in frame.bends]
+    return LoopPlan(
+        key=(*map(tuple, columns), tuple(carried), held, station, keeps, Pull.of(line).kind),
+        count=met,
+        boundaries=np.array(frame.boundaries),
+        runs=np.array(runs),
+        spots=np.array(spots),
+        bends=np.array(pulleys, dtype=np.intp),
+        drives=np.array(drives),
+        driven=np.array([(d, d + 1) for d in drives]),
+        sides=np.array(padded, dtype=np.intp).reshape(len(padded), widest),
+        carried=np.array(carried, dtype=bool),
+        held=held,
+        station=station,
+        head=runs[-1] + 1,
+        keeps_length=keeps,
+    )
 
 
 def _standing(frame: Frame) -> Standing:

@@ -38,7 +38,6 @@ DRIVE_FORCE: Final = "drive force"
 LEAST_FORCE: Final = "least drive force"
 TENSION: Final = "largest tension"
 TAKE_UP: Final = "tension of the take-up"
-_PAIRS_TO = 100  # sections of which two at once are tried: their number grows as the square
 _TRIED = 3  # places of the loop that the first estimate puts first
 
 
@@ -60,7 +59,7 @@ class _Events:
     section: NDArray[np.int_]
     stretches: NDArray[np.int_]
     drives: NDArray[np.int_]
-    held: int | None
+    held: int
 
     def by_section(self, values: Array, count: int) -> Array:
         """Sum what belongs to each section, shape (n,)."""
@@ -82,10 +81,7 @@ class _State:
 
 @dataclass(frozen=True, eq=False)
 class _Sought:
-    """A figure in a state as a function of the loading: c + q·x + a (μ0 + μ·x) + Σ ω F + κ |F of a drive|.
-
-    `driving` says for which sign of the steady drive force it holds; None for both.
-    """
+    """A figure in a state as a function of the loading: c + q·x + a (μ0 + μ·x) + Σ ω F + κ |F of a drive|."""
 
     state: _State
     base: float
@@ -93,7 +89,6 @@ class _Sought:
     mass: float
     more_mass: Array
     drives: Array
-    driving: bool | None
     grip: tuple[float, int] | None = None
 
 
@@ -131,8 +126,7 @@ class Loadings:
         loadings = {DRIVE_FORCE: candidates[0]}
         for state in self._states:
             for sought in self._candidates(state):
-                begun = [sought.more > 0.0, *candidates[: 1 if sought.driving is None else 2]]
-                starts = {loading.tobytes(): loading for loading in begun}
+                starts = {loading.tobytes(): loading for loading in (sought.more > 0.0, candidates[0])}
                 candidates += [self._ascent(sought, loading) for loading in starts.values()]
         tried = {loading.tobytes(): loading for loading in candidates}
         figures = {key: self.figures(loading) for key, loading in tried.items()}
@@ -175,11 +169,10 @@ class Loadings:
         asked: list[float] = []
         grips = [-math.inf] * len(self.line.drives)
         largest = -math.inf
-        driving = self._total(1.0, loading) >= 0.0
         for state in self._occurring(loading):
             acceleration, forces = self._moved(state, loading)
             offsets = self._offsets(state, loading, acceleration, forces)
-            offsets = offsets - self._anchor(driving) @ offsets
+            offsets = offsets - self._anchor @ offsets
             largest = max(largest, float(offsets.max()))
             for d, drive in enumerate(self.line.drives):
                 needed = grip_tension(float(forces[d]), friction=drive.friction, wrap_angle=drive.wrap_angle)
@@ -280,42 +273,35 @@ class Loadings:
         steps[self.drive_at] -= forces
         return np.concatenate([[0.0], np.cumsum(steps)])
 
-    def _anchor(self, driving: bool) -> Array:
+    @cached_property
+    def _anchor(self) -> Array:
         """Weights of the offsets whose sum the take-up holds, shape (e + 1,)."""
-        weights = np.zeros(self.events.force.size + 1)
-        line, frame = self.line, self.full.frame
+        weights, line = np.zeros(self.events.force.size + 1), self.line
         if line.take_up.keeps_length:
             shares = line.loop.length / (2.0 * float(line.loop.way[-1]))
             weights[self.stretch_at] += shares
             weights[self.stretch_at + 1] += shares
-        elif self.events.held is not None:
-            weights[self.events.held] = 1.0
         else:
-            weights[self.drive_at[frame.station[-1]] + 1 if driving else self.drive_at[frame.station[0]]] = (
-                1.0
-            )
+            weights[self.events.held] = 1.0
         return weights
 
     def _candidates(self, state: _State) -> Iterator[_Sought]:
         """Figures of a state that may be the worst somewhere: grips, and the places that come first by estimate."""
-        stands = self.line.take_up.keeps_length or self.events.held is not None
-        for driving in (None,) if stands else (True, False):
-            anchor = self._anchor(bool(driving))
-            for d, drive in enumerate(self.line.drives):
-                grip = (grip_tension(1.0, friction=drive.friction, wrap_angle=drive.wrap_angle), d)
-                for at in (self.drive_at[d], self.drive_at[d] + 1):
-                    yield self._sought(state, anchor, at, -1.0, driving, grip=grip)
-            tight, low = self._estimates(state, anchor)
-            for at in _first(tight):
-                yield self._sought(state, anchor, at, 1.0, driving)
-            if _may_not_sag(state):
-                for k in _first(np.maximum(low[self.stretch_at], low[self.stretch_at + 1])):
-                    for at in (self.stretch_at[k], self.stretch_at[k] + 1):
-                        yield self._sought(state, anchor, int(at), -1.0, driving, stretch=k)
+        for d, drive in enumerate(self.line.drives):
+            grip = (grip_tension(1.0, friction=drive.friction, wrap_angle=drive.wrap_angle), d)
+            for at in (self.drive_at[d], self.drive_at[d] + 1):
+                yield self._sought(state, at, -1.0, grip=grip)
+        tight, low = self._estimates(state)
+        for at in _first(tight):
+            yield self._sought(state, at, 1.0)
+        if _may_not_sag(state):
+            for k in _first(np.maximum(low[self.stretch_at], low[self.stretch_at + 1])):
+                for at in (self.stretch_at[k], self.stretch_at[k] + 1):
+                    yield self._sought(state, int(at), -1.0, stretch=k)
 
-    def _estimates(self, state: _State, anchor: Array) -> tuple[Array, Array]:
+    def _estimates(self, state: _State) -> tuple[Array, Array]:
         """Highest tension, and highest lack of it, at every place by sign at the full belt's acceleration [N]."""
-        loading, events = self.standard[0], self.events
+        loading, events, anchor = self.standard[0], self.events, self._anchor
         acceleration, forces = self._moved(state, loading)
         total, more = self.resistance(state.friction)
         step = events.more_certain + state.friction * (events.more_force - events.more_certain)
@@ -349,10 +335,8 @@ class Loadings:
     def _sought(
         self,
         state: _State,
-        anchor: Array,
         at: int,
         sign: float,
-        driving: bool | None,
         *,
         grip: tuple[float, int] | None = None,
         stretch: int | None = None,
@@ -360,7 +344,7 @@ class Loadings:
         """Tension at a place over what the take-up holds, or with sign -1 what it lacks there."""
         events = self.events
         # the offset at a place is the sum of the events before it; so is every offset the take-up holds
-        weights = sign * ((np.arange(events.force.size) < at) - _behind(anchor))
+        weights = sign * ((np.arange(events.force.size) < at) - _behind(self._anchor))
         base = events.certain + state.friction * (events.force - events.certain)
         more = events.more_certain + state.friction * (events.more_force - events.more_certain)
         constant = float(weights @ base)
@@ -376,21 +360,15 @@ class Loadings:
             float(weights @ events.mass),
             events.by_section(weights * events.more_mass, self.count),
             -weights[self.drive_at],
-            driving,
             grip,
         )
 
     def _ascent(self, sought: _Sought, loading: Loading) -> Loading:
-        """Change sections, all that gain together while that gains, then the one that gains most, until none does.
-
-        Two at once where the sign of the drive force binds them.
-        """
-        loading = self._signed(sought, loading)
+        """Change sections, all that gain together while that gains, then the one that gains most, until none does."""
         here, together = self._values(sought, loading, self._unchanged)[0], True
-        changes = self._single if sought.driving is None or self.count > _PAIRS_TO else self._pairs
         while True:
-            values = self._values(sought, loading, changes)
-            gains = values[: self.count] > here
+            values = self._values(sought, loading, self._single)
+            gains = values > here
             if together and gains.any():
                 tried = loading ^ gains
                 value = self._values(sought, tried, self._unchanged)[0]
@@ -401,23 +379,7 @@ class Loadings:
             best = int(np.argmax(values))
             if not values[best] > here:
                 return loading
-            loading, here = loading ^ changes[best], values[best]
-
-    def _signed(self, sought: _Sought, loading: Loading) -> Loading:
-        """A loading whose steady drive force has the sign the figure holds for, at the least loss a newton."""
-        base, more = self.resistance(1.0)
-        force = base + float(more @ loading)
-        if sought.driving is None or (force >= 0.0) is sought.driving:
-            return loading
-        free = replace(sought, driving=None)
-        loss = self._values(free, loading, self._unchanged)[0] - self._values(free, loading, self._single)
-        change = np.where(loading, -more, more) * (1.0 if sought.driving else -1.0)
-        order = np.flatnonzero(change > 0.0)
-        order = order[np.argsort(loss[order] / change[order])]
-        enough = np.searchsorted(np.cumsum(change[order]), abs(force)) + 1
-        turned = loading.copy()
-        turned[order[:enough]] ^= True
-        return turned
+            loading, here = loading ^ self._single[best], values[best]
 
     @cached_property
     def _unchanged(self) -> Loading:
@@ -427,13 +389,6 @@ class Loadings:
     def _single(self) -> Loading:
         """Every section alone, shape (n, n)."""
         return np.eye(self.count, dtype=bool)
-
-    @cached_property
-    def _pairs(self) -> Loading:
-        """Every section alone, then every two, shape (n (n + 1)/2, n)."""
-        one = self._single
-        first, second = np.triu_indices(self.count, 1)
-        return np.concatenate([one, one[first] | one[second]])
 
     def _values(self, sought: _Sought, loading: Loading, changes: Loading) -> Array:
         """The figure with each of several changes of a loading, shape (m,)."""
@@ -453,10 +408,7 @@ class Loadings:
         if sought.grip is not None:
             factor, d = sought.grip
             value += factor * np.abs(forces[d])
-        if sought.driving is None:
-            return value
-        pulls = changed(self.resistance(1.0)) >= 0.0
-        return np.where(pulls == sought.driving, value, -math.inf)
+        return np.asarray(value)
 
 
 def _behind(anchor: Array) -> Array:
@@ -489,7 +441,7 @@ def _events(full: Balance, empty: Balance) -> _Events:
     rows: list[_Row] = []
     stretches: list[int] = []
     drives = np.zeros(len(line.drives), dtype=int)
-    held = None
+    held = 0
     standing = iter(list(enumerate(frame.spots)))
     following = next(standing, None)
     for boundary, (bare, laden) in enumerate(zip([*_along(empty), None], [*_along(full), None], strict=True)):
@@ -509,6 +461,12 @@ def _events(full: Balance, empty: Balance) -> _Events:
             else:
                 more = (laden[0] - bare[0], laden[1] - bare[1], laden[2] - bare[2])
                 rows.append((*bare, *more, boundary - count))
+    if frame.anchor is None:
+        held = (
+            int(drives[frame.station[-1]]) + 1
+            if full.settled.take_up.behind
+            else int(drives[frame.station[0]])
+        )
     columns = list(zip(*rows, strict=True))
     values = [np.array(column, dtype=float) for column in columns[:-1]]
     force, certain, mass, more_force, more_certain, more_mass = values

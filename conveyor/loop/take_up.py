@@ -69,6 +69,8 @@ class TakeUpDuty:
 def at_one_setting(loops: Sequence[Balance], asking: Sequence[bool] = ()) -> list[Balance]:
     """Close loops of one conveyor under several loads at the least setting of its take-up that serves them.
 
+    On the slack side of the drives it stands for all of them where that is under the first.
+
     Parameters
     ----------
     loops : sequence of Balance
@@ -81,16 +83,19 @@ def at_one_setting(loops: Sequence[Balance], asking: Sequence[bool] = ()) -> lis
     NoSolutionError
         Every setting makes a load ask for more.
     """
-    if not loops or loops[0].line.take_up.tension is not None:
-        return list(loops)
+    if not loops:
+        return []
+    kept = loops[0].settled.take_up
+    if loops[0].line.take_up.tension is not None:
+        return held(loops, kept)
     served = [i for i, asks in enumerate(asking) if asks] or range(len(loops))
-    setting = max(loops[i].settled.needed for i in served)
+    kept = kept._replace(tension=max(loops[i].settled.needed for i in served))
     for _ in range(_STEPS):
-        closed = held(loops, setting)
+        closed = held(loops, kept)
         asked = max(closed[i].settled.needed for i in served)
-        if holds(setting, asked) and holds(asked, setting):
+        if holds(kept.tension, asked) and holds(asked, kept.tension):
             return closed
-        setting = asked
+        kept = kept._replace(tension=asked)
     raise NoSolutionError(
         "no setting of the take-up serves every load: each makes one ask for more; check pulley diameters"
     )

@@ -330,7 +330,7 @@ class TakeUp(Model):
     kind: Literal["gravity", "fixed", "screw", "winch", "locked winch"]
     """Gravity and winch keep the tension at their place; fixed, screw and locked winch keep the length of the belt."""
     position: Literal["drive", "head", "tail", "carry", "return"] = "drive"
-    """Slack side of the drive and of those beside it, right behind the head or tail, or behind a section."""
+    """Slack side of the drives at the first one's place under the own load, right behind head or tail, or a section."""
     section: Name | None = None
     """The section, for position "carry" or "return"."""
     tension: Annotated[Force, Bounds(gt="0 N", le="10 MN")] | None = None

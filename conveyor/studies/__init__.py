@@ -91,10 +91,10 @@ def studies(
     return CalculatedStudies(
         states=loads.states,
         cases=loads.cases,
-        duty=analyse_duty(conveyor, take_up=loads.take_up, progress=told("duty of a year"))
+        duty=analyse_duty(conveyor, take_up=loads.states.take_up, progress=told("duty of a year"))
         if conveyor.duty
         else None,
         uncertainty=None
         if conveyor.uncertainty is None
-        else study(conveyor, take_up=loads.take_up, progress=told("ranges of the inputs")),
+        else study(conveyor, take_up=loads.states.take_up, progress=told("ranges of the inputs")),
     )

@@ -10,6 +10,7 @@ from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.energy import Duty, DutyStep, duty_emission, duty_specific_energy, duty_sums
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.line.stretches import STRANDS, Strand
+from conveyor.loop.frame import TakeUpSetting
 from conveyor.loop.year import year_cost
 from conveyor.models import Conveyor, DutyEntry, LoadCase
 from conveyor.models.variants import with_case, with_temperature
@@ -106,7 +107,7 @@ class CalculatedYear:
 def analyse_duty(
     conveyor: Conveyor,
     *,
-    take_up: float | None = None,
+    take_up: TakeUpSetting | None = None,
     rtol: float | None = None,
     progress: Progress | None = None,
 ) -> CalculatedYear:
@@ -116,9 +117,9 @@ def analyse_duty(
     ----------
     conveyor : Conveyor
         With operation; without a duty there, all its hours are at the flow and temperature of the spec.
-    take_up : float, optional
-        Its setting through the year, as `conveyor.studies` finds it for every load [N]; without it the least of each
-        bar, as `analyse` has it.
+    take_up : TakeUpSetting, optional
+        Its setting through the year and its side, as `conveyor.studies` finds them for every load; without it the least
+        of each bar, as `analyse` has it.
     rtol : float, optional
         Relative tolerance of the contacts [-]; that of the spec without it.
     progress : callable, optional

@@ -20,6 +20,7 @@ from scipy.special import ndtr
 
 from conveyor.errors import ConveyorError, InputError, NoSolutionError
 from conveyor.line.stretches import Strand
+from conveyor.loop.frame import TakeUpSetting
 from conveyor.models import Conveyor, RubberCompound, Uncertainty
 from conveyor.models.uncertainty import FEWEST
 from conveyor.models.variants import with_alternative
@@ -112,7 +113,7 @@ def drawn(
     ranges: Uncertainty,
     *,
     end: float,
-    take_up: float | None = None,
+    take_up: TakeUpSetting | None = None,
     rtol: float | None = None,
     progress: Progress | None = None,
 ) -> MonteCarlo:
@@ -128,8 +129,8 @@ def drawn(
         Draws, seed and correlations.
     end : float
         Standard deviations from the middle to an end of a range [-].
-    take_up : float, optional
-        Its setting in every draw [N]; the least of each without it.
+    take_up : TakeUpSetting, optional
+        Its setting and side in every draw [N]; the least of each without it.
     rtol : float, optional
         Relative tolerance of the contacts [-]; that of the spec without it.
     progress : callable, optional

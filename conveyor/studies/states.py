@@ -17,7 +17,8 @@ from typing import Final
 
 from conveyor.checks import Check, checks
 from conveyor.errors import ConveyorError, NoSolutionError
-from conveyor.loop.balance import Balance
+from conveyor.loop.balance import Balance, held
+from conveyor.loop.frame import TakeUpSetting
 from conveyor.loop.superposition import DRIVE_FORCE, Loading, Loadings
 from conveyor.loop.take_up import at_one_setting
 from conveyor.models import Conveyor, LoadCase
@@ -121,9 +122,14 @@ class CalculatedStates:
         return self.own.conveyor
 
     @property
+    def take_up(self) -> TakeUpSetting:
+        """What it keeps in every state."""
+        return self.own.balance.settled.take_up
+
+    @property
     def setting(self) -> float:
         """Of the take-up in every state [N]."""
-        return self.own.balance.settled.setting
+        return self.take_up.tension
 
     def __repr__(self) -> str:
         name, answered = self.conveyor.name, len(self.states)
@@ -206,7 +212,7 @@ def load_states(
     NoSolutionError, RangeError, InputError
         The spec's own load has no answer.
     """
-    own = calculate(conveyor) if given is None else given
+    own = _standing(calculate(conveyor) if given is None else given)
     at = own.temperature
     ends, refused = _full_and_empty(conveyor, own, cases, progress)
     adding = {temperature: Loadings(*pair) for temperature, pair in ends.items()}
@@ -231,6 +237,14 @@ def load_states(
         keys = tuple(map(worst_key, figures))
         states.append(LoadState(f"worst for {', '.join(figures)}", loaded, temperature, figures, keys, one))
     return CalculatedStates(own, tuple(states), tuple(refused))
+
+
+def _standing(own: CalculatedConveyor) -> CalculatedConveyor:
+    """The spec's own load, its take-up on the side of the drives that it has for every load."""
+    kept, frame = own.balance.settled.take_up, own.balance.frame
+    if frame.standing_on(behind=kept.behind) is frame:
+        return own
+    return replace(own, balance=held([own.balance], kept)[0])
 
 
 def at_one_take_up(
@@ -265,7 +279,7 @@ def at_one_take_up(
         as_given, setting = replace(before, balance=own), own.settled.setting
         near = math.isclose(before.balance.settled.setting, setting, rel_tol=before.line.rtol)
         if before.line.tension_acts and not near:
-            as_given, *found = _loaded_anew([as_given, *found], setting)
+            as_given, *found = _loaded_anew([as_given, *found], own.settled.take_up)
         if cases is not None:
             every = tuple(replace(r, found=one) for r, one in zip(results, found, strict=True))
             cases = replace(cases, results=every, as_given=as_given)
@@ -277,9 +291,9 @@ def at_one_take_up(
     raise NoSolutionError("the setting of the take-up and what it does to the rolls do not settle")
 
 
-def _loaded_anew(loads: Sequence[CalculatedConveyor], setting: float) -> list[CalculatedConveyor]:
-    """Loads whose rolls bear what the take-up at a setting [N] does to them; the first is the spec's own."""
-    variants = [Variant(one.conveyor, one.temperature, take_up=setting) for one in loads]
+def _loaded_anew(loads: Sequence[CalculatedConveyor], take_up: TakeUpSetting) -> list[CalculatedConveyor]:
+    """Loads whose rolls bear what the take-up at a setting does to them; the first is the spec's own."""
+    variants = [Variant(one.conveyor, one.temperature, take_up=take_up) for one in loads]
     made = []
     for before, again in zip(loads, calculate_many(variants, known=loads[0]), strict=True):
         if not isinstance(again, CalculatedConveyor):
@@ -317,8 +331,8 @@ def _full_and_empty(
             refused.append(StateRefusal(name, temperature, str(error)))
     solved: dict[tuple[float, str], CalculatedConveyor] = {k: known[k] for k in asked if k in known}
     solved |= {key: own for key, one in asked.items() if one is conveyor}
-    setting = own.balance.settled.setting
-    missing = {key: Variant(one, take_up=setting) for key, one in asked.items() if key not in solved}
+    take_up = own.balance.settled.take_up
+    missing = {key: Variant(one, take_up=take_up) for key, one in asked.items() if key not in solved}
     if missing:
         answers = calculate_many(list(missing.values()), progress=progress, known=own)
         for key, one in zip(missing, answers, strict=True):
@@ -367,7 +381,7 @@ def _in_full(
         made = _loaded(conveyor, case, temperature, own)
     except ConveyorError as error:
         return error
-    (result,) = calculate_many([Variant(made, take_up=own.balance.settled.setting)], known=own)
+    (result,) = calculate_many([Variant(made, take_up=own.balance.settled.take_up)], known=own)
     return result
 
 

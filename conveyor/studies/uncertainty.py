@@ -22,6 +22,7 @@ from conveyor.arguments import checked
 from conveyor.errors import InputError
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.stretches import Strand
+from conveyor.loop.frame import TakeUpSetting
 from conveyor.models import Conveyor, Uncertainty
 from conveyor.models.variants import scaled, with_alternative, with_belt_temperature_changed
 from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many
@@ -126,7 +127,7 @@ def study(
     conveyor: Conveyor,
     ranges: Uncertainty | None = None,
     *,
-    take_up: float | None = None,
+    take_up: TakeUpSetting | None = None,
     rtol: float | None = None,
     samples: int = SAMPLES,
     seed: int = 0,
@@ -140,9 +141,9 @@ def study(
         The spec.
     ranges : Uncertainty, optional
         Ranges; those of the spec without it.
-    take_up : float, optional
-        Its setting in every variant, as `conveyor.studies` finds it for every load [N]; without it the least of each,
-        as `analyse` has it.
+    take_up : TakeUpSetting, optional
+        Its setting and side in every variant, as `conveyor.studies` finds them for every load; without it the least of
+        each, as `analyse` has it.
     rtol : float, optional
         Relative tolerance of the contacts [-]; that of the spec without it.
     samples : int

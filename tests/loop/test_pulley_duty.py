@@ -249,17 +249,17 @@ def test_the_pulley_of_a_take_up_bears_what_it_pulls_with(take_up, route):
 
 
 def test_a_take_up_on_the_slack_side_of_a_regenerative_drive_is_asked_where_it_is_built():
-    words = "give the place where the take-up is built"
+    words = "give route.take_up.position if it is built elsewhere"
     said = {
         key: any(words in one for one in analyse(line(route=route)).to_dict()["warnings"])
         for key, route in {
             "driven by the belt": {"take_up": {"kind": "gravity"}, "sections": DOWN},
             "pulled": {"take_up": {"kind": "gravity"}},
-            "none": {"sections": DOWN},
+            "not given": {"sections": DOWN},
             "built": {"take_up": {"kind": "gravity", "position": "tail"}, "sections": DOWN},
         }.items()
     }
-    assert said == {"driven by the belt": True, "pulled": False, "none": False, "built": False}
+    assert said == {"driven by the belt": True, "pulled": False, "not given": True, "built": False}
 
 
 def test_curves_show_the_tension_of_their_strips():

@@ -84,7 +84,7 @@ def test_rolls_bear_the_tension_of_the_one_setting_in_every_load_state(line):
     assert full.balance.power.motor == pytest.approx(loads.own.balance.power.motor, rel=RTOL)
     empty = loads.states.state("empty")
     (again,) = calculate_many(
-        [Variant(with_case(gives, LoadCase(name="empty", loading="empty")), take_up=loads.take_up)]
+        [Variant(with_case(gives, LoadCase(name="empty", loading="empty")), take_up=loads.states.take_up)]
     )
     assert empty.balance.power.motor == pytest.approx(again.balance.power.motor, rel=gives.calculation.rtol)
 
@@ -117,3 +117,35 @@ def test_motor_power_of_all_loads_is_that_of_the_report():
     rows = {row.key: row for row in found.contents(asked)["what_if"].rows}
     assert rows["what_if_maximum_motor_power"].label == "maximum motor power, driving or braking"
     assert rows["what_if_maximum_motor_power"].value == pytest.approx(loads.motor_power, rel=RTOL)
+
+
+@pytest.fixture(scope="module")
+def braked():
+    """Downhill with brakes: the belt drives under its own load and is driven empty; no take-up is given."""
+    given = load(SPECS / "downhill.yaml")
+    return given.replace(drive=given.drive.replace(brake_force="200 kN"))
+
+
+def test_a_take_up_on_the_slack_side_has_one_place_under_every_load(braked):
+    loads = every_load(braked)
+    force = [one.balance.settled.force for one in loads.designing]
+    assert force[0] < 0.0 < max(force)
+    for one in loads.designing:
+        (drive,) = one.balance.settled.steady.drives
+        assert drive.arriving == pytest.approx(loads.take_up, rel=1e-9)
+
+
+@pytest.mark.parametrize("number", [1, 3])
+def test_a_section_cut_in_seven_asks_for_the_same_take_up(braked, number):
+    """A loading that hardly drives the belt asked for another setting than one that hardly holds it."""
+    route = braked.route
+    cut = route.sections[number]
+    if cut.lift is None:
+        parts = [cut.replace(name=f"{cut.name} {k}", length=cut.length / 7) for k in range(7)]
+    else:
+        parts = [
+            cut.replace(name=f"{cut.name} {k}", length=cut.length / 7, lift=cut.lift / 7) for k in range(7)
+        ]
+    sections = [*route.sections[:number], *parts, *route.sections[number + 1 :]]
+    pieces = every_load(braked.replace(route=route.replace(sections=sections)))
+    assert pieces.take_up == pytest.approx(every_load(braked).take_up, rel=1e-6)

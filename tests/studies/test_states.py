@@ -51,7 +51,7 @@ def test_the_four_are_full_calculations_at_the_take_up_of_the_report(line, own, 
     for key, loading in (("full", "full"), ("empty", "empty"), ("inclines", "inclines only"),
                          ("declines", "declines only")):  # fmt: skip
         one = with_case(line, LoadCase(name=loading, loading=loading))
-        (alone,) = calculate_many([Variant(one, take_up=setting)])
+        (alone,) = calculate_many([Variant(one, take_up=own.balance.settled.take_up)])
         state = found.state(key)
         assert state.balance.settled.setting == setting
         assert state.balance.forces.total == pytest.approx(alone.balance.forces.total, rel=2.0 * RTOL)
@@ -85,7 +85,7 @@ def test_no_loading_calculated_in_full_beats_the_worst(line, found):
         for count in range(1, len(names) + 1)
         for some in itertools.combinations(names, count)
     ]
-    variants = [Variant(with_case(line, case), take_up=found.setting) for case in loads]
+    variants = [Variant(with_case(line, case), take_up=found.take_up) for case in loads]
     every = [one.balance for one in calculate_many(variants, 1e-4)]
     # contacts of 1e-4 make half of the force along the belt
     margin = 1.0 + 2e-4
