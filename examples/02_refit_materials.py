@@ -173,7 +173,9 @@ def refit(name: str) -> Fitted:
 
 
 def measured_text(compound: Measured) -> str:
-    found = refit(compound.name).compound.replace(description=compound.description, missing=compound.missing)
+    found = refit(compound.name).compound.replace(
+        description=compound.description, missing=compound.missing, strain="not stated"
+    )
     return dump(
         found, "Written by examples/02_refit_materials.py; change the data or the script, not this file."
     )

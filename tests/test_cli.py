@@ -318,11 +318,33 @@ def test_fit_asks_for_what_is_doubtful() -> None:
         ((master, "--shift", sweep), "holds strain sweep, shift factors are needed here"),
         ((master, "--vertical"), "give them with --shift"),
         ((master, "--at", "-300 degC"), "absolute zero"),
+        ((master, "--at", "20"), '--at: got "20" without a unit'),
+        ((master, "--reference-strain", "0,1 %"), "--reference-strain: got"),
+        ((master, "--equilibrium", "3"), '--equilibrium: got "3" without a unit'),
     ):
         done = run("fit", *arguments)
         assert done.returncode == 2, done.stdout
         assert message in done.stderr
         assert "Traceback" not in done.stderr
+
+
+def test_fit_counts_a_sweep_under_a_percent_sign_from_the_strain_given(tmp_path: Path) -> None:
+    sweep, compound = tmp_path / "sweep.csv", tmp_path / "cover.yaml"
+    rows = [f"{strain};{10 - k};2" for k, strain in enumerate((0.02, 0.1, 0.5, 2))]
+    arguments = (ROOT / "materials" / "s120.dma.csv", "--strain", sweep, "--reference-strain", "0.1 %")
+    sweep.write_text("\n".join(["Dehnung;E';E''", "%;MPa;MPa", *rows]), encoding="utf-8")
+    done = run("fit", *arguments)
+    assert done.returncode == 2
+    assert (
+        'temperature and frequency of the strain sweep not stated; give every row a column "temp'
+        in done.stderr
+    )
+    rows = [f"{row};20;10" for row in rows]
+    sweep.write_text("\n".join(["Dehnung;E';E'';T;f", "%;MPa;MPa;degC;Hz", *rows]), encoding="utf-8")
+    done = run("fit", *arguments, "-o", compound)
+    assert done.returncode == 0, done.stderr
+    assert f'"cover" with --shelf {tmp_path}' in done.stdout
+    assert "\nstrain: 0.1 %\n" in compound.read_text(encoding="utf-8")
 
 
 def test_shelf_draws(tmp_path: Path) -> None:

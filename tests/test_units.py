@@ -74,9 +74,12 @@ def test_every_example_is_read_by_its_own_kind() -> None:
 
 
 TRAPS = [
-    ("1,2 m", "length", r'"1,2 m": a comma is ambiguous; write a decimal point'),
-    ("1.200,5 m", "length", "a comma is ambiguous"),
-    ("1,200 mm", "length", "a comma is ambiguous"),
+    ("1,2 m", "length", r'a comma is ambiguous; write a decimal point and no thousands sign: "1.2 m"'),
+    ("1.200,5 m", "length", 'no thousands sign: "1200.5 m"'),
+    ("2,000 tph", "mass flow", 'no thousands sign: "2.000 tph" or "2000 tph"'),
+    ("1,200,000.5 m", "length", 'no thousands sign: "1200000.5 m"'),
+    ("1,2,3 m", "length", "a comma is ambiguous"),
+    ("50 pcf", "density", r'unknown unit "pcf"; did you mean "50 lb/ft\^3"\?'),
     ("1 000 m", "length", 'without a thousands sign, e.g. "1000 m"'),
     ("1\u00a0000 m", "length", "without a thousands sign"),
     ("1\u202f000 m", "length", "without a thousands sign"),

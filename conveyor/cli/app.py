@@ -271,6 +271,16 @@ def values(given: str, option: str, *units: str) -> list[str]:
     return [f"{value:.12g} {unit}" for value in numbers]
 
 
+def si_of(option: str, given: str | None, kind: str) -> float | None:
+    """Value of an option in SI; None where it is not given."""
+    from conveyor.units import in_si
+
+    try:
+        return None if given is None else in_si(given, kind)
+    except InputError as error:
+        raise InputError(f"{option}: {error}") from None
+
+
 def one_of(option: str, given: str, allowed: tuple[str, ...]) -> Any:
     """One of the words an option allows."""
     if given not in allowed:

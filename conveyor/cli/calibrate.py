@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from conveyor.cli.app import Spec, option, say
+from conveyor.cli.app import Spec, option, say, si_of
 from conveyor.cli.outputs import SPEC
 from conveyor.cli.session import Session, command
-from conveyor.errors import InputError
 
 if TYPE_CHECKING:
     from conveyor.comparisons import CalibrationStudy
@@ -64,7 +63,7 @@ def calibrate(
 
     line = session.read(spec)
     system = session.system(line)
-    share = None if error is None else _share(error)
+    share = si_of("--error", error, "fraction")
     with session.progress("runs") as told:
         calibration = conveyor.calibrate(line, measured, error=share, factors=factors, progress=told)
     if output is not None and output.suffix.lower() == ".xlsx":
@@ -94,12 +93,3 @@ def _show(calibration: CalibrationStudy, system: System) -> None:
         )
     )
     say("", "to paste into the spec:", calibration.fragment.rstrip())
-
-
-def _share(given: str) -> float:
-    from conveyor.units import in_si
-
-    try:
-        return in_si(given, "fraction")
-    except InputError as error:
-        raise InputError(f"--error: {error}") from None

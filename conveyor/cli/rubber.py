@@ -20,6 +20,7 @@ from conveyor.cli.app import (
     one_of,
     option,
     say,
+    si_of,
 )
 from conveyor.cli.outputs import FIGURE, PAGE, SPEC, Outputs
 from conveyor.errors import InputError
@@ -144,7 +145,6 @@ def fit(
     """Fit a compound to laboratory data: shift isotherms, fit a Prony series; what a file leaves open is asked for."""
     from conveyor import shelf as shelf_of
     from conveyor.fitting import compound as compound_file
-    from conveyor.units import in_si
 
     to = Outputs(*data, shift, strain, spec, force=force)
     books = [path for path in output or () if path.suffix.lower() == ".xlsx"]
@@ -160,9 +160,10 @@ def fit(
     answers = {
         "frequency_unit": frequency_unit, "modulus_unit": modulus_unit, "temperature_unit": temperature_unit,
         "strain_unit": strain_unit, "sheet": sheet, "kind": kind, "letter": moduli,
-        "instantaneous": None if instantaneous is None else in_si(instantaneous, "pressure"),
-        "temperature": None if temperature is None else in_si(temperature, "temperature"),
+        "instantaneous": si_of("--instantaneous", instantaneous, "pressure"),
+        "temperature": si_of("--temperature", temperature, "temperature"),
     }  # fmt: skip
+    si_of("--reference-strain", reference_strain, "fraction")
     request = compound_file.Request(
         name=name or data[0].name.split(".")[0],
         reference_temperature=reference_temperature,
@@ -170,14 +171,14 @@ def fit(
         strain=strain,
         reference_strain=reference_strain,
         poisson_ratio=poisson,
-        equilibrium=None if equilibrium is None else in_si(equilibrium, "pressure"),
+        equilibrium=si_of("--equilibrium", equilibrium, "pressure"),
         terms_per_decade=terms_per_decade,
         vertical=vertical,
         by=one_of("--by", by, ("both", "storage", "loss")),
         law=one_of("--law", law, ("table", "wlf", "arrhenius")),
         exclude=tuple(exclude or ()),
-        storage_error=None if storage_error is None else in_si(storage_error, "fraction"),
-        loss_error=None if loss_error is None else in_si(loss_error, "fraction"),
+        storage_error=si_of("--storage-error", storage_error, "fraction"),
+        loss_error=si_of("--loss-error", loss_error, "fraction"),
         accept=frozenset(accept or ()),
         reading={key: value for key, value in answers.items() if value is not None},
     )
@@ -197,7 +198,10 @@ def fit(
     if books or html is not None or spec is not None:
         lines += _judged(fitted, spec, said, [*books, *([] if html is None else [html])], to)
     lines += to.save()
-    lines += [f'specs and --compound name the compound "{path.stem}" or by its path' for path in compounds]
+    lines += [
+        f'name it by its path in specs and --compound, or "{path.stem}" with --shelf {path.parent}'
+        for path in compounds
+    ]
     if not quiet:
         say(*lines)
 

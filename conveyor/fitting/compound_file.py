@@ -67,7 +67,7 @@ def of_series(
             "data": ", ".join(Path(each.source.partition("[")[0]).name for each in read),
         },
         "poisson_ratio": request.poisson_ratio,
-        "strain": stated.get("strain", _UNKNOWN),
+        "strain": stated.get("strain", request.reference_strain or _UNKNOWN),
         "reference_temperature": reference,
         "prony": prony,
         "range": {
@@ -173,9 +173,14 @@ def strain_of(request: Request, sweeps: DmaData) -> dict[str, Any]:
             '--reference-strain "0.1 %"; everything is counted from it'
         )
     runs = [run for run in sweeps.strain_sweeps() if run.strain.size >= _FEWEST_STRAINS]
-    if not runs or any(run.temperature is None or run.frequency is None for run in runs):
+    if not runs:
+        raise InputError(f"{request.strain}: no sweep of {_FEWEST_STRAINS} strains and more is in it")
+    columns = {"temperature": "temperature [degC]", "frequency": "frequency [Hz]"}
+    unknown = [name for name in columns if any(getattr(run, name) is None for run in runs)]
+    if unknown:
         raise InputError(
-            f"{request.strain}: sweeps of four strains and more, each at a stated temperature and frequency"
+            f"{request.strain}: {' and '.join(unknown)} of the strain sweep not stated; give every row "
+            + " and ".join(f'a column "{columns[name]}"' for name in unknown)
         )
     return {
         "reference_strain": request.reference_strain,

@@ -199,7 +199,10 @@ def reference_of(read: Sequence[DmaData], request: Request) -> str:
 
 def kelvin_of(temperature: str, place: str = "--at") -> float:
     """A written temperature [K], refused below absolute zero."""
-    kelvin = in_si(temperature, "temperature")
+    try:
+        kelvin = in_si(temperature, "temperature")
+    except InputError as error:
+        raise InputError(f"{place}: {error}") from None
     if kelvin <= 0.0:
         raise InputError(f"{place}: got {temperature}, a temperature above absolute zero is needed")
     return kelvin

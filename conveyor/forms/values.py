@@ -110,6 +110,11 @@ def from_cells(leaf: Leaf, value: Value, unit: str | None = None) -> Any:
     reader = _READERS.get(leaf.kind)
     if leaf.kind == "quantity":
         return _quantity(leaf, value, unit)
+    if unit:
+        raise InputError(
+            f'got "{value}" beside the unit "{unit}", which has no cell of its own here; write "{value} {unit}" '
+            "into the value cell, or empty the unit cell"
+        )
     return value if reader is None else reader(leaf, value)
 
 

@@ -12,7 +12,8 @@ from conveyor.laboratory.grid import TextGrid, TextLine
 from conveyor.laboratory.numbers import is_number, looks_like_number
 
 _SEPARATORS: Final = {"\t": "tab", ";": "semicolon", ",": "comma", " ": "blanks"}
-_COMMENT: Final = re.compile(r"\s*(?:#+|%+|//+|!+)\s?")
+_COMMENT: Final = re.compile(r"\s*(?:#+|%+(?!\s*[;,\t])|//+|!+)\s?")
+"""A lone % before a separator is a unit, not the sign of a remark."""
 _SAMPLE: Final = 400
 """Lines looked at to find the separator; every other line is checked when it is read."""
 

@@ -76,12 +76,14 @@ def _flow_fits(conveyor: ConveyorParts) -> Iterator[Problem]:
     system = system_of(belt.width)
     most = from_si(si(material.flow) * area / needed, "mass flow", text(material.flow).split()[1])
     least = from_si(si(belt.speed) * needed / area, "speed", text(belt.speed).split()[1])
+    metric = system == "US" and text(material.flow).endswith(" tph")
     yield Problem(
         ("material", "flow"),
         f"got {text(material.flow)}, which at {text(belt.speed)} (belt.speed) needs a cross-section of "
         f"{display(needed, 'area', system)}, the belt holds {display(area, 'area', system)}: reduce material.flow to "
         f"{_rounded(most, down=True)} or less, raise belt.speed to {_rounded(least, down=False)} or more, "
-        "or take a wider belt",
+        "or take a wider belt"
+        + ("; tph are metric tonnes per hour, short tons per hour are stph" if metric else ""),
     )
 
 

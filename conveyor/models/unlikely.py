@@ -76,13 +76,17 @@ def _carcass(conveyor: Conveyor) -> Iterator[Said]:
         )
         return
     left = belt.line_mass / si(belt.width) - belt.top_cover.area_mass - belt.bottom_cover.area_mass
-    if not CARCASS[0] * usual <= left <= CARCASS[1] * usual:
-        yield said(
-            f"belt.mass leaves {{}} for the carcass of {text(carcass.thickness)}, {{}} is usual (laws.sizing): "
-            "is it per area or per length, are the covers right?",
-            (left, "area mass"),
-            (usual, "area mass"),
-        )
+    if CARCASS[0] * usual <= left <= CARCASS[1] * usual:
+        return
+    thick = f"carcass of {text(carcass.thickness)}"
+    yield said(
+        f"belt.carcass.mass: {{}} for the {thick}, {{}} is usual (of listed belts): is it of the whole belt?"
+        if belt.mass is None
+        else f"belt.mass leaves {{}} for the {thick}, {{}} is usual (of listed belts): is it per area or per length, "
+        "are the covers right?",
+        (left, "area mass"),
+        (usual, "area mass"),
+    )
 
 
 def _sets(conveyor: Conveyor) -> Iterator[Said]:

@@ -76,10 +76,7 @@ def _part(contents: Contents, name: str, heading: str) -> Part:
         places = [place for place in shown.places if place.part == name]
         for place in places:
             if place == shown.places[0] and shown.key != name:
-                drawings = [drawing for drawing in contents.drawings if drawing.above == shown.key]
-                if drawings and name == "rubber":
-                    content.append(element("h3", shown.heading))
-                content += [_drawn(drawing) for drawing in drawings]
+                content += [_drawn(drawing) for drawing in contents.drawings if drawing.above == shown.key]
             made = _table(shown.on_page(place), place.caption, contents.system)
             content.append(made if place.printed else folded(place.caption, made))
         if any(place.printed for place in places) and shown.note and shown.key != "defaults":

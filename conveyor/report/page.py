@@ -67,7 +67,7 @@ nav details { margin: 0; }
 .checks td[data-label="margin"] { white-space: nowrap; }
 nav ol { margin: .6rem 0 0; padding-left: 1.4rem; columns: 15rem; }
 nav li { padding: .1rem 0; }
-.facts, .tiles { display: grid; gap: .6rem; margin: 1rem 0; }
+.facts, .tiles { display: grid; gap: .6rem 1.2rem; margin: 1rem 0; }
 .facts { grid-template-columns: repeat(auto-fill, minmax(10.5rem, 1fr)); }
 .tiles { grid-template-columns: repeat(3, 1fr); }
 .facts dt, .tiles dt { font-size: .85rem; color: var(--muted); }
@@ -139,7 +139,7 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
   h2 { font-size: 11pt; margin: .9rem 0 .3rem; padding-top: .2rem; }
   h3 { margin: .6rem 0 .2rem; }
   p, .scroll, figure { margin: .3rem 0; }
-  .facts, .tiles { gap: .25rem; margin: .4rem 0; }
+  .facts, .tiles { gap: .25rem .8rem; margin: .4rem 0; }
   .facts { grid-template-columns: repeat(5, 1fr); }
   .tiles { grid-template-columns: repeat(6, 1fr); }
   .tiles > div { padding: .2rem .4rem; }
@@ -161,9 +161,8 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
   table { font-size: 6.9pt; line-height: 1.12; }
   th, td { padding: .07rem .35rem; }
   figure { display: inline-block; width: 49%; vertical-align: top; }
-  .drawing svg { max-width: 80mm; max-height: 40mm; }
   figure:only-of-type { display: block; width: auto; }
-  figure:only-of-type svg { max-width: 130mm; max-height: 65mm; }
+  figure:only-of-type svg { max-width: 108mm; max-height: 200mm; }
   .wide table { font-size: 6.5pt; }
   .wide th, .wide td { padding: .07rem .2rem; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
@@ -188,7 +187,10 @@ _WIDE = 8  # columns beyond which a table is set smaller on paper
 _ROWS = 40  # of a table that a notebook is shown
 _SHORT = 12  # rows up to which a table is kept on one page
 _BESIDE = 6  # figures up to which they stand under one another
-_NAME = 30  # characters up to which a name of a row stays on one line
+_NAME, _WORD = (
+    30,
+    9,
+)  # characters up to which a name of a row, and another text ("600 PIW"), stays on one line
 _LONG = 36  # characters beyond which a column of text may be broken anywhere
 _NOTHING = "–"
 _MARKS = {"pass": ("pass", "✓"), "FAIL": ("fail", "✗"), "not checked": ("open", "?")}
@@ -251,7 +253,7 @@ def _class(values: Sequence[object], *, named: bool) -> str | None:
     if given and all(isinstance(value, int | float) and not isinstance(value, bool) for value in given):
         return "n"
     width = max((len(value) for value in given if isinstance(value, str)), default=0)
-    return "long" if width > _LONG else "name" if named and width <= _NAME else None
+    return "long" if width > _LONG else "name" if 0 < width <= (_NAME if named else _WORD) else None
 
 
 def _missing(value: object) -> bool:

@@ -25,8 +25,10 @@ _FILTERED_ROWS: Final = 20
 """Rows beyond which a table has buttons to filter it."""
 CHART_ROWS: Final = 20
 """Rows that a chart takes."""
-_CHART_SPAN, _LEAST_SPAN = 7, 4
-"""Columns that a chart, and notes, take on paper."""
+_CHART_SPAN: Final = 7
+"""Columns that a chart takes on paper."""
+_LEAST_WIDTH: Final = 90.0
+"""Width of what is printed, and of notes [characters]: captions of narrow tables are longer than they."""
 _GUTTER: Final = 3.0  # between tables side by side [characters]
 _NAMES: Final = 56  # characters of a name on one line
 
@@ -167,11 +169,17 @@ class Page:
         return place
 
     def stacked(
-        self, keys: Iterable[str], row: int = 1, column: int = 1, *, widest: int = _NAMES, across: bool = True
+        self,
+        keys: Iterable[str],
+        row: int = 1,
+        column: int = 1,
+        *,
+        widest: int = _NAMES,
+        least: float = _LEAST_WIDTH,
     ) -> dict[str, TablePlace]:
         """Write tables under one another, those that there are, each with its note; where each stands.
 
-        What is not printed stands below all that is. Notes run across the sheet, or stay as wide as their table.
+        What is not printed stands below all that is. Notes are as wide as what is printed of their table, or `least`.
         """
         places = {}
         there = [key for key in keys if key in self.contents]
@@ -179,7 +187,7 @@ class Page:
             places[key] = self.place(key, row, column, widest=widest)
             row = places[key].last + (2 if self.contents[key].foot else 1)
             if self.contents[key].note:
-                row += 1 + self._noted(row + 1, key, across=across)
+                row += 1 + self._noted(row + 1, key, least)
             row += 2
         self.sheet.freeze_panes = self.sheet.freeze_panes or "B1"
         return places
@@ -200,7 +208,7 @@ class Page:
         for stack in keys:
             printed = [key for key in stack if self.contents[key].printed]
             if printed:
-                places += self.stacked(printed, column=column, across=False).values()
+                places += self.stacked(printed, column=column, least=0.0).values()
                 column = max(place.last_column for place in places) + 2
                 self.sheet.column_dimensions[get_column_letter(column - 1)].width = _GUTTER
         for i, line in self.sheet.row_dimensions.items():
@@ -210,16 +218,13 @@ class Page:
         rest = [key for stack in keys for key in stack if not self.contents[key].printed]
         self.stacked(rest, max((place.last for place in places), default=-3) + 5)
 
-    def _noted(self, row: int, key: str, *, across: bool) -> int:
+    def _noted(self, row: int, key: str, least: float) -> int:
         """Write the note of a table; the rows it takes."""
         place, note = self.placed[key][1], self.contents[key].note
         cell = self.sheet.cell(row, place.first_column)
         put(cell, note, GREY)
-        if across:
-            return 1
-        columns = range(place.first_column, self._last_printed(key, place) + 1)
-        width = sum(self.sheet.column_dimensions[get_column_letter(j)].width for j in columns)
-        rows = lines_of(note, width)
+        columns = self._at_least(least, range(place.first_column, self._last_printed(key, place) + 1))
+        rows = lines_of(note, self._width(columns))
         self.sheet.merge_cells(None, row, columns[0], row + rows - 1, columns[-1])
         cell.alignment = Alignment(wrap_text=True, vertical="top")
         return rows
@@ -232,14 +237,28 @@ class Page:
         if here and not printed and not corners:
             self.sheet.sheet_state = "hidden"
             return self.sheet.max_row
+        if len(printed) == 1 and not self.sheet.print_title_rows:  # a long table has its head on every page
+            (place,) = printed.values()
+            self.sheet.print_title_rows = f"{place.header - 1}:{place.header}"
         rows = [self.sheet.max_row, *(row + CHART_ROWS for row, _ in corners)]
         last = min([max(rows), *(here[key].header - 3 for key in here.keys() - printed.keys())])
         columns = [self._last_printed(key, place) for key, place in printed.items()]
         columns += [column + _CHART_SPAN for _, column in corners]
         columns += [cells.max_col for cells in self.sheet.merged_cells.ranges if cells.min_row <= last]
         if len(printed) < len(here) or columns:
-            self.sheet.print_area = f"A1:{get_column_letter(max([*columns, _LEAST_SPAN]))}{max(1, last)}"
+            span = self._at_least(_LEAST_WIDTH, range(1, max([*columns, 1]) + 1))
+            self.sheet.print_area = f"A1:{get_column_letter(span[-1])}{max(1, last)}"
         return last
+
+    def _width(self, columns: Iterable[int]) -> float:
+        """Of columns, in characters."""
+        return sum(self.sheet.column_dimensions[get_column_letter(column)].width for column in columns)
+
+    def _at_least(self, width: float, columns: range) -> range:
+        """Columns, and as many behind them as make a width [characters]."""
+        while self._width(columns) < width:
+            columns = range(columns.start, columns.stop + 1)
+        return columns
 
     def _last_printed(self, key: str, place: TablePlace) -> int:
         """Last column of a table that paper has; a table that only files and sheets have is printed whole."""

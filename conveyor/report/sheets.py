@@ -31,8 +31,8 @@ def stacked(page: Page, widest: int = 56) -> None:
 
 
 def noted(page: Page) -> None:
-    """All tables of the sheet under one another, each with its note as wide as what is printed of it."""
-    page.stacked(page.keys, widest=24, across=False)
+    """Tables of narrow columns under one another, each with its note."""
+    page.stacked(page.keys, widest=24)
 
 
 def beside(page: Page) -> None:

@@ -22,10 +22,10 @@ from conveyor.units import System
 from conveyor.units.presentation import Unit, unit
 from conveyor.units.sentences import Said, figure, percent, said
 
-_SET: Final = ("take_up_tension", "sag")
-"""Criteria that the least setting of the take-up meets without margin."""
+_SET: Final = ("take_up_tension", "sag", "drive_grip")
+"""Criteria that the least setting of the take-up is made for: their margin follows from it."""
 _SETS: Final = (
-    1e-6  # [-], margin of a grip below which it has set the take-up; its setting is exact to rounding
+    1e-6  # [-], margin of the take-up below which its setting is the least; it is exact to rounding
 )
 _DOMINANT: Final = 0.3
 """Share of the indentation in the main resistance from which the quality of the rubber data is said first."""
@@ -192,12 +192,17 @@ def sentence(governing: Sequence[Check], system: System) -> str:
         done = "; ".join(dict.fromkeys(c.why.text(system) for c in failed[:_TOLD] if c.why is not None))
         first = f"Not adequate as given: {count['FAIL']} of {len(governing)} checks failed; {fails}{more}."
         return f"{first} Action required: {done}." if done else first
-    passed = [c for c in governing if c.verdict == "pass" and c.margin is not None and c.key not in _SET]
-    passed = [c for c in passed if c.key != "drive_grip" or (c.margin or 0.0) > _SETS]
+    margins = [(c.margin, c) for c in governing if c.verdict == "pass" and c.margin is not None]
+    least = any(c.key == "take_up_tension" and margin <= _SETS for margin, c in margins)
     words = f"Adequate as given: all {count['pass']} criteria checked are met"
-    if passed:
-        nearest = min(passed, key=lambda check: check.margin or 0.0)
-        words += f"; least margin {percent(nearest.margin or 0.0, 1)}, {_told(nearest, system)}"
+    if least:
+        margins = [(margin, c) for margin, c in margins if c.key not in _SET]
+        words += "; the take-up holds the least that grip and sag ask for"
+    if margins:
+        margin, nearest = min(margins, key=lambda each: each[0])
+        words += (
+            f"; {'otherwise ' if least else ''}least margin {percent(margin, 1)}, {_told(nearest, system)}"
+        )
     missing = [check for check in governing if check.verdict == "not checked"]
     if missing:
         listed = "; ".join(f"{check.name.text(system)} ({check.asked.text(system)})" for check in missing)

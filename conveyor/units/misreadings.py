@@ -6,6 +6,7 @@ import difflib
 import math
 import re
 import sys
+from collections.abc import Iterator
 
 from conveyor.errors import shortened
 from conveyor.units.kinds import KINDS, SPELLINGS, Kind
@@ -18,11 +19,8 @@ LONGEST = 80
 
 _SEPARATORS = "[ \u00a0\u2007\u2009\u202f'’_]"
 _THOUSANDS = rf"[+-]?[0-9]{{1,3}}({_SEPARATORS}[0-9]{{3}})+(?![0-9])"
+_COMMA = re.compile(r"[+-]?[0-9][0-9.' ]*,[0-9,.]*")
 _TRAPS: tuple[tuple[str, str], ...] = (
-    (
-        r"[+-]?[0-9][0-9.' ]*,",
-        'a comma is ambiguous; write a decimal point and no thousands sign, e.g. "1.2 m"',
-    ),
     (r"[+-]?[0-9]*\.[0-9]*\.", "the number has more than one decimal point"),
     (r"[−–]", 'write minus as "-"'),
     (r"(?i)[+-]?\.?(nan|inf)", "expected a finite number"),
@@ -39,6 +37,7 @@ _OFTEN_MEANT = {
     "metre": "m", "meter": "m", "metres": "m", "meters": "m", "lbs": "lb", "pound": "lb", "pounds": "lb",
     "sec": "s", "hr": "h", "hour": "h", "hours": "h", "tonne": "t", "tonnes": "t", "tonne/h": "t/h",
     "tonnes/h": "t/h", "degree": "deg", "degrees": "deg", "percent": "%", "lbs/ft": "lb/ft", "pli": "PIW",
+    "pcf": "lb/ft^3",
 }  # fmt: skip
 
 
@@ -108,7 +107,20 @@ def _trapped(start: str) -> str | None:
     if re.match(_THOUSANDS, start):
         together = re.sub(rf"(?<=[0-9]){_SEPARATORS}(?=[0-9]{{3}})", "", on_one_line(start))
         return f'write the number without a thousands sign, e.g. "{together}"'
+    if comma := _COMMA.match(start):
+        rest = on_one_line(start[comma.end() :])
+        meant = " or ".join(f'"{number}{rest}"' for number in _readings(comma[0]))
+        advice = "a comma is ambiguous; write a decimal point and no thousands sign"
+        return f"{advice}: {meant}" if meant else advice
     return next((advice for trap, advice in _TRAPS if re.match(trap, start)), None)
+
+
+def _readings(number: str) -> Iterator[str]:
+    """A number with commas as one decimal comma, and as thousands, where it can be that."""
+    if re.fullmatch(r"[^,]+,[0-9]+", number):
+        yield re.sub(r"[.' ]", "", number).replace(",", ".")
+    if re.fullmatch(r"[+-]?[0-9]{1,3}(,[0-9]{3})+(\.[0-9]+)?", number):
+        yield number.replace(",", "")
 
 
 def _wrong_unit(number: str, unit: str, kind: Kind | None, key: str | None) -> str:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from conveyor.errors import InputError
 from conveyor.models.fields import with_fields
 from conveyor.models.unlikely import unlikely
 from conveyor.spec import load
@@ -38,6 +39,10 @@ def test_nothing_is_asked_about_examples_and_published_conveyors(path):
         ({"idlers.return.roll.diameter": "2.4 in"}, "idlers.return: its rolls turn at 955 rpm"),
         ({"belt.mass": "16 lb/ft"}, "belt.mass leaves 0.261 lb/ft² for the carcass of"),
         ({"belt.mass": "24 lb/ft"}, "is it per area or per length"),
+        (
+            {"belt.mass": None, "belt.carcass.mass": "2.7 lb/ft^2"},
+            "belt.carcass.mass: 2.7 lb/ft² for the carcass of",
+        ),
     ],
 )
 def test_what_is_hardly_meant_is_asked_about(changes, words):
@@ -49,3 +54,10 @@ def test_what_is_hardly_meant_is_asked_about(changes, words):
 
 def test_tonnes_are_no_question_in_a_metric_report():
     assert list(unlikely(with_fields(load(SPECS / "overland.yaml"), {"material.flow": "2000 tph"}))) == []
+
+
+def test_a_belt_too_small_for_metric_tonnes_says_that_tph_are_metric():
+    with pytest.raises(
+        InputError, match=r"needs a cross-section .*; tph are metric tonnes per hour, short tons"
+    ):
+        with_fields(load(SPECS / "in_plant_us.yaml"), {"material.flow": "9000 tph"})

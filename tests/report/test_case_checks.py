@@ -11,11 +11,13 @@ import pytest
 import conveyor
 from conveyor.analysis import Analysis, CaseStudy, Studies, analyse_cases
 from conveyor.checks import Check, checks, deciding, leading
+from conveyor.models.fields import with_fields
 from conveyor.models.variants import with_case, with_temperature
-from conveyor.pipeline import calculate
+from conveyor.pipeline import CalculatedConveyor, calculate
+from conveyor.report.verdict import sentence
 from conveyor.studies.loads import every_load
 from conveyor.units import quantity
-from conveyor.units.sentences import said
+from conveyor.units.sentences import percent, said
 
 SPEC = Path(__file__).parents[2] / "examples" / "specs" / "overland.yaml"
 CASES = [
@@ -33,6 +35,12 @@ def study(**changes: object) -> CaseStudy:
 @pytest.fixture(scope="module")
 def plain() -> CaseStudy:
     return study()
+
+
+def told(result: CalculatedConveyor) -> tuple[str, float]:
+    """The sentence about what passes, and the least margin of that."""
+    passed = [check for check in checks(result) if check.verdict == "pass"]
+    return sentence(passed, "SI"), min(check.margin for check in passed if check.margin is not None)
 
 
 def governing(found: CaseStudy, key: str, subject: str = "") -> Check:
@@ -182,6 +190,18 @@ def test_a_take_up_at_its_least_leaves_no_margin_to_what_governs(plain: CaseStud
     least = min(c.margin for c in alone if c.key in {"drive_grip", "sag"} and c.margin is not None)
     assert least == pytest.approx(0.0, abs=1e-8)
     assert not any(c.failed for c in alone if c.key in {"drive_grip", "sag", "take_up_tension"})
+
+
+def test_the_least_margin_told_is_the_least_there_is_where_the_take_up_has_one(plain: CaseStudy) -> None:
+    """A least setting is told as such; with more than that, grip, sag and setting count like any other criterion."""
+    given = plain.conveyor.replace(cases=[])
+    settled = calculate(given)
+    assert (
+        "; the take-up holds the least that grip and sag ask for; otherwise least margin" in told(settled)[0]
+    )
+    unit = {"kind": "gravity", "tension": f"{1.001 * settled.balance.settled.needed:.9g} N"}
+    words, least = told(calculate(with_fields(given, {"route.take_up": unit})))
+    assert f"are met; least margin {percent(least, 1)}, " in words
 
 
 # what the rubber's data do not cover --------------------------------------------------------------------------------

@@ -9,7 +9,9 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import openpyxl
 import pytest
+from openpyxl.utils import get_column_letter
 
 import conveyor
 from conveyor import shelf
@@ -218,6 +220,14 @@ def test_the_command_tells_programs_and_writes_reports(tmp_path):
     assert design["roll_life_h"] >= 30e3  # rules.roll_life
     assert {row["choice"] for row in told["around"]} >= {"roll diameter", "bottom cover"}
     assert all((tmp_path / name).stat().st_size > 1000 for name in ("a.xlsx", "a.html", "a.svg"))
+    costs = openpyxl.load_workbook(tmp_path / "a.xlsx")[
+        "Costs"
+    ]  # narrow: caption and note are longer than its rows
+    (note,) = costs.merged_cells.ranges
+    printed = [costs.column_dimensions[get_column_letter(1 + k)].width for k in range(note.max_col)]
+    assert sum(printed) >= len(costs["A1"].value)
+    assert costs.print_area.endswith(f"${get_column_letter(note.max_col)}${note.max_row}")
+    assert costs.print_title_rows == "$1:$2"
 
 
 @pytest.mark.parametrize(

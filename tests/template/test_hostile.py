@@ -110,6 +110,12 @@ CELLS: list[tuple[str, Any, Any, str]] = [
     ("route.turned_over", "maybe", None, 'route.turned_over: got "maybe", allowed: yes, no'),
     ("calculation.gauss_points", 2.5, None, "calculation.gauss_points: expected a whole number, got 2.5"),
     ("operation.price", "0.12", None, "operation.price: got .* expected a price"),
+    (
+        "operation.price",
+        0.12,
+        "EUR/kWh",
+        'operation.price: got "0.12" beside .*; write "0.12 EUR/kWh" into the value',
+    ),
 ]
 
 
