@@ -38,8 +38,8 @@ _NAMES: Final = re.compile(r'"[^"]*"|\b[a-z_]+(?:\[\d+\])?(?:\.[a-z_]+(?:\[\d+\]
 """What alike notes differ in: quoted names and fields."""
 _SEVERAL: Final = re.compile(r'^compound ("[^"]*"(?:, "[^"]*")+) is ')
 _OF_DATA: Final = re.compile(
-    r"^compounds? \"|^calculation\.(calibration|flexure)|^the belt gives|^means over|^energy and cost|not given|"
-    "assumed|illustrative|not read in the standard|as commonly reproduced"
+    r"^compounds? \"|^calculation\.(calibration|flexure)|^the belt gives|^means over|^90 % bands|^energy and cost|"
+    "not given|assumed|illustrative|not read in the standard|as commonly reproduced"
 )
 """Notes on what was given, not on what was found."""
 

@@ -565,7 +565,16 @@ def remarks(comparison: CalculatedComparison, system: System = "SI") -> tuple[st
     lines.append(
         "means over temperatures give each the same weight; only indentation follows the temperature"
     )
-    return tuple(lines)
+    return (*lines, *_bands(comparison))
+
+
+def _bands(comparison: CalculatedComparison) -> Iterator[str]:
+    """What the bands hold, which are narrower than the interval of `conveyor power`."""
+    if any(scene.motor_low is not None for scene in comparison.scenes):
+        yield (
+            "90 % bands are of the rubber alone, its data and its tests; the interval of conveyor power has what is "
+            "left to defaults, too"
+        )
 
 
 def turned(comparison: CalculatedComparison, system: System = "SI") -> list[str]:
@@ -589,8 +598,10 @@ def turned(comparison: CalculatedComparison, system: System = "SI") -> list[str]
             for warmth, row in shared.items():
                 by_order.setdefault(tuple(s.compound for s in row), []).append(warmth)
             run = unit("speed", system).brief(speed)
-            orders = (f"{_listed(warm, system)}: {' < '.join(order)}" for order, warm in by_order.items())
-            lines.append(f"the ranking changes with temperature; motor power at {run}: {'; '.join(orders)}")
+            orders = (f"{_listed(warm, system)}: {', then '.join(order)}" for order, warm in by_order.items())
+            lines.append(
+                f"the ranking changes with temperature; least motor power first, at {run}: {'; '.join(orders)}"
+            )
     return lines
 
 

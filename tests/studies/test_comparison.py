@@ -14,6 +14,7 @@ from conveyor.errors import ConveyorError, InputError
 from conveyor.models import RubberCompound
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
+from conveyor.report.columns import ordered
 from conveyor.report.comparison_tables import remarks
 from conveyor.spec import load
 from conveyor.studies.comparison import RTOL, compare_compounds
@@ -241,11 +242,13 @@ def test_remarks_are_in_the_units_asked_for():
     turning = compare_compounds(line, NAMES[:2], temperatures=["0 degF", "100 degF"], speeds=["400 fpm"])
     metric, us = (" ".join(remarks(turning, system)) for system in ("SI", "US"))
     assert (
-        "motor power at 2.032 m/s: -17.78 °C: standard-cover < low-rolling-resistance-cover; 37.78 °C:"
+        "least motor power first, at 2.032 m/s: -17.78 °C: standard-cover, then low-rolling-resistance-cover; 37.78 °C:"
         in metric
     )
-    assert "motor power at 400 fpm: 0 °F: standard-cover < low-rolling-resistance-cover; 100 °F:" in us
+    assert "first, at 400 fpm: 0 °F: standard-cover, then low-rolling-resistance-cover; 100 °F:" in us
     assert "m/s" not in us
+    _, basis = ordered(remarks(turning, "US"))
+    assert any(said.startswith("90 % bands are of the rubber alone") for said in basis)
 
 
 def test_progress_counts_the_compounds(line):

@@ -367,10 +367,12 @@ def test_a_ranking_that_turns_with_the_temperature_is_said(line, compared, tmp_p
     told = [remark for remark in remarks(compared, tmp_path) if "the ranking changes" in remark]
     assert len(told) == len(SPEEDS)
     for speed, said in zip((4.5, 5.0), told, strict=True):
-        assert said.startswith(f"the ranking changes with temperature; motor power at {speed:g} m/s: ")
+        assert said.startswith(
+            f"the ranking changes with temperature; least motor power first, at {speed:g} m/s: "
+        )
         for celsius in (-10, 0, 20):
             (order,) = (
-                part.rpartition(": ")[2].split(" < ")
+                part.rpartition(": ")[2].split(", then ")
                 for part in said.partition("m/s: ")[2].split("; ")
                 if str(celsius) in part.partition(" °C")[0].split(", ")
             )
