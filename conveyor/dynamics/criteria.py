@@ -120,7 +120,9 @@ def _sag(scenario: Followed) -> Iterator[Check]:
     i = int(scenario.sag.argmax())
     sag, at = float(scenario.sag[i]), f"{scenario.place(i)}, {scenario.record.lowest_at[i]:.1f} s"
     least = float(scenario.cells.slack[i])
-    help_ = "raise the take-up's tension, or slow the motion by ramps or flywheels"
+    help_ = (
+        "raise the take-up's tension (--size take-up says how far), or slow the motion by ramps or flywheels"
+    )
     yield compared(
         "dynamic_slack", "belt is taut", float(scenario.record.lowest[i]), "at least", least, "force", where=at,
         why=f"the belt goes slack in {quoted(scenario.place(i))} at {scenario.record.lowest_at[i]:.1f} s: down to "
@@ -155,7 +157,7 @@ def _grip(scenario: Followed) -> Iterator[Check]:
             "dynamic_grip", f"grip of {quoted(drive.name)}", way, "at most", 0.0, "length", asked=said("no slip"),
             wording=said("no slip") if way == 0.0 else said("slips {}", (way, "length")),
             why=f'the belt slips on "{quoted(drive.name)}" by {{calculated}} and heats it with {heat / 1e6:.3g} MJ; '
-            "raise the take-up's tension, the wrap or the friction, or slow the motion",
+            "raise the take-up's tension (--size take-up says how far), the wrap or the friction, or slow the motion",
         )  # fmt: skip
 
 

@@ -94,10 +94,10 @@ def label(key: str) -> str:
 
     Examples
     --------
-    >>> label("top_cover"), label("log10_aT")
-    ('Top cover', 'Log10 aT')
+    >>> label("top_cover"), label("log10_aT"), label("cema_class")
+    ('Top cover', 'Log10 aT', 'CEMA class')
     """
-    words = key.replace("_", " ").strip()
+    words = key.replace("_", " ").strip().replace("cema", "CEMA")
     return words[:1].upper() + words[1:]
 
 
