@@ -139,7 +139,7 @@ def rated_set_load(cema_class: CemaClass, *, belt_width: float, trough_angle: fl
     require_angle(0.0, trough_angle=trough_angle)
     require(cema_class in _RATINGS, "cema_class", cema_class, f"one of {', '.join(CEMA_CLASSES)} is needed")
     inches = belt_width / _INCH
-    width = Amount(belt_width, "length", f"{belt_width:g} m")
+    width = Amount(belt_width, "thickness", f"{belt_width:g} m")
     none = RangeError(f"CEMA class {cema_class} has no set of {rolls} roll(s) for a belt of {{}}", width)
     if rolls == _VEE:
         narrowest, widest, rating = _VEE_RATINGS.get(cema_class, (0, 0, 0))

@@ -28,6 +28,7 @@ from conveyor.models.rubber_data import (
 from conveyor.units import (
     Bounds,
     Density,
+    Quantity,
     display,
     from_si,
     si,
@@ -163,9 +164,8 @@ class RubberCompound(Model):
                 'compound "{}" is known from {} to {} (its range.temperature), not at {}; calculate inside this range '
                 "or extend its data",
                 self.name,
-                text(low),
-                text(high),
-                _amount(temperature),
+                *map(_given, (low, high)),
+                _asked(temperature),
             )
 
     def series(self, temperature: float) -> PronySeries:
@@ -262,8 +262,8 @@ class RubberCompound(Model):
                 'compound "{}" has no temperature shift: it is known at {} only, not at {}; give it a shift law, or '
                 "calculate at its reference temperature",
                 self.name,
-                text(self.reference_temperature),
-                _amount(temperature),
+                _given(self.reference_temperature),
+                _asked(temperature),
             )
 
     def _at(
@@ -286,9 +286,14 @@ class RubberCompound(Model):
         return shifted(series, shift.at(self.reference), temperature, b_T=b_T)
 
 
-def _amount(temperature: float) -> Amount:
+def _asked(temperature: float) -> Amount:
     """A temperature [K] of a message."""
     return Amount(temperature, "temperature", display(temperature, "temperature", digits=6), digits=6)
+
+
+def _given(temperature: Quantity) -> Amount:
+    """One of the compound's file, as written there."""
+    return Amount(si(temperature), "temperature", text(temperature), digits=6)
 
 
 def _resolved(value: Any, info: ValidationInfo) -> Any:

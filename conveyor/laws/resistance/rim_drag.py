@@ -216,9 +216,11 @@ def linear_roll_drag(
     drag += rotation_slope * (rotation - reference_rotation)
     if drag < 0.0:
         raise InputError(
-            f"reference_drag = {reference_drag!r} is not allowed: its line gives {{}} at {{}} and {rotation:g} 1/s; "
-            "give smaller slopes or a measurement nearer by",
+            "reference_drag = {} is not allowed: its line gives {} at {} and {}; give smaller slopes or a measurement "
+            "nearer by",
+            Amount(reference_drag, "force", f"{reference_drag!r}"),
             Amount(drag, "force", f"{drag:.3g} N"),
             Amount(load, "force", f"{load:g} N"),
+            Amount(rotation, "rotation", f"{rotation:g} 1/s"),
         )
     return drag
