@@ -17,6 +17,7 @@ from conveyor.studies import calibration as calibration_study
 from conveyor.studies import comparison as compound_study
 from conveyor.studies import verification as verification_study
 from conveyor.units.presentation import chosen
+from conveyor.units.sentences import telling
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -151,7 +152,8 @@ def calibrate(
     >>> conveyor.calibrate(line, "runs.csv").table  # doctest: +SKIP
     """
     given = read_runs(runs) if isinstance(runs, str | Path) else runs
-    return faced(calibration_study.calibrate(conveyor, given, **options), CalibrationStudy)
+    with telling(conveyor.report.units):
+        return faced(calibration_study.calibrate(conveyor, given, **options), CalibrationStudy)
 
 
 def compare(conveyor: Conveyor, compounds: Iterable[str | RubberCompound], **options: Any) -> pd.DataFrame:

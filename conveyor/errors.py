@@ -3,21 +3,74 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
-from typing import Any, Final
+from collections.abc import Callable, Iterable
+from copy import copy
+from dataclasses import dataclass
+from typing import Any, Final, Self
 
 _WORD: Final = re.compile(r"(\S{200})\S{100,}")
 _LINE: Final = re.compile(r"(.{800}).{100,}(.{100})")
+
+
+@dataclass(frozen=True)
+class Amount:
+    """A figure of a message: as SI writes it, and its value in SI and kind for those who write it otherwise.
+
+    Parameters
+    ----------
+    value : float
+        In SI units.
+    kind : str
+        Of `conveyor.units.kinds`.
+    written : str
+        With its SI unit.
+    digits : int
+        Significant digits in other units.
+
+    Examples
+    --------
+    >>> error = ConveyorError("a belt of {}", Amount(1.2, "length", "1.2 m"))
+    >>> str(error), str(error.told(lambda part: f"{part.value / 0.3048:.3g} ft"))
+    ('a belt of 1.2 m', 'a belt of 3.94 ft')
+    """
+
+    value: float
+    kind: str
+    written: str
+    digits: int = 4
+
+    def __str__(self) -> str:
+        return self.written
 
 
 class ConveyorError(Exception):
     """Base of every error this package raises on purpose; the message says what to change.
 
     Whatever a message quotes of an input is cut to a length that a person reads.
+
+    Parameters
+    ----------
+    message : object
+        What is said, with {} for each of the parts where there are any.
+    parts : object
+        What stands in it: amounts, other errors, sentences, texts.
     """
 
-    def __init__(self, message: object = "") -> None:
-        super().__init__(_LINE.sub(r"\1 ... \2", _WORD.sub(r"\1...", str(message))))
+    def __init__(self, message: object = "", *parts: object) -> None:
+        self._message, self._parts = str(message), parts
+        super().__init__(self._said(str))
+
+    def told(self, write: Callable[[Any], object]) -> Self:
+        """The same, its parts and those of errors in it as `write` writes them."""
+        twin = copy(self)
+        twin.args = (
+            self._said(lambda part: part.told(write) if isinstance(part, ConveyorError) else write(part)),
+        )
+        return twin
+
+    def _said(self, write: Callable[[object], object]) -> str:
+        whole = self._message.format(*map(write, self._parts)) if self._parts else self._message
+        return _LINE.sub(r"\1 ... \2", _WORD.sub(r"\1...", whole))
 
 
 def shortened(quoted: str, longest: int = 80) -> str:

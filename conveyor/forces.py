@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.errors import NoSolutionError
+from conveyor.errors import Amount, NoSolutionError
 from conveyor.laws.resistance import (
     ROLL_ON_BELT_FRICTION,
     TILT_COEFFICIENT_30,
@@ -424,8 +424,11 @@ class Bend:
     def slack(self, tension: float) -> NoSolutionError:
         """What to say of a belt that is slack at the pulley [N]."""
         return NoSolutionError(
-            f'the belt is slack at pulley "{self.pulley.name}" ({tension:.6g} N): raise the take-up\'s '
-            "tension (route.take_up.tension), or look for a resistance far too large among the forces before it"
+            'the belt is slack at pulley "{}" ({}): '
+            "raise the take-up's tension (route.take_up.tension), or look for a resistance far too large among the "
+            "forces before it",
+            self.pulley.name,
+            Amount(tension, "force", f"{tension:.6g} N"),
         )
 
     def forces(self, wrap: float, bearings: float) -> Iterator[Force]:

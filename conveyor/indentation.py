@@ -27,7 +27,7 @@ from conveyor.contact import (
     solve,
     solve_many,
 )
-from conveyor.errors import InputError, NoSolutionError
+from conveyor.errors import Amount, InputError, NoSolutionError
 from conveyor.rubber import CreepSeries, PronySeries, creeps
 
 Array = NDArray[np.float64]
@@ -466,18 +466,25 @@ def indentation_curves(
     pressures = np.array([problem.pressure for problem in problems])
     curves = load_curves(problems, pressures * (np.asarray(lowest) / np.asarray(highest)), pressures, rtol)
     return [
-        no_answer(contact, f"{low:.4g} to {high:.4g}", curve)
+        no_answer(contact, (low, high), curve)
         if isinstance(curve, NoSolutionError)
         else IndentationCurve(contact, curve, low, high)
         for contact, curve, low, high in zip(contacts, curves, lowest, highest, strict=True)
     ]
 
 
-def no_answer(contact: RollContact, loads: str, why: NoSolutionError) -> NoSolutionError:
-    """Why a roll's contact has no answer under line loads [N/m], with the roll."""
+def no_answer(contact: RollContact, loads: tuple[float, ...], why: NoSolutionError) -> NoSolutionError:
+    """Why a roll's contact has no answer under a line load or between two [N/m], with the roll."""
+    diameter, cover = 2.0 * contact.radius, contact.cover_thickness
+    *least, most = loads
+    low = (Amount(each, "line force", f"{each:.4g}") for each in least)
     return NoSolutionError(
-        f"roll of {2e3 * contact.radius:.4g} mm on a {1e3 * contact.cover_thickness:.4g} mm cover "
-        f"({contact.support}), {loads} N/m: {why}{_advice(contact)}"
+        f"roll of {{}} on a {{}} cover ({contact.support}), {'{} to ' * len(least)}{{}}: {{}}{_advice(contact)}",
+        Amount(diameter, "thickness", f"{1e3 * diameter:.4g} mm"),
+        Amount(cover, "thickness", f"{1e3 * cover:.4g} mm"),
+        *low,
+        Amount(most, "line force", f"{most:.4g} N/m"),
+        why,
     )
 
 
@@ -547,6 +554,6 @@ def indentation_resistances(
     return [
         solution.friction * w
         if solution.status is Status.OK
-        else no_answer(contact, f"{w:.4g}", NoSolutionError(solution.message))
+        else no_answer(contact, (w,), NoSolutionError(solution.message))
         for contact, w, solution in zip(contacts, line_loads, solutions, strict=True)
     ]

@@ -59,6 +59,7 @@ from conveyor.models import Calculation, Conveyor, RubberCompound
 from conveyor.models.belt import Belt
 from conveyor.models.fields import KnownParts
 from conveyor.rubber.anchor import Anchor
+from conveyor.units.sentences import told
 
 Array = NDArray[np.float64]
 T = TypeVar("T")
@@ -346,7 +347,7 @@ def calculate_many(
     """
     shared = _Shared(known, anchors, rtol, Kept() if kept is None else kept)
     shared.read_among(runs)
-    told = _Told(len(variants), progress)
+    tell = _Told(len(variants), progress)
     shared.anchor(variants)
     made: dict[int, CalculatedConveyor] = {}
     refused: dict[int, NoAnswer] = {}
@@ -358,7 +359,7 @@ def calculate_many(
                 loaded[i] = one
             else:
                 refused[i] = one
-            told(len(variants) - len(going), len(loaded))
+            tell(len(variants) - len(going), len(loaded))
         for i, result in _closed(variants, loaded, _solved(shared, loaded, going, rtol)).items():
             if isinstance(result, CalculatedConveyor):
                 made[i] = result
@@ -382,8 +383,9 @@ def calculate_many(
         moving = {i for i in again if not _settled(made[i])}
         # one that still moves the common setting moves the tensions of all
         going = again if one_take_up is not None and moving else {i: again[i] for i in moving}
-        told(len(variants) - len(going), 0)
-    return [refused[i] if i in refused else made[i] for i in range(len(variants))]
+        tell(len(variants) - len(going), 0)
+    systems = enumerate(one.conveyor.report.units for one in variants)
+    return [told(refused[i], system) if i in refused else made[i] for i, system in systems]
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,9 +19,10 @@ from conveyor.dynamics.follow import (
     side_by_side,
 )
 from conveyor.dynamics.machines import Ride, Size
-from conveyor.errors import InputError, NoSolutionError
+from conveyor.errors import Amount, InputError, NoSolutionError
 from conveyor.laws.take_up import take_up_mass
 from conveyor.models import Conveyor, Scenario, TakeUp
+from conveyor.units.sentences import Said, telling
 
 Sought: TypeAlias = Literal["ramp", "brake", "delay", "take-up"]
 
@@ -73,9 +74,10 @@ def size(
     low, high = between or ends
     if not (0.0 <= low < high and (low > 0.0 or sought == "delay")):
         raise InputError(f"between {low:g} and {high:g}: 0 < low < high is needed")
-    if sought == "delay":
-        return _best_delay(ride, made, low, high)
-    least, most, below, fails = _least(scenario.name, made, low, high)
+    with telling(conveyor.report.units):
+        if sought == "delay":
+            return _best_delay(ride, made, low, high)
+        least, most, below, fails = _least(scenario.name, made, (low, high), kind)
     error = None if below is None else least / below - 1.0
     first = fails[0] if fails else None
     sized = Size(
@@ -164,21 +166,30 @@ def _failing(scenario: Followed) -> list[Check]:
     return [check for check in _checks(scenario) if check.failed]
 
 
+def _reasons(failing: list[Check]) -> Said:
+    """What fails, in one sentence."""
+    why = [check.why for check in failing if check.why is not None]
+    return Said("; ".join(one.words for one in why), tuple(figure for one in why for figure in one.figures))
+
+
 def _least(
-    name: str, made: Callable[[float], Ride], low: float, high: float
+    name: str, made: Callable[[float], Ride], between: tuple[float, float], kind: str
 ) -> tuple[float, float | None, float | None, list[Check]]:
     """The least value of the last run of those that serve, its largest, the next smaller one and what fails there."""
     most: float | None = None
+    (low, high), shown = between, "time" if kind == "duration" else kind
     for k in range(_ROUNDS):
         # what served on coarser cells may just fail on finer ones: one step further is looked at too
         values = np.geomspace(low, high if k == 0 else high * high / low, _TRIED).tolist()
         failing = [_failing(one) for one in _followed(made, values, k)]
         serve = [i for i, of in enumerate(failing) if not of]
         if not serve:
-            nearest = min(failing, key=len)
-            why = "; ".join(check.why.text() for check in nearest if check.why is not None)
             raise NoSolutionError(
-                f'scenario "{name}": nothing from {low:.4g} to {values[-1]:.4g} (SI) keeps every check; at best: {why}'
+                'scenario "{}": nothing from {} to {} keeps every check; at best: {}',
+                name,
+                Amount(low, shown, f"{low:.4g}"),
+                Amount(values[-1], shown, f"{values[-1]:.4g} (SI)"),
+                _reasons(min(failing, key=len)),
             )
         first = last = serve[-1]
         while first and not failing[first - 1]:
@@ -200,9 +211,10 @@ def _best_delay(ride: Ride, made: Callable[[float], Ride], low: float, high: flo
         serve = [(one.highest, value, one) for value, one in zip(values, followed, strict=True)
                  if not _failing(one)]  # fmt: skip
         if not serve and best is None:
-            why = "; ".join(check.why.text() for check in _failing(followed[-1]) if check.why is not None)
             raise NoSolutionError(
-                f'scenario "{ride.scene.name}": no delay to {high:.4g} s keeps every criterion: {why}'
+                f'scenario "{{}}": no delay to {high:.4g} s keeps every criterion: {{}}',
+                ride.scene.name,
+                _reasons(_failing(followed[-1])),
             )
         best = min([*serve, *([best] if best else [])], key=lambda one: one[0])
         step = (high - low) / (_TRIED - 1)

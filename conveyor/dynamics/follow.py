@@ -34,7 +34,7 @@ from conveyor.studies.loads import EveryLoad, every_load
 from conveyor.studies.states import CalculatedStates
 from conveyor.studies.workers import workers_of
 from conveyor.units import from_si
-from conveyor.units.sentences import Said, percent, quoted, said
+from conveyor.units.sentences import Said, percent, quoted, said, telling
 
 Array = NDArray[np.float64]
 
@@ -294,9 +294,11 @@ def follow(
     rides, given = prepared_rides(
         conveyor, tuple(scenarios or conveyor.scenarios or standard_scenarios(conveyor)), loads
     )
-    if step is not None:
-        return CalculatedDynamics(conveyor, given, *_sorted(_each(rides, step)))
-    answers = refined(rides, error, executor=executor, workers=workers, progress=progress)
+    with telling(conveyor.report.units):
+        if step is not None:
+            answers = _sorted(_each(rides, step))
+        else:
+            answers = refined(rides, error, executor=executor, workers=workers, progress=progress)
     return CalculatedDynamics(conveyor, given, *answers)
 
 
@@ -387,10 +389,13 @@ def _sorted(answers: Sequence[_Answer]) -> tuple[tuple[Followed, ...], tuple[Sce
     followed = tuple(one for one in answers if isinstance(one, Followed))
     refused = tuple(one for one in answers if isinstance(one, ScenarioRefusal))
     if not followed:
-        named: dict[str, list[str]] = {}
+        named: dict[Said, list[str]] = {}
         for one in refused:
-            named.setdefault(one.reason.text(), []).append(f'"{one.scenario}"')
-        raise NoSolutionError("\n".join(f"scenario {', '.join(of)}: {why}" for why, of in named.items()))
+            named.setdefault(one.reason, []).append(f'"{one.scenario}"')
+        of_reason = ((", ".join(of), why) for why, of in named.items())
+        raise NoSolutionError(
+            "\n".join(["scenario {}: {}"] * len(named)), *itertools.chain.from_iterable(of_reason)
+        )
     return followed, refused
 
 

@@ -11,7 +11,7 @@ import math
 from collections.abc import Mapping
 from typing import Final, Literal, get_args
 
-from conveyor.errors import RangeError
+from conveyor.errors import Amount, RangeError
 from conveyor.require import require, require_angle, require_not_negative, require_positive
 
 CemaClass = Literal["B", "C", "D", "E"]
@@ -139,7 +139,8 @@ def rated_set_load(cema_class: CemaClass, *, belt_width: float, trough_angle: fl
     require_angle(0.0, trough_angle=trough_angle)
     require(cema_class in _RATINGS, "cema_class", cema_class, f"one of {', '.join(CEMA_CLASSES)} is needed")
     inches = belt_width / _INCH
-    none = RangeError(f"CEMA class {cema_class} has no set of {rolls} roll(s) for a belt of {belt_width:g} m")
+    width = Amount(belt_width, "thickness", f"{belt_width:g} m")
+    none = RangeError(f"CEMA class {cema_class} has no set of {rolls} roll(s) for a belt of {{}}", width)
     if rolls == _VEE:
         narrowest, widest, rating = _VEE_RATINGS.get(cema_class, (0, 0, 0))
         if not narrowest * (1.0 - _WIDTH_SLACK) <= inches <= widest * (1.0 + _WIDTH_SLACK):

@@ -200,7 +200,7 @@ def _cover(
     work: WorkedCover, answer: EquivalentLinear | NoSolutionError | RangeError
 ) -> SoftCover | NoSolutionError | RangeError:
     if isinstance(answer, NoSolutionError):
-        return no_answer(work.contact, f"{work.line_load:.4g}", answer)
+        return no_answer(work.contact, (work.line_load,), answer)
     if isinstance(answer, RangeError):
         return answer
     strain = WorkingStrain(

@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.errors import InputError, NoSolutionError, RangeError
+from conveyor.errors import Amount, InputError, NoSolutionError, RangeError
 from conveyor.indentation import RollContact, felt, indentation_resistances
 from conveyor.laws.softening import COARSE, SoftCover, WorkedCover, softened_many
 from conveyor.line.covers import FELT
@@ -120,9 +120,15 @@ def anchor_of(compound: RubberCompound, rows: Sequence[RollingRow]) -> Anchor:
         factor = max(level.factor(level.loads, t).tolist(), key=lambda value: abs(math.log(value)))
         if not low <= factor <= high:
             raise InputError(
-                f'tests: those of "{compound.name}" are {factor:.3g} times the theory at {celsius(t):.0f} degC, where '
-                f"published ones lie at 1 to {UNANCHORED:g} times ({low:g} to {high:g} are taken); are roll diameter, "
-                "cover and units those of the tests? To calculate without them: calculation: {anchor: off}"
+                'tests: those of "{}" are {:.3g} times the theory at {}, where published ones lie at 1 to {:g} times '
+                "({:g} to {:g} are taken); are roll diameter, cover and units those of the tests? To calculate without "
+                "them: calculation: {{anchor: off}}",
+                compound.name,
+                factor,
+                Amount(t, "temperature", f"{celsius(t):.0f} degC"),
+                UNANCHORED,
+                low,
+                high,
             )
     return level
 
@@ -210,7 +216,7 @@ class Theory:
         there: list[dict[float, float]] = [{} for _ in self._tests]
         for (i, w), one in zip(asked, solved, strict=True):
             if isinstance(one, NoSolutionError):
-                refused.setdefault(i, NoSolutionError(f"a rolling-resistance test: {one}"))
+                refused.setdefault(i, NoSolutionError("a rolling-resistance test: {}", one))
             else:
                 there[i][w] = one
         return [

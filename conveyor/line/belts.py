@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from conveyor.contact import solve
 from conveyor.contact.sampling import at_places, left_between, points
-from conveyor.errors import NoSolutionError
+from conveyor.errors import Amount, NoSolutionError
 from conveyor.indentation import Indentation, IndentationCurve, RollContact, indentation_curves, to_problem
 from conveyor.laws.resistance import FLEXURE_COEFFICIENT, sag_flexure_resistance
 from conveyor.line.contacts import Contacts, RollResult, along_the_rolls
@@ -365,8 +365,10 @@ def _judged(
         return None
     low, high = span[1]
     return NoSolutionError(
-        f"between tensions of {low:.4g} and {high:.4g} N/m the indentation is not known better than to {left:.1e} from "
-        f"{len(curves)} of them: give calculation.rtol a larger value"
+        f"between tensions of {{}} and {{}} the indentation is not known better than to {left:.1e} from {len(curves)} "
+        "of them: give calculation.rtol a larger value",
+        Amount(low, "line force", f"{low:.4g}"),
+        Amount(high, "line force", f"{high:.4g} N/m"),
     )
 
 

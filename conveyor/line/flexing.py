@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from conveyor.errors import NoSolutionError
+from conveyor.errors import Amount, NoSolutionError
 from conveyor.laws.loading import effective_tension
 from conveyor.laws.resistance import (
     FLEXURE_COEFFICIENT,
@@ -77,8 +77,12 @@ class FlexureLaw:
         effective = effective_tension(tension, line_mass=mass, belt_speed=self._speed)
         if effective <= 0.0:
             raise NoSolutionError(
-                f"the flexure of the belt is not known at a tension of {tension:.5g} N: m' v² is "
-                f"{tension - effective:.5g} N; give a larger calculation.flexure.belt.tension"
+                "the flexure of the belt is not known at a tension of {}: m' v² is {}; give a larger "
+                "calculation.flexure.belt.tension",
+                *(
+                    Amount(each, "force", f"{each:.5g} N", digits=5)
+                    for each in (tension, tension - effective)
+                ),
             )
         return bulk + belt_flexure_resistance(
             load,

@@ -123,7 +123,7 @@ def _in_service(laws: Sequence[_InService], loads: Sequence[Array]) -> list[Arra
         ).force
     except InputError as error:
         if len(laws) == 1:
-            return [InputError(f"{laws[0].field}: drag not given: {error}")]
+            return [InputError("{}: drag not given: {}", laws[0].field, error)]
         return [_in_service([law], [one])[0] for law, one in zip(laws, loads, strict=True)]
     parts = np.split(whole, np.cumsum(sizes)[:-1])
     return [part.reshape(one.shape) for part, one in zip(parts, loads, strict=True)]
@@ -202,7 +202,7 @@ def _bearing(law: BearingDrag, diameter: float, speed: float, air: float, field:
     try:
         viscosity = bearing_viscosity(law, air)
     except InputError as error:
-        raise InputError(f"{field}: {error}") from None
+        raise InputError("{}: {}", field, error) from None
     return _each(
         lambda load: (
             bearing_roll_drag(
@@ -245,6 +245,6 @@ def _named(law: DragLaw, field: str) -> DragLaw:
         try:
             return law(loads)
         except InputError as error:
-            raise InputError(f"{field}: {error}") from None
+            raise InputError("{}: {}", field, error) from None
 
     return drag

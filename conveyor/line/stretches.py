@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
-from conveyor.errors import NoSolutionError
+from conveyor.errors import Amount, NoSolutionError
 from conveyor.laws.loading import RollLoad, bulk_line_mass
 from conveyor.laws.tension import sag_tension
 from conveyor.line.flexing import FlexureLaw
@@ -168,8 +168,10 @@ def roll_masses(belt_mass: float, bulk_mass: float, pressing: float, *, where: s
     belt = belt_mass + pressing
     if bulk_mass + belt <= 0.0:
         raise NoSolutionError(
-            f"the belt lifts off in {where}: on a concave curve its tension pulls up like {-pressing:.4g} kg/m, belt "
-            f"and bulk are {belt_mass + bulk_mass:.4g} kg/m; choose a larger curve_radius or less tension"
+            "the belt lifts off in {}: on a concave curve its tension pulls up like {}, belt and bulk are {}; choose a "
+            "larger curve_radius or less tension",
+            where,
+            *(Amount(each, "line mass", f"{each:.4g} kg/m") for each in (-pressing, belt_mass + bulk_mass)),
         )
     return (belt, bulk_mass) if belt >= 0.0 else (0.0, bulk_mass + belt)
 

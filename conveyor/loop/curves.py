@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.errors import NoSolutionError
+from conveyor.errors import Amount, NoSolutionError
 from conveyor.laws.horizontal_curve import DriftLaw, FlatDrift
 from conveyor.laws.loading.curves import curve_belt_mass, curve_set_force, effective_tension
 from conveyor.line.line import Line
@@ -114,9 +114,13 @@ def pulls(line: Line, steady: MotionState, places: Array) -> Array:
     least = int(tensions.min(axis=1).argmin())
     if tensions[least].min() <= 0.0:
         stretch = line.loop.stretches[least]
+        left = float(tensions[least].min())
         raise NoSolutionError(
-            f'no tension is left to hold the belt in section "{stretch.section}", {stretch.strand}: T - m\' v² is '
-            f"{tensions[least].min():.5g} N; raise the take-up's tension (route.take_up.tension)"
+            'no tension is left to hold the belt in section "{}", {}: '
+            "T - m' v² is {}; raise the take-up's tension (route.take_up.tension)",
+            stretch.section,
+            stretch.strand,
+            Amount(left, "force", f"{left:.5g} N"),
         )
     return np.roll(tensions, line.count, axis=0) / line.belt.width
 
@@ -173,17 +177,21 @@ def drifts(line: Line, steady: MotionState) -> dict[tuple[str, Strand], float]:
 def _runs_off(stretch: Stretch, radius: float, pull: float, law: DriftLaw | FlatDrift) -> NoSolutionError:
     """What to say of a belt that nothing holds in its curve; the radius named would just hold it."""
     most = law.most
-    way, cure = "outside", "less banking or skew"
+    way, cure, radii = "outside", "less banking or skew", list[Amount]()
     if pull > law.centred:
         way, cure = (
             "inside",
             f"more banking or a {'trough' if isinstance(law, FlatDrift) else 'deeper trough'}",
         )
         if most > 0.0:
-            cure = f"a horizontal_radius well above {radius * pull / most:.4g} m, or {cure}"
+            holds = radius * pull / most
+            radii.append(Amount(holds, "length", f"{holds:.4g} m"))
+            cure = f"a horizontal_radius well above {{}}, or {cure}"
     return NoSolutionError(
-        f'the belt runs off its rolls to the {way} of the horizontal curve in section "{stretch.section}", '
-        f"{stretch.strand}, in steady running: choose {cure}"
+        f'the belt runs off its rolls to the {way} of the horizontal curve in section "{{}}", {stretch.strand}, in '
+        f"steady running: choose {cure}",
+        stretch.section,
+        *radii,
     )
 
 

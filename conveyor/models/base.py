@@ -16,7 +16,8 @@ from pydantic_core.core_schema import ModelSchema
 
 from conveyor.errors import InputError
 from conveyor.models.wording import Location, message
-from conveyor.units import is_quantity, written
+from conveyor.units import System, is_quantity, written
+from conveyor.units.sentences import told
 
 _SMALLEST, _LARGEST = 1e-30, 1e30
 """Size of a plain number, beside zero: products of a few stay figures."""
@@ -40,14 +41,14 @@ Name = Annotated[str, StringConstraints(min_length=1, max_length=100, pattern=r"
 
 
 class Problem(NamedTuple):
-    """A refusal: the field it is about, as pydantic locates it, and what to change."""
+    """A refusal: the field it is about, as pydantic locates it, and what to change; with amounts in it an error."""
 
     location: Location
-    message: str
+    message: str | InputError
 
 
-def refuse(title: str, problems: Iterable[Problem]) -> None:
-    """Raise one pydantic error with every problem, each at its own field; none, no error.
+def refuse(title: str, problems: Iterable[Problem], system: System = "SI") -> None:
+    """Raise one pydantic error with every problem, each at its own field, in a system of units; none, no error.
 
     Raises
     ------
@@ -56,14 +57,18 @@ def refuse(title: str, problems: Iterable[Problem]) -> None:
     """
     details = [
         InitErrorDetails(
-            type=PydanticCustomError("conflict", "{message}", {"message": problem.message}),
-            loc=problem.location,
+            type=PydanticCustomError("conflict", "{message}", {"message": _told(message, system)}),
+            loc=location,
             input=None,
         )
-        for problem in problems
+        for location, message in problems
     ]
     if details:
         raise ValidationError.from_exception_data(title, details)
+
+
+def _told(message: str | InputError, system: System) -> str:
+    return message if isinstance(message, str) else str(told(message, system))
 
 
 def real_errors(error: ValidationError) -> list[dict[str, Any]]:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import Final
 
-from conveyor.errors import RangeError
+from conveyor.errors import Amount, InputError, RangeError
 from conveyor.laws.idlers import rated_set_load
 from conveyor.laws.loading import bulk_line_mass, cross_section, usable_width
 from conveyor.laws.resistance import SHORTEST_FOR_FACTOR
@@ -74,16 +74,20 @@ def _flow_fits(conveyor: ConveyorParts) -> Iterator[Problem]:
         return
     needed, area = sections
     system = system_of(belt.width)
+    sections_of = (Amount(each, "area", display(each, "area", system)) for each in (needed, area))
     most = from_si(si(material.flow) * area / needed, "mass flow", text(material.flow).split()[1])
     least = from_si(si(belt.speed) * needed / area, "speed", text(belt.speed).split()[1])
-    metric = system == "US" and text(material.flow).endswith(" tph")
+    metric = "; tph are metric tonnes per hour, short tons per hour are stph"
+    if system != "US" or not text(material.flow).endswith(" tph"):
+        metric = ""
     yield Problem(
         ("material", "flow"),
-        f"got {text(material.flow)}, which at {text(belt.speed)} (belt.speed) needs a cross-section of "
-        f"{display(needed, 'area', system)}, the belt holds {display(area, 'area', system)}: reduce material.flow to "
-        f"{_rounded(most, down=True)} or less, raise belt.speed to {_rounded(least, down=False)} or more, "
-        "or take a wider belt"
-        + ("; tph are metric tonnes per hour, short tons per hour are stph" if metric else ""),
+        InputError(
+            f"got {text(material.flow)}, which at {text(belt.speed)} (belt.speed) needs a cross-section of {{}}, the "
+            f"belt holds {{}}: reduce material.flow to {_rounded(most, down=True)} or less, raise belt.speed to "
+            f"{_rounded(least, down=False)} or more, or take a wider belt{metric}",
+            *sections_of,
+        ),
     )
 
 
@@ -108,7 +112,8 @@ def _classes_exist(conveyor: ConveyorParts) -> Iterator[Problem]:
                 rolls=idlers.rolls,
             )
         except RangeError as error:
-            yield Problem(("idlers", strand, "cema_class"), f"{error}; give rating, of its maker, instead")
+            why = InputError("{}; give rating, of its maker, instead", error)
+            yield Problem(("idlers", strand, "cema_class"), why)
 
 
 def _wear_known(conveyor: ConveyorParts) -> Iterator[Problem]:
@@ -158,9 +163,8 @@ def _warm_enough(conveyor: ConveyorParts) -> Iterator[Problem]:
         try:
             compound.check_temperature(si(ambient.belt))
         except RangeError as error:
-            yield Problem(
-                ("ambient", field), f'got {text(ambient.belt)}, but {name} is "{compound.name}": {error}'
-            )
+            why = InputError('got {}, but {} is "{}": {}', text(ambient.belt), name, compound.name, error)
+            yield Problem(("ambient", field), why)
 
 
 def _feeding_fits(conveyor: ConveyorParts) -> Iterator[Problem]:
@@ -284,8 +288,11 @@ def _coefficient_holds(conveyor: ConveyorParts) -> Iterator[Problem]:
     if conveyor.calculation.secondary == "C" and (length := conveyor.route.length) <= SHORTEST_FOR_FACTOR:
         yield Problem(
             ("calculation", "secondary"),
-            f'got "C", but route.sections are {display(length, "length")} long together and C holds for more than '
-            f'{SHORTEST_FOR_FACTOR:g} m; set calculation.secondary to "itemised"',
+            InputError(
+                'got "C", but route.sections are {} long together and C holds for more than {}; set '
+                'calculation.secondary to "itemised"',
+                *(Amount(each, "length", display(each, "length")) for each in (length, SHORTEST_FOR_FACTOR)),
+            ),
         )
 
 

@@ -12,7 +12,7 @@ from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, Validati
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from conveyor.errors import InputError, RangeError
+from conveyor.errors import Amount, InputError, RangeError
 from conveyor.models.base import Model, Name, Number, Problem, refuse
 from conveyor.models.rolling_tests import RollingTest
 from conveyor.models.rubber_data import (
@@ -28,6 +28,7 @@ from conveyor.models.rubber_data import (
 from conveyor.units import (
     Bounds,
     Density,
+    Quantity,
     display,
     from_si,
     si,
@@ -160,9 +161,11 @@ class RubberCompound(Model):
         low, high = self.range.temperature
         if not self.range.kelvin[0] <= temperature <= self.range.kelvin[1]:
             raise RangeError(
-                f'compound "{self.name}" is known from {text(low)} to {text(high)} (its range.temperature), '
-                f"not at {display(temperature, 'temperature', digits=6)}; "
-                "calculate inside this range or extend its data"
+                'compound "{}" is known from {} to {} (its range.temperature), not at {}; calculate inside this range '
+                "or extend its data",
+                self.name,
+                *map(_given, (low, high)),
+                _asked(temperature),
             )
 
     def series(self, temperature: float) -> PronySeries:
@@ -256,9 +259,11 @@ class RubberCompound(Model):
             law.log10_a_T(temperature)
         elif not math.isclose(temperature, self.reference, rel_tol=CONVERSION_ROUNDING):
             raise RangeError(
-                f'compound "{self.name}" has no temperature shift: it is known at '
-                f"{text(self.reference_temperature)} only, not at {display(temperature, 'temperature', digits=6)}; "
-                "give it a shift law, or calculate at its reference temperature"
+                'compound "{}" has no temperature shift: it is known at {} only, not at {}; give it a shift law, or '
+                "calculate at its reference temperature",
+                self.name,
+                _given(self.reference_temperature),
+                _asked(temperature),
             )
 
     def _at(
@@ -279,6 +284,16 @@ class RubberCompound(Model):
             return series
         b_T = shift.vertical(temperature) if isinstance(shift, TableShift) else 1.0
         return shifted(series, shift.at(self.reference), temperature, b_T=b_T)
+
+
+def _asked(temperature: float) -> Amount:
+    """A temperature [K] of a message."""
+    return Amount(temperature, "temperature", display(temperature, "temperature", digits=6), digits=6)
+
+
+def _given(temperature: Quantity) -> Amount:
+    """One of the compound's file, as written there."""
+    return Amount(si(temperature), "temperature", text(temperature), digits=6)
 
 
 def _resolved(value: Any, info: ValidationInfo) -> Any:

@@ -32,7 +32,7 @@ class Conveyor(ConveyorParts):
 
     @model_validator(mode="after")
     def _parts_fit(self) -> Self:
-        refuse("Conveyor", [problem for check in CHECKS for problem in check(self)])
+        refuse("Conveyor", [problem for check in CHECKS for problem in check(self)], self.report.units)
         return self
 
     def with_parts(
@@ -62,7 +62,9 @@ class Conveyor(ConveyorParts):
             if (key := (check, *(numbers.get(name, 0) for name in reads))) not in fit
         }
         try:
-            refuse("Conveyor", [problem for check in new.values() for problem in check(made)])
+            refuse(
+                "Conveyor", [problem for check in new.values() for problem in check(made)], made.report.units
+            )
         except ValidationError as error:
             raise self.refusal(error) from None
         fit.update(new)

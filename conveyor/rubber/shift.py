@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from conveyor.errors import InputError, RangeError
+from conveyor.errors import Amount, InputError, RangeError
 from conveyor.rubber.arrays import FloatArray, finite_vector, positive, positive_vector
 from conveyor.rubber.monotone import MonotoneCubic
 from conveyor.rubber.prony import PronySeries
@@ -24,9 +24,9 @@ MAX_DECADES = 100.0
 """No measured shift comes near; beyond it times leave the range of double precision."""
 
 
-def celsius(temperature: float) -> str:
-    """Write a temperature [K] for a message."""
-    return f"{temperature - _ZERO_CELSIUS:.2f} degC"
+def celsius(temperature: float) -> Amount:
+    """Return a temperature [K] for a message."""
+    return Amount(temperature, "temperature", f"{temperature - _ZERO_CELSIUS:.2f} degC", digits=6)
 
 
 def _kelvin(temperature: ArrayLike) -> FloatArray:
@@ -118,8 +118,10 @@ class WLF:
         if np.any(difference <= -self.c2):
             coldest, pole = self.reference + float(difference.min()), self.reference - self.c2
             raise RangeError(
-                f"temperature {celsius(coldest)} is at or below the pole of the WLF law at {celsius(pole)};"
-                " it holds only well above that: use a shift table or Arrhenius"
+                "temperature {} is at or below the pole of the WLF law at {}; it holds only well above that: use a "
+                "shift table or Arrhenius",
+                celsius(coldest),
+                celsius(pole),
             )
         return np.asarray(-self.c1 * difference / (self.c2 + difference))[()]
 
@@ -245,9 +247,9 @@ class ShiftTable:
         outside = t[(t < low) | (t > high)]
         if outside.size:
             raise RangeError(
-                f"temperature {celsius(float(outside.flat[0]))} is outside the shift table,"
-                f" {celsius(low)} to {celsius(high)}; it is not extrapolated: extend the measurement,"
-                " or choose a WLF or Arrhenius law knowingly"
+                "temperature {} is outside the shift table, {} to {}; it is not extrapolated: extend the measurement, "
+                "or choose a WLF or Arrhenius law knowingly",
+                *map(celsius, (float(outside.flat[0]), low, high)),
             )
         return np.asarray(self._curve(t))[()]
 
@@ -330,7 +332,9 @@ def shifted(series: PronySeries, law: ShiftLaw, temperature: float, *, b_T: floa
     decades = float(law.log10_a_T(temperature))
     if abs(decades) > MAX_DECADES:
         raise RangeError(
-            f"the shift law gives {decades:.0f} decades at {celsius(temperature)}, above {MAX_DECADES:.0f}:"
-            f" too far from the reference {celsius(law.reference)}"
+            f"the shift law gives {decades:.0f} decades at {{}}, above {MAX_DECADES:.0f}: too far from the reference "
+            "{}",
+            celsius(temperature),
+            celsius(law.reference),
         )
     return series.scaled(a_T=10.0**decades, b_T=b_T)

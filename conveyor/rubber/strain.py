@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from conveyor.errors import InputError, RangeError
+from conveyor.errors import Amount, InputError, RangeError
 from conveyor.rubber.arrays import FloatArray, positive, positive_vector
 from conveyor.rubber.monotone import MonotoneCubic
 
@@ -107,23 +107,29 @@ class _Run:
         head = values[sweep.strain <= PLATEAU_SPAN * sweep.strain[0]]
         flat = head.size >= _PLATEAU_POINTS and float(np.ptp(head)) <= PLATEAU_SPREAD * float(head.mean())
         run = cls(sweep.strain, curve, 1.0, flat)
-        label = f"reference_strain at {sweep.temperature:.2f} K ({name})"
-        return cls(sweep.strain, curve, float(run.at(np.array([reference]), label)[0]), flat)
+        label, amplitude = f"reference_strain at {{}} ({name})", np.array([reference])
+        return cls(sweep.strain, curve, float(run.at(amplitude, label, sweep.temperature)[0]), flat)
 
-    def at(self, strain: FloatArray, label: str) -> FloatArray:
-        """Interpolate the factor; below the measured strains it is constant on a plateau and refused elsewhere."""
+    def at(self, strain: FloatArray, label: str, temperature: float) -> FloatArray:
+        """Interpolate the factor; below the measured strains it is constant on a plateau and refused elsewhere.
+
+        Refusals have the label, with {} for the temperature [K].
+        """
+        at = Amount(temperature, "temperature", f"{temperature:.2f} K", digits=6)
         low, high = float(self.strain[0]), float(self.strain[-1])
         least, most = float(strain.min()), float(strain.max())
         if most > high:
             raise RangeError(
                 f"{label}: a strain of {most:.4g} is above the largest measured, {high:.4g}; "
-                "measure further, or lower it"
+                "measure further, or lower it",
+                at,
             )
         if least < low and not self.plateau:
             raise RangeError(
                 f"{label}: a strain of {least:.4g} is below the lowest measured, {low:.4g}, where the data show no "
                 f"plateau (they differ by more than {100.0 * PLATEAU_SPREAD:.0f} % up to {PLATEAU_SPAN:g} times it); "
-                "measure smaller strains"
+                "measure smaller strains",
+                at,
             )
         return np.asarray(self.curve(np.log(np.maximum(strain, low)))) / self.unit
 
@@ -260,11 +266,13 @@ class AmplitudeFactors:
         flat = positive_vector("strain", array.ravel(), "-")
         at = positive_vector("temperature", np.broadcast_to(temperature, array.shape).ravel(), "K")
         out = np.zeros(flat.shape)
-        for level, (runs, weight) in enumerate(zip(self._runs[name], self._between(at), strict=True)):
+        for level, runs, weight in zip(
+            self.temperatures.tolist(), self._runs[name], self._between(at), strict=True
+        ):
             near = np.flatnonzero(weight)
-            label = f"factor of the {name} modulus at {self.temperatures[level]:.2f} K"
+            label = f"factor of the {name} modulus at {{}}"
             for run in runs if near.size else ():
-                out[near] += (weight[near] / len(runs)) * run.at(flat[near], label)
+                out[near] += (weight[near] / len(runs)) * run.at(flat[near], label, level)
         return out.reshape(array.shape)[()]
 
     def _between(self, temperature: FloatArray) -> FloatArray:

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from scipy.special import chdtrc, stdtrit
 
 from conveyor.arguments import checked
-from conveyor.errors import InputError, NoSolutionError
+from conveyor.errors import Amount, InputError, NoSolutionError
 from conveyor.forces import along_the_belt
 from conveyor.loop.balance import OpenLoop, answers, balances
 from conveyor.models import CALIBRATED, Calibration, Conveyor, MeasuredRun
@@ -266,8 +266,9 @@ def _check_direction(runs: Sequence[MeasuredRun], power: Array, how: str) -> Non
     for number, (run, watts) in enumerate(zip(runs, power.tolist(), strict=True), start=1):
         if run.watts * watts <= 0.0:
             raise InputError(
-                f"run {number}: measured {run.watts / 1e3:.4g} kW, {how} {watts / 1e3:.4g} kW: one drives, the other "
-                "brakes, and the drive's efficiency counts either way; leave the run out, or look at route and flow"
+                f"run {number}: measured {{}}, {how} {{}}: one drives, the other brakes, and the drive's efficiency "
+                "counts either way; leave the run out, or look at route and flow",
+                *(Amount(each, "power", f"{each / 1e3:.4g} kW") for each in (run.watts, watts)),
             )
 
 

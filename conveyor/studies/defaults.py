@@ -31,6 +31,7 @@ from conveyor.loop.balance import Balance, OpenLoop, balances
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.rubber.anchor import UNANCHORED
 from conveyor.studies.uncertainty import Effect, root_of_squares
+from conveyor.units.sentences import told
 
 Shares: TypeAlias = NDArray[np.float64] | float
 """Of a force what rests on a default [-]: of every stretch, shape (2n,), or at one place."""
@@ -223,7 +224,7 @@ def power_range(result: CalculatedConveyor) -> PowerRange:
     for assumed, ends, *both in zip(using, bands, closed[::2], closed[1::2], strict=True):
         why = next((end for end in both if isinstance(end, NoSolutionError)), None)
         if why is not None:
-            notes.append(f"{assumed.what} at an end of its band: {why}")
+            notes.append(f"{assumed.what} at an end of its band: {told(why, result.conveyor.report.units)}")
             continue
         low, high = (end.power.motor for end in both if isinstance(end, Balance))
         effects.append(

@@ -88,6 +88,8 @@ def _sized(value: Quantity, kind: str | None, unit: str | None = None) -> Quanti
         return value
     low, high = MAGNITUDES[kind]
     label = "" if kind == "fraction" else f" {si_with_unit(value)[1]}"
+    if system_of(value) == "US" and kind != "temperature":
+        low, high, label = float(f"{smallest:.4g}"), float(f"{largest:.4g}"), f" {_SPELLED[value.units]}"
     expected = f"{KINDS[kind].expected}, in size from {low:g} to {high:g}{label}"
     raise InputError(f"got {text(value)}, expected {expected}")
 

@@ -4,10 +4,16 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Final
+from functools import partial
+from typing import Final, TypeVar
 
-from conveyor.units.quantities import System, convert, unit_label
+from conveyor.errors import Amount, ConveyorError
+from conveyor.units.quantities import System, convert, display, unit_label
+
+E = TypeVar("E", bound=ConveyorError)
 
 ZERO_CELSIUS: Final = 273.15
 """[K]."""
@@ -114,6 +120,35 @@ class Said:
     def text(self, system: System = "SI") -> str:
         """Write it in a system of units."""
         return self.words.format(*(_written(value, kind, system) for value, kind in self.figures))
+
+    def __str__(self) -> str:
+        return self.text()
+
+
+def told(error: E, system: System) -> E:
+    """Return an error with its figures in a reader's units; in SI they are as the error writes them itself.
+
+    Examples
+    --------
+    >>> str(told(ConveyorError("slack at {}", Amount(1.2, "length", "1.2 m")), "US"))
+    'slack at 3.937 ft'
+    """
+    return error if system == "SI" else error.told(partial(_part, system=system))
+
+
+@contextmanager
+def telling(system: System) -> Iterator[None]:
+    """Raise what is raised inside as `told` in a system of units."""
+    try:
+        yield
+    except ConveyorError as error:
+        raise told(error, system) from error.__cause__
+
+
+def _part(part: object, system: System) -> object:
+    if isinstance(part, Amount):
+        return display(part.value, part.kind, system, digits=part.digits)
+    return part.text(system) if isinstance(part, Said) else part
 
 
 def said(words: str, *figures: tuple[float, str]) -> Said:

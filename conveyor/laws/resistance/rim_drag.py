@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 from typing import Final
 
-from conveyor.errors import InputError
+from conveyor.errors import Amount, InputError
 from conveyor.laws.resistance.roll_bearing import (
     PER_MINUTE,
     bearing_load_factor,
@@ -216,7 +216,11 @@ def linear_roll_drag(
     drag += rotation_slope * (rotation - reference_rotation)
     if drag < 0.0:
         raise InputError(
-            f"reference_drag = {reference_drag!r} is not allowed: its line gives {drag:.3g} N at {load:g} N and "
-            f"{rotation:g} 1/s; give smaller slopes or a measurement nearer by"
+            "reference_drag = {} is not allowed: its line gives {} at {} and {}; give smaller slopes or a measurement "
+            "nearer by",
+            Amount(reference_drag, "force", f"{reference_drag!r}"),
+            Amount(drag, "force", f"{drag:.3g} N"),
+            Amount(load, "force", f"{load:g} N"),
+            Amount(rotation, "rotation", f"{rotation:g} 1/s"),
         )
     return drag

@@ -11,7 +11,7 @@ import math
 import warnings
 from typing import Final
 
-from conveyor.errors import ValidityWarning
+from conveyor.errors import Amount, InputError, ValidityWarning
 from conveyor.laws.resistance.defaults import Default
 from conveyor.require import require, require_not_negative, require_positive
 
@@ -98,7 +98,11 @@ def oil_viscosity(
     require(falls, "second_viscosity", second_viscosity, "the hotter of the two must be the thinner")
     turn, slope = walther(first_temperature, first_viscosity, second_temperature, second_viscosity)
     log_z = math.exp(turn - slope * math.log(temperature))
-    require(log_z < math.log10(1e9), "temperature", temperature, "the oil is solid there, give hotter ones")
+    if not log_z < math.log10(1e9):
+        raise InputError(
+            "temperature = {} is not allowed: the oil is solid there, give hotter ones",
+            Amount(temperature, "temperature", f"{temperature!r}"),
+        )
     viscosity: float = 10.0**log_z - WALTHER_OFFSET
     if viscosity < WALTHER_LEAST:
         warnings.warn(
