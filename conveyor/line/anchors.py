@@ -120,15 +120,11 @@ def anchor_of(compound: RubberCompound, rows: Sequence[RollingRow]) -> Anchor:
         factor = max(level.factor(level.loads, t).tolist(), key=lambda value: abs(math.log(value)))
         if not low <= factor <= high:
             raise InputError(
-                'tests: those of "{}" are {:.3g} times the theory at {}, where published ones lie at 1 to {:g} times '
-                "({:g} to {:g} are taken); are roll diameter, cover and units those of the tests? To calculate without "
-                "them: calculation: {{anchor: off}}",
+                f'tests: those of "{{}}" are {factor:.3g} times the theory at {{}}, where published ones lie at 1 to '
+                f"{UNANCHORED:g} times ({low:g} to {high:g} are taken); are roll diameter, cover and units those of "
+                "the tests? To calculate without them: calculation: {{anchor: off}}",
                 compound.name,
-                factor,
                 Amount(t, "temperature", f"{celsius(t):.0f} degC"),
-                UNANCHORED,
-                low,
-                high,
             )
     return level
 
