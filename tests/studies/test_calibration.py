@@ -266,9 +266,11 @@ def test_runs_that_brake_need_their_efficiency_and_a_calculation_that_brakes():
         conveyor.calibrate(down, braking)
     known = down.replace(drive=down.drive.replace(regeneration_efficiency="92 %"))
     with pytest.raises(
-        InputError, match=r"run 2: measured -100 kW, as calculated .* one drives, the other brakes"
+        InputError, match=r"run 2: measured -100 kW, as calculated [\d.]+ kW: one drives, the other brakes"
     ):
         conveyor.calibrate(known, braking)
+    with pytest.raises(InputError, match=r"run 2: measured -134\.1 hp, as calculated [\d.]+ hp: one drives"):
+        conveyor.calibrate(known.replace(report={"units": "US"}), braking)
 
 
 def test_tables_hold_what_was_found():
