@@ -376,8 +376,8 @@ def _slack_side(result: CalculatedConveyor) -> Iterator[Said]:
     unit = result.line.take_up
     if unit.spot is None and not unit.keeps_length and result.balance.settled.force < 0.0:
         yield said(
-            "the belt drives its drives: their slack side, where the take-up stands under every load, is before them; "
-            "give route.take_up.position if it is built elsewhere"
+            "the belt drives the motors: the slack side, where the take-up stands under every load, is before the "
+            "drives; give route.take_up.position if it is built elsewhere"
         )
 
 
