@@ -356,20 +356,29 @@ def _plain_number(number: float) -> str:
     return f"{number:.0f}" if abs(number) >= 10.0**_DIGITS else f"{number:.4g}"
 
 
+_MISREAD_IN_US: Final = "tph"
+"""Metric tonnes per hour; a US reader takes them for short tons."""
+
+
 def in_system(leaf: Leaf, system: System, units: Iterable[str | None] = ()) -> Leaf:
-    """Return a field with its range, its default and its first unit in a system; `units` are those filled in."""
+    """Return a field with its range, its default and its units in a system; `units` are those filled in.
+
+    A unit that a US reader takes for another is left out, where it is not filled in.
+    """
     of = leaf.item if leaf.kind == "list" and leaf.item is not None else leaf
     if system == "SI" or of.kind != "quantity" or not of.units or not of.measure:
         return leaf
-    unit = next(filter(None, units), None) or _unit_in_us(of)
+    filled = tuple(filter(None, units))
+    unit = filled[0] if filled else _unit_in_us(of)
     if not unit:
         return leaf
     value = f"1 {unit}"
     default = leaf.default
     if isinstance(default, str) and (known := like(default, value)) is not None:
         default = f"{known[0]:.4g} {unit}"
-    first = tuple(dict.fromkeys((unit, *leaf.units))) if leaf.units else ()
-    return replace(leaf, allowed=limits_like(leaf.allowed, value), default=default, units=first)
+    others = (each for each in leaf.units if each != _MISREAD_IN_US)
+    offered = tuple(dict.fromkeys((unit, *filled, *others))) if leaf.units else ()
+    return replace(leaf, allowed=limits_like(leaf.allowed, value), default=default, units=offered)
 
 
 def _unit_in_us(leaf: Leaf) -> str:

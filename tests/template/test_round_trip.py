@@ -209,6 +209,31 @@ def test_a_us_template_says_its_ranges_in_us_units(tmp_path: Path) -> None:
     assert len(line.route.sections) == 1
 
 
+def test_a_us_template_offers_no_tph(tmp_path: Path) -> None:
+    """Metric tonnes per hour, which a US reader takes for short tons; what a spec holds can be chosen."""
+
+    def lists(book: Any) -> list[list[Any]]:
+        rules = (rule for sheet in book.worksheets for rule in sheet.data_validations.dataValidation)
+        return [listed(book, rule) for rule in rules if rule.type == "list"]
+
+    path = tmp_path / "input.xlsx"
+    flows = [one for one in lists(load_workbook(write_template(path, units="US"))) if "stph" in one]
+    assert flows
+    for one in flows:
+        assert one[0] in {"stph", "short_ton/h"}
+        assert {"stph", "short_ton/h", "t/h"} <= {*one}
+        assert "tph" not in one
+    line = spec.from_data(read_template(path).data)
+    metric = line.replace(material=line.material.replace(flow="1000 tph"))
+    book = load_workbook(write_template(path, metric))
+    row = next(
+        row for row in book["Material"].iter_rows(min_row=5, max_col=7) if row[6].value == "material.flow"
+    )
+    assert (row[1].value, row[2].value) == (1000, "tph")
+    assert {"tph", "stph"} <= set(listed(book, rule(book["Material"], row[2])))
+    assert spec.from_data(read_template(path).data).as_data() == metric.as_data()
+
+
 def test_lists_are_drawn_with_notes_and_units(example: Any) -> None:
     for table in whole(Conveyor).tables:
         sheet = example[table.name]
