@@ -28,7 +28,7 @@ class Report(Model):
     revision: Name | None = None
     """Revision of the document."""
     units: System = "SI"
-    """System of units of the tables in reports; with US motors are suggested of NEMA, pulleys of CEMA."""
+    """System of units of reports and refusals; with US motors are suggested of NEMA, pulleys of CEMA."""
     paper: Paper | None = None
     """Paper that workbooks are set up for."""
 
