@@ -373,8 +373,7 @@ def _drive(result: CalculatedConveyor) -> Iterator[Said]:
 
 def _slack_side(result: CalculatedConveyor) -> Iterator[Said]:
     """Of a take-up that stands before the drive because the belt drives it."""
-    unit = result.line.take_up
-    if unit.spot is None and not unit.keeps_length and result.balance.settled.force < 0.0:
+    if result.line.take_up.on_slack_side and result.balance.settled.force < 0.0:
         yield said(
             "the belt drives the motors: the slack side, where the take-up stands under every load, is before the "
             "drives; give route.take_up.position if it is built elsewhere"

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 
-from conveyor.errors import InputError
+from conveyor.errors import Amount, ConveyorError, InputError
 
 
-def require(ok: bool, name: str, value: object, allowed: str) -> None:
-    """Refuse an argument unless `ok`."""
+def require(ok: bool, name: str, value: object, allowed: str | ConveyorError) -> None:
+    """Refuse an argument unless `ok`; an amount is written as its reader has it."""
     if not ok:
-        raise InputError(f"{name} = {value!r} is not allowed: {allowed}")
+        shown = value if isinstance(value, Amount) else repr(value)
+        raise InputError("{} = {} is not allowed: {}", name, shown, allowed)
 
 
 def require_finite(**values: float) -> None:

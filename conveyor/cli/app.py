@@ -275,10 +275,7 @@ def si_of(option: str, given: str | None, kind: str) -> float | None:
     """Value of an option in SI; None where it is not given."""
     from conveyor.units import in_si
 
-    try:
-        return None if given is None else in_si(given, kind)
-    except InputError as error:
-        raise InputError(f"{option}: {error}") from None
+    return None if given is None else in_si(given, kind, option)
 
 
 def one_of(option: str, given: str, allowed: tuple[str, ...]) -> Any:

@@ -199,10 +199,7 @@ def reference_of(read: Sequence[DmaData], request: Request) -> str:
 
 def kelvin_of(temperature: str, place: str = "--at") -> float:
     """A written temperature [K], refused below absolute zero."""
-    try:
-        kelvin = in_si(temperature, "temperature")
-    except InputError as error:
-        raise InputError(f"{place}: {error}") from None
+    kelvin = in_si(temperature, "temperature", place)
     if kelvin <= 0.0:
         raise InputError(f"{place}: got {temperature}, a temperature above absolute zero is needed")
     return kelvin

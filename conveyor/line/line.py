@@ -268,6 +268,11 @@ class TakeUpUnit:
         """Whether it keeps the belt's length, and so the mean tension of the loop, instead of the tension there."""
         return self.kind in {"fixed", "screw", "locked winch"}
 
+    @property
+    def on_slack_side(self) -> bool:
+        """Whether it keeps the tension on the slack side of the drives, whichever that is."""
+        return self.spot is None and not self.keeps_length
+
     def pulls(self, pulley: BendPulley) -> bool:
         """Whether the belt of a pulley has the tension it keeps: of one on its carriage."""
         return pulley.position == "take-up" and not self.keeps_length

@@ -175,7 +175,7 @@ class Frame:
     def standing_on(self, *, behind: bool) -> Frame:
         """The same loop, its take-up behind the drives or before them if it stands on their slack side."""
         unit = self.line.take_up
-        if unit.keeps_length or unit.spot is not None or unit.behind is behind:
+        if not unit.on_slack_side or unit.behind is behind:
             return self
         made = self.of(replace(self.line, take_up=replace(unit, behind=behind)))
         made.plan = _plan(made)

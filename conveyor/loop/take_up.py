@@ -66,6 +66,13 @@ class TakeUpDuty:
     speed: float | None
 
 
+def on_one_side(loops: Sequence[Balance]) -> list[Balance]:
+    """Loops at one setting, with a take-up on the slack side of the drives where that is under the first of them."""
+    kept = loops[0].settled.take_up
+    stand = all(one.frame.standing_on(behind=kept.behind) is one.frame for one in loops)
+    return list(loops) if stand else held(loops, kept)
+
+
 def at_one_setting(loops: Sequence[Balance], asking: Sequence[bool] = ()) -> list[Balance]:
     """Close loops of one conveyor under several loads at the least setting of its take-up that serves them.
 
@@ -85,9 +92,9 @@ def at_one_setting(loops: Sequence[Balance], asking: Sequence[bool] = ()) -> lis
     """
     if not loops:
         return []
-    kept = loops[0].settled.take_up
     if loops[0].line.take_up.tension is not None:
-        return held(loops, kept)
+        return on_one_side(loops)
+    kept = loops[0].settled.take_up
     served = [i for i, asks in enumerate(asking) if asks] or range(len(loops))
     kept = kept._replace(tension=max(loops[i].settled.needed for i in served))
     for _ in range(_STEPS):

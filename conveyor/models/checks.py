@@ -77,9 +77,9 @@ def _flow_fits(conveyor: ConveyorParts) -> Iterator[Problem]:
     sections_of = (Amount(each, "area", display(each, "area", system)) for each in (needed, area))
     most = from_si(si(material.flow) * area / needed, "mass flow", text(material.flow).split()[1])
     least = from_si(si(belt.speed) * needed / area, "speed", text(belt.speed).split()[1])
-    metric = "; tph are metric tonnes per hour, short tons per hour are stph"
-    if system != "US" or not text(material.flow).endswith(" tph"):
-        metric = ""
+    metric = ""
+    if system == "US" and text(material.flow).endswith(" tph"):
+        metric = "; tph are metric tonnes per hour, short tons per hour are stph"
     yield Problem(
         ("material", "flow"),
         InputError(

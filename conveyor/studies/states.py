@@ -17,10 +17,10 @@ from typing import Final
 
 from conveyor.checks import Check, checks
 from conveyor.errors import ConveyorError, NoSolutionError
-from conveyor.loop.balance import Balance, held
+from conveyor.loop.balance import Balance
 from conveyor.loop.frame import TakeUpSetting
 from conveyor.loop.superposition import DRIVE_FORCE, Loading, Loadings
-from conveyor.loop.take_up import at_one_setting
+from conveyor.loop.take_up import at_one_setting, on_one_side
 from conveyor.models import Conveyor, LoadCase
 from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
@@ -241,10 +241,8 @@ def load_states(
 
 def _standing(own: CalculatedConveyor) -> CalculatedConveyor:
     """The spec's own load, its take-up on the side of the drives that it has for every load."""
-    kept, frame = own.balance.settled.take_up, own.balance.frame
-    if frame.standing_on(behind=kept.behind) is frame:
-        return own
-    return replace(own, balance=held([own.balance], kept)[0])
+    (balance,) = on_one_side([own.balance])
+    return own if balance is own.balance else replace(own, balance=balance)
 
 
 def at_one_take_up(

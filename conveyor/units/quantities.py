@@ -139,20 +139,25 @@ def si(value: Quantity) -> float:
     return float(value.magnitude * scale[0] / scale[1] + scale[2])
 
 
-def in_si(value: str, kind: str) -> float:
+def in_si(value: str, kind: str, place: str = "") -> float:
     """Read what somebody wrote as a quantity of one kind straight into SI, as `si` gives it.
 
     Raises
     ------
     InputError
-        As `quantity` raises it.
+        As `quantity` raises it, with the place it was written at where that is given.
 
     Examples
     --------
     >>> in_si("1200 mm", "length"), in_si("20 degC", "temperature")
     (1.2, 293.15)
     """
-    return si(quantity(value, kind))
+    try:
+        return si(quantity(value, kind))
+    except InputError as error:
+        if not place:
+            raise
+        raise InputError("{}: {}", place, error) from None
 
 
 def si_with_unit(value: Quantity) -> tuple[float, str]:

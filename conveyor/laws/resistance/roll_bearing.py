@@ -11,7 +11,7 @@ import math
 import warnings
 from typing import Final
 
-from conveyor.errors import Amount, InputError, ValidityWarning
+from conveyor.errors import Amount, ValidityWarning
 from conveyor.laws.resistance.defaults import Default
 from conveyor.require import require, require_not_negative, require_positive
 
@@ -98,11 +98,8 @@ def oil_viscosity(
     require(falls, "second_viscosity", second_viscosity, "the hotter of the two must be the thinner")
     turn, slope = walther(first_temperature, first_viscosity, second_temperature, second_viscosity)
     log_z = math.exp(turn - slope * math.log(temperature))
-    if not log_z < math.log10(1e9):
-        raise InputError(
-            "temperature = {} is not allowed: the oil is solid there, give hotter ones",
-            Amount(temperature, "temperature", f"{temperature!r}"),
-        )
+    cold = Amount(temperature, "temperature", f"{temperature!r}")
+    require(log_z < math.log10(1e9), "temperature", cold, "the oil is solid there, give hotter ones")
     viscosity: float = 10.0**log_z - WALTHER_OFFSET
     if viscosity < WALTHER_LEAST:
         warnings.warn(

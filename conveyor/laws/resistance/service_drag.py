@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from conveyor.errors import Amount, InputError
+from conveyor.errors import Amount, ConveyorError
 from conveyor.laws.resistance.defaults import Default
 from conveyor.laws.resistance.rim_drag import bearing_roll_drag, roll_rotation
 from conveyor.laws.resistance.roll_bearing import (
@@ -137,12 +137,12 @@ def usual_bearing(roll_diameter: float) -> Bearing:
     ('6205', '6305', '6308')
     """
     smallest = USUAL_BEARINGS[0][1].outside
-    if not smallest < roll_diameter < math.inf:
-        raise InputError(
-            "roll_diameter = {} is not allowed: more than {} is needed; give the roll's drag",
-            Amount(roll_diameter, "thickness", f"{roll_diameter!r}"),
-            Amount(smallest, "thickness", f"{smallest:g} m"),
-        )
+    diameter, least = (
+        Amount(roll_diameter, "thickness", f"{roll_diameter!r}"),
+        Amount(smallest, "thickness", f"{smallest:g} m"),
+    )
+    allowed = ConveyorError("more than {} is needed; give the roll's drag", least)
+    require(smallest < roll_diameter < math.inf, "roll_diameter", diameter, allowed)
     return next(bearing for largest, bearing in USUAL_BEARINGS if roll_diameter <= largest)
 
 
