@@ -210,6 +210,21 @@ class Analysis(CalculatedConveyor):
 
         return write(self.contents(studies, system=system), Path(path))
 
+    @checked
+    def to_pdf(
+        self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
+    ) -> Path:
+        """Write the HTML report as it prints; as `to_html`, to a name ending in ``.pdf``.
+
+        Raises
+        ------
+        InputError
+            As `to_html`, or the package typst is not installed.
+        """
+        from conveyor.report.pdf import write
+
+        return write(self.contents(studies, system=system), Path(path))
+
     @property
     def plots(self) -> AnalysisPlots:
         """Figures: resistances, tensions, flap, profile, pressure, rubber, power over temperature and speed."""

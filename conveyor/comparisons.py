@@ -71,6 +71,12 @@ class Comparison(compound_study.CalculatedComparison):
 
         return write(self.contents(system), Path(path))
 
+    def to_pdf(self, path: str | Path, *, system: System | None = None) -> Path:
+        """Write the HTML report as it prints; as `Analysis.to_pdf`."""
+        from conveyor.report.pdf import write
+
+        return write(self.contents(system), Path(path))
+
     @property
     def plots(self) -> ComparisonPlots:
         """Figures: power over temperature and speed, loss tangents."""

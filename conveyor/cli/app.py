@@ -117,6 +117,7 @@ Workbook = Annotated[Path | None, option("Write the workbook (.xlsx).", "FILE", 
 WebPage = Annotated[
     Path | None, option("Write the report as one page (.html); it prints well.", "FILE", "--html")
 ]
+Printed = Annotated[Path | None, option("Write that page as it prints (.pdf).", "FILE", "--pdf")]
 TablesFolder = Annotated[
     Path | None, option("Write every table to a file of its own in it.", "FOLDER", "--tables")
 ]

@@ -8,6 +8,7 @@ from typing import Annotated
 
 from conveyor.cli.app import (
     AsParquet,
+    Printed,
     Spec,
     TablesFolder,
     WebPage,
@@ -66,6 +67,7 @@ def compare(
     ] = None,
     output: Workbook = None,
     html: WebPage = None,
+    pdf: Printed = None,
     tables: TablesFolder = None,
     parquet: AsParquet = False,
     csv: Annotated[Path | None, option("Write every scene to this file (.csv).", "FILE")] = None,
@@ -83,7 +85,7 @@ def compare(
     """Compare rubber compounds on a conveyor: power, energy, cost and payback over temperature and speed."""
     begin(None, workers)
     to = session.outputs(spec, *compounds)
-    to.reports(output, html, tables, parquet=parquet)
+    to.reports(output, html, tables, parquet=parquet, pdf=pdf)
     to.file("--csv", csv, ".csv")
     for name, path in (("--plot", plot), ("--speed-plot", speed_plot), ("--tan-delta", tan_delta)):
         to.file(name, path, *FIGURE)

@@ -7,7 +7,7 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from conveyor.cli.app import Spec, option
+from conveyor.cli.app import Printed, Spec, option
 from conveyor.cli.outputs import FIGURE, PAGE, Outputs
 from conveyor.cli.session import Session, command
 from conveyor.cli.workers import executor_of
@@ -54,6 +54,7 @@ def dynamics(
             "--output",
         ),
     ] = None,
+    pdf: Printed = None,
     error: Annotated[float, option("Error of the highest and lowest tension asked for.", "SHARE")] = 0.01,
     size: Annotated[
         Sought | None, option("Find the least of it with which each scenario keeps every criterion.")
@@ -64,6 +65,7 @@ def dynamics(
     to = session.outputs(spec)
     for path in output or ():
         to.file("--output", path, ".xlsx", *PAGE, *FIGURE)
+    to.reports(pdf=pdf)
     from conveyor.dynamics.follow import follow
     from conveyor.report.dynamics_tables import of_dynamics, plain
 
@@ -83,6 +85,7 @@ def dynamics(
     contents = of_dynamics(followed, system)
     for path in output or ():
         _write(followed, contents, path, to)
+    to.write(contents)
     from conveyor.cli.terminal import show_dynamics
 
     session.answer(lambda: plain(followed), to, lambda: show_dynamics(contents))

@@ -6,7 +6,7 @@ An output that is also an input is always refused; an older file that is no such
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from conveyor.cli.app import Progress
+    from conveyor.markup import Html
     from conveyor.report.columns import Contents
 
 PAGE = (".html", ".htm")
@@ -96,14 +97,28 @@ class Outputs:
         tables: Path | None = None,
         *,
         parquet: bool = False,
+        pdf: Path | None = None,
     ) -> None:
         """Refuse the files of a report as `file` and `tables` do; `write` makes them."""
         self.file("--output", output, ".xlsx")
-        self.file("--html", html, *PAGE)
+        paged = self.pages(html, pdf)
         self.tables(tables, parquet=parquet)
-        self._reports += [partial(self.report, path=path) for path in (output, html) if path is not None]
+        if output is not None:
+            self._reports.append(partial(self.report, path=output))
+        if paged:
+            self._reports.append(partial(self._paged, paths=paged))
         if tables is not None:
             self._reports.append(partial(self.tabled, folder=tables, parquet=parquet))
+
+    def pages(self, html: Path | None, pdf: Path | None) -> list[Path]:
+        """Refuse the files of a page as `file` does, and PDF without the package that sets it; the files asked for."""
+        self.file("--html", html, *PAGE)
+        self.file("--pdf", pdf, ".pdf", kind=marks.PAGE)
+        if pdf is not None:
+            from conveyor.report.pdf import require
+
+            require()
+        return [path for path in (html, pdf) if path is not None]
 
     def write(self, contents: Contents, told: Progress | None = None) -> None:
         """Make the files of a report that were asked for."""
@@ -119,9 +134,23 @@ class Outputs:
 
             self.add("workbook", path, excel.files(contents, path))
         else:
-            from conveyor.report import html
+            self._paged(contents, [path])
 
-            self.add("page", path, {path: html.build(contents).encode()})
+    def _paged(self, contents: Contents, paths: Iterable[Path]) -> None:
+        """Make the page of a report, in every file asked for."""
+        from conveyor.report import html
+
+        self.page(html.build(contents), paths)
+
+    def page(self, page: Html, paths: Iterable[Path]) -> None:
+        """Make the files of a page: itself, or what is printed of it, as their names end."""
+        for path in paths:
+            if path.suffix.lower() == ".pdf":
+                from conveyor.report import pdf
+
+                self.add("PDF", path, {path: pdf.printed(page)})
+            else:
+                self.add("page", path, {path: page.encode()})
 
     def tabled(self, contents: Contents, folder: Path, *, parquet: bool) -> None:
         """Make a file of every table of a report."""

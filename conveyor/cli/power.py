@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from conveyor.cli.app import AsParquet, ImageKind, Spec, TablesFolder, WebPage, Workbook, option
+from conveyor.cli.app import AsParquet, ImageKind, Printed, Spec, TablesFolder, WebPage, Workbook, option
 from conveyor.cli.session import Session, command
 
 
@@ -25,6 +25,7 @@ def power(
     spec: Spec,
     output: Workbook = None,
     html: WebPage = None,
+    pdf: Printed = None,
     tables: TablesFolder = None,
     parquet: AsParquet = False,
     plots: Annotated[Path | None, option("Draw every figure into it.", "FOLDER", "--plots")] = None,
@@ -32,7 +33,7 @@ def power(
 ) -> None:
     """Power, forces and tensions of a conveyor, with the load cases, the year and the ranges its spec has."""
     to = session.outputs(spec)
-    to.reports(output, html, tables, parquet=parquet)
+    to.reports(output, html, tables, parquet=parquet, pdf=pdf)
     to.folder("--plots", plots)
     import conveyor
     from conveyor import spec as spec_file

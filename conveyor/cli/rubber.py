@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from conveyor.cli.app import (
     Force,
+    Printed,
     Quiet,
     Shelves,
     app,
@@ -22,7 +23,7 @@ from conveyor.cli.app import (
     say,
     si_of,
 )
-from conveyor.cli.outputs import FIGURE, PAGE, SPEC, Outputs
+from conveyor.cli.outputs import FIGURE, SPEC, Outputs
 from conveyor.errors import InputError
 from conveyor.files import marks
 from conveyor.printable import printable
@@ -125,6 +126,7 @@ def fit(
     html: Annotated[
         Path | None, option("Write the page to sign: verdict, figures, glossary (.html).", "FILE")
     ] = None,
+    pdf: Printed = None,
     document: Annotated[
         list[str] | None,
         option(
@@ -153,7 +155,7 @@ def fit(
         to.file("--output", path, *SPEC, ".xlsx", kind=None if path in books else marks.COMPOUND)
     to.file("--plot", plot, *FIGURE)
     to.file("--write-shift", write_shift, ".csv")
-    to.file("--html", html, *PAGE)
+    paged = to.pages(html, pdf)
     said = dict(_said(words) for words in document or ())
     for path in export or ():
         to.file("--export", path, *EXPORTED)
@@ -195,8 +197,8 @@ def fit(
     if write_shift is not None:
         to.add("shift factors", write_shift, {write_shift: summary.shift_table(fitted).encode()})
     _exported(fitted.compound, export, to)
-    if books or html is not None or spec is not None:
-        lines += _judged(fitted, spec, said, [*books, *([] if html is None else [html])], to)
+    if books or paged or spec is not None:
+        lines += _judged(fitted, spec, said, (books, paged), to)
     lines += to.save()
     lines += [
         f'name it by its path in specs and --compound, or "{path.stem}" with --shelf {path.parent}'
@@ -218,7 +220,11 @@ def _said(words: str) -> tuple[str, str]:
 
 
 def _judged(
-    rubber: Fitted | Tabulated, spec: Path | None, said: Mapping[str, str], paths: Sequence[Path], to: Outputs
+    rubber: Fitted | Tabulated,
+    spec: Path | None,
+    said: Mapping[str, str],
+    asked: tuple[list[Path], list[Path]],
+    to: Outputs,
 ) -> list[str]:
     """Lines of the verdict; add the page to sign and the workbook."""
     from conveyor.fitting import page, tables, verdict
@@ -226,13 +232,13 @@ def _judged(
     from conveyor.spec import load
 
     if isinstance(rubber, Tabulated):
-        raise InputError("--html, --spec, -o .xlsx: a Prony table has no measurement to judge")
+        raise InputError("--html, --pdf, --spec, -o .xlsx: a Prony table has no measurement to judge")
     criteria = verdict.verdict(rubber, None if spec is None else load(spec))
-    for path in paths:
-        if path.suffix.lower() == ".xlsx":
-            to.report(tables.of_fit(rubber, criteria, said), path)
-        else:
-            to.add("page", path, {path: page.build(rubber, criteria, said).encode()})
+    books, paged = asked
+    for path in books:
+        to.report(tables.of_fit(rubber, criteria, said), path)
+    if paged:
+        to.page(page.build(rubber, criteria, said), paged)
     return ["verdict", *(f"  {one.verdict:>11}  {one.line}" for one in criteria)]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from conveyor.cli.app import AsParquet, TablesFolder, argument, option
+from conveyor.cli.app import AsParquet, Printed, TablesFolder, argument, option
 from conveyor.cli.outputs import FIGURE, PAGE, SPEC, Outputs
 from conveyor.cli.session import Session, command
 
@@ -40,6 +40,7 @@ def size(
             "--output",
         ),
     ] = None,
+    pdf: Printed = None,
     tables: TablesFolder = None,
     parquet: AsParquet = False,
 ) -> None:
@@ -53,7 +54,7 @@ def size(
     for path, ending in asked:
         for each in _ranked(path, best) if ending in SPEC else [path]:
             to.file("--output", each, ".xlsx", *PAGE, *FIGURE, *SPEC)
-    to.reports(tables=tables, parquet=parquet)
+    to.reports(tables=tables, parquet=parquet, pdf=pdf)
     from conveyor import sizing
     from conveyor.report.sizing_tables import of_sizing, plain
     from conveyor.study_file import read_duty
@@ -61,7 +62,12 @@ def size(
     read = read_duty(duty, shelves=session.shelf or ())
     with session.progress("designs") as told:
         designs = sizing.size(read, best=best, progress=told)
-    pictured = session.as_json or tables is not None or any(ending not in SPEC for _, ending in asked)
+    pictured = (
+        session.as_json
+        or tables is not None
+        or pdf is not None
+        or any(ending not in SPEC for _, ending in asked)
+    )
     contents = of_sizing(designs, session.system(read), vary=pictured)
     for path, ending in asked:
         _write(designs, contents, path, ending, to)

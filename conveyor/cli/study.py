@@ -10,7 +10,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated
 
-from conveyor.cli.app import WebPage, argument, option, say
+from conveyor.cli.app import Printed, WebPage, argument, option, say
 from conveyor.cli.outputs import Outputs
 from conveyor.cli.session import Session, command
 from conveyor.cli.workers import Scheduler, Workers, begin, executor_of
@@ -53,6 +53,7 @@ def study(
     ],
     designs: Annotated[Path | None, option("Write the designs (.csv, .parquet).", "FILE")] = None,
     html: WebPage = None,
+    pdf: Printed = None,
     plots: Annotated[Path | None, option("Draw every figure into it (.png).", "FOLDER", "--plots")] = None,
     specs: Annotated[Path | None, option("Write the best ten designs into it as specs.", "FOLDER")] = None,
     workers: Workers = 1,
@@ -80,7 +81,7 @@ def study(
     to.folder("--output", output if parted else None)
     _asked(to, "--output", None if parted else output)
     _asked(to, "--designs", designs)
-    to.reports(html=html)
+    to.reports(html=html, pdf=pdf)
     to.folder("--plots", plots)
     to.folder("--specs", specs)
     begun = perf_counter()

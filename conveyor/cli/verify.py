@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from conveyor.cli.app import WebPage, Workbook, argument, option, say, values
+from conveyor.cli.app import Printed, WebPage, Workbook, argument, option, say, values
 from conveyor.cli.session import Session, command
 from conveyor.errors import InputError
 
@@ -56,12 +56,13 @@ def verify_sheet(
     ] = False,
     output: Workbook = None,
     html: WebPage = None,
+    pdf: Printed = None,
 ) -> None:
     """Write the calculated rolling resistance of compounds beside empty columns for a maker's tests."""
     to = session.outputs(spec, *compounds)
-    to.reports(output, html)
-    if output is None and html is None and not session.as_json:
-        raise InputError("verify-sheet: give -o SHEET.xlsx, --html SHEET.html or --json")
+    to.reports(output, html, pdf=pdf)
+    if output is None and html is None and pdf is None and not session.as_json:
+        raise InputError("verify-sheet: give -o SHEET.xlsx, --html SHEET.html, --pdf SHEET.pdf or --json")
     import conveyor
 
     if spec is None and session.changed:

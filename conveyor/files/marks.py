@@ -31,6 +31,7 @@ PARQUET: Final = "written by conveyor"
 
 _BOM: Final = b"\xef\xbb\xbf"
 _UNIT: Final = re.compile(r" ?\[[^\]]*\]")
+_PRINTED: Final = re.compile(rb"/Keywords ?\(conveyor ")
 _LARGEST_PROPERTIES: Final = 20_000
 _HEAD: Final = 4_000
 
@@ -76,7 +77,8 @@ def mark(content: bytes) -> str | None:
     head = content[:_HEAD]
     signs = {
         REPORT: content.startswith(b"PK") and _is_report(content),
-        PAGE: b'<meta name="generator" content="conveyor ' in head,
+        PAGE: b'<meta name="generator" content="conveyor ' in head
+        or (head.startswith(b"%PDF") and _PRINTED.search(content) is not None),
         COMPOUND: head.startswith(b"# " + FITTED.encode() + b"\n"),
         FIGURE: (head.startswith(b"\x89PNG") and b"Software\0conveyor " in head)
         or (b"<svg" in head and b"<dc:title>conveyor " in head)

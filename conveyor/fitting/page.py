@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from datetime import date
-from typing import Final
 
 from conveyor.files import marks
 from conveyor.fitting import tables
@@ -16,8 +15,6 @@ from conveyor.models.report import Paper
 from conveyor.report.page import Part, bullets, facts, page, table
 from conveyor.report.page import verdict as mark
 from conveyor.report.svg import figure, inline
-
-_LINE: Final = "flex: 1; border-top: 1px solid; padding-top: .2rem; margin-top: 2.6rem"
 
 
 def build(
@@ -63,14 +60,8 @@ def _verdict(fitted: Fitted, criteria: Sequence[Criterion]) -> Html:
     line = element("p", element("strong", "Master curve: "), mark(word), Html("&ensp; Criteria: "), counted)
     shown = table(tables.judged(criteria), "Every criterion, and what it requires")
     names = ("measured by, date", "approved by, date")
-    signed = element(
-        "div",
-        *(element("div", name, style=_LINE) for name in names),
-        style="display: flex; gap: 3rem",
-        class_="keep",
-    )
-    sheet = element("div", line, facts(tables.facts(fitted)), shown, signed, style="break-after: page")
-    return joined([sheet])
+    signed = element("div", *(element("div", name) for name in names), class_="signed keep")
+    return element("div", line, facts(tables.facts(fitted)), shown, signed, class_="sheet")
 
 
 def _tables(fitted: Fitted) -> list[Html]:
@@ -81,4 +72,4 @@ def _tables(fitted: Fitted) -> list[Html]:
 
 def _glossary() -> Html:
     said = ((element("dt", element("strong", term)), element("dd", words)) for term, words in GLOSSARY)
-    return element("dl", *(element("div", *both, class_="keep") for both in said), style="columns: 18rem")
+    return element("dl", *(element("div", *both, class_="keep") for both in said), class_="terms")

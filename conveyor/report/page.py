@@ -94,6 +94,10 @@ tbody .name { white-space: nowrap; }
 .beside { display: flex; flex-wrap: wrap; gap: 0 1.5rem; align-items: flex-start; }
 .beside > * { flex: 1 1 20rem; min-width: 0; }
 .further { visibility: hidden; }
+.sheet { break-after: page; }
+.signed { display: flex; gap: 3rem; }
+.signed > div { flex: 1; border-top: 1px solid; padding-top: .2rem; margin-top: 2.6rem; }
+.terms { columns: 18rem; }
 .stands { padding: .6rem .8rem; border-radius: .2rem; font-weight: 600; font-size: 1.05rem; }
 details { margin: .8rem 0; }
 summary { color: var(--accent); cursor: pointer; }

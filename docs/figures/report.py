@@ -27,12 +27,16 @@ def picture(source: Path, name: str, width: int, height: int | None = None) -> N
     image.quantize(COLOURS).save(FOLDER / f"report_{name}.png", optimize=True)
 
 
+def of_pdf(path: Path, name: str) -> None:
+    """Its first page."""
+    run("pdftoppm", "-r", "130", "-f", "1", "-l", "1", "-png", "-singlefile", path, path.with_suffix(""))
+    picture(path.with_suffix(".png"), name, 800)
+
+
 def of_workbook(path: Path, name: str) -> None:
     """Its first page, as LibreOffice prints it."""
-    pdf, png = path.with_suffix(".pdf"), path.with_suffix("")
     run("soffice", "--headless", "--convert-to", "pdf", "--outdir", path.parent, path)
-    run("pdftoppm", "-r", "130", "-f", "1", "-l", "1", "-png", "-singlefile", pdf, png)
-    picture(path.with_suffix(".png"), name, 800)
+    of_pdf(path.with_suffix(".pdf"), name)
 
 
 def of_page(path: Path, name: str, size: tuple[int, int], width: int, *options: str) -> None:
@@ -49,11 +53,13 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as made:
         folder = Path(made)
         book, page, compared = folder / "a.xlsx", folder / "a.html", folder / "c.xlsx"
-        run("conveyor", "power", SPECS / "overland_10km.yaml", "-o", book, "--html", page)
+        sheets = folder / "sheets.pdf"
+        run("conveyor", "power", SPECS / "overland_10km.yaml", "-o", book, "--html", page, "--pdf", sheets)
         run(
             "conveyor", "compare", SPECS / "overland.yaml", *covers, "--temperature=-20:40:20", "-o", compared
         )
         of_workbook(book, "workbook")
+        of_pdf(sheets, "pdf")
         of_workbook(compared, "comparison")
         of_page(page, "page", (1280, 1500), 800)
         of_page(page, "dark", (1280, 1000), 800, "--blink-settings=preferredColorScheme=0")

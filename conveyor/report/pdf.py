@@ -1,0 +1,307 @@
+"""The page of a report as it prints: its elements, set by Typst.
+
+A page is made of a few elements of `conveyor.report.page` alone; each has its form on paper here and in ``page.typ``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from html.parser import HTMLParser
+from importlib.util import find_spec
+from itertools import groupby
+from pathlib import Path
+from typing import Final
+
+from conveyor.errors import InputError
+from conveyor.files.saving import save, writable
+from conveyor.markup import Html
+from conveyor.report.columns import Contents
+from conveyor.report.html import build
+from conveyor.report.page import COLOURS
+
+_FORMS: Final = Path(__file__).with_name("page.typ")
+_FONT: Final = "DejaVu Sans"  # comes with matplotlib: every machine sets the same pages
+_PAPERS: Final = {"A4": "a4", "Letter": "us-letter"}
+_PAPER: Final = re.compile(r"@page { size: (\w+); }")
+_DRAWING: Final = re.compile(r"<svg\b.*?</svg>", re.DOTALL)
+_SPACE: Final = "http://www.w3.org/2000/svg"
+_ROOM: Final = 521.0  # between the margins of A4 [pt]
+_SIZE, _SMALL = 6.8, 6.0  # letters of tables, and of those of many columns [pt]
+_LETTER, _GAP = 0.62, 1.8  # width of a letter over its size; letters that the room between columns takes
+_VOID: Final = frozenset({"meta", "br"})
+_NOT_PRINTED: Final = frozenset({"head", "nav", "details", "button", "footer"})
+_INKS: Final = {"pass": "good", "fail": "bad", "open": "open"}
+
+
+@dataclass(eq=False)
+class _Element:
+    """An element of a page: its tag, its classes, what is in it."""
+
+    tag: str
+    classes: frozenset[str] = frozenset()
+    content: list[_Element | str] = field(default_factory=list)
+
+    @property
+    def elements(self) -> list[_Element]:
+        """Those directly in it."""
+        return [one for one in self.content if isinstance(one, _Element)]
+
+    @property
+    def text(self) -> str:
+        """Its words."""
+        return "".join(one if isinstance(one, str) else one.text for one in self.content)
+
+    def first(self, tag: str) -> _Element:
+        """The first element of a tag in it, at whatever depth."""
+        return next(one for one in self.every() if one.tag == tag)
+
+    def every(self) -> Iterator[_Element]:
+        """All elements in it, at whatever depth, in their order."""
+        for one in self.elements:
+            yield one
+            yield from one.every()
+
+
+class _Reader(HTMLParser):
+    """Makes the elements of a page."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open = [_Element("page")]
+
+    def handle_starttag(self, tag: str, attrs: Sequence[tuple[str, str | None]]) -> None:
+        made = _Element(tag, frozenset((dict(attrs).get("class") or "").split()))
+        self.open[-1].content.append(made)
+        if tag not in _VOID:
+            self.open.append(made)
+
+    def handle_endtag(self, tag: str) -> None:
+        if self.open.pop().tag != tag:
+            raise ValueError(
+                f"an element is closed as {tag} that was not opened as one"
+            )  # a page of ours has none
+
+    def handle_data(self, data: str) -> None:
+        self.open[-1].content.append(data)
+
+
+def write(contents: Contents, path: Path) -> Path:
+    """Write the page of a report as PDF: under a temporary name beside it first, then renamed.
+
+    Parameters
+    ----------
+    contents : Contents
+        Its tables and drawings, in their unit system.
+    path : Path
+        Name of the file, ending in ``.pdf``; an older file there is replaced.
+
+    Returns
+    -------
+    Path
+        The path given.
+
+    Raises
+    ------
+    InputError
+        The path does not end in .pdf or cannot be written, or the package typst is not installed.
+    """
+    if path.suffix.lower() != ".pdf":
+        raise InputError(f'{path}: a PDF\'s name ends in .pdf, got "{path.suffix}"')
+    require()
+    writable(path)
+    save({path: printed(build(contents))})
+    return path
+
+
+def require() -> None:
+    """Refuse where the package that sets the pages is not installed.
+
+    Raises
+    ------
+    InputError
+        It is not.
+    """
+    if find_spec("typst") is None:
+        raise InputError(
+            'PDF needs the package typst (pip install "conveyor[pdf]"); without it: print the page (.html)'
+        )
+
+
+def printed(page: Html) -> bytes:
+    """Return a page of `conveyor.report.page` as PDF; the same page gives the same bytes.
+
+    Raises
+    ------
+    InputError
+        The package typst is not installed.
+    """
+    require()
+    import matplotlib as mpl
+    import typst
+
+    fonts = Path(mpl.get_data_path()) / "fonts" / "ttf"
+    known = typst.Fonts(include_system_fonts=False, font_paths=[fonts])
+    return typst.compile(source(page).encode(), format="pdf", font_paths=known)
+
+
+def source(page: Html) -> str:
+    """Return a page as Typst source."""
+    drawings: list[str] = []
+
+    def apart(found: re.Match[str]) -> str:
+        drawings.append(found[0])
+        return f'<svg class="{len(drawings) - 1}"></svg>'
+
+    reader = _Reader()
+    reader.feed(_DRAWING.sub(apart, page))
+    whole, paper = reader.open[0], _PAPER.search(page)
+    said = {"title": whole.first("h1"), "kind": whole.first("p"), "foot": whole.first("footer")}
+    given = [
+        *(f'#let {name} = rgb("{value}")' for name, value in COLOURS.items()),
+        *(f"#let page-{name} = {_string(element.text)}" for name, element in said.items()),
+        f'#set page(paper: "{_PAPERS[paper[1] if paper else "A4"]}")',
+        f'#set text(font: "{_FONT}")',
+    ]
+    return "\n".join([*given, _FORMS.read_text("utf-8"), _Setter(drawings).flow(whole)])
+
+
+class _Setter:
+    """Sets elements; `drawings` are those that were taken out of the page."""
+
+    def __init__(self, drawings: Sequence[str]) -> None:
+        self.drawings = drawings
+        self.by_tag: Mapping[str, Callable[[_Element], str]] = {
+            **{f"h{level}": partial(self.heading, level) for level in (1, 2, 3)},
+            "p": self.paragraph,
+            "li": lambda item: f"\n- {self.flow(item)}\n",
+            "br": lambda _: " \\ ",
+            "strong": lambda words: f"#strong[{self.flow(words)}]",
+            "span": self.span,
+            "dl": self.named,
+            "div": self.division,
+            "figure": self.figure,
+        }
+
+    def flow(self, element: _Element) -> str:
+        """What an element holds, one after the other; figures in a row side by side."""
+        parts: list[str] = []
+        for figures, group in groupby(filter(_prints, element.content), _is_figure):
+            made = map(self.one, list(group))
+            parts += [f"\n#drawings({', '.join(made)},)\n"] if figures else made
+        return "".join(parts)
+
+    def one(self, part: _Element | str) -> str:
+        """An element, or words."""
+        if isinstance(part, str):
+            return f"#{_string(part)}" if part.strip() else " "
+        return self.by_tag.get(part.tag, self.flow)(part)
+
+    def heading(self, level: int, element: _Element) -> str:
+        """A heading, a bookmark of the file, too."""
+        return f"\n#heading(level: {level})[{self.flow(element)}]\n"
+
+    def paragraph(self, element: _Element) -> str:
+        """A paragraph, a note, or the verdict on the whole."""
+        form = "stands" if "stands" in element.classes else "muted-text" if element.classes else ""
+        words = self.flow(element)
+        return f"\n#{form}{_inked(element)}[{words}]\n\n" if form else f"\n{words}\n\n"
+
+    def span(self, element: _Element) -> str:
+        """Words in a line: the verdict of a check, or a unit, which is not broken."""
+        form = "verdict" if "verdict" in element.classes else "box" if "unit" in element.classes else ""
+        words = self.flow(element)
+        return f"#{form}{_inked(element)}[{words}]" if form else words
+
+    def named(self, element: _Element) -> str:
+        """Names and what they are: key figures, facts, or terms."""
+        kind = next((kind for kind in ("tiles", "facts") if kind in element.classes), "terms")
+        pairs = ((self.flow(one) for one in pair.elements) for pair in element.elements)
+        return f"\n#{kind}({', '.join(f'([{name}], [{words}])' for name, words in pairs)},)\n"
+
+    def division(self, element: _Element) -> str:
+        """A table, parts side by side, lines to sign on, a sheet of its own, or what it holds."""
+        if any(one.tag == "table" for one in element.elements):
+            return self.table(element.first("table"), element.classes)
+        side_by_side = next((kind for kind in ("beside", "signed") if kind in element.classes), None)
+        if side_by_side:
+            return f"\n#{side_by_side}({', '.join(f'[{self.one(part)}]' for part in element.elements)})\n"
+        return self.flow(element) + ("\n#pagebreak(weak: true)\n" if "sheet" in element.classes else "")
+
+    def table(self, element: _Element, kinds: frozenset[str]) -> str:
+        """A table below its caption; its heads stand on every page."""
+        caption, head, *parts = element.elements
+        (heads,) = head.elements
+        rows = [(row, part.tag == "tfoot") for part in parts for row in part.elements]
+        size, columns = _laid([heads, *(row for row, _ in rows)], wide="wide" in kinds)
+        name = f"{'hide' if 'further' in caption.classes else 'muted-text'}[{self.flow(caption)}]"
+        cells = [f"table.header({self.cells(heads)})", *(self.cells(row, strong=foot) for row, foot in rows)]
+        given = ",\n".join([str("keep" in kinds).lower(), f"{size:.2f}pt", columns, name, *cells])
+        return f"\n#captioned({given})\n"
+
+    def cells(self, row: _Element, *, strong: bool = False) -> str:
+        """Those of a row; numbers stand to the right."""
+        made = []
+        for cell in row.elements:
+            how = ["align: right"] * bool(cell.classes & {"n", "v"})
+            how += ["fill: open-pale"] * ("asked" in cell.classes)
+            words = f"#strong[{self.flow(cell)}]" if strong else self.flow(cell)
+            made.append(f"table.cell({', '.join(how)})[{words}]" if how else f"[{words}]")
+        return ", ".join(made)
+
+    def figure(self, element: _Element) -> str:
+        """A drawing and its caption."""
+        svg = self.drawings[int(next(iter(element.first("svg").classes)))].replace("sans-serif", _FONT)
+        if "xmlns=" not in svg[: svg.index(">")]:
+            svg = svg.replace("<svg", f'<svg xmlns="{_SPACE}"', 1)
+        return f"({_string(svg)}, [{self.flow(element.first('figcaption'))}])"
+
+
+def _laid(rows: Sequence[_Element], *, wide: bool) -> tuple[float, str]:
+    """Letter size [pt] and widths of the columns of a table: as wide as their words where all fit side by side.
+
+    Else each is as wide as its longest word, or name or number, and what is left goes to those that have more; smaller
+    letters where even the longest words do not fit.
+    """
+    size = _SMALL if wide else _SIZE
+    room = _ROOM / (size * _LETTER)
+    whole, least = [], []
+    for cells in zip(*(row.elements for row in rows), strict=True):
+        texts = [(cell.text, bool(cell.classes & {"n", "name"}) and k > 0) for k, cell in enumerate(cells)]
+        whole.append(max(len(text) for text, _ in texts) + _GAP)
+        least.append(
+            max(len(text) if kept else max(map(len, text.split()), default=0) for text, kept in texts) + _GAP
+        )
+    if sum(whole) <= room:
+        return size, str(len(whole))
+    spare = max(0.0, room - sum(least)) / sum(most - few for most, few in zip(whole, least, strict=True))
+    widths = (few + spare * (most - few) for most, few in zip(whole, least, strict=True))
+    return size * min(1.0, room / sum(least)), f"({', '.join(f'{width:.1f}fr' for width in widths)})"
+
+
+def _prints(part: _Element | str) -> bool:
+    return isinstance(part, str) or not (part.tag in _NOT_PRINTED or "unprinted" in part.classes)
+
+
+def _is_figure(part: _Element | str) -> bool:
+    return isinstance(part, _Element) and part.tag == "figure"
+
+
+def _inked(element: _Element) -> str:
+    """Colours of a verdict, in brackets; nothing of other words."""
+    ink = next((ink for kind, ink in _INKS.items() if kind in element.classes), None)
+    return "" if ink is None else f"({ink}, {ink}-pale)"
+
+
+def _string(text: str) -> str:
+    r"""Return text as Typst quotes it, so that nothing of it is markup.
+
+    Examples
+    --------
+    >>> print(_string('a "b" #c' + "\\"))
+    "a \"b\" #c\\"
+    """
+    quoted = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
+    return f'"{quoted}"'

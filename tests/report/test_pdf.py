@@ -1,0 +1,199 @@
+"""The page as PDF: every word that prints is in it, on the paper asked for, whatever the words are."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from html.parser import HTMLParser
+from importlib import util
+from io import BytesIO
+from pathlib import Path
+
+import pypdf
+import pytest
+
+import conveyor
+from conveyor.analysis import studies
+from conveyor.errors import InputError
+from conveyor.files import marks
+from conveyor.markup import Html
+from conveyor.report import html, page, pdf
+from conveyor.report.columns import Column, Table
+from tests.command_line import run
+from tests.report.reading import HOSTILE, VOID
+
+EXAMPLES = Path(__file__).parent.parent.parent / "examples"
+SPECS = EXAMPLES / "specs"
+NOT_PRINTED = {"head", "nav", "details", "button", "footer", "svg"}
+
+
+class Printed(HTMLParser):
+    """Words of a page that a browser prints, cell by cell."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.hidden, self.open, self.words = 0, [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        if tag not in VOID:
+            self.open.append(
+                tag in NOT_PRINTED or (dict(attrs).get("class") or "") in {"unprinted", "further"}
+            )
+            self.hidden += self.open[-1]
+
+    def handle_endtag(self, _):
+        self.hidden -= self.open.pop()
+
+    def handle_data(self, data):
+        if not self.hidden and data.strip():
+            self.words.append(data)
+
+
+def bare(text):
+    return re.sub(r"\s", "", text)
+
+
+def read(content):
+    return pypdf.PdfReader(BytesIO(content))
+
+
+def text_of(content):
+    return bare("".join(one.extract_text() for one in read(content).pages))
+
+
+@pytest.fixture(scope="module")
+def report():
+    line = conveyor.load(EXAMPLES / "specs" / "in_plant_us.yaml")
+    return conveyor.analyse(line), studies(line)
+
+
+@pytest.fixture(scope="module")
+def built(report):
+    analysis, asked = report
+    return html.build(analysis.contents(asked))
+
+
+def test_every_word_that_prints_is_in_it_and_nothing_less_often(built):
+    words = Counter(map(bare, Printed(built).words))
+    found = text_of(pdf.printed(built))
+    assert sum(words.values()) > 500
+    assert {word: n for word, n in words.items() if found.count(word) < n} == {}
+
+
+def test_what_is_not_printed_is_not_in_it(built):
+    hidden = re.findall(r"<summary>(.*?)</summary>", built)
+    assert hidden
+    text = text_of(pdf.printed(built))
+    assert [words for words in hidden if bare(words) in text] == []
+
+
+@pytest.mark.parametrize(("paper", "size"), [("A4", (595.28, 841.89)), ("Letter", (612.0, 792.0))])
+def test_paper_title_and_bookmarks_are_those_of_the_page(paper, size):
+    parts = [page.Part("x", "Forces", page.bullets(["one"]))]
+    made = read(pdf.printed(page.page("Ore 1", "a report", Html(""), parts, "foot", paper=paper)))
+    (sheet,) = made.pages
+    assert (float(sheet.mediabox.width), float(sheet.mediabox.height)) == pytest.approx(size, abs=0.01)
+    assert made.metadata is not None
+    assert made.metadata.title == "Ore 1"
+    assert [one["/Title"] for one in made.outline[1]] == ["Forces"]
+
+
+def test_a_table_has_its_heads_on_every_page():
+    column = Column("force of a name that is found nowhere else", "force", float)
+    shown = page.table(Table("t", "", "", (column,), range(200)), "Forces")
+    made = read(pdf.printed(page.page("Ore 1", "r", Html(""), [page.Part("x", "Forces", shown)], "foot")))
+    assert len(made.pages) > 2
+    assert all(bare(column.label) in bare(sheet.extract_text()) for sheet in made.pages)
+
+
+def test_words_of_a_wide_table_are_whole():
+    words = "extraordinarily"
+    columns = tuple(
+        Column(f"{words} {k}", "text", lambda _, k=k: f"{words} {words}{k}" if k % 2 else "x")
+        for k in range(12)
+    )
+    shown = page.table(Table("t", "", "", columns, range(3)), "Wide")
+    made = read(pdf.printed(page.page("Ore 1", "r", Html(""), [page.Part("x", "Wide", shown)], "foot")))
+    text = made.pages[0].extract_text().split()
+    assert text.count(words) == 12 + 3 * 6
+    assert sum(f"{words}{k}" in text for k in range(1, 12, 2)) == 6
+
+
+@pytest.mark.parametrize(
+    "words", [HOSTILE, '#panic("x") [a] *b* _c_ `d` $e$ <f> @g \\ // /* "', "Ωμ °C ≥ δ ✓ – é ß ж"]
+)
+def test_words_are_not_markup(words):
+    parts = [page.Part("p", words, page.bullets([words]))]
+    made = page.page(words, words, page.facts([(words, words)]), parts, words)
+    (as_printed,) = Printed(page.bullets([words])).words
+    assert (
+        text_of(pdf.printed(made)).count(bare(as_printed)) == 7
+    )  # kind, title, fact twice, heading, line, foot
+
+
+def test_the_same_page_gives_the_same_bytes_and_is_known_again(built):
+    made = pdf.printed(built)
+    assert made == pdf.printed(built)
+    assert marks.mark(made) == marks.PAGE
+
+
+def test_a_page_with_an_element_that_is_not_closed_is_a_fault_of_ours(built):
+    with pytest.raises(ValueError, match="closed as"):
+        pdf.source(Html(str(built).replace("</p>", "", 1)))
+
+
+def test_it_is_refused_before_anything_is_written(report, tmp_path, monkeypatch):
+    analysis, _ = report
+    with pytest.raises(InputError, match=r'a\.html: a PDF\'s name ends in \.pdf, got "\.html"'):
+        analysis.to_pdf(tmp_path / "a.html")
+    with pytest.raises(InputError, match="its folder does not exist"):
+        analysis.to_pdf(tmp_path / "none" / "a.pdf")
+    monkeypatch.setattr(pdf, "find_spec", lambda name: None if name == "typst" else util.find_spec(name))
+    with pytest.raises(InputError, match=r'PDF needs the package typst \(pip install "conveyor\[pdf\]"\)'):
+        analysis.to_pdf(tmp_path / "a.pdf")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_results_write_it(report, tmp_path):
+    analysis, asked = report
+    assert analysis.to_pdf(tmp_path / "a.pdf", asked, system="SI") == tmp_path / "a.pdf"
+    (tmp_path / "a.pdf").read_bytes()
+    assert float(read((tmp_path / "a.pdf").read_bytes()).pages[0].mediabox.width) == pytest.approx(
+        595.28, abs=0.01
+    )
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        ("power", SPECS / "shuttle.yaml", "--html", "a.html"),
+        ("compare", SPECS / "in_plant_us.yaml", "-c", "standard-cover", "-c", "s100", "--html", "a.html"),
+        ("verify-sheet", "standard-cover", "--load", "1:3:1 N/mm", "--roll", "159 mm", "--html", "a.html"),
+        ("fit", EXAMPLES / "laboratory" / "isotherms.csv", "--at", "20 degC", "--html", "a.html"),
+        ("dynamics", SPECS / "in_plant_us.yaml", "-s", "start empty", "--error", "0.2", "-o", "a.html"),
+        ("size", EXAMPLES / "duties" / "in_plant.yaml", "-n", "1", "-o", "a.html"),
+    ],
+)
+def test_commands_write_the_page_they_write_as_html(asked, tmp_path):
+    done = run(*asked, "--pdf", "a.pdf", "--force", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "PDF: a.pdf" in done.stdout
+    words = Counter(map(bare, Printed((tmp_path / "a.html").read_text(encoding="utf-8")).words))
+    found = text_of((tmp_path / "a.pdf").read_bytes())
+    assert {word: n for word, n in words.items() if found.count(word) < n} == {}
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("a.html", r'--pdf: a.html: its name ends in .pdf, got ".html"'),
+        ("none/a.pdf", "its folder does not exist"),
+        ("foreign.pdf", "exists and is no report page that conveyor wrote"),
+    ],
+)
+def test_the_option_is_refused_before_anything_is_calculated(name, message, tmp_path):
+    (tmp_path / "foreign.pdf").write_bytes(b"%PDF-1.7\n")
+    done = run("power", tmp_path / "not-even-there.yaml", "--pdf", name, cwd=tmp_path)
+    assert done.returncode == 2
+    assert message in done.stderr
