@@ -87,7 +87,8 @@ def load_states(study: CalculatedStates) -> Table:
         Column("governed by", "text", "balance.settled.governing", page=None),
     )
     note = (
-        "All with the take-up at its setting. Inclines only and declines only leave level sections empty. The worst "
+        "All with the take-up at its setting. Inclines only and declines only leave level sections empty; not listed "
+        "where that is the full or the empty belt. The worst "
         "loadings follow from the signs of the forces by section, at every temperature of the cases."
     )
     return Table("load_states", "Load cases", "Load states", columns, study.states, _STATES, note)

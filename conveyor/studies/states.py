@@ -50,7 +50,7 @@ class LoadState:
     worst_for : tuple of str
         Figures that no loading makes worse, as far as single sections go, at no temperature of the cases.
     keys : tuple of str
-        For programs; a worst loading that is one of the standard states has the keys of both.
+        For programs; a loading that is several of the standard states and the worst has the keys of all.
     balance : Balance
         Forces, tensions and power, the take-up at its setting.
     """
@@ -189,6 +189,8 @@ def load_states(
 ) -> CalculatedStates:
     """Calculate empty, full, inclines only and declines only, and the worst loadings at every temperature of the cases.
 
+    A loading that is several of them is one state.
+
     Parameters
     ----------
     conveyor : Conveyor
@@ -212,12 +214,15 @@ def load_states(
     worst = _worst(adding)
     states = []
     if at in adding:
+        alike: dict[bytes, tuple[Loading, list[str]]] = {}
         for name, loading in zip(STANDARD_LOADINGS, adding[at].standard, strict=True):
+            alike.setdefault(loading.tobytes(), (loading, []))[1].append(name)
+        for loading, names in alike.values():
             figures = worst.pop((at, loading.tobytes()), (loading, ()))[1]
-            known = dict(zip(("full", "empty"), ends[at], strict=True)).get(name)
+            known = dict(zip(("full", "empty"), ends[at], strict=True)).get(names[0])
             one = adding[at].loaded(loading) if known is None else known
-            keys = (_KEYS[name], *map(worst_key, figures))
-            states.append(LoadState(name, _names(own, loading), at, figures, keys, one))
+            keys = (*map(_KEYS.__getitem__, names), *map(worst_key, figures))
+            states.append(LoadState(names[0], _names(own, loading), at, figures, keys, one))
     for (temperature, _), (loading, figures) in worst.items():
         loaded = _names(own, loading)
         one = adding[temperature].loaded(loading)
