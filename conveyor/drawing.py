@@ -15,7 +15,9 @@ from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import scaled
 from conveyor.report import analysis_plots, plots, transfer_tables
 from conveyor.report.tables import boundaries, drifts
+from conveyor.studies import CalculatedStudies
 from conveyor.studies.comparison_scenes import ComparedScene, Coverage, of_compound
+from conveyor.studies.loads import designing
 from conveyor.units import Quantity, System, quantity
 from conveyor.units.presentation import chosen
 from conveyor.units.sentences import celsius
@@ -24,7 +26,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from conveyor.pipeline import CalculatedConveyor
-    from conveyor.studies import CalculatedStudies
     from conveyor.studies.comparison import CalculatedComparison
 
 _WARMER: Final = tuple(range(-40, 41, 5))  # than the spec's belt [K]
@@ -97,8 +98,9 @@ class AnalysisPlots:
         """
         if not self.analysis.horizontal:
             raise InputError("drift: the route has no horizontal curve (route.sections[].horizontal_curve)")
-        shown = self._in(system)
-        return analysis_plots.drift(drifts(self.analysis, studies, shown), system=shown)
+        shown, held = self._in(system), CalculatedStudies() if studies is None else studies
+        loads = designing(self.analysis, held.states, held.cases)
+        return analysis_plots.drift(drifts(loads, shown), system=shown)
 
     def pressure(self, *, system: System | None = None) -> Figure:
         """Contact pressure under the highest line load of each strand."""

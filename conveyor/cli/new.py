@@ -61,11 +61,12 @@ def new(
     from conveyor.starter import EXAMPLES, example, quoted, written
 
     if kind.value in EXAMPLES:
+        files, command = example(kind.value, spec), EXAMPLES[kind.value].command
         if units is not Units.SI:
             raise InputError(
-                f"--units {units.value}: the example of --kind {kind.value} is in SI; leave the units out"
+                f"--units {units.value}: the example of --kind {kind.value} is in SI; leave the units out, and give "
+                f"them to conveyor {command}, which then reports in them"
             )
-        files, command = example(kind.value, spec), EXAMPLES[kind.value].command
         for beside in [path for path in files if path != spec]:
             to.file("SPEC", beside, ".yaml", kind=TO_FILL_IN)
     else:

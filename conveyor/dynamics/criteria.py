@@ -156,8 +156,11 @@ def _grip(scenario: Followed) -> Iterator[Check]:
         yield compared(
             "dynamic_grip", f"grip of {quoted(drive.name)}", way, "at most", 0.0, "length", asked=said("no slip"),
             wording=said("no slip") if way == 0.0 else said("slips {}", (way, "length")),
-            why=f'the belt slips on "{quoted(drive.name)}" by {{calculated}} and heats it with {heat / 1e6:.3g} MJ; '
-            "raise the take-up's tension (--size take-up says how far), the wrap or the friction, or slow the motion",
+            why=said(
+                f'the belt slips on "{quoted(drive.name)}" by {{}} and heats it with {{}}; raise the '
+                "take-up's tension (--size take-up says how far), the wrap or the friction, or slow the motion",
+                (way, "length"), (heat, "energy"),
+            ),
         )  # fmt: skip
 
 

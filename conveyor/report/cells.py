@@ -282,10 +282,10 @@ def total(sheet: Worksheet, row: int, shown: Table, system: System, first: int =
 def print_set_up(
     sheet: Worksheet, name: str, last: int, *, paper: str = "A4", portrait: bool = False
 ) -> None:
-    """Fitted to the width of the paper, and to one page where its rows stay legible; the project's name above."""
+    """Fitted to the width of the paper, or as many as it has, one page high where legible; the project's name above."""
     sheet.page_setup.orientation = "portrait" if portrait else "landscape"
     sheet.page_setup.paperSize = sheet.PAPERSIZE_LETTER if paper == "Letter" else sheet.PAPERSIZE_A4
-    sheet.page_setup.fitToWidth = 1
+    sheet.page_setup.fitToWidth = sheet.page_setup.fitToWidth or 1
     if sheet.page_setup.fitToHeight is None:
         sheet.page_setup.fitToHeight = int(
             last <= _PAGE_ROWS[sheet.page_setup.orientation]

@@ -29,6 +29,8 @@ _CHART_SPAN: Final = 7
 """Columns that a chart takes on paper."""
 _LEAST_WIDTH: Final = 90.0
 """Width of what is printed, and of notes [characters]: captions of narrow tables are longer than they."""
+_MOST_WIDTH: Final = 270.0
+"""Width that one sheet of paper shows legibly [characters]: letters of 5 pt."""
 _GUTTER: Final = 3.0  # between tables side by side [characters]
 _NAMES: Final = 56  # characters of a name on one line
 
@@ -248,6 +250,8 @@ class Page:
         if len(printed) < len(here) or columns:
             span = self._at_least(_LEAST_WIDTH, range(1, max([*columns, 1]) + 1))
             self.sheet.print_area = f"A1:{get_column_letter(span[-1])}{max(1, last)}"
+            if self._width(span) > _MOST_WIDTH:
+                self.sheet.page_setup.fitToWidth, self.sheet.print_title_cols = 2, "A:A"
         return last
 
     def _width(self, columns: Iterable[int]) -> float:

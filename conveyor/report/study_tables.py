@@ -20,7 +20,6 @@ from conveyor.units.sentences import Said, degrees
 
 if TYPE_CHECKING:
     from conveyor.loop.take_up import TakeUpDuty
-    from conveyor.pipeline import CalculatedConveyor
     from conveyor.studies import CalculatedStudies
     from conveyor.studies.cases import CalculatedCases, Governing
     from conveyor.studies.duty import CalculatedYear
@@ -49,7 +48,7 @@ def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[
     if studies.states is not None:
         tables += [load_states(studies.states), refused_states(studies.states)]
     if studies.cases is not None:
-        tables += _of_cases(studies, studies.cases)
+        tables += _of_cases(studies, studies.cases, system)
         drawn += _case_drawings(studies.cases, system)
     if studies.duty is not None:
         tables += [year(studies.duty), duty(studies.duty)]
@@ -88,7 +87,8 @@ def load_states(study: CalculatedStates) -> Table:
         Column("governed by", "text", "balance.settled.governing", page=None),
     )
     note = (
-        "All with the take-up at its setting. Inclines only and declines only leave level sections empty. The worst "
+        "All with the take-up at its setting. Inclines only and declines only leave level sections empty; not listed "
+        "where that is the full or the empty belt. The worst "
         "loadings follow from the signs of the forces by section, at every temperature of the cases."
     )
     return Table("load_states", "Load cases", "Load states", columns, study.states, _STATES, note)
@@ -105,7 +105,7 @@ def refused_states(study: CalculatedStates) -> Table:
     return Table("refused_states", "Load cases", heading, columns, study.refused, _STATES)
 
 
-def _of_cases(studies: CalculatedStudies, study: CalculatedCases) -> Iterator[Table]:
+def _of_cases(studies: CalculatedStudies, study: CalculatedCases, system: System) -> Iterator[Table]:
     yield governing(study, studies.governing)
     every = cases(study)
     kept = tuple(column.key for column in every.columns if column.key not in _TENSIONS)
@@ -115,7 +115,7 @@ def _of_cases(studies: CalculatedStudies, study: CalculatedCases) -> Iterator[Ta
     columns = tuple(sorted(tensions.columns, key=lambda column: order.index(column.key)))
     heading = "Tensions and roll loads of the cases"
     yield replace(tensions, key="case_tensions", heading=heading, columns=columns, page=_CASES)
-    yield motors(studies)
+    yield motors(studies, system)
     yield refused(study)
 
 
@@ -165,7 +165,7 @@ def governing(study: CalculatedCases, governing: Sequence[Governing]) -> Table:
     low, high = study.friction_band
     columns = (
         Column("figure", NAMED, "label"),
-        Column("case", "text", "value.result.case.name"),
+        Column("case", "text", "value.result.name"),
         Column("value", OF_ROW, "value.value"),
         *(column.of("value.result") for column in _AT),
     )
@@ -189,11 +189,11 @@ def refused(study: CalculatedCases) -> Table:
     return Table("refused_cases", "Load cases", heading, columns, study.refused, _CASES)
 
 
-def motors(studies: CalculatedStudies) -> Table:
+def motors(studies: CalculatedStudies, system: System) -> Table:
     """One row a drive pulley: what it needs of all cases and load states, and motors of the series."""
     columns = (
         Column("drive", "text", "drive"),
-        Column("governing case", "text", "case"),
+        Column("governing case", "text", lambda row: row.case.text(system)),
         Column("required at the shaft", "power", "needed", json="needed at the shaft"),
         Column("reserve", "ratio", "reserve"),
         Column("motors", "count", "count"),
@@ -212,13 +212,6 @@ def _case_drawings(study: CalculatedCases, system: System) -> Iterator[Drawing]:
         if len({getattr(result, over) for result in study.results}) > 1:
             draw = partial(analysis_plots.case_power, study, over, system=system)
             yield Drawing(f"case-{over}", f"Motor power of the load cases over {words}.", draw, "load_cases")
-
-
-def take_up_of(a: CalculatedConveyor, studies: CalculatedStudies | None) -> tuple[TakeUpDuty, Said]:
-    """What all loads ask of the take-up, and which of them governs."""
-    return asked_of_take_up(
-        a, None if studies is None else studies.states, None if studies is None else studies.cases
-    )
 
 
 def plain_take_up(duty: TakeUpDuty, governed_by: Said) -> dict[str, Any]:
@@ -334,7 +327,7 @@ def plain(studies: CalculatedStudies) -> dict[str, Any]:
         named = {key: _plain_state(state) for state in studies.states.states for key in state.keys}
         parts["states"] = {key: named[key] for key in _STATE_KEYS if key in named}
         parts["worst_states"] = [_plain_state(state) for state in studies.states.states if state.worst_for]
-        parts["take_up"] = plain_take_up(*take_up_of(studies.states.own, studies))
+        parts["take_up"] = plain_take_up(*asked_of_take_up(studies.states.own, studies.states, studies.cases))
     study = studies.cases
     if study is not None:
         parts["load_cases"] = {
@@ -342,7 +335,7 @@ def plain(studies: CalculatedStudies) -> dict[str, Any]:
             "friction_band": list(study.friction_band),
             "cases": cases(study).records(),
             "governing": governing(study, studies.governing).records(),
-            "motors": motors(studies).records(),
+            "motors": motors(studies, "SI").records(),
             "refused": refused(study).records(),
         }
     if studies.duty is not None:

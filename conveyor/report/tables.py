@@ -56,22 +56,22 @@ from conveyor.report.columns import (
 from conveyor.report.inputs import Row, gathered
 from conveyor.report.inputs import inputs as entered
 from conveyor.report.result_schema import SCHEMA_VERSION
-from conveyor.report.study_tables import of_studies, plain_take_up, take_up_of
+from conveyor.report.study_tables import of_studies, plain_take_up
 from conveyor.report.study_tables import plain as plain_studies
 from conveyor.report.transfer_tables import drawing as of_discharge
 from conveyor.report.transfer_tables import of_transfer
-from conveyor.report.verdict import governing_figures, loads, maximum_motor_power
+from conveyor.report.verdict import governing_figures
 from conveyor.report.what_if import what_if
 from conveyor.spec import fingerprint
 from conveyor.studies import CalculatedStudies
-from conveyor.studies.cases import AS_GIVEN
+from conveyor.studies.cases import AS_GIVEN, Load
 from conveyor.studies.defaults import PowerRange, power_range
 from conveyor.studies.duty import CalculatedYear
-from conveyor.studies.loads import every_check
+from conveyor.studies.loads import asked_of_take_up, designing, every_check
 from conveyor.ties import largest
 from conveyor.units import Quantity, System
 from conveyor.units.presentation import MONEY, rating_of, strength_of, unit
-from conveyor.units.sentences import band_words, degrees, figure, plain_figure
+from conveyor.units.sentences import Said, band_words, degrees, figure, plain_figure
 
 PARTS: Final = (
     ("key-figures", "Key figures"),
@@ -128,14 +128,16 @@ def of_analysis(
     system = analysis.conveyor.report.units
     about = document(analysis.conveyor, "Belt conveyor calculation", system)
     entries, every_roll = entered(analysis.conveyor), rolls(analysis)
+    studies = CalculatedStudies() if studies is None else studies
+    loads = designing(analysis, studies.states, studies.cases)
     every = _every_check(analysis, studies, further)
     governing = deciding(every)
     studied, drawn = of_studies(studies, system)
     left_open = power_range(analysis)
-    asks = take_up_of(analysis, studies)
+    asks = asked_of_take_up(analysis, studies.states, studies.cases)
     parts = (
         identity(analysis.conveyor, system),
-        governing_figures(analysis, studies, governing, asks, left_open),
+        governing_figures(loads, studies.motors, governing, asks, left_open),
         results(analysis, left_open),
         *given(entries, system),
         defaults(left_open, system),
@@ -146,31 +148,31 @@ def of_analysis(
         cema(analysis),
         breakdown(analysis),
         distinct_rolls(analysis, every_roll),
-        idler_sets(analysis, studies),
+        idler_sets(analysis, loads),
         every_roll,
         section_ends(analysis),
         tensions(analysis),
         tension_states(analysis),
         profile(analysis),
         drives(analysis),
-        take_up(analysis, studies),
+        take_up(analysis, asks),
         conditions(analysis),
         start_stop(analysis),
         brakes(analysis),
-        drive_parts(analysis, studies),
+        drive_parts(analysis, loads),
         belt_strength_table(analysis),
         pulleys(analysis),
-        pulley_loads(analysis, studies),
-        pulley_states(analysis, studies),
-        vertical_curves(analysis, studies),
-        horizontal_curves(analysis, studies),
-        curve_edges(analysis, studies),
-        drift_states(analysis, studies),
-        transitions(analysis, studies),
+        pulley_loads(analysis, loads),
+        pulley_states(analysis, loads),
+        vertical_curves(analysis, loads),
+        horizontal_curves(loads),
+        curve_edges(analysis, loads),
+        drift_states(analysis, loads),
+        transitions(analysis, loads),
         *of_transfer(analysis),
         convergence(analysis),
         *studied,
-        what_if(analysis, studies, maximum_motor_power(analysis, studies)),
+        what_if(analysis, studies.duty, largest((load.found.motor_asked for load in loads), abs)),
         belt_support(analysis),
         contact_solutions(analysis),
         indentation(analysis),
@@ -184,15 +186,14 @@ def of_analysis(
     )
     shown = () if further is None else further.drawings
     return Contents(
-        about, parts, system, (*drawings(analysis, system, studies), *drawn, *shown), PARTS, "conveyor"
+        about, parts, system, (*drawings(analysis, system, loads), *drawn, *shown), PARTS, "conveyor"
     )
 
 
 def _every_check(
-    analysis: CalculatedConveyor, studies: CalculatedStudies | None, further: Further | None
+    analysis: CalculatedConveyor, studies: CalculatedStudies, further: Further | None
 ) -> tuple[Check, ...]:
-    states, cases = (None, None) if studies is None else (studies.states, studies.cases)
-    return every_check(analysis, states, cases, () if further is None else further.checks)
+    return every_check(analysis, studies.states, studies.cases, () if further is None else further.checks)
 
 
 def document(
@@ -536,13 +537,13 @@ def distinct_rolls(a: CalculatedConveyor, every: Table) -> Table:
     )
 
 
-def idler_sets(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+def idler_sets(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
     """Sets whose spec asks for rating, bearings or stillness: one row a strand and spacing, the worst of all cases."""
     system, alike = a.conveyor.report.units, dict[tuple[Strand, float], list[tuple[str, SetDuty]]]()
-    for label, result in loads(a, studies) if a.set_duty else ():
-        for duty in result.set_duty:
+    for load in loads:
+        for duty in load.found.set_duty:
             key = (duty.stretch.strand, duty.stretch.spacing)
-            alike.setdefault(key, []).append((label.text(system), duty))
+            alike.setdefault(key, []).append((load.label.text(system), duty))
     rows = []
     for of in alike.values():
         duties, sets = [duty for _, duty in of], [duty.stretch.sets for case, duty in of if case == of[0][0]]
@@ -710,9 +711,9 @@ def drives(a: CalculatedConveyor) -> Table:
     )
 
 
-def take_up(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+def take_up(a: CalculatedConveyor, asks: tuple[TakeUpDuty, Said]) -> Table:
     """The one take-up of all loads: setting, what asks for it, mass or pull, travel."""
-    duty, governed_by = take_up_of(a, studies)
+    duty, governed_by = asks
     mass, travel = duty.mass, duty.travel
     mean = a.balance.settled.steady.mean(a.line.loop.length)
     winch = duty.unit.kind == "winch"
@@ -838,9 +839,9 @@ def brakes(a: CalculatedConveyor) -> Table:
     return Table("brakes", "Loop", "Brakes", columns, rows, "start-stop")
 
 
-def drive_parts(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+def drive_parts(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
     """One row a drive where the spec asks for parts: gear, backstop, starts, brake, sharing; the worst of all cases."""
-    every = [result.drive_duty for _, result in loads(a, studies)] if a.drive_duty else []
+    every = [load.found.drive_duty for load in loads]
     rows = [(own, [duties[i] for duties in every]) for i, own in enumerate(a.drive_duty)]
 
     worst = partial(extreme, path="1")
@@ -917,10 +918,10 @@ def pulleys(a: CalculatedConveyor) -> Table:
     return Table("pulleys", "Pulleys", "Pulleys", columns, tuple(a.belt_duty.pulleys), "belt")
 
 
-def pulley_loads(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+def pulley_loads(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
     """One row a pulley, for its maker: the largest loads of all cases and states, shaft, bearings, lagging."""
     system = a.conveyor.report.units
-    every = [(label, duty) for label, result in loads(a, studies) for duty in result.pulley_duty]
+    every = [(load.label, duty) for load in loads for duty in load.found.pulley_duty]
     rows = []
     for own in a.pulley_duty:
         of = [(label, duty) for label, duty in every if duty.pulley.name == own.pulley.name]
@@ -954,14 +955,14 @@ def pulley_loads(a: CalculatedConveyor, studies: CalculatedStudies | None = None
     return Table("pulley_loads", "Pulleys", heading, columns, tuple(rows), "belt", note)
 
 
-def pulley_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+def pulley_states(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
     """One row a pulley, case and state: tensions on both sides, resultant, torque."""
     system = a.conveyor.report.units
     rows = tuple(
-        (duty.pulley.name, label.text(system), load)
-        for label, result in loads(a, studies)
-        for duty in result.pulley_duty
-        for load in duty.loads
+        (duty.pulley.name, load.label.text(system), pull)
+        for load in loads
+        for duty in load.found.pulley_duty
+        for pull in duty.loads
     )
     columns = (
         Column("pulley", "text", "0"),
@@ -985,15 +986,15 @@ def _all_cases(every: Iterable[Sequence[_Row]], **worst: Callable[[list[Any]], A
     return tuple(made)
 
 
-def _bends(a: CalculatedConveyor, studies: CalculatedStudies | None) -> tuple[HorizontalCheck, ...]:
+def _bends(loads: Sequence[Load]) -> tuple[HorizontalCheck, ...]:
     """Every horizontal curve with the states of all cases."""
-    every = [result.horizontal for _, result in loads(a, studies)]
+    every = [load.found.horizontal for load in loads]
     return _all_cases(
         every, states=lambda each: tuple(chain(*each)), overstress=max, buckling=max, most=max, least=min
     )
 
 
-def vertical_curves(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+def vertical_curves(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
     """One row a vertical curve and strand: its radius beside the least ones, of all cases."""
     columns = (
         Column("section", "text", "section"),
@@ -1008,7 +1009,7 @@ def vertical_curves(a: CalculatedConveyor, studies: CalculatedStudies | None = N
         Column("highest in a strip", "strength", "most"),
         Column("lowest in a strip", "strength", "least"),
     )
-    every = [result.belt_duty.curves for _, result in loads(a, studies)]
+    every = [load.found.belt_duty.curves for load in loads]
     rows = _all_cases(
         every, lowest=min, highest=max, lift_off=max, overstress=max, buckling=max, most=max, least=min
     )
@@ -1019,7 +1020,7 @@ def vertical_curves(a: CalculatedConveyor, studies: CalculatedStudies | None = N
     return Table("vertical_curves", "Curves", heading, columns, rows, "belt", " ".join(notes))
 
 
-def horizontal_curves(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+def horizontal_curves(loads: Sequence[Load]) -> Table:
     """One row a horizontal curve and strand: how far the belt drifts, its radius beside the least ones; all cases."""
     columns = (
         Column("section", "text", "section"),
@@ -1042,10 +1043,10 @@ def horizontal_curves(a: CalculatedConveyor, studies: CalculatedStudies | None =
         "too large."
     )
     heading = "Horizontal curves, all cases"
-    return Table("horizontal_curves", "Curves", heading, columns, _bends(a, studies), "belt", note)
+    return Table("horizontal_curves", "Curves", heading, columns, _bends(loads), "belt", note)
 
 
-def curve_edges(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+def curve_edges(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
     """One row a horizontal curve and strand: what its edges bear; nothing where stiffness or strength are not known."""
     columns = (
         Column("section", "text", "section"),
@@ -1056,19 +1057,19 @@ def curve_edges(a: CalculatedConveyor, studies: CalculatedStudies | None = None)
         Column("highest at the outer edge", "strength", "most"),
         Column("lowest at the inner edge", "strength", "least"),
     )
-    rows = tuple(curve for curve in _bends(a, studies) if curve.most is not None)
+    rows = tuple(curve for curve in _bends(loads) if curve.most is not None)
     note = _USUAL_STIFFNESS if rows and a.line.belt.stiffness is None else ""
     heading = "Edges of the belt in horizontal curves, all cases"
     return Table("curve_edges", "Curves", heading, columns, rows, "belt", note)
 
 
-def drift_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+def drift_states(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
     """One row a horizontal curve, strand, case and state: tensions, drift, radii."""
     system = a.conveyor.report.units
     rows = tuple(
-        (bend, label.text(system), state)
-        for label, result in (loads(a, studies) if a.horizontal else ())
-        for bend in result.horizontal
+        (bend, load.label.text(system), state)
+        for load in loads
+        for bend in load.found.horizontal
         for state in bend.states
     )
     columns = (
@@ -1087,7 +1088,7 @@ def drift_states(a: CalculatedConveyor, studies: CalculatedStudies | None = None
     return Table("drift_states", "States", heading, columns, rows, printed=False)
 
 
-def transitions(a: CalculatedConveyor, studies: CalculatedStudies | None = None) -> Table:
+def transitions(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
     """One row a transition that the spec gives: its length beside the least ones, tensions of its strips; all cases."""
     columns = (
         Column("end", "text", "zone.end"),
@@ -1111,7 +1112,7 @@ def transitions(a: CalculatedConveyor, studies: CalculatedStudies | None = None)
     note += "".join(
         f" Not known: {missing}." for missing in {row.missing for row in a.belt_duty.transitions} - {""}
     )
-    every = [result.belt_duty.transitions for _, result in loads(a, studies)]
+    every = [load.found.belt_duty.transitions for load in loads]
     rows = _all_cases(every, lowest=min, highest=max, stretched=max, slackened=max, most=max, least=min)
     return Table("transitions", "Curves", heading, columns, rows, "belt", note)
 
@@ -1413,17 +1414,12 @@ def provenance(spec: str, sheet: str = "Checks and notes") -> Table:
     return Table("provenance", sheet, "Provenance", columns, tuple(facts.items()), page)
 
 
-def drifts(
-    a: CalculatedConveyor, studies: CalculatedStudies | None, system: System
-) -> list[tuple[str, tuple[HorizontalCheck, ...]]]:
+def drifts(loads: Sequence[Load], system: System) -> list[tuple[str, tuple[HorizontalCheck, ...]]]:
     """The horizontal curves of every case, each with its name."""
-    every = loads(a, studies)
-    return [(label.text(system).removeprefix("load state "), found.horizontal) for label, found in every]
+    return [(load.label.text(system).removeprefix("load state "), load.found.horizontal) for load in loads]
 
 
-def drawings(
-    a: CalculatedConveyor, system: System, studies: CalculatedStudies | None = None
-) -> Iterator[Drawing]:
+def drawings(a: CalculatedConveyor, system: System, loads: Sequence[Load]) -> Iterator[Drawing]:
     """The figures of the page, each above a table."""
     conveyor, at = a.conveyor, a.temperature
     yield Drawing(
@@ -1455,7 +1451,7 @@ def drawings(
         yield Drawing(
             "drift",
             "Drift of the belt in every horizontal curve, all states of motion of all cases; grey: room on the rolls.",
-            lambda: analysis_plots.drift(drifts(a, studies, system), system=system),
+            lambda: analysis_plots.drift(drifts(loads, system), system=system),
             "horizontal_curves",
         )
     yield Drawing(
@@ -1495,7 +1491,7 @@ def plain(
     a: CalculatedConveyor, studies: CalculatedStudies | None = None, further: Further | None = None
 ) -> dict[str, Any]:
     """Plain numbers for JSON, SI or the unit in the key, as `result_schema` describes them."""
-    balance = a.balance
+    balance, studies = a.balance, CalculatedStudies() if studies is None else studies
     settled, every = balance.settled, _every_check(a, studies, further)
     governing = deciding(every)
     left_open = power_range(a)
@@ -1516,8 +1512,8 @@ def plain(
             }
             for side in settled.steady.drives
         ],
-        "take_up": plain_take_up(*take_up_of(a, studies)),
-        "energy": _energy(a, None if studies is None else studies.duty),
+        "take_up": plain_take_up(*asked_of_take_up(a, studies.states, studies.cases)),
+        "energy": _energy(a, studies.duty),
         "classical": {
             **_estimate(balance, balance.classical),
             "secondary_by": balance.classical.secondary_by,
@@ -1540,10 +1536,8 @@ def plain(
         "checks": [told(check, governs=any(check is one for one in governing)) for check in every],
         "warnings": [said.text(a.conveyor.report.units) for said in warnings(a, governing)],
     }
-    also = ({} if studies is None else plain_studies(studies)) | (
-        {} if further is None else {"dynamics": further.plain}
-    )
-    return placed(data, results(a, left_open).rows) | also
+    also = {} if further is None else {"dynamics": further.plain}
+    return placed(data, results(a, left_open).rows) | plain_studies(studies) | also
 
 
 def _energy(a: CalculatedConveyor, duty: CalculatedYear | None) -> dict[str, Any]:

@@ -14,13 +14,12 @@ from conveyor.loop.tensions import MotionState
 from conveyor.models import RubberCompound
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.columns import Column, Table
-from conveyor.studies import CalculatedStudies
-from conveyor.studies.cases import AS_GIVEN
+from conveyor.studies.cases import AS_GIVEN, Load, MotorChoice
 from conveyor.studies.defaults import PowerRange
 from conveyor.ties import largest, least
 from conveyor.units import System
 from conveyor.units.presentation import Unit, unit
-from conveyor.units.sentences import Said, figure, percent, said
+from conveyor.units.sentences import Said, figure, percent
 
 _SET: Final = ("take_up_tension", "sag", "drive_grip")
 """Criteria that the least setting of the take-up is made for: their margin follows from it."""
@@ -40,26 +39,6 @@ class GoverningRow(NamedTuple):
     where: str
 
 
-class Load(NamedTuple):
-    """What the conveyor is calculated for, in words, and the result."""
-
-    case: Said
-    found: CalculatedConveyor
-
-
-def loads(a: CalculatedConveyor, studies: CalculatedStudies | None) -> Iterator[Load]:
-    """Loads to design by: the conveyor as given, load cases that the rubber's data cover, load states."""
-    yield Load(said(AS_GIVEN), a)
-    cases = () if studies is None or studies.cases is None else studies.cases.designing
-    yield from (Load(case.label, case.found) for case in cases)
-    yield from (Load(*load) for load in (studies.states.loads if studies and studies.states else ()))
-
-
-def maximum_motor_power(a: CalculatedConveyor, studies: CalculatedStudies | None) -> float:
-    """Of all calculated loads at the less favourable end of the friction [W]; negative where it brakes."""
-    return largest((load.found.motor_asked for load in loads(a, studies)), abs)
-
-
 def _place(result: CalculatedConveyor, state: MotionState, tension: float) -> str:
     """Where round the loop a tension of a state is."""
     for drive in state.drives:
@@ -72,37 +51,37 @@ def _place(result: CalculatedConveyor, state: MotionState, tension: float) -> st
 
 
 def governing_figures(
-    a: CalculatedConveyor,
-    studies: CalculatedStudies | None,
+    loads: Sequence[Load],
+    motors: Sequence[MotorChoice],
     governing: Sequence[Check],
     take_up: tuple[TakeUpDuty, Said],
     left_open: PowerRange,
 ) -> Table:
-    """What governs the design, over all calculated loads, and the verdict in a sentence."""
+    """What governs the design, over all loads, the first as given, and the verdict in a sentence."""
     columns = (
         Column("what governs", "text", "subject", key="subject"),
         Column("value", "text", "value"),
         Column("where and when", "text", "where", key="where"),
     )
-    rows = tuple(_rows(a, studies, governing, take_up, left_open))
-    note = sentence(governing, a.conveyor.report.units)
+    rows = tuple(_rows(loads, motors, governing, take_up, left_open))
+    note = sentence(governing, loads[0].found.conveyor.report.units)
     return Table("governing_figures", "", "What governs the design", columns, rows, note=note)
 
 
 def _rows(
-    a: CalculatedConveyor,
-    studies: CalculatedStudies | None,
+    loads: Sequence[Load],
+    motors: Sequence[MotorChoice],
     governing: Sequence[Check],
     take_up: tuple[TakeUpDuty, Said],
     left_open: PowerRange,
 ) -> Iterator[GoverningRow]:
+    a = loads[0].found
     system = a.conveyor.report.units
     power, force, mass, length = (
         unit(kind, system, large=True) for kind in ("power", "force", "mass", "length")
     )
-    every = list(loads(a, studies))
-    case, most = largest(every, lambda load: abs(load.found.motor_asked))
-    yield GoverningRow("maximum motor power", _held(power, most.motor_asked), case.text(system))
+    most = largest(loads, lambda load: abs(load.found.motor_asked))
+    yield GoverningRow("maximum motor power", _held(power, most.found.motor_asked), most.label.text(system))
     where = figure(a.temperature, "temperature", system)
     if left_open.effects:
         low, high = power.short(left_open.low).rpartition(" ")[0], power.short(left_open.high)
@@ -112,24 +91,24 @@ def _rows(
     if installed:
         yield GoverningRow("installed power", power.short(sum(installed)), f"{len(installed)} driven pulleys"
                            if len(installed) > 1 else a.line.drives[0].name)  # fmt: skip
-    for motor in () if studies is None else studies.motors:
+    for motor in motors:
         yield GoverningRow(
             f"selected standard motors, {motor.drive}", f"{motor.count} x {power.short(motor.rated)}",
-            f"{_held(power, motor.needed)}, needed in {motor.case}, reserve {motor.reserve:.2f}",
+            f"{_held(power, motor.needed)}, needed in {motor.case.text(system)}, reserve {motor.reserve:.2f}",
         )  # fmt: skip
     duty, asks = take_up
     sized = [] if duty.mass is None else [f"weight {mass.short(duty.mass)}"]
     sized += [] if duty.travel is None else [f"travel {length.short(duty.travel.whole)}"]
     asked = f"required by {asks.text(system)}"
     yield GoverningRow(f"take-up, {duty.unit.kind}", force.short(duty.setting), "; ".join([*sized, asked]))
-    states = [(load, state) for load in every for state in load.found.every_state]
+    states = [(load, state) for load in loads for state in load.found.every_state]
     tightest = largest(states, lambda pair: pair[1].largest)
     slackest = least(states, lambda pair: pair[1].smallest)
     for name, (load, state), newtons in (
         ("maximum belt tension", tightest, tightest[1].largest),
         ("minimum belt tension", slackest, slackest[1].smallest),
     ):
-        where = f"{_place(load.found, state, newtons)}; {state.name}; {load.case.text(system)}"
+        where = f"{_place(load.found, state, newtons)}; {state.name}; {load.label.text(system)}"
         yield GoverningRow(name, force.short(newtons), where)
     tensions = a.balance.tensions
     sides = "T1 / T2" if system == "US" else "tight / slack side tension"

@@ -9,8 +9,8 @@ from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.models import Operation
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.columns import Figure, Table, figures
-from conveyor.studies import CalculatedStudies
 from conveyor.studies.cases import MOTOR_RESERVE
+from conveyor.studies.duty import CalculatedYear
 from conveyor.units.presentation import MONEY
 
 _PREFIX: Final = "what_if_"
@@ -18,10 +18,10 @@ OF_HOURS: Final = "*what_if_operating_hours/what_if_hours_calculated"
 _TONNE: Final = 1000.0
 
 
-def what_if(a: CalculatedConveyor, studies: CalculatedStudies | None, motor: float) -> Table:
+def what_if(a: CalculatedConveyor, duty: CalculatedYear | None, motor: float) -> Table:
     """Figures to change and what follows; `motor` is the maximum motor power of all calculated loads [W]."""
     heading = "What if: change the yellow cells"
-    rows = (*_energy(a, studies), *_motor(motor))
+    rows = (*_energy(a, duty), *_motor(motor))
     note = "Formulas over the energy and power calculated; forces and power do not follow from these cells."
     return figures("what_if", "Results", heading, rows, note=note, prefix=_PREFIX)
 
@@ -34,9 +34,9 @@ def _motor(motor: float) -> Iterator[Figure]:
     yield Figure("required rated power", "power", needed * MOTOR_RESERVE, formula=formula)
 
 
-def _energy(a: CalculatedConveyor, studies: CalculatedStudies | None) -> Iterator[Figure]:
+def _energy(a: CalculatedConveyor, duty: CalculatedYear | None) -> Iterator[Figure]:
     """Energy, cost and carbon dioxide of a year: of the duty, else of even load."""
-    operation, duty = a.conveyor.operation, None if studies is None else studies.duty
+    operation = a.conveyor.operation
     if operation is None:
         return
     if duty is not None:

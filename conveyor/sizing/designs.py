@@ -34,6 +34,7 @@ from conveyor.sizing.screen import Candidates, Levels, Screened, first_levels, s
 from conveyor.sizing.sized import SizedDesign, highest_tension
 from conveyor.sizing.spacing import graduated_spacings
 from conveyor.studies.costs import costs, parts_of, roll_life
+from conveyor.studies.loads import EveryLoad
 from conveyor.studies.states import at_one_take_up, load_states
 
 RTOL: Final = 1e-4
@@ -360,8 +361,7 @@ def _loads(answer: CalculatedConveyor | NoAnswer, *, every_load: bool) -> tuple[
         raise answer
     if not every_load:
         return (answer,)
-    states, _ = at_one_take_up(load_states(answer.conveyor, answer), None)
-    return (states.own, *(load for _, load in states.loads))
+    return EveryLoad(*at_one_take_up(load_states(answer.conveyor, answer), None)).designing
 
 
 def _chosen(task: SizingTask, choice: Choice, before: Chosen, pair: Sequence[CalculatedConveyor]) -> Chosen:

@@ -11,14 +11,14 @@ from conveyor.pipeline import CalculatedConveyor
 from conveyor.studies.cases import (
     MOTOR_RESERVE,
     CalculatedCases,
-    CaseResult,
     Governing,
+    Load,
     MotorChoice,
     governing,
     recommended_motors,
 )
 from conveyor.studies.duty import CalculatedYear, analyse_duty
-from conveyor.studies.loads import Progress, every_load
+from conveyor.studies.loads import Progress, designing, every_load
 from conveyor.studies.states import CalculatedStates
 from conveyor.studies.uncertainty import CalculatedRanges, study
 
@@ -52,15 +52,15 @@ class CalculatedStudies:
     @property
     def motors(self) -> tuple[MotorChoice, ...]:
         """Motors of every drive pulley for the governing load of all; none without a case to design by."""
-        loads = [(load.label, load.found) for load in self._loads]
-        return recommended_motors(loads, reserve=MOTOR_RESERVE) if loads else ()
+        return recommended_motors(self._loads, reserve=MOTOR_RESERVE) if self._loads else ()
 
     @cached_property
-    def _loads(self) -> tuple[CaseResult, ...]:
-        """As given, load cases that the rubber's data cover, load states; none without such a case."""
-        cases = () if self.cases is None else self.cases.designing
-        states = () if self.states is None else self.states.as_cases
-        return (*states[:1], *cases, *states[1:]) if cases else ()
+    def _loads(self) -> tuple[Load, ...]:
+        """Loads to design by; none without such a case."""
+        if self.cases is None or not self.cases.designing:
+            return ()
+        of, states = self.cases, self.states
+        return of.designing if states is None else designing(states.own, states, of)
 
 
 def studies(

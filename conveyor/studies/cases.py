@@ -33,18 +33,21 @@ _CARRYING: Final = frozenset({AS_GIVEN, "full", "part load"})
 
 
 @dataclass(frozen=True, eq=False)
-class CaseResult:
-    """One case at one temperature and speed.
+class Load:
+    """A load of a conveyor: as given, a load state, or a case at one temperature and speed.
 
     Attributes
     ----------
-    case : LoadCase
-        What is loaded.
-    found : Calculation
+    name : str
+        What it is called.
+    label : Said
+        Its name, and where it is not as given its temperature.
+    found : CalculatedConveyor
         Forces, tensions and power as `analyse` gives them, SI.
     """
 
-    case: LoadCase
+    name: str
+    label: Said
     found: CalculatedConveyor
 
     @property
@@ -56,22 +59,6 @@ class CaseResult:
     def speed(self) -> float:
         """Of the belt [m/s]."""
         return self.found.line.speed
-
-    @property
-    def label(self) -> Said:
-        """Case and temperature for people; the speed where the case has speeds of its own."""
-        return _label(self.case, self.temperature, self.speed)
-
-    @cached_property
-    def covered(self) -> bool:
-        """Whether the rubber's data cover it; else its figures are none to design by."""
-        return covered(self.found)
-
-    @cached_property
-    def checks(self) -> tuple[Check, ...]:
-        """Every criterion as `analyse` checks it; none but the rubber's where its data do not cover the case."""
-        made = (replace(check, case=self.label) for check in checks(self.found))
-        return tuple(made if self.covered else map(_unjudged, made))
 
     @property
     def forces(self) -> tuple[float, float]:
@@ -92,6 +79,30 @@ class CaseResult:
             key=lambda pair: pair[0].force,
         )
         return load.force, f"{stretch.section}, {stretch.strand}, {load.name}"
+
+
+@dataclass(frozen=True, eq=False)
+class CaseResult(Load):
+    """One case at one temperature and speed; its label has the speed where the case has speeds of its own.
+
+    Attributes
+    ----------
+    case : LoadCase
+        What is loaded.
+    """
+
+    case: LoadCase
+
+    @cached_property
+    def covered(self) -> bool:
+        """Whether the rubber's data cover it; else its figures are none to design by."""
+        return covered(self.found)
+
+    @cached_property
+    def checks(self) -> tuple[Check, ...]:
+        """Every criterion as `analyse` checks it; none but the rubber's where its data do not cover the case."""
+        made = (replace(check, case=self.label) for check in checks(self.found))
+        return tuple(made if self.covered else map(_unjudged, made))
 
     @property
     def energy_per_tonne_km(self) -> float | None:
@@ -122,13 +133,13 @@ class CaseRefusal:
 
 @dataclass(frozen=True, eq=False)
 class Governing:
-    """The case that decides a figure: its key, name, value and kind of quantity, the case."""
+    """The load that decides a figure: its key, name, value and kind of quantity, the load."""
 
     key: str
     figure: str
     value: float
     kind: str
-    result: CaseResult
+    result: Load
 
 
 @dataclass(frozen=True)
@@ -141,7 +152,7 @@ class MotorChoice:
     count: int
     rated: float
     series: str
-    case: str
+    case: Said
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -223,8 +234,7 @@ class CalculatedCases:
         InputError
             The reserve is below 1, or no case has an answer.
         """
-        designing = [(result.label, result.found) for result in self.designing]
-        return recommended_motors(designing, reserve=reserve)
+        return recommended_motors(self.designing, reserve=reserve)
 
 
 @checked
@@ -291,14 +301,15 @@ def analyse_cases(
     results = []
     for (case, setting, _), result in zip(made, answers, strict=True):
         if isinstance(result, CalculatedConveyor):
-            results.append(CaseResult(case, replace(result, friction_band=band)))
+            label = _label(case, result.temperature, result.line.speed)
+            results.append(CaseResult(case.name, label, replace(result, friction_band=band), case))
         else:
             refused.append(CaseRefusal(case.name, setting.temperature, setting.speed, str(result)))
     own = as_given if isinstance(as_given, CalculatedConveyor) else None
     return CalculatedCases(conveyor, chosen, band, tuple(results), tuple(refused), own)
 
 
-_FIGURES: Final[dict[str, tuple[str, str, bool, Callable[[CaseResult], float]]]] = {
+_FIGURES: Final[dict[str, tuple[str, str, bool, Callable[[Load], float]]]] = {
     "largest_motor_power_friction_high": ("maximum motor power", "power", True, lambda r: r.motors[1]),
     "least_motor_power_friction_low": ("minimum motor power", "power", False, lambda r: r.motors[0]),
     "largest_drive_force_friction_high": ("maximum drive force", "force", True, lambda r: r.forces[1]),
@@ -331,13 +342,13 @@ _FIGURES: Final[dict[str, tuple[str, str, bool, Callable[[CaseResult], float]]]]
 }
 
 
-def governing(results: Sequence[CaseResult]) -> tuple[Governing, ...]:
-    """The case that decides each figure, the first of equals; nothing for no results."""
-    if not results:
+def governing(loads: Sequence[Load]) -> tuple[Governing, ...]:
+    """The load that decides each figure, the first of equals; nothing for no loads."""
+    if not loads:
         return ()
     rows = []
     for key, (figure, kind, most, value) in _FIGURES.items():
-        chosen = (largest if most else least)(results, value)
+        chosen = (largest if most else least)(loads, value)
         rows.append(Governing(key, figure, value(chosen), kind, chosen))
     return tuple(rows)
 
@@ -353,16 +364,14 @@ def _unanswered(study: CalculatedCases) -> Iterator[Check]:
         )  # fmt: skip
 
 
-def recommended_motors(
-    loads: Sequence[tuple[Said, CalculatedConveyor]], *, reserve: float
-) -> tuple[MotorChoice, ...]:
+def recommended_motors(loads: Sequence[Load], *, reserve: float) -> tuple[MotorChoice, ...]:
     """Motors of every drive pulley: the least number of equal ones of the series that give or hold its share.
 
     Of NEMA for a spec with US units, else of IEC 60072-1.
 
     Parameters
     ----------
-    loads : sequence of (Said, CalculatedConveyor)
+    loads : sequence of Load
         The one that asks for most, driving with the friction high or braking with it low, decides.
     reserve : float
         Rated power over needed power [-], at least 1.
@@ -376,9 +385,8 @@ def recommended_motors(
         raise InputError(
             f"reserve = {reserve}: at least 1 is needed" if loads else "no case has an answer to design by"
         )
-    label, decisive = largest(loads, lambda load: abs(load[1].motor_asked))
-    power = decisive.motor_asked
-    case = label.text(decisive.conveyor.report.units)
+    governs = largest(loads, lambda load: abs(load.found.motor_asked))
+    decisive, power = governs.found, governs.found.motor_asked
     name, series = ("NEMA", NEMA_MOTORS) if decisive.line.us_sizes else ("IEC 60072-1", MOTOR_SERIES)
     choices = []
     for drive in decisive.line.drives:
@@ -387,5 +395,5 @@ def recommended_motors(
         needed = drive.share * power
         count = max(1, math.ceil(round(abs(needed) * reserve / series[-1], 9)))
         rated = next_motor(needed / count, reserve=reserve, series=series)
-        choices.append(MotorChoice(drive.name, needed, reserve, count, rated, name, case))
+        choices.append(MotorChoice(drive.name, needed, reserve, count, rated, name, governs.label))
     return tuple(choices)

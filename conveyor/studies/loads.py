@@ -11,7 +11,7 @@ from conveyor.checks import BELT_USE, Check, checks, deciding, highest_use, reac
 from conveyor.loop.take_up import TakeUpDuty
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor, take_up_of
-from conveyor.studies.cases import AS_GIVEN, CalculatedCases, analyse_cases
+from conveyor.studies.cases import AS_GIVEN, CalculatedCases, Load, analyse_cases
 from conveyor.studies.states import CalculatedStates, at_one_take_up, load_states
 from conveyor.units.sentences import Said, quoted, said
 
@@ -51,9 +51,8 @@ class EveryLoad:
 
     @cached_property
     def designing(self) -> tuple[CalculatedConveyor, ...]:
-        """Loads to design by: cases that the rubber's data do not cover are none."""
-        cases = () if self.cases is None else self.cases.designing
-        return (self.own, *(load for _, load in self.states.loads), *(result.found for result in cases))
+        """Loads to design by."""
+        return tuple(load.found for load in designing(self.own, self.states, self.cases))
 
     @property
     def motor_power(self) -> float:
@@ -115,17 +114,24 @@ def every_load(
     return EveryLoad(*at_one_take_up(load_states(conveyor, own, cases, progress=told("load states")), cases))
 
 
+def designing(
+    own: CalculatedConveyor, states: CalculatedStates | None, cases: CalculatedCases | None
+) -> tuple[Load, ...]:
+    """Loads to design by, of equals the first: as given, load cases that the rubber's data cover, load states."""
+    return (
+        Load(AS_GIVEN, said(AS_GIVEN), own),
+        *(() if cases is None else cases.designing),
+        *(() if states is None else states.loads),
+    )
+
+
 def asked_of_take_up(
     own: CalculatedConveyor, states: CalculatedStates | None, cases: CalculatedCases | None
 ) -> tuple[TakeUpDuty, Said]:
     """What all loads to design by, at one setting, ask of the take-up; the load and the condition that ask for it."""
-    loads = [
-        (said(AS_GIVEN), own),
-        *(() if states is None else states.loads),
-        *(() if cases is None else ((result.label, result.found) for result in cases.designing)),
-    ]
-    duty = take_up_of([load for _, load in loads], () if cases is None else cases.temperatures)
-    condition, (label, _) = quoted(duty.governed_by), loads[duty.governing]
+    loads = designing(own, states, cases)
+    duty = take_up_of([load.found for load in loads], () if cases is None else cases.temperatures)
+    condition, label = quoted(duty.governed_by), loads[duty.governing].label
     return duty, said(condition) if len(loads) == 1 else said(f"{label.words}: {condition}", *label.figures)
 
 

@@ -25,7 +25,7 @@ from conveyor.models import Conveyor, LoadCase
 from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
 from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate, calculate_many
-from conveyor.studies.cases import AS_GIVEN, CalculatedCases, CaseResult
+from conveyor.studies.cases import CalculatedCases, Load
 from conveyor.ties import largest
 from conveyor.units import from_si
 from conveyor.units.sentences import Said, quoted, said
@@ -50,7 +50,7 @@ class LoadState:
     worst_for : tuple of str
         Figures that no loading makes worse, as far as single sections go, at no temperature of the cases.
     keys : tuple of str
-        For programs; a worst loading that is one of the standard states has the keys of both.
+        For programs; a loading that is several of the standard states and the worst has the keys of all.
     balance : Balance
         Forces, tensions and power, the take-up at its setting.
     """
@@ -140,28 +140,21 @@ class CalculatedStates:
         return next((state for state in self.states if key in state.keys), None)
 
     @cached_property
-    def loads(self) -> tuple[tuple[Said, CalculatedConveyor], ...]:
+    def loads(self) -> tuple[Load, ...]:
         """Every state that is not the spec's own load; its contacts are those of the spec's."""
-        return tuple((state.case, self._found(state)) for state in self._others)
-
-    @property
-    def as_cases(self) -> tuple[CaseResult, ...]:
-        """The spec's own load and every other state as load cases, for the figures that a case governs."""
-        loads = ((state.title, self._found(state)) for state in self._others)
-        return tuple(CaseResult(LoadCase(name=name), found) for name, found in ((AS_GIVEN, self.own), *loads))
-
-    @property
-    def _others(self) -> tuple[LoadState, ...]:
-        return tuple(state for state in self.states if state.balance is not self.own.balance)
-
-    def _found(self, state: LoadState) -> CalculatedConveyor:
-        return replace(self.own, temperature=state.temperature, balance=state.balance)
+        return tuple(
+            Load(s.title, s.case, replace(self.own, temperature=s.temperature, balance=s.balance))
+            for s in self.states
+            if s.balance is not self.own.balance
+        )
 
     @cached_property
     def checks(self) -> tuple[Check, ...]:
         """Every criterion that needs no contacts, in every state that is not the spec's own load."""
         return tuple(
-            replace(check, case=case) for case, load in self.loads for check in checks(load, contacts=False)
+            replace(check, case=load.label)
+            for load in self.loads
+            for check in checks(load.found, contacts=False)
         )
 
 
@@ -196,6 +189,8 @@ def load_states(
 ) -> CalculatedStates:
     """Calculate empty, full, inclines only and declines only, and the worst loadings at every temperature of the cases.
 
+    A loading that is several of them is one state.
+
     Parameters
     ----------
     conveyor : Conveyor
@@ -219,12 +214,15 @@ def load_states(
     worst = _worst(adding)
     states = []
     if at in adding:
+        alike: dict[bytes, tuple[Loading, list[str]]] = {}
         for name, loading in zip(STANDARD_LOADINGS, adding[at].standard, strict=True):
+            alike.setdefault(loading.tobytes(), (loading, []))[1].append(name)
+        for loading, names in alike.values():
             figures = worst.pop((at, loading.tobytes()), (loading, ()))[1]
-            known = dict(zip(("full", "empty"), ends[at], strict=True)).get(name)
+            known = dict(zip(("full", "empty"), ends[at], strict=True)).get(names[0])
             one = adding[at].loaded(loading) if known is None else known
-            keys = (_KEYS[name], *map(worst_key, figures))
-            states.append(LoadState(name, _names(own, loading), at, figures, keys, one))
+            keys = (*map(_KEYS.__getitem__, names), *map(worst_key, figures))
+            states.append(LoadState(names[0], _names(own, loading), at, figures, keys, one))
     for (temperature, _), (loading, figures) in worst.items():
         loaded = _names(own, loading)
         one = adding[temperature].loaded(loading)

@@ -57,16 +57,23 @@ def percent(share: float, decimals: int = 0, *, signed: bool = False) -> str:
 
 
 def figure(value: float, kind: str, system: System = "SI") -> str:
-    """Write an SI figure for people: three digits, thousands grouped, forces in kN, degrees with their sign.
+    """Write an SI figure for people: three digits, thousands grouped, forces in kN, heat below 1 MJ in kJ, ° for deg.
 
     Examples
     --------
-    >>> figure(30097.4, "force"), figure(2.267, "force"), figure(9.81, "acceleration", "US")
-    ('30.1 kN', '2.27 N', '32.2 ft/s²')
+    >>> (
+    ...     figure(30097.4, "force"),
+    ...     figure(2.267, "force"),
+    ...     figure(9.81, "acceleration", "US"),
+    ...     figure(5180.0, "energy"),
+    ... )
+    ('30.1 kN', '2.27 N', '32.2 ft/s²', '5.18 kJ')
     """
     number, sign = convert(value, kind, system), unit_label(kind, system)
     if sign == "N" and abs(number) >= _KILO:
         number, sign = number / _KILO, "kN"
+    if sign == "MJ" and abs(number) < 1.0:
+        number, sign = number * _KILO, "kJ"
     sign = sign.replace("^2", "²").replace("^3", "³").replace("deg", "°").replace("*", " ")
     return f"{rounded(number)}°" if sign == "°" else f"{rounded(number)} {sign}".rstrip()
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -20,6 +19,7 @@ from conveyor.report.analysis_plots import drift as drift_drawn
 from conveyor.report.analysis_plots import plan
 from conveyor.report.tables import horizontal_curves
 from conveyor.spec import from_data
+from conveyor.studies.cases import Load
 from conveyor.units.sentences import said
 from tests.loop.loop_lines import DATA, data
 
@@ -61,7 +61,7 @@ def straight():
 def test_a_straight_conveyor_has_nothing_of_it(straight):
     assert straight.horizontal == ()
     assert straight.convergence is None
-    assert not horizontal_curves(straight).rows
+    assert not horizontal_curves([Load("as given", said("as given"), straight)]).rows
     assert "guidance" not in {force.key for force in straight.balance.along}
 
 
@@ -190,8 +190,8 @@ def test_a_storm_blows_the_empty_belt_off_and_the_picture_says_so():
 def test_the_table_is_of_all_cases(found):
     """An empty carry strand drifts farther inside than the loaded one; what is not worse there stays."""
     empty = calculate(conveyor(flow="0 t/h"))
-    states = SimpleNamespace(loads=[(said("load state empty"), empty)])
-    table = horizontal_curves(found, SimpleNamespace(cases=None, states=states)).frame()
+    loads = [Load(name, said(name), one) for name, one in (("as given", found), ("empty", empty))]
+    table = horizontal_curves(loads).frame()
     both = zip(found.horizontal, empty.horizontal, strict=True)
     inside, outside = zip(
         *(

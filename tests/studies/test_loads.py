@@ -73,7 +73,7 @@ def test_a_weight_that_is_given_stands(line):
 
 
 def test_the_own_load_is_no_load_state_beside_itself(found):
-    assert not [case.words for case, _ in found.states.loads if case.words.startswith("load state full")]
+    assert not [load.name for load in found.states.loads if load.name.startswith("load state full")]
 
 
 def test_rolls_bear_the_tension_of_the_one_setting_in_every_load_state(line):
@@ -94,16 +94,27 @@ def test_the_load_as_given_is_among_those_that_govern():
     given = load(SPECS / "downhill.yaml").replace(cases=[{"name": "empty", "loading": "empty"}])
     found = studies(given)
     own, (motor,) = found.states.own, found.motors
-    every = [own, *(one for _, one in found.states.loads), *(case.found for case in found.cases.results)]
+    every = [own, *(load.found for load in (*found.states.loads, *found.cases.results))]
     held = min(one.motor_asked for one in every)
     assert motor.needed == pytest.approx(held, rel=RTOL)
     assert motor.rated * motor.count >= -held
     level = load(SPECS / "curved.yaml").replace(cases=[{"name": "empty", "loading": "empty"}])
     found = studies(level)
-    assert [row.result.case.name for row in found.governing if row.key.startswith("largest_motor")] == [
-        "as given"
-    ]
+    assert [row.result.name for row in found.governing if row.key.startswith("largest_motor")] == ["as given"]
     assert found.motors[0].needed == pytest.approx(found.states.own.balance.power.motor, rel=RTOL)
+
+
+def test_of_two_loads_that_are_one_the_same_governs_everywhere():
+    """The empty belt as a load case and as a load state, which asks for most of motors and take-up."""
+    given = load(SPECS / "downhill.yaml")
+    route = given.route.replace(sections=[{"name": "slope", "length": "1800 m", "lift": "-45 m"}])
+    given = given.replace(route=route, cases=[{"name": "bare", "loading": "empty"}])
+    found = studies(given)
+    told = analyse(given).to_dict(found)
+    by_figure = {row.key: row.result.name for row in found.governing}
+    assert by_figure["largest_tension_asked_of_the_take_up"] == "bare"
+    assert told["take_up"]["governed_by"].startswith("bare, 18 °C: ")
+    assert found.motors[0].case.text("US") == "bare, 64.4 °F"
 
 
 def test_motor_power_of_all_loads_is_that_of_the_report():

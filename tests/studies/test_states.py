@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from conveyor.analysis import Studies
 from conveyor.errors import InputError
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
@@ -155,3 +156,16 @@ def test_variants_side_by_side_have_their_own_wind_and_series() -> None:
         (pytest.approx(30.0), False),
         (pytest.approx(si(line.ambient.wind_speed)), True),
     ]
+
+
+def test_a_loading_that_is_several_states_is_listed_once(line):
+    """Nothing rises or falls on a level belt, nothing falls on one that climbs; programs find all keys."""
+    route = line.route.replace(sections=[{"name": "gallery", "length": "500 m"}])
+    level, climbs = map(load_states, (line.replace(route=route), load(SPECS / "in_plant_us.yaml")))
+    assert [state.name for state in level.states if not state.name.startswith("worst")] == ["full", "empty"]
+    assert level.state("inclines") is level.state("declines") is level.state("empty")
+    assert [state.name for state in climbs.states][:3] == ["full", "empty", "inclines only"]
+    assert climbs.state("declines") is climbs.state("empty")
+    for found in (level, climbs):
+        told = Studies(states=found).to_dict()
+        assert list(told["states"]) == ["empty", "full", "inclines", "declines", "worst"]
