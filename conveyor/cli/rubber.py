@@ -113,7 +113,9 @@ def fit(
         str | None, option('Tensile modulus at time 0 of a Prony table of shares, e.g. "800 MPa".')
     ] = None,
     temperature: Annotated[str | None, option('Of a file without a column for it, e.g. "20 degC".')] = None,
-    sheet: Annotated[str | None, option("Sheet of a workbook.")] = None,
+    sheet: Annotated[
+        str | None, option("Sheet of a workbook; with * or ? all that fit, each as a file of the rubber.")
+    ] = None,
     kind: Annotated[str | None, option("What the file holds, where it leaves it open.")] = None,
     accept: Annotated[
         list[str] | None,

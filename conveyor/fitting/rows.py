@@ -22,10 +22,6 @@ Numbers = NDArray[np.int64]
 CURVES = frozenset({"master curve", "isotherms", "relaxation", "temperature sweep"})
 """Kinds of file whose rows lie on a master curve."""
 _ROWS = re.compile(r"(?:(?P<file>.+):)?(?P<rows>\d{1,9}(?:-\d{1,9})?(?:,\d{1,9}(?:-\d{1,9})?)*)")
-_COLUMNS = (
-    "frequency", "temperature", "strain", "time", "storage", "loss", "modulus", "log10_a_T", "log10_b_T", "run",
-    "group", "row_numbers",
-)  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,34 +88,29 @@ def shift_factors(superposition: Superposition | None, given: DmaData | None) ->
     return ShiftFactors(given.temperature, given.log10_a_T, None, given.log10_b_T)
 
 
-def without(reads: Sequence[DmaData], exclude: Sequence[str]) -> tuple[list[DmaData], tuple[str, ...]]:
-    """Files without the rows that a person names, 12-15,20 or isotherms.csv:12-15,20; and a sentence a file."""
-    left, said = list(reads), []
+def excluded(tables: Sequence[tuple[Path, str | None]], exclude: Sequence[str]) -> dict[int, str]:
+    """Rows to leave out, 12-15,20, of tables (file and sheet) by their number; from FILE:ROWS, of one file ROWS."""
+    rows: dict[int, str] = {}
     for given in exclude:
         match = _ROWS.fullmatch(given.strip())
         if match is None:
             raise InputError(
                 f'--exclude: got "{given}", expected rows such as 12-15,20 or isotherms.csv:12-15,20'
             )
-        named = [
-            k for k, read in enumerate(reads) if match["file"] in {None, read.source, Path(read.source).name}
-        ]
+        named = [k for k, table in enumerate(tables) if _is_named(match["file"], *table)]
         if len(named) != 1:
-            names = ", ".join(Path(read.source).name for read in reads)
+            names = ", ".join(path.name + (f"[{sheet}]" if sheet else "") for path, sheet in tables)
             raise InputError(f'--exclude: "{given}": rows of which file? Write FILE:ROWS; files are {names}')
-        (k,) = named
-        kept = np.ones(left[k].row_numbers.size, dtype=np.bool_)
-        for part in match["rows"].split(","):
-            low, _, high = part.partition("-")
-            kept &= (left[k].row_numbers < int(low)) | (left[k].row_numbers > int(high or low))
-        gone = int(np.count_nonzero(~kept))
-        if not gone or not kept.any():
-            what = "has no such rows of data" if not gone else "would have no row left"
-            raise InputError(f'--exclude: "{given}": {left[k].source} {what}')
-        columns = {name: getattr(left[k], name) for name in _COLUMNS}
-        left[k] = replace(left[k], **{name: c[kept] for name, c in columns.items() if c is not None})
-        said.append(f"{Path(left[k].source).name}: {gone} row(s) excluded by hand: {match['rows']}")
-    return left, tuple(said)
+        rows[named[0]] = ",".join([*filter(None, [rows.get(named[0])]), match["rows"]])
+    return rows
+
+
+def _is_named(name: str | None, path: Path, sheet: str | None) -> bool:
+    """Whether a person means this table by file or file[sheet], with or without its folder."""
+    if name is None:
+        return True
+    file, _, of = name.partition("[")
+    return file in {str(path), path.name} and (not of or sheet is None or of == f"{sheet}]")
 
 
 def sweeps(reads: Sequence[DmaData], stated: Mapping[int, float]) -> tuple[list[Sweep], tuple[str, ...]]:

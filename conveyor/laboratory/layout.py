@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from itertools import pairwise, zip_longest
+from dataclasses import dataclass, replace
+from itertools import compress, pairwise, zip_longest
 from typing import Final
 
 import numpy as np
@@ -17,6 +17,9 @@ from conveyor.laboratory.numbers import is_number
 from conveyor.laboratory.table import IntArray
 from conveyor.laboratory.units import is_any_unit
 
+EXCLUDE: Final = "or leave it out with exclude (--exclude)"
+"""The cure of a row that needs not be read."""
+_EXCLUDED: Final = re.compile(r"\d{1,9}(?:-\d{1,9})?(?:,\d{1,9}(?:-\d{1,9})?)*")
 EXAMPLE: Final = "a header row such as 'frequency_Hz,storage_MPa,loss_MPa'"
 
 
@@ -81,17 +84,19 @@ def find_table(grid: TextGrid) -> DataTable:
     ]
     rows: list[TextLine] = []
     blocks: list[int] = []
+    between: list[str] = []
     for block, (start, end) in enumerate(pairwise([*starts, len(grid.lines)])):
         here, body = _columns(grid, start)
         _check_same(grid, start, here, columns)
         lines = [line for line in grid.lines[body:end] if not line.comment]
         stop = len(lines)
-        while end < len(grid.lines) and stop and not any(map(is_number, lines[stop - 1].cells)):
+        while end < len(grid.lines) and stop and not _is_row(lines[stop - 1], columns):
             stop -= 1
         rows += lines[:stop]
         blocks += [block] * stop
-        if stop < len(lines):
-            notes.append(f"rows {lines[stop].number} to {lines[-1].number}, between two blocks, are not read")
+        between += [f"{lines[stop].number}-{lines[-1].number}"] if stop < len(lines) else []
+    if between:
+        notes.append(f"rows {', '.join(between)} stand between blocks and are not read")
     if len(starts) > 1:
         notes.append(f"{len(starts)} blocks with the same header are read one after the other")
     silent = [line.number for line in grid.lines[starts[0] :] if line.comment and _numbers(line) >= 2]
@@ -104,12 +109,37 @@ def find_table(grid: TextGrid) -> DataTable:
     return DataTable(grid, first, columns, tuple(rows), tuple(blocks), said, tuple(notes))
 
 
+def without_rows(table: DataTable, exclude: str) -> DataTable:
+    """The table without the rows that a person names by their number in the file, as 12-15,20; read or not."""
+    if not _EXCLUDED.fullmatch(exclude):
+        raise InputError(f'exclude = "{exclude}" (--exclude): expected rows such as 12-15,20')
+    spans = [
+        (int(low), int(high or low)) for low, _, high in (part.partition("-") for part in exclude.split(","))
+    ]
+    kept = [not any(low <= line.number <= high for low, high in spans) for line in table.rows]
+    if all(kept) or not any(kept):
+        what = "the table has no such rows" if all(kept) else "no row would be left"
+        raise InputError(f'{table.grid.name}: exclude = "{exclude}" (--exclude): {what}')
+    return replace(
+        table,
+        rows=tuple(compress(table.rows, kept)),
+        blocks=tuple(compress(table.blocks, kept)),
+        notes=(*table.notes, f"{kept.count(False)} row(s) excluded by hand: {exclude}"),
+    )
+
+
 def _numbers(line: TextLine) -> int:
     return sum(map(is_number, line.cells))
 
 
 def _is_data(line: TextLine) -> bool:
     return not line.comment and _numbers(line) >= 2
+
+
+def _is_row(line: TextLine, columns: Sequence[DataColumn]) -> bool:
+    """Whether numbers stand in half of the known columns: titles and remarks between blocks may hold some, too."""
+    known = [column.index for column in columns if column.meaning is not None]
+    return 2 * sum(is_number(cell) for k, cell in enumerate(line.cells) if k in known) >= len(known)
 
 
 def _headers(grid: TextGrid) -> list[int]:

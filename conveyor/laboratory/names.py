@@ -1,4 +1,4 @@
-"""What a column header means: quantity, logarithm, shear, unit; English, German and Korean names."""
+"""What a column header means: quantity, logarithm, shear, unit; English, German, French and Korean names."""
 
 from __future__ import annotations
 
@@ -47,19 +47,21 @@ class Meaning(NamedTuple):
 
 _NAMES = {
     "frequency": """f freq frequency frequenz prüffrequenz messfrequenz testfrequency oscillationfrequency 주파수
-        시험주파수 진동수""",
+        fréquence frequence 시험주파수 진동수""",
     "temperature": """temp temperature temperatur sampletemperature sampletemp probentemperatur prüftemperatur
-        온도 시험온도 시료온도""",
-    "strain": """strain strainamplitude strainamp dynamicstrain dynstrain oscillationstrain oscillatorystrain
-        shearstrain tensilestrain dehnung dehnungsamplitude dynamischedehnung verformung
-        scherung deformation γ γ0 gamma gamma0 ε ε0 epsilon epsilon0 eps 변형률 변형율 동적변형률""",
-    "time": "time zeit relaxationtime testtime 시간",
-    "storage": """storage storagemod storagemodulus speichermodul estor estorage e' e1 eprime tensilestoragemodulus
-        gstor gstorage g' g1 gprime shearstoragemodulus 저장탄성률 저장탄성율 저장모듈러스 저장계수""",
-    "loss": """loss lossmod lossmodulus verlustmodul eloss e'' e2 edoubleprime tensilelossmodulus
-        gloss g'' g2 gdoubleprime shearlossmodulus 손실탄성률 손실탄성율 손실모듈러스 손실계수탄성률""",
-    "complex": """e* estar complexmodulus tensilecomplexmodulus komplexermodul g* gstar shearcomplexmodulus
-        복소탄성률 복소탄성율""",
+        température 온도 시험온도 시료온도""",
+    "strain": """strain strainamplitude strainamp dynamicstrain dynstrain straindyn oscillationstrain oscillatorystrain
+        shearstrain tensilestrain dehnung dehnungsamplitude dynamischedehnung dyndehnung dehnungdyn verformung
+        scherung deformation déformation déformationdynamique deformationdynamique γ γ0 gamma gamma0 ε ε0 εdyn
+        epsilon epsilon0 eps 변형률 변형율 동적변형률""",
+    "time": "time zeit temps relaxationtime testtime 시간",
+    "storage": """storage storagemod storagemodulus speichermodul estor estorage e' e1 eprime m' tensilestoragemodulus
+        moduledeconservation moduledestockage gstor gstorage g' g1 gprime shearstoragemodulus
+        저장탄성률 저장탄성율 저장모듈러스 저장계수""",
+    "loss": """loss lossmod lossmodulus verlustmodul eloss e'' e2 edoubleprime m'' tensilelossmodulus
+        moduledeperte gloss g'' g2 gdoubleprime shearlossmodulus 손실탄성률 손실탄성율 손실모듈러스 손실계수탄성률""",
+    "complex": """e* estar complexmodulus tensilecomplexmodulus komplexermodul modulecomplexe g* gstar
+        shearcomplexmodulus 복소탄성률 복소탄성율""",
     "relaxation": """erelax e(t) et relaxation relaxationmodulus relaxationsmodul grelax g(t) gt
         shearrelaxationmodulus modulus e g 완화탄성률 이완탄성률""",
     "tau": "tau taui τ τi",
@@ -67,7 +69,7 @@ _NAMES = {
     "share": "alphai alpha αi α gi relativemodulus",
     "instant": "e0 g0 instantaneousmodulus",
     "tan_delta": """tandelta tan(delta) tand tanδ tan(δ) tan(d) tandel lossfactor lossfaktor verlustfaktor
-        dampingfactor losstangent 손실계수 손실탄젠트""",
+        facteurdeperte dampingfactor losstangent 손실계수 손실탄젠트""",
     "phase": "phase phaseangle phaselag lossangle phasenwinkel verlustwinkel delta δ 위상각 위상",
     "a_T": "at shiftfactor horizontalshift horizontalshiftfactor verschiebungsfaktor 이동인자 시프트팩터",
     "b_T": "bt verticalshift verticalshiftfactor",
@@ -114,7 +116,7 @@ def meaning(header: str) -> Meaning | None:
     Notes
     -----
     A unit stands in brackets, or after `_`, `/`, a comma, a blank or `in` if what follows is a known unit. A
-    lone `t` or `T` is a time or a temperature by its unit, without one by its case.
+    lone `t`, `T` or `Ts` is a time or a temperature by its unit, without one by its case.
 
     Examples
     --------
@@ -153,7 +155,7 @@ def _linear(text: str) -> Meaning | None:
 
 def _named(text: str, unit: str | None = None) -> Meaning | None:
     """A name without its unit; a symbol may follow or precede the words, as in "Storage modulus E'"."""
-    if text.strip() in {"t", "T"}:
+    if text.strip() in {"t", "T", "Ts"}:
         return Meaning(_time_or_temperature(text.strip(), unit))
     sense = _word(text)
     if sense is not None:
@@ -185,7 +187,7 @@ def _time_or_temperature(letter: str, unit: str | None) -> str:
     for dimension in ("time", "temperature"):
         if unit is not None and find_unit(dimension, unit):
             return dimension
-    return "temperature" if letter == "T" else "time"
+    return "temperature" if letter[0] == "T" else "time"
 
 
 def _word(text: str) -> Meaning | None:

@@ -1,0 +1,111 @@
+"""Files as instruments write them: sheets and blocks of steps, titles between them, columns of other names."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import openpyxl
+import pytest
+
+from conveyor.errors import InputError
+from conveyor.fitting.compound import Request, fit_file, from_files
+from conveyor.laboratory import read_dma
+
+ISOTHERMS = Path(__file__).parents[2] / "examples" / "laboratory" / "isotherms.csv"
+SWEEP = "Temp.;Freq.;Stat. Dehnung;{};E';E''\n[°C];[Hz];[%];[%];[MPa];[MPa]\n" + "".join(
+    f"{temperature};10;1,0;{strain};{modulus};1,0\n"
+    for temperature in (0, 20)
+    for strain, modulus in (("0,1", "12,0"), ("1,0", "9,0"), ("5,0", "6,0"))
+)
+
+
+def written(tmp_path: Path, text: str, name: str = "pad.txt") -> Path:
+    path = tmp_path / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("name", ["Dyn. Dehnung", "Dyn. strain", "Déformation dynamique"])
+def test_the_dynamic_strain_makes_a_strain_sweep(tmp_path: Path, name: str) -> None:
+    data = read_dma(written(tmp_path, SWEEP.format(name)))
+    assert data.kind == "strain sweep"
+    assert data.strain is not None
+    np.testing.assert_allclose(np.unique(data.strain), [0.001, 0.01, 0.05], rtol=1e-14)
+
+
+def test_moduli_that_differ_at_one_set_point_are_asked_for(tmp_path: Path) -> None:
+    path = written(tmp_path, SWEEP.format("amplitude"))
+    with pytest.raises(
+        InputError, match=r"differs by a factor of 2 at one temperature .*'strain \[%\]'.*\(--kind\)"
+    ):
+        read_dma(path)
+    assert read_dma(path, kind="temperature sweep").kind == "temperature sweep"
+
+
+def test_titles_with_numbers_between_blocks(tmp_path: Path) -> None:
+    head = "Interval data:\tPoint No.\tFrequency\tStorage Modulus\tLoss Modulus\tTemperature\n"
+    head += "\t\t[Hz]\t[Pa]\t[Pa]\t[°C]\n"
+    rows = {
+        t: "".join(f"\t{k}\t{f}\t{2e6 + k * 1e5}\t3e5\t{t}\n" for k, f in enumerate((1, 2, 5)))
+        for t in (0, 20)
+    }
+    title = "Result:\tFrequency sweep {} °C\nInterval and data points:\t1\t3\n"
+    data = read_dma(written(tmp_path, "".join(title.format(t) + head + rows[t] for t in rows)))
+    assert data.row_numbers.tolist() == [5, 6, 7, 12, 13, 14]
+    assert "rows 8-9 stand between blocks and are not read" in data.understood
+
+
+def test_names_in_french(tmp_path: Path) -> None:
+    head = "Température (°C);Fréquence (Hz);Module de conservation E' (MPa);Module de perte E'' (MPa)\n"
+    data = read_dma(written(tmp_path, head + "20;1;5,6;0,56\n20;10;6,8;0,68\n"))
+    assert data.kind == "master curve"
+    np.testing.assert_allclose(data.storage, [5.6e6, 6.8e6], rtol=1e-14)
+
+
+def test_rows_that_cannot_be_read_are_left_out(tmp_path: Path) -> None:
+    path = written(tmp_path, "f [Hz],E' [MPa],E'' [MPa]\n1,5.6,0.56\n5,,0.6\n10,6.8,0.748\nmean,6.2,0.65\n")
+    with pytest.raises(InputError, match=r"pad\.txt:3: .*the cell is empty .*--exclude"):
+        read_dma(path)
+    with pytest.raises(InputError, match=r"pad\.txt:5: .*'mean' is not a number.*--exclude"):
+        read_dma(path, exclude="3")
+    data = read_dma(path, exclude="3,5-9")
+    assert data.row_numbers.tolist() == [2, 4]
+    assert "2 row(s) excluded by hand: 3,5-9" in data.understood
+
+
+def test_sheets_of_one_rubber_are_taken_together(tmp_path: Path) -> None:
+    whole = read_dma(ISOTHERMS)
+    book = openpyxl.Workbook()
+    book.active.append(["Sample name", "pad"])
+    for number, one in enumerate(whole.isotherms(), start=1):
+        sheet = book.create_sheet(f"Frequency sweep - {number}")
+        for cells in (
+            [sheet.title],
+            ["Storage modulus", "Loss modulus", "Frequency", "Temperature"],
+            ["Pa", "Pa", "Hz", "K"],
+        ):
+            sheet.append(cells)
+        for row in zip(one.storage, one.loss, one.frequency, strict=True):
+            sheet.append([*map(float, row), one.temperature])
+    path = tmp_path / "steps.xlsx"
+    book.save(path)
+    with pytest.raises(InputError, match=r"15 sheets hold a table: .*--sheet '\*'"):
+        from_files(path, Request("pad", "20 degC"))
+    with pytest.raises(
+        InputError, match=r"no sheet 'Temp\*' holds a table; .*'Sheet', 'Frequency sweep - 1'"
+    ):
+        from_files(path, Request("pad", "20 degC", reading={"sheet": "Temp*"}))
+    found = from_files(path, Request("pad", "20 degC", replicas=0, reading={"sheet": "Freq*"}))
+    beside = fit_file(ISOTHERMS, Request("pad", "20 degC", replicas=0))
+    # the same rows, their temperatures rounded at the mean: nothing but rounding tells them apart
+    assert found.superposition.log10_a_T == pytest.approx(beside.superposition.log10_a_T, abs=1e-6)
+    left = Request(
+        "pad",
+        "20 degC",
+        replicas=0,
+        reading={"sheet": "*"},
+        exclude=("steps.xlsx[Frequency sweep - 1]:4-99",),
+    )
+    with pytest.raises(InputError, match="no row would be left"):
+        from_files(path, left)
