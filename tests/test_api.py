@@ -110,6 +110,13 @@ def test_an_answer_for_one_file_does_not_refuse_another(tmp_path: Path) -> None:
     read = read_answered(master, answers, poisson_ratio=0.5, several=True)
     assert read.storage is not None
     assert read.storage.max() == pytest.approx(SERIES.storage(2.0 * np.pi * 1e4), rel=1e-5)
+    isotherms = SPECS.parent / "laboratory" / "isotherms.csv"  # states its temperatures
+    told = [
+        read_answered(p, {"temperature": 293.15}, poisson_ratio=0.5, several=True)
+        for p in (isotherms, master)
+    ]
+    assert np.ptp(told[0].temperature) > 80.0  # -36 to 48 degC
+    assert told[1].temperature == pytest.approx(293.15)
 
 
 def test_studies_show_themselves_in_one_line() -> None:

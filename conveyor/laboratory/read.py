@@ -37,7 +37,7 @@ KINDS: Final = tuple(NEEDS)
 """What a file can hold."""
 LARGEST_FILE: Final = 50_000_000
 """Bytes; a table of a million rows has about as many."""
-_OF_ONE_FILE: Final = frozenset({"temperature", "sheet", "kind", "instantaneous", "exclude"})
+_OF_ONE_FILE: Final = frozenset({"sheet", "kind", "instantaneous", "exclude"})
 """Answers that hold for the file they were asked for."""
 T = TypeVar("T", bound=np.generic)
 
@@ -144,7 +144,8 @@ def read_dma(
 def read_answered(path: Path, answers: Mapping[str, Any], *, poisson_ratio: float, several: bool) -> DmaData:
     """Read a file with the answers of a command, keywords of `read_dma`.
 
-    Of several files one may state units that another leaves open: those that this file contradicts are left to it.
+    Of several files one may state units, or temperatures, that another leaves open: those that this file contradicts
+    are left to it.
 
     Raises
     ------
@@ -154,10 +155,11 @@ def read_answered(path: Path, answers: Mapping[str, Any], *, poisson_ratio: floa
     try:
         return read_dma(path, poisson_ratio=poisson_ratio, **answers)
     except InputError:
+        kept = {key: value for key, value in answers.items() if key != "temperature"}
         own = {key: value for key, value in answers.items() if key in _OF_ONE_FILE}
-        if several and own != answers:
+        for fewer in (kept, own | {"temperature": answers.get("temperature")}, own) if several else ():
             with suppress(InputError):
-                return read_dma(path, poisson_ratio=poisson_ratio, **own)
+                return read_dma(path, poisson_ratio=poisson_ratio, **fewer)
         raise
 
 
