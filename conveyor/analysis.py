@@ -49,6 +49,10 @@ class Analysis(CalculatedConveyor):
     'US'
     """
 
+    def __getstate__(self) -> dict[str, Any]:
+        """What was calculated; tables are made anew, their columns are functions."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
     @cached_property
     def checks(self) -> tuple[Check, ...]:
         """Every criterion, and how it stands."""
