@@ -149,7 +149,7 @@ def _unneeded(used: dict[str, list[DataColumn]]) -> list[DataColumn]:
 
 def _check_width(table: DataTable) -> None:
     """Refuse rows longer than the header."""
-    width = len(table.columns)
+    width = table.width
     for line in table.rows:
         count = len(line.cells)
         if count > width:

@@ -55,6 +55,11 @@ class DataTable:
         return str(self.refusal(column, "")).split(": ", 1)[1].removesuffix(":")
 
     @property
+    def width(self) -> int:
+        """Cells of a full row."""
+        return self.columns[-1].index + 1
+
+    @property
     def row_numbers(self) -> IntArray:
         """Of each row in the file."""
         return np.array([line.number for line in self.rows], dtype=np.int64)

@@ -33,6 +33,14 @@ DIMENSIONS: Final = MappingProxyType(
 """Quantities that can be read, with the dimension of each."""
 
 
+class SetPoint(NamedTuple):
+    """A frequency or temperature in a header, as in "E'(10 Hz)/MPa": its quantity, number and unit."""
+
+    quantity: str
+    number: str
+    unit: str
+
+
 class Meaning(NamedTuple):
     """What the text of a header cell says."""
 
@@ -43,6 +51,7 @@ class Meaning(NamedTuple):
     angular: bool = False
     peak_to_peak: bool = False
     reduced: bool = False
+    at: SetPoint | None = None
 
 
 _NAMES = {
@@ -107,6 +116,11 @@ _LOOSE: Final = (
 )
 """What stands behind is a unit only if it is known."""
 _WITH_LOGARITHMS: Final = frozenset({"frequency", "time", "storage", "loss", "relaxation", "a_T", "b_T"})
+_AT: Final = re.compile(
+    r"\s*(?:@|\bat\b|\bbei\b)?\s*(?P<open>[(\[]?)\s*(?<![\w.,])(?P<number>-?\d+(?:[.,]\d+)?)\s*"
+    r"(?P<unit>k?Hz|°C|ºC|℃|degC)(?(open)\s*[)\]])",
+    re.IGNORECASE,
+)
 _LOG = re.compile(r"(?P<log>log_?10|log|lg|ln)[\s_]*(?P<rest>\(.+\)|\[.+\]|.+)", re.IGNORECASE)
 
 
@@ -115,19 +129,24 @@ def meaning(header: str) -> Meaning | None:
 
     Notes
     -----
-    A unit stands in brackets, or after `_`, `/`, a comma, a blank or `in` if what follows is a known unit. A
-    lone `t`, `T` or `Ts` is a time or a temperature by its unit, without one by its case.
+    A unit stands in brackets, or after `_`, `/`, a comma, a blank or `in` if what follows is a known unit; a set point,
+    as in `E'(10 Hz)/MPa`, is taken apart first. A lone `t`, `T` or `Ts` is a time or a temperature by its unit, without
+    one by its case.
 
     Examples
     --------
-    >>> meaning("E'' (MPa)")
-    Meaning(quantity='loss', unit='MPa', log_base=None, letter='E', angular=False, peak_to_peak=False, reduced=False)
+    >>> meaning("E'' (MPa)")[:4], meaning("E''(3.3Hz)/MPa").at
+    (('loss', 'MPa', None, 'E'), SetPoint(quantity='frequency', number='3.3', unit='Hz'))
     >>> meaning("log_aT").log_base, meaning("storage_Pa").unit, meaning("Point")
     (10.0, 'Pa', None)
     """
     if len(header) > _LONGEST_NAME:
         return None
     text = " ".join(header.translate(_PRIMES).split())
+    if point := _AT.search(text):
+        sense = meaning((text[: point.start()] + text[point.end() :]).strip())
+        quantity = "temperature" if point["unit"].lower()[-1] in "c℃" else "frequency"
+        return sense and sense._replace(at=SetPoint(quantity, point["number"], point["unit"]))
     sense = _linear(text)
     if sense is not None or not (log := _LOG.fullmatch(text)):
         return sense

@@ -22,6 +22,7 @@ from conveyor.laboratory.arrange import Arrangement, arrange, check_trend
 from conveyor.laboratory.columns import Question, Read, Series, check_units, read_columns
 from conveyor.laboratory.encoding import decoded
 from conveyor.laboratory.grid import TextGrid, refusal
+from conveyor.laboratory.header_points import row_each
 from conveyor.laboratory.kinds import NEEDS, decide, possible_kinds
 from conveyor.laboratory.layout import EXAMPLE, DataTable, find_table, has_table, without_rows
 from conveyor.laboratory.moduli import dynamic_moduli, equivalent_strain, to_tensile
@@ -122,6 +123,7 @@ def read_dma(
     table = find_table(_grid(Path(path), sheet))
     if exclude is not None:
         table = without_rows(table, exclude)
+    table = row_each(table)
     read = read_columns(table, given)
     columns, derived = _quantities(table, read, (poisson_ratio, letter), temperature, instantaneous)
     notes = [*table.grid.notes, *table.notes, *read.notes]

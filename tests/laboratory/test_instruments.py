@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -54,6 +55,51 @@ def test_titles_with_numbers_between_blocks(tmp_path: Path) -> None:
     data = read_dma(written(tmp_path, "".join(title.format(t) + head + rows[t] for t in rows)))
     assert data.row_numbers.tolist() == [5, 6, 7, 12, 13, 14]
     assert "rows 8-9 stand between blocks and are not read" in data.understood
+
+
+MATRIX = "Temp./°C;{0}'(1.000Hz)/MPa;{0}''(1.000Hz)/MPa;{0}'(3.333Hz)/MPa;{0}''(3.333Hz)/MPa\n"
+
+
+def test_frequencies_in_the_headers_make_rows(tmp_path: Path) -> None:
+    rows = "0,0;9,0;1,0;9,5;1,1\n10,0;7,0;0,7;;\n20,0;5,6;0,5;5,9;0,55\n"
+    data = read_dma(written(tmp_path, "Sample;torsion\n" + MATRIX.format("M") + rows), letter="G")
+    assert data.kind == "isotherms"
+    columns = data.columns("isotherms", "temperature", "frequency", "storage", "loss")
+    found = sorted(zip(*(column.tolist() for column in columns), strict=True))
+    expected = [
+        (273.15, 1.0, 27e6, 3e6), (273.15, 3.333, 28.5e6, 3.3e6), (283.15, 1.0, 21e6, 2.1e6),
+        (293.15, 1.0, 16.8e6, 1.5e6), (293.15, 3.333, 17.7e6, 1.65e6),
+    ]  # fmt: skip
+    np.testing.assert_allclose(found, expected, rtol=1e-14)
+    assert "a row for each frequency of the headers: 1.000, 3.333 Hz" in data.understood
+
+
+@pytest.mark.parametrize(
+    ("header", "row", "place"),
+    [
+        (MATRIX.format("E"), "0,0;9,0;1,0;9,5;\n", "2: column 5 \"E''(3.333Hz)/MPa\": the cell is empty"),
+        (
+            MATRIX.format("E"),
+            "0,0;9,0;1,0;OVL;1,1\n",
+            "2: column 4 \"E'(3.333Hz)/MPa\": 'OVL' is not a finite number",
+        ),
+        (
+            MATRIX.format("E").replace("''(3.333", "'(10"),
+            "0,0;9,0;1,0;9,5;1,1\n",
+            "3.333 Hz has other columns",
+        ),
+        (
+            MATRIX.format("E").replace("Temp./°C", "f/Hz"),
+            "1,0;9,0;1,0;9,5;1,1\n",
+            "a second column for storage",
+        ),
+    ],
+)
+def test_headers_with_set_points_are_refused_in_their_place(
+    tmp_path: Path, header: str, row: str, place: str
+) -> None:
+    with pytest.raises(InputError, match=re.escape(place)):
+        read_dma(written(tmp_path, header + row + row))
 
 
 def test_names_in_french(tmp_path: Path) -> None:
