@@ -20,6 +20,7 @@ from conveyor.laboratory.units import is_any_unit
 EXCLUDE: Final = "or leave it out with exclude (--exclude)"
 """The cure of a row that needs not be read."""
 _EXCLUDED: Final = re.compile(r"\d{1,9}(?:-\d{1,9})?(?:,\d{1,9}(?:-\d{1,9})?)*")
+_LISTED: Final = re.compile(r"[A-Za-z]+ ?(\d{1,2})")
 EXAMPLE: Final = "a header row such as 'frequency_Hz,storage_MPa,loss_MPa'"
 
 
@@ -73,6 +74,7 @@ def has_table(grid: TextGrid) -> bool:
 
 def find_table(grid: TextGrid) -> DataTable:
     """Split a grid into header, unit row and rows; every other line is metadata or a remark named in the notes."""
+    grid = _with_listed_names(grid)
     headers = _headers(grid)
     ends = [*headers[1:], len(grid.lines)]
     starts = [a for a, b in zip(headers, ends, strict=False) if any(map(_is_data, grid.lines[a + 1 : b]))]
@@ -131,6 +133,20 @@ def without_rows(table: DataTable, exclude: str) -> DataTable:
         blocks=tuple(compress(table.blocks, kept)),
         notes=(*table.notes, f"{kept.count(False)} row(s) excluded by hand: {exclude}"),
     )
+
+
+def _with_listed_names(grid: TextGrid) -> TextGrid:
+    """A grid with a header of the names that it lists above the numbers, a line each: "Sig2", "Temperature (°C)"."""
+    first = next((position for position, line in enumerate(grid.lines) if _is_data(line)), 0)
+    listed = {}
+    for line in grid.lines[:first]:
+        if len(line.cells) == 2 and (match := _LISTED.fullmatch(line.cells[0])):
+            listed[int(match[1])] = line
+    if len(listed) < 2 or sorted(listed) != list(range(1, len(grid.lines[first].cells) + 1)):
+        return grid
+    names = tuple(listed[number].cells[1] for number in sorted(listed))
+    header = TextLine(listed[len(listed)].number, names, " ".join(names), comment=False)
+    return replace(grid, lines=(*grid.lines[:first], header, *grid.lines[first:]))
 
 
 def _numbers(line: TextLine) -> int:

@@ -102,6 +102,25 @@ def test_headers_with_set_points_are_refused_in_their_place(
         read_dma(written(tmp_path, header + row + row))
 
 
+def test_names_listed_above_the_numbers(tmp_path: Path) -> None:
+    names = (
+        "Time (min)",
+        "Temperature (°C)",
+        "Frequency (Hz)",
+        "Storage Modulus (MPa)",
+        "Loss Modulus (MPa)",
+    )
+    head = "Instrument\tDMA Q800\nnsig\t5\n" + "".join(
+        f"Sig{k}\t{name}\n" for k, name in enumerate(names, start=1)
+    )
+    rows = "1.0\t20.1\t1.0\t5.6\t0.56\n2.0\t20.0\t10.0\t6.8\t0.68\n"
+    data = read_dma(written(tmp_path, head + "Date\t12-Mar-25\nTime\t09:14:07\nStartOfData\n" + rows))
+    assert data.row_numbers.tolist() == [11, 12]
+    np.testing.assert_allclose(data.storage, [5.6e6, 6.8e6], rtol=1e-14)
+    with pytest.raises(InputError, match="fewer than two known quantities"):
+        read_dma(written(tmp_path, head.replace("Sig5", "Signal") + "StartOfData\n" + rows, "four.txt"))
+
+
 def test_names_in_french(tmp_path: Path) -> None:
     head = "Température (°C);Fréquence (Hz);Module de conservation E' (MPa);Module de perte E'' (MPa)\n"
     data = read_dma(written(tmp_path, head + "20;1;5,6;0,56\n20;10;6,8;0,68\n"))
