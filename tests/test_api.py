@@ -68,6 +68,12 @@ def test_solutions_pickle_with_what_is_formed_later(make) -> None:
     assert np.all(read.peak_pressure == made.peak_pressure)
 
 
+def test_functions_pickle_by_their_names() -> None:
+    for name in conveyor.__all__:
+        named = getattr(conveyor, name)
+        assert pickle.loads(pickle.dumps(named)) is named or name == "__version__"  # noqa: S301 made here
+
+
 def test_analyses_pickle() -> None:
     result = conveyor.analyse(conveyor.load(SPECS / "shuttle.yaml"))
     shown = result.to_dict(), result.summary.to_dict(), result.checks  # what is kept of them does not travel
