@@ -99,28 +99,34 @@ class _Head:
 
 def read_rows(path: str | Path, kind: TableKind) -> tuple[MeasuredRow, ...]:
     """Read a table of measurements: text, or a workbook with one sheet of cells; the first line names columns."""
-    grid = _grid(Path(path), kind)
+    return rows_of(grid_of(path, kind), kind)
+
+
+def rows_of(grid: TextGrid, kind: TableKind) -> tuple[MeasuredRow, ...]:
+    """Rows of a grid, whose first line names columns."""
     lines = [line for line in grid.lines if not line.comment]
     if len(lines) < 2:
         raise InputError(
-            f"{path}: no {kind.one} in it; the first line names columns, as {kind.example}, one row a {kind.one} "
+            f"{grid.name}: no {kind.one} in it; the first line names columns, as {kind.example}, one row a {kind.one} "
             "follows"
         )
     head, *rows = lines
     if len(rows) > kind.most_rows:
         raise InputError(
-            f"{path}: {len(rows)} rows, at most {kind.most_rows} are read; give means over longer times"
+            f"{grid.name}: {len(rows)} rows, at most {kind.most_rows} are read; give means over longer times"
         )
     columns = _columns(grid, head, kind)
     mark = _mark(grid, columns, rows)
     return tuple(_row(grid, columns, row, width=len(head.cells), mark=mark, kind=kind) for row in rows)
 
 
-def _grid(path: Path, kind: TableKind) -> TextGrid:
-    """The lines of a text, or of the one sheet that holds cells."""
+def grid_of(path: str | Path, kind: TableKind, *, form: str = "") -> TextGrid:
+    """The lines of a text, or of the one sheet that holds cells; of a form the sheet of its name."""
+    path = Path(path)
     data = file_content(path, largest=LARGEST_FILE, expected=kind.what)
     if data.startswith(MAGIC):
         filled = [grid for grid in workbook_grids(data, path.name) if grid.lines]
+        filled = [grid for grid in filled if grid.sheet == form] or filled
         if len(filled) != 1:
             raise InputError(
                 f"{path}: {len(filled)} sheets hold cells; keep the {kind.one}s on one, and save it alone"
