@@ -67,19 +67,18 @@ class DataTable:
 
 
 def has_table(grid: TextGrid) -> bool:
-    """Whether some line names two or more known quantities and rows of numbers follow."""
-    headers = _headers(grid)
-    return bool(headers) and any(map(_is_data, grid.lines[headers[0] + 1 :]))
+    """Whether some line names two or more known quantities, one of them measured, and rows of numbers follow."""
+    return any(_measures(grid.lines[header]) for header in _with_rows(grid, _headers(grid)))
 
 
 def find_table(grid: TextGrid) -> DataTable:
     """Split a grid into header, unit row and rows; every other line is metadata or a remark named in the notes."""
     grid = _with_listed_names(grid)
     headers = _headers(grid)
-    ends = [*headers[1:], len(grid.lines)]
-    starts = [a for a, b in zip(headers, ends, strict=False) if any(map(_is_data, grid.lines[a + 1 : b]))]
-    if not starts:
+    tables = _with_rows(grid, headers)
+    if not tables:
         raise _no_table(grid, headers)
+    starts = [start for start in tables if _measures(grid.lines[start])] or tables
     columns, body = _columns(grid, starts[0])
     notes = [f"row {grid.lines[starts[0]].number} is the header"]
     if body > starts[0] + 1:
@@ -87,12 +86,18 @@ def find_table(grid: TextGrid) -> DataTable:
     notes += [
         f"row {grid.lines[h].number} also names columns, but no numbers follow it"
         for h in headers
-        if h not in starts
+        if h not in tables
+    ]
+    notes += [
+        f"row {grid.lines[t].number} begins a table that names no modulus and is not read"
+        for t in tables
+        if t not in starts
     ]
     rows: list[TextLine] = []
     blocks: list[int] = []
     between: list[str] = []
-    for block, (start, end) in enumerate(pairwise([*starts, len(grid.lines)])):
+    ranges = [(start, end) for start, end in pairwise([*tables, len(grid.lines)]) if start in starts]
+    for block, (start, end) in enumerate(ranges):
         here, body = _columns(grid, start)
         _check_same(grid, start, here, columns)
         lines = [line for line in grid.lines[body:end] if not line.comment]
@@ -172,6 +177,18 @@ def _headers(grid: TextGrid) -> list[int]:
             if len(quantities) >= 2:
                 headers.append(position)
     return headers
+
+
+def _with_rows(grid: TextGrid, headers: Sequence[int]) -> list[int]:
+    """Those of the headers that rows of numbers follow, before the next."""
+    ends = [*headers[1:], len(grid.lines)]
+    return [a for a, b in zip(headers, ends, strict=False) if any(map(_is_data, grid.lines[a + 1 : b]))]
+
+
+def _measures(header: TextLine) -> bool:
+    """Whether a header names more than what is set in a test, and its clock."""
+    named = {sense.quantity for cell in header.cells if cell and (sense := meaning(cell)) is not None}
+    return not named <= {"frequency", "temperature", "strain", "time", "run"}
 
 
 def _columns(grid: TextGrid, position: int) -> tuple[tuple[DataColumn, ...], int]:

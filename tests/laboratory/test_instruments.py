@@ -57,6 +57,21 @@ def test_titles_with_numbers_between_blocks(tmp_path: Path) -> None:
     assert "rows 8-9 stand between blocks and are not read" in data.understood
 
 
+def test_steps_without_a_modulus_are_not_read(tmp_path: Path) -> None:
+    soak = "[step]\nTemperature soak\nStep time\tTime\tTemperature\ns\ts\t°C\n10\t10\t19.0\n20\t20\t20.0\n"
+    sweep = "[step]\nSweep\nFrequency\tStorage modulus\tLoss modulus\tTemperature\nHz\tMPa\tMPa\t°C\n"
+    rows = "1\t5.6\t0.56\t{0}\n10\t6.8\t0.748\t{0}\n"
+    data = read_dma(
+        written(tmp_path, "".join(soak + sweep + rows.format(t) for t in ("20.0", "40.0")) + soak)
+    )
+    assert data.row_numbers.tolist() == [11, 12, 23, 24]
+    assert data.kind == "isotherms"
+    for row in (3, 15, 27):
+        assert f"row {row} begins a table that names no modulus and is not read" in data.understood
+    with pytest.raises(InputError, match="make no measurement"):
+        read_dma(written(tmp_path, soak))
+
+
 MATRIX = "Temp./°C;{0}'(1.000Hz)/MPa;{0}''(1.000Hz)/MPa;{0}'(3.333Hz)/MPa;{0}''(3.333Hz)/MPa\n"
 
 
