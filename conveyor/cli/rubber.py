@@ -93,6 +93,9 @@ def fit(
     ] = False,
     by: Annotated[str, option("Modulus that places the isotherms: both, storage, loss.")] = "both",
     law: Annotated[str, option("Shift law the compound keeps: table, wlf, arrhenius.")] = "table",
+    repeats: Annotated[
+        bool, option("Average sweeps at one temperature, specimens or runs; else they are refused.")
+    ] = False,
     exclude: Annotated[
         list[str] | None, option("Rows to leave out, 12-15,20; may be repeated.", "[FILE:]ROWS")
     ] = None,
@@ -178,6 +181,7 @@ def fit(
         vertical=vertical,
         by=one_of("--by", by, ("both", "storage", "loss")),
         law=one_of("--law", law, ("table", "wlf", "arrhenius")),
+        repeats=repeats,
         exclude=tuple(exclude or ()),
         storage_error=si_of("--storage-error", storage_error, "fraction"),
         loss_error=si_of("--loss-error", loss_error, "fraction"),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -13,8 +14,11 @@ from numpy.typing import NDArray
 
 from conveyor.errors import InputError
 from conveyor.laboratory import DmaData
-from conveyor.laboratory.groups import ISOTHERM_GAP, temperature_groups
+from conveyor.laboratory.groups import ISOTHERM_GAP, set_points, temperature_groups
+from conveyor.laboratory.kinds import UNLIKE
 from conveyor.rubber import Isotherm, ShiftLaw, Superposition, entropic_b_T, equivalent_sweep
+from conveyor.rubber.superposition import LEAST_ROWS
+from conveyor.units.sentences import celsius
 
 Array = NDArray[np.float64]
 Numbers = NDArray[np.int64]
@@ -134,6 +138,45 @@ def sweeps(reads: Sequence[DmaData], stated: Mapping[int, float]) -> tuple[list[
                 "says the same, a decade inside its window"
             )
     return taken, tuple(said)
+
+
+def averaged(parts: Sequence[Sweep]) -> tuple[list[Sweep], tuple[str, ...]]:
+    """Sweeps at one temperature, specimens or runs, as one, and a sentence on each such temperature."""
+    ordered = sorted(parts, key=lambda part: part.isotherm.temperature)
+    apart = np.flatnonzero(np.diff([part.isotherm.temperature for part in ordered]) > ISOTHERM_GAP) + 1
+    made, said = [], []
+    for first, last in pairwise([0, *apart.tolist(), len(ordered)]):
+        mean, words = _mean(ordered[first:last]) if last - first > 1 else (ordered[first], "")
+        made.append(mean)
+        said += [words] if words else []
+    return made, tuple(said)
+
+
+def _mean(sweeps: Sequence[Sweep]) -> tuple[Sweep, str]:
+    """Geometric means of sweeps at the frequencies that all of them have, and what they differ by."""
+    ones = [sweep.isotherm for sweep in sweeps]
+    at = float(np.mean([one.temperature for one in ones]))
+    said = f"{len(ones)} sweeps at {celsius(at):.2f} degC"
+    rows = np.log(np.concatenate([[one.frequency, one.storage, one.loss] for one in ones], axis=1))
+    level, sweep = (
+        set_points(np.exp(rows[0])),
+        np.repeat(range(len(ones)), [one.frequency.size for one in ones]),
+    )
+    points = (np.flatnonzero(level == k) for k in np.unique(level))
+    common = [point for point in points if sweep[point].tolist() == list(range(len(ones)))]
+    if len(common) < LEAST_ROWS:
+        raise InputError(
+            f"--repeats: {said} have {len(common)} frequencies in common, {LEAST_ROWS} are needed"
+        )
+    spread = max(float(np.ptp(rows[1, point])) for point in common)
+    if spread > np.log(UNLIKE):
+        raise InputError(
+            f"--repeats: {said} are none, their E' differs by a factor of {np.exp(spread):.2g}: correct the"
+            " temperature of one, or leave it out with --exclude"
+        )
+    mean = Isotherm(at, *np.exp([[np.mean(row[point]) for point in common] for row in rows]))
+    words = f"{said} averaged at {len(common)} frequencies; their E' differ by up to {100.0 * np.expm1(spread):.1f} %"
+    return Sweep(sweeps[0].file, mean, sweeps[0].first_row), words
 
 
 def _sweep(
