@@ -74,7 +74,7 @@ class RollContact:
     spacing : float
         λ, of the idler sets [m]; at least 2 R.
     cover_thickness : float
-        h, of the cover the roll runs on [m].
+        h, of the cover the roll runs on, at most λ unless `support` is a half-space [m].
     speed : float
         V, of the belt [m/s].
     rubber : PronySeries
@@ -105,6 +105,11 @@ class RollContact:
             value = getattr(self, name)
             if not 0.0 < value < math.inf:
                 raise InputError(f"{name} = {value!r}: a finite number greater than 0 is needed")
+        if self.support != "half-space" and self.cover_thickness > self.spacing:
+            raise InputError(
+                f"cover_thickness = {self.cover_thickness:g} m is more than spacing = {self.spacing:g} m: both are in"
+                ' metres; endless rubber has support "half-space"'
+            )
 
     @property
     def pull(self) -> float | None:

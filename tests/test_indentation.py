@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from conveyor import shelf
-from conveyor.errors import RangeError
+from conveyor.errors import InputError, RangeError
 from conveyor.indentation import (
     RollContact,
     felt,
@@ -126,3 +126,11 @@ def test_loads_outside_a_curve_are_refused_in_newtons():
         ):
             ask([600.0, 8000.0])
         ask([500.0, 4000.0])
+
+
+def test_a_cover_in_millimetres_is_refused():
+    with pytest.raises(
+        InputError, match=r"cover_thickness = 5 m is more than spacing = 1\.2 m: both are in metres"
+    ):
+        replace(RIGID, support="confined", cover_thickness=5.0)
+    assert replace(RIGID, support="half-space", cover_thickness=5.0).cover_thickness > RIGID.spacing
