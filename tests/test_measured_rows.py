@@ -117,6 +117,16 @@ def test_rows_are_excluded_by_name(alone):
         fit_file(FILES, Request("x", AT, exclude=("8",)))
 
 
+def test_rows_of_a_file_of_shifts_are_excluded_by_its_name(tmp_path: Path):
+    path = tmp_path / "shifts.csv"
+    path.write_text("temperature_degC,log10_aT\n0.03,1.5\n20,OVL\n48,-1.4\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r"shifts\.csv:3: .*--exclude"):
+        fit_file(FILES[0], Request("x", AT, shift=path, replicas=0))
+    found = fit_file(FILES[0], Request("x", AT, shift=path, replicas=0, exclude=("shifts.csv:3", "8-18")))
+    assert sum("given, " in line for line in found.understood) == 2
+    assert "isotherms.csv: rows excluded by hand: 8-18" in found.compound.fit.method
+
+
 def test_given_shifts_override_those_found(tmp_path: Path, alone):
     path = tmp_path / "one.csv"
     path.write_text("temperature_degC,log10_aT\n0.03,1.5\n48,-1.4\n", encoding="utf-8")

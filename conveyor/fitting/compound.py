@@ -23,7 +23,7 @@ from conveyor.fitting.laying import (
     stored_law,
 )
 from conveyor.fitting.request import Request
-from conveyor.fitting.rows import CURVES, MeasuredRows, entropic, excluded, moduli_of
+from conveyor.fitting.rows import CURVES, MeasuredRows, entropic, excluded, excluded_of, moduli_of
 from conveyor.laboratory import DmaData
 from conveyor.laboratory.read import read_answered, sheets
 from conveyor.models import RubberCompound
@@ -273,7 +273,9 @@ def _read_all(paths: Sequence[Path], request: Request) -> tuple[list[DmaData], t
     """Every file, of a workbook every sheet that is asked for; what was left out of them."""
     tables = [(path, sheet) for path in paths for sheet in sheets(path, request.reading.get("sheet"))]
     several = len(tables) > 1 or request.shift is not None or request.strain is not None
-    rows = excluded(tables, request.exclude)
+    rows = excluded(
+        tables, request.exclude, [path for path in (request.shift, request.strain) if path is not None]
+    )
     files = []
     for k, (path, sheet) in enumerate(tables):
         answers = {**request.reading, "sheet": sheet, "exclude": rows.get(k)}
@@ -295,6 +297,7 @@ def _compound(described: dict[str, Any], shifted_by: Path) -> RubberCompound:
 
 def _of_kind(path: Path, kind: str, request: Request) -> DmaData:
     answers = {key: value for key, value in request.reading.items() if key not in {"kind", "sheet"}}
+    answers["exclude"] = excluded_of(path, request.exclude)
     read = read_answered(path, answers, poisson_ratio=request.poisson_ratio, several=True)
     if read.kind != kind:
         raise InputError(f"{path}: holds {read.kind}, {kind} are needed here")

@@ -92,8 +92,13 @@ def shift_factors(superposition: Superposition | None, given: DmaData | None) ->
     return ShiftFactors(given.temperature, given.log10_a_T, None, given.log10_b_T)
 
 
-def excluded(tables: Sequence[tuple[Path, str | None]], exclude: Sequence[str]) -> dict[int, str]:
-    """Rows to leave out, 12-15,20, of tables (file and sheet) by their number; from FILE:ROWS, of one file ROWS."""
+def excluded(
+    tables: Sequence[tuple[Path, str | None]], exclude: Sequence[str], others: Sequence[Path] = ()
+) -> dict[int, str]:
+    """Rows to leave out, 12-15,20, of tables (file and sheet) by their number; from FILE:ROWS, of one file ROWS.
+
+    What names one of the other files, `excluded_of` has.
+    """
     rows: dict[int, str] = {}
     for given in exclude:
         match = _ROWS.fullmatch(given.strip())
@@ -102,11 +107,24 @@ def excluded(tables: Sequence[tuple[Path, str | None]], exclude: Sequence[str]) 
                 f'--exclude: got "{given}", expected rows such as 12-15,20 or isotherms.csv:12-15,20'
             )
         named = [k for k, table in enumerate(tables) if _is_named(match["file"], *table)]
-        if len(named) != 1:
-            names = ", ".join(path.name + (f"[{sheet}]" if sheet else "") for path, sheet in tables)
+        other = [
+            path for path in others if match["file"] is not None and _is_named(match["file"], path, None)
+        ]
+        if len(other) == 1 and not named:
+            continue
+        if len(named) != 1 or other:
+            files = [*tables, *((path, None) for path in others)]
+            names = ", ".join(path.name + (f"[{sheet}]" if sheet else "") for path, sheet in files)
             raise InputError(f'--exclude: "{given}": rows of which file? Write FILE:ROWS; files are {names}')
         rows[named[0]] = ",".join([*filter(None, [rows.get(named[0])]), match["rows"]])
     return rows
+
+
+def excluded_of(path: Path, exclude: Sequence[str]) -> str | None:
+    """Rows to leave out of one file, of those that name it; None without any."""
+    given = [match for match in map(_ROWS.fullmatch, exclude) if match and match["file"] is not None]
+    rows = [match["rows"] for match in given if _is_named(match["file"], path, None)]
+    return ",".join(rows) or None
 
 
 def _is_named(name: str | None, path: Path, sheet: str | None) -> bool:
