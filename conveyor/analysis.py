@@ -49,6 +49,10 @@ class Analysis(CalculatedConveyor):
     'US'
     """
 
+    def __getstate__(self) -> dict[str, Any]:
+        """What was calculated; tables are made anew, their columns are functions."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
     @cached_property
     def checks(self) -> tuple[Check, ...]:
         """Every criterion, and how it stands."""
@@ -354,21 +358,22 @@ def faced(plain: Any, face: Callable[..., Face]) -> Face:
     return face(**{field.name: getattr(plain, field.name) for field in fields(plain)})
 
 
-def facing(work: Callable[Given, Any], face: Callable[..., Face]) -> Callable[Given, Face]:
-    """A function whose results have their face."""
+def facing(name: str, work: Callable[Given, Any], face: Callable[..., Face]) -> Callable[Given, Face]:
+    """A function whose results have their face, by its name in the face's module: workers find it there."""
 
     @wraps(work)
     def called(*given: Given.args, **named: Given.kwargs) -> Face:
         return faced(work(*given, **named), face)
 
+    called.__module__, called.__name__, called.__qualname__ = face.__module__, name, name
     return called
 
 
-analyse = facing(calculate, Analysis)
-analyse_cases = facing(case_study.analyse_cases, CaseStudy)
-analyse_duty = facing(duty_study.analyse_duty, DutyStudy)
-study_ranges = facing(range_study.study, UncertaintyStudy)
-load_states = facing(state_study.load_states, StateStudy)
+analyse = facing("analyse", calculate, Analysis)
+analyse_cases = facing("analyse_cases", case_study.analyse_cases, CaseStudy)
+analyse_duty = facing("analyse_duty", duty_study.analyse_duty, DutyStudy)
+study_ranges = facing("study_ranges", range_study.study, UncertaintyStudy)
+load_states = facing("load_states", state_study.load_states, StateStudy)
 
 
 def studies(

@@ -142,8 +142,8 @@ class VerificationSheet(verification_study.CalculatedVerification):
         return plain(self)
 
 
-compare_compounds = facing(compound_study.compare_compounds, Comparison)
-verify_sheet = facing(verification_study.verification, VerificationSheet)
+compare_compounds = facing("compare_compounds", compound_study.compare_compounds, Comparison)
+verify_sheet = facing("verify_sheet", verification_study.verification, VerificationSheet)
 
 
 def calibrate(

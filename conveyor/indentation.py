@@ -27,11 +27,12 @@ from conveyor.contact import (
     solve,
     solve_many,
 )
-from conveyor.errors import Amount, InputError, NoSolutionError
+from conveyor.errors import Amount, InputError, NoSolutionError, RangeError
 from conveyor.rubber import CreepSeries, PronySeries, creeps
 
 Array = NDArray[np.float64]
 Support = Literal["confined", "free", "half-space", "belt"]
+_SLACK = 1e-12  # of the ends of a curve, which rounding may pass [-]
 
 
 @dataclass(frozen=True)
@@ -73,7 +74,7 @@ class RollContact:
     spacing : float
         λ, of the idler sets [m]; at least 2 R.
     cover_thickness : float
-        h, of the cover the roll runs on [m].
+        h, of the cover the roll runs on, at most λ unless `support` is a half-space [m].
     speed : float
         V, of the belt [m/s].
     rubber : PronySeries
@@ -104,6 +105,11 @@ class RollContact:
             value = getattr(self, name)
             if not 0.0 < value < math.inf:
                 raise InputError(f"{name} = {value!r}: a finite number greater than 0 is needed")
+        if self.support != "half-space" and self.cover_thickness > self.spacing:
+            raise InputError(
+                f"cover_thickness = {self.cover_thickness:g} m is more than spacing = {self.spacing:g} m: both are in"
+                ' metres; endless rubber has support "half-space"'
+            )
 
     @property
     def pull(self) -> float | None:
@@ -367,8 +373,24 @@ class IndentationCurve:
         RangeError
             A load outside the curve.
         """
-        unit = self.curve.problem.pressure / self.highest
-        return self.curve.at(np.asarray(line_load, dtype=float) * unit).penetration * self.contact.radius
+        return self.curve.at(self.pressures(line_load)).penetration * self.contact.radius
+
+    def pressures(self, line_load: ArrayLike) -> Array:
+        """Dimensionless mean pressure at line loads w [N/m].
+
+        Raises
+        ------
+        RangeError
+            A load outside the curve.
+        """
+        w = np.asarray(line_load, dtype=float)
+        if w.size and not self.lowest * (1.0 - _SLACK) <= w.min() <= w.max() <= self.highest * (1.0 + _SLACK):
+            loads = [float(w.min()), float(w.max()), self.lowest, self.highest]
+            raise RangeError(
+                "line load from {} to {}: the curve was solved from {} to {}; solve a wider one",
+                *(Amount(each, "line force", f"{each:.6g} N/m") for each in loads),
+            )
+        return np.asarray(w * (self.curve.problem.pressure / self.highest))
 
     def at(self, line_load: ArrayLike) -> Indentation:
         """Back from dimensionless to physical.
@@ -385,7 +407,7 @@ class IndentationCurve:
         """
         w = np.asarray(line_load, dtype=float)
         unit = self.curve.problem.pressure / self.highest
-        dimensionless = self.curve.at(w * unit)
+        dimensionless = self.curve.at(self.pressures(w))
         radius = self.contact.radius
         # p = p̃ E0 k R/(2(1-ν²)), and p̃_m = p_m 2(1-ν²)/(E0 k R) with p_m = w/λ gives the scale w/λ/p̃_m
         pascal = 1.0 / (unit * self.contact.spacing)
@@ -410,8 +432,7 @@ def resistances(curves: Sequence[IndentationCurve], line_loads: Sequence[Array])
     RangeError
         A load outside its curve.
     """
-    units = [one.curve.problem.pressure / one.highest for one in curves]
-    pressures = [w * unit for w, unit in zip(line_loads, units, strict=True)]
+    pressures = [one.pressures(w) for one, w in zip(curves, line_loads, strict=True)]
     found = frictions([one.curve for one in curves], pressures)
     return [friction * w for friction, w in zip(found, line_loads, strict=True)]
 

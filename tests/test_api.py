@@ -68,9 +68,17 @@ def test_solutions_pickle_with_what_is_formed_later(make) -> None:
     assert np.all(read.peak_pressure == made.peak_pressure)
 
 
+def test_functions_pickle_by_their_names() -> None:
+    for name in conveyor.__all__:
+        named = getattr(conveyor, name)
+        assert pickle.loads(pickle.dumps(named)) is named or name == "__version__"  # noqa: S301 made here
+
+
 def test_analyses_pickle() -> None:
     result = conveyor.analyse(conveyor.load(SPECS / "shuttle.yaml"))
-    assert pickle.loads(pickle.dumps(result)).to_dict() == result.to_dict()  # noqa: S301 made here
+    shown = result.to_dict(), result.summary.to_dict(), result.checks  # what is kept of them does not travel
+    read = pickle.loads(pickle.dumps(result))  # noqa: S301 made here
+    assert (read.to_dict(), read.summary.to_dict(), read.checks) == shown
 
 
 SERIES = PronySeries(4e6, np.full(13, 1e6), np.logspace(-6, 1, 13))
@@ -110,6 +118,13 @@ def test_an_answer_for_one_file_does_not_refuse_another(tmp_path: Path) -> None:
     read = read_answered(master, answers, poisson_ratio=0.5, several=True)
     assert read.storage is not None
     assert read.storage.max() == pytest.approx(SERIES.storage(2.0 * np.pi * 1e4), rel=1e-5)
+    isotherms = SPECS.parent / "laboratory" / "isotherms.csv"  # states its temperatures
+    told = [
+        read_answered(p, {"temperature": 293.15}, poisson_ratio=0.5, several=True)
+        for p in (isotherms, master)
+    ]
+    assert np.ptp(told[0].temperature) > 80.0  # -36 to 48 degC
+    assert told[1].temperature == pytest.approx(293.15)
 
 
 def test_studies_show_themselves_in_one_line() -> None:

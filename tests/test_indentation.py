@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from conveyor import shelf
+from conveyor.errors import InputError, RangeError
 from conveyor.indentation import (
     RollContact,
     felt,
@@ -105,3 +106,31 @@ def less(roll, load, error):
     fewer = roll.rubber.merged(fastest=fastest, slowest=slowest)
     assert fewer.times.size < roll.rubber.times.size - 8
     return replace(roll, rubber=fewer)
+
+
+def test_loads_outside_a_curve_are_refused_in_newtons():
+    rubber = PronySeries(4e6, np.array([1e6]), np.array([1e-3]))
+    contact = RollContact(
+        radius=0.0795,
+        spacing=1.5,
+        cover_thickness=0.005,
+        speed=5.0,
+        rubber=rubber,
+        poisson=0.5,
+        support="confined",
+    )
+    curve = indentation_curve(contact, 500.0, 4000.0)
+    for ask in (curve.resistance, curve.at, curve.penetration):
+        with pytest.raises(
+            RangeError, match=r"from 600 N/m to 8000 N/m: the curve was solved from 500 N/m to 4000 N/m"
+        ):
+            ask([600.0, 8000.0])
+        ask([500.0, 4000.0])
+
+
+def test_a_cover_in_millimetres_is_refused():
+    with pytest.raises(
+        InputError, match=r"cover_thickness = 5 m is more than spacing = 1\.2 m: both are in metres"
+    ):
+        replace(RIGID, support="confined", cover_thickness=5.0)
+    assert replace(RIGID, support="half-space", cover_thickness=5.0).cover_thickness > RIGID.spacing

@@ -14,6 +14,7 @@ from conveyor.errors import InputError
 from conveyor.fitting import page as fit_page
 from conveyor.fitting import summary, verdict
 from conveyor.fitting.compound import Request, fit_file
+from conveyor.laboratory import read_dma
 from conveyor.rubber import PronySeries, equivalent_sweep
 from conveyor.spec import load
 
@@ -103,16 +104,27 @@ def test_rows_are_excluded_by_name(alone):
     found = fit_file(FILES[0], Request("x", AT, replicas=0, exclude=("8-18",)))
     assert found.rows.frequency.size == alone.rows.frequency.size - 11
     assert found.superposition.temperatures.size == alone.superposition.temperatures.size - 1
-    assert "11 row(s) excluded by hand: 8-18" in found.compound.fit.method
+    assert "rows excluded by hand: 8-18" in found.compound.fit.method
     for given, message in (
-        ("8-x", "expected rows such as"), ("1-999999999999", "expected rows such as"), ("1-999999999", "no row left"),
-        ("900", "no such rows"), ("1-999", "no row left"),
+        ("8-x", "expected rows such as"), ("1-999999999999", "expected rows such as"),
+        ("1-999999999", "no row would be left"),
+        ("900", "no such rows"), ("1-999", "no row would be left"),
         ("other.csv:8", "rows of which file"),
     ):  # fmt: skip
         with pytest.raises(InputError, match=message):
             fit_file(FILES[0], Request("x", AT, exclude=(given,)))
     with pytest.raises(InputError, match="rows of which file"):
         fit_file(FILES, Request("x", AT, exclude=("8",)))
+
+
+def test_rows_of_a_file_of_shifts_are_excluded_by_its_name(tmp_path: Path):
+    path = tmp_path / "shifts.csv"
+    path.write_text("temperature_degC,log10_aT\n0.03,1.5\n20,OVL\n48,-1.4\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r"shifts\.csv:3: .*--exclude"):
+        fit_file(FILES[0], Request("x", AT, shift=path, replicas=0))
+    found = fit_file(FILES[0], Request("x", AT, shift=path, replicas=0, exclude=("shifts.csv:3", "8-18")))
+    assert sum("given, " in line for line in found.understood) == 2
+    assert "isotherms.csv: rows excluded by hand: 8-18" in found.compound.fit.method
 
 
 def test_given_shifts_override_those_found(tmp_path: Path, alone):
@@ -248,3 +260,33 @@ def test_a_window_that_the_rolls_leave_fails():
     line = load(ROOT / "examples" / "specs" / "overland.yaml")
     cold = line.replace(ambient={"temperature": "-30 degC"})
     assert any(name.startswith("window covers") for name in failing(narrow, cold))
+
+
+def pairs(path: Path, *, apart: float, factor: float = 1.04) -> Path:
+    """The isotherms of FILES[0] twice, as of two specimens: one stiffer, the other softer by a factor."""
+    read = read_dma(FILES[0])
+    lines = ["Temperature [K],Frequency [Hz],E' [Pa],E'' [Pa],Specimen\n"]
+    for specimen, sign in enumerate((-1.0, 1.0)):
+        for row in zip(read.temperature, read.frequency, read.storage, read.loss, strict=True):
+            t, f, e1, e2 = map(float, row)
+            lines.append(f"{t + sign * apart},{f},{e1 * factor**sign},{e2 * factor**sign},{specimen}\n")
+    path.write_text("".join(lines), encoding="utf-8")
+    return path
+
+
+def test_repeats_are_averaged_where_that_is_asked_for(tmp_path: Path, alone):
+    path = pairs(tmp_path / "pairs.csv", apart=0.2)
+    with pytest.raises(InputError, match=r"are they repeats of one temperature\? --repeats averages them"):
+        fit_file(path, Request("x", AT, replicas=0))
+    with pytest.raises(InputError, match=r"a second sweep at .* or have repeats averaged by --repeats"):
+        fit_file(pairs(tmp_path / "same.csv", apart=0.0), Request("x", AT, replicas=0))
+    found = fit_file(path, Request("x", AT, replicas=0, repeats=True))
+    # the geometric mean of both is the file they were made of; printed digits of the sums alone differ
+    assert found.superposition.log10_a_T == pytest.approx(alone.superposition.log10_a_T, abs=1e-6)
+    assert found.rows.curve[1] == pytest.approx(alone.rows.curve[1], rel=1e-9)
+    assert (
+        sum("averaged at 11 frequencies; their E' differ by up to 8.2 %" in line for line in found.understood)
+        == 15
+    )
+    with pytest.raises(InputError, match=r"are none, their E' differs by a factor of 1\.7: .*--exclude"):
+        fit_file(pairs(tmp_path / "odd.csv", apart=0.2, factor=1.3), Request("x", AT, repeats=True))

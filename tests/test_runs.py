@@ -76,6 +76,12 @@ def test_a_workbook_is_read_as_text_is(tmp_path: Path):
     assert [run.note for run in read] == ["", "late"]
 
 
+@pytest.mark.parametrize("title", [["Power log of CV-01", ""], ["CV-01;power;2025", "measured by;A. Meter"]])
+def test_a_title_may_stand_above(tmp_path: Path, title: list[str]):
+    path = table(tmp_path, *title, "motor power [kW];flow [t/h]", "250,5;0", "812,5;3600")
+    assert [run.watts for run in read_runs(path)] == pytest.approx([250.5e3, 812.5e3])
+
+
 HEAD = "motor power [kW],flow [t/h]"
 
 
@@ -84,6 +90,7 @@ HEAD = "motor power [kW],flow [t/h]"
     [
         ([HEAD], r"no run in it; the first line names columns"),
         (["power [kW],flow [t/h]", "1,2"], r'runs.csv:1: column 1 "power \[kW\]": not known; allowed: motor'),
+        ([f"date,{HEAD},amps", "1,2,3,4"], r'1 "date": not known, nor "amps"; allowed: .*begin a name with'),
         (["motor power [kW],note", "1,2"], r"runs.csv:1: column 1: no column flow"),
         (["flow [t/h],note", "1,2"], r"no column motor power \[kW\] or mains power \[kW\]"),
         ([f"{HEAD},mass flow [t/h]", "1,2,3"], r'column 3 "mass flow \[t/h\]": the row has a flow and a mass flow'),

@@ -32,7 +32,8 @@ def anchor(
         Path,
         option(
             "Tests (.csv or .xlsx): columns line load, resistance, roll diameter, cover thickness, speed, "
-            "temperature; uncertainty, specimen, source, note. Units in the headers: line load [N/mm].",
+            "temperature; uncertainty, specimen, source, note. Units in the headers: line load [N/mm]. Or the sheet of "
+            "verify-sheet, filled in.",
             "FILE",
             show_default=False,
         ),

@@ -94,6 +94,9 @@ def fit(
     ] = False,
     by: Annotated[str, option("Modulus that places the isotherms: both, storage, loss.")] = "both",
     law: Annotated[str, option("Shift law the compound keeps: table, wlf, arrhenius.")] = "table",
+    repeats: Annotated[
+        bool, option("Average sweeps at one temperature, specimens or runs; else they are refused.")
+    ] = False,
     exclude: Annotated[
         list[str] | None, option("Rows to leave out, 12-15,20; may be repeated.", "[FILE:]ROWS")
     ] = None,
@@ -114,7 +117,9 @@ def fit(
         str | None, option('Tensile modulus at time 0 of a Prony table of shares, e.g. "800 MPa".')
     ] = None,
     temperature: Annotated[str | None, option('Of a file without a column for it, e.g. "20 degC".')] = None,
-    sheet: Annotated[str | None, option("Sheet of a workbook.")] = None,
+    sheet: Annotated[
+        str | None, option("Sheet of a workbook; with * or ? all that fit, each as a file of the rubber.")
+    ] = None,
     kind: Annotated[str | None, option("What the file holds, where it leaves it open.")] = None,
     accept: Annotated[
         list[str] | None,
@@ -178,6 +183,7 @@ def fit(
         vertical=vertical,
         by=one_of("--by", by, ("both", "storage", "loss")),
         law=one_of("--law", law, ("table", "wlf", "arrhenius")),
+        repeats=repeats,
         exclude=tuple(exclude or ()),
         storage_error=si_of("--storage-error", storage_error, "fraction"),
         loss_error=si_of("--loss-error", loss_error, "fraction"),

@@ -23,9 +23,9 @@ from conveyor.fitting.laying import (
     stored_law,
 )
 from conveyor.fitting.request import Request
-from conveyor.fitting.rows import CURVES, MeasuredRows, entropic, moduli_of, without
+from conveyor.fitting.rows import CURVES, MeasuredRows, entropic, excluded, excluded_of, moduli_of
 from conveyor.laboratory import DmaData
-from conveyor.laboratory.read import read_answered
+from conveyor.laboratory.read import read_answered, sheets
 from conveyor.models import RubberCompound
 from conveyor.rubber import (
     WLF,
@@ -116,9 +116,12 @@ def from_files(data: Path | Sequence[Path], request: Request) -> Fitted | Tabula
     paths = [data] if isinstance(data, Path) else list(data)
     if len(paths) > 1:
         return fit_file(paths, request)
-    several = request.shift is not None or request.strain is not None
-    read = read_answered(paths[0], request.reading, poisson_ratio=request.poisson_ratio, several=several)
-    return _tabulated(read, request) if read.kind == "Prony series" else fit_file(paths, request)
+    files, _ = _read_all(paths, request)
+    return (
+        _tabulated(files[0], request)
+        if [f.kind for f in files] == ["Prony series"]
+        else fit_file(paths, request)
+    )
 
 
 def _tabulated(read: DmaData, request: Request) -> Tabulated:
@@ -218,7 +221,7 @@ def fit_file(data: Path | Sequence[Path], request: Request) -> Fitted:
         laws=laws,
         understood=(
             *(f"{Path(file.source).name}: {line}" for file in files for line in file.understood),
-            *(*said, *told, *accepted),
+            *(*told, *accepted),
         ),
         entropic_floor=advised,
         rows=rows,
@@ -245,10 +248,7 @@ def _read(
     paths: Sequence[Path], request: Request
 ) -> tuple[list[DmaData], DmaData | None, DmaData | None, tuple[str, ...]]:
     """Files of curves, shift factors, strain sweeps; what was left out."""
-    several = len(paths) > 1 or request.shift is not None or request.strain is not None
-    files = [
-        read_answered(p, request.reading, poisson_ratio=request.poisson_ratio, several=several) for p in paths
-    ]
+    files, said = _read_all(paths, request)
     curves = [file for file in files if file.kind in CURVES or len(files) == 1]
     others: dict[str, list[DmaData]] = {"shift factors": [], "strain sweep": []}
     for file in files:
@@ -265,9 +265,24 @@ def _read(
         raise InputError(
             f"{paths[0]}: no file holds a master curve, isotherms, relaxation or a temperature sweep"
         )
-    kept, said = without(curves, request.exclude)
     shifts, strains = (next(iter(others[kind]), None) for kind in others)
-    return kept, shifts, strains, said
+    return curves, shifts, strains, said
+
+
+def _read_all(paths: Sequence[Path], request: Request) -> tuple[list[DmaData], tuple[str, ...]]:
+    """Every file, of a workbook every sheet that is asked for; what was left out of them."""
+    tables = [(path, sheet) for path in paths for sheet in sheets(path, request.reading.get("sheet"))]
+    several = len(tables) > 1 or request.shift is not None or request.strain is not None
+    rows = excluded(
+        tables, request.exclude, [path for path in (request.shift, request.strain) if path is not None]
+    )
+    files = []
+    for k, (path, sheet) in enumerate(tables):
+        answers = {**request.reading, "sheet": sheet, "exclude": rows.get(k)}
+        files.append(read_answered(path, answers, poisson_ratio=request.poisson_ratio, several=several))
+    return files, tuple(
+        f"{Path(files[k].source).name}: rows excluded by hand: {left_out}" for k, left_out in rows.items()
+    )
 
 
 def _compound(described: dict[str, Any], shifted_by: Path) -> RubberCompound:
@@ -282,6 +297,7 @@ def _compound(described: dict[str, Any], shifted_by: Path) -> RubberCompound:
 
 def _of_kind(path: Path, kind: str, request: Request) -> DmaData:
     answers = {key: value for key, value in request.reading.items() if key not in {"kind", "sheet"}}
+    answers["exclude"] = excluded_of(path, request.exclude)
     read = read_answered(path, answers, poisson_ratio=request.poisson_ratio, several=True)
     if read.kind != kind:
         raise InputError(f"{path}: holds {read.kind}, {kind} are needed here")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import combinations
 
 import numpy as np
@@ -15,6 +15,7 @@ from conveyor.fitting.rows import (
     CURVES,
     MeasuredRows,
     Sweep,
+    averaged,
     entropic,
     laid,
     overridden,
@@ -73,7 +74,9 @@ def laid_out(
     kelvin, whole = kelvin_of(reference), master_curve_of(read)
     ramps = [(k, each) for k, each in enumerate(read) if each.kind == "temperature sweep"]
     stated = {k: kelvin_of(t) for k, each in enumerate(read) for _, t in _stated(each)}
-    parts, said = ([], ()) if whole else sweeps(read, {0: kelvin} | stated if len(read) == 1 else stated)
+    parts, said = (
+        ([], ()) if whole else _parts(read, {0: kelvin} | stated if len(read) == 1 else stated, request)
+    )
     if request.vertical and whole is None and len(parts) < 2:
         raise InputError(f"{read[0].source}: --vertical shifts isotherms; this file holds a {read[0].kind}")
     superposition = None
@@ -105,6 +108,18 @@ def laid_out(
         said += (_ENTROPIC,) if request.vertical else ()
     rows, told = laid(parts, ramps, law, superposition, curve)
     return rows, superposition, (*said, *told)
+
+
+def _parts(
+    read: Sequence[DmaData], stated: Mapping[int, float], request: Request
+) -> tuple[list[Sweep], tuple[str, ...]]:
+    """Sweeps of all files, repeats averaged where that is asked for, and what was done."""
+    parts, said = sweeps(read, stated)
+    if not request.repeats:
+        return parts, said
+    relaxed = [part for part in parts if read[part.file].kind == "relaxation"]
+    made, told = averaged([part for part in parts if part not in relaxed])
+    return [*made, *relaxed], (*said, *told)
 
 
 def master_curve_of(read: Sequence[DmaData]) -> DmaData | None:
@@ -235,7 +250,7 @@ def _check_sweeps(read: Sequence[DmaData], chain: Sequence[Sweep]) -> None:
             begins = f"{read[first.file].source}:{first.first_row}"
             raise InputError(
                 f"{read[second.file].source}:{second.first_row}: a second sweep at {celsius(t):.2f} degC, the first "
-                f"begins at {begins}: leave one of them out with --exclude, or average them"
+                f"begins at {begins}: leave one of them out with --exclude, or have repeats averaged by --repeats"
             )
 
 
@@ -254,7 +269,10 @@ def _check_order(
         "its rows may carry another temperature, or the isotherms are too alike to be placed; correct the "
         "temperatures, or leave one out"
     )
-    for i, j in combinations(range(shifts.size), 2):
+    near = float(np.diff(superposition.temperatures)[cold]) <= ISOTHERM_GAP
+    if near:
+        advice = "are they repeats of one temperature? --repeats averages them"
+    for i, j in combinations(range(shifts.size), 2) if not near else ():
         order = np.arange(shifts.size)
         order[[i, j]] = j, i
         if np.all(np.diff(shifts[order]) < 0.0):

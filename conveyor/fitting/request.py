@@ -39,6 +39,8 @@ class Request:
         Modulus whose overlap places the isotherms.
     law : {"table", "wlf", "arrhenius"}
         Shift law that the compound keeps, and that its master curve is laid by.
+    repeats : bool
+        Whether sweeps at one temperature, specimens or runs, are averaged; else they are refused.
     exclude : tuple of str
         Rows left out, "12-15,20" or "isotherms.csv:12-15,20".
     storage_error, loss_error : float, optional
@@ -62,6 +64,7 @@ class Request:
     vertical: bool = False
     by: Literal["both", "storage", "loss"] = "both"
     law: Literal["table", "wlf", "arrhenius"] = "table"
+    repeats: bool = False
     exclude: tuple[str, ...] = ()
     storage_error: float | None = None
     loss_error: float | None = None

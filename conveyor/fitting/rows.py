@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -13,8 +14,11 @@ from numpy.typing import NDArray
 
 from conveyor.errors import InputError
 from conveyor.laboratory import DmaData
-from conveyor.laboratory.groups import ISOTHERM_GAP, temperature_groups
+from conveyor.laboratory.groups import ISOTHERM_GAP, set_points, temperature_groups
+from conveyor.laboratory.kinds import UNLIKE
 from conveyor.rubber import Isotherm, ShiftLaw, Superposition, entropic_b_T, equivalent_sweep
+from conveyor.rubber.superposition import LEAST_ROWS
+from conveyor.units.sentences import celsius
 
 Array = NDArray[np.float64]
 Numbers = NDArray[np.int64]
@@ -22,10 +26,6 @@ Numbers = NDArray[np.int64]
 CURVES = frozenset({"master curve", "isotherms", "relaxation", "temperature sweep"})
 """Kinds of file whose rows lie on a master curve."""
 _ROWS = re.compile(r"(?:(?P<file>.+):)?(?P<rows>\d{1,9}(?:-\d{1,9})?(?:,\d{1,9}(?:-\d{1,9})?)*)")
-_COLUMNS = (
-    "frequency", "temperature", "strain", "time", "storage", "loss", "modulus", "log10_a_T", "log10_b_T", "run",
-    "group", "row_numbers",
-)  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,34 +92,47 @@ def shift_factors(superposition: Superposition | None, given: DmaData | None) ->
     return ShiftFactors(given.temperature, given.log10_a_T, None, given.log10_b_T)
 
 
-def without(reads: Sequence[DmaData], exclude: Sequence[str]) -> tuple[list[DmaData], tuple[str, ...]]:
-    """Files without the rows that a person names, 12-15,20 or isotherms.csv:12-15,20; and a sentence a file."""
-    left, said = list(reads), []
+def excluded(
+    tables: Sequence[tuple[Path, str | None]], exclude: Sequence[str], others: Sequence[Path] = ()
+) -> dict[int, str]:
+    """Rows to leave out, 12-15,20, of tables (file and sheet) by their number; from FILE:ROWS, of one file ROWS.
+
+    What names one of the other files, `excluded_of` has.
+    """
+    rows: dict[int, str] = {}
     for given in exclude:
         match = _ROWS.fullmatch(given.strip())
         if match is None:
             raise InputError(
                 f'--exclude: got "{given}", expected rows such as 12-15,20 or isotherms.csv:12-15,20'
             )
-        named = [
-            k for k, read in enumerate(reads) if match["file"] in {None, read.source, Path(read.source).name}
+        named = [k for k, table in enumerate(tables) if _is_named(match["file"], *table)]
+        other = [
+            path for path in others if match["file"] is not None and _is_named(match["file"], path, None)
         ]
-        if len(named) != 1:
-            names = ", ".join(Path(read.source).name for read in reads)
+        if len(other) == 1 and not named:
+            continue
+        if len(named) != 1 or other:
+            files = [*tables, *((path, None) for path in others)]
+            names = ", ".join(path.name + (f"[{sheet}]" if sheet else "") for path, sheet in files)
             raise InputError(f'--exclude: "{given}": rows of which file? Write FILE:ROWS; files are {names}')
-        (k,) = named
-        kept = np.ones(left[k].row_numbers.size, dtype=np.bool_)
-        for part in match["rows"].split(","):
-            low, _, high = part.partition("-")
-            kept &= (left[k].row_numbers < int(low)) | (left[k].row_numbers > int(high or low))
-        gone = int(np.count_nonzero(~kept))
-        if not gone or not kept.any():
-            what = "has no such rows of data" if not gone else "would have no row left"
-            raise InputError(f'--exclude: "{given}": {left[k].source} {what}')
-        columns = {name: getattr(left[k], name) for name in _COLUMNS}
-        left[k] = replace(left[k], **{name: c[kept] for name, c in columns.items() if c is not None})
-        said.append(f"{Path(left[k].source).name}: {gone} row(s) excluded by hand: {match['rows']}")
-    return left, tuple(said)
+        rows[named[0]] = ",".join([*filter(None, [rows.get(named[0])]), match["rows"]])
+    return rows
+
+
+def excluded_of(path: Path, exclude: Sequence[str]) -> str | None:
+    """Rows to leave out of one file, of those that name it; None without any."""
+    given = [match for match in map(_ROWS.fullmatch, exclude) if match and match["file"] is not None]
+    rows = [match["rows"] for match in given if _is_named(match["file"], path, None)]
+    return ",".join(rows) or None
+
+
+def _is_named(name: str | None, path: Path, sheet: str | None) -> bool:
+    """Whether a person means this table by file or file[sheet], with or without its folder."""
+    if name is None:
+        return True
+    file, _, of = name.partition("[")
+    return file in {str(path), path.name} and (not of or sheet is None or of == f"{sheet}]")
 
 
 def sweeps(reads: Sequence[DmaData], stated: Mapping[int, float]) -> tuple[list[Sweep], tuple[str, ...]]:
@@ -143,6 +156,45 @@ def sweeps(reads: Sequence[DmaData], stated: Mapping[int, float]) -> tuple[list[
                 "says the same, a decade inside its window"
             )
     return taken, tuple(said)
+
+
+def averaged(parts: Sequence[Sweep]) -> tuple[list[Sweep], tuple[str, ...]]:
+    """Sweeps at one temperature, specimens or runs, as one, and a sentence on each such temperature."""
+    ordered = sorted(parts, key=lambda part: part.isotherm.temperature)
+    apart = np.flatnonzero(np.diff([part.isotherm.temperature for part in ordered]) > ISOTHERM_GAP) + 1
+    made, said = [], []
+    for first, last in pairwise([0, *apart.tolist(), len(ordered)]):
+        mean, words = _mean(ordered[first:last]) if last - first > 1 else (ordered[first], "")
+        made.append(mean)
+        said += [words] if words else []
+    return made, tuple(said)
+
+
+def _mean(sweeps: Sequence[Sweep]) -> tuple[Sweep, str]:
+    """Geometric means of sweeps at the frequencies that all of them have, and what they differ by."""
+    ones = [sweep.isotherm for sweep in sweeps]
+    at = float(np.mean([one.temperature for one in ones]))
+    said = f"{len(ones)} sweeps at {celsius(at):.2f} degC"
+    rows = np.log(np.concatenate([[one.frequency, one.storage, one.loss] for one in ones], axis=1))
+    level, sweep = (
+        set_points(np.exp(rows[0])),
+        np.repeat(range(len(ones)), [one.frequency.size for one in ones]),
+    )
+    points = (np.flatnonzero(level == k) for k in np.unique(level))
+    common = [point for point in points if sweep[point].tolist() == list(range(len(ones)))]
+    if len(common) < LEAST_ROWS:
+        raise InputError(
+            f"--repeats: {said} have {len(common)} frequencies in common, {LEAST_ROWS} are needed"
+        )
+    spread = max(float(np.ptp(rows[1, point])) for point in common)
+    if spread > np.log(UNLIKE):
+        raise InputError(
+            f"--repeats: {said} are none, their E' differs by a factor of {np.exp(spread):.2g}: correct the"
+            " temperature of one, or leave it out with --exclude"
+        )
+    mean = Isotherm(at, *np.exp([[np.mean(row[point]) for point in common] for row in rows]))
+    words = f"{said} averaged at {len(common)} frequencies; their E' differ by up to {100.0 * np.expm1(spread):.1f} %"
+    return Sweep(sweeps[0].file, mean, sweeps[0].first_row), words
 
 
 def _sweep(

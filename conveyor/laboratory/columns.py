@@ -10,7 +10,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from conveyor.errors import InputError
-from conveyor.laboratory.layout import DataColumn, DataTable
+from conveyor.laboratory.layout import EXCLUDE, DataColumn, DataTable
 from conveyor.laboratory.names import DIMENSIONS, Meaning
 from conveyor.laboratory.numbers import decimal_mark, is_number, why_not_a_number
 from conveyor.laboratory.table import FloatArray, IntArray
@@ -149,7 +149,7 @@ def _unneeded(used: dict[str, list[DataColumn]]) -> list[DataColumn]:
 
 def _check_width(table: DataTable) -> None:
     """Refuse rows longer than the header."""
-    width = len(table.columns)
+    width = table.width
     for line in table.rows:
         count = len(line.cells)
         if count > width:
@@ -172,8 +172,8 @@ def _cells(table: DataTable, column: DataColumn) -> list[str]:
     """Cells of one column, none empty."""
     cells = [_cell(table, row, column) for row in range(len(table.rows))]
     if "" in cells:
-        hint = "a formula without a stored value?" if table.grid.sheet else "a line cut short?"
-        what = f"the cell is empty ({hint}); complete or delete the row"
+        hint = "or a formula without a stored value" if table.grid.sheet else "a line cut short?"
+        what = f"the cell is empty ({hint}); complete or delete the row, {EXCLUDE}"
         raise table.refusal(column, what, cells.index(""))
     return cells
 
@@ -185,7 +185,7 @@ def _mark(table: DataTable, columns: list[DataColumn], cells: Mapping[int, list[
             if not is_number(cell):
                 line = table.rows[row]
                 said = why_not_a_number(cell if any(map(is_number, line.cells)) else line.text)
-                raise table.refusal(column, said, row)
+                raise table.refusal(column, f"{said}, {EXCLUDE}", row)
     every = [cell for column in columns for cell in cells[column.index]]
     mark, doubtful = decimal_mark(every)
     if doubtful is not None:
@@ -204,7 +204,7 @@ def _numbers(table: DataTable, column: DataColumn, cells: list[str], mark: str) 
     numbers = np.array([float(cell.replace(",", ".") if mark == "," else cell) for cell in cells])
     bad = np.flatnonzero(~np.isfinite(numbers))
     if bad.size:
-        what = f"'{cells[bad[0]]}' is too large for a number; repair or delete the row"
+        what = f"'{cells[bad[0]]}' is too large for a number; repair or delete the row, {EXCLUDE}"
         raise table.refusal(column, what, bad[0])
     return numbers
 

@@ -12,6 +12,9 @@ from conveyor.laboratory.table import FloatArray, IntArray
 
 STRAIN_SPAN: Final = 2.0
 """A strain sweep spans more than this factor; a frequency sweep at constant force varies less [-]."""
+UNLIKE: Final = 1.5
+"""E' of repeats differs by less: specimens scatter by some 20 %, a drift of 1 K at the glass transition makes as much
+(general knowledge) [-]."""
 NEEDS: Final = {
     "master curve": ("frequency", "storage", "loss"),
     "isotherms": ("frequency", "temperature", "storage", "loss"),
@@ -70,8 +73,24 @@ def _dynamic(columns: Mapping[str, FloatArray], run: IntArray | None) -> tuple[s
     if group is None:
         return "temperature sweep", "the temperature is a ramp"
     if _temperatures(temperature, group, run) > 1:
-        return _stepped(swept)
+        unlike = _unlike_repeats(columns["storage"], group, level)
+        return ("", unlike) if unlike else _stepped(swept)
     return _single(frequency, swept, unknown=temperature is None)
+
+
+def _unlike_repeats(storage: FloatArray, group: IntArray, level: IntArray) -> str:
+    """What to say of rows at one temperature, run and frequency whose E' differ by more than specimens do."""
+    pairs = np.stack([group, level])
+    spread = max(
+        float(np.ptp(np.log(storage[(pairs == pair[:, None]).all(axis=0)])))
+        for pair in np.unique(pairs, axis=1).T
+    )
+    if spread <= np.log(UNLIKE):
+        return ""
+    return (
+        f"E' differs by a factor of {np.exp(spread):.2g} at one temperature and frequency: does the strain vary? Name"
+        " its column 'strain [%]'; export what else varies into files of its own"
+    )
 
 
 def _single(frequency: FloatArray | None, swept: int, *, unknown: bool) -> tuple[str, str]:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from itertools import pairwise, zip_longest
+from dataclasses import dataclass, replace
+from itertools import compress, pairwise, zip_longest
 from typing import Final
 
 import numpy as np
@@ -17,6 +17,10 @@ from conveyor.laboratory.numbers import is_number
 from conveyor.laboratory.table import IntArray
 from conveyor.laboratory.units import is_any_unit
 
+EXCLUDE: Final = "or leave it out with exclude (--exclude)"
+"""The cure of a row that needs not be read."""
+_EXCLUDED: Final = re.compile(r"\d{1,9}(?:-\d{1,9})?(?:,\d{1,9}(?:-\d{1,9})?)*")
+_LISTED: Final = re.compile(r"[A-Za-z]+ ?(\d{1,2})")
 EXAMPLE: Final = "a header row such as 'frequency_Hz,storage_MPa,loss_MPa'"
 
 
@@ -52,24 +56,29 @@ class DataTable:
         return str(self.refusal(column, "")).split(": ", 1)[1].removesuffix(":")
 
     @property
+    def width(self) -> int:
+        """Cells of a full row."""
+        return self.columns[-1].index + 1
+
+    @property
     def row_numbers(self) -> IntArray:
         """Of each row in the file."""
         return np.array([line.number for line in self.rows], dtype=np.int64)
 
 
 def has_table(grid: TextGrid) -> bool:
-    """Whether some line names two or more known quantities and rows of numbers follow."""
-    headers = _headers(grid)
-    return bool(headers) and any(map(_is_data, grid.lines[headers[0] + 1 :]))
+    """Whether some line names two or more known quantities, one of them measured, and rows of numbers follow."""
+    return any(_measures(grid.lines[header]) for header in _with_rows(grid, _headers(grid)))
 
 
 def find_table(grid: TextGrid) -> DataTable:
     """Split a grid into header, unit row and rows; every other line is metadata or a remark named in the notes."""
+    grid = _with_listed_names(grid)
     headers = _headers(grid)
-    ends = [*headers[1:], len(grid.lines)]
-    starts = [a for a, b in zip(headers, ends, strict=False) if any(map(_is_data, grid.lines[a + 1 : b]))]
-    if not starts:
+    tables = _with_rows(grid, headers)
+    if not tables:
         raise _no_table(grid, headers)
+    starts = [start for start in tables if _measures(grid.lines[start])] or tables
     columns, body = _columns(grid, starts[0])
     notes = [f"row {grid.lines[starts[0]].number} is the header"]
     if body > starts[0] + 1:
@@ -77,21 +86,29 @@ def find_table(grid: TextGrid) -> DataTable:
     notes += [
         f"row {grid.lines[h].number} also names columns, but no numbers follow it"
         for h in headers
-        if h not in starts
+        if h not in tables
+    ]
+    notes += [
+        f"row {grid.lines[t].number} begins a table that names no modulus and is not read"
+        for t in tables
+        if t not in starts
     ]
     rows: list[TextLine] = []
     blocks: list[int] = []
-    for block, (start, end) in enumerate(pairwise([*starts, len(grid.lines)])):
+    between: list[str] = []
+    ranges = [(start, end) for start, end in pairwise([*tables, len(grid.lines)]) if start in starts]
+    for block, (start, end) in enumerate(ranges):
         here, body = _columns(grid, start)
         _check_same(grid, start, here, columns)
         lines = [line for line in grid.lines[body:end] if not line.comment]
         stop = len(lines)
-        while end < len(grid.lines) and stop and not any(map(is_number, lines[stop - 1].cells)):
+        while end < len(grid.lines) and stop and not _is_row(lines[stop - 1], columns):
             stop -= 1
         rows += lines[:stop]
         blocks += [block] * stop
-        if stop < len(lines):
-            notes.append(f"rows {lines[stop].number} to {lines[-1].number}, between two blocks, are not read")
+        between += [f"{lines[stop].number}-{lines[-1].number}"] if stop < len(lines) else []
+    if between:
+        notes.append(f"rows {', '.join(between)} stand between blocks and are not read")
     if len(starts) > 1:
         notes.append(f"{len(starts)} blocks with the same header are read one after the other")
     silent = [line.number for line in grid.lines[starts[0] :] if line.comment and _numbers(line) >= 2]
@@ -104,12 +121,51 @@ def find_table(grid: TextGrid) -> DataTable:
     return DataTable(grid, first, columns, tuple(rows), tuple(blocks), said, tuple(notes))
 
 
+def without_rows(table: DataTable, exclude: str) -> DataTable:
+    """The table without the rows that a person names by their number in the file, as 12-15,20; read or not."""
+    if not _EXCLUDED.fullmatch(exclude):
+        raise InputError(f'exclude = "{exclude}" (--exclude): expected rows such as 12-15,20')
+    spans = [
+        (int(low), int(high or low)) for low, _, high in (part.partition("-") for part in exclude.split(","))
+    ]
+    kept = [not any(low <= line.number <= high for low, high in spans) for line in table.rows]
+    if all(kept) or not any(kept):
+        what = "the table has no such rows" if all(kept) else "no row would be left"
+        raise InputError(f'{table.grid.name}: exclude = "{exclude}" (--exclude): {what}')
+    return replace(
+        table,
+        rows=tuple(compress(table.rows, kept)),
+        blocks=tuple(compress(table.blocks, kept)),
+        notes=(*table.notes, f"{kept.count(False)} row(s) excluded by hand: {exclude}"),
+    )
+
+
+def _with_listed_names(grid: TextGrid) -> TextGrid:
+    """A grid with a header of the names that it lists above the numbers, a line each: "Sig2", "Temperature (°C)"."""
+    first = next((position for position, line in enumerate(grid.lines) if _is_data(line)), 0)
+    listed = {}
+    for line in grid.lines[:first]:
+        if len(line.cells) == 2 and (match := _LISTED.fullmatch(line.cells[0])):
+            listed[int(match[1])] = line
+    if len(listed) < 2 or sorted(listed) != list(range(1, len(grid.lines[first].cells) + 1)):
+        return grid
+    names = tuple(listed[number].cells[1] for number in sorted(listed))
+    header = TextLine(listed[len(listed)].number, names, " ".join(names), comment=False)
+    return replace(grid, lines=(*grid.lines[:first], header, *grid.lines[first:]))
+
+
 def _numbers(line: TextLine) -> int:
     return sum(map(is_number, line.cells))
 
 
 def _is_data(line: TextLine) -> bool:
     return not line.comment and _numbers(line) >= 2
+
+
+def _is_row(line: TextLine, columns: Sequence[DataColumn]) -> bool:
+    """Whether numbers stand in half of the known columns: titles and remarks between blocks may hold some, too."""
+    known = [column.index for column in columns if column.meaning is not None]
+    return 2 * sum(is_number(cell) for k, cell in enumerate(line.cells) if k in known) >= len(known)
 
 
 def _headers(grid: TextGrid) -> list[int]:
@@ -121,6 +177,18 @@ def _headers(grid: TextGrid) -> list[int]:
             if len(quantities) >= 2:
                 headers.append(position)
     return headers
+
+
+def _with_rows(grid: TextGrid, headers: Sequence[int]) -> list[int]:
+    """Those of the headers that rows of numbers follow, before the next."""
+    ends = [*headers[1:], len(grid.lines)]
+    return [a for a, b in zip(headers, ends, strict=False) if any(map(_is_data, grid.lines[a + 1 : b]))]
+
+
+def _measures(header: TextLine) -> bool:
+    """Whether a header names more than what is set in a test, and its clock."""
+    named = {sense.quantity for cell in header.cells if cell and (sense := meaning(cell)) is not None}
+    return not named <= {"frequency", "temperature", "strain", "time", "run"}
 
 
 def _columns(grid: TextGrid, position: int) -> tuple[tuple[DataColumn, ...], int]:

@@ -188,9 +188,9 @@ def to_tensile(
         return factor, f"shear moduli: E = 2 (1 + nu) G = {factor:g} G with nu = {poisson_ratio:g}"
     if letter == "E":
         return 1.0, "the moduli are tensile (E)"
-    for line in table.grid.lines[: table.grid.lines.index(table.rows[0])]:
+    for line in table.grid.lines:
         word = _SHEAR_WORDS.search(line.text)
-        if word is not None:
+        if word is not None and line.number < table.rows[0].number:
             raise table.refusal(
                 first,
                 f"E or G? the name has no letter and row {line.number} speaks of '{word[0]}'; give letter"

@@ -1,4 +1,4 @@
-"""What a column header means: quantity, logarithm, shear, unit; English, German and Korean names."""
+"""What a column header means: quantity, logarithm, shear, unit; English, German, French and Korean names."""
 
 from __future__ import annotations
 
@@ -33,6 +33,14 @@ DIMENSIONS: Final = MappingProxyType(
 """Quantities that can be read, with the dimension of each."""
 
 
+class SetPoint(NamedTuple):
+    """A frequency or temperature in a header, as in "E'(10 Hz)/MPa": its quantity, number and unit."""
+
+    quantity: str
+    number: str
+    unit: str
+
+
 class Meaning(NamedTuple):
     """What the text of a header cell says."""
 
@@ -43,23 +51,26 @@ class Meaning(NamedTuple):
     angular: bool = False
     peak_to_peak: bool = False
     reduced: bool = False
+    at: SetPoint | None = None
 
 
 _NAMES = {
     "frequency": """f freq frequency frequenz prüffrequenz messfrequenz testfrequency oscillationfrequency 주파수
-        시험주파수 진동수""",
+        fréquence frequence 시험주파수 진동수""",
     "temperature": """temp temperature temperatur sampletemperature sampletemp probentemperatur prüftemperatur
-        온도 시험온도 시료온도""",
-    "strain": """strain strainamplitude strainamp dynamicstrain dynstrain oscillationstrain oscillatorystrain
-        shearstrain tensilestrain dehnung dehnungsamplitude dynamischedehnung verformung
-        scherung deformation γ γ0 gamma gamma0 ε ε0 epsilon epsilon0 eps 변형률 변형율 동적변형률""",
-    "time": "time zeit relaxationtime testtime 시간",
-    "storage": """storage storagemod storagemodulus speichermodul estor estorage e' e1 eprime tensilestoragemodulus
-        gstor gstorage g' g1 gprime shearstoragemodulus 저장탄성률 저장탄성율 저장모듈러스 저장계수""",
-    "loss": """loss lossmod lossmodulus verlustmodul eloss e'' e2 edoubleprime tensilelossmodulus
-        gloss g'' g2 gdoubleprime shearlossmodulus 손실탄성률 손실탄성율 손실모듈러스 손실계수탄성률""",
-    "complex": """e* estar complexmodulus tensilecomplexmodulus komplexermodul g* gstar shearcomplexmodulus
-        복소탄성률 복소탄성율""",
+        température 온도 시험온도 시료온도""",
+    "strain": """strain strainamplitude strainamp dynamicstrain dynstrain straindyn oscillationstrain oscillatorystrain
+        shearstrain tensilestrain dehnung dehnungsamplitude dynamischedehnung dyndehnung dehnungdyn verformung
+        scherung deformation déformation déformationdynamique deformationdynamique γ γ0 gamma gamma0 ε ε0 εdyn
+        epsilon epsilon0 eps 변형률 변형율 동적변형률""",
+    "time": "time zeit temps relaxationtime testtime 시간",
+    "storage": """storage storagemod storagemodulus speichermodul estor estorage e' e1 eprime m' tensilestoragemodulus
+        moduledeconservation moduledestockage gstor gstorage g' g1 gprime shearstoragemodulus
+        저장탄성률 저장탄성율 저장모듈러스 저장계수""",
+    "loss": """loss lossmod lossmodulus verlustmodul eloss e'' e2 edoubleprime m'' tensilelossmodulus
+        moduledeperte gloss g'' g2 gdoubleprime shearlossmodulus 손실탄성률 손실탄성율 손실모듈러스 손실계수탄성률""",
+    "complex": """e* estar complexmodulus tensilecomplexmodulus komplexermodul modulecomplexe g* gstar
+        shearcomplexmodulus 복소탄성률 복소탄성율""",
     "relaxation": """erelax e(t) et relaxation relaxationmodulus relaxationsmodul grelax g(t) gt
         shearrelaxationmodulus modulus e g 완화탄성률 이완탄성률""",
     "tau": "tau taui τ τi",
@@ -67,7 +78,7 @@ _NAMES = {
     "share": "alphai alpha αi α gi relativemodulus",
     "instant": "e0 g0 instantaneousmodulus",
     "tan_delta": """tandelta tan(delta) tand tanδ tan(δ) tan(d) tandel lossfactor lossfaktor verlustfaktor
-        dampingfactor losstangent 손실계수 손실탄젠트""",
+        facteurdeperte dampingfactor losstangent 손실계수 손실탄젠트""",
     "phase": "phase phaseangle phaselag lossangle phasenwinkel verlustwinkel delta δ 위상각 위상",
     "a_T": "at shiftfactor horizontalshift horizontalshiftfactor verschiebungsfaktor 이동인자 시프트팩터",
     "b_T": "bt verticalshift verticalshiftfactor",
@@ -105,6 +116,11 @@ _LOOSE: Final = (
 )
 """What stands behind is a unit only if it is known."""
 _WITH_LOGARITHMS: Final = frozenset({"frequency", "time", "storage", "loss", "relaxation", "a_T", "b_T"})
+_AT: Final = re.compile(
+    r"\s*(?:@|\bat\b|\bbei\b)?\s*(?P<open>[(\[]?)\s*(?<![\w.,])(?P<number>-?\d+(?:[.,]\d+)?)\s*"
+    r"(?P<unit>k?Hz|°C|ºC|℃|degC)(?(open)\s*[)\]])",
+    re.IGNORECASE,
+)
 _LOG = re.compile(r"(?P<log>log_?10|log|lg|ln)[\s_]*(?P<rest>\(.+\)|\[.+\]|.+)", re.IGNORECASE)
 
 
@@ -113,19 +129,24 @@ def meaning(header: str) -> Meaning | None:
 
     Notes
     -----
-    A unit stands in brackets, or after `_`, `/`, a comma, a blank or `in` if what follows is a known unit. A
-    lone `t` or `T` is a time or a temperature by its unit, without one by its case.
+    A unit stands in brackets, or after `_`, `/`, a comma, a blank or `in` if what follows is a known unit; a set point,
+    as in `E'(10 Hz)/MPa`, is taken apart first. A lone `t`, `T` or `Ts` is a time or a temperature by its unit, without
+    one by its case.
 
     Examples
     --------
-    >>> meaning("E'' (MPa)")
-    Meaning(quantity='loss', unit='MPa', log_base=None, letter='E', angular=False, peak_to_peak=False, reduced=False)
+    >>> meaning("E'' (MPa)")[:4], meaning("E''(3.3Hz)/MPa").at
+    (('loss', 'MPa', None, 'E'), SetPoint(quantity='frequency', number='3.3', unit='Hz'))
     >>> meaning("log_aT").log_base, meaning("storage_Pa").unit, meaning("Point")
     (10.0, 'Pa', None)
     """
     if len(header) > _LONGEST_NAME:
         return None
     text = " ".join(header.translate(_PRIMES).split())
+    if point := _AT.search(text):
+        sense = meaning((text[: point.start()] + text[point.end() :]).strip())
+        quantity = "temperature" if point["unit"].lower()[-1] in "c℃" else "frequency"
+        return sense and sense._replace(at=SetPoint(quantity, point["number"], point["unit"]))
     sense = _linear(text)
     if sense is not None or not (log := _LOG.fullmatch(text)):
         return sense
@@ -153,7 +174,7 @@ def _linear(text: str) -> Meaning | None:
 
 def _named(text: str, unit: str | None = None) -> Meaning | None:
     """A name without its unit; a symbol may follow or precede the words, as in "Storage modulus E'"."""
-    if text.strip() in {"t", "T"}:
+    if text.strip() in {"t", "T", "Ts"}:
         return Meaning(_time_or_temperature(text.strip(), unit))
     sense = _word(text)
     if sense is not None:
@@ -185,7 +206,7 @@ def _time_or_temperature(letter: str, unit: str | None) -> str:
     for dimension in ("time", "temperature"):
         if unit is not None and find_unit(dimension, unit):
             return dimension
-    return "temperature" if letter == "T" else "time"
+    return "temperature" if letter[0] == "T" else "time"
 
 
 def _word(text: str) -> Meaning | None:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.laboratory.columns import Question, Series, remedy
-from conveyor.laboratory.layout import DataTable
+from conveyor.laboratory.layout import EXCLUDE, DataTable
 from conveyor.laboratory.moduli import Moduli
 
 STORAGE_RANGE: Final = (1.0e4, 1.0e11)
@@ -26,7 +26,7 @@ USUAL_TAN_DELTA: Final = 3.0
 """No rubber exceeds it in half of its rows [-]."""
 MEASURABLE: Final = (1e-30, 1e30)
 """Frequencies [Hz] and times [s] of any master curve, with room: a shift of 30 decades is none."""
-_DELETE: Final = "repair or delete the row"
+_DELETE: Final = f"repair or delete the row, {EXCLUDE}"
 _POSITIVE: Final = {
     "frequency": "; if the column is log10 f, name it 'log10 f', else " + _DELETE,
     "time": "; if the column is log10 t, name it 'log10 t', else " + _DELETE,

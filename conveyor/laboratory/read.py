@@ -7,6 +7,7 @@ import re
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace
+from fnmatch import fnmatchcase
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Final, TypeVar
@@ -21,8 +22,9 @@ from conveyor.laboratory.arrange import Arrangement, arrange, check_trend
 from conveyor.laboratory.columns import Question, Read, Series, check_units, read_columns
 from conveyor.laboratory.encoding import decoded
 from conveyor.laboratory.grid import TextGrid, refusal
+from conveyor.laboratory.header_points import row_each
 from conveyor.laboratory.kinds import NEEDS, decide, possible_kinds
-from conveyor.laboratory.layout import EXAMPLE, DataTable, find_table, has_table
+from conveyor.laboratory.layout import EXAMPLE, DataTable, find_table, has_table, without_rows
 from conveyor.laboratory.moduli import dynamic_moduli, equivalent_strain, to_tensile
 from conveyor.laboratory.names import DIMENSIONS
 from conveyor.laboratory.plausible import TEMPERATURE_RANGE, check_possible, doubts
@@ -36,7 +38,7 @@ KINDS: Final = tuple(NEEDS)
 """What a file can hold."""
 LARGEST_FILE: Final = 50_000_000
 """Bytes; a table of a million rows has about as many."""
-_OF_ONE_FILE: Final = frozenset({"temperature", "sheet", "kind", "instantaneous"})
+_OF_ONE_FILE: Final = frozenset({"sheet", "kind", "instantaneous", "exclude"})
 """Answers that hold for the file they were asked for."""
 T = TypeVar("T", bound=np.generic)
 
@@ -54,6 +56,7 @@ def read_dma(
     kind: str | None = None,
     letter: str | None = None,
     instantaneous: float | None = None,
+    exclude: str | None = None,
 ) -> DmaData:
     r"""Read a measurement from CSV, TXT, TSV or XLSX.
 
@@ -81,6 +84,8 @@ def read_dma(
         "E" or "G", if the file does not say whether its moduli are tensile or shear ones [-].
     instantaneous : float or None
         Tensile modulus at time 0 of a Prony series of shares, if the file does not say [Pa].
+    exclude : str or None
+        Rows to leave out unread, by their number in the file: "12-15,20" [-].
 
     Returns
     -------
@@ -116,6 +121,9 @@ def read_dma(
     }
     given = check_units(units)
     table = find_table(_grid(Path(path), sheet))
+    if exclude is not None:
+        table = without_rows(table, exclude)
+    table = row_each(table)
     read = read_columns(table, given)
     columns, derived = _quantities(table, read, (poisson_ratio, letter), temperature, instantaneous)
     notes = [*table.grid.notes, *table.notes, *read.notes]
@@ -138,7 +146,8 @@ def read_dma(
 def read_answered(path: Path, answers: Mapping[str, Any], *, poisson_ratio: float, several: bool) -> DmaData:
     """Read a file with the answers of a command, keywords of `read_dma`.
 
-    Of several files one may state units that another leaves open: those that this file contradicts are left to it.
+    Of several files one may state units, or temperatures, that another leaves open: those that this file contradicts
+    are left to it.
 
     Raises
     ------
@@ -148,11 +157,28 @@ def read_answered(path: Path, answers: Mapping[str, Any], *, poisson_ratio: floa
     try:
         return read_dma(path, poisson_ratio=poisson_ratio, **answers)
     except InputError:
+        kept = {key: value for key, value in answers.items() if key != "temperature"}
         own = {key: value for key, value in answers.items() if key in _OF_ONE_FILE}
-        if several and own != answers:
+        for fewer in (kept, own | {"temperature": answers.get("temperature")}, own) if several else ():
             with suppress(InputError):
-                return read_dma(path, poisson_ratio=poisson_ratio, **own)
+                return read_dma(path, poisson_ratio=poisson_ratio, **fewer)
         raise
+
+
+def sheets(path: Path, pattern: str | None) -> list[str | None]:
+    """Sheets with a table whose names fit a pattern with * or ?; without one what is given, of a text file none."""
+    if pattern is None or not {"*", "?"} & set(pattern):
+        return [pattern]
+    data = file_content(path, largest=LARGEST_FILE, expected="table of a laboratory")
+    if not data.startswith(MAGIC):
+        return [None]
+    grids = workbook_grids(data, path.name)
+    found: list[str | None] = [g.sheet for g in grids if fnmatchcase(g.sheet, pattern) and has_table(g)]
+    if not found:
+        names = ", ".join(repr(grid.sheet) for grid in grids)
+        what = f"no sheet '{pattern}' holds a table; sheet (--sheet) must fit one of {names}"
+        raise refusal(path.name, 1, 0, what, lettered=True)
+    return found
 
 
 def _check_options(
@@ -196,7 +222,8 @@ def _grid(path: Path, sheet: str | None) -> TextGrid:
         several = ", ".join(repr(grid.sheet) for grid in tables)
         first = tables[0].sheet
         what = (
-            f'{len(tables)} sheets hold a table: {several}; give sheet, for example sheet="{first}" (--sheet)'
+            f'{len(tables)} sheets hold a table: {several}; give sheet, for example sheet="{first}" (--sheet); if all'
+            " are of one rubber, conveyor fit takes them together by --sheet '*'"
         )
         raise tables[1].refusal(tables[1].lines[0].number, 0, what)
     empty = [] if sheet is not None else [repr(grid.sheet) for grid in grids if grid is not tables[0]]

@@ -50,10 +50,10 @@ def text_grid(text: str, name: str, note: str) -> TextGrid:
 
 
 def headed_lines(text: str) -> list[TextLine]:
-    """Lines of a table whose first one names columns and tells the separator; those that begin with # are remarks."""
+    """Lines of a table; the first one with a separator tells which it is, those that begin with # are remarks."""
     written = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
-    first = next((line for _, line in written if not line.lstrip().startswith("#")), "")
-    separator = max("\t;,", key=first.count)
+    said = (line for _, line in written if not line.lstrip().startswith("#"))
+    separator = max("\t;,", key=next((line for line in said if {*"\t;,"} & {*line}), "").count)
     lines = []
     for number, line in written:
         (cells,) = csv.reader([line], delimiter=separator, skipinitialspace=True)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
 from conveyor.errors import InputError
-from conveyor.measured.table import Meant, MeasuredRow, TableKind, read_rows
+from conveyor.measured.table import Meant, MeasuredRow, TableKind, grid_of, rows_of
 from conveyor.models.rolling_tests import RollingTest
 from conveyor.units import text
 
@@ -30,6 +33,16 @@ _TESTS: Final = TableKind(
     example='"line load [N/mm],resistance [N/m],roll diameter [mm],cover thickness [mm],speed [m/s],'
     'temperature [degC]"',
 )  # fmt: skip
+FORM: Final = "N per width"
+"""Sheet of the form that asks a belt maker for tests (`conveyor verify-sheet`)."""
+_ASKED: Final = re.compile(r"at (\S+) (\S+), ours \[.+\]")
+_OF_FORM: Final = {
+    "cover": "cover thickness",
+    "roll": "roll diameter",
+    "belt speed": "speed",
+    "temperature": "temperature",
+}
+"""Columns of the form, and what a table of tests calls them."""
 _ONE_TEST: Final = (
     "roll_diameter", "cover_thickness", "speed", "temperature", "uncertainty", "specimen", "source", "note",
 )  # fmt: skip
@@ -43,7 +56,8 @@ def read_rolling_tests(path: str | Path, source: str | None = None) -> tuple[Rol
     path : str or Path
         Table with a header: ``line load``, ``resistance``, ``roll diameter``, ``cover thickness``, ``speed``,
         ``temperature``; further ``uncertainty`` (half-width that holds nine tenths of repeated tests), ``specimen``
-        (belt or rubber), ``source``, ``note``. Units stand in the headers, as in ``line load [N/mm]``.
+        (belt or rubber), ``source``, ``note``. Units stand in the headers, as in ``line load [N/mm]``. Or the workbook
+        of `conveyor.verify_sheet`, filled in by the maker.
     source : str, optional
         Of rows without one; the name of the file without it.
 
@@ -58,10 +72,40 @@ def read_rolling_tests(path: str | Path, source: str | None = None) -> tuple[Rol
         ``file:row: column: what, and what to do``, for anything that is no number, unit or column known, or no test.
     """
     tests: dict[tuple[Any, ...], list[MeasuredRow]] = {}
-    for row in read_rows(path, _TESTS):
+    for row in _rows(path):
         _plausible(row)
         tests.setdefault(tuple(str(row.given.get(field)) for field in _ONE_TEST), []).append(row)
     return tuple(_test(rows, source or Path(path).name) for rows in tests.values())
+
+
+def _rows(path: str | Path) -> Iterator[MeasuredRow]:
+    """Rows of a table, or of a form filled in: at every line load those with a figure of the maker."""
+    grid = grid_of(path, _TESTS, form=FORM)
+    start = next((k for k, line in enumerate(grid.lines) if line.cells[0] == "compound"), None)
+    if grid.sheet != FORM or start is None:
+        yield from rows_of(grid, _TESTS)
+        return
+    head, lines = grid.lines[start], grid.lines[start + 1 :]
+    pairs = {at: asked for at, asked in enumerate(map(_ASKED.fullmatch, head.cells)) if asked}
+    given = {at: [line for line in lines if any(line.cells[at + 1 : at + 2])] for at in pairs}
+    belts: dict[str, int] = {}
+    for line in lines:
+        if any(line in filled for filled in given.values()):
+            belts.setdefault(line.cells[0], line.number)
+    if len(belts) != 1:
+        what = f"figures of the maker beside {' and '.join(belts)}; keep those of one belt"
+        what = what if belts else "no figure of the maker in it; fill in the columns named maker"
+        raise grid.refusal(max(belts.values(), default=head.number), 0, what)
+    columns = (name.partition(" [") for name in head.cells)
+    common = [f"{_OF_FORM[name]} [{unit}" if name in _OF_FORM else "" for name, _, unit in columns]
+    for at, asked in pairs.items():
+        names = [*common]
+        names[at : at + 2] = f"line load [{asked[2]}]", head.cells[at + 1].replace("maker", "resistance")
+        rows = [
+            line._replace(cells=(*line.cells[:at], asked[1], *line.cells[at + 1 :])) for line in given[at]
+        ]
+        if rows:
+            yield from rows_of(replace(grid, lines=(head._replace(cells=tuple(names)), *rows)), _TESTS)
 
 
 def _plausible(row: MeasuredRow) -> None:

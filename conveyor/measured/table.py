@@ -98,29 +98,37 @@ class _Head:
 
 
 def read_rows(path: str | Path, kind: TableKind) -> tuple[MeasuredRow, ...]:
-    """Read a table of measurements: text, or a workbook with one sheet of cells; the first line names columns."""
-    grid = _grid(Path(path), kind)
+    """Read a table of measurements: text, or a workbook with one sheet of cells; a line names columns."""
+    return rows_of(grid_of(path, kind), kind)
+
+
+def rows_of(grid: TextGrid, kind: TableKind) -> tuple[MeasuredRow, ...]:
+    """Rows of a grid, below the first line that names two columns; what stands above is its title."""
     lines = [line for line in grid.lines if not line.comment]
+    named = (sum(bool(_Head(*cell, kind).field) for cell in enumerate(line.cells)) for line in lines)
+    lines = lines[next((k for k, count in enumerate(named) if count >= 2), 0) :]
     if len(lines) < 2:
         raise InputError(
-            f"{path}: no {kind.one} in it; the first line names columns, as {kind.example}, one row a {kind.one} "
+            f"{grid.name}: no {kind.one} in it; the first line names columns, as {kind.example}, one row a {kind.one} "
             "follows"
         )
     head, *rows = lines
     if len(rows) > kind.most_rows:
         raise InputError(
-            f"{path}: {len(rows)} rows, at most {kind.most_rows} are read; give means over longer times"
+            f"{grid.name}: {len(rows)} rows, at most {kind.most_rows} are read; give means over longer times"
         )
     columns = _columns(grid, head, kind)
     mark = _mark(grid, columns, rows)
     return tuple(_row(grid, columns, row, width=len(head.cells), mark=mark, kind=kind) for row in rows)
 
 
-def _grid(path: Path, kind: TableKind) -> TextGrid:
-    """The lines of a text, or of the one sheet that holds cells."""
+def grid_of(path: str | Path, kind: TableKind, *, form: str = "") -> TextGrid:
+    """The lines of a text, or of the one sheet that holds cells; of a form the sheet of its name."""
+    path = Path(path)
     data = file_content(path, largest=LARGEST_FILE, expected=kind.what)
     if data.startswith(MAGIC):
         filled = [grid for grid in workbook_grids(data, path.name) if grid.lines]
+        filled = [grid for grid in filled if grid.sheet == form] or filled
         if len(filled) != 1:
             raise InputError(
                 f"{path}: {len(filled)} sheets hold cells; keep the {kind.one}s on one, and save it alone"
@@ -133,15 +141,17 @@ def _grid(path: Path, kind: TableKind) -> TextGrid:
 def _columns(grid: TextGrid, head: TextLine, kind: TableKind) -> list[_Head]:
     """The named columns, each known and there once."""
     heads: dict[str, _Head] = {}
-    for index, header in enumerate(head.cells):
-        column = _Head(index, header, kind)
-        if not column.field:
-            if header:
-                raise grid.refusal(
-                    head.number, index, f"not known; allowed: {', '.join(kind.columns)}, with a unit as in "
-                    f'{kind.example}; begin the name with "note" to have it left alone', header=header,
-                )  # fmt: skip
-            continue
+    named = [_Head(index, header, kind) for index, header in enumerate(head.cells) if header]
+    unknown = [column for column in named if not column.field]
+    if unknown:
+        others = ", ".join(f'"{column.header}"' for column in unknown[1:])
+        raise grid.refusal(
+            head.number, unknown[0].index, f"not known{f', nor {others}' if others else ''}; allowed: "
+            f"{', '.join(kind.columns)}, with a unit as in {kind.example}; begin a name with \"note\" to have it left "
+            "alone", header=unknown[0].header,
+        )  # fmt: skip
+    for column in named:
+        index, header = column.index, column.header
         if column.name != "note" and column.name in heads:
             raise grid.refusal(head.number, index, "is there twice; remove one of the two", header=header)
         heads.setdefault(column.name, column)

@@ -506,6 +506,18 @@ def _unequal_levels(comparison: CalculatedComparison) -> Iterator[str]:
         )
 
 
+def _calibrated(comparison: CalculatedComparison) -> Iterator[str]:
+    """A factor of the belt that ran, which all compounds bear."""
+    given = comparison.conveyor.calculation.calibration
+    factor = 1.0 if given is None else given.factors.get("indentation", 1.0)
+    if factor != 1.0:
+        yield (
+            f"calculation.calibration: indentation x {factor:g} of every compound, a factor found with the belt that "
+            "ran. What of it is that belt's rubber the others do not have: their power without it is that of conveyor "
+            "power with their compound and calculation.calibration.indentation: 1"
+        )
+
+
 def _where(comparison: CalculatedComparison, system: System) -> Iterator[str]:
     """At which temperatures the comparison stands."""
     asked = {s.temperature for s in comparison.scenes} | {row.temperature for row in comparison.refused}
@@ -523,7 +535,7 @@ def _where(comparison: CalculatedComparison, system: System) -> Iterator[str]:
 
 def remarks(comparison: CalculatedComparison, system: System = "SI") -> tuple[str, ...]:
     """Notes of a comparison in a system of units: where it stands, what it rests on."""
-    lines = [*_where(comparison, system), *_unequal_levels(comparison)]
+    lines = [*_where(comparison, system), *_unequal_levels(comparison), *_calibrated(comparison)]
     for compound in comparison.compounds:
         if compound.kind == "illustrative":
             said = "is illustrative, not measured: compare with it, do not design with it"

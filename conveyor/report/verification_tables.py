@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, Final
 
 from conveyor.files.marks import version
+from conveyor.measured.rolling_tests import FORM
 from conveyor.models import Report
 from conveyor.report.columns import Column, Contents, OnPage, ReportHead, Table, noted
 from conveyor.units import System
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
     from conveyor.studies.verification import CalculatedVerification
 
 ABOUT: Final = "About"
-PER_WIDTH: Final = "N per width"
+PER_WIDTH: Final = FORM
 PER_SET: Final = "Idler set"
 PARTS: Final = (
     ("assumptions", "What these figures are"),

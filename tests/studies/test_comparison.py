@@ -251,6 +251,15 @@ def test_remarks_are_in_the_units_asked_for():
     assert any(said.startswith("90 % bands are of the rubber alone") for said in basis)
 
 
+def test_a_factor_of_the_belt_that_ran_is_said(line):
+    def told(factor):
+        given = line.calculation.replace(calibration={"indentation": factor, "idler_rotation": 0.9})
+        return " ".join(remarks(compare_compounds(line.replace(calculation=given), NAMES[:2])))
+
+    assert "indentation x 1.25 of every compound, a factor found with the belt that ran" in told(1.25)
+    assert "calculation.calibration" not in told(1.0)
+
+
 def test_progress_counts_the_compounds(line):
     seen = []
     compare_compounds(line, NAMES[:2], progress=lambda done, total: seen.append((done, total)))

@@ -13,9 +13,11 @@ import conveyor
 from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.indentation import RollContact, indentation_resistance
+from conveyor.measured.rolling_tests import read_rolling_tests
 from conveyor.report import excel, html
 from conveyor.report.cells import ASKED
 from conveyor.studies.verification import SPACING
+from conveyor.units import si
 from tests.loop.loop_lines import line
 
 ONE = {"temperatures": ["20 degC"], "roll_diameters": ["219 mm"], "speeds": ["5 m/s"], "covers": ["7 mm"]}
@@ -118,3 +120,40 @@ def test_what_no_roll_has_is_refused(changed: dict[str, list[str]], said: str):
         conveyor.verify_sheet(["s100"], **ONE | changed)
     with pytest.raises(InputError, match="compounds: give at least one"):
         conveyor.verify_sheet([])
+
+
+@pytest.mark.parametrize("system", ["SI", "US"])
+def test_a_sheet_filled_in_is_read_as_tests(tmp_path: Path, system: str):
+    asked = {**ONE, "temperatures": ["0 degC", "20 degC"], "line_loads": ["1 N/mm", "4 N/mm"]}
+    found = conveyor.verify_sheet(["s100", "s120"], **asked)
+    path = tmp_path / "sheet.xlsx"
+    path.write_bytes(excel.files(found.contents(system), path)[path])
+    with pytest.raises(
+        InputError, match=r"sheet\.xlsx\[N per width\]:2: column A: no figure of the maker in it"
+    ):
+        read_rolling_tests(path)
+    book = openpyxl.load_workbook(path)
+    cells = book["N per width"]
+    given = {(3, 7): 1.5, (3, 9): 1.6, (4, 9): 1.7}  # row, column: times our figure beside it
+    for (row, column), factor in given.items():
+        cells.cell(row, column).value = factor * cells.cell(row, column - 1).value
+    book.save(path)
+    cold, warm = read_rolling_tests(path, "report 7")
+    ours = found.table[["at 1 N/mm, ours [N/m]", "at 4 N/mm, ours [N/m]"]].to_numpy()
+    # loads stand in the headers with four digits, figures in the cells with all
+    assert [si(load) for load in cold.line_load] == pytest.approx([1e3, 4e3], rel=5e-4)
+    assert [si(force) for force in cold.resistance] == pytest.approx(
+        [1.5 * ours[0, 0], 1.6 * ours[0, 1]], rel=1e-6
+    )
+    assert [si(force) for force in warm.resistance] == pytest.approx([1.7 * ours[1, 1]], rel=1e-6)
+    assert si(warm.roll_diameter) == pytest.approx(0.219)
+    cells.cell(3, 7).value = "9 N"
+    book.save(path)
+    with pytest.raises(InputError, match=r"\[N per width\]:3: column G .*'9 N' holds a unit"):
+        read_rolling_tests(path)
+    cells.cell(3, 7).value, cells.cell(5, 7).value = None, 9.0
+    book.save(path)
+    with pytest.raises(
+        InputError, match=r"\[N per width\]:5: column A: figures of the maker beside S100 and S120"
+    ):
+        read_rolling_tests(path)

@@ -1,0 +1,91 @@
+"""Tables whose headers hold set points, a column for each frequency or temperature: a row for each of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import TypeAlias
+
+from conveyor.laboratory.grid import TextLine
+from conveyor.laboratory.layout import EXCLUDE, DataColumn, DataTable
+from conveyor.laboratory.names import Meaning, SetPoint
+from conveyor.laboratory.numbers import is_number, why_not_a_number
+
+Groups: TypeAlias = Mapping[SetPoint, Sequence[DataColumn]]
+
+
+def row_each(table: DataTable) -> DataTable:
+    """The table with a row for each set point of its headers, `E'(1 Hz)`, `E'(10 Hz)`; without any as it is.
+
+    Cells of a further set point come into the columns of the first one, its number into a column behind all others.
+    A set point that was not measured in a row, all its cells empty, makes none.
+    """
+    groups = _groups(table)
+    if not groups:
+        return table
+    first = next(iter(groups.values()))
+    rows = [
+        (each, block)
+        for line, block in zip(table.rows, table.blocks, strict=True)
+        for each in _rows(table, line, groups)
+    ]
+    further = {column.index for columns in groups.values() for column in columns} - {c.index for c in first}
+    quantity, _, unit = next(iter(groups))
+    added = DataColumn(table.width, f"{quantity} of the headers", Meaning(quantity, unit), None)
+    said = ", ".join(point.number for point in groups)
+    return replace(
+        table,
+        columns=(*(c for c in table.columns if c.index not in further), added),
+        rows=tuple(line for line, _ in rows),
+        blocks=tuple(block for _, block in rows),
+        notes=(*table.notes, f"a row for each {quantity} of the headers: {said} {unit}"),
+    )
+
+
+def _groups(table: DataTable) -> Groups:
+    """Columns of each set point; none where the table has a column of that quantity, too."""
+    groups: dict[SetPoint, list[DataColumn]] = {}
+    for column in table.columns:
+        if column.meaning is not None and column.meaning.at is not None:
+            groups.setdefault(column.meaning.at, []).append(column)
+    shared = {c.meaning.quantity for c in table.columns if c.meaning is not None and c.meaning.at is None}
+    if len({(point.quantity, point.unit) for point in groups}) != 1 or {p.quantity for p in groups} & shared:
+        return {}
+    first = next(iter(groups.values()))
+    for point, columns in groups.items():
+        if [_bare(column) for column in columns] != [_bare(column) for column in first]:
+            what = f"{point.number} {point.unit} has other columns than the first, {len(first)} from this name on"
+            raise table.refusal(
+                first[0], f"{what}; give all the same, or remove those of {point.number} {point.unit}"
+            )
+    return groups
+
+
+def _rows(table: DataTable, line: TextLine, groups: Groups) -> Sequence[TextLine]:
+    """The rows of one line, of set points that were measured."""
+    cells = (*line.cells, *[""] * (table.width - len(line.cells)))
+    first = next(iter(groups.values()))
+    rows = []
+    for point, columns in groups.items():
+        values = {into.index: cells[column.index] for into, column in zip(first, columns, strict=True)}
+        for column in columns if any(values.values()) else ():
+            if not is_number(cell := cells[column.index]):
+                said = why_not_a_number(cell) if cell else "the cell is empty; complete or delete the row"
+                raise table.grid.refusal(
+                    line.number, column.index, f"{said}, {EXCLUDE}", header=column.header
+                )
+        if any(values.values()):
+            own = [values.get(index, cell) for index, cell in enumerate(cells)]
+            rows.append(line._replace(cells=(*own, _markless(point.number))))
+    return rows
+
+
+def _bare(column: DataColumn) -> Meaning | None:
+    """What a column means without its set point."""
+    return column.meaning and column.meaning._replace(at=None)
+
+
+def _markless(number: str) -> str:
+    """A number without its decimal point, 3333e-3: a table with decimal commas may have points in its headers."""
+    whole, _, decimals = number.partition(".")
+    return f"{whole}{decimals}e-{len(decimals)}" if decimals else number
