@@ -107,6 +107,6 @@ def test_verify_sheet_writes_workbook_and_page(tmp_path: Path) -> None:
 def test_verify_sheet_asks_for_an_output() -> None:
     done = run("verify-sheet", "s100")
     assert done.returncode == 2
-    assert "give -o SHEET.xlsx, --html SHEET.html or --json" in done.stderr
+    assert "give -o SHEET.xlsx, --html SHEET.html, --pdf SHEET.pdf or --json" in done.stderr
     assert "unknown compound" in run("verify-sheet", "s1000", "--json").stderr
     assert "give --spec, too" in run("verify-sheet", "s100", "--set", "belt.speed=3 m/s", "--json").stderr

@@ -42,9 +42,12 @@ def writable(path: Path) -> None:
 def _target(path: Path) -> Path:
     """What a path leads to through links, there or not."""
     try:
-        return path.resolve()
-    except (RuntimeError, ValueError) as error:  # links in a circle; a null byte
+        target = path.resolve()
+    except (RuntimeError, ValueError) as error:  # links in a circle, before Python 3.13; a null byte
         raise OSError(0, str(error)) from None
+    if target.is_symlink():
+        raise OSError(0, f"links in a circle from {path}")
+    return target
 
 
 def save(contents: Mapping[Path, bytes | memoryview], *, folders: Iterable[Path] = ()) -> None:
