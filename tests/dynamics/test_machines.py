@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.waves import STEEPEST, ramp
 from conveyor.models import Scenario, Starter
 from conveyor.spec import from_data, load
-from tests.dynamics.rods import EA, LENGTH, PULL, WAVE, begun, clamped, follow, idle, rod
+from tests.dynamics.rods import EA, LENGTH, LINE_MASS, PULL, WAVE, begun, clamped, follow, idle, rod
 from tests.loop.loop_lines import BOOSTER, DATA, SECOND, data, line
 from tests.validation.test_start_stop_limits import MASSES, NO_RUSH, followed, ridden
 
@@ -84,9 +85,40 @@ def test_backstop_and_brake_hold_what_pulls_back():
             assert found.drives["holding"][-1, 0, 0] == pytest.approx(-40e3, rel=1e-9)
 
 
+@pytest.mark.parametrize("cells", [100, 400])
+def test_the_tension_at_a_pulley_falls_after_a_power_cut_as_a_damped_rod_says(cells):
+    """A heavy rim gives way by F t/M: the tension falls by z F/M √(τ t)/Γ(3/2), z = c m', while t is short of τ."""
+    force, rim, tau, node = 20e3, 4e5, 0.1, cells // 2
+    chain = rod(
+        cells, retardation=tau, nodes=np.array([[node]]), rim=np.array([[rim]]), grip=np.full((1, 1), 1e9),
+        backstop=np.zeros((1, 1), bool), **clamped(cells, 0, cells),
+    )  # fmt: skip
+    tension = np.full((1, cells), PULL)
+    tension[:, :node] += force
+    step = 0.95 * chain.longest_step
+    found = run(chain, idle(2, 1), begun(chain, tension=tension, driving=np.array([[force]])), step=step)
+    falls = PULL + force - found.drives["arriving"][0, 0, 0]
+    assert found.drives["leaving"][0, 0, 0] - PULL == pytest.approx(falls, rel=1e-9)
+    # a single step of a root; it was 2.3 and 4.0 times as much, as if the belt beside the pulley stood still
+    closed_form = WAVE * LINE_MASS * force / rim * math.sqrt(tau * step) / math.gamma(1.5)
+    assert falls == pytest.approx(closed_form, rel=0.2)
+
+
+def test_the_tension_of_a_winch_holds_as_cells_get_shorter():
+    """A belt of c m' takes Δv in over the run-up: the tension rises by c m' Δv/2, at both ends, not by EA Δv dt/Δs."""
+    highest = []
+    for cells in (20, 80):
+        chain = replace(
+            rod(cells, winch=np.array([[0.5], [0.1], [1.0]])), retardation=0.1, **clamped(cells, cells // 2)
+        )
+        found = follow(chain, begun(chain, tension=np.full((1, cells), 0.8 * PULL)), 1.0)
+        highest.append(float(found.highest.max()))
+    assert highest[0] == pytest.approx(highest[1], rel=0.02)
+
+
 def test_a_winch_brings_the_tension_into_its_band_and_rests():
     """From a slack belt at its own speed, and then no further."""
-    chain = replace(rod(10, winch=np.array([[SLOW], [0.1]])), **clamped(10, 5), retardation=0.5)
+    chain = replace(rod(10, winch=np.array([[SLOW], [0.1], [1.0]])), **clamped(10, 5), retardation=0.5)
     found = follow(chain, begun(chain, tension=np.full((1, 10), 0.5 * PULL)), 80.0)
     tension, belt = found.take_up["tension"][:, 0], found.take_up["belt"][:, 0]
     assert tension[-1] == pytest.approx(PULL, rel=0.1)
