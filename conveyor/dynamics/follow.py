@@ -40,10 +40,10 @@ Array = NDArray[np.float64]
 
 ERROR: Final = 0.01
 """Error of the peaks asked for without a word [-]."""
-_CELLS = 50  # of the longest belt at first
-_REFINED = 5  # times at most
-_SIZES = 3  # of cells for an error
-_SAFETY = 1.25  # of three sizes: P. J. Roache, grid convergence index, J. Fluids Eng. 116 (1994) 405
+_CELLS = 25  # of the longest belt at first
+_REFINED = 6  # times at most
+_SIZES = 4  # of cells for an error
+_SAFETY = 1.25  # of three and more: P. J. Roache, grid convergence index, J. Fluids Eng. 116 (1994) 405
 _SLOWEST, _FASTEST = math.sqrt(2.0), 2.0  # change over the next one: at a jump of speed, and at first order
 _CLOSER = 0.75  # error over the one before up to which halving helps: a half at first order, 1/√2 at a jump of speed
 _REST = 1e-3  # of the steady speed, below which a belt away from the drives rests
@@ -363,20 +363,24 @@ def _open(one: _Answer, error: float) -> TypeGuard[Followed]:
 
 
 def _error(peaks: Sequence[_Peaks]) -> float | None:
-    """Of the last peaks over the highest [-], by the change of three as cells are halved; None of fewer.
+    """Of the last peaks over the highest [-], by how they changed as cells were halved; None of fewer than four.
 
-    Grid convergence index with the order that they show. Half the change before is taken at least: a change may be
-    small by chance.
+    Grid convergence index with the order that the changes show, the first at most: a change may be small by chance, so
+    it counts half the one before at least. One that turns back shows no order and counts as that before it.
     """
     if len(peaks) < _SIZES:
         return None
-    *_, coarse, middle, fine = peaks
     errors = []
-    for i in (0, 1):
-        before = abs(middle[i] - coarse[i])
-        change = max(abs(fine[i] - middle[i]), before / _FASTEST)
-        errors.append(_SAFETY * change / (max(before / change, _SLOWEST) - 1.0) if change else 0.0)
-    return max(errors) / fine.highest
+    for tension in list(zip(*peaks, strict=True))[:2]:
+        changes = [fine - coarse for coarse, fine in itertools.pairwise(tension)]
+        before, change = 0.0, abs(changes[0])
+        for now in changes[1:]:
+            before, change = change, max(abs(now), change / _FASTEST)
+        if changes[-2] * changes[-1] < 0.0:
+            errors.append(_SAFETY * max(change, abs(changes[-2])))
+        elif change > 0.0:
+            errors.append(_SAFETY * change / (max(before / change, _SLOWEST) - 1.0))
+    return max(errors, default=0.0) / peaks[-1].highest
 
 
 def _unsettled(one: Followed, peaks: Sequence[_Peaks]) -> ScenarioRefusal:

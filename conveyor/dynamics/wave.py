@@ -16,7 +16,7 @@ Friedrichs, Lewy 1928) and the projection of friction are textbook numerics.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 
 import numpy as np
@@ -485,6 +485,7 @@ class _Motion:
         self.before, self.behind = np.maximum(at - 1, 0), np.minimum(at, n - 1)
         apart = at[:, :, None] - at[:, None, :]
         self.alone = ~self.first & np.all(apart != 1, axis=2), ~self.last & np.all(apart != -1, axis=2)
+        self.each = [_alone(chain, self.machines, slice(j, j + 1)) for j in range(at.shape[1])]
         self.here = np.where(
             self.first | self.last, 1.0, 0.5
         )  # of what lies on a pulley's mass, on either side
@@ -550,41 +551,57 @@ class _Motion:
         return acting
 
     def _driven(self, i: int, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array]:
-        """Speeds with the pulleys' new forces, and what the take-up lacks with them."""
-        chain, rows, at, pulleys = self.chain, self.rows, self.at, self.solver.pulleys
-        answer = pulleys.own
-        at_nodes, going = self.speed[rows, at], new[rows, at]
+        """Speeds with the pulleys' new forces, one after the other, and what the take-up lacks with them."""
+        chain, rows, pulleys = self.chain, self.rows, self.solver.pulleys
         softer = self.law.eased * (self.dt * (self.law.k + self.law.branch_k) + self.tau_k)
-        of_take_up = pulleys.of_take_up / (answer * self.dt)
-        before, behind = pulleys.beside(at - 1), pulleys.beside(at + 1)
-        yields = (
-            np.where(self.first, -of_take_up, softer[rows, self.before] * (1.0 - before / answer)),
-            np.where(self.last, of_take_up, softer[rows, self.behind] * (1.0 - behind / answer)),
-        )
-        coming = self.tension + softer * np.diff(new, axis=1)
-        lying = self.here * (chain.weight[rows, at] + np.sign(self.on_pulleys) * rolling[rows, at])
-        tight = (chain.held - lacking / self.dt)[:, None]
-        arriving = np.where(self.first, tight, coming[rows, self.before] + lying)
-        leaving = np.where(self.last, tight, coming[rows, self.behind] - lying)
-        moved = _pulleys(
-            chain, self.machines, i, step=self.dt, answer=answer, rim=self.rims,
-            free=going - answer * self.dt * (self.driving - self.rubbing),
-            arriving=arriving - yields[0] * going, leaving=leaving + yields[1] * going,
-            yields=yields, friction=np.where(self.on_pulleys == 0.0, self.stuck, rolling[rows, at]),
-        )  # fmt: skip
+        before, behind = pulleys.beside(self.at - 1), pulleys.beside(self.at + 1)
+        impulse = self.dt * (self.driving - self.rubbing)
+        made: list[_Moved] = []
+        for j, (drive, machine) in enumerate(self.each):
+            k = slice(j, j + 1)
+            at, first, last, left, right, on = (
+                part[:, k]
+                for part in (self.at, self.first, self.last, self.before, self.behind, self.on_pulleys)
+            )
+            answer, going = pulleys.own[:, k], new[rows, at]
+            of_take_up = pulleys.of_take_up[:, k] / (answer * self.dt)
+            yields = (
+                np.where(first, -of_take_up, softer[rows, left] * (1.0 - before[:, k] / answer)),
+                np.where(last, of_take_up, softer[rows, right] * (1.0 - behind[:, k] / answer)),
+            )
+            lying = self.here[:, k] * (chain.weight[rows, at] + np.sign(on) * rolling[rows, at])
+            tight = (chain.held - lacking / self.dt)[:, None]
+            coming = self.tension[rows, left] + softer[rows, left] * (new[rows, left + 1] - new[rows, left])
+            parting = self.tension[rows, right] + softer[rows, right] * (
+                new[rows, right + 1] - new[rows, right]
+            )
+            moved = _pulleys(
+                drive, machine, i, step=self.dt, answer=answer, rim=self.rims[:, k],
+                free=going - answer * impulse[:, k],
+                arriving=np.where(first, tight, coming + lying) - yields[0] * going,
+                leaving=np.where(last, tight, parting - lying) + yields[1] * going,
+                yields=yields, friction=np.where(on == 0.0, self.stuck[:, k], rolling[rows, at]),
+            )  # fmt: skip
+            made.append(moved)
+            change = (moved.belt - going) / answer
+            new, lacking = (
+                new + change * pulleys.columns[:, j],
+                lacking + pulleys.of_take_up[:, j] * change[:, 0],
+            )
+        moved = _Moved(*(np.hstack([getattr(one, part.name) for one in made]) for part in fields(_Moved)))
         for name, values in self.drives.items():
             values[i] = getattr(moved, name)
         over = np.where(moved.grips, 0.0, self.dt * (moved.rim - moved.belt))
         self.slipped = self.slipped + np.abs(over)
         self.heat = self.heat + over * moved.force
-        self.ledger.drives(self.rims, at_nodes, moved)
+        self.ledger.drives(self.rims, self.speed[rows, self.at], moved)
         self.driving, self.rubbing, self.rims, self.on_pulleys = (
             moved.force,
             moved.friction,
             moved.rim,
             moved.belt,
         )
-        return pulleys.moved((moved.belt - going) / answer, new, lacking)
+        return new, lacking
 
     def _rubbed(self, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array, Array]:
         """Speeds with the friction of the lumps, one after the other, what the take-up lacks with it, and itself."""
@@ -624,6 +641,17 @@ class _Motion:
         told[rows, self.before] += np.where(self.alone[0], lying, 0.0)
         told[rows, self.behind] -= np.where(self.alone[1], lying, 0.0)
         return told
+
+
+def _alone(chain: Chain, machines: Machines, k: slice) -> tuple[Chain, Machines]:
+    """One drive of every belt."""
+    return (
+        replace(chain, rim=chain.rim[:, k], grip=chain.grip[:, k], backstop=chain.backstop[:, k]),
+        replace(
+            machines, slope=machines.slope[:, k], reference=machines.reference[..., k], share=machines.share[..., k],
+            brake=machines.brake[..., k], limits=machines.limits[:, k], drag=machines.drag[:, k],
+        ),
+    )  # fmt: skip
 
 
 def _winding(over: Array, band: Array) -> Array:

@@ -145,7 +145,7 @@ def test_a_scenario_without_an_answer_leaves_the_others_theirs():
 @pytest.mark.usefixtures("rigged")
 def test_peaks_that_do_not_hold_are_refused_with_both_figures_and_what_helps(monkeypatch):
     """A winch with hardly any run-up pulls the belt the harder the shorter the cell."""
-    monkeypatch.setattr(following, "_REFINED", 3)
+    monkeypatch.setattr(following, "_REFINED", 4)
     winch = {"kind": "winch", "position": "tail", "winch_speed": "1 m/s", "winch_band": "1 %"}
     given = data(route={"take_up": winch | {"winch_run_up": "1 ms"}}, drive={"reduced_mass": "4 t"})
     found = follow(from_data(given | {"scenarios": [STOP, QUIET]}))
@@ -179,16 +179,20 @@ def test_a_winch_with_a_speed_needs_its_run_up_in_scenarios():
 @pytest.mark.parametrize(
     ("highest", "error"),
     [
-        ((104.0, 102.0, 101.0), 1.25),  # first order: as much again is missing
-        ((108.0, 102.0, 100.5), 1.25 * 3.0),  # faster: half the change before
-        ((102.0, 100.0, 100.0), 1.25),  # no change by chance
-        ((100.0, 101.0, 104.0), 1.25 * 3.0 / (2.0**0.5 - 1.0)),  # apart
-        ((100.0, 100.0, 100.0), 0.0),
+        ((108.0, 104.0, 102.0, 101.0), 1.25),  # first order: as much again is missing
+        (
+            (130.0, 106.0, 102.0, 101.5),
+            1.25 * 6.0,
+        ),  # faster: half the change before, and half of that before it
+        ((104.0, 102.0, 100.0, 100.0), 1.25),  # no change by chance
+        ((100.0, 101.0, 102.0, 105.0), 1.25 * 3.0 / (2.0**0.5 - 1.0)),  # apart: as of order 1/2
+        ((100.0, 102.0, 104.0, 103.0), 1.25 * 2.0),  # back
+        ((100.0, 100.0, 100.0, 100.0), 0.0),
     ],
 )
-def test_the_error_of_peaks_is_the_grid_convergence_index_of_three_sizes(highest, error):
+def test_the_error_of_peaks_is_the_grid_convergence_index_of_four_sizes(highest, error):
     peaks = [following._Peaks(one, 10.0, 0.1) for one in highest]
-    assert following._error(peaks[:2]) is None
+    assert following._error(peaks[:3]) is None
     assert following._error(peaks) == pytest.approx(error / highest[-1], rel=1e-12)
 
 
