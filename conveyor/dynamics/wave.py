@@ -16,7 +16,7 @@ Friedrichs, Lewy 1928) and the projection of friction are textbook numerics.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -149,10 +149,10 @@ class Machines:
 
     def limit(self, speed: Array) -> Array:
         """Largest force at a speed [N], shape (s, d)."""
-        over = np.clip(np.abs(speed) / self.top, 0.0, 1.0) * (SPEED_POINTS - 1)
+        over = np.minimum(np.abs(speed) / self.top, 1.0) * (SPEED_POINTS - 1)
         low = np.minimum(over.astype(int), SPEED_POINTS - 2)
-        first = np.take_along_axis(self.limits, low[:, :, None], axis=2)[:, :, 0]
-        second = np.take_along_axis(self.limits, low[:, :, None] + 1, axis=2)[:, :, 0]
+        s, d = np.ogrid[: low.shape[0], : low.shape[1]]
+        first, second = self.limits[s, d, low], self.limits[s, d, low + 1]
         return np.asarray(first + (over - low) * (second - first))
 
 
@@ -313,22 +313,46 @@ class _BeltLaw:
 class _Answer:
     """Of a belt to an impulse of 1 N s at each of some places.
 
-    All speeds [m/s], shape (s, d, n + 1); what the take-up lacks [N s]; speeds of the places, shape (s, d, d).
+    The places; all speeds [m/s], shape (s, d, n + 1); what the take-up lacks [N s].
     """
 
+    places: Integers
     columns: Array
     of_take_up: Array
-    mutual: Array
+
+    @cached_property
+    def mutual(self) -> Array:
+        """Speeds of the places, shape (s, d, d)."""
+        return np.take_along_axis(self.columns, self.places[:, None], axis=2)
 
     @cached_property
     def own(self) -> Array:
         """Speed of each place by its own impulse."""
         return np.asarray(np.einsum("sdd->sd", self.mutual))
 
-    def beside(self, masses: Integers) -> Array:
-        """Speed of a mass for each place by the impulse there."""
-        held = np.clip(masses, 0, self.columns.shape[2] - 1)
-        return np.take_along_axis(self.columns, held[:, :, None], axis=2)[:, :, 0]
+    @cached_property
+    def beside(self) -> tuple[Array, Array]:
+        """Of the speed of each place by its own impulse what the masses before and behind it do not share [-]."""
+        last = self.columns.shape[2] - 1
+        shared = (
+            np.take_along_axis(self.columns, masses[:, :, None], axis=2)[:, :, 0]
+            for masses in (np.maximum(self.places - 1, 0), np.minimum(self.places + 1, last))
+        )
+        before, behind = (1.0 - speed / self.own for speed in shared)
+        return before, behind
+
+    def turns(self) -> list[list[int]]:
+        """Places that move each other, to rounding, are not in one group."""
+        coupled = np.any(np.abs(self.mutual) > np.finfo(float).eps * self.own[:, None], axis=0)
+        groups: list[list[int]] = []
+        for j in range(len(coupled)):
+            for group in groups:
+                if not (coupled[j, group].any() or coupled[group, j].any()):
+                    group.append(j)
+                    break
+            else:
+                groups.append([j])
+        return groups
 
     def moved(self, impulse: Array, speed: Array, lacking: Array) -> tuple[Array, Array]:
         """Speeds, and what the take-up lacks, after impulses at the places."""
@@ -381,14 +405,9 @@ class _Solver:
         columns = made[:, 1:]
         of_take_up = self.kappa[:, None] * (columns[self.rows, :, self.end] - columns[:, :, 0])
         columns = columns - self.pair[:, None] * of_take_up[:, :, None]
-        d = self.drives
         self.pulleys, self.lumps = (
-            _Answer(
-                columns[:, k],
-                of_take_up[:, k],
-                np.take_along_axis(columns[:, k], self.places[:, None, k], axis=2),
-            )
-            for k in (slice(d), slice(d, None))
+            _Answer(self.places[:, k], columns[:, k], of_take_up[:, k])
+            for k in (slice(self.drives), slice(self.drives, None))
         )
 
     def _banded(self, right: Array) -> Array:
@@ -485,7 +504,7 @@ class _Motion:
         self.before, self.behind = np.maximum(at - 1, 0), np.minimum(at, n - 1)
         apart = at[:, :, None] - at[:, None, :]
         self.alone = ~self.first & np.all(apart != 1, axis=2), ~self.last & np.all(apart != -1, axis=2)
-        self.each = [_alone(chain, self.machines, slice(j, j + 1)) for j in range(at.shape[1])]
+        self.turns = [_only(chain, self.machines, some) for some in self.solver.pulleys.turns()]
         self.here = np.where(
             self.first | self.last, 1.0, 0.5
         )  # of what lies on a pulley's mass, on either side
@@ -551,14 +570,15 @@ class _Motion:
         return acting
 
     def _driven(self, i: int, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array]:
-        """Speeds with the pulleys' new forces, one after the other, and what the take-up lacks with them."""
+        """Speeds with new forces of pulleys, in turn where they move each other, and what the take-up lacks then."""
         chain, rows, pulleys = self.chain, self.rows, self.solver.pulleys
         softer = self.law.eased * (self.dt * (self.law.k + self.law.branch_k) + self.tau_k)
-        before, behind = pulleys.beside(self.at - 1), pulleys.beside(self.at + 1)
-        impulse = self.dt * (self.driving - self.rubbing)
-        made: list[_Moved] = []
-        for j, (drive, machine) in enumerate(self.each):
-            k = slice(j, j + 1)
+        impulse, friction, over = (
+            self.dt * (self.driving - self.rubbing),
+            self.rubbing.copy(),
+            self.rubbing.copy(),
+        )
+        for k, drive, machine in self.turns:
             at, first, last, left, right, on = (
                 part[:, k]
                 for part in (self.at, self.first, self.last, self.before, self.behind, self.on_pulleys)
@@ -566,8 +586,8 @@ class _Motion:
             answer, going = pulleys.own[:, k], new[rows, at]
             of_take_up = pulleys.of_take_up[:, k] / (answer * self.dt)
             yields = (
-                np.where(first, -of_take_up, softer[rows, left] * (1.0 - before[:, k] / answer)),
-                np.where(last, of_take_up, softer[rows, right] * (1.0 - behind[:, k] / answer)),
+                np.where(first, -of_take_up, softer[rows, left] * pulleys.beside[0][:, k]),
+                np.where(last, of_take_up, softer[rows, right] * pulleys.beside[1][:, k]),
             )
             lying = self.here[:, k] * (chain.weight[rows, at] + np.sign(on) * rolling[rows, at])
             tight = (chain.held - lacking / self.dt)[:, None]
@@ -582,24 +602,22 @@ class _Motion:
                 leaving=np.where(last, tight, parting - lying) + yields[1] * going,
                 yields=yields, friction=np.where(on == 0.0, self.stuck[:, k], rolling[rows, at]),
             )  # fmt: skip
-            made.append(moved)
+            for name, values in self.drives.items():
+                values[i][:, k] = getattr(moved, name)
+            friction[:, k] = moved.friction
+            over[:, k] = np.where(moved.grips, 0.0, self.dt * (moved.rim - moved.belt))
             change = (moved.belt - going) / answer
-            new, lacking = (
-                new + change * pulleys.columns[:, j],
-                lacking + pulleys.of_take_up[:, j] * change[:, 0],
-            )
-        moved = _Moved(*(np.hstack([getattr(one, part.name) for one in made]) for part in fields(_Moved)))
-        for name, values in self.drives.items():
-            values[i] = getattr(moved, name)
-        over = np.where(moved.grips, 0.0, self.dt * (moved.rim - moved.belt))
+            new = new + np.einsum("sd,sdn->sn", change, pulleys.columns[:, k])
+            lacking = lacking + (pulleys.of_take_up[:, k] * change).sum(axis=1)
+        now = {name: values[i] for name, values in self.drives.items()} | {"friction": friction}
         self.slipped = self.slipped + np.abs(over)
-        self.heat = self.heat + over * moved.force
-        self.ledger.drives(self.rims, self.speed[rows, self.at], moved)
+        self.heat = self.heat + over * now["force"]
+        self.ledger.drives(self.rims, self.speed[rows, self.at], now)
         self.driving, self.rubbing, self.rims, self.on_pulleys = (
-            moved.force,
-            moved.friction,
-            moved.rim,
-            moved.belt,
+            now["force"],
+            friction,
+            now["rim"],
+            now["belt"],
         )
         return new, lacking
 
@@ -643,9 +661,10 @@ class _Motion:
         return told
 
 
-def _alone(chain: Chain, machines: Machines, k: slice) -> tuple[Chain, Machines]:
-    """One drive of every belt."""
+def _only(chain: Chain, machines: Machines, k: list[int]) -> tuple[list[int], Chain, Machines]:
+    """Some drives of every belt."""
     return (
+        k,
         replace(chain, rim=chain.rim[:, k], grip=chain.grip[:, k], backstop=chain.backstop[:, k]),
         replace(
             machines, slope=machines.slope[:, k], reference=machines.reference[..., k], share=machines.share[..., k],
@@ -740,14 +759,14 @@ class _Ledger:
         self.sums = {name: np.zeros(chain.end.size) for name in names}
         self.first = self._stored(start.speed, start.rims, law)
 
-    def drives(self, rims: Array, belt: Array, moved: _Moved) -> None:
+    def drives(self, rims: Array, belt: Array, now: dict[str, Array]) -> None:
         """Add the work of a step at the driven pulleys, from their speeds and the belt's before it."""
-        rim, at = 0.5 * (rims + moved.rim), 0.5 * (belt + moved.belt)
+        rim, at = 0.5 * (rims + now["rim"]), 0.5 * (belt + now["belt"])
         for name, power in (
-            ("motors", moved.motor * rim),
-            ("friction", moved.friction * at),
-            ("brakes", moved.holding * rim),
-            ("slip", moved.force * (rim - at)),
+            ("motors", now["motor"] * rim),
+            ("friction", now["friction"] * at),
+            ("brakes", now["holding"] * rim),
+            ("slip", now["force"] * (rim - at)),
         ):
             self.sums[name] += self.dt * power.sum(axis=1)
 
