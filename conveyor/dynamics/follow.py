@@ -371,7 +371,7 @@ def _error(peaks: Sequence[_Peaks]) -> float | None:
     if len(peaks) < _SIZES:
         return None
     errors = []
-    for tension in list(zip(*peaks, strict=True))[:2]:
+    for tension in list(zip(*peaks[-_SIZES:], strict=True))[:2]:
         changes = [fine - coarse for coarse, fine in itertools.pairwise(tension)]
         before, change = 0.0, abs(changes[0])
         for now in changes[1:]:
