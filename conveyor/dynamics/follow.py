@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Final, TypeAlias, TypeGuard
+from typing import Final, NamedTuple, Self, TypeAlias, TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,9 +40,12 @@ Array = NDArray[np.float64]
 
 ERROR: Final = 0.01
 """Error of the peaks asked for without a word [-]."""
-_CELLS = 100  # of the longest belt at first
-_REFINED = 4  # times at most
-_CLOSER = 0.75  # change over the one before up to which halving helps: a half at first order, 1/√2 at a jump of speed
+_CELLS = 25  # of the longest belt at first
+_REFINED = 6  # times at most
+_SIZES = 4  # of cells for an error
+_SAFETY = 1.25  # of three and more: P. J. Roache, grid convergence index, J. Fluids Eng. 116 (1994) 405
+_SLOWEST, _FASTEST = math.sqrt(2.0), 2.0  # change over the next one: at a jump of speed, and at first order
+_CLOSER = 0.75  # error over the one before up to which halving helps: a half at first order, 1/√2 at a jump of speed
 _REST = 1e-3  # of the steady speed, below which a belt away from the drives rests
 _COURANT = 0.95  # of the longest stable step: at that itself the swing from cell to cell is never damped
 
@@ -189,6 +192,18 @@ class ScenarioRefusal:
 _Answer: TypeAlias = Followed | ScenarioRefusal
 
 
+class _Peaks(NamedTuple):
+    """Of a scenario at a size of cells [N, s]."""
+
+    highest: float
+    lowest: float
+    step: float
+
+    @classmethod
+    def of(cls, one: Followed) -> Self:
+        return cls(one.highest, one.lowest, one.record.step)
+
+
 @dataclass(frozen=True, eq=False)
 class CalculatedDynamics:
     """Scenarios of a conveyor.
@@ -326,7 +341,7 @@ def refined(
 
     step = max(float(ride.loop.travel[-1]) for ride in rides) / _CELLS
     answers = beside(list(rides), step)
-    earlier = list(answers)
+    peaks = [[_Peaks.of(one)] if isinstance(one, Followed) else [] for one in answers]
     for _ in range(_REFINED):
         open_ones = [i for i, one in enumerate(answers) if _open(one, error)]
         if not open_ones:
@@ -335,11 +350,11 @@ def refined(
             progress(len(rides) - len(open_ones), len(rides))
         step *= 0.5
         for i, now in zip(open_ones, beside([rides[i] for i in open_ones], step), strict=True):
-            earlier[i], answers[i] = answers[i], _with_error(answers[i], now)
-    return _sorted([
-        _unsettled(before, one) if _open(one, error) and _open(before, error) else one
-        for before, one in zip(earlier, answers, strict=True)
-    ])  # fmt: skip
+            answers[i] = now
+            if isinstance(now, Followed):
+                peaks[i].append(_Peaks.of(now))
+                answers[i] = replace(now, error=_error(peaks[i]))
+    return _sorted([_unsettled(one, peaks[i]) if _open(one, error) else one for i, one in enumerate(answers)])
 
 
 def _open(one: _Answer, error: float) -> TypeGuard[Followed]:
@@ -347,34 +362,44 @@ def _open(one: _Answer, error: float) -> TypeGuard[Followed]:
     return isinstance(one, Followed) and (one.error is None or one.error > error)
 
 
-def _with_error(coarse: _Answer, fine: _Answer) -> _Answer:
-    """The fine one with the error of its peaks: their change at half the cells, as if of first order."""
-    if isinstance(coarse, ScenarioRefusal) or isinstance(fine, ScenarioRefusal):
-        return fine
-    changes = (fine.highest - coarse.highest, fine.lowest - coarse.lowest)
-    return replace(fine, error=float(max(map(abs, changes)) / fine.highest))
+def _error(peaks: Sequence[_Peaks]) -> float | None:
+    """Of the last peaks over the highest [-], by how they changed as cells were halved; None of fewer than four.
+
+    Grid convergence index with the order that the changes show, the first at most: a change may be small by chance, so
+    it counts half the one before at least. One that turns back shows no order and counts as that before it.
+    """
+    if len(peaks) < _SIZES:
+        return None
+    errors = []
+    for tension in list(zip(*peaks[-_SIZES:], strict=True))[:2]:
+        changes = [fine - coarse for coarse, fine in itertools.pairwise(tension)]
+        before, change = 0.0, abs(changes[0])
+        for now in changes[1:]:
+            before, change = change, max(abs(now), change / _FASTEST)
+        if changes[-2] * changes[-1] < 0.0:
+            errors.append(_SAFETY * max(change, abs(changes[-2])))
+        elif change > 0.0:
+            errors.append(_SAFETY * change / (max(before / change, _SLOWEST) - 1.0))
+    return max(errors, default=0.0) / peaks[-1].highest
 
 
-def _unsettled(coarse: Followed, fine: Followed) -> ScenarioRefusal:
-    """A scenario whose peaks change by more than was asked for: both figures, where, and what helps."""
-    record, error = fine.record, fine.error or 0.0
+def _unsettled(one: Followed, peaks: Sequence[_Peaks]) -> ScenarioRefusal:
+    """A scenario whose peaks hold to less than was asked for: the last figures, where, and what helps."""
+    record, error = one.record, one.error or 0.0
+    coarse, fine = peaks[-2:]
     high = abs(fine.highest - coarse.highest) > abs(fine.lowest - coarse.lowest)
     i = int(record.highest.argmax() if high else record.lowest.argmin())
     at = float((record.highest_at if high else record.lowest_at)[i])
     helps = (
         f"they come closer: an error of {percent(math.ceil(1e3 * error) / 1e3, 1)} can be asked for"
-        if error < _CLOSER * (coarse.error or 0.0)
+        if error < _CLOSER * (_error(peaks[:-1]) or 0.0)
         else "shorter cells bring them no closer, a larger error would only hide it: look for what jumps there, as a "
-        "winch that is at its speed at once or a drive of hardly any mass"
+        "winch with hardly any run-up or a drive of hardly any mass"
     )
-    figures = [
-        figure
-        for one in (coarse, fine)
-        for figure in ((one.highest, "force"), (one.lowest, "force"), (one.record.step, "time"))
-    ]
-    return ScenarioRefusal(fine.name, said(
-        "highest and lowest tension are {} and {} at steps of {}, {} and {} at steps of {}, "
-        f"{percent(error, 1)} of the highest apart, most in {quoted(fine.place(i))} after {at:.1f} s; {helps}", *figures
+    figures = zip((*coarse, *fine), 2 * ("force", "force", "time"), strict=True)
+    return ScenarioRefusal(one.name, said(
+        "highest and lowest tension are {} and {} at steps of {}, {} and {} at steps of {}: an error of "
+        f"{percent(error, 1)} of the highest, most in {quoted(one.place(i))} after {at:.1f} s; {helps}", *figures
     ))  # fmt: skip
 
 

@@ -105,13 +105,18 @@ class CutLoop:
         Raises
         ------
         NoSolutionError
-            The belt's stiffness is not known.
+            The belt's stiffness is not known, or how long a winch takes to its speed.
         """
         line, settled = steady.line, steady.balance.settled
         stiffness = belt_stiffness(line.belt)
         if stiffness is None:
             raise NoSolutionError(
                 "the belt's stiffness is not known: give belt.carcass.stiffness or belt.carcass.strength"
+            )
+        if line.take_up.winch is not None and line.take_up.winch[2] is None:
+            raise NoSolutionError(
+                "a winch that is at its speed at once pulls the harder the shorter the cells, without a limit: give "
+                "route.take_up.winch_run_up, the time in which it comes to its speed"
             )
         ways, count = line.loop.way, 2 * line.count
         cut, after = _cut(line, behind=settled.take_up.behind)

@@ -275,7 +275,7 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
         else unit.reeving / (unit.strands * line.gravity)
     )
     carriage = np.inf if unit.keeps_length else weight * held + unit.carriage / unit.strands**2
-    speed, band = unit.winch or (0.0, 0.0)
+    speed, band, run_up = unit.winch or (0.0, 0.0, None)
     chain = Chain(
         mass=filled([one.mass for one in cells], 1.0, most),
         stiffness=filled([one.stiffness for one in cells], 0.0, most - 1),
@@ -291,7 +291,7 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
         backstop=np.array([ride.backstops for ride in rides]),
         held=held,
         carriage=np.broadcast_to(carriage, held.shape),
-        winch=np.outer([speed * unit.strands, band], np.ones(held.size)),
+        winch=np.outer([speed * unit.strands, band, run_up or 1.0], np.ones(held.size)),
         sag=filled([one.sag for one in cells], 0.0, most - 1),
         relaxing=line.belt.relaxing or (0.0, 1.0),
         known=line.speed,

@@ -75,7 +75,7 @@ class EvenLoop:
             sticking=(1.0 - self.rising) * friction[None], end=np.array([n]), nodes=np.array([[node]]),
             lumps=np.zeros((1, 0), int),
             rim=np.ones((1, 1)), grip=np.full((1, 1), 1e12), backstop=np.zeros((1, 1), bool),
-            held=np.array([self.held]), carriage=np.array([self.carriage]), winch=np.zeros((2, 1)),
+            held=np.array([self.held]), carriage=np.array([self.carriage]), winch=np.zeros((3, 1)),
             sag=np.zeros((1, n)),
         )  # fmt: skip
         step = 0.95 * chain.longest_step

@@ -16,7 +16,7 @@ Friedrichs, Lewy 1928) and the projection of friction are textbook numerics.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -33,6 +33,7 @@ _NEWTON, _NEAR = (
     60,
     1e-4,
 )  # steps for a tension at most, and a relative one after which the rest is its square
+_SHARE = 0.05  # of k by which the damping of the solver may be above that of a cell: half of it moves no peak by 1e-4
 SPEED_POINTS = 65  # points of the motors' limits over speed
 
 
@@ -75,8 +76,9 @@ class Chain:
         Tension that the take-up gives at rest [N].
     carriage : ndarray, shape (s,)
         Its mass over the square of its strands [kg]; infinite where it is fixed.
-    winch : ndarray, shape (2, s)
-        Speed at which a winch takes in belt [m/s], 0 without one; tension over `held` within which it rests [-].
+    winch : ndarray, shape (3, s)
+        Speed at which a winch takes in belt [m/s], 0 without one; tension over `held` within which it rests [-]; time
+        in which it comes to its speed and to rest [s].
     known : float
         Speed up to which friction is known [m/s].
     """
@@ -147,10 +149,10 @@ class Machines:
 
     def limit(self, speed: Array) -> Array:
         """Largest force at a speed [N], shape (s, d)."""
-        over = np.clip(np.abs(speed) / self.top, 0.0, 1.0) * (SPEED_POINTS - 1)
+        over = np.minimum(np.abs(speed) / self.top, 1.0) * (SPEED_POINTS - 1)
         low = np.minimum(over.astype(int), SPEED_POINTS - 2)
-        first = np.take_along_axis(self.limits, low[:, :, None], axis=2)[:, :, 0]
-        second = np.take_along_axis(self.limits, low[:, :, None] + 1, axis=2)[:, :, 0]
+        s, d = np.ogrid[: low.shape[0], : low.shape[1]]
+        first, second = self.limits[s, d, low], self.limits[s, d, low + 1]
         return np.asarray(first + (over - low) * (second - first))
 
 
@@ -311,17 +313,46 @@ class _BeltLaw:
 class _Answer:
     """Of a belt to an impulse of 1 N s at each of some places.
 
-    All speeds [m/s], shape (s, d, n + 1); what the take-up lacks [N s]; speeds of the places, shape (s, d, d).
+    The places; all speeds [m/s], shape (s, d, n + 1); what the take-up lacks [N s].
     """
 
+    places: Integers
     columns: Array
     of_take_up: Array
-    mutual: Array
+
+    @cached_property
+    def mutual(self) -> Array:
+        """Speeds of the places, shape (s, d, d)."""
+        return np.take_along_axis(self.columns, self.places[:, None], axis=2)
 
     @cached_property
     def own(self) -> Array:
         """Speed of each place by its own impulse."""
         return np.asarray(np.einsum("sdd->sd", self.mutual))
+
+    @cached_property
+    def beside(self) -> tuple[Array, Array]:
+        """Of the speed of each place by its own impulse what the masses before and behind it do not share [-]."""
+        last = self.columns.shape[2] - 1
+        shared = (
+            np.take_along_axis(self.columns, masses[:, :, None], axis=2)[:, :, 0]
+            for masses in (np.maximum(self.places - 1, 0), np.minimum(self.places + 1, last))
+        )
+        before, behind = (1.0 - speed / self.own for speed in shared)
+        return before, behind
+
+    def turns(self) -> list[list[int]]:
+        """Places that move each other, to rounding, are not in one group."""
+        coupled = np.any(np.abs(self.mutual) > np.finfo(float).eps * self.own[:, None], axis=0)
+        groups: list[list[int]] = []
+        for j in range(len(coupled)):
+            for group in groups:
+                if not (coupled[j, group].any() or coupled[group, j].any()):
+                    group.append(j)
+                    break
+            else:
+                groups.append([j])
+        return groups
 
     def moved(self, impulse: Array, speed: Array, lacking: Array) -> tuple[Array, Array]:
         """Speeds, and what the take-up lacks, after impulses at the places."""
@@ -336,39 +367,48 @@ class _Solver:
 
     def __init__(self, chain: Chain, step: float) -> None:
         s, n = chain.stiffness.shape
-        self.rows = np.arange(s)
-        self.end = chain.end
-        damping = 0.5 * step * chain.retardation * chain.stiffness
-        diagonal = chain.mass.copy()
+        self.mass, self.end, self.rows = chain.mass, chain.end, np.arange(s)
+        self.stiff = np.isinf(chain.carriage) | (chain.winch[0] > 0.0)
+        self.carriage = np.where(self.stiff, 0.0, chain.carriage)
+        self.damping = 0.5 * step * chain.retardation * chain.stiffness
+        self.shares, self.drives = np.full((s, n), np.inf), chain.nodes.shape[1]
+        places = np.hstack([chain.end[:, None], chain.nodes, chain.lumps])
+        units = np.zeros((places.shape[1], s, n + 1))
+        units[np.arange(places.shape[1]), self.rows[:, None], places] = 1.0
+        units[0, :, 0] -= 1.0
+        self.units, self.places = units.reshape(len(units), -1).T, places[:, 1:]
+
+    def eases(self, shares: Array) -> None:
+        """Make the system anew for belts some of whose shares of k have changed.
+
+        A share below that of the cell would make the step unstable, one above it puts the difference off by a step.
+        """
+        shares = np.where(self.damping > 0.0, shares, 0.0)
+        over = self.shares - shares
+        changed = np.any((over < 0.0) | (over > _SHARE), axis=1)
+        if not changed.any():
+            return
+        self.shares = np.where(changed[:, None], np.minimum(shares + 0.5 * _SHARE, 1.0), self.shares)
+        damping = self.damping * self.shares
+        diagonal, beside = self.mass.copy(), np.zeros_like(self.mass)
         diagonal[:, :-1] += damping
         diagonal[:, 1:] += damping
-        beside = np.zeros((s, n + 1))
         beside[:, :-1] = -damping
         self.lower, self.off, info = dpttrf(diagonal.ravel(), beside.ravel()[:-1])
         if info != 0:
             raise NoSolutionError("the masses of the belt must be positive")
-        ends = np.zeros((s, n + 1))
-        ends[self.rows, self.end] = 1.0
-        ends[:, 0] -= 1.0
-        self.pair = self._banded(ends)
+        solved, _ = dpttrs(self.lower, self.off, self.units)
+        made = np.moveaxis(solved.T.reshape(-1, *self.mass.shape), 0, 1)
+        self.pair = made[:, 0]
         own = self._apart(self.pair)
-        stiff = np.isinf(chain.carriage) | (chain.winch[0] > 0.0)
-        finite = np.where(stiff, 0.0, chain.carriage)
-        self.kappa = np.where(stiff, 1.0 / own, finite / (1.0 + finite * own))
-        self.stiff = stiff
-        self.pulleys, self.lumps = self._answer(chain.nodes), self._answer(chain.lumps)
-
-    def _answer(self, places: Integers) -> _Answer:
-        """To impulses at places."""
-        (s, count), n = places.shape, self.pair.shape[1]
-        columns, of_take_up = np.zeros((s, count, n)), np.zeros((s, count))
-        for d in range(count):
-            unit = np.zeros((s, n))
-            unit[self.rows, places[:, d]] = 1.0
-            column = self._banded(unit)
-            of_take_up[:, d] = self.kappa * self._apart(column)
-            columns[:, d] = column - self.pair * of_take_up[:, d, None]
-        return _Answer(columns, of_take_up, np.take_along_axis(columns, places[:, None, :], axis=2))
+        self.kappa = np.where(self.stiff, 1.0 / own, self.carriage / (1.0 + self.carriage * own))
+        columns = made[:, 1:]
+        of_take_up = self.kappa[:, None] * (columns[self.rows, :, self.end] - columns[:, :, 0])
+        columns = columns - self.pair[:, None] * of_take_up[:, :, None]
+        self.pulleys, self.lumps = (
+            _Answer(self.places[:, k], columns[:, k], of_take_up[:, k])
+            for k in (slice(self.drives), slice(self.drives, None))
+        )
 
     def _banded(self, right: Array) -> Array:
         solution, _ = dpttrs(self.lower, self.off, right.ravel())
@@ -421,6 +461,7 @@ class _Motion:
         self.steps = machines.reference.shape[0]
         self.every = max(1, self.steps // samples)
         self.solver, self.law = _Solver(chain, step), _BeltLaw(chain, step, start.tension)
+        self.solver.eases(self.law.eased)
         self.ledger = _Ledger(chain, step, start, self.law)
         self._set_up()
         s, n = chain.stiffness.shape
@@ -434,7 +475,7 @@ class _Motion:
             self.rows, self.at
         ]  # at rest exactly 0, which the solver's rounding blurs
         self.lumps_rest = start.speed[self.rows, chain.lumps] == 0.0
-        self.pulled, self.taken = chain.held, np.zeros(s)
+        self.pulled, self.taken, self.winding = chain.held, np.zeros(s), np.zeros(s)
         self.extremes = _Extremes((s, n))
         names = ("force", "motor", "rim", "belt", "arriving", "leaving", "holding")
         self.drives = {name: np.zeros((self.steps, *chain.nodes.shape)) for name in names}
@@ -449,7 +490,6 @@ class _Motion:
         chain, step, n = self.chain, self.dt, self.chain.stiffness.shape[1]
         self.one, self.rows = np.arange(chain.end.size), np.arange(chain.end.size)[:, None]
         self.at = at = chain.nodes
-        self.answer = self.solver.pulleys.own
         self.loose = np.ones_like(chain.mass)
         self.loose[self.rows, at] = 0.0  # friction there is taken with the pulley's
         alone = self.loose.copy()
@@ -464,7 +504,7 @@ class _Motion:
         self.before, self.behind = np.maximum(at - 1, 0), np.minimum(at, n - 1)
         apart = at[:, :, None] - at[:, None, :]
         self.alone = ~self.first & np.all(apart != 1, axis=2), ~self.last & np.all(apart != -1, axis=2)
-        self.of_take_up = self.solver.pulleys.of_take_up / (self.answer * step)
+        self.turns = [_only(chain, self.machines, some) for some in self.solver.pulleys.turns()]
         self.here = np.where(
             self.first | self.last, 1.0, 0.5
         )  # of what lies on a pulley's mass, on either side
@@ -493,16 +533,19 @@ class _Motion:
     def _step(self, i: int) -> None:
         """Speeds by forces, pulleys, friction; then tensions by speeds."""
         chain = self.chain
-        wanted = np.zeros_like(self.taken)
-        if np.any(chain.winch[0]):
-            wanted = chain.winch[0] * _winding(self.pulled / chain.held - 1.0, chain.winch[1])
-        change, lacking = self.solver.change(self.dt * self._acting(), self.speed, wanted)
+        speed, band, run_up = chain.winch
+        if np.any(speed):
+            wanted, most = speed * _winding(self.pulled / chain.held - 1.0, band), self.dt * speed / run_up
+            self.winding = np.clip(wanted, self.winding - most, self.winding + most)
+        self.solver.eases(self.law.eased)
+        change, lacking = self.solver.change(self.dt * self._acting(), self.speed, self.winding)
         new, rolling = self.speed + change, chain.resisting(self.speed)
         new, lacking, lumped = self._rubbed(new, lacking, rolling)
         if self.at.size:
             new, lacking = self._driven(i, new, lacking, rolling)
-        # what acts: all of τ k on half the new speeds, before masses rub alone, and on half the old less what sag eases
-        damping = self.tau_k * (0.5 * np.diff(new, axis=1) + (self.law.eased - 0.5) * self.stretching)
+        # what acts: of τ k the solver's share on half the new speeds, before masses rub alone, the rest on the old
+        half = 0.5 * self.solver.shares
+        damping = self.tau_k * (half * np.diff(new, axis=1) + (self.law.eased - half) * self.stretching)
         free = new + self.resisting * self.over_mass
         allowed = np.where(self.speed == 0.0, self.still, rolling * self.over_mass)
         rubbed = np.minimum(np.maximum(free, -allowed), allowed)
@@ -527,38 +570,56 @@ class _Motion:
         return acting
 
     def _driven(self, i: int, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array]:
-        """Speeds with the pulleys' new forces, and what the take-up lacks with them."""
-        chain, answer, rows, at = self.chain, self.answer, self.rows, self.at
-        at_nodes, going = self.speed[rows, at], new[rows, at]
+        """Speeds with new forces of pulleys, in turn where they move each other, and what the take-up lacks then."""
+        chain, rows, pulleys = self.chain, self.rows, self.solver.pulleys
         softer = self.law.eased * (self.dt * (self.law.k + self.law.branch_k) + self.tau_k)
-        yields = (
-            np.where(self.first, -self.of_take_up, softer[rows, self.before]),
-            np.where(self.last, self.of_take_up, softer[rows, self.behind]),
+        impulse, friction, over = (
+            self.dt * (self.driving - self.rubbing),
+            self.rubbing.copy(),
+            self.rubbing.copy(),
         )
-        coming = self.tension + softer * np.diff(new, axis=1)
-        lying = self.here * (chain.weight[rows, at] + np.sign(self.on_pulleys) * rolling[rows, at])
-        tight = (chain.held - lacking / self.dt)[:, None]
-        arriving = np.where(self.first, tight, coming[rows, self.before] + lying)
-        leaving = np.where(self.last, tight, coming[rows, self.behind] - lying)
-        moved = _pulleys(
-            chain, self.machines, i, step=self.dt, answer=answer, rim=self.rims,
-            free=going - answer * self.dt * (self.driving - self.rubbing),
-            arriving=arriving - yields[0] * going, leaving=leaving + yields[1] * going,
-            yields=yields, friction=np.where(self.on_pulleys == 0.0, self.stuck, rolling[rows, at]),
-        )  # fmt: skip
-        for name, values in self.drives.items():
-            values[i] = getattr(moved, name)
-        over = np.where(moved.grips, 0.0, self.dt * (moved.rim - moved.belt))
+        for k, drive, machine in self.turns:
+            at, first, last, left, right, on = (
+                part[:, k]
+                for part in (self.at, self.first, self.last, self.before, self.behind, self.on_pulleys)
+            )
+            answer, going = pulleys.own[:, k], new[rows, at]
+            of_take_up = pulleys.of_take_up[:, k] / (answer * self.dt)
+            yields = (
+                np.where(first, -of_take_up, softer[rows, left] * pulleys.beside[0][:, k]),
+                np.where(last, of_take_up, softer[rows, right] * pulleys.beside[1][:, k]),
+            )
+            lying = self.here[:, k] * (chain.weight[rows, at] + np.sign(on) * rolling[rows, at])
+            tight = (chain.held - lacking / self.dt)[:, None]
+            coming = self.tension[rows, left] + softer[rows, left] * (new[rows, left + 1] - new[rows, left])
+            parting = self.tension[rows, right] + softer[rows, right] * (
+                new[rows, right + 1] - new[rows, right]
+            )
+            moved = _pulleys(
+                drive, machine, i, step=self.dt, answer=answer, rim=self.rims[:, k],
+                free=going - answer * impulse[:, k],
+                arriving=np.where(first, tight, coming + lying) - yields[0] * going,
+                leaving=np.where(last, tight, parting - lying) + yields[1] * going,
+                yields=yields, friction=np.where(on == 0.0, self.stuck[:, k], rolling[rows, at]),
+            )  # fmt: skip
+            for name, values in self.drives.items():
+                values[i][:, k] = getattr(moved, name)
+            friction[:, k] = moved.friction
+            over[:, k] = np.where(moved.grips, 0.0, self.dt * (moved.rim - moved.belt))
+            change = (moved.belt - going) / answer
+            new = new + np.einsum("sd,sdn->sn", change, pulleys.columns[:, k])
+            lacking = lacking + (pulleys.of_take_up[:, k] * change).sum(axis=1)
+        now = {name: values[i] for name, values in self.drives.items()} | {"friction": friction}
         self.slipped = self.slipped + np.abs(over)
-        self.heat = self.heat + over * moved.force
-        self.ledger.drives(self.rims, at_nodes, moved)
+        self.heat = self.heat + over * now["force"]
+        self.ledger.drives(self.rims, self.speed[rows, self.at], now)
         self.driving, self.rubbing, self.rims, self.on_pulleys = (
-            moved.force,
-            moved.friction,
-            moved.rim,
-            moved.belt,
+            now["force"],
+            friction,
+            now["rim"],
+            now["belt"],
         )
-        return self.solver.pulleys.moved((moved.belt - going) / answer, new, lacking)
+        return new, lacking
 
     def _rubbed(self, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array, Array]:
         """Speeds with the friction of the lumps, one after the other, what the take-up lacks with it, and itself."""
@@ -598,6 +659,18 @@ class _Motion:
         told[rows, self.before] += np.where(self.alone[0], lying, 0.0)
         told[rows, self.behind] -= np.where(self.alone[1], lying, 0.0)
         return told
+
+
+def _only(chain: Chain, machines: Machines, k: list[int]) -> tuple[list[int], Chain, Machines]:
+    """Some drives of every belt."""
+    return (
+        k,
+        replace(chain, rim=chain.rim[:, k], grip=chain.grip[:, k], backstop=chain.backstop[:, k]),
+        replace(
+            machines, slope=machines.slope[:, k], reference=machines.reference[..., k], share=machines.share[..., k],
+            brake=machines.brake[..., k], limits=machines.limits[:, k], drag=machines.drag[:, k],
+        ),
+    )  # fmt: skip
 
 
 def _winding(over: Array, band: Array) -> Array:
@@ -686,14 +759,14 @@ class _Ledger:
         self.sums = {name: np.zeros(chain.end.size) for name in names}
         self.first = self._stored(start.speed, start.rims, law)
 
-    def drives(self, rims: Array, belt: Array, moved: _Moved) -> None:
+    def drives(self, rims: Array, belt: Array, now: dict[str, Array]) -> None:
         """Add the work of a step at the driven pulleys, from their speeds and the belt's before it."""
-        rim, at = 0.5 * (rims + moved.rim), 0.5 * (belt + moved.belt)
+        rim, at = 0.5 * (rims + now["rim"]), 0.5 * (belt + now["belt"])
         for name, power in (
-            ("motors", moved.motor * rim),
-            ("friction", moved.friction * at),
-            ("brakes", moved.holding * rim),
-            ("slip", moved.force * (rim - at)),
+            ("motors", now["motor"] * rim),
+            ("friction", now["friction"] * at),
+            ("brakes", now["holding"] * rim),
+            ("slip", now["force"] * (rim - at)),
         ):
             self.sums[name] += self.dt * power.sum(axis=1)
 

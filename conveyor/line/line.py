@@ -249,7 +249,8 @@ class TakeUpUnit:
 
     `behind` them or before them is then that side under the spec's own load, None where that is not calculated yet.
     `tension` is what it is set to [N], None where the least needed is looked for; `reserve` of its travel [-]; mass of
-    its `carriage` [kg]; speed of the `winch` [m/s] and the band of tension in which it rests [-]; `travel` it has [m].
+    its `carriage` [kg]; speed of the `winch` [m/s], the band of tension in which it
+    rests [-] and its run-up [s], None where that is not known; `travel` it has [m].
     """
 
     kind: str
@@ -259,7 +260,7 @@ class TakeUpUnit:
     strands: int
     reserve: float
     carriage: float = 0.0
-    winch: tuple[float, float] | None = None
+    winch: tuple[float, float, float | None] | None = None
     travel: float | None = None
     behind: bool | None = None
 
@@ -809,7 +810,9 @@ def _take_up(conveyor: Conveyor, places: Places) -> TakeUpUnit:
         # the law of take_up.take_up_mass, solved for the tension
         tension = si(given.mass) * given.reeving * si(conveyor.calculation.gravity) / given.strands
     spot = None if given.position == "drive" else places.take_up(given)
-    winch = None if given.winch_speed is None else (si(given.winch_speed), si(given.winch_band))
+    winch = None
+    if given.winch_speed is not None:
+        winch = si(given.winch_speed), si(given.winch_band), _known(given.winch_run_up)
     return TakeUpUnit(
         given.kind,
         spot,

@@ -38,6 +38,7 @@ from conveyor.units import (
     Speed,
     SpringRate,
     Thickness,
+    Time,
     from_si,
     quantity,
     si,
@@ -351,6 +352,8 @@ class TakeUp(Model):
     """Of the carriage on its winch, checked against what a start asks for; without it a winch always keeps its pull."""
     winch_band: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity(0.1, "fraction")
     """Of the tension, up and down, within which the winch rests."""
+    winch_run_up: Annotated[Time, Bounds(gt="0 s", le="10 min")] | None = None
+    """In which the winch comes from rest to its speed, and back to rest; scenarios need it where it has a speed."""
 
     @model_validator(mode="after")
     def _one_setting(self) -> Self:
@@ -366,6 +369,10 @@ class TakeUp(Model):
         if self.winch_speed is not None and self.kind != "winch":
             problems.append(
                 Problem(("winch_speed",), f'given with kind "{self.kind}"; remove it, or set kind to "winch"')
+            )
+        if self.winch_run_up is not None and self.winch_speed is None:
+            problems.append(
+                Problem(("winch_run_up",), "given without winch_speed; give the speed too, or remove it")
             )
         refuse("TakeUp", problems)
         return self

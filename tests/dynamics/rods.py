@@ -24,7 +24,7 @@ def rod(cells: int, **changes: Any) -> Chain:
         "sticking": np.zeros((1, cells + 1)), "end": np.array([cells]), "nodes": np.zeros((1, 0), int),
         "lumps": np.zeros((1, 0), int),
         "rim": np.zeros((1, 0)), "grip": np.zeros((1, 0)), "backstop": np.zeros((1, 0), bool),
-        "held": np.array([PULL]), "carriage": np.zeros(1), "winch": np.zeros((2, 1)), "sag": np.zeros((1, cells)),
+        "held": np.array([PULL]), "carriage": np.zeros(1), "winch": np.zeros((3, 1)), "sag": np.zeros((1, cells)),
     }  # fmt: skip
     return Chain(**(parts | changes))
 

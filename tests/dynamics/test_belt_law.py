@@ -57,6 +57,21 @@ def test_a_slack_belt_never_pushes_and_no_energy_is_lost():
     assert abs(found.work["missing"][0]) < 1.0 / CELLS * 0.5 * LINE_MASS * LENGTH
 
 
+def test_a_belt_pulled_taut_has_the_same_peaks_in_long_cells():
+    """Damping follows the tangent of the sag at once: peaks of 50 m are those of 12.5 m to some parts in a thousand."""
+    peaks = []
+    for cells in (CELLS, 4 * CELLS):
+        chain = rod(
+            cells, sag=np.full((1, cells), HANGING * LENGTH / cells), retardation=0.3, held=np.array([5e3]),
+            **clamped(cells, 0, cells),
+        )  # fmt: skip
+        speed = -np.sin(2.0 * np.pi * np.arange(cells + 1) / cells)[None]
+        found = follow(chain, begun(chain, tension=np.full((1, cells), 5e3), speed=speed), 3.0)
+        peaks.append((found.highest.max(), found.lowest.min()))
+    # of first order: four times shorter cells leave a quarter of the error; a step late it was 3 % and 9 %
+    assert peaks[0] == pytest.approx(peaks[1], rel=1e-2)
+
+
 def test_a_slack_begin_is_refused_where_the_belt_hangs():
     chain = hanging()
     with pytest.raises(NoSolutionError, match="bears tension only"):

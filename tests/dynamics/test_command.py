@@ -144,17 +144,17 @@ def test_a_scenario_without_an_answer_leaves_the_others_theirs():
 
 @pytest.mark.usefixtures("rigged")
 def test_peaks_that_do_not_hold_are_refused_with_both_figures_and_what_helps(monkeypatch):
-    """A winch at its speed at once pulls the belt the harder the shorter the cell."""
-    monkeypatch.setattr(following, "_REFINED", 2)
+    """A winch with hardly any run-up pulls the belt the harder the shorter the cell."""
+    monkeypatch.setattr(following, "_REFINED", 4)
     winch = {"kind": "winch", "position": "tail", "winch_speed": "1 m/s", "winch_band": "1 %"}
-    given = data(route={"take_up": winch}, drive={"reduced_mass": "4 t"})
+    given = data(route={"take_up": winch | {"winch_run_up": "1 ms"}}, drive={"reduced_mass": "4 t"})
     found = follow(from_data(given | {"scenarios": [STOP, QUIET]}))
     assert [one.name for one in found.followed] == ["nothing happens"]
     (refusal,) = found.refused
     assert refusal.scenario == "power failure"
     why = refusal.reason.text()
     assert why.count("kN") == 4
-    assert why.count(" s, ") == 2
+    assert why.count("at steps of") == 2
     assert "shorter cells bring them no closer" in why
     assert "larger error" in why
     once = from_data(data() | {"scenarios": [STOP], "drive": data()["drive"] | {"reduced_mass": "4 t"}})
@@ -164,6 +164,36 @@ def test_peaks_that_do_not_hold_are_refused_with_both_figures_and_what_helps(mon
     for system, unit in (("SI", "kN"), ("US", "lbf")):
         with pytest.raises(NoSolutionError, match=peaks.format(unit)):
             follow(once.replace(report={"units": system}), error=1e-6)
+
+
+@pytest.mark.usefixtures("rigged")
+def test_a_winch_with_a_speed_needs_its_run_up_in_scenarios():
+    winch = {"kind": "winch", "position": "tail", "winch_speed": "1 m/s"}
+    given = data(route={"take_up": winch}, drive={"reduced_mass": "4 t"}) | {"scenarios": [STOP]}
+    with pytest.raises(NoSolutionError, match=r"give route\.take_up\.winch_run_up, the time in which"):
+        follow(from_data(given))
+    with pytest.raises(InputError, match="given without winch_speed"):
+        from_data(data(route={"take_up": {"kind": "winch", "winch_run_up": "1 s"}}))
+
+
+@pytest.mark.parametrize(
+    ("highest", "error"),
+    [
+        ((108.0, 104.0, 102.0, 101.0), 1.25),  # first order: as much again is missing
+        (
+            (130.0, 106.0, 102.0, 101.5),
+            1.25 * 6.0,
+        ),  # faster: half the change before, and half of that before it
+        ((104.0, 102.0, 100.0, 100.0), 1.25),  # no change by chance
+        ((100.0, 101.0, 102.0, 105.0), 1.25 * 3.0 / (2.0**0.5 - 1.0)),  # apart: as of order 1/2
+        ((100.0, 102.0, 104.0, 103.0), 1.25 * 2.0),  # back
+        ((100.0, 100.0, 100.0, 100.0), 0.0),
+    ],
+)
+def test_the_error_of_peaks_is_the_grid_convergence_index_of_four_sizes(highest, error):
+    peaks = [following._Peaks(one, 10.0, 0.1) for one in highest]
+    assert following._error(peaks[:3]) is None
+    assert following._error(peaks) == pytest.approx(error / highest[-1], rel=1e-12)
 
 
 @pytest.mark.usefixtures("rigged")

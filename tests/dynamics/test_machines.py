@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,13 +10,14 @@ import numpy as np
 import pytest
 
 from conveyor.dynamics.criteria import CRITERIA, at_pulley, peaks
+from conveyor.dynamics.follow import side_by_side
 from conveyor.dynamics.machines import prepared
 from conveyor.dynamics.wave import Machines, run
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.waves import STEEPEST, ramp
 from conveyor.models import Scenario, Starter
 from conveyor.spec import from_data, load
-from tests.dynamics.rods import EA, LENGTH, PULL, WAVE, begun, clamped, follow, idle, rod
+from tests.dynamics.rods import EA, LENGTH, LINE_MASS, PULL, WAVE, begun, clamped, follow, idle, rod
 from tests.loop.loop_lines import BOOSTER, DATA, SECOND, data, line
 from tests.validation.test_start_stop_limits import MASSES, NO_RUSH, followed, ridden
 
@@ -84,9 +86,40 @@ def test_backstop_and_brake_hold_what_pulls_back():
             assert found.drives["holding"][-1, 0, 0] == pytest.approx(-40e3, rel=1e-9)
 
 
+@pytest.mark.parametrize("cells", [100, 400])
+def test_the_tension_at_a_pulley_falls_after_a_power_cut_as_a_damped_rod_says(cells):
+    """A heavy rim gives way by F t/M: the tension falls by z F/M √(τ t)/Γ(3/2), z = c m', while t is short of τ."""
+    force, rim, tau, node = 20e3, 4e5, 0.1, cells // 2
+    chain = rod(
+        cells, retardation=tau, nodes=np.array([[node]]), rim=np.array([[rim]]), grip=np.full((1, 1), 1e9),
+        backstop=np.zeros((1, 1), bool), **clamped(cells, 0, cells),
+    )  # fmt: skip
+    tension = np.full((1, cells), PULL)
+    tension[:, :node] += force
+    step = 0.95 * chain.longest_step
+    found = run(chain, idle(2, 1), begun(chain, tension=tension, driving=np.array([[force]])), step=step)
+    falls = PULL + force - found.drives["arriving"][0, 0, 0]
+    assert found.drives["leaving"][0, 0, 0] - PULL == pytest.approx(falls, rel=1e-9)
+    # a single step of a root; it was 2.3 and 4.0 times as much, as if the belt beside the pulley stood still
+    closed_form = WAVE * LINE_MASS * force / rim * math.sqrt(tau * step) / math.gamma(1.5)
+    assert falls == pytest.approx(closed_form, rel=0.2)
+
+
+def test_the_tension_of_a_winch_holds_as_cells_get_shorter():
+    """A belt of c m' takes Δv in over the run-up: the tension rises by c m' Δv/2, at both ends, not by EA Δv dt/Δs."""
+    highest = []
+    for cells in (20, 80):
+        chain = replace(
+            rod(cells, winch=np.array([[0.5], [0.1], [1.0]])), retardation=0.1, **clamped(cells, cells // 2)
+        )
+        found = follow(chain, begun(chain, tension=np.full((1, cells), 0.8 * PULL)), 1.0)
+        highest.append(float(found.highest.max()))
+    assert highest[0] == pytest.approx(highest[1], rel=0.02)
+
+
 def test_a_winch_brings_the_tension_into_its_band_and_rests():
     """From a slack belt at its own speed, and then no further."""
-    chain = replace(rod(10, winch=np.array([[SLOW], [0.1]])), **clamped(10, 5), retardation=0.5)
+    chain = replace(rod(10, winch=np.array([[SLOW], [0.1], [1.0]])), **clamped(10, 5), retardation=0.5)
     found = follow(chain, begun(chain, tension=np.full((1, 10), 0.5 * PULL)), 80.0)
     tension, belt = found.take_up["tension"][:, 0], found.take_up["belt"][:, 0]
     assert tension[-1] == pytest.approx(PULL, rel=0.1)
@@ -187,6 +220,16 @@ def test_a_drive_that_loses_power_leaves_its_share_to_the_other():
     assert motor[-1, 0] == pytest.approx(whole, rel=0.02)
     assert float(found.torque[:, 0].max()) <= 1.6 + 1e-9
     assert not found.stops
+
+
+def test_drives_side_by_side_do_not_swing_against_each_other_in_short_cells():
+    """Nearly empty, without power: the belt between them is as stiff as its cell is short."""
+    drive = DATA["drive"] | MASSES | {"further_drives": [SECOND | MASSES]}
+    off = {"begins": "running", "events": [{"do": "power off"}], "duration": "5 s"}
+    ride = ridden(line(drive=drive, material={"flow": "1 t/h"}), off)
+    (found,) = side_by_side([ride], float(ride.loop.travel[-1]) / 800)
+    assert np.all(found.record.slipped == 0.0)  # it was 2 mm
+    assert found.missing_energy < 1e-5  # of second order; it was 2e-4
 
 
 def test_drives_out_of_step_come_into_step():
