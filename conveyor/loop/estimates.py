@@ -102,7 +102,8 @@ def cema(line: Line, unit_main: float) -> CemaEstimate | None:
     -----
     Ky is one figure for the whole conveyor, though the book's table has one for each length, slope and load. Pulleys
     are 200, 150 or 100 lbf by place unless given; of pulleys that are not listed there is nothing. Skirts are
-    the whole skirtboards, Lb of the book, the zone of acceleration too. Lengths are along the belt; the tilt of idlers is in Kx.
+    the whole skirtboards, Lb of the book, the zone of acceleration too. Lengths are along the belt; the tilt of idlers
+    is in Kx.
     """
     given = line.cema
     if given is None:
