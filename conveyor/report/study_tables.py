@@ -49,7 +49,7 @@ def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[
     if studies.states is not None:
         tables += [load_states(studies.states), refused_states(studies.states)]
     if studies.cases is not None:
-        tables += _of_cases(studies, studies.cases)
+        tables += _of_cases(studies, studies.cases, system)
         drawn += _case_drawings(studies.cases, system)
     if studies.duty is not None:
         tables += [year(studies.duty), duty(studies.duty)]
@@ -105,7 +105,7 @@ def refused_states(study: CalculatedStates) -> Table:
     return Table("refused_states", "Load cases", heading, columns, study.refused, _STATES)
 
 
-def _of_cases(studies: CalculatedStudies, study: CalculatedCases) -> Iterator[Table]:
+def _of_cases(studies: CalculatedStudies, study: CalculatedCases, system: System) -> Iterator[Table]:
     yield governing(study, studies.governing)
     every = cases(study)
     kept = tuple(column.key for column in every.columns if column.key not in _TENSIONS)
@@ -115,7 +115,7 @@ def _of_cases(studies: CalculatedStudies, study: CalculatedCases) -> Iterator[Ta
     columns = tuple(sorted(tensions.columns, key=lambda column: order.index(column.key)))
     heading = "Tensions and roll loads of the cases"
     yield replace(tensions, key="case_tensions", heading=heading, columns=columns, page=_CASES)
-    yield motors(studies)
+    yield motors(studies, system)
     yield refused(study)
 
 
@@ -189,11 +189,11 @@ def refused(study: CalculatedCases) -> Table:
     return Table("refused_cases", "Load cases", heading, columns, study.refused, _CASES)
 
 
-def motors(studies: CalculatedStudies) -> Table:
+def motors(studies: CalculatedStudies, system: System) -> Table:
     """One row a drive pulley: what it needs of all cases and load states, and motors of the series."""
     columns = (
         Column("drive", "text", "drive"),
-        Column("governing case", "text", "case"),
+        Column("governing case", "text", lambda row: row.case.text(system)),
         Column("required at the shaft", "power", "needed", json="needed at the shaft"),
         Column("reserve", "ratio", "reserve"),
         Column("motors", "count", "count"),
@@ -342,7 +342,7 @@ def plain(studies: CalculatedStudies) -> dict[str, Any]:
             "friction_band": list(study.friction_band),
             "cases": cases(study).records(),
             "governing": governing(study, studies.governing).records(),
-            "motors": motors(studies).records(),
+            "motors": motors(studies, "SI").records(),
             "refused": refused(study).records(),
         }
     if studies.duty is not None:

@@ -115,7 +115,7 @@ def _rows(
     for motor in () if studies is None else studies.motors:
         yield GoverningRow(
             f"selected standard motors, {motor.drive}", f"{motor.count} x {power.short(motor.rated)}",
-            f"{_held(power, motor.needed)}, needed in {motor.case}, reserve {motor.reserve:.2f}",
+            f"{_held(power, motor.needed)}, needed in {motor.case.text(system)}, reserve {motor.reserve:.2f}",
         )  # fmt: skip
     duty, asks = take_up
     sized = [] if duty.mass is None else [f"weight {mass.short(duty.mass)}"]

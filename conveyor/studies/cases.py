@@ -133,15 +133,19 @@ class Governing:
 
 @dataclass(frozen=True)
 class MotorChoice:
-    """Motors of one drive pulley: what they must give or hold at the shaft [W], number, rating [W], series."""
+    """Motors of one drive pulley: what they must give or hold at the shaft [W], number, rating [W], series, load."""
 
     drive: str
     needed: float
-    reserve: float
     count: int
     rated: float
     series: str
-    case: str
+    case: Said
+
+    @property
+    def reserve(self) -> float:
+        """Rated power over what is needed [-]."""
+        return math.inf if self.needed == 0.0 else self.count * self.rated / abs(self.needed)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -365,7 +369,7 @@ def recommended_motors(
     loads : sequence of (Said, CalculatedConveyor)
         The one that asks for most, driving with the friction high or braking with it low, decides.
     reserve : float
-        Rated power over needed power [-], at least 1.
+        Least rated power over needed power [-], at least 1.
 
     Raises
     ------
@@ -378,7 +382,6 @@ def recommended_motors(
         )
     label, decisive = largest(loads, lambda load: abs(load[1].motor_asked))
     power = decisive.motor_asked
-    case = label.text(decisive.conveyor.report.units)
     name, series = ("NEMA", NEMA_MOTORS) if decisive.line.us_sizes else ("IEC 60072-1", MOTOR_SERIES)
     choices = []
     for drive in decisive.line.drives:
@@ -387,5 +390,5 @@ def recommended_motors(
         needed = drive.share * power
         count = max(1, math.ceil(round(abs(needed) * reserve / series[-1], 9)))
         rated = next_motor(needed / count, reserve=reserve, series=series)
-        choices.append(MotorChoice(drive.name, needed, reserve, count, rated, name, case))
+        choices.append(MotorChoice(drive.name, needed, count, rated, name, label))
     return tuple(choices)

@@ -176,9 +176,9 @@ def cross_section(
 
     Notes
     -----
-    Level belt; `heap_on_slope` has others. The parabola of the heap is the standard's approximation for moderate β. The standard has up to three
-    rolls; of four and five every wing adds (w + l cos λ) l sin λ below the water line, w being what lies inside of it
-    across (derived).
+    Level belt; `heap_on_slope` has others. The parabola of the heap is the standard's approximation for moderate β. The
+    standard has up to three rolls; of four and five every wing adds (w + l cos λ) l sin λ below the water line, w being
+    what lies inside of it across (derived).
 
     Examples
     --------
