@@ -217,7 +217,7 @@ class _Strand:
             flow_mass=flow,
         )
         turned = self._turn(section, spacing, inclination, flow)
-        if turned is not None:
+        if turned is not None and (section.name, self.strand) in self.acting.drift:
             loads = turned.drifted(loads)
         least = sag_tension(
             self.belt_mass + flow, spacing=spacing, relative_sag=self.sag, gravity=self.gravity
