@@ -32,6 +32,7 @@ from conveyor.loop.set_duty import SetDuty
 from conveyor.loop.starting import every_state
 from conveyor.loop.take_up import TakeUpDuty
 from conveyor.pipeline import CalculatedConveyor
+from conveyor.ties import largest
 from conveyor.units.sentences import Said, band_words, percent, quoted, said
 
 Verdict = Literal["pass", "FAIL", "not checked"]
@@ -235,13 +236,19 @@ def severity(check: Check) -> tuple[int, float]:
 
 
 def filling(result: CalculatedConveyor) -> Iterator[Check]:
-    """A spec that overfills its belt is refused; how full it is remains to be said."""
-    sections = result.conveyor.cross_sections
-    if sections is not None:
-        bulk, most = sections
+    """On its slope every section holds its bulk; what the belt does not hold on the level is refused."""
+    line, holds_on = result.line, result.conveyor.section_on_slope
+    loaded = [
+        (stretch, stretch.bulk_mass / line.density, holds_on(stretch.inclination))
+        for stretch in line.stretches[: line.count]
+        if stretch.bulk_mass > 0.0
+    ]
+    if loaded:
+        stretch, bulk, most = largest(loaded, lambda one: -one[2] / one[1])
         yield compared(
             "filling", "filling of the belt", bulk, "at most", most, "area", source="ISO 5048",
-            wording=said(f"{percent(bulk / most)} of the cross-section"),
+            wording=said(f"{percent(bulk / holds_on(0.0))} of the cross-section"), where=stretch.section,
+            why=f'the bulk takes {{calculated}}, section "{quoted(stretch.section)}" holds {{required}} on its slope',
         )  # fmt: skip
 
 

@@ -19,7 +19,6 @@ from conveyor.laws.resistance import (
     ROLL_ON_BELT_FRICTION,
     TILT_COEFFICIENT_30,
     TILT_COEFFICIENT_45,
-    acceleration_length,
     acceleration_resistance,
     acceleration_skirt_resistance,
     cleaner_resistance,
@@ -320,12 +319,7 @@ def by_length_coefficient(line: Line, spot: Spot, along: Iterable[Force]) -> For
 
 def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
     name, here = point.name, partial(Force, spot=point.spot, place=point.place, assumed=point.assumed)
-    length = acceleration_length(
-        belt_speed=line.speed,
-        initial_speed=point.speed,
-        belt_friction=point.belt_friction,
-        gravity=line.gravity,
-    )
+    length = point.acceleration_length(line.speed, line.gravity)
     if point.lift is not None and point.flow > 0.0:
         bulk = slope_resistance(point.flow / line.speed, lift=point.lift, gravity=line.gravity)
         yield Force(
@@ -352,8 +346,7 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
         yield here("loading_skirts", f"skirts in the loading zone{name}", "secondary", zone, law,
                    bulk=point.comes_with)  # fmt: skip
     if point.seal_drag > 0.0:
-        boards = point.skirtboards or length + point.skirt_length
-        drag = skirt_seal_resistance(boards, drag_per_length=point.seal_drag)
+        drag = skirt_seal_resistance(point.boards(line.speed, line.gravity), drag_per_length=point.seal_drag)
         yield Force(
             "skirt_seals", f"seals of the skirts{name}", "special", drag, "seal_drag x length of the skirts",
             spot=point.spot, place=point.place,

@@ -142,8 +142,9 @@ def _lift_off(scenario: Followed) -> Iterator[Check]:
     for peak in peaks(scenario):
         if peak.section not in sections:
             continue
-        stretch, radius = stretches[f"{peak.section}, {peak.strand}"], abs(sections[peak.section].radius)
-        least = lift_off_radius(max(peak.highest, 0.0), belt_mass=stretch.belt_mass, inclination=stretch.inclination,
+        stretch, section = stretches[f"{peak.section}, {peak.strand}"], sections[peak.section]
+        radius = abs(section.radius)
+        least = lift_off_radius(max(peak.highest, 0.0), belt_mass=stretch.belt_mass, inclination=section.steepest,
                                 gravity=scenario.line.gravity, uplift=scenario.line.uplift)  # fmt: skip
         why = "the empty belt lifts off on the concave curve of {calculated}; at least {required} are needed"
         yield compared("dynamic_lift_off", f"empty belt stays down, {quoted(peak.section)}, {peak.strand}", radius,

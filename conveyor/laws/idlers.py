@@ -195,9 +195,11 @@ def lump_load_factor(lump: float, *, density: float) -> float:
     """
     require_not_negative(lump=lump)
     require_positive(density=density)
-    for size, factors in _LUMP_FACTORS.items():
+    # the edge of a column in inches or pounds is that edge: to the nanometre, to the milligram
+    size, heaviness = round(lump, 9), round(density, 6)
+    for largest, factors in _LUMP_FACTORS.items():
         for most, factor in zip(_LUMP_DENSITIES, factors, strict=True):
-            if lump <= size and density <= most:
+            if size <= largest and heaviness <= most:
                 return factor
     raise RangeError(
         f"factors are printed up to lumps of 500 mm and 3200 kg/m³, not {1e3 * lump:g} mm and {density:g} kg/m³"

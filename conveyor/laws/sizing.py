@@ -191,12 +191,14 @@ def wear_addition(
     require_positive(density=density, round_time=round_time)
     for name, word in (("abrasiveness", abrasiveness), ("loading", loading)):
         require(word in SEVERITIES, name, word, f"one of {', '.join(SEVERITIES)} is needed")
+    # a border in inches or pounds is that border: to the nanometre, to the milligram
+    size, heaviness = round(lump, 9), round(density, 6)
     points = (
         SEVERITIES.index(abrasiveness)
         + SEVERITIES.index(loading)
         + sum(round_time < border for border in _ROUND_TIMES)
-        + sum(lump > border for border in _LUMPS)
-        + sum(density > border for border in _DENSITIES)
+        + sum(size > border for border in _LUMPS)
+        + sum(heaviness > border for border in _DENSITIES)
         + 5
     )
     return next(addition for most, addition in WEAR_ADDITIONS if points <= most)

@@ -14,7 +14,12 @@ from conveyor.indentation import Support
 from conveyor.laws.belt import Condition, fall_severity, least_cover
 from conveyor.laws.motion import START_FACTOR, reduced_mass, typical_reduced_mass
 from conveyor.laws.pulley import Keyway, Steel
-from conveyor.laws.resistance import BULK_ON_BELT_FRICTION, CARCASS_BENDING, idler_rotation_resistance
+from conveyor.laws.resistance import (
+    BULK_ON_BELT_FRICTION,
+    CARCASS_BENDING,
+    acceleration_length,
+    idler_rotation_resistance,
+)
 from conveyor.laws.sizing import wear_addition
 from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
 from conveyor.laws.tension import usual_stiffness
@@ -126,6 +131,16 @@ class LoadingPoint:
     idler_spacing: float | None
     idler_rating: float | None
     assumed: bool = False
+
+    def acceleration_length(self, belt_speed: float, gravity: float) -> float:
+        """Way on which the bulk comes to the belt's speed [m]."""
+        return acceleration_length(
+            belt_speed=belt_speed, initial_speed=self.speed, belt_friction=self.belt_friction, gravity=gravity
+        )
+
+    def boards(self, belt_speed: float, gravity: float) -> float:
+        """Length of the skirtboards: as they stand, else over the zone of acceleration and beyond it [m]."""
+        return self.skirtboards or self.acceleration_length(belt_speed, gravity) + self.skirt_length
 
 
 @dataclass(frozen=True)

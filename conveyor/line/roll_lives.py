@@ -10,6 +10,8 @@ from conveyor.laws.resistance import roll_rotation
 from conveyor.laws.roll_life import (
     BALL_EXPONENT,
     ROLLER_EXPONENT,
+    WEIBULL_SLOPE_BALL,
+    WEIBULL_SLOPE_ROLLER,
     heavier_bearing_load,
     rating_life_hours,
     system_life_hours,
@@ -19,6 +21,7 @@ from conveyor.models import Roll
 from conveyor.units import si
 
 _EXPONENTS = {"ball": BALL_EXPONENT, "roller": ROLLER_EXPONENT}
+_SLOPES = {"ball": WEIBULL_SLOPE_BALL, "roller": WEIBULL_SLOPE_ROLLER}
 
 
 ASKED_LIFE = 30e3
@@ -37,12 +40,15 @@ class RollLife:
         L10 of the heavier one [h].
     both : float
         L10 of the two together: of the roll [h].
+    weibull_slope : float
+        Of its bearings' lives [-].
     """
 
     heavier: float
     lighter: float
     hours: float
     both: float
+    weibull_slope: float
 
 
 def roll_life(stretch: Stretch, place: int, belt_speed: float) -> RollLife | None:
@@ -65,7 +71,9 @@ def roll_life(stretch: Stretch, place: int, belt_speed: float) -> RollLife | Non
         for each in (heavier, lighter)
         if each != 0.0
     ]
-    return RollLife(heavier=heavier, lighter=lighter, hours=lives[0], both=system_life_hours(lives))
+    slope = _SLOPES[roll.bearing.kind]
+    both = system_life_hours(lives, weibull_slopes=[slope] * len(lives))
+    return RollLife(heavier=heavier, lighter=lighter, hours=lives[0], both=both, weibull_slope=slope)
 
 
 def _heavier(roll: Roll, load: RollLoad, distance: float, *, alone: bool) -> float:
@@ -115,11 +123,11 @@ class SetLife:
 def set_life(stretch: Stretch, belt_speed: float) -> SetLife | None:
     """Life of a set of a stretch; None without any bearing."""
     lives = [(roll_life(stretch, place, belt_speed), load) for place, load in enumerate(stretch.loads)]
-    known = [(life.both, load.name) for life, load in lives if life is not None]
+    known = [(life.both, load.name, life.weibull_slope) for life, load in lives if life is not None]
     if not known:
         return None
-    together = system_life_hours([hours for hours, _ in known])
-    hours, roll = min(known)
+    together = system_life_hours([one[0] for one in known], weibull_slopes=[one[2] for one in known])
+    hours, roll, _ = min(known)
     return SetLife(stretch.section, together, roll, hours, len(known) == len(lives))
 
 

@@ -55,6 +55,11 @@ class RouteSection:
         """Whether tension acts on its rolls by a curve."""
         return self.curve is not None or self.horizontal is not None
 
+    @property
+    def steepest(self) -> float:
+        """Slope at the steeper end of its vertical curve, up or down [rad]."""
+        return abs(math.asin(self.rise / self.length)) + 0.5 * self.length / abs(self.radius)
+
 
 def route_sections(conveyor: Conveyor) -> tuple[RouteSection, ...]:
     """The sections of a route, from the tail; SI."""
@@ -217,7 +222,7 @@ class _Strand:
             flow_mass=flow,
         )
         turned = self._turn(section, spacing, inclination, flow)
-        if turned is not None:
+        if turned is not None and (section.name, self.strand) in self.acting.drift:
             loads = turned.drifted(loads)
         least = sag_tension(
             self.belt_mass + flow, spacing=spacing, relative_sag=self.sag, gravity=self.gravity

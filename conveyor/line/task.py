@@ -131,7 +131,7 @@ class WidthSize:
 
 @dataclass(frozen=True)
 class Trough:
-    """A belt width with a trough angle [rad]: largest cross-section of the bulk [m²]."""
+    """A belt width with a trough angle [rad]: largest cross-section of the bulk on the steepest section [m²]."""
 
     width: WidthSize
     angle: float
@@ -223,6 +223,11 @@ class SizingTask:
     def sections(self) -> tuple[tuple[float, float], ...]:
         """Length and rise of each [m]."""
         return tuple((si(section.length), section.rise) for section in self.duty.sized_route.sections)
+
+    @property
+    def steepest(self) -> float:
+        """Inclination of the steepest section, up or down [rad]."""
+        return max(abs(math.asin(rise / length)) for length, rise in self.sections)
 
     @property
     def length(self) -> float:
@@ -363,7 +368,9 @@ class SizingTask:
                     trough_angle=angle,
                     surcharge_angle=surcharge,
                 )
-                shapes.append(Trough(width, angle, section.area))
+                area = section.on_slope(self.steepest, surcharge_angle=si(self.duty.material.surcharge_angle))
+                if area > 0.0:
+                    shapes.append(Trough(width, angle, area))
         return tuple(shapes)
 
     def fits(self) -> None:

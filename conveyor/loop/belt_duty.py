@@ -282,7 +282,7 @@ def _curves(balance: Balance, states: Sequence[MotionState]) -> Iterator[CurveCh
             lift = lift_off_radius(
                 highest,
                 belt_mass=stretch.belt_mass,
-                inclination=stretch.inclination,
+                inclination=section.steepest,
                 gravity=line.gravity,
                 uplift=line.uplift,
             )

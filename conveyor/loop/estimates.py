@@ -101,8 +101,9 @@ def cema(line: Line, unit_main: float) -> CemaEstimate | None:
     Notes
     -----
     Ky is one figure for the whole conveyor, though the book's table has one for each length, slope and load. Pulleys
-    are 200, 150 or 100 lbf by place unless given; of pulleys that are not listed there is nothing. Skirts are as long
-    as the spec says, the zone of acceleration is theirs. Lengths are along the belt; the tilt of idlers is in Kx.
+    are 200, 150 or 100 lbf by place unless given; of pulleys that are not listed there is nothing. Skirts are
+    the whole skirtboards, Lb of the book, the zone of acceleration too. Lengths are along the belt; the tilt of idlers
+    is in Kx.
     """
     given = line.cema
     if given is None:
@@ -147,7 +148,7 @@ def _skirts(line: Line, given: CemaFactors) -> float:
     """Skirts of every loading point; nothing lies on them of an empty belt, their seals rub all the same."""
     return math.fsum(
         cema_skirts(
-            point.skirt_length,
+            point.boards(line.speed, line.gravity),
             skirt_factor=given.skirt_factor if point.flow_beyond > 0.0 else 0.0,
             depth=given.skirt_depth,
             seals=given.seals,

@@ -20,6 +20,7 @@ from conveyor.laws.roll_life import ROLLER_EXPONENT, SECONDS_PER_HOUR, rating_li
 from conveyor.line.line import BendPulley, Line
 from conveyor.loop.balance import Balance
 from conveyor.loop.tensions import STEADY, MotionState
+from conveyor.ties import largest, least
 
 
 @dataclass(frozen=True)
@@ -63,7 +64,7 @@ class PulleyDuty:
     @cached_property
     def largest(self) -> PulleyLoad:
         """The state of the largest resultant."""
-        return max(self.loads, key=lambda load: load.resultant)
+        return largest(self.loads, lambda load: load.resultant)
 
     @property
     def torque(self) -> float:
@@ -106,7 +107,7 @@ class PulleyDuty:
         p = self.pulley
         if self.moment is None or p.shaft_steel is None:
             return None
-        return min(
+        safeties = [
             (
                 shaft_safety(
                     self._moment(load) or 0.0,
@@ -118,7 +119,8 @@ class PulleyDuty:
                 load.state,
             )
             for load in self.loads
-        )
+        ]
+        return least(safeties, lambda one: one[0])
 
     @cached_property
     def least_shaft(self) -> float | None:

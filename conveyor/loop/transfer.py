@@ -14,7 +14,7 @@ from conveyor.laws.discharge import (
     slipping_discharge,
     width_on_pulley,
 )
-from conveyor.laws.resistance import acceleration_length, cleaner_resistance
+from conveyor.laws.resistance import cleaner_resistance
 from conveyor.laws.transfer import (
     carryback,
     impact_class,
@@ -79,12 +79,7 @@ def _landing(line: Line, point: LoadingPoint) -> Landing:
                 )
     return Landing(
         point,
-        acceleration_length(
-            belt_speed=line.speed,
-            initial_speed=point.speed,
-            belt_friction=point.belt_friction,
-            gravity=gravity,
-        ),
+        point.acceleration_length(line.speed, gravity),
         usual_skirt_length(line.speed),
         (stretch.belt_mass + point.flow_beyond / line.speed) * spacing * gravity,
         stream,

@@ -8,7 +8,7 @@ from typing import Final
 
 from conveyor.errors import Amount, InputError, RangeError
 from conveyor.laws.idlers import rated_set_load
-from conveyor.laws.loading import bulk_line_mass, cross_section, usable_width
+from conveyor.laws.loading import CrossSection, bulk_line_mass, cross_section, usable_width
 from conveyor.laws.resistance import SHORTEST_FOR_FACTOR
 from conveyor.laws.tension import usual_stiffness
 from conveyor.models.base import Problem
@@ -51,28 +51,27 @@ def _like(length: float, idlers: IdlerSet) -> str:
     return text(from_si(float(f"{length:.6g}"), "length", unit))
 
 
-def cross_sections(conveyor: ConveyorParts) -> tuple[float, float] | None:
-    """Cross-section of the bulk, and the largest one that the belt holds (ISO 5048) [m²]; None without bulk."""
-    carry, belt, material = conveyor.idlers.carry, conveyor.belt, conveyor.material
-    if si(material.flow) == 0.0:
-        return None
-    across = usable_width(si(belt.width))
-    area = cross_section(
+def largest_section(conveyor: ConveyorParts) -> CrossSection:
+    """Largest cross-section of the bulk that the belt holds on the level (ISO 5048)."""
+    carry, across = conveyor.idlers.carry, usable_width(si(conveyor.belt.width))
+    return cross_section(
         across,
         middle_roll_length=carry.middle_belt(across),
         trough_angle=si(carry.trough_angle),
-        surcharge_angle=material.surcharge,
+        surcharge_angle=conveyor.material.surcharge,
         inner_wing=carry.inner_wing,
-    ).area
-    return bulk_line_mass(si(material.flow), belt_speed=si(belt.speed)) / si(material.density), area
+    )
 
 
 def _flow_fits(conveyor: ConveyorParts) -> Iterator[Problem]:
     """The bulk fits the trough (ISO 5048)."""
-    sections, belt, material = cross_sections(conveyor), conveyor.belt, conveyor.material
-    if sections is None or sections[0] <= sections[1]:
+    belt, material = conveyor.belt, conveyor.material
+    if si(material.flow) == 0.0:
         return
-    needed, area = sections
+    needed = bulk_line_mass(si(material.flow), belt_speed=si(belt.speed)) / si(material.density)
+    area = largest_section(conveyor).area
+    if needed <= area:
+        return
     system = system_of(belt.width)
     sections_of = (Amount(each, "area", display(each, "area", system)) for each in (needed, area))
     most = from_si(si(material.flow) * area / needed, "mass flow", text(material.flow).split()[1])

@@ -9,11 +9,12 @@ from pydantic import Field, ValidationError, model_validator
 
 from conveyor.models.base import Model, Problem, refuse
 from conveyor.models.cases import LoadCase, named_once
-from conveyor.models.checks import CONFLICTS, cross_sections
+from conveyor.models.checks import CONFLICTS, largest_section
 from conveyor.models.parts import ConveyorParts
 from conveyor.models.report import Report
 from conveyor.models.scenarios import Scenario, scenario_problems
 from conveyor.models.uncertainty import Uncertainty
+from conveyor.units import si
 
 
 class Conveyor(ConveyorParts):
@@ -83,10 +84,10 @@ class Conveyor(ConveyorParts):
                 yield from self.route.section_problem((field, i, "sections", j), name)
         yield from scenario_problems(self.scenarios, self.drive.names)
 
-    @property
-    def cross_sections(self) -> tuple[float, float] | None:
-        """Cross-section of the bulk and the largest the belt holds (ISO 5048) [m²]; None where there is no rule."""
-        return cross_sections(self)
+    def section_on_slope(self, inclination: float) -> float:
+        """Largest cross-section of the bulk that the belt holds at an inclination [rad] (ISO 5048) [m²]."""
+        angle = si(self.material.surcharge_angle)
+        return largest_section(self).on_slope(inclination, surcharge_angle=angle)
 
 
 CHECKS: Final[Mapping[Callable[[Any], Iterator[Problem]], tuple[str, ...]]] = {

@@ -35,6 +35,7 @@ from conveyor.units import (
     LineForce,
     Mass,
     Pressure,
+    Quantity,
     Speed,
     SpringRate,
     Thickness,
@@ -123,12 +124,28 @@ class Section(Model):
         return self
 
     def _curve_problems(self) -> list[Problem]:
+        if self.curve is not None and self.curve_radius is not None:
+            return self._upright_problems(self.curve_radius)
         if (self.curve is None) == (self.curve_radius is None):
             return []
         missing, given = ("curve", "curve_radius") if self.curve is None else ("curve_radius", "curve")
         return [
             Problem((missing,), f"missing: {given} is given; a vertical curve needs both, or remove {given}")
         ]
+
+    def _upright_problems(self, radius: Quantity) -> list[Problem]:
+        length = si(self.length)
+        if abs(self.rise) >= length:
+            return []
+        turn, left = length / si(radius), 0.5 * math.pi - abs(math.asin(self.rise / length))
+        if 0.5 * turn < left:
+            return []
+        least = from_si(float(f"{0.5 * length / left:.6g}"), "length", text(radius).split()[1])
+        message = (
+            f"got {text(radius)}, with which {text(self.length)} turn by {math.degrees(turn):.0f} deg and stand "
+            f"upright at an end: take more than {text(least)}, or a shorter section"
+        )
+        return [Problem(("curve_radius",), message)]
 
     def _horizontal_problems(self) -> Iterator[Problem]:
         side, radius = self.horizontal_curve, self.horizontal_radius

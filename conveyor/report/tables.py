@@ -857,7 +857,7 @@ def drive_parts(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
         Column("backstop, motors stalled", "torque",
                worst(max, get=lambda duty: None if duty.holding is None else duty.stalled), sparse=True),
         Column("backstop size", "torque",
-               lambda row: None if (most := worst(max, get="backstop")(row)) is None else next_preferred(most),
+               lambda row: next_preferred(most) if (most := worst(max, get="backstop")(row)) else None,
                sparse=True),
         Column("load at a motor's shaft", "inertia", worst(max, get="load_inertia"), sparse=True),
         Column("starts an hour", "ratio", worst(min, get="allowed_starts"), sparse=True),

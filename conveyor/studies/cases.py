@@ -144,15 +144,19 @@ class Governing:
 
 @dataclass(frozen=True)
 class MotorChoice:
-    """Motors of one drive pulley: what they must give or hold at the shaft [W], number, rating [W], series."""
+    """Motors of one drive pulley: what they must give or hold at the shaft [W], number, rating [W], series, load."""
 
     drive: str
     needed: float
-    reserve: float
     count: int
     rated: float
     series: str
     case: Said
+
+    @property
+    def reserve(self) -> float:
+        """Rated power over what is needed [-]."""
+        return math.inf if self.needed == 0.0 else self.count * self.rated / abs(self.needed)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -374,7 +378,7 @@ def recommended_motors(loads: Sequence[Load], *, reserve: float) -> tuple[MotorC
     loads : sequence of Load
         The one that asks for most, driving with the friction high or braking with it low, decides.
     reserve : float
-        Rated power over needed power [-], at least 1.
+        Least rated power over needed power [-], at least 1.
 
     Raises
     ------
@@ -395,5 +399,5 @@ def recommended_motors(loads: Sequence[Load], *, reserve: float) -> tuple[MotorC
         needed = drive.share * power
         count = max(1, math.ceil(round(abs(needed) * reserve / series[-1], 9)))
         rated = next_motor(needed / count, reserve=reserve, series=series)
-        choices.append(MotorChoice(drive.name, needed, reserve, count, rated, name, governs.label))
+        choices.append(MotorChoice(drive.name, needed, count, rated, name, governs.label))
     return tuple(choices)

@@ -225,8 +225,9 @@ def load_states(
             states.append(LoadState(names[0], _names(own, loading), at, figures, keys, one))
     for (temperature, _), (loading, figures) in worst.items():
         loaded = _names(own, loading)
-        one = adding[temperature].loaded(loading)
-        if DRIVE_FORCE in figures:
+        full, empty = ends[temperature]
+        one = full if loading.all() else adding[temperature].loaded(loading) if loading.any() else empty
+        if DRIVE_FORCE in figures and loading.any() and not loading.all():
             again = _in_full(conveyor, loaded, temperature, own)
             if isinstance(again, CalculatedConveyor):
                 one = again.balance

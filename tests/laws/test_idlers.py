@@ -93,3 +93,13 @@ def test_the_still_spacing_is_as_far_from_resonance_as_wanted(margin):
     spacing = idlers.still_spacing(9.0, lowest=low, spacing=3.0, margin=margin)
     there = idlers.flap_frequency(32e3, line_mass=20.0, spacing=spacing, belt_speed=5.0)
     assert idlers.resonance_distance(9.0, lowest=there, highest=2 * there) == pytest.approx(margin, abs=1e-12)
+
+
+@pytest.mark.parametrize("density", [800.0, 1200.0, 1600.0, 2000.0, 2400.0, 2800.0, 3200.0])
+def test_the_edge_of_a_column_in_pounds_is_that_edge(density):
+    """1600 kg/m³ come to 1600.0000000000011 by lb/ft³."""
+    pound_per_foot = density / (0.45359237 / 0.3048**3)
+    again = pound_per_foot * 0.45359237 / 0.3048**3 * (1.0 + 1e-15)
+    for lump in (0.1, 0.3, 0.5):
+        factors = [idlers.lump_load_factor(lump, density=one) for one in (density, again)]
+        assert factors[0] == factors[1]

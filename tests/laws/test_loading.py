@@ -160,6 +160,20 @@ def test_whole_load_on_one_roll_and_the_edge_of_each_range_are_allowed():
     assert loading.middle_share_belt(1.0, belt_width=1.02) == 1.0
 
 
+def test_a_heap_on_a_slope_wanes_to_nothing():
+    """On the level all of it, of δ = θ nothing; up and down alike."""
+    theta = math.radians(20.0)
+    assert loading.heap_on_slope(0.0, surcharge_angle=theta) == 1.0
+    assert loading.heap_on_slope(theta, surcharge_angle=theta) == 0.0
+    assert loading.heap_on_slope(0.1, surcharge_angle=0.0) == 0.0
+    up, down = (loading.heap_on_slope(side * 0.2, surcharge_angle=theta) for side in (1.0, -1.0))
+    cos = math.cos
+    by_hand = math.sqrt((cos(0.2) ** 2 - cos(theta) ** 2) / (1.0 - cos(theta) ** 2))
+    assert up == down == pytest.approx(by_hand, rel=1e-12)
+    flat = loading.cross_section(1.0, middle_roll_length=1.0, trough_angle=0.0, surcharge_angle=theta)
+    assert flat.on_slope(0.2, surcharge_angle=theta) == pytest.approx(by_hand * flat.area, rel=1e-12)
+
+
 def test_usable_width_of_standard_and_wide_belts():
     assert loading.usable_width(1.2) == pytest.approx(1.03, rel=ULPS)
     # both branches meet at 2 m

@@ -45,10 +45,24 @@ def test_wing_by_moments():
     assert load > outer
 
 
-def test_a_system_is_shorter_lived_than_its_weakest():
-    assert roll_life.system_life_hours([3e4]) == pytest.approx(3e4, rel=ROUNDING)
-    assert roll_life.system_life_hours([3e4, 3e4]) == pytest.approx(3e4 * 2**-0.9, rel=ROUNDING)
-    assert roll_life.system_life_hours([3e4, 1e12]) == pytest.approx(3e4, rel=1e-6)
+BALL, ROLLER = roll_life.WEIBULL_SLOPE_BALL, roll_life.WEIBULL_SLOPE_ROLLER
+
+
+@pytest.mark.parametrize(("slope", "power"), [(BALL, 0.9), (ROLLER, 8.0 / 9.0)])
+def test_a_system_is_shorter_lived_than_its_weakest(slope, power):
+    def life(*lives):
+        return roll_life.system_life_hours(lives, weibull_slopes=[slope] * len(lives))
+
+    assert life(3e4) == pytest.approx(3e4, rel=ROUNDING)
+    assert life(3e4, 3e4) == pytest.approx(3e4 * 2**-power, rel=ROUNDING)
+    assert life(3e4, 1e12) == pytest.approx(3e4, rel=1e-6)
+
+
+def test_a_system_of_balls_and_rollers_survives_by_both():
+    """Failures of a time add up: Σ (L/L_i)^e_i is 1 at the L10 of all."""
+    together = roll_life.system_life_hours([3e4, 5e4, 8e4], weibull_slopes=[BALL, ROLLER, BALL])
+    shares = [(together / 3e4) ** BALL, (together / 5e4) ** ROLLER, (together / 8e4) ** BALL]
+    assert sum(shares) == pytest.approx(1.0, rel=ROUNDING)
 
 
 @pytest.mark.parametrize(
@@ -62,8 +76,8 @@ def test_a_system_is_shorter_lived_than_its_weakest():
             ),
             r"loaded_length = 0\.6 is not allowed: at most bearing_distance \+ 2 inset = 0\.5 m",
         ),
-        (lambda: roll_life.system_life_hours([]), r"lives = \[\] .* at least one bearing"),
-        (lambda: roll_life.system_life_hours([0.0]), r"lives = 0\.0"),
+        (lambda: roll_life.system_life_hours([], weibull_slopes=[]), r"lives = \[\] .* at least one bearing"),
+        (lambda: roll_life.system_life_hours([0.0], weibull_slopes=[BALL]), r"lives = 0\.0"),
     ],
 )
 def test_refusals(call, message):

@@ -79,3 +79,12 @@ def test_what_is_out_of_range_is_refused():
         sizing.recommended_speed(1.0, abrasiveness="some")
     with pytest.raises(InputError, match="thickness"):
         sizing.carcass_mass(5e6, thickness=2e-3, steel_cord=True)
+
+
+@pytest.mark.parametrize(("lump", "density"), [(0.05, 1000.0), (0.15, 2000.0)])
+def test_a_border_in_inches_and_pounds_is_that_border(lump, density):
+    rest = {"round_time": 30.0, "abrasiveness": "medium", "loading": "medium"}
+    on, by_inch = (
+        sizing.wear_addition(lump=k * lump, density=k * density, **rest) for k in (1.0, 1.0 + 1e-15)
+    )
+    assert on == by_inch

@@ -259,8 +259,9 @@ def test_cema_by_hand_in_its_own_units(line):
     # take-up and tail on the slack side, 150 lbf each; the head is driven; Tam with g = 32.2 ft/s²
     tons, speeds = 2400.0 / 3.6 / (2000.0 * LB / 3600.0), (5.0 - 1.5) / (FT / 60.0)
     assert found.cema.secondary / LBF == pytest.approx(300.0 + 2.8755e-4 * tons * speeds, rel=1e-12)
-    # seals of 6 m of skirts at 6 lbf/ft, two cleaners of 1.1 m at 5 lbf/in: its own, whatever this calculation has
-    own = 6.0 * 6.0 / FT + 5.0 * 2.0 * 1.1 / (FT / 12.0)
+    # seals at 6 lbf/ft of skirts in the zone of acceleration, μ1 0.5, and 6 m beyond, two cleaners of 1.1 m at
+    # 5 lbf/in: its own, whatever this calculation has
+    own = 6.0 * ((5.0**2 - 1.5**2) / 9.81 + 6.0) / FT + 5.0 * 2.0 * 1.1 / (FT / 12.0)
     assert found.cema.special / LBF == pytest.approx(own, rel=1e-12)
     assert found.frame.motor(found.cema.total) == pytest.approx(found.cema.total * 5.0 / 0.94, rel=1e-12)
     assert found.cema.friction_factor == pytest.approx(found.cema.main / found.unit_main, rel=1e-12)

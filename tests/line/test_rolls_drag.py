@@ -288,6 +288,8 @@ def test_roller_bearings_and_single_rolls(line):
     ball = roll_life(carry_stretches(carry_roll(line, bearing=LIFE))[0], 1, 5.0)
     roller = roll_life(stretch, 1, 5.0)
     assert roller.hours / ball.hours == pytest.approx((19.5e3 / ball.heavier) ** (1.0 / 3.0), rel=1e-12)
+    # two equal bearings: 2^(-8/9) of one's life (Weibull slope 9/8)
+    assert roller.both == pytest.approx(roller.hours * 2.0 ** (-8.0 / 9.0), rel=1e-12)
     flat = line.idlers.return_.replace(
         rolls=1,
         trough_angle="0 deg",

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from conveyor.checks import checks
-from conveyor.errors import NoSolutionError
+from conveyor.errors import InputError, NoSolutionError
 from conveyor.line.strands import Strands
 from conveyor.line.stretches import Acting, roll_masses
 from conveyor.loop.belt_duty import LEAST_EDGE_TENSION, belt_duty
@@ -108,7 +108,8 @@ def test_least_radii_are_those_of_the_laws():
     found = closed(made)
     curves = {(c.section, c.strand): c for c in belt_duty(found).curves}
     carry, back = curves["dip", "carry"], curves["dip", "return"]
-    assert carry.lift_off == pytest.approx(carry.highest / (20.0 * 9.81), rel=1e-14)
+    # level chord, 60 m on 900 m: an end slopes by a thirtieth
+    assert carry.lift_off == pytest.approx(carry.highest / (20.0 * 9.81 * math.cos(30.0 / 900.0)), rel=1e-14)
     # flat return belt: no strip is longer than another
     assert (back.overstress, back.buckling) == (0.0, 0.0)
     wing, sine = (1.0 - 0.38) / 2.0, math.sin(math.radians(35.0))
@@ -120,6 +121,15 @@ def test_least_radii_are_those_of_the_laws():
     said = [w for w in told(tight, closed(tight)) if 'section "dip"' in w]
     assert any("carry: the empty belt lifts off on the concave curve of 60 m; at least" in w for w in said)
     assert any("carry: a strip of the belt goes slack" in w for w in said)
+
+
+def test_a_curve_that_stands_upright_is_refused():
+    """60 m rising by 30: 30 deg, and 0.5 L/r more at an end; 60 deg are left, 60 m/(2 pi/3) = 28.65 m."""
+    with pytest.raises(
+        InputError, match=r"got 28 m, with which 60 m turn by 123 deg and stand upright .* than 28.6479 m"
+    ):
+        curved([VALLEY[0], VALLEY[1] | {"curve_radius": "28 m", "lift": "30 m"}, VALLEY[2]])
+    curved([VALLEY[0], VALLEY[1] | {"curve_radius": "29 m", "lift": "30 m"}, VALLEY[2]])
 
 
 def test_a_belt_between_two_rolls_is_a_v():

@@ -376,3 +376,14 @@ def test_more_than_half_a_turn_is_refused():
         from_data(
             data(idlers=BACK, route={"sections": [CURVE | {"horizontal_radius": "50 m"}], "pulleys": PULLEYS})
         )
+
+
+def test_before_the_drift_is_known_no_pull_presses_on_the_rolls():
+    """Of 5 deg of skew the centred belt is pushed outward by more than its tension ever draws it inward."""
+    made = conveyor({"carry_skew": "5 deg", "carry_banking": "0 deg"})
+    lane = conveyor(
+        dict.fromkeys(("horizontal_curve", "horizontal_radius", "carry_banking", "return_banking"))
+    )
+    curved, straight = (Strands.of(one).each[0].stretches[1] for one in (made, lane))
+    assert curved.loads == straight.loads
+    assert min(load.force for load in calculate(made).line.stretches[1].loads) > 0.0

@@ -21,6 +21,7 @@ from conveyor.errors import InputError
 from conveyor.laws.drives import HORSEPOWER
 from conveyor.laws.take_up import SCREW_LENGTH
 from conveyor.pipeline import take_up_of
+from conveyor.report import tables
 from tests.loop.loop_lines import DATA, SECOND
 from tests.loop.test_pulley_duty import calculated
 
@@ -202,6 +203,13 @@ def test_a_backstop_holds_and_bears_stalled_motors():
     of_two = drives({"backstop": True, "pulley_diameter": "1 m"}, backstop=True)
     alone = 0.5 * of_two.motions.brake_to_hold
     assert [duty.holding for duty in of_two.drive_duty] == pytest.approx([0.7 * alone] * 2, rel=1e-12)
+
+
+def test_a_backstop_that_friction_spares_has_no_size():
+    sections = [{"name": name, "length": "250 m", "lift": "1 m"} for name in "abcd"]
+    found = calculated(drive=DATA["drive"] | PARTS | {"backstop": True}, route={"sections": sections})
+    assert [duty.holding for duty in found.drive_duty] == [0.0]
+    assert "backstop size [N m]" not in tables.drive_parts(found).frame().columns
 
 
 def test_starts_an_hour_of_a_small_motor():

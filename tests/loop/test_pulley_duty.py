@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -276,3 +277,15 @@ def test_curves_show_the_tension_of_their_strips():
     i = next(k for k, s in enumerate(shape) if (s.section, s.strand) == ("c", "carry"))
     ends = [float(t) for state in made.every_state for t in (state.starts[i], state.ends[i])]
     assert (curve.lowest, curve.highest) == pytest.approx((min(ends), max(ends)), rel=1e-12)
+
+
+def test_of_states_that_load_a_shaft_alike_the_first_is_named():
+    """Rounding in other units does not choose between them."""
+    (duty,) = duties(with_pulleys(HEAD | SHAFT)).values()
+    one = duty.loads[0]
+    states = (
+        replace(one, state="steady"),
+        replace(one, state="start", resultant=one.resultant * (1.0 + 1e-14)),
+    )
+    alike = replace(duty, loads=states)
+    assert (alike.largest.state, alike.safety[1]) == ("steady", "steady")

@@ -237,7 +237,7 @@ def test_a_case_the_data_do_not_cover_says_so_and_governs_nothing(cold: tuple[An
     assert {check.verdict for check in others_of_it} == {"not checked"}
     assert all("do not cover the case" in check.why.text() for check in others_of_it)
     assert {row.result for row in found.governing} <= set(others)
-    assert "-25" not in found.motors()[0].case.text()
+    assert "-25 °C" not in found.motors()[0].case.text()
     assert governing(found, "rubber_coverage", "carry").case.text() == "winter, -25 °C"
 
 

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from operator import itemgetter
 from pathlib import Path
 
 import pytest
 
 import conveyor
+from conveyor.checks import filling
 from conveyor.report.columns import Column, Figure, Table, figures
 from conveyor.units import si
 from conveyor.units.presentation import unit
 from conveyor.units.sentences import band_words
+from tests.loop.loop_lines import line as loop_line
+from tests.loop.test_pulley_duty import calculated
 from tests.report.checking import checks
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -241,8 +245,8 @@ def test_factors(kind, value, sign, expected):
 
 
 def test_filling_is_bulk_over_what_the_belt_holds(line, all_of):
-    """The flow raised by the inverse of the filling is the most that a spec may hold."""
-    filled = all_of["filling of the belt"]
+    """The flow raised by the inverse of the filling is the most that a spec may hold on the level."""
+    filled = all_of["filling of the belt (incline)"]
     assert filled.verdict == "pass"
     share = float(filled.found.split()[0].rstrip("%")) / 100.0
     flow = line.material.flow
@@ -251,6 +255,23 @@ def test_filling_is_bulk_over_what_the_belt_holds(line, all_of):
         line.replace(
             material={**line.material.as_data(), "flow": f"{flow.magnitude / (share - 0.005):.6g} stph"}
         )
+
+
+def test_on_a_slope_the_belt_holds_less():
+    """ISO 5048: of the heap sqrt((cos²δ - cos²θ)/(1 - cos²θ)) stands on the slope, none where δ is θ."""
+    made = loop_line(material={"surcharge_angle": "10 deg"})
+    level = made.section_on_slope(0.0)
+    trough = made.section_on_slope(math.radians(10.0))
+    cos_d, cos_t = math.cos(math.asin(25.0 / 400.0)), math.cos(math.radians(10.0))
+    k1 = math.sqrt((cos_d**2 - cos_t**2) / (1.0 - cos_t**2))
+    (check,) = filling(calculated(material={"surcharge_angle": "10 deg"}))
+    assert (check.where, check.verdict) == ("b", "pass")
+    assert check.required == pytest.approx(trough + k1 * (level - trough), rel=1e-12)
+    steep = {"sections": [{"name": name, "length": "250 m", "slope": "12 deg"} for name in "abcd"]}
+    flow = 0.5 * (level + trough) * 1600.0 * 4.0 * 3.6
+    (check,) = filling(calculated(material={"surcharge_angle": "10 deg", "flow": f"{flow} t/h"}, route=steep))
+    assert check.failed
+    assert check.required == pytest.approx(trough, rel=1e-12)
 
 
 def test_motors_that_generate_are_held_to_the_friction_that_is_certain():

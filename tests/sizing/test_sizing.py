@@ -263,7 +263,7 @@ def test_what_is_wrong_is_refused_with_its_place(tmp_path, old, new, message):
         (
             {},
             {"speeds": ["0.1 m/s"]},
-            r"material\.flow: 400 t/h is more than the widest and fastest belt takes, \d+ t/h",
+            r"material\.flow: 400 t/h is more than the widest and fastest belt takes, [\d.]+ t/h",
         ),
         ({"lump": "400 mm"}, {}, "lump: 400 mm asks for a belt of 1,200 mm, the widest has 800 mm"),
     ],

@@ -315,6 +315,7 @@ def test_motors_give_the_governing_power_with_their_reserve(found):
         assert motor.count * motor.rated >= reserve * needed
         assert (motor.count - 1) * MOTOR_SERIES[-1] < reserve * needed  # no fewer of the largest would do
         assert motor.case.text().startswith("inclines only, 0 °C")
+        assert motor.reserve == pytest.approx(motor.count * motor.rated / needed, rel=ROUNDING)
 
 
 def test_each_of_several_drives_has_its_share_of_the_motors(line):

@@ -125,6 +125,17 @@ def test_cold_cases_are_looked_at_too(line):
     assert worst.balance.power.belt > warm.balance.power.belt
 
 
+def test_the_worst_at_another_temperature_may_be_the_empty_belt(line):
+    """Downhill the empty belt asks most of the drives, in the cold more than at the spec's temperature."""
+    sections = [{"name": "descent", "length": "800 m", "lift": "-25 m"}]
+    cases = [LoadCase(name="empty", loading="empty", temperatures=("-20 degC",))]
+    found = studies(line.replace(cases=cases, route=line.route.replace(sections=sections)))
+    worst = found.states.state("worst")
+    (empty,) = (result for result in found.cases.results if result.case.loading == "empty")
+    assert (worst.loaded, worst.temperature) == ((), empty.temperature)
+    assert worst.balance.forces.total == pytest.approx(empty.found.balance.forces.total, rel=2.0 * RTOL)
+
+
 def test_a_case_loads_the_sections_it_names(line):
     one = with_case(line, LoadCase(name="some", loading="sections", sections=("climb", "fields")))
     assert [section.loaded for section in one.route.sections] == [False, True, False, True, False]

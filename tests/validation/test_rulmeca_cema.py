@@ -38,7 +38,7 @@ SPEC = {
     "material": {"name": "sand", "density": "1600 kg/m^3", "flow": "700 t/h", "surcharge_angle": "20 deg"},
     "route": {
         "sections": [{"name": "all", "length": "1000 m"}],
-        "feeding": {"skirt_length": "3 m", "skirt_width": "660 mm"},
+        "feeding": {"skirt_length": "2 m", "skirtboards": "3 m", "skirt_width": "660 mm"},
         "cleaners": [{"count": 2, "width": "1000 mm", "thickness": "10 mm"}],
         "ploughs": [{"width": "1 m", "position": "head"}],
     },
@@ -67,6 +67,15 @@ def sheet():
 )
 def test_items_to_the_printed_digits(sheet, symbol, printed):
     assert sheet[1][symbol] == pytest.approx(printed, abs=0.5 + 2 * FACTOR * printed)
+
+
+def test_skirts_stand_in_the_zone_of_acceleration_too(sheet):
+    """Without `skirtboards` they begin where the bulk lands, v²/(2 g μ1) before those of `skirt_length`."""
+    skirts = {"skirt_length": "2 m", "skirt_width": "660 mm"}
+    made = estimate(Line.of(from_data(SPEC | {"route": SPEC["route"] | {"feeding": skirts}})), 1.0)
+    assert made is not None
+    (found,) = (newtons for symbol, _, newtons in made.items if symbol == "Tsb")
+    assert found / sheet[1]["Tsb"] == pytest.approx((2.5**2 / (2.0 * 9.81 * 0.5) + 2.0) / 3.0, rel=1e-12)
 
 
 def test_friction_of_idlers_belt_and_bulk(sheet):

@@ -97,8 +97,46 @@ class CrossSection:
 
     @property
     def area(self) -> float:
-        """Whole cross-section [m²]."""
+        """Whole cross-section on the level [m²]."""
         return self.top + self.bottom
+
+    def on_slope(self, inclination: float, *, surcharge_angle: float) -> float:
+        """Cross-section on a slope, k A = A_bottom + k1 A_top (ISO 5048), see `heap_on_slope` [m²]."""
+        return self.bottom + heap_on_slope(inclination, surcharge_angle=surcharge_angle) * self.top
+
+
+def heap_on_slope(inclination: float, *, surcharge_angle: float) -> float:
+    """Heap above the water line on a slope over that on the level, k1 of the slope factor (ISO 5048, DIN 22101).
+
+    k1 = sqrt((cos²δ - cos²θ)/(1 - cos²θ)) = sqrt(1 - (sin δ/sin θ)²), k = 1 - A_top/A (1 - k1).
+
+    Parameters
+    ----------
+    inclination : float
+        δ of the belt, up or down [rad], from -pi/2 to pi/2.
+    surcharge_angle : float
+        θ (ISO 5048) or β (DIN 22101) of the heap on the level [rad], from 0 to below pi/2.
+
+    Returns
+    -------
+    float
+        k1 [-]; 0 where the slope is as steep as the heap, which no longer stands on it.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Examples
+    --------
+    >>> round(heap_on_slope(math.radians(12), surcharge_angle=math.radians(20)), 4)
+    0.794
+    """
+    require_angle(0.0, surcharge_angle=surcharge_angle)
+    require(abs(inclination) <= 0.5 * math.pi, "inclination", inclination, "-pi/2 to pi/2 is needed")
+    if abs(inclination) >= surcharge_angle:
+        return 0.0
+    return math.sqrt(1.0 - (math.sin(inclination) / math.sin(surcharge_angle)) ** 2)
 
 
 def cross_section(
@@ -138,9 +176,9 @@ def cross_section(
 
     Notes
     -----
-    Level belt. The parabola of the heap is the standard's approximation for moderate β. The standard has up to three
-    rolls; of four and five every wing adds (w + l cos λ) l sin λ below the water line, w being what lies inside of it
-    across (derived).
+    Level belt; `heap_on_slope` has others. The parabola of the heap is the standard's approximation for moderate β. The
+    standard has up to three rolls; of four and five every wing adds (w + l cos λ) l sin λ below the water line, w being
+    what lies inside of it across (derived).
 
     Examples
     --------
