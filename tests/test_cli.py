@@ -238,7 +238,7 @@ def test_fit_asks_for_a_temperature_that_nobody_states(tmp_path: Path) -> None:
 def test_compare_prints_one_json_object() -> None:
     done = run(
         "compare", OVERLAND, "-c", "standard-cover", "-c", "low-rolling-resistance-cover",
-        "--temperature", "0:20:10", "--speed", "4.5,5", "--extra-cost", "low-rolling-resistance-cover=1000", "--json",
+        "--temperature", "0,10", "--temperature", "68 degF", "--speed", "4.5,5", "--extra-cost", "low-rolling-resistance-cover=1000", "--json",
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert done.stderr == ""
@@ -246,7 +246,7 @@ def test_compare_prints_one_json_object() -> None:
     assert len(found["scenes"]) == 2 * 3 * 2
     assert found["base"] == "standard-cover"
     assert {row["belt speed [m/s]"] for row in found["ranking"]} == {4.5, 5.0}
-    assert sorted({row["temperature [degC]"] for row in found["scenes"]}) == [0.0, 10.0, 20.0]
+    assert sorted({row["temperature [degC]"] for row in found["scenes"]}) == pytest.approx([0.0, 10.0, 20.0])
 
 
 def test_compare_writes_what_it_is_asked_for(tmp_path: Path) -> None:

@@ -48,13 +48,19 @@ def compare(
         ),
     ],
     temperatures: Annotated[
-        str | None,
-        option("Of the belt: from:to:step or a,b,c, in degC without a unit.", "VALUES", "--temperature"),
+        list[str] | None,
+        option(
+            "Of the belt: from:to:step or a,b,c, in degC without a unit; may be repeated.",
+            "VALUES",
+            "--temperature",
+        ),
     ] = None,
     speeds: Annotated[
-        str | None,
+        list[str] | None,
         option(
-            "Of the belt: from:to:step or a,b,c, in m/s without a unit; else the spec's.", "VALUES", "--speed"
+            "Of the belt: from:to:step or a,b,c, in m/s without a unit; else the spec's; may be repeated.",
+            "VALUES",
+            "--speed",
         ),
     ] = None,
     cover: Annotated[str, option("Cover made of the compounds: bottom, top or both.", "WHICH")] = "bottom",
@@ -97,10 +103,8 @@ def compare(
         comparison = compare_compounds(
             line,
             compounds,
-            temperatures=None
-            if temperatures is None
-            else values(temperatures, "--temperature", "degC", "degF"),
-            speeds=None if speeds is None else values(speeds, "--speed", "m/s", "fpm"),
+            temperatures=_every(temperatures, "--temperature", "degC", "degF"),
+            speeds=_every(speeds, "--speed", "m/s", "fpm"),
             cover=one_of("--cover", cover, ("bottom", "top", "both")),
             base=base,
             extra_costs=dict(_amount(item) for item in extra_costs or ()),
@@ -126,6 +130,11 @@ def compare(
     from conveyor.cli.terminal import show_comparison
 
     session.answer(lambda: comparison_tables.plain(comparison), to, lambda: show_comparison(contents))
+
+
+def _every(given: list[str] | None, option: str, *units: str) -> list[str] | None:
+    """The values of an option, however often it stands; None where it does not."""
+    return [value for words in given for value in values(words, option, *units)] if given else None
 
 
 def _amount(given: str) -> tuple[str, float]:

@@ -24,6 +24,7 @@ MONEY: Final = "money "
 """Before a currency's code: a kind of its own."""
 _HUGE: Final = 1e12
 _MOST: Final = {"margin": 1.0, "life": 1e6}  # in the unit of reports: beyond it the size says nothing
+_FAR: Final = 10.0  # times that, below zero
 _SIGNIFICANT, _DECIMALS = 12, 9  # beyond them is the rounding of a conversion
 _SPELLED: Final = {"degC": "°C", "degF": "°F", "deg": "°", "-": ""}
 
@@ -99,7 +100,7 @@ class Unit:
     exact : bool
         Whether numbers are shown with all their digits, not rounded where a conversion is.
     most : float
-        Beyond it a number is written as more than it.
+        Beyond it a number is written as more than it, and as less than ten times it on the other side of zero.
     """
 
     label: str | None
@@ -135,6 +136,8 @@ class Unit:
         --------
         >>> unit("force").written(84147.576), unit("share").written(0.4681), unit("margin").written(102.7)
         ('84,148', '46.8 %', '> 100 %')
+        >>> unit("margin").written(-1.5), unit("margin").written(-5979.0)
+        ('-150.0 %', '< -1,000 %')
         >>> unit("life").written(3600.0 * 45_678.0), unit("life").written(3600.0 * 6e8)
         ('45,678', '> 1,000,000')
         """
@@ -149,10 +152,10 @@ class Unit:
             return NEVER if self.label == "a" else "∞" if number > 0.0 else "-∞"
         if isinstance(number, int):
             return f"{number:,}"
-        if number > self.most:
-            number, digits, more = self.most, self.digits.replace(".1", ".0"), "> "
-        else:
-            digits, more = self.digits or ",.6g", ""
+        digits, more = self.digits or ",.6g", ""
+        if not -_FAR * self.most <= number <= self.most:
+            number, more = (self.most, "> ") if number > 0.0 else (-_FAR * self.most, "< ")
+            digits = f",{digits.removeprefix(',').replace('.1', '.0')}"
         return more + unsigned(f"{number:{digits}}").replace("%", " %")
 
     def said(self, value: Any) -> str:
