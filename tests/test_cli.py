@@ -238,7 +238,8 @@ def test_fit_asks_for_a_temperature_that_nobody_states(tmp_path: Path) -> None:
 def test_compare_prints_one_json_object() -> None:
     done = run(
         "compare", OVERLAND, "-c", "standard-cover", "-c", "low-rolling-resistance-cover",
-        "--temperature", "0,10", "--temperature", "68 degF", "--speed", "4.5,5", "--extra-cost", "low-rolling-resistance-cover=1000", "--json",
+        "--temperature", "0,10", "--temperature", "68 degF", "--speed", "4.5,5",
+        "--extra-cost", "low-rolling-resistance-cover=1000", "--json",
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert done.stderr == ""
