@@ -180,7 +180,8 @@ def verification(
 
     Examples
     --------
-    >>> found = verification(
+    >>> import conveyor
+    >>> found = conveyor.verify_sheet(
     ...     ["s100"],
     ...     line_loads=["2 N/mm"],
     ...     temperatures=["20 degC"],
