@@ -247,7 +247,8 @@ def filling(result: CalculatedConveyor) -> Iterator[Check]:
         stretch, bulk, most = largest(loaded, lambda one: -one[2] / one[1])
         yield compared(
             "filling", "filling of the belt", bulk, "at most", most, "area", source="ISO 5048",
-            wording=said(f"{percent(bulk / holds_on(0.0))} of the cross-section"), where=stretch.section,
+            wording=said(f"{{}}, {percent(bulk / holds_on(0.0))} of the level cross-section", (bulk, "area")),
+            where=stretch.section,
             why=f'the bulk takes {{calculated}}, section "{quoted(stretch.section)}" holds {{required}} on its slope',
         )  # fmt: skip
 

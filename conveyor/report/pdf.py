@@ -30,6 +30,7 @@ _DRAWING: Final = re.compile(r"<svg\b.*?</svg>", re.DOTALL)
 _SPACE: Final = "http://www.w3.org/2000/svg"
 _ROOM: Final = 521.0  # between the margins of A4 [pt]
 _SIZE, _SMALL = 6.8, 6.0  # letters of tables, and of those of many columns [pt]
+_SHORT: Final = 9  # characters up to which a text ("> 100 %") stays on one line
 _LETTER, _GAP = 0.62, 1.8  # width of a letter over its size; letters that the room between columns takes
 _VOID: Final = frozenset({"meta", "br"})
 _NOT_PRINTED: Final = frozenset({"head", "nav", "details", "button", "footer"})
@@ -262,21 +263,22 @@ class _Setter:
 def _laid(rows: Sequence[_Element], *, wide: bool) -> tuple[float, str]:
     """Letter size [pt] and widths of the columns of a table: as wide as their words where all fit side by side.
 
-    Else each is as wide as its longest word, or name or number, and what is left goes to those that have more; smaller
-    letters where even the longest words do not fit.
+    Else each is as wide as its longest word, name, number or short text, and what is left goes to those that have more;
+    smaller letters where even these do not fit.
     """
     size = _SMALL if wide else _SIZE
     room = _ROOM / (size * _LETTER)
     whole, least = [], []
     for cells in zip(*(row.elements for row in rows), strict=True):
-        texts = [(cell.text, bool(cell.classes & {"n", "name"}) and k > 0) for k, cell in enumerate(cells)]
-        whole.append(max(len(text) for text, _ in texts) + _GAP)
-        least.append(
-            max(len(text) if kept else max(map(len, text.split()), default=0) for text, kept in texts) + _GAP
-        )
+        head, *below = cells
+        whole.append(max(len(cell.text) for cell in cells) + _GAP)
+        kept = [len(cell.text) for cell in below if cell.classes & {"n", "name"} or len(cell.text) <= _SHORT]
+        words = [len(word) for cell in (head, *below) for word in cell.text.split()]
+        least.append(max([*kept, *words], default=0) + _GAP)
     if sum(whole) <= room:
         return size, str(len(whole))
-    spare = max(0.0, room - sum(least)) / sum(most - few for most, few in zip(whole, least, strict=True))
+    more = sum(whole) - sum(least)
+    spare = max(0.0, room - sum(least)) / more if more else 0.0
     widths = (few + spare * (most - few) for most, few in zip(whole, least, strict=True))
     return size * min(1.0, room / sum(least)), f"({', '.join(f'{width:.1f}fr' for width in widths)})"
 

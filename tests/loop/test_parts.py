@@ -210,7 +210,9 @@ def test_a_backstop_that_friction_spares_has_no_size():
     sections = [{"name": name, "length": "250 m", "lift": "1 m"} for name in "abcd"]
     found = calculated(drive=DATA["drive"] | PARTS | {"backstop": True}, route={"sections": sections})
     assert [duty.holding for duty in found.drive_duty] == [0.0]
-    assert "backstop size [N m]" not in tables.drive_parts(found, designing(found, None, None)).frame().columns
+    assert (
+        "backstop size [N m]" not in tables.drive_parts(found, designing(found, None, None)).frame().columns
+    )
 
 
 def test_starts_an_hour_of_a_small_motor():

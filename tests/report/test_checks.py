@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from operator import itemgetter
 from pathlib import Path
 
@@ -248,7 +249,8 @@ def test_filling_is_bulk_over_what_the_belt_holds(line, all_of):
     """The flow raised by the inverse of the filling is the most that a spec may hold on the level."""
     filled = all_of["filling of the belt (incline)"]
     assert filled.verdict == "pass"
-    share = float(filled.found.split()[0].rstrip("%")) / 100.0
+    (percent,) = re.findall(r"(\d+) % of the level cross-section", filled.found)
+    share = float(percent) / 100.0
     flow = line.material.flow
     line.replace(material={**line.material.as_data(), "flow": f"{flow.magnitude / (share + 0.005):.6g} stph"})
     with pytest.raises(conveyor.InputError, match="needs a cross-section"):

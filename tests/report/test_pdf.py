@@ -120,6 +120,13 @@ def test_words_of_a_wide_table_are_whole():
     assert sum(f"{words}{k}" in text for k in range(1, 12, 2)) == 6
 
 
+def test_a_table_wider_than_its_paper_has_smaller_letters():
+    columns = tuple(Column(f"head{k}", "force", lambda _, k=k: 1e6 * k) for k in range(40))
+    shown = page.table(Table("t", "", "", columns, range(2)), "Wide")
+    made = read(pdf.printed(page.page("Ore 1", "r", Html(""), [page.Part("x", "Wide", shown)], "foot")))
+    assert {f"head{k}" for k in range(40)} <= set(made.pages[0].extract_text().split())
+
+
 @pytest.mark.parametrize(
     "words", [HOSTILE, '#panic("x") [a] *b* _c_ `d` $e$ <f> @g \\ // /* "', "Ωμ °C ≥ δ ✓ – é ß ж"]
 )
