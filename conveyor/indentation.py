@@ -28,6 +28,7 @@ from conveyor.contact import (
     solve_many,
 )
 from conveyor.errors import Amount, InputError, NoSolutionError, RangeError
+from conveyor.require import require_number
 from conveyor.rubber import CreepSeries, PronySeries, creeps
 
 Array = NDArray[np.float64]
@@ -103,6 +104,7 @@ class RollContact:
             )
         for name in ("radius", "spacing", "cover_thickness", "speed"):
             value = getattr(self, name)
+            require_number(**{name: value})
             if not 0.0 < value < math.inf:
                 raise InputError(f"{name} = {value!r}: a finite number greater than 0 is needed")
         if self.support != "half-space" and self.cover_thickness > self.spacing:

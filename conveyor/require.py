@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from numbers import Real
 
 from conveyor.errors import Amount, ConveyorError, InputError
 
@@ -12,6 +13,12 @@ def require(ok: bool, name: str, value: object, allowed: str | ConveyorError) ->
     if not ok:
         shown = value if isinstance(value, Amount) else repr(value)
         raise InputError("{} = {} is not allowed: {}", name, shown, allowed)
+
+
+def require_number(**values: object) -> None:
+    """Refuse what is no number: a quantity in words, an array."""
+    for name, value in values.items():
+        require(isinstance(value, Real), name, value, "a number in SI units is needed")
 
 
 def require_finite(**values: float) -> None:

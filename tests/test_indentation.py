@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -134,3 +135,16 @@ def test_a_cover_in_millimetres_is_refused():
     ):
         replace(RIGID, support="confined", cover_thickness=5.0)
     assert replace(RIGID, support="half-space", cover_thickness=5.0).cover_thickness > RIGID.spacing
+
+
+@pytest.mark.parametrize("words", ["80 mm", [0.08], None])
+def test_what_is_no_number_is_refused_by_its_name(words):
+    rubber = shelf.compound("s100").series(293.15)
+    with pytest.raises(
+        InputError, match=re.escape(f"radius = {words!r} is not allowed: a number in SI units")
+    ):
+        RollContact(words, 1.5, 0.005, 5.0, rubber)
+    with pytest.raises(
+        InputError, match=re.escape(f"temperature = {words!r} is not allowed: a number in SI")
+    ):
+        shelf.compound("s100").series(words)

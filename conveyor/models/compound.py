@@ -25,6 +25,7 @@ from conveyor.models.rubber_data import (
     StrainDependence,
     TableShift,
 )
+from conveyor.require import require_number
 from conveyor.units import (
     Bounds,
     Density,
@@ -183,9 +184,12 @@ class RubberCompound(Model):
 
         Raises
         ------
+        InputError
+            The temperature is no number.
         RangeError
             The temperature is outside the compound's stated range or its shift law, or it has no law.
         """
+        require_number(temperature=temperature)
         return self._at(temperature, (self.series_at_reference,), (self.shift,))[0]
 
     def replicas(self, temperature: float) -> tuple[PronySeries, ...]:
