@@ -145,12 +145,14 @@ def _with_listed_names(grid: TextGrid) -> TextGrid:
     first = next((position for position, line in enumerate(grid.lines) if _is_data(line)), 0)
     listed = {}
     for line in grid.lines[:first]:
-        if len(line.cells) == 2 and (match := _LISTED.fullmatch(line.cells[0])):
-            listed[int(match[1])] = line
+        # blanks of a name may have been taken for the ends of cells, to come to as many as the rows have
+        cells = line.cells if len(line.cells) == 2 else re.split(r"\s*[\t;,]\s*", line.text)
+        if len(cells) == 2 and (match := _LISTED.fullmatch(cells[0])):
+            listed[int(match[1])] = line.number, cells[1]
     if len(listed) < 2 or sorted(listed) != list(range(1, len(grid.lines[first].cells) + 1)):
         return grid
-    names = tuple(listed[number].cells[1] for number in sorted(listed))
-    header = TextLine(listed[len(listed)].number, names, " ".join(names), comment=False)
+    names = tuple(listed[number][1] for number in sorted(listed))
+    header = TextLine(listed[len(listed)][0], names, " ".join(names), comment=False)
     return replace(grid, lines=(*grid.lines[:first], header, *grid.lines[first:]))
 
 

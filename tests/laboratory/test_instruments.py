@@ -136,6 +136,21 @@ def test_names_listed_above_the_numbers(tmp_path: Path) -> None:
         read_dma(written(tmp_path, head.replace("Sig5", "Signal") + "StartOfData\n" + rows, "four.txt"))
 
 
+def test_listed_names_of_as_many_words_as_there_are_columns(tmp_path: Path) -> None:
+    head = "Sig1\tFrequency (Hz)\nSig2\tStorage Modulus (MPa)\nSig3\tLoss Modulus (MPa)\nStartOfData\n"
+    data = read_dma(written(tmp_path, head + "1.0\t5.6\t0.56\n10.0\t6.8\t0.68\n"))
+    np.testing.assert_allclose(data.storage, [5.6e6, 6.8e6], rtol=1e-14)
+    np.testing.assert_allclose(data.loss, [5.6e5, 6.8e5], rtol=1e-14)
+
+
+@pytest.mark.parametrize("point", ["@ {}", "at {}", "bei {}", "@{}", "@ ({})", "({})"])
+def test_set_points_behind_a_word(tmp_path: Path, point: str) -> None:
+    names = (f"{name} {point.format(at)} [MPa]" for at in ("1 Hz", "10 Hz") for name in ("E'", "E''"))
+    data = read_dma(written(tmp_path, f"Temp. [°C],{','.join(names)}\n0,9,1,12,2\n5,7,1,9,1\n"))
+    np.testing.assert_allclose(data.frequency, [1.0, 10.0, 1.0, 10.0], rtol=1e-14)
+    np.testing.assert_allclose(data.storage, [9e6, 12e6, 7e6, 9e6], rtol=1e-14)
+
+
 def test_names_in_french(tmp_path: Path) -> None:
     head = "Température (°C);Fréquence (Hz);Module de conservation E' (MPa);Module de perte E'' (MPa)\n"
     data = read_dma(written(tmp_path, head + "20;1;5,6;0,56\n20;10;6,8;0,68\n"))
