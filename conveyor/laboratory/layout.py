@@ -93,6 +93,9 @@ def find_table(grid: TextGrid) -> DataTable:
         for t in tables
         if t not in starts
     ]
+    for start, end in pairwise([*tables, len(grid.lines)]):
+        if start not in starts:
+            _check_left_aside(grid, start, end)
     rows: list[TextLine] = []
     blocks: list[int] = []
     between: list[str] = []
@@ -119,6 +122,17 @@ def find_table(grid: TextGrid) -> DataTable:
     said = {key: (value, row) for key, value, row in _metadata(grid, starts[0])}
     first = grid.lines[starts[0]].number
     return DataTable(grid, first, columns, tuple(rows), tuple(blocks), said, tuple(notes))
+
+
+def _check_left_aside(grid: TextGrid, start: int, end: int) -> None:
+    """Refuse to leave aside rows of more cells than the header above them: they are of another table."""
+    width = len(grid.lines[start].cells)
+    for line in filter(_is_data, grid.lines[start + 1 : end]):
+        if len(line.cells) > width:
+            what = f"more cells than row {grid.lines[start].number} has names, which begins a table without a modulus"
+            raise grid.refusal(
+                line.number, width, f"{what}; name every column, or remove that row if it is a remark"
+            )
 
 
 def without_rows(table: DataTable, exclude: str) -> DataTable:
