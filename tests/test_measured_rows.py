@@ -117,6 +117,13 @@ def test_rows_are_excluded_by_name(alone):
         fit_file(FILES, Request("x", AT, exclude=("8",)))
 
 
+def test_rows_of_a_file_with_brackets_in_its_name_are_excluded(tmp_path: Path):
+    path = tmp_path / "isotherms[1].csv"
+    path.write_bytes(FILES[0].read_bytes())
+    found = fit_file(path, Request("x", AT, replicas=0, exclude=(f"{path.name}:8-18",)))
+    assert "rows excluded by hand: 8-18" in found.compound.fit.method
+
+
 def test_rows_of_a_file_of_shifts_are_excluded_by_its_name(tmp_path: Path):
     path = tmp_path / "shifts.csv"
     path.write_text("temperature_degC,log10_aT\n0.03,1.5\n20,OVL\n48,-1.4\n", encoding="utf-8")

@@ -76,7 +76,10 @@ def test_a_workbook_is_read_as_text_is(tmp_path: Path):
     assert [run.note for run in read] == ["", "late"]
 
 
-@pytest.mark.parametrize("title", [["Power log of CV-01", ""], ["CV-01;power;2025", "measured by;A. Meter"]])
+@pytest.mark.parametrize(
+    "title",
+    [["Power log of CV-01", ""], ["CV-01;power;2025", "measured by;A. Meter"], ["CV-01, power, 3 May 2025"]],
+)
 def test_a_title_may_stand_above(tmp_path: Path, title: list[str]):
     path = table(tmp_path, *title, "motor power [kW];flow [t/h]", "250,5;0", "812,5;3600")
     assert [run.watts for run in read_runs(path)] == pytest.approx([250.5e3, 812.5e3])

@@ -129,7 +129,7 @@ def excluded_of(path: Path, exclude: Sequence[str]) -> str | None:
 
 def _is_named(name: str | None, path: Path, sheet: str | None) -> bool:
     """Whether a person means this table by file or file[sheet], with or without its folder."""
-    if name is None:
+    if name is None or name in {str(path), path.name}:
         return True
     file, _, of = name.partition("[")
     return file in {str(path), path.name} and (not of or sheet is None or of == f"{sheet}]")

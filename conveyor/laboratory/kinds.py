@@ -80,11 +80,10 @@ def _dynamic(columns: Mapping[str, FloatArray], run: IntArray | None) -> tuple[s
 
 def _unlike_repeats(storage: FloatArray, group: IntArray, level: IntArray) -> str:
     """What to say of rows at one temperature, run and frequency whose E' differ by more than specimens do."""
-    pairs = np.stack([group, level])
-    spread = max(
-        float(np.ptp(np.log(storage[(pairs == pair[:, None]).all(axis=0)])))
-        for pair in np.unique(pairs, axis=1).T
-    )
+    order = np.lexsort((np.log(storage), level, group))
+    first = np.flatnonzero(np.diff(group[order], prepend=-1) | np.diff(level[order], prepend=-1))
+    last = np.append(first[1:], storage.size) - 1
+    spread = float(np.max(np.log(storage[order[last]] / storage[order[first]])))
     if spread <= np.log(UNLIKE):
         return ""
     return (

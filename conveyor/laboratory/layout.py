@@ -93,6 +93,9 @@ def find_table(grid: TextGrid) -> DataTable:
         for t in tables
         if t not in starts
     ]
+    for start, end in pairwise([*tables, len(grid.lines)]):
+        if start not in starts:
+            _check_left_aside(grid, start, end)
     rows: list[TextLine] = []
     blocks: list[int] = []
     between: list[str] = []
@@ -121,6 +124,17 @@ def find_table(grid: TextGrid) -> DataTable:
     return DataTable(grid, first, columns, tuple(rows), tuple(blocks), said, tuple(notes))
 
 
+def _check_left_aside(grid: TextGrid, start: int, end: int) -> None:
+    """Refuse to leave aside rows of more cells than the header above them: they are of another table."""
+    width = len(grid.lines[start].cells)
+    for line in filter(_is_data, grid.lines[start + 1 : end]):
+        if len(line.cells) > width:
+            what = f"more cells than row {grid.lines[start].number} has names, which begins a table without a modulus"
+            raise grid.refusal(
+                line.number, width, f"{what}; name every column, or remove that row if it is a remark"
+            )
+
+
 def without_rows(table: DataTable, exclude: str) -> DataTable:
     """The table without the rows that a person names by their number in the file, as 12-15,20; read or not."""
     if not _EXCLUDED.fullmatch(exclude):
@@ -145,12 +159,14 @@ def _with_listed_names(grid: TextGrid) -> TextGrid:
     first = next((position for position, line in enumerate(grid.lines) if _is_data(line)), 0)
     listed = {}
     for line in grid.lines[:first]:
-        if len(line.cells) == 2 and (match := _LISTED.fullmatch(line.cells[0])):
-            listed[int(match[1])] = line
+        # blanks of a name may have been taken for the ends of cells, to come to as many as the rows have
+        cells = line.cells if len(line.cells) == 2 else re.split(r"\s*[\t;,]\s*", line.text)
+        if len(cells) == 2 and (match := _LISTED.fullmatch(cells[0])):
+            listed[int(match[1])] = line.number, cells[1]
     if len(listed) < 2 or sorted(listed) != list(range(1, len(grid.lines[first].cells) + 1)):
         return grid
-    names = tuple(listed[number].cells[1] for number in sorted(listed))
-    header = TextLine(listed[len(listed)].number, names, " ".join(names), comment=False)
+    names = tuple(listed[number][1] for number in sorted(listed))
+    header = TextLine(listed[len(listed)][0], names, " ".join(names), comment=False)
     return replace(grid, lines=(*grid.lines[:first], header, *grid.lines[first:]))
 
 

@@ -117,7 +117,7 @@ _LOOSE: Final = (
 """What stands behind is a unit only if it is known."""
 _WITH_LOGARITHMS: Final = frozenset({"frequency", "time", "storage", "loss", "relaxation", "a_T", "b_T"})
 _AT: Final = re.compile(
-    r"\s*(?:@|\bat\b|\bbei\b)?\s*(?P<open>[(\[]?)\s*(?<![\w.,])(?P<number>-?\d+(?:[.,]\d+)?)\s*"
+    r"\s*(?:(?:@|\bat\b|\bbei\b)\s*|(?=[(\[]))(?P<open>[(\[])?\s*(?<![\w.,])(?P<number>-?\d+(?:[.,]\d+)?)\s*"
     r"(?P<unit>k?Hz|°C|ºC|℃|degC)(?(open)\s*[)\]])",
     re.IGNORECASE,
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import re
 from collections import Counter
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import Final
 
@@ -49,17 +50,23 @@ def text_grid(text: str, name: str, note: str) -> TextGrid:
     return TextGrid(name, tuple(lines), (note, f"separator: {_SEPARATORS[separator]}"))
 
 
-def headed_lines(text: str) -> list[TextLine]:
-    """Lines of a table; the first one with a separator tells which it is, those that begin with # are remarks."""
+def headed_lines(text: str, is_header: Callable[[Sequence[str]], bool] | None = None) -> list[TextLine]:
+    """Lines of a table; its header, else its first line, tells the separator, those that begin with # are remarks."""
     written = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
-    said = (line for _, line in written if not line.lstrip().startswith("#"))
-    separator = max("\t;,", key=next((line for line in said if {*"\t;,"} & {*line}), "").count)
-    lines = []
-    for number, line in written:
-        (cells,) = csv.reader([line], delimiter=separator, skipinitialspace=True)
-        comment = line.lstrip().startswith("#")
-        lines.append(TextLine(number, tuple(cell.strip() for cell in cells), line.strip(), comment))
-    return lines
+    said = [line for _, line in written if not line.lstrip().startswith("#")]
+    usual = max("\t;,", key=(said[0] if said else "").count)
+    headers = (s for line in said for s in "\t;," if is_header is not None and is_header(_quoted(line, s)))
+    separator = next(headers, usual)
+    return [
+        TextLine(number, _quoted(line, separator), line.strip(), line.lstrip().startswith("#"))
+        for number, line in written
+    ]
+
+
+def _quoted(line: str, separator: str) -> tuple[str, ...]:
+    """Cells of a line, quoted or not, without surrounding blanks."""
+    (cells,) = csv.reader([line], delimiter=separator, skipinitialspace=True)
+    return tuple(cell.strip() for cell in cells)
 
 
 def _separator(lines: list[str]) -> tuple[str, int]:

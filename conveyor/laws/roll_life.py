@@ -16,7 +16,8 @@ BALL_EXPONENT: Final = 3.0  # [-], ISO 281, ball bearings
 ROLLER_EXPONENT: Final = 10.0 / 3.0  # [-], ISO 281, roller bearings
 WEIBULL_SLOPE_BALL: Final = 10.0 / 9.0  # [-], Lundberg and Palmgren, point contact: ball bearings
 WEIBULL_SLOPE_ROLLER: Final = 9.0 / 8.0  # [-], Lundberg and Palmgren, line contact: roller bearings
-_STEPS: Final = 8  # each takes the difference of the slopes, about a hundredth, of the error at most
+_STEPS: Final = 50  # of Newton at most; slopes of bearings take two, 0.01 beside 100 a dozen
+_CLOSED: Final = 1e-15  # of a sum of rates that is one but for rounding
 SECONDS_PER_HOUR: Final = 3600.0
 SHELL_ROUNDING: Final = 1e-12  # of the shell's length, which distance and inset give back but for rounding
 
@@ -158,7 +159,14 @@ def system_life_hours(lives: Sequence[float], *, weibull_slopes: Sequence[float]
     bearings = list(zip(lives, weibull_slopes, strict=True))
     for life, slope in bearings:
         require_positive(lives=life, weibull_slopes=slope)
-    together, steepest = min(lives), max(weibull_slopes)
+    together = min(lives)
     for _ in range(_STEPS):
-        together *= math.fsum((together / life) ** slope for life, slope in bearings) ** (-1.0 / steepest)
+        # Newton for the logarithm of the life, in which the sum's is convex: from above
+        rates = [(together / life) ** slope for life, slope in bearings]
+        total = math.fsum(rates)
+        if total <= 1.0 + _CLOSED:
+            break
+        mean = math.fsum(rate * slope for rate, (_, slope) in zip(rates, bearings, strict=True)) / total
+        factor: float = total ** (-1.0 / mean)
+        together *= factor
     return together

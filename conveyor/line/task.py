@@ -43,7 +43,7 @@ from conveyor.models.sizing import (
     sizes,
     within,
 )
-from conveyor.units import from_si, in_si, si, text
+from conveyor.units import Quantity, from_si, in_si, si, text
 from conveyor.units.sentences import figure
 
 _BEARING_INSET: Final = 0.02  # [m], middle of a bearing inside the tube's end; general knowledge
@@ -346,6 +346,11 @@ class SizingTask:
         for point in route.feeding_points:
             yield si(point.skirt_width)
 
+    @property
+    def _trough_angles(self) -> Sequence[Quantity]:
+        """Those to choose from."""
+        return self.rules.trough_angles or self.sizes.trough_angles
+
     @cached_property
     def troughs(self) -> tuple[Trough, ...]:
         """Widths that take the lumps, with every trough angle."""
@@ -361,7 +366,7 @@ class SizingTask:
                 continue
             if asked and not any(same_width(belt, one) for one in asked):
                 continue
-            for angle in map(si, rules.trough_angles or self.sizes.trough_angles):
+            for angle in map(si, self._trough_angles):
                 section = cross_section(
                     usable_width(width.belt),
                     middle_roll_length=width.three,
@@ -390,6 +395,12 @@ class SizingTask:
             asked, had = (figure(width, "thickness", system) for width in (lumps, widest))
             raise NoSolutionError(
                 f"lump: {text(duty.lump)} asks for a belt of {asked}, the widest has {had} (rules.widths)"
+            )
+        surcharge = duty.material.surcharge_angle
+        if self.steepest >= si(surcharge) and not any(map(si, self._trough_angles)):
+            raise NoSolutionError(
+                f"route: on a slope of {figure(self.steepest, 'angle', system)} no heap of {text(surcharge)} stands, "
+                "and flat sets hold nothing else: allow troughs (rules.trough_angles)"
             )
         allowed = (trough.area * v for trough in self.troughs for v in self.speeds if self.allows(trough, v))
         most = max(allowed, default=math.inf) * self.density * si(rules.filling)

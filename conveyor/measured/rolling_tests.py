@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from conveyor.errors import InputError
+from conveyor.laboratory.grid import TextGrid, TextLine
 from conveyor.measured.table import Meant, MeasuredRow, TableKind, grid_of, rows_of
 from conveyor.models.rolling_tests import RollingTest
 from conveyor.units import text
@@ -86,8 +87,8 @@ def _rows(path: str | Path) -> Iterator[MeasuredRow]:
         yield from rows_of(grid, _TESTS)
         return
     head, lines = grid.lines[start], grid.lines[start + 1 :]
-    pairs = {at: asked for at, asked in enumerate(map(_ASKED.fullmatch, head.cells)) if asked}
-    given = {at: [line for line in lines if any(line.cells[at + 1 : at + 2])] for at in pairs}
+    pairs = _pairs(grid, head)
+    given = {at: [line for line in lines if any(line.cells[at : at + 1])] for at in pairs}
     belts: dict[str, int] = {}
     for line in lines:
         if any(line in filled for filled in given.values()):
@@ -98,14 +99,31 @@ def _rows(path: str | Path) -> Iterator[MeasuredRow]:
         raise grid.refusal(max(belts.values(), default=head.number), 0, what)
     columns = (name.partition(" [") for name in head.cells)
     common = [f"{_OF_FORM[name]} [{unit}" if name in _OF_FORM else "" for name, _, unit in columns]
-    for at, asked in pairs.items():
+    for at, (beside, asked) in pairs.items():
         names = [*common]
-        names[at : at + 2] = f"line load [{asked[2]}]", head.cells[at + 1].replace("maker", "resistance")
+        names[beside] = f"line load [{asked[2]}]"
+        names[at] = "resistance" + "".join(head.cells[at].partition(" [")[1:])
         rows = [
-            line._replace(cells=(*line.cells[:at], asked[1], *line.cells[at + 1 :])) for line in given[at]
+            line._replace(cells=(*line.cells[:beside], asked[1], *line.cells[beside + 1 :]))
+            for line in given[at]
         ]
         if rows:
             yield from rows_of(replace(grid, lines=(head._replace(cells=tuple(names)), *rows)), _TESTS)
+
+
+def _pairs(grid: TextGrid, head: TextLine) -> dict[int, tuple[int, re.Match[str]]]:
+    """Columns of the maker, each with the one of ours before it, which says its line load."""
+    pairs: dict[int, tuple[int, re.Match[str]]] = {}
+    ours: tuple[int, re.Match[str]] | None = None
+    for at, name in enumerate(head.cells):
+        if asked := _ASKED.fullmatch(name):
+            ours = at, asked
+        elif name.startswith("maker"):
+            if ours is None:
+                what = "no column of ours before it says its line load; put it behind its own"
+                raise grid.refusal(head.number, at, what, header=name)
+            pairs[at], ours = ours, None
+    return pairs
 
 
 def _plausible(row: MeasuredRow) -> None:

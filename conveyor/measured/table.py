@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
@@ -105,8 +106,7 @@ def read_rows(path: str | Path, kind: TableKind) -> tuple[MeasuredRow, ...]:
 def rows_of(grid: TextGrid, kind: TableKind) -> tuple[MeasuredRow, ...]:
     """Rows of a grid, below the first line that names two columns; what stands above is its title."""
     lines = [line for line in grid.lines if not line.comment]
-    named = (sum(bool(_Head(*cell, kind).field) for cell in enumerate(line.cells)) for line in lines)
-    lines = lines[next((k for k, count in enumerate(named) if count >= 2), 0) :]
+    lines = lines[next((k for k, line in enumerate(lines) if _is_header(line.cells, kind)), 0) :]
     if len(lines) < 2:
         raise InputError(
             f"{grid.name}: no {kind.one} in it; the first line names columns, as {kind.example}, one row a {kind.one} "
@@ -135,7 +135,12 @@ def grid_of(path: str | Path, kind: TableKind, *, form: str = "") -> TextGrid:
             )
         return filled[0]
     text, _ = decoded(data, path.name)
-    return TextGrid(path.name, tuple(headed_lines(text)), ())
+    return TextGrid(path.name, tuple(headed_lines(text, partial(_is_header, kind=kind))), ())
+
+
+def _is_header(cells: Sequence[str], kind: TableKind) -> bool:
+    """Whether a line names two columns or more."""
+    return sum(bool(_Head(*cell, kind).field) for cell in enumerate(cells)) >= 2
 
 
 def _columns(grid: TextGrid, head: TextLine, kind: TableKind) -> list[_Head]:

@@ -136,6 +136,29 @@ def test_names_listed_above_the_numbers(tmp_path: Path) -> None:
         read_dma(written(tmp_path, head.replace("Sig5", "Signal") + "StartOfData\n" + rows, "four.txt"))
 
 
+@pytest.mark.parametrize("remark", ["Time;Temperature", "Frequency @ 1 Hz;Temperature @ 20 °C"])
+def test_rows_are_not_left_aside_for_a_remark_of_two_names(tmp_path: Path, remark: str) -> None:
+    rows = "1;5;1;{0}\n10;6;1;{0}\n"
+    text = "f [Hz];E' [MPa];E'' [MPa];T [°C]\n" + rows.format(20) + remark + "\n" + rows.format(30)
+    with pytest.raises(InputError, match=r"pad\.txt:5: column 3: more cells than row 4 has names"):
+        read_dma(written(tmp_path, text))
+
+
+def test_listed_names_of_as_many_words_as_there_are_columns(tmp_path: Path) -> None:
+    head = "Sig1\tFrequency (Hz)\nSig2\tStorage Modulus (MPa)\nSig3\tLoss Modulus (MPa)\nStartOfData\n"
+    data = read_dma(written(tmp_path, head + "1.0\t5.6\t0.56\n10.0\t6.8\t0.68\n"))
+    np.testing.assert_allclose(data.storage, [5.6e6, 6.8e6], rtol=1e-14)
+    np.testing.assert_allclose(data.loss, [5.6e5, 6.8e5], rtol=1e-14)
+
+
+@pytest.mark.parametrize("point", ["@ {}", "at {}", "bei {}", "@{}", "@ ({})", "({})"])
+def test_set_points_behind_a_word(tmp_path: Path, point: str) -> None:
+    names = (f"{name} {point.format(at)} [MPa]" for at in ("1 Hz", "10 Hz") for name in ("E'", "E''"))
+    data = read_dma(written(tmp_path, f"Temp. [°C],{','.join(names)}\n0,9,1,12,2\n5,7,1,9,1\n"))
+    np.testing.assert_allclose(data.frequency, [1.0, 10.0, 1.0, 10.0], rtol=1e-14)
+    np.testing.assert_allclose(data.storage, [9e6, 12e6, 7e6, 9e6], rtol=1e-14)
+
+
 def test_names_in_french(tmp_path: Path) -> None:
     head = "Température (°C);Fréquence (Hz);Module de conservation E' (MPa);Module de perte E'' (MPa)\n"
     data = read_dma(written(tmp_path, head + "20;1;5,6;0,56\n20;10;6,8;0,68\n"))

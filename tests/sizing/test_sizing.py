@@ -265,6 +265,18 @@ def test_what_is_wrong_is_refused_with_its_place(tmp_path, old, new, message):
             {"speeds": ["0.1 m/s"]},
             r"material\.flow: 400 t/h is more than the widest and fastest belt takes, [\d.]+ t/h",
         ),
+        (
+            {
+                "material": {
+                    "name": "ore",
+                    "density": "1.6 t/m^3",
+                    "flow": "40 t/h",
+                    "surcharge_angle": "2 deg",
+                }
+            },
+            {"trough_angles": ["0 deg"]},
+            r"route: on a slope of [\d.]+° no heap of 2 deg stands, and flat sets hold nothing else",
+        ),
         ({"lump": "400 mm"}, {}, "lump: 400 mm asks for a belt of 1,200 mm, the widest has 800 mm"),
     ],
 )

@@ -157,3 +157,26 @@ def test_a_sheet_filled_in_is_read_as_tests(tmp_path: Path, system: str):
         InputError, match=r"\[N per width\]:5: column A: figures of the maker beside S100 and S120"
     ):
         read_rolling_tests(path)
+
+
+def test_columns_of_the_maker_belong_to_ours_before_them(tmp_path: Path):
+    found = conveyor.verify_sheet(["s100"], **ONE | {"line_loads": ["1 N/mm", "4 N/mm"]})
+    path = tmp_path / "sheet.xlsx"
+    path.write_bytes(excel.files(found.contents("SI"), path)[path])
+    book = openpyxl.load_workbook(path)
+    cells = book["N per width"]
+    for column in (7, 9):
+        cells.cell(3, column).value = 1.5 * cells.cell(3, column - 1).value
+    cells.insert_cols(7)
+    cells.cell(2, 7).value = "their remark"
+    book.save(path)
+    (test,) = read_rolling_tests(path)
+    assert [si(load) for load in test.line_load] == pytest.approx([1e3, 4e3], rel=1e-12)
+    cells.delete_cols(10)
+    book.save(path)
+    (test,) = read_rolling_tests(path)
+    assert [si(load) for load in test.line_load] == pytest.approx([1e3], rel=1e-12)
+    cells.delete_cols(6)
+    book.save(path)
+    with pytest.raises(InputError, match=r"2: column G \"maker \[N/m\]\": no column of ours before it"):
+        read_rolling_tests(path)
