@@ -23,7 +23,7 @@ from conveyor.report.html import build
 from conveyor.report.page import COLOURS
 
 _FORMS: Final = Path(__file__).with_name("page.typ")
-_FONT: Final = "DejaVu Sans"  # comes with matplotlib, so every machine has it; what it lacks is from other fonts
+_FONT: Final = "DejaVu Sans"  # comes with matplotlib; what it lacks is from the fonts of the machine
 _PAPERS: Final = {"A4": "a4", "Letter": "us-letter"}
 _PAPER: Final = re.compile(r"@page { size: (\w+); }")
 _DRAWING: Final = re.compile(r"<svg\b.*?</svg>", re.DOTALL)
