@@ -42,6 +42,7 @@ ERROR: Final = 0.01
 """Error of the peaks asked for without a word [-]."""
 _CELLS = 25  # of the longest belt at first
 _REFINED = 6  # times at most
+_RETRIED = 2  # times for a scenario without an answer: cells may be too long for it
 _SIZES = 4  # of cells for an error
 _SAFETY = 1.25  # of three and more: P. J. Roache, grid convergence index, J. Fluids Eng. 116 (1994) 405
 _SLOWEST, _FASTEST = math.sqrt(2.0), 2.0  # change over the next one: at a jump of speed, and at first order
@@ -342,8 +343,13 @@ def refined(
     step = max(float(ride.loop.travel[-1]) for ride in rides) / _CELLS
     answers = beside(list(rides), step)
     peaks = [[_Peaks.of(one)] if isinstance(one, Followed) else [] for one in answers]
-    for _ in range(_REFINED):
-        open_ones = [i for i, one in enumerate(answers) if _open(one, error)]
+    for halved in range(_REFINED):
+        retried = halved < _RETRIED
+        open_ones = [
+            i
+            for i, one in enumerate(answers)
+            if _open(one, error) or (retried and isinstance(one, ScenarioRefusal))
+        ]
         if not open_ones:
             break
         if progress is not None:

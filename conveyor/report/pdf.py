@@ -23,7 +23,7 @@ from conveyor.report.html import build
 from conveyor.report.page import COLOURS
 
 _FORMS: Final = Path(__file__).with_name("page.typ")
-_FONT: Final = "DejaVu Sans"  # comes with matplotlib: every machine sets the same pages
+_FONT: Final = "DejaVu Sans"  # comes with matplotlib; what it lacks is from the fonts of the machine
 _PAPERS: Final = {"A4": "a4", "Letter": "us-letter"}
 _PAPER: Final = re.compile(r"@page { size: (\w+); }")
 _DRAWING: Final = re.compile(r"<svg\b.*?</svg>", re.DOTALL)
@@ -31,6 +31,7 @@ _SPACE: Final = "http://www.w3.org/2000/svg"
 _ROOM: Final = 521.0  # between the margins of A4 [pt]
 _SIZE, _SMALL = 6.8, 6.0  # letters of tables, and of those of many columns [pt]
 _SHORT: Final = 9  # characters up to which a text ("> 100 %") stays on one line
+_LONGEST: Final = 40  # characters of a word beyond which a column is not made wider for it
 _LETTER, _GAP = 0.62, 1.8  # width of a letter over its size; letters that the room between columns takes
 _VOID: Final = frozenset({"meta", "br"})
 _NOT_PRINTED: Final = frozenset({"head", "nav", "details", "button", "footer"})
@@ -144,7 +145,7 @@ def printed(page: Html) -> bytes:
     import typst
 
     fonts = Path(mpl.get_data_path()) / "fonts" / "ttf"
-    known = typst.Fonts(include_system_fonts=False, font_paths=[fonts])
+    known = typst.Fonts(font_paths=sorted(fonts.glob("DejaVuSans*.ttf")))
     return typst.compile(source(page).encode(), format="pdf", font_paths=known)
 
 
@@ -180,6 +181,7 @@ class _Setter:
             "li": lambda item: f"\n- {self.flow(item)}\n",
             "br": lambda _: " \\ ",
             "strong": lambda words: f"#strong[{self.flow(words)}]",
+            "small": lambda words: f"#small[{self.flow(words)}]",
             "span": self.span,
             "dl": self.named,
             "div": self.division,
@@ -220,7 +222,7 @@ class _Setter:
         """Names and what they are: key figures, facts, or terms."""
         kind = next((kind for kind in ("tiles", "facts") if kind in element.classes), "terms")
         pairs = ((self.flow(one) for one in pair.elements) for pair in element.elements)
-        return f"\n#{kind}({', '.join(f'([{name}], [{words}])' for name, words in pairs)},)\n"
+        return f"\n#{kind}({''.join(f'([{name}], [{words}]), ' for name, words in pairs)})\n"
 
     def division(self, element: _Element) -> str:
         """A table, parts side by side, lines to sign on, a sheet of its own, or what it holds."""
@@ -273,10 +275,10 @@ def _laid(rows: Sequence[_Element], *, wide: bool) -> tuple[float, str]:
         head, *below = cells
         whole.append(max(len(cell.text) for cell in cells) + _GAP)
         kept = [len(cell.text) for cell in below if cell.classes & {"n", "name"} or len(cell.text) <= _SHORT]
-        words = [len(word) for cell in (head, *below) for word in cell.text.split()]
+        words = [min(len(word), _LONGEST) for cell in (head, *below) for word in cell.text.split()]
         least.append(max([*kept, *words], default=0) + _GAP)
     if sum(whole) <= room:
-        return size, str(len(whole))
+        return size, str(max(1, len(whole)))
     more = sum(whole) - sum(least)
     spare = max(0.0, room - sum(least)) / more if more else 0.0
     widths = (few + spare * (most - few) for most, few in zip(whole, least, strict=True))

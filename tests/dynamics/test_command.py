@@ -167,6 +167,24 @@ def test_peaks_that_do_not_hold_are_refused_with_both_figures_and_what_helps(mon
 
 
 @pytest.mark.usefixtures("rigged")
+def test_a_scenario_that_the_longest_cells_cannot_answer_is_followed_in_shorter_ones(monkeypatch):
+    """As drives that have no room beside each other in 25 cells."""
+    steps = []
+
+    def beside(rides, step):
+        steps.append(step)
+        if step > 0.3 * steps[0]:
+            raise NoSolutionError("the belt is too short")
+        return side_by_side(rides, step)
+
+    side_by_side = following.side_by_side
+    monkeypatch.setattr(following, "side_by_side", beside)
+    found = follow(from_data(data(drive={"reduced_mass": "4 t"}) | {"scenarios": [STOP]}), error=0.05)
+    assert [one.name for one in found.followed] == ["power failure"]
+    assert found.refused == ()
+
+
+@pytest.mark.usefixtures("rigged")
 def test_a_winch_with_a_speed_needs_its_run_up_in_scenarios():
     winch = {"kind": "winch", "position": "tail", "winch_speed": "1 m/s"}
     given = data(route={"take_up": winch}, drive={"reduced_mass": "4 t"}) | {"scenarios": [STOP]}

@@ -139,6 +139,58 @@ def test_words_are_not_markup(words):
     )  # kind, title, fact twice, heading, line, foot
 
 
+def sheets(*content):
+    whole = page.page("Ore 1", "r", Html(""), [page.Part("x", "Part", Html("".join(content)))], "foot")
+    return read(pdf.printed(whole)).pages
+
+
+@pytest.mark.parametrize(
+    ("content", "longest"),
+    [
+        (page.bullets(["x" * 400]), 160),
+        (page.facts([("client", "x" * 60)]), 30),
+        (page.table(Table("t", "", "", (Column("head", "text", lambda _: "x" * 400),), range(2)), "T"), 160),
+    ],
+)
+def test_a_word_longer_than_its_line_is_broken(content, longest):
+    (sheet,) = sheets(content)
+    text = sheet.extract_text()
+    assert text.count("x") >= 60
+    assert max(map(len, text.splitlines())) < longest
+
+
+def test_a_long_word_does_not_make_the_letters_of_its_table_small():
+    columns = (Column("name", "text", lambda _: "x" * 400), Column("mark", "text", lambda _: "beside"))
+    sizes = {}
+    (sheet,) = sheets(page.table(Table("t", "", "", columns, range(2)), "Wide"))
+    sheet.extract_text(visitor_text=lambda text, _cm, _tm, _font, size: sizes.setdefault(text.strip(), size))
+    assert sizes["beside"] == pytest.approx(6.8, abs=0.01)
+
+
+def test_a_short_table_of_long_texts_goes_on_on_the_next_page():
+    column = Column("note", "text", lambda k: f"mark{k}. " + "words " * 600)
+    made = sheets(page.table(Table("t", "", "", (column,), range(12)), "Notes"))
+    found = [len(re.findall(r"mark\d+", sheet.extract_text())) for sheet in made]
+    assert sum(found) == 12
+    assert max(found) < 6
+
+
+def test_a_letter_that_the_font_lacks_is_not_drawn_by_the_font_of_last_resort():
+    (sheet,) = sheets(page.bullets(["\u4e2d ore"]))
+    fonts = [str(one.get_object()["/BaseFont"]) for one in sheet["/Resources"]["/Font"].values()]
+    assert fonts
+    assert [name for name in fonts if "LastResort" in name] == []
+
+
+@pytest.mark.parametrize(
+    "content",
+    [page.facts([]), page.facts([], "tiles"), page.table(Table("t", "", "", (), range(2)), "Empty")],
+)
+def test_what_is_empty_prints_as_nothing(content):
+    (sheet,) = sheets(content, page.bullets(["after it"]))
+    assert "after it" in sheet.extract_text()
+
+
 def test_the_same_page_gives_the_same_bytes_and_is_known_again(built):
     made = pdf.printed(built)
     assert made == pdf.printed(built)
