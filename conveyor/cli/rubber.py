@@ -204,7 +204,7 @@ def fit(
         to.add("shift factors", write_shift, {write_shift: summary.shift_table(fitted).encode()})
     _exported(fitted.compound, export, to)
     if books or paged or spec is not None:
-        lines += _judged(fitted, spec, said, (books, paged), to)
+        lines += _judged(fitted, spec, said, books, paged, to)
     lines += to.save()
     lines += [
         f'name it by its path in specs and --compound, or "{path.stem}" with --shelf {path.parent}'
@@ -229,7 +229,8 @@ def _judged(
     rubber: Fitted | Tabulated,
     spec: Path | None,
     said: Mapping[str, str],
-    asked: tuple[list[Path], list[Path]],
+    books: Sequence[Path],
+    paged: Sequence[Path],
     to: Outputs,
 ) -> list[str]:
     """Lines of the verdict; add the page to sign and the workbook."""
@@ -240,7 +241,6 @@ def _judged(
     if isinstance(rubber, Tabulated):
         raise InputError("--html, --pdf, --spec, -o .xlsx: a Prony table has no measurement to judge")
     criteria = verdict.verdict(rubber, None if spec is None else load(spec))
-    books, paged = asked
     for path in books:
         to.report(tables.of_fit(rubber, criteria, said), path)
     if paged:

@@ -165,9 +165,8 @@ class _Seen:
         parser.StartDoctypeDeclHandler = self._doctype
         parser.StartElementHandler = self._start
         parser.EndElementHandler = self._end
-        if hasattr(
-            parser, "SetReparseDeferralEnabled"
-        ):  # from expat 2.6 on a tag may wait for twice its length
+        # from expat 2.6 on a tag may wait for twice its length
+        if hasattr(parser, "SetReparseDeferralEnabled"):
             parser.SetReparseDeferralEnabled(False)
         is_xml, read = True, 0
         while piece := stream.read(_PIECE):
