@@ -47,6 +47,7 @@ ForceKind = Literal["main", "secondary", "special", "lift"]
 _TILT_STEEP = math.radians(37.5)  # trough angle midway between the two listed coefficients C_e
 _SLOPE_OVER = 1e6  # [N], tension over which a wrap's line is drawn; the law is linear, so any would do
 _CONTACT = "viscoelastic contact of every roll (see Method)"
+_MISALIGNED = "friction across the belt x sine of the angle, derived"
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,10 +159,12 @@ _AFTER_MAIN = ("secondary", "special", "lift")
 class WithoutRubber:
     """Forces along a line that neither rubber nor air changes [N], shape (2n,).
 
-    `guidance` is None without skewed sets in horizontal curves, `flexure` where it is a share of the other main
-    resistances; `unit_main` is the main resistance that DIN 22101 gives for f = 1.
+    `misalignment` is the drag of rolls that are not square to the belt; `guidance` is None without skewed sets in
+    horizontal curves, `flexure` where it is a share of the other main resistances; `unit_main` is the main resistance
+    that DIN 22101 gives for f = 1.
     """
 
+    misalignment: Array
     tilt: Array
     guidance: Array | None
     lift: Array
@@ -181,8 +184,8 @@ class WithoutRubber:
             for one, other in pairs
         )
         return WithoutRubber(
-            both(self.tilt, back.tilt), guidance, both(self.lift, back.lift),
-            both(self.unit_main, back.unit_main), flexure,
+            both(self.misalignment, back.misalignment), both(self.tilt, back.tilt), guidance,
+            both(self.lift, back.lift), both(self.unit_main, back.unit_main), flexure,
         )  # fmt: skip
 
 
@@ -200,6 +203,7 @@ def strand_without_rubber(strand: OneStrand) -> WithoutRubber:
 
     skewed = any(stretch.turn is not None and stretch.turn.guided for stretch in strand.stretches)
     return WithoutRubber(
+        misalignment=each(_misalignment),
         tilt=each(_tilt),
         guidance=each(_guidance) if skewed else None,
         lift=each(_lift),
@@ -240,10 +244,12 @@ def along_the_belt(
             flexure_resistance(other, share=share) for other in (indentation + rotation).tolist()
         ])  # fmt: skip
     flexure = factors.flexure * flexure
+    misalignment = factors.misalignment * fixed.misalignment
     return (
         Force("indentation", "indentation", "main", indentation, _CONTACT),
         Force("idler_rotation", "idler rotation", "main", rotation, "roll drag x number of rolls"),
         Force("flexure", "flexure of belt and bulk", "main", flexure, line.flexure_source, short="flexure"),
+        Force("misalignment", "misaligned idlers", "main", misalignment, _MISALIGNED, short="misalignment"),
         Force("tilt", "idler tilt", "special", fixed.tilt, "ISO 5048, F_e"),
         *_guiding(fixed),
         Force("lift", "lift", "lift", fixed.lift, "ISO 5048, F_St", certain=True, short="lift force"),
@@ -253,6 +259,12 @@ def along_the_belt(
 def _flexure(stretch: Stretch, _gravity: float) -> float:
     """Flexure over all spans of the stretch [N]."""
     return stretch.sets * (stretch.span_flexure or 0.0)
+
+
+def _misalignment(stretch: Stretch, _gravity: float) -> float:
+    """Drag of all rolls of the stretch that are not square to the belt [N]."""
+    pairs = zip(stretch.misalignment, stretch.loads, strict=True)
+    return stretch.sets * math.fsum(friction * load.force for friction, load in pairs)
 
 
 def _tilt(stretch: Stretch, gravity: float) -> float:
@@ -347,10 +359,8 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
                    bulk=point.comes_with)  # fmt: skip
     if point.seal_drag > 0.0:
         drag = skirt_seal_resistance(point.boards(line.speed, line.gravity), drag_per_length=point.seal_drag)
-        yield Force(
-            "skirt_seals", f"seals of the skirts{name}", "special", drag, "seal_drag x length of the skirts",
-            spot=point.spot, place=point.place,
-        )  # fmt: skip
+        law = "CEMA, 6 lbf/ft x length of the skirts" if point.assumed else "seal_drag x length of the skirts"
+        yield here("skirt_seals", f"seals of the skirts{name}", "special", drag, law)
     if point.flow_beyond == 0.0:
         return
     # the bulk that lies there already rubs on the skirts of a later feeding point too

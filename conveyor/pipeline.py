@@ -719,7 +719,7 @@ class _Shared:
         acted = on_curves != Acting()
         kept, belt = self._own if acted else self._kept, self._kept.belt(given.belt)
         others = (belt, given.material, given.route, given.drive, given.calculation, given.report)
-        scene = (*map(_in_order, vars(on_curves).values()), given.ambient.wind_speed)
+        scene = (*map(_in_order, vars(on_curves).values()), given.ambient.wind_speed, given.site)
 
         def made() -> _Loaded:
             """Specs of one belt, load and idlers share a strand; of one strand all but their other idlers."""

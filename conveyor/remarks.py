@@ -9,11 +9,13 @@ from typing import Final
 from conveyor.checks import Check
 from conveyor.files.libraries import widest_spacings
 from conveyor.laws.horizontal_curve import FULL_SLIP_TILT
+from conveyor.laws.misalignment import MISALIGNMENT
 from conveyor.laws.motion import DRIVE_INERTIA, START_FACTOR
 from conveyor.laws.resistance import (
     CARCASS_BENDING,
     FLEXURE_COEFFICIENT,
     FLEXURE_SHARE,
+    ROLL_CONDITION,
     ROLL_ON_BELT_FRICTION,
     SCRAPING_FACTOR,
     SERVICE_DRAG,
@@ -23,6 +25,7 @@ from conveyor.line.belts import BeltContacts
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.line import Line
 from conveyor.line.roll_drags import acceptance_limit, assumed_bearing, bearing_viscosity
+from conveyor.line.stretches import misalignment_angle
 from conveyor.loop.year import earns_nothing
 from conveyor.models import Conveyor, IdlerSet, Roll
 from conveyor.models.listed import Listed, without
@@ -387,7 +390,9 @@ COLD_OIL = (
 
 def roll_assumptions(conveyor: Conveyor) -> tuple[str, ...]:
     """Shares, flexure, drag: what they rest on; entries of libraries with their sources."""
-    return (_shares(conveyor), _flexure(conveyor), _drag(conveyor), *_entries(conveyor))
+    return (
+        _shares(conveyor), _flexure(conveyor), _drag(conveyor), _alignment(conveyor), *_entries(conveyor)
+    )  # fmt: skip
 
 
 def _shares(conveyor: Conveyor) -> str:
@@ -405,6 +410,17 @@ def _shares(conveyor: Conveyor) -> str:
     outer = "and outer ones" if even else "triangular on outer ones"
     joined = "bulk uniform on inner rolls " if even else "bulk uniform on inner rolls, "
     return f"Load shares of the rolls after {rule}; {joined}{outer}."
+
+
+def _alignment(conveyor: Conveyor) -> str:
+    carry, back = (
+        math.degrees(misalignment_angle(conveyor, idlers))
+        for idlers in (conveyor.idlers.carry, conveyor.idlers.return_)
+    )
+    return (
+        f"The axes of the idler sets are askew at random, carry {carry:.2g} deg, return {back:.2g} deg (standard "
+        f"deviation); belt on rolls has a friction of at most {ROLL_ON_BELT_FRICTION.value:g} (general knowledge)."
+    )
 
 
 def _flexure(conveyor: Conveyor) -> str:
@@ -487,10 +503,25 @@ def roll_warnings(result: CalculatedConveyor) -> tuple[Said, ...]:
         *_drag_warnings(result),
         *_flexure_warnings(conveyor),
         *_library_warnings(conveyor),
+        *_alignment_warnings(conveyor),
         *_cover_warnings(conveyor),
         *_set_warnings(result),
         *_other_warnings(conveyor),
     )
+
+
+def _alignment_warnings(conveyor: Conveyor) -> Iterator[Said]:
+    """Where the alignment of the sets is that of the site."""
+    sets = (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_))
+    without = [f"idlers.{strand}.misalignment" for strand, idlers in sets if idlers.misalignment is None]
+    if without:
+        band = MISALIGNMENT[conveyor.site]
+        value, low, high = (f"{math.degrees(angle):.2g}" for angle in (band.value, band.low, band.high))
+        taken = f"site {conveyor.site}" + ("" if "site" in conveyor.model_fields_set else " by default")
+        yield said(
+            f"{' and '.join(without)} not given: {value} deg assumed ({taken}; {low} to {high} deg, {band.source}; "
+            "general knowledge)"
+        )
 
 
 def _mass_warnings(conveyor: Conveyor) -> Iterator[Said]:
@@ -515,11 +546,13 @@ def _drag_warnings(result: CalculatedConveyor) -> Iterator[Said]:
             elif law is None and roll.drag is None and idlers.drag is None and in_service:
                 drags = _drags_of(result, strand, idlers, roll)
                 bearing, band = assumed_bearing(roll), SERVICE_DRAG
+                condition = ROLL_CONDITION[conveyor.site].value
                 ends = list({figure(drag, "force"): drag for drag in (min(drags), max(drags))}.values())
                 yield said(
                     f"idlers.{strand}: roll drag not given, {' to '.join('{}' for _ in ends)} a roll assumed (bearings "
-                    f"{bearing}, usual grease and seals in service in air of {{}}; {band.low:g} to {band.high:g} times "
-                    f"that is usual, general knowledge), give {field}.drag",
+                    f"{bearing}, usual grease and seals in service in air of {{}}, {condition:g} times that of rolls "
+                    f"in order for site {conveyor.site}; {band.low:g} to {band.high:g} times that is usual, general "
+                    f"knowledge), give {field}.drag",
                     *((drag, "force") for drag in ends),
                     (air, "temperature"),
                 )

@@ -46,7 +46,8 @@ def calibrate(
     factors: Annotated[
         list[str] | None,
         option(
-            "indentation, idler_rotation or flexure, for itself; may be repeated. Else what the runs tell apart.",
+            "indentation, idler_rotation, flexure or misalignment, for itself; may be repeated. Else what the runs "
+            "tell apart.",
             "NAME",
             "--factor",
         ),

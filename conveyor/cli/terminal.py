@@ -196,7 +196,8 @@ def _forces(contents: Contents) -> Grid:
     rows: list[tuple[str, float, float | None]] = [
         (row.label, row.value, None)
         for row in (
-            _figure(contents, f"{name}_force") for name in ("indentation", "idler_rotation", "flexure")
+            _figure(contents, f"{name}_force")
+            for name in ("indentation", "idler_rotation", "flexure", "misalignment")
         )
     ]
     rows += [(names.get(key, key), *sums[key][:2]) for key in _SUMS]
@@ -205,7 +206,7 @@ def _forces(contents: Contents) -> Grid:
     for name, value, other in rows:
         share = percent(value / total, 1) if total else ""
         beside = "" if other is None else force.said(other)
-        made.add_row(name, force.said(value), share, beside, end_section=name in {"flexure", "lift"})
+        made.add_row(name, force.said(value), share, beside, end_section=name in {"misalignment", "lift"})
     made.add_section()
     belt, motor, mains = (_figure(contents, f"{name}_power").value for name in ("belt", "motor", "mains"))
     made.add_row("belt power", power.said(belt))

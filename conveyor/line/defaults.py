@@ -1,8 +1,8 @@
 """What stands at every conveyor, where the spec does not say it: a loading point, cleaners, end pulleys.
 
 Figures are those of the worked example of ISO 5048 (skirts as long as the belt runs in a second and 0.625 of its width
-apart, blades of the belt's width and 8 mm, half-turn wraps), bulk that lands without speed, and general knowledge (two
-cleaners, shafts of a fifth of the pulley).
+apart, blades of the belt's width and 8 mm, half-turn wraps), bulk that lands without speed, seals of the skirts as CEMA
+has them, which rub on the empty belt too, and general knowledge (two cleaners, shafts of a fifth of the pulley).
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from typing import Final
 
 from conveyor.errors import RangeError
 from conveyor.laws.idlers import lump_load_factor
+from conveyor.laws.resistance.cema import FOOT, POUND_FORCE, SEALS_PER_FOOT
 from conveyor.laws.tension import PULLEY_FACTOR
 from conveyor.models import Cleaner, Conveyor, Feeding, Pulley
 from conveyor.units import from_si, quantity, si
@@ -19,19 +20,23 @@ SKIRT_SECONDS: Final = 4.8 / 4.8  # [s], worked example of ISO 5048: 4.8 m at 4.
 SKIRT_WIDTH: Final = 0.75 / 1.2  # [-], worked example of ISO 5048: over the belt's width
 CLEANER_COUNT: Final = 2  # general knowledge: one at the head pulley, one behind it
 CLEANER_THICKNESS: Final = "8 mm"  # worked example of ISO 5048
+SKIRT_SEALS: Final = SEALS_PER_FOOT.value * POUND_FORCE / FOOT  # [N/m] of skirt, both sides; CEMA
 SHAFT: Final = 0.2  # [-], general knowledge: over the pulley's diameter
 
 
 def feeding_points(conveyor: Conveyor) -> tuple[tuple[Feeding, ...], bool]:
     """Loading points, and whether they are assumed."""
     given = conveyor.route.feeding_points
-    bears = conveyor.route.sections[0].loaded and si(conveyor.material.flow) > 0.0
-    if given or not bears or not _assumes(conveyor):
+    if given or not _assumes(conveyor):
         return given, False
-    belt = conveyor.belt
+    belt, bears = conveyor.belt, conveyor.route.sections[0].loaded
+    skirts = from_si(SKIRT_SECONDS * si(belt.speed), "length")
     usual = Feeding(
-        skirt_length=from_si(SKIRT_SECONDS * si(belt.speed), "length"),
+        speed=quantity("0 m/s") if bears else belt.speed,
+        skirt_length=skirts if bears else quantity("0 m"),
         skirt_width=from_si(SKIRT_WIDTH * si(belt.width), "length"),
+        skirtboards=skirts,
+        seal_drag=from_si(SKIRT_SEALS, "line force"),
     )
     return (usual,), True
 

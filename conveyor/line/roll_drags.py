@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from conveyor.errors import InputError
 from conveyor.laws.resistance import (
+    ROLL_CONDITION,
     Default,
     bearing_roll_drag,
     default_roll_drag,
@@ -98,12 +99,13 @@ def _laws(conveyor: Conveyor, strand: Strand) -> Iterator[tuple[list[int], DragL
 
 @dataclass(frozen=True)
 class _InService:
-    """A roll in service: its size [m], the belt's speed [m/s], the air around it [K], and its field."""
+    """A roll in service: its size [m], the belt's speed [m/s], the air around it [K], its condition [-], its field."""
 
     diameter: float
     length: float
     speed: float
     air: float
+    condition: float
     field: str
 
 
@@ -126,7 +128,9 @@ def _in_service(laws: Sequence[_InService], loads: Sequence[Array]) -> list[Arra
             return [InputError("{}: drag not given: {}", laws[0].field, error)]
         return [_in_service([law], [one])[0] for law, one in zip(laws, loads, strict=True)]
     parts = np.split(whole, np.cumsum(sizes)[:-1])
-    return [part.reshape(one.shape) for part, one in zip(parts, loads, strict=True)]
+    return [
+        law.condition * part.reshape(one.shape) for law, part, one in zip(laws, parts, loads, strict=True)
+    ]
 
 
 def _field(idlers: IdlerSet, roll: Roll, strand: Strand) -> str:
@@ -142,7 +146,8 @@ def _law(roll: Roll, conveyor: Conveyor, field: str) -> DragLaw | _InService:
     if isinstance(law, BearingDrag):
         return _named(_bearing(law, diameter, speed, air, f"{field}.drag_law"), f"{field}.drag_law")
     if roll.drag is None and conveyor.calculation.roll_drag == "in service":
-        return _InService(diameter, si(roll.length), speed, air, field)
+        condition = ROLL_CONDITION[conveyor.site].value
+        return _InService(diameter, si(roll.length), speed, air, condition, field)
     return _evenly(acceptance_limit(roll).value if roll.drag is None else si(roll.drag))
 
 

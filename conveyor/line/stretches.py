@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from conveyor.errors import Amount, NoSolutionError
-from conveyor.laws.loading import RollLoad, bulk_line_mass
+from conveyor.laws.loading import RollLoad, bulk_line_mass, roll_angles
+from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
 from conveyor.laws.tension import sag_tension
 from conveyor.line.flexing import FlexureLaw
 from conveyor.line.set_loads import SetLoads
@@ -110,6 +111,8 @@ class Stretch:
         That keeps the sag between the sets as small as asked for [N].
     set_mass, rim_mass : float
         Rotating mass of one set, and what of it resists acceleration at the rim [kg].
+    misalignment : tuple of float
+        Drag of each roll of a set by misalignment over its load [-].
     span_flexure : float or None
         Flexure of belt and bulk over one span [N]; None where the spec asks for a share of the main resistance.
     turn : Turn or None
@@ -132,6 +135,7 @@ class Stretch:
     least_tension: float
     set_mass: float
     rim_mass: float
+    misalignment: tuple[float, ...]
     span_flexure: float | None = None
     turn: Turn | None = None
 
@@ -181,6 +185,22 @@ def roll_masses(belt_mass: float, bulk_mass: float, pressing: float, *, where: s
     return (belt, bulk_mass) if belt >= 0.0 else (0.0, bulk_mass + belt)
 
 
+def misalignment_angle(conveyor: Conveyor, idlers: IdlerSet) -> float:
+    """Standard deviation of the angles of the sets of a strand from square to the belt [rad]."""
+    given = idlers.misalignment
+    return MISALIGNMENT[conveyor.site].value if given is None else si(given)
+
+
+def _misalignment(conveyor: Conveyor, idlers: IdlerSet) -> tuple[float, ...]:
+    """Drag of each roll of a set over its load [-]: the axis of a wing roll turns by cos λ of the set's angle."""
+    angle = misalignment_angle(conveyor, idlers)
+    slopes = roll_angles(
+        idlers.rolls, trough_angle=si(idlers.trough_angle), inner_angle=idlers.inner_wing.angle
+    )
+    turned = {slope: misalignment_friction(angle * math.cos(slope)) for slope in map(abs, slopes)}
+    return tuple(turned[abs(slope)] for slope in slopes)
+
+
 class _Strand:
     """What all stretches of a strand share."""
 
@@ -197,6 +217,7 @@ class _Strand:
         self.trough, self.tilt = si(self.idlers.trough_angle), si(self.idlers.tilt_angle)
         self.roll_length = si(self.idlers.roll.length)
         self.radii = tuple(0.5 * si(self.idlers.roll_at(i).diameter) for i in range(self.idlers.rolls))
+        self.misalignment = _misalignment(conveyor, self.idlers)
         self.set_loads = SetLoads(conveyor, self.idlers)
         share = conveyor.calculation.flexure_share
         self.flexure = FlexureLaw(conveyor, self.set_loads) if share is None else None
@@ -244,6 +265,7 @@ class _Strand:
             least_tension=least,
             set_mass=self.set_mass,
             rim_mass=self.rim_mass,
+            misalignment=self.misalignment,
             span_flexure=self._span(flow, spacing, inclination, least),
             turn=turned,
         )

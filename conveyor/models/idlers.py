@@ -66,6 +66,8 @@ class IdlerSet(Model):
     """Distance along the belt of the plane of the middle rolls from that of the outer ones; the loads stay."""
     tilt_angle: Annotated[Angle, Bounds(ge="0 deg", le="5 deg")] = quantity("0 deg")
     """Forward tilt of the outer rolls."""
+    misalignment: Annotated[Angle, Bounds(ge="0 deg", le="5 deg")] | None = None
+    """Standard deviation of the angles of the sets' axes from square to the belt; that of site without it."""
     sag: Annotated[Fraction, Bounds(gt="0 %", le="5 %")] = quantity("1 %")
     """Largest sag of the belt between sets, over the spacing."""
     cema_class: CemaClass | None = None

@@ -90,7 +90,7 @@ class Cema(Model):
         return self
 
 
-CALIBRATED: Final = ("indentation", "idler_rotation", "flexure")
+CALIBRATED: Final = ("indentation", "idler_rotation", "flexure", "misalignment")
 """Keys of the forces that a calibration has a factor for."""
 Factor = Annotated[Number, Field(gt=0, le=10)]
 
@@ -104,6 +104,8 @@ class Calibration(Model):
     """On the drag of all rolls."""
     flexure: Factor = 1.0
     """On the flexure of belt and bulk; flexure that is a share of the main resistance follows the other two as well."""
+    misalignment: Factor = 1.0
+    """On the drag of rolls that are not square to the belt."""
     source: Annotated[str, Field(min_length=1, max_length=500)] | None = None
     """Where they are from: conveyor, date, number of runs."""
 

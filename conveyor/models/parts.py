@@ -6,7 +6,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from conveyor.laws.resistance import FRICTION_FACTOR
+from conveyor.laws.resistance import FRICTION_FACTOR, Site
 from conveyor.models.base import Model, Name, Number, Problem, refuse
 from conveyor.models.belt import Belt
 from conveyor.models.compound import RubberCompound
@@ -86,6 +86,8 @@ class ConveyorParts(Model):
 
     name: Name
     """What the conveyor is called in reports."""
+    site: Site = "plant"
+    """How well it is aligned and kept: as a good overland conveyor, as plants usually are, or poorly."""
     belt: Belt
     idlers: Idlers
     material: BulkMaterial

@@ -130,7 +130,7 @@ _POWER: Final = _of(
         "friction_factor": _is("number", of="f that DIN 22101's main resistance needs for the same force"),
         "error_estimate": _is("number", of="largest of any roll's indentation, relative"),
         "forces_N": _numbers(
-            "indentation", "idler_rotation", "flexure", "secondary", "special", "lift", "total",
+            "indentation", "idler_rotation", "flexure", "misalignment", "secondary", "special", "lift", "total",
             of="against the motion",
         ),
         "power_kW": _numbers("belt", "motor", "mains", of="negative where the belt drives"),

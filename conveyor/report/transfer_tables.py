@@ -34,6 +34,8 @@ def of_transfer(a: CalculatedConveyor) -> tuple[Table, ...]:
 def _asked(landing: Landing) -> bool:
     """Whether the spec asks for more of a loading point than its resistances."""
     point = landing.point
+    if point.assumed:
+        return False
     return point.drop_height is not None or point.skirtboards is not None or point.seal_drag > 0.0
 
 

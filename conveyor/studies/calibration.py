@@ -1,4 +1,4 @@
-"""Factors on indentation, idler rotation and flexure from measured power: which the runs tell apart, with bands.
+"""Factors on the main resistances from measured power: which the runs tell apart, with bands.
 
 Every run is the conveyor of the spec at its flow, speed and temperature; their contacts are solved side by side,
 once. The forces are then scaled and the loop of tensions is closed again (Gauss-Newton: the power is all but linear in
@@ -44,6 +44,7 @@ of like conveyors spread as much). It is in the bands of the other factors."""
 POOR_FIT: Final = 0.01
 """Probability of a larger chi square below which stated errors are taken to be too small, and bands are widened."""
 LARGEST_FACTOR: Final = 10.0
+_BY_LOAD: Final = ("flexure", "misalignment")
 _DIGITS: Final = 6
 _STEP: Final = (
     1e-3  # of a factor for derivatives; the power is linear but for wraps and the take-up's conditions
@@ -167,8 +168,8 @@ def calibrate(
     error : float, optional
         Standard deviation of a power over itself [-], of runs that do not state theirs; without it from the residuals.
     factors : sequence of str, optional
-        Which of indentation, idler_rotation and flexure are wanted, each for itself, the others stay 1; without it as
-        many as the runs tell apart, others joined.
+        Which of indentation, idler_rotation, flexure and misalignment are wanted, each for itself, the others stay 1;
+        without it as many as the runs tell apart, others joined.
     rtol : float, optional
         Relative tolerance of the contacts [-]; that of the spec without it.
     progress : callable, optional
@@ -359,8 +360,11 @@ def _calibration(grouping: Grouping, values: Sequence[float]) -> Calibration:
     )
 
 
-def _free(scene: _Scene, factors: Sequence[str] | None) -> tuple[Group, list[str]]:
-    """Factors that change something, and why others do not."""
+def _free(scene: _Scene, factors: Sequence[str] | None) -> tuple[Grouping, list[str]]:
+    """Factors that change something, and why others do not; those that no power tells apart are joined.
+
+    Flexure and misalignment both go with the load, at any flow, speed and temperature.
+    """
     notes = []
     forces = {name: max(abs(_total(one, name)) for one in scene.found) for name in CALIBRATED}
     free = [name for name in CALIBRATED if forces[name] > 0.0]
@@ -375,8 +379,11 @@ def _free(scene: _Scene, factors: Sequence[str] | None) -> tuple[Group, list[str
         idle = [name for name in factors if forces[name] == 0.0]
         if idle:
             raise InputError(f"factors: {_words(idle)} is no force of this conveyor: leave it out")
-        free = [name for name in CALIBRATED if name in factors]
-    return tuple(free), notes
+        return tuple((name,) for name in CALIBRATED if name in factors), notes
+    groups = [(name,) for name in free if name not in _BY_LOAD]
+    if "flexure" in free:  # small beside it, misalignment stays as computed where flexure has no factor of its own
+        groups.append(tuple(name for name in free if name in _BY_LOAD))
+    return tuple(groups), notes
 
 
 def _total(one: CalculatedConveyor, name: str) -> float:
@@ -398,17 +405,17 @@ class _Fit:
     notes: tuple[str, ...]
 
 
-def _groupings(free: Group) -> Iterator[list[Grouping]]:
+def _groupings(free: Grouping) -> Iterator[list[Grouping]]:
     """Ways to join factors, by their number: each for itself, two joined, all joined."""
-    yield [tuple((name,) for name in free)]
+    yield [free]
     if len(free) == 3:
         a, b, c = free
-        yield [((a, c), (b,)), ((a,), (b, c)), ((a, b), (c,))]
+        yield [(a + c, b), (a, b + c), (a + b, c)]
     if len(free) > 1:
-        yield [(free,)]
+        yield [(sum(free, ()),)]
 
 
-def _chosen(scene: _Scene, free: Group, *, wanted: bool) -> tuple[Grouping, _Fit]:
+def _chosen(scene: _Scene, free: Grouping, *, wanted: bool) -> tuple[Grouping, _Fit]:
     """The most factors whose bands say something.
 
     Raises

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from conveyor.errors import NoSolutionError
 from conveyor.forces import Force
+from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
 from conveyor.laws.resistance import (
     CLEANER_PRESSURE,
     FLEXURE_COEFFICIENT,
@@ -24,7 +25,14 @@ from conveyor.laws.resistance import (
     SERVICE_DRAG,
     Default,
 )
+from conveyor.laws.resistance.cema import (
+    CLEANER_PER_INCH,
+    INCH,
+    POUND_FORCE,
+    cema_pulley_friction,
+)
 from conveyor.line.belts import BeltContacts
+from conveyor.line.covers import compounds_by_strand
 from conveyor.line.roll_drags import assumed_share
 from conveyor.line.stretches import STRANDS
 from conveyor.loop.balance import Balance, OpenLoop, balances
@@ -94,6 +102,18 @@ def _flexure(result: CalculatedConveyor) -> Shares:
     return float(calculation.flexure is None and calculation.flexure_share is None)
 
 
+def _misalignment(result: CalculatedConveyor) -> Shares:
+    """Drag of the strands whose sets have no misalignment of their own."""
+    return np.array([float(stretch.idlers.misalignment is None) for stretch in result.line.stretches])
+
+
+def _misalignment_band(result: CalculatedConveyor) -> tuple[float, float]:
+    """From the best to the worst alignment of such a site."""
+    of_site = MISALIGNMENT[result.conveyor.site]
+    low, middle, high = map(misalignment_friction, (of_site.low, of_site.value, of_site.high))
+    return low / middle, high / middle
+
+
 def _unanchored(result: CalculatedConveyor, force: Force) -> Shares:
     """Indentation of the strands whose rubber no test has set the level of."""
     if force.key != "indentation":
@@ -133,6 +153,40 @@ def _pressed(result: CalculatedConveyor, force: Force) -> float:
     return float(cleaner is not None and "pressure" not in cleaner.model_fields_set)
 
 
+def _cleaners_band(result: CalculatedConveyor) -> tuple[float, float]:
+    """From one usual cleaner to CEMA's force on each."""
+    line = result.line
+    usual = math.fsum(
+        force.total for force in result.balance.singles if force.key == "cleaner" and force.assumed
+    )
+    by_cema = CLEANER_PER_INCH.value * POUND_FORCE / INCH * line.belt.width
+    return 0.5, by_cema * math.fsum(scraper.count for scraper in line.scrapers) / usual
+
+
+def _pulleys_band(result: CalculatedConveyor) -> tuple[float, float]:
+    """From half of what the usual pulleys resist to CEMA's count with a take-up and its bends."""
+    usual = math.fsum(
+        force.total for force in result.balance.singles if force.key in _PULLEYS and force.assumed
+    )
+    return 0.5, max(2.0, cema_pulley_friction(_CEMA_PULLEYS) / usual)
+
+
+def _stands_for_a_kind(result: CalculatedConveyor, force: Force) -> Shares:
+    """Indentation of the strands whose compound is no rubber of its own but stands for a kind."""
+    if force.key != "indentation":
+        return 0.0
+    compounds = compounds_by_strand(result.conveyor)
+    kinds = {strand: float(compound.kind == "illustrative") for strand, compound in compounds.items()}
+    return np.array([kinds[stretch.strand] for stretch in result.line.stretches])
+
+
+COVERS_OF_A_KIND: Final = (0.7, 1.4)
+"""Indentation of covers that are sold under one name, over their middle [-]: general knowledge; a design program takes
+0.80 for low-resistance covers, tests of single makes differ by as much either way."""
+_PULLEYS: Final = ("wrap", "pulley_bearings")
+_CEMA_PULLEYS: Final = ("slack", "slack", "other", "other")
+"""Tail, take-up and its two bends; the head is driven, as CEMA leaves it out."""
+
 DEFAULTS: Final = (
     banded("roll_drag", "drag of the rolls in service", SERVICE_DRAG, "idlers.*.roll.drag or drag_law",
            along("idler_rotation", _drag)),
@@ -140,10 +194,12 @@ DEFAULTS: Final = (
            "calculation.flexure or flexure_share", along("flexure", _flexure)),
     banded("tilt", "friction of tilted rolls on the belt", ROLL_ON_BELT_FRICTION, "idlers.*.tilt_angle: 0 deg",
            along("tilt", lambda _found: 1.0)),
+    Assumed("misalignment", "alignment of the idlers", 1.0, 1.0, "idlers.*.misalignment",
+            along("misalignment", _misalignment), _misalignment_band),
     Assumed("feeding", "acceleration of the bulk from rest", 0.5, 1.0, "route.feeding", usual("acceleration")),
-    Assumed("skirts", "usual skirts", 0.5, 2.0, "route.feeding", usual("loading_skirts", "skirts")),
-    Assumed("cleaners", "usual cleaners", 0.5, CLEANER_PRESSURE.high / CLEANER_PRESSURE.value, "route.cleaners",
-            usual("cleaner")),
+    Assumed("skirts", "usual skirts and their seals", 0.5, 2.0, "route.feeding",
+            usual("loading_skirts", "skirts", "skirt_seals")),
+    Assumed("cleaners", "usual cleaners", 1.0, 1.0, "route.cleaners", usual("cleaner"), _cleaners_band),
     banded("cleaner_pressure", "pressure of the cleaners", CLEANER_PRESSURE, "route.cleaners[].pressure", _pressed),
     Assumed("level", "level of the indentation, no rolling-resistance tests", 1.0, UNANCHORED, "a compound with tests",
             _unanchored),
@@ -151,12 +207,16 @@ DEFAULTS: Final = (
             _tested, _tests_band),
     Assumed("bending_loss", "loss of the carcass that bends, 0", 1.0, 1.0, "belt.carcass.bending_loss", _bending,
             _bending_band),
-    Assumed("pulleys", "usual head and tail pulleys", 0.5, 2.0, "route.pulleys", usual("wrap", "pulley_bearings")),
+    Assumed("pulleys", "usual head and tail pulleys", 1.0, 1.0, "route.pulleys", usual(*_PULLEYS),
+            _pulleys_band),
+    Assumed("cover", "make of the covers, others of their kind", *COVERS_OF_A_KIND, "compounds measured and tested",
+            _stands_for_a_kind),
 )  # fmt: skip
 """Every default with a band; one more line is one more default.
 
-Of usual parts general knowledge: bulk that lands at half the belt's speed, half and twice the skirts, one cleaner or
-two pressed as hard as any, half and twice the pulleys' resistance.
+Of usual parts general knowledge: bulk that lands at half the belt's speed, half and twice the skirts, one cleaner, half
+the pulleys' resistance; their high ends are CEMA's: 5 lbf/in of each cleaner, and 150 lbf at tail and take-up, 100 at
+the two bends before it.
 """
 
 

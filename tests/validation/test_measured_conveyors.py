@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cache
+from importlib import resources
 from pathlib import Path
 
 import pytest
@@ -25,7 +26,7 @@ from conveyor.spec import load
 from conveyor.starter.write import written
 from conveyor.studies.defaults import power_range
 
-SPECS = Path(__file__).parent / "conveyors"
+SPECS = Path(str(resources.files("conveyor") / "_reference" / "practice"))
 BAND = (0.8, 1.25)
 LAW = (6.59e-3, 1.28)
 

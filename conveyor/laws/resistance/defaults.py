@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, Literal, TypeAlias
+
+Site: TypeAlias = Literal["overland", "plant", "poor"]
+"""How well a conveyor is aligned and kept."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +48,7 @@ CLEANER_FRICTION: Final = Default(0.6, 0.5, 0.7, "ISO 5048 worked example, μ3; 
 ROLL_ON_BELT_FRICTION: Final = Default(0.35, 0.3, 0.4, "carry rolls against the belt, μ0, midpoint", True)
 
 CLEANER_PRESSURE: Final = Default(
-    3e4, 3e4, 1e5, "ISO 5048 worked example; range: general knowledge"
+    6e4, 3e4, 1e5, "ISO 5048, 3e4 to 1e5 Pa, middle; its worked example has 3e4, DTII(A) 1e5"
 )  # [N/m²]
 TILT_COEFFICIENT_30: Final = Default(0.4, 0.4, 0.4, "C_e at a trough angle of 30 deg", True)  # [-]
 TILT_COEFFICIENT_45: Final = Default(0.5, 0.5, 0.5, "C_e at a trough angle of 45 deg", True)  # [-]

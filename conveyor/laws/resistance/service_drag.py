@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from conveyor.errors import Amount, ConveyorError
-from conveyor.laws.resistance.defaults import Default
+from conveyor.laws.resistance.defaults import Default, Site
 from conveyor.laws.resistance.rim_drag import bearing_roll_drag, roll_rotation
 from conveyor.laws.resistance.roll_bearing import (
     BEARING_F0,
@@ -91,6 +91,15 @@ SERVICE_DRAG: Final = Default(
     "drag over the central one: f0, z and the stress in the seal all at the ends of their ranges",
     True,
 )  # [-]
+ROLL_CONDITION: Final[dict[Site, Default]] = {
+    "overland": Default(1.0, 1.0, 1.0, "rolls in order, replaced by their noise", True),
+    "plant": Default(
+        1.2, 1.0, 1.7,
+        "CEMA 5, Ai of 4, 5 and 6 in rolls (2.3, 1.8, 1.5 lbf a set) over the drag of rolls in order, mean", True,
+    ),
+    "poor": Default(2.0, 1.5, 3.0, "wet, dirty or worn bearings, build-up on the rolls", True),
+}  # fmt: skip
+"""Drag of rolls in service over that of rolls in order [-], by site."""
 _CLOSED: Final = 1e-10  # [K]
 _UNIT_SPEED: Final = (
     1.0  # [m/s], at which a bearing's film is scaled; Palmgren's moment is proportional to it anywhere
