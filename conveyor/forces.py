@@ -359,7 +359,7 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
                    bulk=point.comes_with)  # fmt: skip
     if point.seal_drag > 0.0:
         drag = skirt_seal_resistance(point.boards(line.speed, line.gravity), drag_per_length=point.seal_drag)
-        law = "CEMA, 6 lbf/ft x length of the skirts" if point.assumed else "seal_drag x length of the skirts"
+        law = _law("seal_drag x length of the skirts", point.assumed)
         yield here("skirt_seals", f"seals of the skirts{name}", "special", drag, law)
     if point.flow_beyond == 0.0:
         return

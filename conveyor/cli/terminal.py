@@ -202,19 +202,23 @@ def _forces(contents: Contents) -> Grid:
     ]
     rows += [(names.get(key, key), *sums[key][:2]) for key in _SUMS]
     classical = f"classical, f = {sums['friction_factor'][1]:g}"
-    made = table(None, ("force", "this calculation", "share", classical), left=("force",))
+    made = table(None, ("force", "this calculation", "share", "f", classical), left=("force",))
+    f, given = sums["friction_factor"][:2]
+    over = f / sums["main"][0]  # of each main resistance its part of f
     for name, value, other in rows:
         share = percent(value / total, 1) if total else ""
+        friction = "" if name in {*_SUMS[1:], whole} else f"{value * over:.4f}"
         beside = "" if other is None else force.said(other)
-        made.add_row(name, force.said(value), share, beside, end_section=name in {"misalignment", "lift"})
+        made.add_row(
+            name, force.said(value), share, friction, beside, end_section=name in {"misalignment", "lift"}
+        )
     made.add_section()
     belt, motor, mains = (_figure(contents, f"{name}_power").value for name in ("belt", "motor", "mains"))
     made.add_row("belt power", power.said(belt))
-    made.add_row("motor power", power.said(motor), "", power.said(sums["motor"][1]), style="bold")
+    made.add_row("motor power", power.said(motor), "", "", power.said(sums["motor"][1]), style="bold")
     if mains != motor:
         made.add_row("mains power", power.said(mains))
-    f, given = sums["friction_factor"][:2]
-    made.add_row("friction factor f", f"{f:.4f}", "", f"{given:.4f}")
+    made.add_row("friction factor f", f"{f:.4f}", "", "", f"{given:.4f}")
     return made
 
 

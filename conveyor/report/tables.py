@@ -409,6 +409,13 @@ def _share(part: float, whole: float) -> float:
     return part / whole if whole else math.nan
 
 
+def _part_of_friction(a: CalculatedConveyor, name: str) -> float:
+    """What a main resistance adds to the friction factor f [-]; not a number of the others."""
+    balance = a.balance
+    main = {force.key for force in balance.along if force.kind == "main"}
+    return balance.forces.parts[name] / balance.unit_main if name in main else math.nan
+
+
 def breakdown(a: CalculatedConveyor) -> Table:
     """Sums of the forces by what they are, and their share."""
     forces = a.balance.forces
@@ -416,6 +423,7 @@ def breakdown(a: CalculatedConveyor) -> Table:
         Column("resistance", "text", lambda name: name.replace("_", " ")),
         Column("force", "force", forces.parts.get),
         Column("share of total", "share", lambda name: _share(forces.parts[name], forces.total)),
+        Column("part of f", "friction", lambda name: _part_of_friction(a, name)),
     )
     heading = "Breakdown of the effective tension"
     return Table("breakdown", "Resistances", heading, columns, tuple(forces.parts), printed=False)

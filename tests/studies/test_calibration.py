@@ -74,7 +74,7 @@ def test_every_report_says_that_it_is_calibrated():
     made = with_factors(line(calculation=QUICK), indentation=1.12)
     found = conveyor.analyse(made)
     said = next(text for text in found.warnings if text.startswith("calculation.calibration"))
-    assert "indentation x 1.12, idler rotation x 1, flexure x 1 (no source given)" in said
+    assert "indentation x 1.12, idler rotation x 1, flexure x 1, misalignment x 1 (no source given)" in said
     assert said in found.contents().lines("warning")
     ones = conveyor.analyse(with_factors(line(calculation=QUICK)))
     assert not any("calibration" in text for text in ones.warnings)
@@ -88,7 +88,7 @@ def test_factors_come_back_without_noise():
     assert [factor.name for factor in found.factors] == ["indentation", "idler rotation"]
     assert [factor.value for factor in found.factors] == pytest.approx([1.4, 0.7], rel=1e-5)
     assert all(factor.low < factor.value < factor.high for factor in found.factors)
-    assert found.held == ("flexure",)
+    assert found.held == ("flexure", "misalignment")
     assert any("flexure is a share of the main resistance" in note for note in found.notes)
 
 
@@ -141,13 +141,14 @@ def test_a_wanted_factor_alone_holds_the_others():
     runs = measured(with_factors(given, idler_rotation=0.6), states((0, 15), (0, 0), (0, 30)))
     found = conveyor.calibrate(given, runs, error=0.02, factors=["idler_rotation"])
     assert found.factors[0].value == pytest.approx(0.6, rel=1e-5)
-    assert found.held == ("indentation", "flexure")
+    assert found.held == ("indentation", "flexure", "misalignment")
 
 
 def test_flexure_by_law_is_joined_where_it_acts_like_another():
     given = line(calculation=BY_LAW)
     runs = measured(
-        with_factors(given, indentation=1.3, idler_rotation=0.8, flexure=1.3), states(*EMPTY_AND_FULL)
+        with_factors(given, indentation=1.3, idler_rotation=0.8, flexure=1.3, misalignment=1.3),
+        states(*EMPTY_AND_FULL),
     )
     found = conveyor.calibrate(given, runs, error=0.02)
     joined = next(factor for factor in found.factors if "flexure" in factor.forces)
@@ -164,7 +165,10 @@ def test_joined_factors_that_differ_are_in_the_bands_of_the_others(monkeypatch: 
     found = conveyor.calibrate(given, powers, error=0.02).factors
     monkeypatch.setattr("conveyor.studies.calibration.UNLIKE", 0.0)
     errors_only = conveyor.calibrate(given, powers, error=0.02).factors
-    assert [factor.forces for factor in found] == [("indentation", "flexure"), ("idler_rotation",)]
+    assert [factor.forces for factor in found] == [
+        ("indentation", "flexure", "misalignment"),
+        ("idler_rotation",),
+    ]
     assert found[0] == errors_only[0]
     moved = 1.1 - found[1].value
     taken_in = math.sqrt((found[1].high - 1.1 + moved) ** 2 - (errors_only[1].high - 1.1 + moved) ** 2)
