@@ -146,6 +146,32 @@ def schema(
     print_json(build(SizingDuty if duty else Conveyor))
 
 
+def _compare_with_practice() -> None:
+    """Print conveyors whose resistance is printed or was measured beside what is computed for them."""
+    from conveyor.cli.terminal import console, table
+    from conveyor.practice import QUANTITIES, practice_figures, summarise
+
+    figures = list(practice_figures())
+    heads = ("conveyor", "resistance", "stated", "least", "expected", "design")
+    made = table("Conveyors in practice, stated and computed", heads, left=("conveyor", "resistance"))
+    for one in figures:
+        what, unit = QUANTITIES[one.resistance]
+        computed = (f"{each:.4g}" for each in (one.least, one.expected, one.design))
+        made.add_row(
+            f"{one.source} ({one.evidence})",
+            f"{what}, {one.loading} [{unit}]",
+            f"{one.stated:.4g}",
+            *computed,
+        )
+    console().print(made)
+    for evidence in ("printed", "measured"):
+        found = summarise([one for one in figures if one.evidence == evidence])
+        print(
+            f"{evidence}: {found.within} of {found.count} between least and design; median of design over stated "
+            f"{found.design_over_stated:.2f}, of expected over stated {found.expected_over_stated:.2f}"
+        )
+
+
 @app.command(
     short_help="Run the built-in reference cases.",
     epilog=examples("conveyor validate", "conveyor validate --quiet && echo good"),
@@ -171,5 +197,6 @@ def validate(quiet: Quiet = False) -> None:
     if not quiet:
         console().print(made)
         print(f"{len(checks) - failed} of {len(checks)} agree")
+        _compare_with_practice()
     if failed:
         raise NoSolutionError(f"{failed} reference cases do not agree: do not trust results on this machine")

@@ -380,7 +380,7 @@ def _free(scene: _Scene, factors: Sequence[str] | None) -> tuple[Grouping, list[
         if idle:
             raise InputError(f"factors: {_words(idle)} is no force of this conveyor: leave it out")
         return tuple((name,) for name in CALIBRATED if name in factors), notes
-    groups = [(name,) for name in free if name not in _BY_LOAD]
+    groups: list[Group] = [(name,) for name in free if name not in _BY_LOAD]
     if (
         "flexure" in free
     ):  # small beside it, misalignment stays as computed where flexure has no factor of its own

@@ -38,7 +38,7 @@ from conveyor.line.stretches import STRANDS
 from conveyor.loop.balance import Balance, OpenLoop, balances
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.rubber.anchor import UNANCHORED
-from conveyor.studies.uncertainty import Effect, root_of_squares
+from conveyor.studies.uncertainty import Effect, ends_of_band, root_of_squares
 from conveyor.units.sentences import told
 
 Shares: TypeAlias = NDArray[np.float64] | float
@@ -248,6 +248,8 @@ class PowerRange:
         One a default in use, the largest swing first.
     notes : tuple of str
         Ends of bands without an answer, and why.
+    friction : tuple of float
+        Effective tension less lift over the computed one, between which nine tenths lie [-].
     """
 
     motor: float
@@ -255,6 +257,7 @@ class PowerRange:
     high: float
     effects: tuple[AssumedEffect, ...]
     notes: tuple[str, ...] = ()
+    friction: tuple[float, float] = (1.0, 1.0)
 
 
 def power_range(result: CalculatedConveyor) -> PowerRange:
@@ -280,13 +283,15 @@ def power_range(result: CalculatedConveyor) -> PowerRange:
     bands = [assumed.ends(result) for assumed in using]
     pairs = zip(using, bands, strict=True)
     closed = balances([_scaled(result, assumed, factor) for assumed, ends in pairs for factor in ends])
-    effects, notes = [], []
+    effects, notes, frictions = [], [], []
+    computed = _friction(result.balance)
     for assumed, ends, *both in zip(using, bands, closed[::2], closed[1::2], strict=True):
         why = next((end for end in both if isinstance(end, NoSolutionError)), None)
         if why is not None:
             notes.append(f"{assumed.what} at an end of its band: {told(why, result.conveyor.report.units)}")
             continue
         low, high = (end.power.motor for end in both if isinstance(end, Balance))
+        frictions.append([_friction(end) / computed for end in both if isinstance(end, Balance)])
         effects.append(
             AssumedEffect(
                 assumed.what, f"x {ends[0]:.3g}", "x 1", f"x {ends[1]:.3g}", low, high,
@@ -294,7 +299,13 @@ def power_range(result: CalculatedConveyor) -> PowerRange:
             )
         )  # fmt: skip
     effects.sort(key=lambda effect: -effect.swing)
-    return PowerRange(motor, *root_of_squares(motor, effects), tuple(effects), tuple(notes))
+    friction = ends_of_band(1.0, frictions)
+    return PowerRange(motor, *root_of_squares(motor, effects), tuple(effects), tuple(notes), friction)
+
+
+def _friction(balance: Balance) -> float:
+    """Effective tension less lift [N]."""
+    return balance.forces.total - balance.forces.lift
 
 
 def _rests(assumed: Assumed, result: CalculatedConveyor, force: Force) -> bool:

@@ -9,7 +9,7 @@ quantiles. Both are exact for a power that is linear and inputs that are normal.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Final
@@ -234,10 +234,21 @@ def root_of_squares(motor: float, effects: Sequence[Effect]) -> tuple[float, flo
     >>> root_of_squares(100.0, [Effect("a", "", "", "", 97.0, 103.0), Effect("b", "", "", "", 104.0, 96.0)])
     (95.0, 105.0)
     """
-    changes = [(effect.motor_low - motor, effect.motor_high - motor) for effect in effects]
+    return ends_of_band(motor, [(effect.motor_low, effect.motor_high) for effect in effects])
+
+
+def ends_of_band(value: float, ends: Iterable[Sequence[float]]) -> tuple[float, float]:
+    """Band of a figure from what it is at both ends of each of several independent inputs.
+
+    Examples
+    --------
+    >>> ends_of_band(100.0, [(97.0, 103.0), (104.0, 96.0)])
+    (95.0, 105.0)
+    """
+    changes = [(low - value, high - value) for low, high in ends]
     down = math.hypot(*(min(*pair, 0.0) for pair in changes))
     up = math.hypot(*(max(*pair, 0.0) for pair in changes))
-    return motor - down, motor + up
+    return value - down, value + up
 
 
 def hypercube_band(
