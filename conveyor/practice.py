@@ -1,7 +1,8 @@
 """Conveyors whose resistance is printed or was measured, beside what is computed for them.
 
-The specs hold what is printed, and say what is assumed; nothing in them or in the defaults is fitted to a case. A printed
-design has the allowances of its method and stands against the upper end of the band; a measurement against the middle.
+The specs hold what is printed, and say what is assumed; nothing in them or in the defaults is fitted to a case. A
+printed design has the allowances of its method and stands against the upper end of the band, a measurement against the
+middle.
 """
 
 from __future__ import annotations
