@@ -32,7 +32,14 @@ if TYPE_CHECKING:
         verify_sheet,
     )
     from conveyor.designs import Sizing, Study, size, study
-    from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError, ValidityWarning
+    from conveyor.errors import (
+        ConveyorError,
+        InputError,
+        NoSolutionError,
+        RangeError,
+        SpecError,
+        ValidityWarning,
+    )
     from conveyor.models import Conveyor, RubberCompound
     from conveyor.spec import load
 
@@ -50,7 +57,14 @@ _WHERE = {
         "verify_sheet",
     ),
     "conveyor.designs": ("Sizing", "Study", "size", "study"),
-    "conveyor.errors": ("ConveyorError", "InputError", "NoSolutionError", "RangeError", "ValidityWarning"),
+    "conveyor.errors": (
+        "ConveyorError",
+        "InputError",
+        "NoSolutionError",
+        "RangeError",
+        "SpecError",
+        "ValidityWarning",
+    ),
     "conveyor.models": ("Conveyor", "RubberCompound"),
     "conveyor.spec": ("load",),
 }
@@ -69,6 +83,7 @@ __all__ = [
     "RangeError",
     "RubberCompound",
     "Sizing",
+    "SpecError",
     "Study",
     "ValidityWarning",
     "VerificationSheet",

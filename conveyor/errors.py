@@ -88,6 +88,34 @@ class InputError(ConveyorError, ValueError):
     """An input is outside what is allowed; the message names it, its value and the allowed range."""
 
 
+class SpecError(InputError):
+    """Fields of a model are refused; the message has a line for each: its path, what was given, what is allowed.
+
+    Parameters
+    ----------
+    problems : iterable of (str, str)
+        Path of the field ("route.sections[2].lift"), empty where it is about the whole; what is wrong with it.
+
+    Attributes
+    ----------
+    problems : tuple of (str, str)
+        All of them, for programs.
+
+    Examples
+    --------
+    >>> SpecError([("belt.width", "got 1 kg, expected a length")]).problems[0][0]
+    'belt.width'
+    """
+
+    def __init__(self, problems: Iterable[tuple[str, str]]) -> None:
+        self.problems = tuple(problems)
+        super().__init__("\n".join(": ".join(filter(None, problem)) for problem in self.problems))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Sent from a worker as what it was made of: its message alone makes none."""
+        return type(self), (self.problems,), self.__dict__
+
+
 class PlacedError(InputError):
     """What is wrong with a plan, all of it, each with its place as pydantic locates it."""
 
