@@ -68,6 +68,17 @@ class ConveyorError(Exception):
         )
         return twin
 
+    def at(self, place: str) -> ConveyorError:
+        """The same error of a place, which stands before its message; its amounts keep their kinds.
+
+        Examples
+        --------
+        >>> print(RangeError("no data at {}", Amount(250.0, "temperature", "250 K")).at("run 2"))
+        run 2: no data at 250 K
+        """
+        kind = InputError if isinstance(self, InputError) else type(self)
+        return kind("{}: {}", place, self)
+
     def _said(self, write: Callable[[object], object]) -> str:
         whole = self._message.format(*map(write, self._parts)) if self._parts else self._message
         return _LINE.sub(r"\1 ... \2", _WORD.sub(r"\1...", whole))

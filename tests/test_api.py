@@ -16,7 +16,7 @@ from conveyor.contact import ContactProblem, CreepSpectrum, load_curve, solve, s
 from conveyor.fitting.compound import Request, fit_file
 from conveyor.fitting.summary import lines
 from conveyor.laboratory.read import read_answered
-from conveyor.rubber import PronySeries
+from conveyor.rubber import PronySeries, fit_prony
 
 ROOT = Path(__file__).parent.parent
 SPECS = ROOT / "examples" / "specs"
@@ -47,6 +47,25 @@ def test_an_analysis_shows_itself_in_one_line() -> None:
     assert shown.startswith('Analysis("')
     assert "kW" in shown
     assert len(shown) < 200
+
+
+def test_what_people_print_is_one_line_with_its_figures() -> None:
+    line = conveyor.load(SPECS / "overland_10km.yaml")
+    result = conveyor.analyse(line)
+    omega = 2.0 * np.pi * np.logspace(-2.0, 4.0, 25)
+    fit = fit_prony(
+        omega / (2.0 * np.pi), SERIES.storage(omega), SERIES.loss(omega), times=SERIES.times[3:-2]
+    )
+    for shown in (line, line.carry_compound, result.balance, fit, *result.checks):
+        assert str(shown) == repr(shown)
+        assert len(repr(shown)) < 300
+        assert "\n" not in repr(shown)
+    assert f'"{line.name}"' in repr(line)
+    assert f"over {line.route.length:.4g} m" in repr(line)
+    assert f'"{line.carry_compound.name}"' in repr(line.carry_compound)
+    assert f"motor {result.balance.power.motor / 1e3:,.0f}"[:8] in repr(result.balance)
+    for check in result.checks:
+        assert repr(check) == f'Check("{check.name}": {check.found}, {check.asked}: {check.verdict})'
 
 
 @pytest.mark.parametrize(

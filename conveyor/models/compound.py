@@ -45,7 +45,14 @@ CONVERSION_ROUNDING = 1e-9
 
 
 class RubberCompound(Model):
-    """A rubber compound as the shelf holds it."""
+    """A rubber compound as the shelf holds it.
+
+    Examples
+    --------
+    >>> from conveyor import shelf
+    >>> shelf.compound("s100")
+    RubberCompound("S100": measured, 30 terms at 39.96 degC, equilibrium modulus 3.425 MPa, shift table)
+    """
 
     name: Name
     """Name on the shelf and in reports."""
@@ -97,6 +104,17 @@ class RubberCompound(Model):
             )
         refuse("RubberCompound", problems)
         return self
+
+    def __repr__(self) -> str:
+        prony, shift = self.prony, "no shift" if self.shift is None else f"shift {self.shift.law}"
+        return (
+            f'RubberCompound("{self.name}": {self.kind}, {len(prony.terms)} terms at '
+            f"{display(self.reference, 'temperature')}, equilibrium modulus "
+            f"{display(si(prony.equilibrium), 'pressure')}, {shift})"
+        )
+
+    def __str__(self) -> str:
+        return repr(self)
 
     @property
     def reference(self) -> float:
