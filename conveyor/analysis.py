@@ -1,11 +1,12 @@
 """Results for people: tables, reports, figures and notebooks of all that is calculated; nothing below imports this.
 
-The functions calculate as those of `conveyor.calculation` and `conveyor.studies` do, and return what they do with
+The functions calculate as those of `conveyor.pipeline` and `conveyor.studies` do, and return what they do with
 these faces.
 """
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial, wraps
@@ -358,14 +359,21 @@ def faced(plain: Any, face: Callable[..., Face]) -> Face:
     return face(**{field.name: getattr(plain, field.name) for field in fields(plain)})
 
 
-def facing(name: str, work: Callable[Given, Any], face: Callable[..., Face]) -> Callable[Given, Face]:
-    """A function whose results have their face, by its name in the face's module: workers find it there."""
+def facing(name: str, work: Callable[Given, Any], face: type[Face]) -> Callable[Given, Face]:
+    """A function whose results have their face, by its name in the face's module: workers find it there.
+
+    Its signature and its docstring state the face, too.
+    """
 
     @wraps(work)
     def called(*given: Given.args, **named: Given.kwargs) -> Face:
         return faced(work(*given, **named), face)
 
+    plain = inspect.signature(work)
     called.__module__, called.__name__, called.__qualname__ = face.__module__, name, name
+    called.__annotations__ = {**work.__annotations__, "return": face}
+    called.__signature__ = plain.replace(return_annotation=face)  # type: ignore[attr-defined]
+    called.__doc__ = (work.__doc__ or "").replace(str(plain.return_annotation), face.__name__)
     return called
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
 import pickle
+import pydoc
 import subprocess
 import sys
 from dataclasses import replace
@@ -12,11 +14,16 @@ import numpy as np
 import pytest
 
 import conveyor
+from conveyor import sizing
 from conveyor.contact import ContactProblem, CreepSpectrum, load_curve, solve, solve_loads, solve_many
 from conveyor.fitting.compound import Request, fit_file
 from conveyor.fitting.summary import lines
 from conveyor.laboratory.read import read_answered
 from conveyor.rubber import PronySeries, fit_prony
+from conveyor.studies.calibration import calibrate
+from conveyor.studies.comparison import compare_compounds
+from conveyor.studies.duty import analyse_duty
+from conveyor.studies.verification import verification
 
 ROOT = Path(__file__).parent.parent
 SPECS = ROOT / "examples" / "specs"
@@ -33,6 +40,77 @@ def test_import_reaches_what_the_pages_name() -> None:
     told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT)
     assert {"load", "analyse", "shelf", "studies", "__version__"} <= set(told.stdout.split())
     assert "TYPE_CHECKING" not in told.stdout
+
+
+FUNCTIONS = [name for name in conveyor.__all__ if inspect.isfunction(getattr(conveyor, name))]
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_functions_state_and_document_every_argument(name: str) -> None:
+    """No sink of keywords, no name without a type; the docstring describes each once, and what is returned."""
+    function = getattr(conveyor, name)
+    signature = inspect.signature(function)
+    for argument in signature.parameters.values():
+        assert argument.kind in {argument.POSITIONAL_OR_KEYWORD, argument.KEYWORD_ONLY}, argument
+        assert argument.annotation is not argument.empty, argument
+        assert "Any" not in str(argument.annotation), argument
+    assert signature.return_annotation is not signature.empty
+    doc = inspect.getdoc(function) or ""
+    section = doc.split("Parameters\n----------\n")[1].split("\n\n")[0]
+    headings = [line.split(" : ")[0] for line in section.splitlines() if not line.startswith(" ")]
+    assert [one for heading in headings for one in heading.split(", ")] == sorted(
+        signature.parameters, key=lambda one: _place(one, headings)
+    )
+    assert "Returns\n-------\n" in doc
+    returned = doc.split("Returns\n-------\n")[1].splitlines()[0]
+    stated = signature.return_annotation
+    assert returned.split(".")[-1] == (stated if isinstance(stated, str) else stated.__name__).split(".")[-1]
+
+
+def _place(argument: str, headings: list[str]) -> int:
+    """Number of the heading that names an argument; one that none names fails."""
+    return next(i for i, heading in enumerate(headings) if argument in heading.split(", "))
+
+
+def test_results_are_of_the_type_that_help_states() -> None:
+    line = conveyor.load(SPECS / "shuttle.yaml")
+    for function in (conveyor.analyse, conveyor.analyse_cases):
+        stated = inspect.signature(function).return_annotation
+        assert type(function(line)) is stated
+        assert f"-> {stated.__module__}.{stated.__name__}" in pydoc.render_doc(
+            function, renderer=pydoc.plaintext
+        )
+
+
+def test_options_are_those_of_what_is_called() -> None:
+    """Names, kinds, types and defaults."""
+    pairs = (
+        (conveyor.compare, compare_compounds),
+        (conveyor.compare_compounds, compare_compounds),
+        (conveyor.calibrate, calibrate),
+        (conveyor.size, sizing.size),
+        (conveyor.verify_sheet, verification),
+        (conveyor.analyse_duty, analyse_duty),
+    )
+    for door, behind in pairs:
+        given, wanted = (
+            [p for p in inspect.signature(f).parameters.values() if p.kind is p.KEYWORD_ONLY]
+            for f in (door, behind)
+        )
+        assert given == wanted
+        assert len(given) >= 2
+
+
+def test_unknown_options_are_refused() -> None:
+    line = conveyor.load(SPECS / "shuttle.yaml")
+    with pytest.raises(
+        conveyor.InputError, match="compare: got an unexpected keyword argument 'temperature'"
+    ):
+        conveyor.compare(line, ["s100"], temperature=["20 degC"])  # type: ignore[call-arg]
+    with pytest.raises(conveyor.InputError, match="size: got an unexpected keyword argument 'most'"):
+        conveyor.size("duty.yaml", most=3)  # type: ignore[call-arg]
+    with pytest.raises(conveyor.InputError, match=r"calibrate: error: expected float, got '2 %' \(str\)"):
+        conveyor.calibrate(line, "runs.csv", error="2 %")  # type: ignore[arg-type]
 
 
 def test_analyse_says_what_it_takes() -> None:

@@ -105,6 +105,11 @@ def size(duty: SizingDuty, *, best: int = 3, progress: Progress | None = None) -
     progress : callable, optional
         Called with what is done of all.
 
+    Returns
+    -------
+    CalculatedSizing
+        Designs by rank, and what the others failed.
+
     Raises
     ------
     NoSolutionError
