@@ -18,9 +18,11 @@ if TYPE_CHECKING:
         Analysis,
         CaseStudy,
         DutyStudy,
+        Studies,
         analyse,
         analyse_cases,
         analyse_duty,
+        analyse_studies,
     )
     from conveyor.comparisons import (
         CalibrationStudy,
@@ -84,6 +86,7 @@ __all__ = [
     "RubberCompound",
     "Sizing",
     "SpecError",
+    "Studies",
     "Study",
     "ValidityWarning",
     "VerificationSheet",
@@ -91,6 +94,7 @@ __all__ = [
     "analyse",
     "analyse_cases",
     "analyse_duty",
+    "analyse_studies",
     "calibrate",
     "compare",
     "compare_compounds",

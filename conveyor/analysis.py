@@ -332,14 +332,6 @@ class Studies(study.CalculatedStudies):
     uncertainty: UncertaintyStudy | None = None
     dynamics: CalculatedDynamics | None = None
 
-    def __repr__(self) -> str:
-        held = [
-            name
-            for name in ("states", "cases", "duty", "uncertainty", "dynamics")
-            if getattr(self, name) is not None
-        ]
-        return f"Studies({', '.join(held) or 'none requested'})"
-
     def _repr_html_(self) -> str:
         """For notebooks: what there is, one after the other."""
         held = (self.states, self.cases, self.duty, self.uncertainty)
@@ -384,10 +376,36 @@ study_ranges = facing("study_ranges", range_study.study, UncertaintyStudy)
 load_states = facing("load_states", state_study.load_states, StateStudy)
 
 
-def studies(
+def analyse_studies(
     conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: Progress | None = None
 ) -> Studies:
-    """Calculate the load states and what the spec asks for; as `conveyor.studies.studies`, and its scenarios."""
+    """Calculate the load states and what the spec asks for: load cases, duty, ranges, scenarios.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        With `cases`, `operation.duty`, `uncertainty`, `scenarios`, or none of them.
+    given : CalculatedConveyor, optional
+        The spec's own load, where it is calculated already; `conveyor.analyse` returns it.
+    progress : callable, optional
+        Called with the study's name, what is done of it and its whole; nothing without it.
+
+    Returns
+    -------
+    Studies
+        What reports of an `Analysis` take beside it.
+
+    Raises
+    ------
+    NoSolutionError, RangeError, InputError
+        The spec's own load, a bar of the duty, a range or a scenario has no answer; cases without one are listed.
+
+    Examples
+    --------
+    >>> import conveyor
+    >>> conveyor.analyse_studies(conveyor.load("examples/specs/shuttle.yaml"))
+    Studies(states)
+    """
     made = study.studies(conveyor, given, progress=progress)
     return Studies(
         states=None if made.states is None else faced(made.states, StateStudy),
@@ -396,6 +414,9 @@ def studies(
         uncertainty=None if made.uncertainty is None else faced(made.uncertainty, UncertaintyStudy),
         dynamics=_followed(conveyor, made, progress) if conveyor.scenarios else None,
     )
+
+
+studies = analyse_studies
 
 
 def _followed(

@@ -17,6 +17,7 @@ from conveyor.measured.runs import read_runs
 from conveyor.models import Conveyor, MeasuredRun, RubberCompound
 from conveyor.models.variants import CoverChoice
 from conveyor.pipeline import Progress
+from conveyor.report.reports import Reports
 from conveyor.studies import calibration as calibration_study
 from conveyor.studies import comparison as compound_study
 from conveyor.studies import verification as verification_study
@@ -30,11 +31,10 @@ if TYPE_CHECKING:
 
     from conveyor.drawing import ComparisonPlots
     from conveyor.report.columns import Contents
-    from conveyor.report.files import FileKind
     from conveyor.units import System
 
 
-class Comparison(compound_study.CalculatedComparison):
+class Comparison(compound_study.CalculatedComparison, Reports):
     """Compounds on one conveyor, with tables, reports and figures."""
 
     @cached_property
@@ -57,32 +57,6 @@ class Comparison(compound_study.CalculatedComparison):
 
         return of_comparison(self, chosen(self.conveyor.report.units, system))
 
-    def to_excel(self, path: str | Path, *, system: System | None = None) -> Path:
-        """Write the workbook; as `Analysis.to_excel`."""
-        from conveyor.report.excel import write
-
-        return write(self.contents(system), Path(path))
-
-    def to_tables(
-        self, folder: str | Path, *, system: System | None = None, kind: FileKind = "csv"
-    ) -> tuple[Path, ...]:
-        """Write every table as a file of its own; as `Analysis.to_tables`."""
-        from conveyor.report.files import write
-
-        return write(self.contents(system), Path(folder), kind)
-
-    def to_html(self, path: str | Path, *, system: System | None = None) -> Path:
-        """Write the HTML report; as `Analysis.to_html`."""
-        from conveyor.report.html import write
-
-        return write(self.contents(system), Path(path))
-
-    def to_pdf(self, path: str | Path, *, system: System | None = None) -> Path:
-        """Write the HTML report as it prints; as `Analysis.to_pdf`."""
-        from conveyor.report.pdf import write
-
-        return write(self.contents(system), Path(path))
-
     @property
     def plots(self) -> ComparisonPlots:
         """Figures: power over temperature and speed, loss tangents."""
@@ -97,7 +71,7 @@ class Comparison(compound_study.CalculatedComparison):
         return comparison_tables.notebook_of_comparison(self)
 
 
-class CalibrationStudy(calibration_study.CalculatedCalibration):
+class CalibrationStudy(calibration_study.CalculatedCalibration, Reports):
     """Factors from measured power, with their tables."""
 
     @cached_property
@@ -127,7 +101,7 @@ class CalibrationStudy(calibration_study.CalculatedCalibration):
         return plain(self)
 
 
-class VerificationSheet(verification_study.CalculatedVerification):
+class VerificationSheet(verification_study.CalculatedVerification, Reports):
     """What compounds lose under rolls, to be held to a maker's tests, with its tables and reports."""
 
     @cached_property
@@ -135,11 +109,11 @@ class VerificationSheet(verification_study.CalculatedVerification):
         """One row a compound, cover, roll, speed and temperature; units in the names."""
         return self.contents()["per_width"].frame()
 
-    def contents(self, system: System = "SI") -> Contents:
-        """Everything a report holds, in a system of units."""
+    def contents(self, system: System | None = None) -> Contents:
+        """Everything a report holds, in a system of units; SI without it."""
         from conveyor.report.verification_tables import of_verification
 
-        return of_verification(self, system)
+        return of_verification(self, "SI" if system is None else system)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers for JSON; units in the keys."""

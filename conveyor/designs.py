@@ -16,6 +16,7 @@ from conveyor.models import Conveyor
 from conveyor.models.sizing import SizingDuty
 from conveyor.models.study import StudyPlan
 from conveyor.pipeline import Progress
+from conveyor.report.reports import Reports
 from conveyor.spec import load
 from conveyor.studies.campaign import Answers, Campaign, Point, designs, rows, run
 from conveyor.studies.evaluation import Explored, explored
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from conveyor.units import System
 
 
-class Sizing(sizing.CalculatedSizing):
+class Sizing(sizing.CalculatedSizing, Reports):
     """Ranked designs of a duty, with their tables and reports; `.best.conveyor` is the spec of the cheapest."""
 
     @cached_property
@@ -50,15 +51,9 @@ class Sizing(sizing.CalculatedSizing):
 
         return of_sizing(self, chosen(self.duty.report.units, system), vary=vary)
 
-    def to_excel(self, path: str | Path, *, system: System | None = None) -> Path:
-        """Write the workbook; as `Analysis.to_excel`."""
-        from conveyor.report.excel import write
-
-        return write(self.contents(system), Path(path))
-
 
 @dataclass(frozen=True, eq=False)
-class Study:
+class Study(Reports):
     """Every point of a study, and its designs: `explored.best` are the ten that come first.
 
     Attributes

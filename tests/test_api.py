@@ -231,7 +231,28 @@ def test_studies_show_themselves_in_one_line() -> None:
         operation={"price": "0.1 USD/kWh", "duty": [{"hours": "3000 h", "share": "100 %"}]},
     )
     made = conveyor.studies.studies(line)
+    assert repr(made) == repr(conveyor.analyse_studies(line)) == "Studies(states, cases, duty, uncertainty)"
     compared = conveyor.compare_compounds(line, ["s100"])
     for shown in map(repr, (made, made.states, made.cases, made.duty, made.uncertainty, compared)):
         assert len(shown) < 300
         assert "\n" not in shown
+
+
+def test_every_result_writes_its_files(tmp_path: Path) -> None:
+    """A workbook, a page in US units and a table of each of its kind, with what `contents` holds."""
+    sheet = conveyor.verify_sheet(
+        ["s100"], line_loads=["2 N/mm"], temperatures=["20 degC"], roll_diameters=["219 mm"], speeds=["5 m/s"],
+        covers=["7 mm"],
+    )  # fmt: skip
+    study = conveyor.study(ROOT / "examples" / "studies" / "spacing.yaml")
+    for name, made in (("sheet", sheet), ("study", study)):
+        folder = tmp_path / name
+        folder.mkdir()
+        assert made.to_excel(folder / "a.xlsx").read_bytes().startswith(b"PK")
+        page = made.to_html(folder / "a.html").read_text(encoding="utf-8")
+        assert page.startswith("<!DOCTYPE html>")
+        assert made.to_html(folder / "a.html", system="US").read_text(encoding="utf-8") != page
+        written = {path.stem for path in made.to_tables(folder)}
+        assert written >= {key for key, table in made.contents().by_key.items() if len(table.rows) > 1}
+    for result in (conveyor.Comparison, conveyor.Sizing, conveyor.Study, conveyor.CalibrationStudy):
+        assert {"to_excel", "to_html", "to_pdf", "to_tables"} <= set(dir(result))

@@ -82,6 +82,10 @@ class CalculatedSizing:
     refused: Mapping[str, int]
     estimate_error: float
 
+    def __repr__(self) -> str:
+        count = f"{len(self.designs)} designs of {self.calculated} calculated, {self.candidates:,} candidates"
+        return f'Sizing("{self.duty.name}": {count}; cheapest {self.best!r})'
+
     @cached_property
     def task(self) -> SizingTask:
         """The duty in SI."""
