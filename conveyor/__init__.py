@@ -18,9 +18,11 @@ if TYPE_CHECKING:
         Analysis,
         CaseStudy,
         DutyStudy,
+        Studies,
         analyse,
         analyse_cases,
         analyse_duty,
+        analyse_studies,
     )
     from conveyor.comparisons import (
         CalibrationStudy,
@@ -32,7 +34,14 @@ if TYPE_CHECKING:
         verify_sheet,
     )
     from conveyor.designs import Sizing, Study, size, study
-    from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError, ValidityWarning
+    from conveyor.errors import (
+        ConveyorError,
+        InputError,
+        NoSolutionError,
+        RangeError,
+        SpecError,
+        ValidityWarning,
+    )
     from conveyor.models import Conveyor, RubberCompound
     from conveyor.spec import load
 
@@ -50,7 +59,14 @@ _WHERE = {
         "verify_sheet",
     ),
     "conveyor.designs": ("Sizing", "Study", "size", "study"),
-    "conveyor.errors": ("ConveyorError", "InputError", "NoSolutionError", "RangeError", "ValidityWarning"),
+    "conveyor.errors": (
+        "ConveyorError",
+        "InputError",
+        "NoSolutionError",
+        "RangeError",
+        "SpecError",
+        "ValidityWarning",
+    ),
     "conveyor.models": ("Conveyor", "RubberCompound"),
     "conveyor.spec": ("load",),
 }
@@ -69,6 +85,8 @@ __all__ = [
     "RangeError",
     "RubberCompound",
     "Sizing",
+    "SpecError",
+    "Studies",
     "Study",
     "ValidityWarning",
     "VerificationSheet",
@@ -76,6 +94,7 @@ __all__ = [
     "analyse",
     "analyse_cases",
     "analyse_duty",
+    "analyse_studies",
     "calibrate",
     "compare",
     "compare_compounds",

@@ -1,11 +1,12 @@
 """Results for people: tables, reports, figures and notebooks of all that is calculated; nothing below imports this.
 
-The functions calculate as those of `conveyor.calculation` and `conveyor.studies` do, and return what they do with
+The functions calculate as those of `conveyor.pipeline` and `conveyor.studies` do, and return what they do with
 these faces.
 """
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial, wraps
@@ -331,14 +332,6 @@ class Studies(study.CalculatedStudies):
     uncertainty: UncertaintyStudy | None = None
     dynamics: CalculatedDynamics | None = None
 
-    def __repr__(self) -> str:
-        held = [
-            name
-            for name in ("states", "cases", "duty", "uncertainty", "dynamics")
-            if getattr(self, name) is not None
-        ]
-        return f"Studies({', '.join(held) or 'none requested'})"
-
     def _repr_html_(self) -> str:
         """For notebooks: what there is, one after the other."""
         held = (self.states, self.cases, self.duty, self.uncertainty)
@@ -358,14 +351,21 @@ def faced(plain: Any, face: Callable[..., Face]) -> Face:
     return face(**{field.name: getattr(plain, field.name) for field in fields(plain)})
 
 
-def facing(name: str, work: Callable[Given, Any], face: Callable[..., Face]) -> Callable[Given, Face]:
-    """A function whose results have their face, by its name in the face's module: workers find it there."""
+def facing(name: str, work: Callable[Given, Any], face: type[Face]) -> Callable[Given, Face]:
+    """A function whose results have their face, by its name in the face's module: workers find it there.
+
+    Its signature and its docstring state the face, too.
+    """
 
     @wraps(work)
     def called(*given: Given.args, **named: Given.kwargs) -> Face:
         return faced(work(*given, **named), face)
 
+    plain = inspect.signature(work)
     called.__module__, called.__name__, called.__qualname__ = face.__module__, name, name
+    called.__annotations__ = {**work.__annotations__, "return": face}
+    called.__signature__ = plain.replace(return_annotation=face)  # type: ignore[attr-defined]
+    called.__doc__ = (work.__doc__ or "").replace(str(plain.return_annotation), face.__name__)
     return called
 
 
@@ -376,10 +376,36 @@ study_ranges = facing("study_ranges", range_study.study, UncertaintyStudy)
 load_states = facing("load_states", state_study.load_states, StateStudy)
 
 
-def studies(
+def analyse_studies(
     conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: Progress | None = None
 ) -> Studies:
-    """Calculate the load states and what the spec asks for; as `conveyor.studies.studies`, and its scenarios."""
+    """Calculate the load states and what the spec asks for: load cases, duty, ranges, scenarios.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        With `cases`, `operation.duty`, `uncertainty`, `scenarios`, or none of them.
+    given : CalculatedConveyor, optional
+        The spec's own load, where it is calculated already; `conveyor.analyse` returns it.
+    progress : callable, optional
+        Called with the study's name, what is done of it and its whole; nothing without it.
+
+    Returns
+    -------
+    Studies
+        What reports of an `Analysis` take beside it.
+
+    Raises
+    ------
+    NoSolutionError, RangeError, InputError
+        The spec's own load, a bar of the duty, a range or a scenario has no answer; cases without one are listed.
+
+    Examples
+    --------
+    >>> import conveyor
+    >>> conveyor.analyse_studies(conveyor.load("examples/specs/shuttle.yaml"))
+    Studies(states)
+    """
     made = study.studies(conveyor, given, progress=progress)
     return Studies(
         states=None if made.states is None else faced(made.states, StateStudy),
@@ -388,6 +414,9 @@ def studies(
         uncertainty=None if made.uncertainty is None else faced(made.uncertainty, UncertaintyStudy),
         dynamics=_followed(conveyor, made, progress) if conveyor.scenarios else None,
     )
+
+
+studies = analyse_studies
 
 
 def _followed(

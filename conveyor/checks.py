@@ -74,6 +74,21 @@ class Check:
         What decides in it: a state of motion, a section.
     case : Said or None
         The load case; None for the conveyor as its spec gives it.
+
+    Examples
+    --------
+    >>> required = said("at most {}", (1.6e6, "power"))
+    >>> Check(
+    ...     "motor_power",
+    ...     said("motor power"),
+    ...     1.25e6,
+    ...     1.6e6,
+    ...     "power",
+    ...     said("{}", (1.25e6, "power")),
+    ...     required,
+    ...     "pass",
+    ... )
+    Check("motor power": 1,250 kW, at most 1,600 kW: pass)
     """
 
     key: str
@@ -88,6 +103,10 @@ class Check:
     relation: Relation = "at least"
     where: str = ""
     case: Said | None = None
+
+    def __repr__(self) -> str:
+        case = "" if self.case is None else f' in "{self.case}"'
+        return f'Check("{self.name}"{case}: {self.found}, {self.asked}: {self.verdict})'
 
     @property
     def failed(self) -> bool:

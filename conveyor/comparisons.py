@@ -5,17 +5,24 @@ Apart from `conveyor.analysis`, so that one conveyor is calculated without readi
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from concurrent.futures import Executor
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from conveyor.analysis import faced, facing
+from conveyor.arguments import checked
 from conveyor.measured.runs import read_runs
 from conveyor.models import Conveyor, MeasuredRun, RubberCompound
+from conveyor.models.variants import CoverChoice
+from conveyor.pipeline import Progress
+from conveyor.report.reports import Reports
 from conveyor.studies import calibration as calibration_study
 from conveyor.studies import comparison as compound_study
 from conveyor.studies import verification as verification_study
+from conveyor.studies.comparison import RTOL
+from conveyor.units import Quantity
 from conveyor.units.presentation import chosen
 from conveyor.units.sentences import telling
 
@@ -24,11 +31,10 @@ if TYPE_CHECKING:
 
     from conveyor.drawing import ComparisonPlots
     from conveyor.report.columns import Contents
-    from conveyor.report.files import FileKind
     from conveyor.units import System
 
 
-class Comparison(compound_study.CalculatedComparison):
+class Comparison(compound_study.CalculatedComparison, Reports):
     """Compounds on one conveyor, with tables, reports and figures."""
 
     @cached_property
@@ -51,32 +57,6 @@ class Comparison(compound_study.CalculatedComparison):
 
         return of_comparison(self, chosen(self.conveyor.report.units, system))
 
-    def to_excel(self, path: str | Path, *, system: System | None = None) -> Path:
-        """Write the workbook; as `Analysis.to_excel`."""
-        from conveyor.report.excel import write
-
-        return write(self.contents(system), Path(path))
-
-    def to_tables(
-        self, folder: str | Path, *, system: System | None = None, kind: FileKind = "csv"
-    ) -> tuple[Path, ...]:
-        """Write every table as a file of its own; as `Analysis.to_tables`."""
-        from conveyor.report.files import write
-
-        return write(self.contents(system), Path(folder), kind)
-
-    def to_html(self, path: str | Path, *, system: System | None = None) -> Path:
-        """Write the HTML report; as `Analysis.to_html`."""
-        from conveyor.report.html import write
-
-        return write(self.contents(system), Path(path))
-
-    def to_pdf(self, path: str | Path, *, system: System | None = None) -> Path:
-        """Write the HTML report as it prints; as `Analysis.to_pdf`."""
-        from conveyor.report.pdf import write
-
-        return write(self.contents(system), Path(path))
-
     @property
     def plots(self) -> ComparisonPlots:
         """Figures: power over temperature and speed, loss tangents."""
@@ -91,7 +71,7 @@ class Comparison(compound_study.CalculatedComparison):
         return comparison_tables.notebook_of_comparison(self)
 
 
-class CalibrationStudy(calibration_study.CalculatedCalibration):
+class CalibrationStudy(calibration_study.CalculatedCalibration, Reports):
     """Factors from measured power, with their tables."""
 
     @cached_property
@@ -121,7 +101,7 @@ class CalibrationStudy(calibration_study.CalculatedCalibration):
         return plain(self)
 
 
-class VerificationSheet(verification_study.CalculatedVerification):
+class VerificationSheet(verification_study.CalculatedVerification, Reports):
     """What compounds lose under rolls, to be held to a maker's tests, with its tables and reports."""
 
     @cached_property
@@ -129,11 +109,11 @@ class VerificationSheet(verification_study.CalculatedVerification):
         """One row a compound, cover, roll, speed and temperature; units in the names."""
         return self.contents()["per_width"].frame()
 
-    def contents(self, system: System = "SI") -> Contents:
-        """Everything a report holds, in a system of units."""
+    def contents(self, system: System | None = None) -> Contents:
+        """Everything a report holds, in a system of units; SI without it."""
         from conveyor.report.verification_tables import of_verification
 
-        return of_verification(self, system)
+        return of_verification(self, "SI" if system is None else system)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers for JSON; units in the keys."""
@@ -146,10 +126,44 @@ compare_compounds = facing("compare_compounds", compound_study.compare_compounds
 verify_sheet = facing("verify_sheet", verification_study.verification, VerificationSheet)
 
 
+@checked
 def calibrate(
-    conveyor: Conveyor, runs: str | Path | Sequence[MeasuredRun], **options: Any
+    conveyor: Conveyor,
+    runs: str | Path | Sequence[MeasuredRun],
+    *,
+    error: float | None = None,
+    factors: Sequence[str] | None = None,
+    rtol: float | None = None,
+    progress: Progress | None = None,
 ) -> CalibrationStudy:
-    """Factors on forces from measured power, of a file or of runs; as `conveyor.studies.calibration.calibrate`.
+    """Factors on forces from measured power; how they are fitted: `conveyor.studies.calibration.calibrate`.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        The spec; a calibration that it has is left out, and replaced.
+    runs : path or sequence of MeasuredRun
+        Measured power: a file or data.
+    error : float, optional
+        Standard deviation of a power over itself [-], of runs that do not state theirs; without it from the residuals.
+    factors : sequence of str, optional
+        Which of indentation, idler_rotation and flexure are wanted; without it as many as the runs tell apart.
+    rtol : float, optional
+        Relative tolerance of the contacts [-]; that of the spec without it.
+    progress : callable, optional
+        Called with what is done and the whole; nothing without it.
+
+    Returns
+    -------
+    CalibrationStudy
+        Factors with bands, runs with residuals, and their tables.
+
+    Raises
+    ------
+    InputError
+        The file is refused, or the runs do not tell the factors.
+    NoSolutionError, RangeError
+        A run has no answer.
 
     Examples
     --------
@@ -159,11 +173,66 @@ def calibrate(
     """
     given = read_runs(runs) if isinstance(runs, str | Path) else runs
     with telling(conveyor.report.units):
-        return faced(calibration_study.calibrate(conveyor, given, **options), CalibrationStudy)
+        found = calibration_study.calibrate(
+            conveyor, given, error=error, factors=factors, rtol=rtol, progress=progress
+        )
+        return faced(found, CalibrationStudy)
 
 
-def compare(conveyor: Conveyor, compounds: Iterable[str | RubberCompound], **options: Any) -> pd.DataFrame:
-    """The table of `compare_compounds`, one row a scene; its options are those of `compare_compounds`.
+@checked
+def compare(
+    conveyor: Conveyor,
+    compounds: Iterable[str | RubberCompound],
+    *,
+    temperatures: Iterable[str | Quantity] | None = None,
+    speeds: Iterable[str | Quantity] | None = None,
+    cover: CoverChoice = "bottom",
+    base: str | None = None,
+    extra_costs: Mapping[str, float] | None = None,
+    rtol: float = RTOL,
+    shelves: Iterable[str | Path] = (),
+    executor: Executor | None = None,
+    workers: int = 1,
+    progress: Progress | None = None,
+) -> pd.DataFrame:
+    """The table of `compare_compounds`, one row a scene.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        The spec.
+    compounds : iterable of str or RubberCompound
+        Shelf names, paths of compound files, or compounds.
+    temperatures, speeds : iterable of str or Quantity, optional
+        Of the belt, each with its unit ("-30 degC", "5 m/s"); those of the spec without them.
+    cover : {"bottom", "top", "both"}
+        Which cover is made of the compounds, the bottom one by default.
+    base : str, optional
+        Name of the compound that the others are compared with; the first without it.
+    extra_costs : mapping of str to float, optional
+        What a belt of a compound costs more than one of the base, in the currency of the spec's energy price.
+    rtol : float
+        Relative tolerance of the contacts, 1e-4 by default [-].
+    shelves : iterable of path
+        Further folders of compounds; none by default.
+    executor : concurrent.futures.Executor, optional
+        Where groups of compounds are calculated; one after the other here without one.
+    workers : int
+        Of the executor: as many groups.
+    progress : callable, optional
+        Called with the number of compounds done and their total; nothing without it.
+
+    Returns
+    -------
+    pandas.DataFrame
+        Columns with their units in the names.
+
+    Raises
+    ------
+    InputError
+        No compound, one twice, an unknown base or name, a value without unit or outside its range.
+    ConveyorError
+        A worker was lost.
 
     Examples
     --------
@@ -171,4 +240,17 @@ def compare(conveyor: Conveyor, compounds: Iterable[str | RubberCompound], **opt
     >>> line = conveyor.load("examples/specs/overland.yaml")  # doctest: +SKIP
     >>> conveyor.compare(line, ["s100", "s120"], temperatures=["0 degC", "20 degC"])  # doctest: +SKIP
     """
-    return compare_compounds(conveyor, compounds, **options).table
+    return compare_compounds(
+        conveyor,
+        compounds,
+        temperatures=temperatures,
+        speeds=speeds,
+        cover=cover,
+        base=base,
+        extra_costs=extra_costs,
+        rtol=rtol,
+        shelves=shelves,
+        executor=executor,
+        workers=workers,
+        progress=progress,
+    ).table

@@ -8,12 +8,15 @@ from contextlib import nullcontext
 from dataclasses import dataclass, fields
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from conveyor import shelf, sizing
+from conveyor.arguments import checked
 from conveyor.models import Conveyor
 from conveyor.models.sizing import SizingDuty
 from conveyor.models.study import StudyPlan
+from conveyor.pipeline import Progress
+from conveyor.report.reports import Reports
 from conveyor.spec import load
 from conveyor.studies.campaign import Answers, Campaign, Point, designs, rows, run
 from conveyor.studies.evaluation import Explored, explored
@@ -29,7 +32,7 @@ if TYPE_CHECKING:
     from conveyor.units import System
 
 
-class Sizing(sizing.CalculatedSizing):
+class Sizing(sizing.CalculatedSizing, Reports):
     """Ranked designs of a duty, with their tables and reports; `.best.conveyor` is the spec of the cheapest."""
 
     @cached_property
@@ -48,15 +51,9 @@ class Sizing(sizing.CalculatedSizing):
 
         return of_sizing(self, chosen(self.duty.report.units, system), vary=vary)
 
-    def to_excel(self, path: str | Path, *, system: System | None = None) -> Path:
-        """Write the workbook; as `Analysis.to_excel`."""
-        from conveyor.report.excel import write
-
-        return write(self.contents(system), Path(path))
-
 
 @dataclass(frozen=True, eq=False)
-class Study:
+class Study(Reports):
     """Every point of a study, and its designs: `explored.best` are the ten that come first.
 
     Attributes
@@ -95,8 +92,30 @@ class Study:
         return of_study(self.explored, chosen(self.campaign.base.report.units, system))
 
 
-def size(duty: str | Path | SizingDuty, **options: Any) -> Sizing:
-    """Ranked designs of a duty, of a file or as data; as `conveyor.sizing.size`.
+@checked
+def size(duty: str | Path | SizingDuty, *, best: int = 3, progress: Progress | None = None) -> Sizing:
+    """Ranked designs of a duty.
+
+    Parameters
+    ----------
+    duty : path or SizingDuty
+        What is conveyed, and the rules: a file or data.
+    best : int
+        Designs wanted, 3 by default.
+    progress : callable, optional
+        Called with what is done of all; nothing without it.
+
+    Returns
+    -------
+    Sizing
+        Designs by rank, their tables and reports.
+
+    Raises
+    ------
+    InputError
+        A file is refused.
+    NoSolutionError
+        No candidate keeps the rules; the message says which rule leaves none.
 
     Examples
     --------
@@ -104,10 +123,11 @@ def size(duty: str | Path | SizingDuty, **options: Any) -> Sizing:
     >>> conveyor.size("examples/duties/overland.yaml", best=3).table  # doctest: +SKIP
     """
     given = duty if isinstance(duty, SizingDuty) else read_duty(duty)
-    sized = sizing.size(given, **options)
+    sized = sizing.size(given, best=best, progress=progress)
     return Sizing(**{field.name: getattr(sized, field.name) for field in fields(sized)})
 
 
+@checked
 def study(
     plan: str | Path | StudyPlan,
     conveyor: Conveyor | None = None,
@@ -128,9 +148,16 @@ def study(
     answers : path, optional
         File in which answers are kept as they come, and known from; without it they end with the call.
     executor : concurrent.futures.Executor, optional
-        Where points are calculated, with so many `workers`; in this process without one.
+        Where points are calculated; in this process without one.
+    workers : int
+        Of the executor: points are shared out among so many.
     shelves : iterable of path
         Further folders of compounds.
+
+    Returns
+    -------
+    Study
+        Every point, and the designs.
 
     Raises
     ------

@@ -68,6 +68,17 @@ class ConveyorError(Exception):
         )
         return twin
 
+    def at(self, place: str) -> ConveyorError:
+        """The same error of a place, which stands before its message; its amounts keep their kinds.
+
+        Examples
+        --------
+        >>> print(RangeError("no data at {}", Amount(250.0, "temperature", "250 K")).at("run 2"))
+        run 2: no data at 250 K
+        """
+        kind = InputError if isinstance(self, InputError) else type(self)
+        return kind("{}: {}", place, self)
+
     def _said(self, write: Callable[[object], object]) -> str:
         whole = self._message.format(*map(write, self._parts)) if self._parts else self._message
         return _LINE.sub(r"\1 ... \2", _WORD.sub(r"\1...", whole))
@@ -86,6 +97,34 @@ def shortened(quoted: str, longest: int = 80) -> str:
 
 class InputError(ConveyorError, ValueError):
     """An input is outside what is allowed; the message names it, its value and the allowed range."""
+
+
+class SpecError(InputError):
+    """Fields of a model are refused; the message has a line for each: its path, what was given, what is allowed.
+
+    Parameters
+    ----------
+    problems : iterable of (str, str)
+        Path of the field ("route.sections[2].lift"), empty where it is about the whole; what is wrong with it.
+
+    Attributes
+    ----------
+    problems : tuple of (str, str)
+        All of them, for programs.
+
+    Examples
+    --------
+    >>> SpecError([("belt.width", "got 1 kg, expected a length")]).problems[0][0]
+    'belt.width'
+    """
+
+    def __init__(self, problems: Iterable[tuple[str, str]]) -> None:
+        self.problems = tuple(problems)
+        super().__init__("\n".join(": ".join(filter(None, problem)) for problem in self.problems))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Sent from a worker as what it was made of: its message alone makes none."""
+        return type(self), (self.problems,), self.__dict__
 
 
 class PlacedError(InputError):

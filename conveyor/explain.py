@@ -10,7 +10,7 @@ from pydantic import BaseModel, ValidationError
 
 from conveyor.errors import InputError
 from conveyor.files.document import MOST_LINES, Document, Fault, listing, read_document
-from conveyor.models.base import field_path, real_errors
+from conveyor.models.base import field_path, real_errors, validate
 from conveyor.models.wording import Location, message
 
 M = TypeVar("M", bound=BaseModel)
@@ -27,7 +27,7 @@ def read_model(model: type[M], path: Path, context: Mapping[str, Any] | None = N
     document = read_document(path)
     faults = list(document.findings)
     try:
-        read = model.model_validate(document.data, context=None if context is None else dict(context))
+        read = validate(model, document.data, None if context is None else dict(context))
     except ValidationError as error:
         faults = _findings(error, model, document)
     if faults:

@@ -282,6 +282,16 @@ def calculate(conveyor: Conveyor) -> CalculatedConveyor:
     The take-up is at its given setting, else at the least that serves this load; reports have the least that serves
     every load, of `conveyor.studies`.
 
+    Parameters
+    ----------
+    conveyor : Conveyor
+        The spec.
+
+    Returns
+    -------
+    CalculatedConveyor
+        Contacts, forces, tensions, power, duties of the parts.
+
     Raises
     ------
     NoSolutionError

@@ -18,7 +18,7 @@ from conveyor.errors import InputError
 from conveyor.explain import read_model
 from conveyor.files.document import first_lines, read_document, yaml_text
 from conveyor.models import Conveyor
-from conveyor.models.base import Model, field_path, real_errors
+from conveyor.models.base import Model, field_path, real_errors, validate
 from conveyor.models.wording import Location, message
 
 _FIELD: Final = re.compile(r"[a-z_]+(?:\.[a-z_]+|\[[0-9]+\])*(?=[: ])")
@@ -87,9 +87,7 @@ def from_data(
         Refused; all errors at once, each on a line ``place field: message``.
     """
     try:
-        return Conveyor.model_validate(
-            dict(data), context={"compound": shelf.resolver(extra=shelves, base=base)}
-        )
+        return validate(Conveyor, dict(data), {"compound": shelf.resolver(extra=shelves, base=base)})
     except ValidationError as error:
 
         def line(item: Any) -> str:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
 import pickle
+import pydoc
 import subprocess
 import sys
 from dataclasses import replace
@@ -12,11 +14,16 @@ import numpy as np
 import pytest
 
 import conveyor
+from conveyor import sizing
 from conveyor.contact import ContactProblem, CreepSpectrum, load_curve, solve, solve_loads, solve_many
 from conveyor.fitting.compound import Request, fit_file
 from conveyor.fitting.summary import lines
 from conveyor.laboratory.read import read_answered
-from conveyor.rubber import PronySeries
+from conveyor.rubber import PronySeries, fit_prony
+from conveyor.studies.calibration import calibrate
+from conveyor.studies.comparison import compare_compounds
+from conveyor.studies.duty import analyse_duty
+from conveyor.studies.verification import verification
 
 ROOT = Path(__file__).parent.parent
 SPECS = ROOT / "examples" / "specs"
@@ -35,6 +42,77 @@ def test_import_reaches_what_the_pages_name() -> None:
     assert "TYPE_CHECKING" not in told.stdout
 
 
+FUNCTIONS = [name for name in conveyor.__all__ if inspect.isfunction(getattr(conveyor, name))]
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_functions_state_and_document_every_argument(name: str) -> None:
+    """No sink of keywords, no name without a type; the docstring describes each once, and what is returned."""
+    function = getattr(conveyor, name)
+    signature = inspect.signature(function)
+    for argument in signature.parameters.values():
+        assert argument.kind in {argument.POSITIONAL_OR_KEYWORD, argument.KEYWORD_ONLY}, argument
+        assert argument.annotation is not argument.empty, argument
+        assert "Any" not in str(argument.annotation), argument
+    assert signature.return_annotation is not signature.empty
+    doc = inspect.getdoc(function) or ""
+    section = doc.split("Parameters\n----------\n")[1].split("\n\n")[0]
+    headings = [line.split(" : ")[0] for line in section.splitlines() if not line.startswith(" ")]
+    assert [one for heading in headings for one in heading.split(", ")] == sorted(
+        signature.parameters, key=lambda one: _place(one, headings)
+    )
+    assert "Returns\n-------\n" in doc
+    returned = doc.split("Returns\n-------\n")[1].splitlines()[0]
+    stated = signature.return_annotation
+    assert returned.split(".")[-1] == (stated if isinstance(stated, str) else stated.__name__).split(".")[-1]
+
+
+def _place(argument: str, headings: list[str]) -> int:
+    """Number of the heading that names an argument; one that none names fails."""
+    return next(i for i, heading in enumerate(headings) if argument in heading.split(", "))
+
+
+def test_results_are_of_the_type_that_help_states() -> None:
+    line = conveyor.load(SPECS / "shuttle.yaml")
+    for function in (conveyor.analyse, conveyor.analyse_cases):
+        stated = inspect.signature(function).return_annotation
+        assert type(function(line)) is stated
+        assert f"-> {stated.__module__}.{stated.__name__}" in pydoc.render_doc(
+            function, renderer=pydoc.plaintext
+        )
+
+
+def test_options_are_those_of_what_is_called() -> None:
+    """Names, kinds, types and defaults."""
+    pairs = (
+        (conveyor.compare, compare_compounds),
+        (conveyor.compare_compounds, compare_compounds),
+        (conveyor.calibrate, calibrate),
+        (conveyor.size, sizing.size),
+        (conveyor.verify_sheet, verification),
+        (conveyor.analyse_duty, analyse_duty),
+    )
+    for door, behind in pairs:
+        given, wanted = (
+            [p for p in inspect.signature(f).parameters.values() if p.kind is p.KEYWORD_ONLY]
+            for f in (door, behind)
+        )
+        assert given == wanted
+        assert len(given) >= 2
+
+
+def test_unknown_options_are_refused() -> None:
+    line = conveyor.load(SPECS / "shuttle.yaml")
+    with pytest.raises(
+        conveyor.InputError, match="compare: got an unexpected keyword argument 'temperature'"
+    ):
+        conveyor.compare(line, ["s100"], temperature=["20 degC"])  # type: ignore[call-arg]
+    with pytest.raises(conveyor.InputError, match="size: got an unexpected keyword argument 'most'"):
+        conveyor.size("duty.yaml", most=3)  # type: ignore[call-arg]
+    with pytest.raises(conveyor.InputError, match=r"calibrate: error: expected float, got '2 %' \(str\)"):
+        conveyor.calibrate(line, "runs.csv", error="2 %")  # type: ignore[arg-type]
+
+
 def test_analyse_says_what_it_takes() -> None:
     with pytest.raises(
         conveyor.InputError, match=r"analyse: takes a Conveyor, got str; conveyor\.load\(path\)"
@@ -47,6 +125,25 @@ def test_an_analysis_shows_itself_in_one_line() -> None:
     assert shown.startswith('Analysis("')
     assert "kW" in shown
     assert len(shown) < 200
+
+
+def test_what_people_print_is_one_line_with_its_figures() -> None:
+    line = conveyor.load(SPECS / "overland_10km.yaml")
+    result = conveyor.analyse(line)
+    omega = 2.0 * np.pi * np.logspace(-2.0, 4.0, 25)
+    fit = fit_prony(
+        omega / (2.0 * np.pi), SERIES.storage(omega), SERIES.loss(omega), times=SERIES.times[3:-2]
+    )
+    for shown in (line, line.carry_compound, result.balance, fit, *result.checks):
+        assert str(shown) == repr(shown)
+        assert len(repr(shown)) < 300
+        assert "\n" not in repr(shown)
+    assert f'"{line.name}"' in repr(line)
+    assert f"over {line.route.length:.4g} m" in repr(line)
+    assert f'"{line.carry_compound.name}"' in repr(line.carry_compound)
+    assert f"motor {result.balance.power.motor / 1e3:,.0f}"[:8] in repr(result.balance)
+    for check in result.checks:
+        assert repr(check) == f'Check("{check.name}": {check.found}, {check.asked}: {check.verdict})'
 
 
 @pytest.mark.parametrize(
@@ -134,7 +231,28 @@ def test_studies_show_themselves_in_one_line() -> None:
         operation={"price": "0.1 USD/kWh", "duty": [{"hours": "3000 h", "share": "100 %"}]},
     )
     made = conveyor.studies.studies(line)
+    assert repr(made) == repr(conveyor.analyse_studies(line)) == "Studies(states, cases, duty, uncertainty)"
     compared = conveyor.compare_compounds(line, ["s100"])
     for shown in map(repr, (made, made.states, made.cases, made.duty, made.uncertainty, compared)):
         assert len(shown) < 300
         assert "\n" not in shown
+
+
+def test_every_result_writes_its_files(tmp_path: Path) -> None:
+    """A workbook, a page in US units and a table of each of its kind, with what `contents` holds."""
+    sheet = conveyor.verify_sheet(
+        ["s100"], line_loads=["2 N/mm"], temperatures=["20 degC"], roll_diameters=["219 mm"], speeds=["5 m/s"],
+        covers=["7 mm"],
+    )  # fmt: skip
+    study = conveyor.study(ROOT / "examples" / "studies" / "spacing.yaml")
+    for name, made in (("sheet", sheet), ("study", study)):
+        folder = tmp_path / name
+        folder.mkdir()
+        assert made.to_excel(folder / "a.xlsx").read_bytes().startswith(b"PK")
+        page = made.to_html(folder / "a.html").read_text(encoding="utf-8")
+        assert page.startswith("<!DOCTYPE html>")
+        assert made.to_html(folder / "a.html", system="US").read_text(encoding="utf-8") != page
+        written = {path.stem for path in made.to_tables(folder)}
+        assert written >= {key for key, table in made.contents().by_key.items() if len(table.rows) > 1}
+    for result in (conveyor.Comparison, conveyor.Sizing, conveyor.Study, conveyor.CalibrationStudy):
+        assert {"to_excel", "to_html", "to_pdf", "to_tables"} <= set(dir(result))

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import lru_cache
+from itertools import pairwise
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -34,6 +35,9 @@ _REACH: Final = 1.2
 """Thicknesses from the roll's axis that a particle's path is followed: the rest changes it by 3e-4."""
 _GRADED: Final = (0.0, 0.02, 0.1, 0.4, 1.2)
 """Edges of panels in m α, where the strain rises from nothing as (m h)²."""
+_LONGEST: Final = 0.64
+"""First edge times 2^octaves at most: a thickness is 5/3 2^octaves half widths at most, so that m h is 1 at most."""
+_STEP: Final = 5.0  # from a finer edge to the next
 _PHASE: Final = (
     12.0  # radians a panel at most, pressure and place together: 8 Gauss nodes integrate them to 1e-5
 )
@@ -54,11 +58,16 @@ class _Waves(NamedTuple):
     sin: Array
 
 
-def _waves(x: Array, end: float) -> _Waves:
-    """The integral for places x/α, shape (nx,), windowed to end at u = `end`."""
+def _waves(x: Array, end: float, octaves: int) -> _Waves:
+    """The integral for places x/α, shape (nx,), of layers that reach so many octaves, windowed to end at u = `end`."""
     span = float(np.abs(x).max())
-    count = math.ceil((end - _GRADED[-1]) * (1.0 + span) / _PHASE)
-    edges = np.concatenate([_GRADED, np.linspace(_GRADED[-1], end, count + 1)[1:]])
+    edges = np.concatenate([_graded(octaves, end), [end]])
+    panels = np.ceil(np.diff(edges) * (1.0 + span) / _PHASE).astype(int)
+    pieces = [
+        np.linspace(low, high, count, endpoint=False)
+        for (low, high), count in zip(pairwise(edges), panels, strict=True)
+    ]
+    edges = np.concatenate([*pieces, [end]])
     at, gauss = np.polynomial.legendre.leggauss(_GAUSS)
     half = 0.5 * np.diff(edges)[:, None]
     u = (edges[:-1, None] + half * (at + 1.0)).ravel()
@@ -67,16 +76,24 @@ def _waves(x: Array, end: float) -> _Waves:
     return _Waves(u, (half * gauss).ravel(), window, np.cos(turn), np.sin(turn))
 
 
+def _graded(octaves: int, end: float) -> Array:
+    """Edges of panels below `end`, from 0 on: the thicker the layer, the longer its waves."""
+    edges = [*_GRADED]
+    while edges[1] > _LONGEST * 0.5**octaves:
+        edges[1:1] = [edges[1] / _STEP]
+    return np.array([edge for edge in edges if edge < end])
+
+
 @lru_cache(maxsize=16)
 def _table(points: int, octaves: int) -> tuple[_Waves, ...]:
     """Waves of the places within two half widths, and of each octave beyond on either side."""
     end = HARMONICS * points
-    tables = [_waves(np.linspace(-NEAR, NEAR, points + 1), end)]
+    tables = [_waves(np.linspace(-NEAR, NEAR, points + 1), end, octaves)]
     steps = max(2, points // OCTAVE)
     for octave in range(octaves):
         begin = NEAR * 2.0**octave
         away = begin * 2.0 ** np.linspace(0.0, 1.0, steps + 1)[1:]
-        tables.append(_waves(np.concatenate([-away, away]), min(end, FAR / (begin - 1.0))))
+        tables.append(_waves(np.concatenate([-away, away]), min(end, FAR / (begin - 1.0)), octaves))
     return tuple(tables)
 
 

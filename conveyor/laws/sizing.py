@@ -55,7 +55,7 @@ def least_width_for_lumps(lump: float, *, surcharge_angle: float, share: Literal
     surcharge_angle : float
         θ of the moving heap [rad], from 0 to below pi/2.
     share : {"mixed", "sized"}
-        Few lumps, up to a tenth, among fines; or all lumps.
+        Few lumps, up to a tenth, among fines; or all lumps [-].
 
     Returns
     -------
@@ -93,7 +93,7 @@ def recommended_speed(belt_width: float, *, abrasiveness: Severity) -> float:
         B [m], positive.
     abrasiveness : {"low", "medium", "high"}
         Low: grain and the like; medium: coal, soft ores, overburden, fine crushed stone; high: hard, sharp-edged ore,
-        coarse crushed stone.
+        coarse crushed stone [-].
 
     Returns
     -------
@@ -161,9 +161,9 @@ def wear_addition(
     round_time : float
         Time in which the belt goes round once [s], positive: how often it is loaded.
     abrasiveness : {"low", "medium", "high"}
-        Of the bulk.
+        Of the bulk [-].
     loading : {"low", "medium", "high"}
-        How hard the bulk lands: height of fall and difference of speeds.
+        How hard the bulk lands: height of fall and difference of speeds [-].
 
     Returns
     -------

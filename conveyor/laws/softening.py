@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from conveyor.contact import Status, solve_many, working_strains
 from conveyor.errors import NoSolutionError, RangeError
 from conveyor.indentation import RollContact, no_answer, to_problems
+from conveyor.require import require, require_positive
 from conveyor.rubber import (
     AmplitudeFactors,
     EquivalentLinear,
@@ -66,17 +67,34 @@ class WorkingStrain:
 
 
 def losing_load(line_loads: Array, weights: Array) -> float:
-    """Mean line load of rolls, weighted by their loss, f proportional to w^(4/3) [N/m].
+    """Mean line load of rolls, weighted by their loss, f proportional to w^(4/3) (a Winkler layer).
 
     Parameters
     ----------
-    line_loads : ndarray, shape (n,)
-        Along all rolls [N/m].
-    weights : ndarray, shape (n,)
-        Of the quadrature, times the number of such rolls [m].
+    line_loads : ndarray
+        Along all rolls, shape (n,), at least 0 [N/m].
+    weights : ndarray
+        Of the quadrature, times the number of such rolls, shape (n,), at least 0 [m].
+
+    Returns
+    -------
+    float
+        Line load at which a strand loses its power [N/m].
+
+    Raises
+    ------
+    InputError
+        No roll carries anything: there is no loss to weigh by.
+
+    Examples
+    --------
+    >>> round(losing_load(np.array([8.0, 1.0]), np.array([1.0, 1.0])), 3)  # (16·8 + 1·1)/(16 + 1)
+    7.588
     """
     lost = weights * line_loads**LOAD_EXPONENT
-    return float(lost @ line_loads / lost.sum())
+    whole = float(lost.sum())
+    require(whole > 0.0, "line_loads", whole, "a roll that carries something is needed")
+    return float(lost @ line_loads) / whole
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,6 +115,20 @@ class WorkedCover:
         Beyond the sweeps: the series at the nearest temperature they reach.
     inside : tuple of int
         Depths and points at which the strain is taken.
+
+    Examples
+    --------
+    >>> from conveyor.rubber import StrainSweep
+    >>> strain, storage = (
+    ...     [1e-4, 1.5e-4, 2e-4, 1e-3, 1e-2, 1e-1],
+    ...     [11.0e6, 11.0e6, 10.9e6, 10.4e6, 7.7e6, 3.5e6],
+    ... )
+    >>> factors = AmplitudeFactors([StrainSweep(293.15, 1.0, strain, storage, [1.4e6] * 6)], 1e-4)
+    >>> contact = RollContact(
+    ...     radius=0.08, spacing=1.5, cover_thickness=0.006, speed=5.0, rubber=PronySeries(8e6, [3e6], [1e-3])
+    ... )
+    >>> WorkedCover(contact, 3000.0, factors, 293.15).line_load
+    3000.0
     """
 
     contact: RollContact
@@ -114,12 +146,37 @@ SoftCover: TypeAlias = tuple[PronySeries, WorkingStrain]
 def softened_each(works: Sequence[WorkedCover]) -> list[SoftCover]:
     """Series of covers at the strains of the rolls' own contacts, as `softened_many`; the first refusal is raised.
 
+    Parameters
+    ----------
+    works : sequence of WorkedCover
+        Covers, each with its line load [N/m] and temperature [K].
+
+    Returns
+    -------
+    list of (PronySeries, WorkingStrain)
+        In the order of the covers.
+
     Raises
     ------
     NoSolutionError
         The contact has no answer, the strain does not settle, or the softened rubber would be a fluid.
     RangeError
         The strain is outside the sweeps.
+
+    Examples
+    --------
+    >>> from conveyor.rubber import StrainSweep
+    >>> strain, storage = (
+    ...     [1e-4, 1.5e-4, 2e-4, 1e-3, 1e-2, 1e-1],
+    ...     [11.0e6, 11.0e6, 10.9e6, 10.4e6, 7.7e6, 3.5e6],
+    ... )
+    >>> factors = AmplitudeFactors([StrainSweep(293.15, 1.0, strain, storage, [1.4e6] * 6)], 1e-4)
+    >>> contact = RollContact(
+    ...     radius=0.08, spacing=1.5, cover_thickness=0.006, speed=5.0, rubber=PronySeries(8e6, [3e6], [1e-3])
+    ... )
+    >>> [(series, at)] = softened_each([WorkedCover(contact, 3000.0, factors, 293.15)])
+    >>> bool(abs(factors.storage(at.strain, 293.15) / at.storage_factor - 1.0) < STRAIN_RTOL)
+    True
     """
     covers: list[SoftCover] = []
     for soft in softened_many(works):
@@ -135,12 +192,22 @@ def softened_many(works: Sequence[WorkedCover]) -> list[SoftCover | NoSolutionEr
     Parameters
     ----------
     works : sequence of WorkedCover
-        Covers.
+        Covers, each with its line load [N/m] and temperature [K].
 
     Returns
     -------
     list
         In their order the covers, or why there is none.
+
+    Raises
+    ------
+    InputError
+        The load of a contact is refused.
+
+    Examples
+    --------
+    >>> softened_many([])
+    []
     """
     coarsely = itertools.chain([True], itertools.repeat(False))
 
@@ -173,7 +240,7 @@ def softened_at(
     Parameters
     ----------
     works : sequence of WorkedCover
-        Covers.
+        Covers, each with its line load [N/m] and temperature [K].
     worked : sequence of tuple of float
         Strain amplitude [-] and angular frequency [rad/s] of each.
 
@@ -181,7 +248,31 @@ def softened_at(
     -------
     list
         In their order the covers, or why there is none.
+
+    Raises
+    ------
+    InputError
+        A strain or a frequency is not positive.
+
+    Examples
+    --------
+    At the strain of the master curve the rubber is that of the master curve.
+
+    >>> from conveyor.rubber import StrainSweep
+    >>> strain, storage = (
+    ...     [1e-4, 1.5e-4, 2e-4, 1e-3, 1e-2, 1e-1],
+    ...     [11.0e6, 11.0e6, 10.9e6, 10.4e6, 7.7e6, 3.5e6],
+    ... )
+    >>> factors = AmplitudeFactors([StrainSweep(293.15, 1.0, strain, storage, [1.4e6] * 6)], 1e-4)
+    >>> contact = RollContact(
+    ...     radius=0.08, spacing=1.5, cover_thickness=0.006, speed=5.0, rubber=PronySeries(8e6, [3e6], [1e-3])
+    ... )
+    >>> [(series, at)] = softened_at([WorkedCover(contact, 3000.0, factors, 293.15)], [(1e-4, 600.0)])
+    >>> round(at.storage_factor, 6), round(at.loss_factor, 6)
+    (1.0, 1.0)
     """
+    for strain, omega in worked:
+        require_positive(strain=strain, angular_frequency=omega)
     return [
         _cover(work, answer) for work, answer in zip(works, at_strains(_tasks(works), worked), strict=True)
     ]

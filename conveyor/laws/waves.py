@@ -125,7 +125,7 @@ def ramp(share: ArrayLike, *, shape: str) -> NDArray[np.float64]:
     share : float or array_like
         x, time over the time of the ramp [-]; held at both ends.
     shape : {"linear", "cosine", "S"}
-        Jumps of the acceleration, none of it, or even steps of it.
+        Jumps of the acceleration, none of it, or even steps of it [-].
 
     Returns
     -------

@@ -18,6 +18,7 @@ from conveyor.loop.equilibrium import Settled, settle
 from conveyor.loop.estimates import CemaEstimate, Classical, cema, classical
 from conveyor.loop.frame import Frame, TakeUpSetting
 from conveyor.loop.tensions import Loops, MotionState
+from conveyor.units.sentences import figure
 
 
 @dataclass(frozen=True)
@@ -64,11 +65,25 @@ class Balance:
         Main resistance that DIN 22101 gives for f = 1 [N].
     settled : Settled
         The loop itself: every drive, the take-up, the states that decide its setting.
+
+    Examples
+    --------
+    >>> import conveyor
+    >>> conveyor.analyse(conveyor.load("examples/specs/overland.yaml")).balance
+    Balance(effective tension 234 kN, motor 1,250 kW, f 0.0134, tight side 351 kN, slack side 117 kN)
     """
 
     along: tuple[Force, ...]
     unit_main: float
     settled: Settled
+
+    def __repr__(self) -> str:
+        power, tensions = self.power, self.tensions
+        return (
+            f"Balance(effective tension {figure(self.forces.total, 'force')}, motor {figure(power.motor, 'power')}, "
+            f"f {self.friction_factor:.4f}, tight side {figure(tensions.tight, 'force')}, slack side "
+            f"{figure(tensions.slack, 'force')})"
+        )
 
     @property
     def line(self) -> Line:

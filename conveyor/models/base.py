@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import ast
 import inspect
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from itertools import pairwise
 from textwrap import dedent
-from typing import Annotated, Any, NamedTuple, Self
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Self, TypeVar
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Strict, StringConstraints, ValidationError
 from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
 from pydantic_core import InitErrorDetails, PydanticCustomError
 from pydantic_core.core_schema import ModelSchema
 
-from conveyor.errors import InputError
+from conveyor.errors import InputError, SpecError
 from conveyor.models.wording import Location, message
 from conveyor.units import System, is_quantity, written
 from conveyor.units.sentences import told
@@ -139,7 +140,7 @@ class _SchemaWriter(GenerateJsonSchema):
 
 
 class Model(BaseModel):
-    """Base of all models."""
+    """Base of all models; whichever way one is made, what is refused is a `SpecError`."""
 
     model_config = ConfigDict(
         frozen=True,
@@ -150,12 +151,79 @@ class Model(BaseModel):
         defer_build=True,
     )
 
+    def __init__(self, /, **fields: Any) -> None:
+        with self._refusals():
+            super().__init__(**fields)
+
+    # Parts inside a model are validated by pydantic without a call of `__init__`: their errors keep their places.
+    __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
+
+    if not TYPE_CHECKING:  # a type checker knows from `frozen` that nothing can be set
+
+        def __setattr__(self, name: str, value: object) -> None:
+            try:
+                super().__setattr__(name, value)
+            except ValidationError:
+                raise InputError(
+                    f"{name}: a {type(self).__name__} does not change; replace({name}=...) makes a changed copy"
+                ) from None
+
+        def __delattr__(self, name: str) -> None:
+            raise InputError(
+                f"{name}: a {type(self).__name__} does not change; replace() makes a changed copy"
+            )
+
+    @classmethod
+    def model_validate(cls, obj: Any, **options: Any) -> Self:
+        """As pydantic's, of data or a model.
+
+        Raises
+        ------
+        SpecError
+            The data are refused; every refusal on its own line.
+        """
+        with cls._refusals():
+            return super().model_validate(obj, **options)
+
+    @classmethod
+    def model_validate_json(cls, json_data: str | bytes | bytearray, **options: Any) -> Self:
+        """As pydantic's, of JSON text.
+
+        Raises
+        ------
+        SpecError
+            The data are refused; every refusal on its own line.
+        """
+        with cls._refusals():
+            return super().model_validate_json(json_data, **options)
+
+    @classmethod
+    def model_validate_strings(cls, obj: Any, **options: Any) -> Self:
+        """As pydantic's, of texts.
+
+        Raises
+        ------
+        SpecError
+            The data are refused; every refusal on its own line.
+        """
+        with cls._refusals():
+            return super().model_validate_strings(obj, **options)
+
+    @classmethod
+    @contextmanager
+    def _refusals(cls) -> Iterator[None]:
+        """Raise what pydantic refuses as an error of this package."""
+        try:
+            yield
+        except ValidationError as error:
+            raise cls.refusal(error) from None
+
     def replace(self, **changes: Any) -> Self:
         """Return a copy with changed fields, checked like new input.
 
         Raises
         ------
-        InputError
+        SpecError
             A change is not allowed; every refusal on its own line.
         """
         kept = {name: getattr(self, name) for name in self.model_fields_set}
@@ -169,22 +237,15 @@ class Model(BaseModel):
 
         Raises
         ------
-        InputError
+        SpecError
             The data are refused; every refusal on its own line.
         """
-        try:
-            return cls.model_validate(data)
-        except ValidationError as error:
-            raise cls.refusal(error) from None
+        return cls.model_validate(data)
 
     @classmethod
-    def refusal(cls, error: ValidationError) -> InputError:
+    def refusal(cls, error: ValidationError) -> SpecError:
         """What a validation found wrong, every refusal on its own line."""
-        lines = (
-            ": ".join(filter(None, (field_path(item["loc"]), message(item, cls))))
-            for item in real_errors(error)
-        )
-        return InputError("\n".join(lines))
+        return SpecError((field_path(item["loc"]), message(item, cls)) for item in real_errors(error))
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
@@ -205,3 +266,27 @@ class Model(BaseModel):
         """Pickle what was given as plain data: pint quantities do not survive another process's registry."""
         given = self.model_dump(mode="json", by_alias=True, exclude_unset=True)
         return type(self).model_validate, (given,)
+
+
+M = TypeVar("M", bound=BaseModel)
+
+
+def validate(model: type[M], data: object, context: dict[str, Any] | None = None) -> M:
+    """Make a model of plain data; its errors know their places, for those who look them up in a file.
+
+    Parameters
+    ----------
+    model : type of BaseModel
+        What to make.
+    data : object
+        Plain data.
+    context : dict, optional
+        What validators look names up in.
+
+    Raises
+    ------
+    pydantic.ValidationError
+        The data are refused.
+    """
+    made: M = BaseModel.model_validate.__func__(model, data, context=context)  # type: ignore[attr-defined]
+    return made

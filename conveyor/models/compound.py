@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
@@ -12,6 +12,7 @@ from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, Validati
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
+from conveyor.arguments import checked
 from conveyor.errors import Amount, InputError, RangeError
 from conveyor.models.base import Model, Name, Number, Problem, refuse
 from conveyor.models.rolling_tests import RollingTest
@@ -32,12 +33,15 @@ from conveyor.units import (
     Quantity,
     display,
     from_si,
+    quantity,
     si,
     text,
 )
 
 if TYPE_CHECKING:
-    from conveyor.rubber import AmplitudeFactors, PronySeries, ShiftLaw
+    from numpy.typing import NDArray
+
+    from conveyor.rubber import WLF, AmplitudeFactors, Arrhenius, PronySeries, ShiftLaw, ShiftTable
 
 
 CONVERSION_ROUNDING = 1e-9
@@ -45,7 +49,14 @@ CONVERSION_ROUNDING = 1e-9
 
 
 class RubberCompound(Model):
-    """A rubber compound as the shelf holds it."""
+    """A rubber compound as the shelf holds it.
+
+    Examples
+    --------
+    >>> from conveyor import shelf
+    >>> shelf.compound("s100")
+    RubberCompound("S100": measured, 30 terms at 39.96 degC, equilibrium modulus 3.425 MPa, shift table)
+    """
 
     name: Name
     """Name on the shelf and in reports."""
@@ -97,6 +108,128 @@ class RubberCompound(Model):
             )
         refuse("RubberCompound", problems)
         return self
+
+    def __repr__(self) -> str:
+        prony, shift = self.prony, "no shift" if self.shift is None else f"shift {self.shift.law}"
+        return (
+            f'RubberCompound("{self.name}": {self.kind}, {len(prony.terms)} terms at '
+            f"{display(self.reference, 'temperature')}, equilibrium modulus "
+            f"{display(si(prony.equilibrium), 'pressure')}, {shift})"
+        )
+
+    def __str__(self) -> str:
+        return repr(self)
+
+    @classmethod
+    @checked
+    def from_series(
+        cls,
+        series: PronySeries,
+        *,
+        name: str,
+        reference_temperature: float | str | Quantity,
+        shift: WLF | Arrhenius | ShiftTable | None = None,
+        log10_b_T: Sequence[float] | NDArray[np.float64] | None = None,
+        strain: AmplitudeFactors | None = None,
+        frequencies: tuple[float, float] | None = None,
+        temperatures: tuple[float, float] | None = None,
+        poisson_ratio: float = 0.5,
+        density: float | None = None,
+        kind: Literal["measured", "illustrative"] = "illustrative",
+        source: Mapping[str, str] | None = None,
+        description: str = "",
+    ) -> Self:
+        """Make a compound of arrays: what `conveyor.rubber` holds in SI, as specs and `conveyor.analyse` take it.
+
+        Parameters
+        ----------
+        series : PronySeries
+            Relaxation spectrum at the reference temperature [Pa, s].
+        name : str
+            Of the compound in reports.
+        reference_temperature : float, str or Quantity
+            Temperature at which the series holds [K], or with its unit ("20 degC").
+        shift : WLF, Arrhenius or ShiftTable, optional
+            Temperature shift of the times, of the same reference; without it the compound is known at that
+            temperature only.
+        log10_b_T : array_like, optional
+            Vertical shift of all moduli at the temperatures of a table, ascending, shape `(n,)` [-]; none without it.
+        strain : AmplitudeFactors, optional
+            Softening with strain; linear without it.
+        frequencies : tuple of float, optional
+            Lowest and highest frequency of the data, at the reference temperature [Hz].
+        temperatures : tuple of float, optional
+            Lowest and highest temperature of the data [K]; both or neither.
+        poisson_ratio : float
+            Constant, from 0 to 0.5 [-].
+        density : float, optional
+            Density of the rubber [kg/m³].
+        kind : {"measured", "illustrative"}
+            A measured compound states its source.
+        source : mapping of str to str, optional
+            `origin` and `licence` of the data, as in a compound file.
+        description : str
+            What it is, in a sentence.
+
+        Returns
+        -------
+        RubberCompound
+            Also for `conveyor.shelf.dump`; what is not known of it stands in `missing`.
+
+        Raises
+        ------
+        InputError
+            Arguments that contradict each other.
+        SpecError
+            Fields that a compound file would be refused for.
+
+        Examples
+        --------
+        >>> from conveyor.rubber import WLF, PronySeries
+        >>> series = PronySeries(4e6, [3e6, 5e6], [1e-2, 1e-4])
+        >>> RubberCompound.from_series(
+        ...     series, name="mine", reference_temperature=293.15, shift=WLF(8.86, 101.6, 293.15)
+        ... )
+        RubberCompound("mine": illustrative, 2 terms at 20 degC, equilibrium modulus 4 MPa, shift wlf)
+        """
+        at = _temperature(reference_temperature)
+        if shift is not None and not math.isclose(shift.reference, si(at), rel_tol=CONVERSION_ROUNDING):
+            raise InputError(
+                "shift: its reference is {}, that of the series {}; give both at one temperature",
+                _asked(shift.reference),
+                _asked(si(at)),
+            )
+        if (frequencies is None) != (temperatures is None):
+            raise InputError(
+                "frequencies and temperatures: the range of the data needs both, or neither is given"
+            )
+        if kind == "measured" and source is None:
+            raise InputError('source: missing; a measured compound states its "origin" and its "licence"')
+        unknown = {
+            "temperature shift": shift, "range of the data": frequencies, "strain dependence": strain,
+            "density": density,
+        }  # fmt: skip
+        return cls.from_data(
+            {
+                "name": name,
+                "kind": kind,
+                "description": description,
+                "source": dict(source or {"origin": "arrays given in Python", "licence": "not stated"}),
+                "poisson_ratio": poisson_ratio,
+                "density": None if density is None else from_si(density, "density"),
+                "reference_temperature": at,
+                "prony": _prony(series),
+                "shift": _shift(shift, log10_b_T),
+                "range": None
+                if frequencies is None or temperatures is None
+                else {
+                    "frequency": [from_si(limit, "frequency", "Hz") for limit in frequencies],
+                    "temperature": list(map(_temperature, temperatures)),
+                },
+                "strain_dependence": None if strain is None else _strain_dependence(strain),
+                "missing": [what for what, known in unknown.items() if known is None],
+            }
+        )
 
     @property
     def reference(self) -> float:
@@ -238,13 +371,7 @@ class RubberCompound(Model):
         return tuple(
             self.replace(
                 shift=shift,
-                prony={
-                    "equilibrium": from_si(series.equilibrium, "pressure", "Pa"),
-                    "terms": [
-                        {"modulus": from_si(modulus, "pressure", "Pa"), "time": from_si(time, "time", "s")}
-                        for modulus, time in zip(series.moduli.tolist(), series.times.tolist(), strict=True)
-                    ],
-                },
+                prony=_prony(series),
             )
             for series, shift in zip(self._reference_replicas(), self._replica_shifts(), strict=True)
         )
@@ -288,6 +415,70 @@ class RubberCompound(Model):
             return series
         b_T = shift.vertical(temperature) if isinstance(shift, TableShift) else 1.0
         return shifted(series, shift.at(self.reference), temperature, b_T=b_T)
+
+
+def _temperature(given: float | str | Quantity) -> Quantity:
+    """A temperature: a number is in kelvin."""
+    return (
+        from_si(given, "temperature", "K")
+        if isinstance(given, int | float)
+        else quantity(given, "temperature")
+    )
+
+
+def _prony(series: PronySeries) -> dict[str, Any]:
+    """A series as a compound holds it."""
+    return {
+        "equilibrium": from_si(series.equilibrium, "pressure", "Pa"),
+        "terms": [
+            {"modulus": from_si(modulus, "pressure", "Pa"), "time": from_si(time, "time", "s")}
+            for modulus, time in zip(series.moduli.tolist(), series.times.tolist(), strict=True)
+        ],
+    }
+
+
+def _shift(
+    law: WLF | Arrhenius | ShiftTable | None, log10_b_T: Sequence[float] | NDArray[np.float64] | None
+) -> dict[str, Any] | None:
+    """A shift law as a compound holds it."""
+    from conveyor.rubber import WLF, ShiftTable
+
+    if isinstance(law, ShiftTable):
+        vertical = None if log10_b_T is None else list(map(float, log10_b_T))
+        return {
+            "law": "table",
+            "temperature": list(map(_temperature, law.temperatures.tolist())),
+            "log10_aT": law.log10_factors.tolist(),
+            "log10_bT": vertical,
+        }
+    if log10_b_T is not None:
+        raise InputError(
+            "log10_b_T: belongs to the temperatures of a ShiftTable; give one as shift, or leave it out"
+        )
+    if law is None:
+        return None
+    if isinstance(law, WLF):
+        return {"law": "wlf", "c1": law.c1, "c2": quantity(f"{float(law.c2)!r} K", "temperature difference")}
+    energy = from_si(law.activation_energy, "molar energy", "J/mol")
+    return {"law": "arrhenius", "activation_energy": energy}
+
+
+def _strain_dependence(factors: AmplitudeFactors) -> dict[str, Any]:
+    """Factors of strain as a compound holds them."""
+    return {
+        "reference_strain": from_si(factors.reference_strain, "fraction"),
+        "sweeps": [
+            {
+                "temperature": _temperature(sweep.temperature),
+                "frequency": from_si(sweep.frequency, "frequency", "Hz"),
+                "strain": (100.0 * sweep.strain).tolist(),
+                "unit": "Pa",
+                "storage": sweep.storage.tolist(),
+                "loss": sweep.loss.tolist(),
+            }
+            for sweep in factors.sweeps
+        ],
+    }
 
 
 def _asked(temperature: float) -> Amount:

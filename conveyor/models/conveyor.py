@@ -14,11 +14,18 @@ from conveyor.models.parts import ConveyorParts
 from conveyor.models.report import Report
 from conveyor.models.scenarios import Scenario, scenario_problems
 from conveyor.models.uncertainty import Uncertainty
-from conveyor.units import si
+from conveyor.units import si, text
 
 
 class Conveyor(ConveyorParts):
-    """A belt conveyor as its designers list it."""
+    """A belt conveyor as its designers list it.
+
+    Examples
+    --------
+    >>> import conveyor
+    >>> conveyor.load("examples/specs/overland.yaml")
+    Conveyor("Overland coal, 5.2 km": 2400 t/h over 5200 m, lift 62.09 m, belt 1200 mm, 5 m/s)
+    """
 
     cases: Annotated[tuple[LoadCase, ...], Field(max_length=100)] = ()
     """Load cases to calculate beside the conveyor as given."""
@@ -30,6 +37,16 @@ class Conveyor(ConveyorParts):
     """What reports carry on their cover, and their units."""
     notes: str | None = None
     """Anything worth keeping; printed in reports, no effect on figures."""
+
+    def __repr__(self) -> str:
+        route, belt = self.route, self.belt
+        return (
+            f'Conveyor("{self.name}": {text(self.material.flow)} over {route.length:.4g} m, lift {route.rise:z.4g} m, '
+            f"belt {text(belt.width)}, {text(belt.speed)})"
+        )
+
+    def __str__(self) -> str:
+        return repr(self)
 
     @model_validator(mode="after")
     def _parts_fit(self) -> Self:

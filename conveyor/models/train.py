@@ -6,8 +6,7 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import Annotated, Any, Final, Literal
 
-from pydantic import ValidationError
-
+from conveyor.errors import SpecError
 from conveyor.models.base import Model, Name
 from conveyor.units import Bounds, Fraction, quantity, si
 
@@ -39,6 +38,6 @@ def with_efficiency(data: Mapping[str, Any]) -> Mapping[str, Any]:
         return data
     try:
         parts = [DrivePart.model_validate(part) for part in given]
-    except ValidationError:
+    except SpecError:
         return data  # refused by the field itself, at its own place
     return {**data, "efficiency": quantity(round(product(parts, "belt"), _DIGITS), "fraction")}

@@ -255,7 +255,7 @@ def with_runs(conveyor: Conveyor, runs: Sequence[MeasuredRun]) -> list[Conveyor]
             try:
                 known[run.state] = _as_run(conveyor, run)
             except (InputError, RangeError) as error:
-                raise type(error)(f"run {number}: {error}") from None
+                raise error.at(f"run {number}") from None
     return [known[run.state] for run in runs]
 
 

@@ -80,6 +80,14 @@ class PronyFit:
         The measurements as they were fitted, for `bootstrap`.
     held : float or None
         Equilibrium modulus held; None if fitted [Pa].
+
+    Examples
+    --------
+    >>> frequency = np.logspace(-1.0, 4.0, 41)
+    >>> series = PronySeries(4e6, [1e6, 2e6, 4e6], [1e-3, 1e-2, 1e-1])
+    >>> omega = 2.0 * np.pi * frequency
+    >>> fit_prony(frequency, series.storage(omega), series.loss(omega), times=series.times)
+    PronyFit(3 terms, 0.1 to 1e+04 Hz, equilibrium modulus 4 MPa, error of E' 0.0 %, of E'' 0.0 %)
     """
 
     series: PronySeries
@@ -112,6 +120,14 @@ class PronyFit:
         rows, omega = self.rows, self.rows.omega
         return (
             np.array([self.series.storage(omega) / rows.storage, self.series.loss(omega) / rows.loss]) - 1.0
+        )
+
+    def __repr__(self) -> str:
+        low, high = self.window
+        return (
+            f"PronyFit({self.active_terms} terms, {low:.3g} to {high:.3g} Hz, equilibrium modulus "
+            f"{self.series.equilibrium / 1e6:.3g} MPa, error of E' {100.0 * self.storage.rms:.1f} %, "
+            f"of E'' {100.0 * self.loss.rms:.1f} %)"
         )
 
     def _repr_html_(self) -> str:

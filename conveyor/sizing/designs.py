@@ -82,6 +82,10 @@ class CalculatedSizing:
     refused: Mapping[str, int]
     estimate_error: float
 
+    def __repr__(self) -> str:
+        count = f"{len(self.designs)} designs of {self.calculated} calculated, {self.candidates:,} candidates"
+        return f'Sizing("{self.duty.name}": {count}; cheapest {self.best!r})'
+
     @cached_property
     def task(self) -> SizingTask:
         """The duty in SI."""
@@ -104,6 +108,11 @@ def size(duty: SizingDuty, *, best: int = 3, progress: Progress | None = None) -
         Designs wanted.
     progress : callable, optional
         Called with what is done of all.
+
+    Returns
+    -------
+    CalculatedSizing
+        Designs by rank, and what the others failed.
 
     Raises
     ------

@@ -9,6 +9,7 @@ from conveyor.line.task import Choice, Chosen
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.studies.costs import Costs
+from conveyor.units.sentences import figure, rounded
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +39,13 @@ class SizedDesign:
     costs: Costs
     estimate: float
     roll_life: float
+
+    def __repr__(self) -> str:
+        line, motor = self.found.line, self.found.balance.power.motor
+        return (
+            f"SizedDesign(belt {figure(line.belt.width, 'length')} at {figure(line.speed, 'speed')}, "
+            f"motor {figure(motor, 'power')}, cost of a year {rounded(self.year)})"
+        )
 
     @property
     def conveyor(self) -> Conveyor:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property, partial
 
 from conveyor.models import Conveyor
@@ -43,6 +43,10 @@ class CalculatedStudies:
     cases: CalculatedCases | None = None
     duty: CalculatedYear | None = None
     uncertainty: CalculatedRanges | None = None
+
+    def __repr__(self) -> str:
+        held = [field.name for field in fields(self) if getattr(self, field.name) is not None]
+        return f"Studies({', '.join(held) or 'none requested'})"
 
     @cached_property
     def governing(self) -> tuple[Governing, ...]:

@@ -301,7 +301,7 @@ class _Scene:
         for number, run in enumerate(runs, start=1):
             answer = answers[run.state]
             if not isinstance(answer, CalculatedConveyor):
-                raise type(answer)(f"run {number}: {answer}")
+                raise answer.at(f"run {number}")
             rows.append(answer)
         measured = np.array([run.watts for run in runs])
         own = [run.deviation_watts for run in runs]

@@ -12,6 +12,8 @@ import hashlib
 import json
 import math
 import sqlite3
+import warnings
+import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from contextlib import contextmanager
@@ -22,7 +24,7 @@ from itertools import islice
 from pathlib import Path
 from typing import Final, NamedTuple, Self, TypeAlias
 
-from conveyor.errors import ConveyorError, InputError
+from conveyor.errors import ConveyorError, InputError, ValidityWarning
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.fields import field as field_of
 from conveyor.models.fields import with_fields
@@ -57,8 +59,9 @@ WINDOW: Final = 16 * BATCH
 _SHARED: Final = ("ambient.", "belt.speed", "belt.top_cover.")
 """Fields that the rolls of both strands feel: points that differ in others alone may share the return rolls."""
 
-_MARK: Final = 0x636F6E76
-"""In the head of a file of answers."""
+_MARK: Final = 0x636F6E77
+"""In the head of a file of answers with checksums."""
+_COLUMNS: Final = "(key BLOB PRIMARY KEY, answer BLOB, checksum INTEGER) WITHOUT ROWID"
 
 Progress: TypeAlias = Callable[[int, int, int], None]
 """Called with points that have been gone through, all, and those of them that this run found without an answer."""
@@ -225,8 +228,21 @@ def _hash(data: object) -> hashlib._Hash:
     return hashlib.sha256(json.dumps(data, sort_keys=True).encode())
 
 
+def _checksum(key: bytes, text: bytes) -> int:
+    """CRC-32 of a key and its answer."""
+    return zlib.crc32(text, zlib.crc32(key))
+
+
+def _is_whole(key: object, text: object, checksum: object) -> bool:
+    """Whether a row holds what was written."""
+    return isinstance(key, bytes) and isinstance(text, bytes) and _checksum(key, text) == checksum
+
+
 class Answers:
-    """A file of answers by key that only grows.
+    """A file of answers by key, each with its checksum; it only grows.
+
+    Answers whose checksum does not match (a disk or a copy that lost a bit) are taken out as the file is opened, so
+    that they are calculated anew, with a warning that says how many.
 
     Raises
     ------
@@ -238,39 +254,62 @@ class Answers:
         self._path = path
         try:
             self._file = sqlite3.connect(path, isolation_level=None)
+            self._file.text_factory = bytes  # what a lost bit made a text may be no UTF-8
         except sqlite3.OperationalError as error:
             raise InputError(f"{path}: cannot be written ({error})") from None
         try:
             with self._told():
                 self._begin()
+                damaged = self._take_out_damaged()
         except ConveyorError as error:
             self._file.close()
             raise InputError(str(error)) from None
+        if damaged:
+            warnings.warn(
+                f"{path}: answers that do not match their checksum: {damaged}; they are calculated anew",
+                ValidityWarning,
+                stacklevel=2,
+            )
 
     def _begin(self) -> None:
         """Make the table in a file that is new, or that a full disk left without one."""
         (mark,) = self._file.execute("PRAGMA application_id").fetchone()
         (pages,) = self._file.execute("PRAGMA page_count").fetchone()
         if pages and mark != _MARK:
-            raise InputError(f"{self._path}: holds something else than answers of a study; remove it")
+            raise InputError(
+                f"{self._path}: holds something else than answers of a study of this version; remove it"
+            )
         with self._file:
             self._file.execute("BEGIN IMMEDIATE")
             self._file.execute(f"PRAGMA application_id = {_MARK}")
-            self._file.execute(
-                "CREATE TABLE IF NOT EXISTS answers (key BLOB PRIMARY KEY, answer TEXT) WITHOUT ROWID"
-            )
+            self._file.execute(f"CREATE TABLE IF NOT EXISTS answers {_COLUMNS}")
+
+    def _take_out_damaged(self) -> int:
+        """Write the table anew without answers that are not what was written; how many these are."""
+        query = "SELECT key, answer, checksum FROM answers"
+        damaged = sum(not _is_whole(*row) for row in self._file.execute(query))
+        if damaged:
+            with self._file:
+                self._file.execute("BEGIN IMMEDIATE")
+                self._file.execute(f"CREATE TABLE whole {_COLUMNS}")
+                whole = (row for row in self._file.execute(query) if _is_whole(*row))
+                self._file.executemany("INSERT OR IGNORE INTO whole VALUES (?, ?, ?)", whole)
+                self._file.execute("DROP TABLE answers")
+                self._file.execute("ALTER TABLE whole RENAME TO answers")
+        return damaged
 
     @contextmanager
     def _told(self) -> Iterator[None]:
         """Say what keeps the file from being read or written."""
         try:
             yield
-        except sqlite3.OperationalError as error:
-            other = "another run of the study writes to it" if "locked" in str(error) else "make room"
-            raise ConveyorError(
-                f"{self._path}: cannot be written ({error}; {other}); what is done is kept: run it again to go on"
-            ) from None
-        except sqlite3.DatabaseError as error:
+        except (sqlite3.DatabaseError, UnicodeDecodeError) as error:  # SQLite quotes what is damaged
+            # of a statement of ours SQLite says ERROR where the file's own schema is another
+            if isinstance(error, sqlite3.OperationalError) and error.sqlite_errorcode != sqlite3.SQLITE_ERROR:
+                other = "another run of the study writes to it" if "locked" in str(error) else "make room"
+                raise ConveyorError(
+                    f"{self._path}: cannot be written ({error}; {other}); what is done is kept: run it again to go on"
+                ) from None
             raise InputError(
                 f"{self._path}: holds something else than answers of a study, or is damaged ({error}); remove it"
             ) from None
@@ -282,9 +321,12 @@ class Answers:
             return {key for (key,) in self._file.execute(query, keys)}
 
     def __getitem__(self, key: bytes) -> Answer:
+        query = "SELECT answer, checksum FROM answers WHERE key = ?"
         with self._told():
-            (text,) = self._file.execute("SELECT answer FROM answers WHERE key = ?", (key,)).fetchone()
-        answer: Answer = json.loads(text)
+            row = self._file.execute(query, (key,)).fetchone()
+        if row is None or not _is_whole(key, *row):
+            raise ConveyorError(f"{self._path}: an answer does not match its checksum; run the study again")
+        answer: Answer = json.loads(row[0])
         return answer
 
     def add(self, answers: Iterable[tuple[bytes, Answer]]) -> None:
@@ -295,10 +337,11 @@ class Answers:
         ConveyorError
             They cannot be written: the disk is full, or another run of the study writes.
         """
-        lines = [(key, json.dumps(answer)) for key, answer in answers]
+        texts = [(key, json.dumps(answer).encode()) for key, answer in answers]
+        lines = [(key, text, _checksum(key, text)) for key, text in texts]
         with self._told(), self._file:
             self._file.execute("BEGIN IMMEDIATE")
-            self._file.executemany("INSERT OR IGNORE INTO answers VALUES (?, ?)", lines)
+            self._file.executemany("INSERT OR IGNORE INTO answers VALUES (?, ?, ?)", lines)
 
     def __len__(self) -> int:
         with self._told():

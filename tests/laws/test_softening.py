@@ -11,9 +11,9 @@ import conveyor
 from conveyor import shelf
 from conveyor.checks import checks
 from conveyor.contact import interior, solve
-from conveyor.errors import RangeError
+from conveyor.errors import InputError, RangeError
 from conveyor.indentation import RollContact, to_problem
-from conveyor.laws.softening import WorkedCover, losing_load, softened_each
+from conveyor.laws.softening import WorkedCover, losing_load, softened_at, softened_each
 from conveyor.models import RubberCompound
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
@@ -156,3 +156,21 @@ def test_outside_the_sweeps_their_factors_are_held_and_it_says_so(line):
     below, end, above = at(-1.0), at(0.0), at(1.0)
     assert abs(below / end - 1.0) < 0.05 > abs(above / end - 1.0)
     assert (below - end) * (end - above) > 0.0
+
+
+def test_mean_load_weighs_by_what_rolls_lose():
+    """8^(4/3) is 16: two rolls at 8 N/m and one at 1 lose 16 to 1 each; a load that all share is the mean."""
+    assert losing_load(np.array([8.0, 1.0]), np.array([2.0, 1.0])) == pytest.approx(257.0 / 33.0, rel=1e-14)
+    assert losing_load(np.array([5.0, 5.0, 5.0]), np.array([1.0, 2.0, 0.0])) == pytest.approx(5.0, rel=1e-14)
+    with pytest.raises(InputError, match=r"^line_loads = 0\.0 is not allowed: a roll that carries something"):
+        losing_load(np.zeros(2), np.ones(2))
+
+
+@pytest.mark.parametrize(
+    ("worked", "name"),
+    [((0.0, 600.0), "strain"), ((-0.01, 600.0), "strain"), ((0.01, 0.0), "angular_frequency")],
+)
+def test_strains_that_are_none_are_refused(compound, contact, worked, name):
+    work = WorkedCover(contact, LOAD, compound.amplitude_factors(), AT)
+    with pytest.raises(InputError, match=rf"^{name} = .*a finite number greater than 0 is needed"):
+        softened_at([work], [worked])

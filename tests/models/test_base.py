@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import copy
+import json
 import pickle
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from pydantic import ValidationError
 
-from conveyor.errors import InputError
+import conveyor
+from conveyor.errors import InputError, SpecError
 from conveyor.models import Conveyor, IdlerSet, Roll
+from conveyor.models.base import Model
+from conveyor.models.belt import Belt
 from conveyor.units import quantity, text
 
 ROLL = {"diameter": "159 mm", "length": "465 mm", "rotating_mass": "5 kg"}
@@ -18,12 +22,55 @@ ROLL = {"diameter": "159 mm", "length": "465 mm", "rotating_mass": "5 kg"}
 
 def test_models_are_frozen() -> None:
     roll = Roll(**ROLL)
-    with pytest.raises(ValidationError, match="frozen"):
+    with pytest.raises(InputError, match=r"^diameter: a Roll does not change; replace\(diameter=\.\.\.\)"):
         roll.diameter = quantity("1 m")  # type: ignore[misc]
+    with pytest.raises(InputError, match=r"^diameter: a Roll does not change; replace\(\)"):
+        del roll.diameter
+    assert text(roll.diameter) == "159 mm"
+
+
+@pytest.mark.parametrize(
+    ("make", "path"),
+    [
+        (lambda data: Conveyor(**data), "belt.speed"),
+        (Conveyor.model_validate, "belt.speed"),
+        (Conveyor.from_data, "belt.speed"),
+        (lambda data: Conveyor.model_validate_json(json.dumps(data)), "belt.speed"),
+        (Conveyor.model_validate_strings, "belt.speed"),
+        (lambda data: Belt(**data["belt"]), "speed"),
+    ],
+    ids=["class", "validate", "from_data", "json", "strings", "part"],
+)
+def test_every_way_in_refuses_with_all_places(
+    conveyor_data: dict[str, Any], make: Callable[[dict[str, Any]], object], path: str
+) -> None:
+    conveyor_data["belt"] |= {"speed": "50 m/s", "width": "1200 kg"}
+    with pytest.raises(SpecError, match=r"speed: got 50 m/s, allowed: > 0 m/s and <= 20 m/s") as caught:
+        make(conveyor_data)
+    found = dict(caught.value.problems)
+    assert found[path.replace("speed", "width")] == (
+        'got "1200 kg" (a mass), expected a length such as "1200 mm"'
+    )
+    assert str(caught.value).splitlines() == [f"{at}: {what}" for at, what in caught.value.problems]
+    twin = pickle.loads(pickle.dumps(caught.value))  # noqa: S301 made here
+    assert (str(twin), twin.problems) == (str(caught.value), caught.value.problems)
+    assert isinstance(caught.value, conveyor.ConveyorError)
+
+
+def _models(model: type[Model]) -> Iterator[type[Model]]:
+    for one in model.__subclasses__():
+        yield one
+        yield from _models(one)
+
+
+@pytest.mark.parametrize("model", sorted(set(_models(Model)), key=lambda one: one.__name__))
+def test_no_model_raises_an_error_of_pydantic(model: type[Model]) -> None:
+    with pytest.raises(SpecError, match=r'no_such_field: unknown key "no_such_field"'):
+        model(no_such_field=1)
 
 
 def test_unknown_keys_are_refused() -> None:
-    with pytest.raises(ValidationError, match="colour"):
+    with pytest.raises(SpecError, match="colour"):
         Roll(**ROLL, colour="red")
 
 
@@ -73,8 +120,8 @@ def test_pickle_copy_hash(conveyor_data: dict[str, Any]) -> None:
 @pytest.mark.parametrize(
     ("field", "value", "message"),
     [
-        ("rolls", "3", "Input should be 1, 2, 3, 4 or 5"),
-        ("rolls", 6, "Input should be 1, 2, 3, 4 or 5"),
+        ("rolls", "3", "allowed: 1, 2, 3, 4 or 5"),
+        ("rolls", 6, "allowed: 1, 2, 3, 4 or 5"),
         ("spacing", 1.5, 'give the unit, e.g. "1.5 m"'),
         ("trough_angle", "35 degC", r'got "35 degC" \(a temperature\), expected an angle'),
         ("trough_angle", "75 deg", "got 75 deg, allowed: >= 0 deg and <= 60 deg"),
@@ -83,12 +130,12 @@ def test_pickle_copy_hash(conveyor_data: dict[str, Any]) -> None:
 def test_values_are_not_coerced(field: str, value: object, message: str) -> None:
     data = {"rolls": 3, "spacing": "1.5 m", "trough_angle": "35 deg", "roll": ROLL}
     IdlerSet.model_validate(data)
-    with pytest.raises(ValidationError, match=message):
+    with pytest.raises(SpecError, match=message):
         IdlerSet.model_validate(data | {field: value})
 
 
 @pytest.mark.parametrize("value", ["0.35", True, float("nan"), float("inf"), 0, -1, 1.5])
 def test_plain_numbers_are_strict_and_bounded(conveyor_data: dict[str, Any], value: object) -> None:
     conveyor_data["drive"]["friction"] = value
-    with pytest.raises(ValidationError, match=r"drive\.friction"):
+    with pytest.raises(SpecError, match=r"drive\.friction"):
         Conveyor.model_validate(conveyor_data)

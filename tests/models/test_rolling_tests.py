@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
 
 from conveyor import shelf
-from conveyor.errors import InputError
+from conveyor.errors import InputError, SpecError
 from conveyor.models.rolling_tests import LAW_POINTS, RollingTest
 
 GIVEN = {
@@ -57,12 +56,12 @@ def test_the_published_law():
     ],
 )
 def test_wrong_tests_are_refused(changes, match):
-    with pytest.raises((InputError, ValidationError), match=match):
+    with pytest.raises((InputError, SpecError), match=match):
         RollingTest.model_validate(GIVEN | changes)
 
 
 def test_a_carrier_needs_tests():
-    with pytest.raises((InputError, ValidationError), match=r"tests: missing; with a carrier's spectrum"):
+    with pytest.raises((InputError, SpecError), match=r"tests: missing; with a carrier's spectrum"):
         shelf.compound("s100").replace(carrier="standard-cover")
 
 

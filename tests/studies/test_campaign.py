@@ -7,9 +7,11 @@ import errno
 import json
 import math
 import os
+import random
 import re
 import signal
 import sqlite3
+import warnings
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import closing
 from multiprocessing import get_context
@@ -20,7 +22,7 @@ import pytest
 import conveyor
 from conveyor import shelf
 from conveyor.cli.workers import executor_of
-from conveyor.errors import ConveyorError, InputError
+from conveyor.errors import ConveyorError, InputError, ValidityWarning
 from conveyor.models.fields import with_fields
 from conveyor.models.study import StudyPlan
 from conveyor.pipeline import Kept, calculate
@@ -516,6 +518,50 @@ def test_a_damaged_file_of_answers_says_so(line, tmp_path, monkeypatch):
     path.write_bytes(data[:8192] + b"x" * 8192 + data[16384:])
     with pytest.raises(InputError, match="or is damaged"):
         answered(study, path)
+
+
+def test_an_answer_that_lost_a_bit_is_calculated_anew_with_a_line(line, tmp_path, monkeypatch):
+    monkeypatch.setattr("conveyor.studies.campaign.answers", by_speed)
+    path, study = tmp_path / "a", campaign(line, axes={"belt.speed": "1:2:0.01 m/s"})
+    whole = answered(study, path)
+    data = bytearray(path.read_bytes())
+    for figure in (b"1250.0", b"1750.0"):
+        data[data.index(figure) + 1] ^= 0b100  # to 1650.0, 1350.0
+    path.write_bytes(data)
+    asked = []
+    monkeypatch.setattr(
+        "conveyor.studies.campaign.answers", lambda _, new: asked.extend(new) or by_speed(_, new)
+    )
+    with pytest.warns(ValidityWarning, match=r"a: answers .* checksum: 2; they are calculated anew"):
+        assert answered(study, path) == whole
+    assert len(asked) == 2
+    assert answered(study, path) == whole  # and no line
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_no_lost_bit_changes_a_figure(line, tmp_path, monkeypatch, seed):
+    monkeypatch.setattr("conveyor.studies.campaign.answers", by_speed)
+    path, study = tmp_path / "a", campaign(line, axes={"belt.speed": "1:2:0.05 m/s"})
+    whole, seeded = answered(study, path), random.Random(seed)  # noqa: S311 a repeatable test
+    data = path.read_bytes()
+    used = [at for at, byte in enumerate(data) if byte]
+    for _ in range(12):
+        damaged = bytearray(data)
+        damaged[seeded.choice(used)] ^= 1 << seeded.randrange(8)
+        path.write_bytes(damaged)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ValidityWarning)
+            assert _or_refused(study, path) in (whole, None)
+
+
+def _or_refused(study, path):
+    """The answers, or nothing where the file is refused by its name."""
+    try:
+        return answered(study, path)
+    except InputError as error:
+        if re.search(rf"^{re.escape(str(path))}: holds something else .*; remove it", str(error)):
+            return None
+        raise
 
 
 def test_every_figure_can_be_asked_for(line, tmp_path):

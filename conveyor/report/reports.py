@@ -1,0 +1,45 @@
+"""Files of results that hold one set of contents."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from conveyor.report.columns import Contents
+    from conveyor.report.files import FileKind
+    from conveyor.units import System
+
+
+class Reports:
+    """Files of results whose `contents` take a system of units alone."""
+
+    def contents(self, system: System | None = None) -> Contents:
+        """Everything a report holds, in a system of units."""
+        raise NotImplementedError
+
+    def to_excel(self, path: str | Path, *, system: System | None = None) -> Path:
+        """Write the workbook; as `Analysis.to_excel`."""
+        from conveyor.report.excel import write
+
+        return write(self.contents(system), Path(path))
+
+    def to_tables(
+        self, folder: str | Path, *, system: System | None = None, kind: FileKind = "csv"
+    ) -> tuple[Path, ...]:
+        """Write every table as a file of its own; as `Analysis.to_tables`."""
+        from conveyor.report.files import write
+
+        return write(self.contents(system), Path(folder), kind)
+
+    def to_html(self, path: str | Path, *, system: System | None = None) -> Path:
+        """Write the HTML report; as `Analysis.to_html`."""
+        from conveyor.report.html import write
+
+        return write(self.contents(system), Path(path))
+
+    def to_pdf(self, path: str | Path, *, system: System | None = None) -> Path:
+        """Write the HTML report as it prints; as `Analysis.to_pdf`."""
+        from conveyor.report.pdf import write
+
+        return write(self.contents(system), Path(path))
