@@ -187,6 +187,24 @@ def felt(contact: RollContact, line_load: float, error: float) -> tuple[float, f
     return fastest, math.sqrt(SLOW / error) * contact.cover_thickness / speed
 
 
+def coarsened(contact: RollContact, line_load: float, error: float) -> RollContact:
+    """A contact whose rubber has no terms that its roll does not tell apart; itself where nothing is known of them.
+
+    Parameters
+    ----------
+    contact : RollContact
+        Roll, cover and rubber.
+    line_load : float
+        w, the least that occurs [N/m].
+    error : float
+        As of `felt`, for the fast and for the slow terms each [-].
+    """
+    if contact.support != "confined" or contact.poisson != 0.5:
+        return contact
+    fastest, slowest = felt(contact, line_load, error)
+    return replace(contact, rubber=contact.rubber.merged(fastest=fastest, slowest=slowest))
+
+
 @dataclass(frozen=True, eq=False)
 class Indentation:
     """Rolling contact under line loads, physical; arrays of the shape of `line_load`.

@@ -792,7 +792,7 @@ class _Shared:
         anchor = next(anchors, None)
         if not isinstance(cover, RunningCover) or isinstance(anchor, NoAnswer):
             return anchor if isinstance(anchor, NoAnswer) else cover
-        level = None if anchor is None else Level(anchor, work.temperature)
+        level = None if anchor is None else Level(anchor, work.temperature, work.compound)
         if cover.level == level:
             return cover
         return self._kept.once(lambda: replace(cover, level=level), "level", (cover, anchor))

@@ -219,12 +219,13 @@ def _level(result: CalculatedConveyor) -> Iterator[Said]:
     for strand, compound in compounds_by_strand(result.conveyor).items():
         level, name = contacts.covers[strand].level, quoted(compound.name)
         if level is not None:
-            half = contacts.level_band(strand)
-            anchor = level.anchor
-            beyond = "" if anchor.tested_at(level.temperature) else ", held beyond the tested temperatures"
+            low, high = contacts.level_range(strand)
+            beyond = (
+                "" if level.anchor.tested_at(level.temperature) else ", held beyond the tested temperatures"
+            )
             yield said(
                 f'compound "{name}": indentation of the {strand} rolls {contacts.level_factor(strand):.2f} times '
-                f"the theory ({percent(math.expm1(-half))} to +{percent(math.expm1(half))}), the level of its "
+                f"the theory ({percent(low - 1.0)} to +{percent(high - 1.0)}), the level of its "
                 f"rolling-resistance tests{beyond}"
             )
         elif compound.tests:

@@ -363,7 +363,10 @@ def _of_ranking(ranked: Table, costs: Table | None, system: System) -> dict[str,
             else f"{_number(power, row.low)}-{_number(power, row.high)}"
         )
 
-    columns: dict[str, Callable[[Any], str]] = {"compound": lambda row: str(row.compound)}
+    columns: dict[str, Callable[[Any], str]] = {
+        "compound": lambda row: str(row.compound),
+        "rank": lambda row: "" if row.rank is None else f"{row.rank}",
+    }
     if len({row.speed for row in ranked.rows}) > 1:
         columns[speed.sign] = lambda row: f"{speed.shown(row.speed):.4g}"
     columns[_over("mean", power)] = lambda row: _number(power, row.motor)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.errors import Amount, InputError, NoSolutionError, RangeError
-from conveyor.indentation import RollContact, felt, indentation_resistances
+from conveyor.indentation import RollContact, coarsened, indentation_resistances
 from conveyor.laws.softening import COARSE, SoftCover, WorkedCover, softened_many
 from conveyor.line.covers import FELT
 from conveyor.models import RubberCompound
@@ -114,6 +114,7 @@ def anchor_of(compound: RubberCompound, rows: Sequence[RollingRow]) -> Anchor:
         [row.temperature for row in rows],
         [row.measured / row.calculated for row in rows],
         uncertainty=max(test.relative_uncertainty for test in compound.tests),
+        shared=min(test.shared for test in compound.tests),
     )
     low, high = PLAUSIBLE
     for t in level.temperatures.tolist():
@@ -231,10 +232,7 @@ def _contact(compound: RubberCompound, points: RollingPoints) -> RollContact:
         rubber=compound.series(points.temperature),
         poisson=compound.poisson_ratio,
     )
-    if contact.poisson != 0.5:
-        return contact
-    fastest, slowest = felt(contact, float(points.line_load.min()), FELT * RTOL)
-    return replace(contact, rubber=contact.rubber.merged(fastest=fastest, slowest=slowest))
+    return coarsened(contact, float(points.line_load.min()), FELT * RTOL)
 
 
 def _nodes(loads: Array, *, few: bool) -> list[float]:

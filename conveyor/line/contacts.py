@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.contact import solve_many
 from conveyor.errors import NoSolutionError
 from conveyor.indentation import (
     Indentation,
     IndentationCurve,
     RollContact,
+    coarsened,
     forgotten,
     indentation_curves,
     resistances,
+    to_problems,
 )
 from conveyor.laws.loading import RollLoad
 from conveyor.laws.softening import losing_load
@@ -25,8 +29,11 @@ from conveyor.line.covers import Covers, roll_contact
 from conveyor.line.line import Line
 from conveyor.line.roll_kinds import RollKind
 from conveyor.line.stretches import Strand
+from conveyor.rubber.anchor import ends
 
 Array = NDArray[np.float64]
+_REPLICA_RTOL = 1e-2  # of the contacts that a band is formed from: a tenth of the narrowest band
+_REPLICA_FELT = 1e-4  # what merging terms of a replica may take of them, far below it
 Spans = Mapping[RollContact, tuple[float, float]]
 """Range of line loads that occur on each contact [N/m]."""
 SolvedCurves: TypeAlias = dict[tuple[RollContact, float, float, float], IndentationCurve | NoSolutionError]
@@ -146,6 +153,66 @@ class Contacts:
         """Half-width of the logarithm of that factor, holding nine tenths [-]; 0 without tests."""
         level = self.covers[strand].level
         return 0.0 if level is None else level.anchor.band(self.losing_load(strand), level.temperature)
+
+    def level_range(self, strand: Strand, *, own: bool = False) -> tuple[float, float]:
+        """Factors on a strand's indentation between which nine tenths lie [-]; 1 and 1 without tests.
+
+        The band of its tests and, beyond the tested temperatures, that of the replicas of its compound.
+
+        Parameters
+        ----------
+        strand : {"carry", "return"}
+            Whose rolls.
+        own : bool
+            Leave out what belts tested alike have in common: what counts where two are compared.
+
+        Raises
+        ------
+        NoSolutionError
+            A replica's contact has no answer.
+        """
+        level = self.covers[strand].level
+        if level is None:
+            return 1.0, 1.0
+        half = level.anchor.own_half_width if own else self.level_band(strand)
+        low, high = (math.hypot(half, end) for end in self._replicated[strand])
+        return math.exp(-low), math.exp(high)
+
+    @cached_property
+    def _replicated(self) -> dict[Strand, tuple[float, float]]:
+        """How far below and above its series the replicas of each strand's compound carry its level, in ln factor.
+
+        Their friction over that of the series, at this temperature over the same at the nearest tested one; by the
+        heaviest roll, all at the strain of the master curve: softening changes all alike.
+        """
+        asked: dict[Strand, list[RollContact]] = {}
+        for strand, cover in self.covers.items():
+            level = cover.level
+            if (
+                level is None
+                or level.compound.prony.band is None
+                or level.anchor.tested_at(level.temperature)
+            ):
+                continue
+            heaviest = max(
+                (kind for kind in self.line.kinds if kind.strand == strand), key=lambda kind: kind.highest
+            )
+            contact, load = roll_contact(self.line, heaviest, cover), self.losing_load(strand)
+            asked[strand] = [
+                coarsened(replace(contact, rubber=rubber), load, _REPLICA_FELT)
+                for at in (level.temperature, level.anchor.nearest(level.temperature))
+                for rubber in (level.compound.series(at), *level.compound.replicas(at))
+            ]
+        loads = [self.losing_load(strand) for strand, contacts in asked.items() for _ in contacts]
+        problems = to_problems([contact for contacts in asked.values() for contact in contacts], loads)
+        solved = iter(solve_many(problems, _REPLICA_RTOL, throw=True))
+        widths: dict[Strand, tuple[float, float]] = dict.fromkeys(self.covers, (0.0, 0.0))
+        for strand, contacts in asked.items():
+            friction = np.array([next(solved).friction for _ in contacts]).reshape(2, -1)
+            carried = np.log(friction[0] / friction[1])
+            low, high = ends(carried[1:] - carried[0])
+            widths[strand] = max(-low, 0.0), max(high, 0.0)
+        return widths
 
     def deepest(self, strand: Strand) -> float:
         """Largest penetration of a strand's rolls over the thickness of their cover [-]: at the highest loads."""

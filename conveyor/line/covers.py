@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Final, Literal, TypeAlias
 
 import numpy as np
@@ -34,10 +34,11 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Level:
-    """The anchor of a cover's rubber at its temperature [K]."""
+    """The anchor of a cover's rubber at its temperature [K]; its compound."""
 
     anchor: Anchor
     temperature: float
+    compound: RubberCompound = field(compare=False, repr=False)
 
     def factor(self, line_load: ArrayLike) -> Array:
         """Measured over calculated indentation at line loads w [N/m]."""

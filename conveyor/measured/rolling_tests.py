@@ -25,6 +25,7 @@ _TESTS: Final = TableKind(
         "cover thickness": Meant("cover_thickness", "length"), "cover": Meant("cover_thickness", "length"),
         "speed": Meant("speed", "speed"), "belt speed": Meant("speed", "speed"),
         "temperature": Meant("temperature", "temperature"), "uncertainty": Meant("uncertainty", "fraction"),
+        "shared uncertainty": Meant("shared_uncertainty", "fraction"),
         "specimen": Meant("specimen", ""), "source": Meant("source", ""), "note": Meant("note", ""),
     },
     needed={
@@ -45,7 +46,8 @@ _OF_FORM: Final = {
 }
 """Columns of the form, and what a table of tests calls them."""
 _ONE_TEST: Final = (
-    "roll_diameter", "cover_thickness", "speed", "temperature", "uncertainty", "specimen", "source", "note",
+    "roll_diameter", "cover_thickness", "speed", "temperature", "uncertainty", "shared_uncertainty", "specimen",
+    "source", "note",
 )  # fmt: skip
 
 
@@ -56,8 +58,9 @@ def read_rolling_tests(path: str | Path, source: str | None = None) -> tuple[Rol
     ----------
     path : str or Path
         Table with a header: ``line load``, ``resistance``, ``roll diameter``, ``cover thickness``, ``speed``,
-        ``temperature``; further ``uncertainty`` (half-width that holds nine tenths of repeated tests), ``specimen``
-        (belt or rubber), ``source``, ``note``. Units stand in the headers, as in ``line load [N/mm]``. Or the workbook
+        ``temperature``; further ``uncertainty`` (half-width that holds nine tenths of repeated tests), ``shared
+        uncertainty`` (its part that all belts tested alike have in common), ``specimen`` (belt or rubber), ``source``,
+        ``note``. Units stand in the headers, as in ``line load [N/mm]``. Or the workbook
         of `conveyor.verify_sheet`, filled in by the maker.
     source : str, optional
         Of rows without one; the name of the file without it.

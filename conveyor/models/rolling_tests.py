@@ -75,6 +75,9 @@ class RollingTest(Model):
     """A law instead of rows."""
     uncertainty: Annotated[Fraction, Bounds(ge="0 %", le="100 %")] | None = None
     """Half-width of the 90 % interval of repeated tests; 10 % without it."""
+    shared_uncertainty: Annotated[Fraction, Bounds(ge="0 %", le="100 %")] | None = None
+    """Part of `uncertainty` that all belts tested on this roll, cover, speed and temperature have in common; none
+    without it. It cancels where two of them are compared."""
     note: str = ""
     """What of it is not printed but assumed."""
 
@@ -101,6 +104,11 @@ class RollingTest(Model):
                 )
                 place = ("law", "a") if self.law is not None else ("resistance", i)
                 problems.append(Problem(place, said))
+        if self.shared > self.relative_uncertainty:
+            whole = f"uncertainty is {100.0 * self.relative_uncertainty:g} %"
+            problems.append(
+                Problem(("shared_uncertainty",), f"is a part of uncertainty, at most as much; {whole}")
+            )
         refuse("RollingTest", problems)
         return self
 
@@ -126,3 +134,15 @@ class RollingTest(Model):
     def relative_uncertainty(self) -> float:
         """Half-width of nine tenths of repeated tests [-]."""
         return TEST_UNCERTAINTY if self.uncertainty is None else si(self.uncertainty)
+
+    @property
+    def shared(self) -> float:
+        """Part of it that all belts tested alike have in common [-]."""
+        return 0.0 if self.shared_uncertainty is None else si(self.shared_uncertainty)
+
+    @property
+    def conditions(self) -> tuple[float, float, float, float]:
+        """Diameter of the roll, thickness of the cover [m], speed [m/s], temperature [K]: equal where tested alike."""
+        fields = self.roll_diameter, self.cover_thickness, self.speed, self.temperature
+        diameter, thickness, speed, temperature = map(si, fields)
+        return diameter, thickness, speed, temperature

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations
 from typing import TYPE_CHECKING, Any, Final
 
 from conveyor.laws.energy import Duty, duty_emission
@@ -19,6 +18,7 @@ from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.tables import bands, document, provenance
 from conveyor.rubber.anchor import UNANCHORED
 from conveyor.spec import fingerprint
+from conveyor.studies.comparison import Standing
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, NEVER, unit
 from conveyor.units.sentences import celsius, degrees
@@ -147,6 +147,8 @@ class Ranked:
         Of a year [currency]; the base's; carbon dioxide [kg]; what its belt costs more [currency].
     why : str or None
         Why it is not compared with the base.
+    rank : int or None
+        Place among those compared; the same for those that cannot be told apart.
     """
 
     compound: str
@@ -165,6 +167,7 @@ class Ranked:
     emission: float | None
     extra: float | None
     why: str | None
+    rank: int | None = None
 
     @property
     def change(self) -> float | None:
@@ -198,11 +201,13 @@ def ranking(comparison: CalculatedComparison) -> Table:
 
     Means are over the temperatures that the data of every compound reach at that speed, each of the same weight; the
     peak is the largest where its own data reach: the cold start of the rubber. What does not compare stands last.
+    Compounds whose powers differ by less than both may be off have one rank.
     """
     speeds = dict.fromkeys(scene.speed for scene in comparison.scenes)
     rows = tuple(row for speed in speeds for row in _ranked(comparison, speed))
     columns = (
         _COMPOUND,
+        Column("rank", "count", "rank", sparse=True),
         _SPEED,
         Column("temperatures averaged", "count", "averaged", page=None),
         Column("mean indentation", "force", "indentation", page=None, sparse=True),
@@ -298,6 +303,8 @@ def _ranked(comparison: CalculatedComparison, speed: float) -> list[Ranked]:
     means = {name: [scenes[t] for t in common] if scenes else [] for name, scenes in known.items()}
     base = means.get(comparison.base, [])
     rows = [_row(comparison, (name, speed), known[name], means[name], base) for name in known]
+    places = _places(comparison, [means[row.compound] for row in rows if row.why is None])
+    rows = [replace(row, rank=places.get(row.compound)) for row in rows]
     return sorted(rows, key=lambda row: (row.motor is None, row.why is not None, row.motor or 0.0))
 
 
@@ -332,6 +339,14 @@ def _row(
         extra=comparison.extra_costs.get(name),
         why=why,
     )
+
+
+def _places(comparison: CalculatedComparison, scenes: Sequence[list[ComparedScene]]) -> dict[str, int]:
+    """Place of each compound by the mean of its scenes; one for those that cannot be told apart."""
+    places: dict[str, int] = {}
+    for group in comparison.groups(map(Standing.of, scenes)):
+        places |= dict.fromkeys((one.compound for one in group), len(places) + 1)
+    return places
 
 
 def _not_compared(
@@ -585,36 +600,50 @@ def _bands(comparison: CalculatedComparison) -> Iterator[str]:
     if any(scene.motor_low is not None for scene in comparison.scenes):
         yield (
             "90 % bands are of the rubber alone, its data and its tests; the interval of conveyor power has what is "
-            "left to defaults, too"
+            "left to defaults, too. One rank: the difference is less than both may be off, without what belts tested "
+            "alike have in common"
         )
 
 
 def turned(comparison: CalculatedComparison, system: System = "SI") -> list[str]:
-    """Speeds at which the ranking is another at another temperature, beyond the errors; the order at each."""
+    """Speeds at which the ranking changes with temperature, or some cannot be told apart; the order at each."""
     lines = []
     for speed in sorted({scene.speed for scene in comparison.scenes}):
         shared: dict[float, list[ComparedScene]] = {t: [] for t in comparison.common(speed)}
-        for scene in sorted(comparison.covered, key=lambda s: s.motor):
+        for scene in comparison.covered:
             if scene.speed != speed or comparison.level_differs(scene.compound):
                 continue
             if scene.temperature in shared:
                 shared[scene.temperature].append(scene)
-        before = {
-            (one.compound, other.compound)
-            for row in shared.values()
-            for one, other in combinations(row, 2)
-            if other.motor - one.motor > one.error * abs(one.motor) + other.error * abs(other.motor)
+        grouped = {
+            warmth: comparison.groups(Standing.of([scene]) for scene in row) for warmth, row in shared.items()
         }
-        if any((second, first) in before for first, second in before):
-            by_order: dict[tuple[str, ...], list[float]] = {}
-            for warmth, row in shared.items():
-                by_order.setdefault(tuple(s.compound for s in row), []).append(warmth)
+        by_order: dict[tuple[frozenset[str], ...], list[float]] = {}
+        for warmth, groups in grouped.items():
+            by_order.setdefault(
+                tuple(frozenset(one.compound for one in group) for group in groups), []
+            ).append(warmth)
+        together = any(len(group) > 1 for groups in grouped.values() for group in groups)
+        if len(by_order) > 1 or together:
             run = unit("speed", system).brief(speed)
-            orders = (f"{_listed(warm, system)}: {', then '.join(order)}" for order, warm in by_order.items())
-            lines.append(
-                f"the ranking changes with temperature; least motor power first, at {run}: {'; '.join(orders)}"
+            orders = (f"{_listed(warm, system)}: {_in_order(grouped[warm[0]])}" for warm in by_order.values())
+            said = (
+                "the ranking changes with temperature"
+                if len(by_order) > 1
+                else "the ranking at a temperature"
             )
+            lines.append(f"{said}; least motor power first, at {run}: {'; '.join(orders)}")
     return lines
+
+
+def _in_order(groups: Sequence[Sequence[Standing]]) -> str:
+    """Compounds, the least first; what cannot be told apart says so."""
+    return ", then ".join(
+        group[0].compound
+        if len(group) == 1
+        else f"{', '.join(one.compound for one in group[:-1])} and {group[-1].compound}, which cannot be told apart"
+        for group in groups
+    )
 
 
 def _listed(temperatures: Sequence[float], system: System) -> str:

@@ -320,7 +320,8 @@ def _left_open(power: PowerRange, system: System) -> str:
         f"Motor power {motor}, 90 % interval {low.rpartition(' ')[0]} to {high} by defaults and the level of the "
         f"rubber. Replace first: {first.name} (give {first.give})."
     )
-    return " ".join((said, *(f"Not included: {note}." for note in power.notes)))
+    untested = (f"Beyond the tests: {one.text(system)}." for one in power.untested)
+    return " ".join((said, *untested, *(f"Not included: {note}." for note in power.notes)))
 
 
 def inputs(entries: tuple[Row, ...]) -> Table:
@@ -1257,7 +1258,7 @@ def _level_end(contacts: Contacts, strand: Strand, sign: float) -> float | None:
     """Lower or upper end of the band of a strand's level; None where no test says it."""
     if contacts.covers[strand].level is None:
         return None
-    return contacts.level_factor(strand) * math.exp(sign * contacts.level_band(strand))
+    return contacts.level_factor(strand) * contacts.level_range(strand)[sign > 0.0]
 
 
 def bands(excited: str, data: str) -> Iterator[Column]:

@@ -86,6 +86,8 @@ def _rows(
     if left_open.effects:
         low, high = power.short(left_open.low).rpartition(" ")[0], power.short(left_open.high)
         where += f"; 90 % interval {low} to {high} by defaults and the level of the rubber"
+    if left_open.untested:
+        where += "; beyond the tested temperatures of the rubber"
     yield GoverningRow("motor power as given", power.short(left_open.motor), where)
     installed = [drive.power for drive in a.line.drives if drive.power is not None]
     if installed:

@@ -32,6 +32,8 @@ ONE_TEMPERATURE: Final = 2.0
 """Tests this close are at one temperature: control of a climatic chamber (general knowledge) [K]."""
 LEAST_SPAN: Final = 1.5
 """Largest over smallest line load from which tests have a slope [-]; nearer ones would fit their scatter."""
+COVERED: Final = 0.9
+"""Share of what may be that a range or a band holds [-]."""
 PER_KELVIN: Final = 0.005
 """Half-width of the band per kelvin beyond the tested temperatures (general knowledge) [1/K]."""
 PER_LOAD: Final = 0.1
@@ -56,6 +58,8 @@ class Anchor:
         Of the band that holds nine tenths, of ln factor, at the tests: their residuals and their own uncertainty [-].
     points : int
         Tests behind it.
+    shared : float
+        Part of the half-width that all belts tested alike have in common [-].
     """
 
     temperatures: FloatArray
@@ -65,6 +69,7 @@ class Anchor:
     loads: tuple[float, float]
     half_width: float
     points: int
+    shared: float = 0.0
 
     def factor(self, line_load: ArrayLike, temperature: float) -> FloatArray:
         """Measured over calculated indentation [-] at line loads [N/m] and a temperature [K], held beyond the tests."""
@@ -74,9 +79,22 @@ class Anchor:
 
     def band(self, line_load: float, temperature: float) -> float:
         """Half-width of ln factor that holds nine tenths [-], at a load [N/m] and temperature [K]."""
-        beyond = abs(temperature - min(max(temperature, self.temperatures[0]), self.temperatures[-1]))
+        beyond = abs(temperature - self.nearest(temperature))
         outside = abs(math.log(line_load / min(max(line_load, self.loads[0]), self.loads[1])))
         return math.hypot(self.half_width, PER_KELVIN * beyond, PER_LOAD * outside)
+
+    def nearest(self, temperature: float) -> float:
+        """The temperature inside the tested ones that is nearest to one [K]."""
+        return min(max(temperature, float(self.temperatures[0])), float(self.temperatures[-1]))
+
+    @property
+    def own_half_width(self) -> float:
+        """Half-width of ln factor without what belts tested alike have in common [-].
+
+        Speed, roll and loads of the tests that are not known, and how the factor holds beyond the tested temperatures
+        and loads, are errors of the method: they cancel between two such belts.
+        """
+        return math.sqrt((self.half_width - self.shared) * (self.half_width + self.shared))
 
     def tested_at(self, temperature: float) -> bool:
         """Whether a temperature [K] lies between the tested ones, or as near as makes one."""
@@ -84,10 +102,28 @@ class Anchor:
         return low - ONE_TEMPERATURE <= temperature <= high + ONE_TEMPERATURE
 
 
+def ends(values: ArrayLike) -> tuple[float, float]:
+    """Quantiles of what may be, between which nine tenths of it lie: of 19 draws the outermost.
+
+    Between draws k and n + 1 - k of n the next one lies with a chance of (n + 1 - 2 k)/(n + 1): Weibull's positions.
+
+    Examples
+    --------
+    >>> [round(end, 9) for end in ends(range(1, 100))]
+    [5.0, 95.0]
+    """
+    low, high = np.quantile(
+        np.asarray(values, dtype=float), (0.5 - 0.5 * COVERED, 0.5 + 0.5 * COVERED), method="weibull"
+    )
+    return float(low), float(high)
+
+
 def fit_anchor(
-    line_load: ArrayLike, temperature: ArrayLike, ratio: ArrayLike, *, uncertainty: float
+    line_load: ArrayLike, temperature: ArrayLike, ratio: ArrayLike, *, uncertainty: float, shared: float = 0.0
 ) -> Anchor:
     """Fit the factor to ratios of measured and calculated indentation [-] at line loads [N/m] and temperatures [K].
+
+    `uncertainty` is that of a test [-], `shared` its part that all belts tested alike have in common [-].
 
     Notes
     -----
@@ -112,6 +148,10 @@ def fit_anchor(
         )
     if not 0.0 <= uncertainty < math.inf:
         raise InputError(f"uncertainty = {uncertainty!r}: a finite number of at least 0 is needed")
+    if not 0.0 <= shared <= uncertainty:
+        raise InputError(
+            f"shared = {shared!r}: at least 0 and at most uncertainty = {uncertainty!r} is needed"
+        )
     levels = _levels(at)
     middle = float(np.exp(np.mean(np.log(w))))
     low, high = float(w.min()), float(w.max())
@@ -137,6 +177,7 @@ def fit_anchor(
         loads=(low, high),
         half_width=math.hypot(NINE_TENTHS * residual, uncertainty),
         points=int(y.size),
+        shared=shared,
     )
 
 

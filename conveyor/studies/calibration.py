@@ -27,7 +27,7 @@ from conveyor.loop.balance import OpenLoop, answers, balances
 from conveyor.models import CALIBRATED, Calibration, Conveyor, MeasuredRun
 from conveyor.models.variants import with_runs
 from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many
-from conveyor.studies.comparison_scenes import COVERED
+from conveyor.rubber.anchor import COVERED
 
 Array = NDArray[np.float64]
 Group = tuple[str, ...]

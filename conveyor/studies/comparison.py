@@ -7,6 +7,7 @@ reason, never filled in.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
@@ -104,12 +105,78 @@ class CalculatedComparison:
                 known.setdefault(scene.compound, set()).add(scene.temperature)
         return tuple(sorted(set.intersection(*known.values()))) if known else ()
 
+    def tested_alike(self, one: str, other: str) -> bool:
+        """Whether two compounds were tested on the same rolls and covers, at the same speeds and temperatures."""
+        tests = {compound.name: {test.conditions for test in compound.tests} for compound in self.compounds}
+        return bool(tests[one]) and tests[one] == tests[other]
+
+    def told_apart(self, less: Standing, more: Standing) -> bool:
+        """Whether one compound asks for less than another by more than both may be off, common errors left out.
+
+        Errors of the two are independent: the root of their squares counts.
+        """
+        alike = self.tested_alike(less.compound, more.compound)
+        (_, up), (down, _) = (less.own, more.own) if alike else (less.whole, more.whole)
+        return more.motor - less.motor > math.hypot(up, down)
+
+    def groups(self, standings: Iterable[Standing]) -> list[list[Standing]]:
+        """Compounds by their power, the least first, those together that cannot be told apart from their first."""
+        grouped: list[list[Standing]] = []
+        for one in sorted(standings, key=lambda standing: standing.motor):
+            if grouped and not self.told_apart(grouped[-1][0], one):
+                grouped[-1].append(one)
+            else:
+                grouped.append([one])
+        return grouped
+
     def level_differs(self, name: str) -> bool:
         """Whether tests set the indentation of one of a compound and the base, and theory that of the other."""
         if self.conveyor.calculation.anchor != "tests":
             return False
         tested = {compound.name: bool(compound.tests) for compound in self.compounds}
         return tested[name] != tested[self.base]
+
+
+@dataclass(frozen=True)
+class Standing:
+    """The motor power of a compound, at one temperature or its mean over several, and how far it may be off.
+
+    Attributes
+    ----------
+    compound : str
+        Name.
+    motor : float
+        Motor power [W].
+    whole, own : tuple of float
+        How far below and above it may lie [W]; `own` without what belts tested alike have in common.
+    """
+
+    compound: str
+    motor: float
+    whole: tuple[float, float]
+    own: tuple[float, float]
+
+    @classmethod
+    def of(cls, scenes: Sequence[ComparedScene]) -> Standing:
+        """The mean of scenes of one compound, at least one.
+
+        An error of the rubber is taken to be the same at all temperatures; that of the contacts is added to it.
+        """
+        count = len(scenes)
+        motor = math.fsum(scene.motor for scene in scenes) / count
+        solved = math.fsum(scene.error * abs(scene.motor) for scene in scenes) / count
+
+        def mean(ends: Iterable[float | None]) -> float:
+            """Distance of the mean of the ends; that of the contacts alone where one is not known."""
+            known = [end for end in ends if end is not None]
+            return solved + (abs(math.fsum(known) / count - motor) if len(known) == count else 0.0)
+
+        return cls(
+            scenes[0].compound,
+            motor,
+            (mean(scene.motor_low for scene in scenes), mean(scene.motor_high for scene in scenes)),
+            (mean(scene.own_low for scene in scenes), mean(scene.own_high for scene in scenes)),
+        )
 
 
 @checked

@@ -9,10 +9,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from conveyor.contact import solve_many
 from conveyor.indentation import to_problem
@@ -21,11 +20,10 @@ from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import CoverChoice, crossed_settings, with_compound
 from conveyor.pipeline import CalculatedConveyor, Kept, Variant, calculate_many
+from conveyor.rubber.anchor import ends
 from conveyor.units import Quantity
 
 _BAND_RTOL = 1e-3  # of the contacts that the band is formed from: a tenth of the narrowest band
-COVERED: Final = 0.9
-"""Share of what may be that a range or a band holds."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +43,10 @@ class ComparedScene:
     motor : float
         Motor power [W].
     motor_low, motor_high : float or None
-        Band in which nine tenths of the fit's replicas leave it [W]; None where the compound carries none.
+        Band in which the level of the tests and nine tenths of the replicas leave it [W]; None where the compound
+        carries neither.
+    own_low, own_high : float or None
+        The same without what belts tested alike have in common [W].
     largest_tension : float
         Of the belt, start included [N].
     energy_per_tonne_km, energy_per_year, cost_per_year : float or None
@@ -63,6 +64,8 @@ class ComparedScene:
     motor: float
     motor_low: float | None
     motor_high: float | None
+    own_low: float | None
+    own_high: float | None
     largest_tension: float
     energy_per_tonne_km: float | None
     energy_per_year: float | None
@@ -186,17 +189,22 @@ def strands_of(conveyor: Conveyor, cover: CoverChoice) -> frozenset[Strand]:
     return frozenset(() if conveyor.route.turned_over else ("return",))
 
 
+_Bands: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
+
+
 def _scene(
-    name: str, one: CalculatedConveyor, strands: frozenset[Strand], band: tuple[float, float] | None
+    name: str, one: CalculatedConveyor, strands: frozenset[Strand], bands: _Bands | None
 ) -> ComparedScene:
     balance, year = one.balance, one.year
     forces, power = balance.forces, balance.power
-    low = high = None
-    if band is not None:
+    whole: tuple[float | None, float | None] = (None, None)
+    own = whole
+    if bands is not None:
         indented = balance.along[0].by_strand()
         changed = math.fsum(indented[strand] for strand in strands) / (1.0 - (one.line.flexure_share or 0.0))
         motor = balance.frame.motor
-        low, high = sorted(motor(forces.total + (factor - 1.0) * changed) for factor in band)
+        powers = [sorted(motor(forces.total + (factor - 1.0) * changed) for factor in band) for band in bands]
+        whole, own = ((low, high) for low, high in powers)
     return ComparedScene(
         compound=name,
         temperature=one.temperature,
@@ -205,8 +213,10 @@ def _scene(
         effective=forces.total,
         friction_factor=balance.friction_factor,
         motor=power.motor,
-        motor_low=low,
-        motor_high=high,
+        motor_low=whole[0],
+        motor_high=whole[1],
+        own_low=own[0],
+        own_high=own[1],
         largest_tension=balance.settled.largest,
         energy_per_tonne_km=power.energy_per_tonne_km,
         energy_per_year=None if year is None else year.energy,
@@ -227,18 +237,20 @@ def _band(
     temperature: float,
     results: Sequence[CalculatedConveyor],
     strands: frozenset[Strand],
-) -> tuple[float, float] | None:
+) -> _Bands | None:
     """Factors on the indentation between which nine tenths lie: of its tests, else of the replicas of its fit.
 
-    Replicas by the roll that loses most.
+    The second ones without what belts tested alike have in common. Replicas by the roll that loses most.
     Of the middle one of the speeds; other rolls and speeds excite nearly the same band of the rubber. Fit and replicas
     are both taken at the strain of the master curve: softening changes all alike.
     """
     middle = results[len(results) // 2]
     roll = _heaviest(middle, strands)
-    half = max((middle.contacts.level_band(strand) for strand in strands), default=0.0)
-    if half > 0.0:
-        return math.exp(-half), math.exp(half)
+    tested = [strand for strand in strands if middle.contacts.covers[strand].level is not None]
+    if tested:
+        both = [[middle.contacts.level_range(strand, own=own) for strand in tested] for own in (False, True)]
+        whole, own = ((min(low for low, _ in each), max(high for _, high in each)) for each in both)
+        return whole, own
     replicas = compound.replicas(temperature)
     if not replicas or roll is None:
         return None
@@ -246,23 +258,8 @@ def _band(
     contact, load = roll.curve.contact, roll.load.peak_line_load
     problems = [to_problem(replace(contact, rubber=rubber), load) for rubber in (base, *replicas)]
     friction = np.array([solution.friction for solution in solve_many(problems, _BAND_RTOL, throw=True)])
-    return ends(friction[1:] / friction[0])
-
-
-def ends(values: ArrayLike) -> tuple[float, float]:
-    """Quantiles of what may be, between which nine tenths of it lie: of 19 draws the outermost.
-
-    Between draws k and n + 1 - k of n the next one lies with a chance of (n + 1 - 2 k)/(n + 1): Weibull's positions.
-
-    Examples
-    --------
-    >>> [round(end, 9) for end in ends(range(1, 100))]
-    [5.0, 95.0]
-    """
-    low, high = np.quantile(
-        np.asarray(values, dtype=float), (0.5 - 0.5 * COVERED, 0.5 + 0.5 * COVERED), method="weibull"
-    )
-    return float(low), float(high)
+    band = ends(friction[1:] / friction[0])
+    return band, band
 
 
 def _coverage(

@@ -7,8 +7,7 @@ squares. A default is one line of `DEFAULTS`.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
 
@@ -39,7 +38,7 @@ from conveyor.loop.balance import Balance, OpenLoop, balances
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.rubber.anchor import UNANCHORED
 from conveyor.studies.uncertainty import Effect, ends_of_band, root_of_squares
-from conveyor.units.sentences import told
+from conveyor.units.sentences import Said, quoted, said, told
 
 Shares: TypeAlias = NDArray[np.float64] | float
 """Of a force what rests on a default [-]: of every stretch, shape (2n,), or at one place."""
@@ -128,9 +127,9 @@ def _tested(result: CalculatedConveyor, force: Force) -> Shares:
 
 
 def _tests_band(result: CalculatedConveyor) -> tuple[float, float]:
-    """The wider band of the levels of both strands."""
-    half = max(result.contacts.level_band(strand) for strand in STRANDS)
-    return math.exp(-half), math.exp(half)
+    """The wider ends of the levels of both strands: of their tests, and of their spectra beyond them."""
+    lows, highs = zip(*(result.contacts.level_range(strand) for strand in STRANDS), strict=True)
+    return min(lows), max(highs)
 
 
 def _bending(result: CalculatedConveyor, force: Force) -> Shares:
@@ -203,7 +202,7 @@ DEFAULTS: Final = (
     banded("cleaner_pressure", "pressure of the cleaners", CLEANER_PRESSURE, "route.cleaners[].pressure", _pressed),
     Assumed("level", "level of the indentation, no rolling-resistance tests", 1.0, UNANCHORED, "a compound with tests",
             _unanchored),
-    Assumed("tested_level", "level of the indentation, band of its tests", 1.0, 1.0, "tests of the belt itself",
+    Assumed("tested_level", "level of the indentation, tests and spectrum", 1.0, 1.0, "tests of the belt itself",
             _tested, _tests_band),
     Assumed("bending_loss", "loss of the carcass that bends, 0", 1.0, 1.0, "belt.carcass.bending_loss", _bending,
             _bending_band),
@@ -250,6 +249,8 @@ class PowerRange:
         Ends of bands without an answer, and why.
     friction : tuple of float
         Effective tension less lift over the computed one, between which nine tenths lie [-].
+    untested : tuple of Said
+        Rubbers whose level no test has set at the belt's temperature.
     """
 
     motor: float
@@ -258,6 +259,7 @@ class PowerRange:
     effects: tuple[AssumedEffect, ...]
     notes: tuple[str, ...] = ()
     friction: tuple[float, float] = (1.0, 1.0)
+    untested: tuple[Said, ...] = ()
 
 
 def power_range(result: CalculatedConveyor) -> PowerRange:
@@ -299,13 +301,34 @@ def power_range(result: CalculatedConveyor) -> PowerRange:
             )
         )  # fmt: skip
     effects.sort(key=lambda effect: -effect.swing)
-    friction = ends_of_band(1.0, frictions)
-    return PowerRange(motor, *root_of_squares(motor, effects), tuple(effects), tuple(notes), friction)
+    return PowerRange(
+        motor, *root_of_squares(motor, effects), tuple(effects), tuple(notes),
+        ends_of_band(1.0, frictions), tuple(_untested(result)),
+    )  # fmt: skip
 
 
 def _friction(balance: Balance) -> float:
     """Effective tension less lift [N]."""
     return balance.forces.total - balance.forces.lift
+
+
+def _untested(result: CalculatedConveyor) -> Iterator[Said]:
+    """Rubbers that are tested at other temperatures, at which, and what carries their level to this one."""
+    levels = [result.contacts.covers[strand].level for strand in STRANDS]
+    names: dict[tuple[tuple[float, ...], str], dict[str, None]] = {}
+    for level in levels:
+        if level is None or level.anchor.tested_at(level.temperature):
+            continue
+        tested = tuple(dict.fromkeys(level.anchor.temperatures[[0, -1]].tolist()))
+        spectrum = "constructed" if level.compound.kind == "illustrative" else "measured"
+        names.setdefault((tested, spectrum), {})[level.compound.name] = None
+    for (tested, spectrum), compounds in names.items():
+        several = ", ".join(quoted(f'"{name}"') for name in compounds)
+        yield said(
+            f"the level of {several} is tested at {' to '.join('{}' for _ in tested)}, not at {{}}: "
+            f"{'its' if len(compounds) == 1 else 'their'} {spectrum} spectrum carries it there",
+            *((kelvin, "temperature") for kelvin in (*tested, result.temperature)),
+        )
 
 
 def _rests(assumed: Assumed, result: CalculatedConveyor, force: Force) -> bool:

@@ -25,7 +25,7 @@ from conveyor.models import Conveyor, RubberCompound, Uncertainty
 from conveyor.models.uncertainty import FEWEST
 from conveyor.models.variants import with_alternative
 from conveyor.pipeline import Anchors, CalculatedConveyor, Progress, Variant, calculate_many
-from conveyor.studies.comparison_scenes import COVERED, ends
+from conveyor.rubber.anchor import COVERED, ends
 
 Array: TypeAlias = NDArray[np.float64]
 _BATCH = 64

@@ -26,7 +26,7 @@ from conveyor.loop.frame import TakeUpSetting
 from conveyor.models import Conveyor, Uncertainty
 from conveyor.models.variants import scaled, with_alternative, with_belt_temperature_changed
 from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many
-from conveyor.studies.comparison_scenes import COVERED, ends
+from conveyor.rubber.anchor import COVERED, ends
 from conveyor.studies.monte_carlo import DrawnInput, MonteCarlo, drawn
 from conveyor.units import Quantity, between, from_si, text
 from conveyor.units.sentences import figure, percent

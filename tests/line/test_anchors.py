@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 
 import conveyor
@@ -187,3 +188,36 @@ def test_levels_side_by_side_are_each_alone():
         alone = anchor(compound, softened=True)
         # batches round otherwise, and contacts end within their tolerance
         assert level.factor(2000.0, AT) == pytest.approx(alone.factor(2000.0, AT), rel=RTOL)
+
+
+def test_beyond_the_tests_the_replicas_carry_the_level(line):
+    """Each replica anchored anew at 20 degC, on the whole conveyor at -25 degC: brute force for the quick range."""
+    cold = line.replace(
+        ambient=line.ambient.replace(temperature="-25 degC"),
+        calculation=line.calculation.replace(strain="off", rtol=1e-3),
+    )
+    rubber = shelf.compound("standard-cover")
+    middle = calculate(with_compound(cold, rubber, "both"))
+    level = middle.contacts.covers["carry"].level
+    factors = []
+    for other in rubber.alternatives():
+        carried = indentation(with_compound(cold, other, "both"))
+        factors.append(carried / middle.balance.forces.indentation)
+    low, high = np.log(np.quantile(factors, (0.05, 0.95), method="weibull"))
+    half = middle.contacts.level_band("carry")
+    own = level.anchor.own_half_width
+    # one roll for all, and its own roll for that of the tests: a tenth of the band
+    for band, inner in (
+        (middle.contacts.level_range("carry"), half),
+        (middle.contacts.level_range("carry", own=True), own),
+    ):
+        assert math.log(band[0]) == pytest.approx(-math.hypot(low, inner), rel=0.1)
+        assert math.log(band[1]) == pytest.approx(math.hypot(high, inner), rel=0.1)
+
+
+def test_at_the_tested_temperature_the_tests_alone_are_the_range(line):
+    contacts = calculate(line).contacts
+    half = contacts.level_band("carry")
+    assert contacts.level_range("carry") == pytest.approx((math.exp(-half), math.exp(half)), rel=1e-12)
+    bare = calculate(with_compound(line, linear("s100"), "both"))
+    assert bare.contacts.level_range("carry") == (1.0, 1.0)

@@ -52,6 +52,11 @@ def test_the_published_law():
             "expected the lower value first",
         ),
         (ROWS | {"roll_diameter": "219 m"}, "roll_diameter"),
+        (
+            ROWS | {"uncertainty": "5 %", "shared_uncertainty": "6 %"},
+            "is a part of uncertainty, at most as much; uncertainty is 5 %",
+        ),
+        (ROWS | {"shared_uncertainty": "11 %"}, "uncertainty is 10 %"),
         (ROWS | {"line_load": ["1 N", "4 N"]}, "line_load"),
     ],
 )

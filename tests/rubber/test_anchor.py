@@ -76,6 +76,16 @@ def test_order_of_the_tests_does_not_matter():
     assert one.half_width == pytest.approx(other.half_width)
 
 
+def test_what_belts_tested_alike_share_is_not_their_own():
+    """Parts of an error that are independent add as squares: 0.13^2 = 0.05^2 + 0.12^2."""
+    given = [1e3, 2e3, 4e3], [293.15] * 3, [2.0] * 3
+    anchor = fit_anchor(*given, uncertainty=0.13, shared=0.12)
+    assert anchor.own_half_width == pytest.approx(0.05, rel=1e-12)
+    assert anchor.half_width == pytest.approx(0.13, rel=1e-12)
+    assert fit_anchor(*given, uncertainty=0.13).own_half_width == pytest.approx(0.13, rel=1e-12)
+    assert fit_anchor(*given, uncertainty=0.13, shared=0.13).own_half_width == pytest.approx(0.0, abs=1e-7)
+
+
 @pytest.mark.parametrize(
     ("given", "match"),
     [
@@ -91,3 +101,5 @@ def test_bad_tests_are_refused(given, match):
         fit_anchor(*given, uncertainty=0.1)
     with pytest.raises(InputError, match="uncertainty"):
         fit_anchor([1e3], [293.0], [2.0], uncertainty=-0.1)
+    with pytest.raises(InputError, match=r"shared = 0\.2: at least 0 and at most uncertainty = 0\.1"):
+        fit_anchor([1e3], [293.0], [2.0], uncertainty=0.1, shared=0.2)

@@ -11,7 +11,10 @@ import numpy as np
 import pytest
 from ruamel.yaml import YAML
 
+from conveyor import shelf
+from conveyor.indentation import RollContact, indentation_resistances
 from conveyor.laboratory import read_dma
+from conveyor.line.anchors import anchor
 from conveyor.rubber import WLF, PronySeries, ShiftLaw, ShiftTable, shifted
 
 ROOT = Path(__file__).parents[2]
@@ -19,7 +22,7 @@ SHELF = ROOT / "materials"
 NAMES = ["s100", "s120", "standard-cover", "low-rolling-resistance-cover", "cold-resistant-cover"]
 TARGETS = {
     "standard-cover": (10e6, 0.20),
-    "low-rolling-resistance-cover": (8e6, 0.09),
+    "low-rolling-resistance-cover": (8e6, 0.12),
     "cold-resistant-cover": (8e6, 0.15),
 }
 KEYS = {
@@ -203,7 +206,93 @@ def test_covers_differ_as_their_names_say() -> None:
             at[name, celsius] = shifted(series_of(c), law_of(c), celsius + 273.15)
     standard, easy, cold = TARGETS
     for celsius in (0, 20, 40):
-        assert at[easy, celsius].tan_delta(TEN_HERTZ) < 0.65 * at[standard, celsius].tan_delta(TEN_HERTZ)
-    # much softer in the cold: at -40 degC by more than a factor of ten
-    assert 10 * at[cold, -40].storage(TEN_HERTZ) < at[standard, -40].storage(TEN_HERTZ)
-    assert at[cold, -20].tan_delta(TEN_HERTZ) < 0.5 * at[standard, -20].tan_delta(TEN_HERTZ)
+        assert at[easy, celsius].tan_delta(TEN_HERTZ) < 0.70 * at[standard, celsius].tan_delta(TEN_HERTZ)
+    # softer in the cold, and with less loss; what is sold down to -40 degC is no glass there (a tenth of E_inf)
+    assert 2 * at[cold, -40].storage(TEN_HERTZ) < at[standard, -40].storage(TEN_HERTZ) < 150e6
+    assert at[cold, -20].tan_delta(TEN_HERTZ) < 0.8 * at[standard, -20].tan_delta(TEN_HERTZ)
+
+
+def friction(name: str, *celsius: float) -> np.ndarray:
+    """Indentation of a cover on the roll of its tests at temperatures over that at 20 degC, the strain of the curve."""
+    rubber = shelf.compound(name)
+    contacts = [
+        RollContact(
+            radius=0.1095, spacing=1.0, cover_thickness=7e-3, speed=5.0, rubber=rubber.series(t + 273.15)
+        )
+        for t in (20.0, *celsius)
+    ]
+    solved = np.array([float(one) for one in indentation_resistances(contacts, [3e3] * len(contacts), 1e-4)])
+    return np.asarray(solved[1:] / solved[0])
+
+
+def test_the_cold_costs_power_as_plants_report() -> None:
+    """A belt maker's table has f = 0.022, and 0.030 in extreme cold: 1.36 times the whole friction.
+
+    (Bridgestone, friction coefficient of idlers; drag of rolls and flexure do not fall in the cold.) Indentation is
+    half to 60 % of it, so 1.2 to 2 times are asked of a standard cover from -20 to -30 degC.
+    """
+    ratio = friction("standard-cover", 0.0, -20.0, -30.0)
+    assert ratio[0] > 1.0
+    assert np.all((ratio[1:] > 1.2) & (ratio[1:] < 2.0))
+
+
+def test_each_cover_does_what_it_is_sold_for() -> None:
+    level = {"standard-cover": 1.25, "low-rolling-resistance-cover": 1.0, "cold-resistant-cover": 1.12}
+    warm = {name: level[name] * friction(name, 20.0, 40.0) for name in level}
+    cold = {name: float(level[name] * friction(name, -25.0)[0]) for name in level}
+    standard, easy, resistant = level
+    assert np.all(warm[easy] < 0.85 * warm[standard])
+    assert cold[resistant] < 0.9 * min(cold[standard], cold[easy])
+
+
+@pytest.mark.parametrize("name", TARGETS)
+def test_sweeps_and_law_of_the_tests_agree(name: str) -> None:
+    """The law has the exponent 1.28, the theory at the strain of the tests the same to 0.03.
+
+    The law's range of loads is not printed: over a half and over twice of 1 to 8 N/mm the theory's exponent differs by
+    0.02, and the law is printed to 0.005.
+    """
+    rubber = shelf.compound(name)
+    level = anchor(rubber, softened=True)
+    assert level is not None
+    assert abs(level.slope) < 0.03
+
+
+@pytest.mark.parametrize("name", TARGETS)
+def test_replicas_differ_in_the_cold_and_meet_the_targets(name: str) -> None:
+    rubber, (storage, tan_delta) = shelf.compound(name), TARGETS[name]
+    warm, cold = rubber.replicas(293.15), rubber.replicas(243.15)
+    for one in warm:
+        # six digits are written, the condition of the equations is below 10
+        assert one.storage(TEN_HERTZ) == pytest.approx(storage, rel=1e-5)
+        assert one.tan_delta(TEN_HERTZ) == pytest.approx(tan_delta, rel=1e-4)
+    stiff = [float(one.storage(TEN_HERTZ)) for one in cold]
+    middle = float(rubber.series(243.15).storage(TEN_HERTZ))
+    assert min(stiff) < 0.95 * middle
+    assert max(stiff) > 1.05 * middle
+
+
+def test_glass_temperatures_five_kelvin_off_are_in_the_band(script: dict[str, Any]) -> None:
+    """All glass temperatures 5 K up and down: the cold friction stays between the replicas'."""
+    (cover,) = (one for one in script["ILLUSTRATIVE"] if one.name == "standard-cover")
+    rubber = shelf.compound("standard-cover")
+
+    def at(series: Any) -> RollContact:
+        return RollContact(radius=0.1095, spacing=1.0, cover_thickness=7e-3, speed=5.0, rubber=series)
+
+    def carried(pairs: list[tuple[Any, Any]]) -> Any:
+        """Friction at -30 degC over that at 20 degC."""
+        contacts = [at(one) for pair in pairs for one in pair]
+        solved = indentation_resistances(contacts, [3e3] * len(contacts), 1e-3)
+        cold, warm = np.array([float(one) for one in solved]).reshape(-1, 2).T
+        return cold / warm
+
+    moved = []
+    for kelvin in (-5.0, 5.0):
+        glass = {name: t + kelvin for name, t in script["GLASS"].items()}
+        series, law = script["construct"](cover, script["Shape"](glass, cover.blend))
+        moved.append((shifted(series, law, 243.15), series))
+    replicas = list(zip(rubber.replicas(243.15), rubber.replicas(293.15), strict=True))
+    band, off = carried(replicas), carried(moved)
+    assert band.min() < off.min()
+    assert off.max() < band.max()

@@ -17,7 +17,7 @@ from conveyor.pipeline import calculate
 from conveyor.report.columns import ordered
 from conveyor.report.comparison_tables import remarks
 from conveyor.spec import load
-from conveyor.studies.comparison import RTOL, compare_compounds
+from conveyor.studies.comparison import RTOL, Standing, compare_compounds
 from conveyor.studies.duty import analyse_duty
 from conveyor.units import quantity, si
 
@@ -120,7 +120,8 @@ def test_band_of_two_replicas_is_both_of_them(line):
 
 
 def test_no_replicas_and_no_tests_no_band(line):
-    untested = shelf.compound("standard-cover").replace(strain_dependence=None, tests=())
+    cover = shelf.compound("standard-cover")
+    untested = cover.replace(strain_dependence=None, tests=(), prony=cover.prony.replace(band=None))
     (one,) = compare_compounds(line, [untested]).scenes
     assert (one.motor_low, one.motor_high) == (None, None)
 
@@ -149,14 +150,14 @@ def test_data_that_do_not_reach_are_said(line):
 
 def test_refused_scenes_have_their_reasons(line):
     found = compare_compounds(
-        line, ["s100", "standard-cover"], temperatures=["-45 degC", "20 degC"], speeds=["1 m/s", "5 m/s"]
+        line, ["s100", "standard-cover"], temperatures=["-35 degC", "20 degC"], speeds=["1 m/s", "5 m/s"]
     )
     reasons = {(r.compound, r.speed, round(r.temperature - 273.15)): r.reason for r in found.refused}
-    assert "is known from -29.7409 degC" in reasons["S100", 5.0, -45]
+    assert "is known from -29.7409 degC" in reasons["S100", 5.0, -35]
     assert "needs a cross-section" in reasons["standard-cover", 1.0, 20]
     assert {(s.compound, round(s.temperature - 273.15)) for s in found.scenes} == {
         ("S100", 20),
-        ("standard-cover", -45),
+        ("standard-cover", -35),
         ("standard-cover", 20),
     }
 
@@ -241,14 +242,53 @@ def test_remarks_are_in_the_units_asked_for():
     line = load("examples/specs/in_plant_us.yaml")
     turning = compare_compounds(line, NAMES[:2], temperatures=["0 degF", "100 degF"], speeds=["400 fpm"])
     metric, us = (" ".join(remarks(turning, system)) for system in ("SI", "US"))
-    assert (
-        "least motor power first, at 2.032 m/s: -17.78 °C: standard-cover, then low-rolling-resistance-cover; 37.78 °C:"
-        in metric
-    )
-    assert "first, at 400 fpm: 0 °F: standard-cover, then low-rolling-resistance-cover; 100 °F:" in us
+    easy = "low-rolling-resistance-cover, then standard-cover"
+    together = "low-rolling-resistance-cover and standard-cover, which cannot be told apart"
+    assert f"least motor power first, at 2.032 m/s: -17.78 °C: {together}; 37.78 °C: {easy}" in metric
+    assert f"first, at 400 fpm: 0 °F: {together}; 100 °F: {easy}" in us
     assert "m/s" not in us
     _, basis = ordered(remarks(turning, "US"))
     assert any(said.startswith("90 % bands are of the rubber alone") for said in basis)
+
+
+def test_compounds_apart_by_less_than_both_may_be_off_are_one_group(found):
+    """Gaps against the root of the squares: 3 up of the one, 4 down of the other are 5 together."""
+
+    def one(name, motor, whole, own):
+        return Standing(name, motor, (whole, whole), (own, own))
+
+    standard, easy = (shelf.compound(name) for name in NAMES[:2])
+    assert {test.conditions for test in standard.tests} == {test.conditions for test in easy.tests}
+    assert found.tested_alike(*NAMES[:2])
+    assert not found.tested_alike("standard-cover", "S100")
+    for gap, apart in ((4.9, False), (5.1, True)):
+        # what belts tested alike share does not count between them
+        least, most = one(NAMES[1], 100.0, 50.0, 3.0), one(NAMES[0], 100.0 + gap, 50.0, 4.0)
+        assert found.told_apart(least, most) == apart
+        assert [len(group) for group in found.groups([most, least])] == ([1, 1] if apart else [2])
+        # it does against one that was not
+        other = one("S100", 100.0 + gap, 4.0, 0.1)
+        assert found.told_apart(one(NAMES[1], 100.0, 3.0, 0.1), other) == apart
+    # a third that is near the second but not near the first begins a group of its own
+    three = [one(name, motor, 50.0, 3.0) for name, motor in zip(NAMES[:2], (100.0, 103.0), strict=True)]
+    assert [
+        [s.motor for s in group] for group in found.groups([*three, one(NAMES[0], 106.0, 50.0, 3.0)])
+    ] == [
+        [100.0, 103.0],
+        [106.0],
+    ]
+
+
+def test_the_ranking_in_the_cold_is_that_of_the_trade(line):
+    names = ["standard-cover", "low-rolling-resistance-cover", "cold-resistant-cover"]
+    cold = compare_compounds(line, names, temperatures=["-25 degC"], speeds=["5 m/s"])
+    by_power = sorted(cold.scenes, key=lambda one: one.motor)
+    assert by_power[0].compound == "cold-resistant-cover"
+    assert any("which cannot be told apart" in said for said in remarks(cold))
+    warm = compare_compounds(line, names, temperatures=["20 degC"], speeds=["5 m/s"])
+    (first, *_, last) = warm.groups(Standing.of([one]) for one in warm.scenes)
+    assert "low-rolling-resistance-cover" in {one.compound for one in first}
+    assert {one.compound for one in last} == {"standard-cover"}
 
 
 def test_a_factor_of_the_belt_that_ran_is_said(line):

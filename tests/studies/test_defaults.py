@@ -78,6 +78,24 @@ def test_each_default_scales_its_force_and_nothing_else(bare):
     assert swings == sorted(swings, reverse=True)
 
 
+def test_beyond_the_tested_temperatures_the_headline_says_so(line):
+    def told(celsius: float) -> list[str]:
+        cold = line.replace(ambient=line.ambient.replace(temperature=f"{celsius} degC"))
+        return [said.text("SI") for said in power_range(calculate(cold)).untested]
+
+    assert told(21.0) == []  # within what a chamber holds
+    (said,) = told(-25.0)
+    name = line.carry_compound.name
+    assert said == (
+        f'the level of "{name}" is tested at 20 °C, not at -25 °C: its constructed spectrum carries it there'
+    )
+    analysis = conveyor.analyse(line.replace(ambient=line.ambient.replace(temperature="-25 degC")))
+    printed = analysis.contents(system="SI")
+    assert f"Beyond the tests: {said}." in printed["defaults"].note
+    rows = {row.subject: row.where for row in printed["governing_figures"].rows}
+    assert rows["motor power as given"].endswith("; beyond the tested temperatures of the rubber")
+
+
 def test_what_is_given_is_in_no_range(bare):
     known = calculated(drags(bare, "2 N"), flexure_share="10 %")
     assert [one.key for one in power_range(calculate(known)).effects] == ALWAYS

@@ -13,8 +13,8 @@ from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.models import Conveyor, RubberCompound, Uncertainty
 from conveyor.pipeline import calculate
+from conveyor.rubber.anchor import COVERED
 from conveyor.spec import load
-from conveyor.studies.comparison_scenes import COVERED
 from conveyor.studies.uncertainty import SAMPLES, Effect, hypercube_band, root_of_squares, study
 from conveyor.units import quantity, si
 
