@@ -7,6 +7,7 @@ squares. A default is one line of `DEFAULTS`.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
