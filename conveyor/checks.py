@@ -224,15 +224,20 @@ def leading(checks: Iterable[Check]) -> tuple[Check, ...]:
     return tuple(min(group, key=severity) for group in groups.values())
 
 
-def severity(check: Check) -> tuple[int, float]:
-    """How a check ranks among others: the least governs. A failure without a margin is beyond any."""
-    margin = check.margin
-    if margin is None:
+def severity(check: Check) -> tuple[int, float, float]:
+    """How a check ranks among others: the least governs. A failure without a margin is beyond any.
+
+    Where nothing is there at all, which is the same margin whatever is needed, the one that needs more governs.
+    """
+    margin, lacking = check.margin, 0.0
+    if check.required is not None and check.calculated is not None:
+        over = check.calculated - check.required
+        over = over if check.relation == "at least" else -over
+        margin = over if margin is None else margin
+        lacking = 0.0 if check.calculated else float(f"{over:.{_DIGITS}g}")
+    elif margin is None:
         margin = -math.inf if check.failed else math.inf
-        if check.required is not None and check.calculated is not None:
-            over = check.calculated - check.required
-            margin = over if check.relation == "at least" else -over
-    return ("FAIL", "pass", "not checked").index(check.verdict), round(margin, _DIGITS)
+    return ("FAIL", "pass", "not checked").index(check.verdict), round(margin, _DIGITS), lacking
 
 
 def filling(result: CalculatedConveyor) -> Iterator[Check]:

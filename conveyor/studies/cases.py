@@ -346,6 +346,11 @@ _FIGURES: Final[dict[str, tuple[str, str, bool, Callable[[Load], float]]]] = {
 }
 
 
+def figures_for_the_worse(load: Load) -> dict[str, float]:
+    """Figures that loads are compared by, by their names: the higher, the more a load governs it."""
+    return {figure: value(load) if most else -value(load) for figure, _, most, value in _FIGURES.values()}
+
+
 def governing(loads: Sequence[Load]) -> tuple[Governing, ...]:
     """The load that decides each figure, the first of equals; nothing for no loads."""
     if not loads:
