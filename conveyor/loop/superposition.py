@@ -127,7 +127,14 @@ class Loadings:
         steady = self.resistance(1.0)[1]
         least = self.resistance(self.line.least_friction)[1]
         (_, lift), (_, rubbing) = self.at_rest
-        candidates = [steady > 0.0, steady < 0.0, least < 0.0, lift > rubbing, -lift > rubbing, *self.standard]
+        candidates = [
+            steady > 0.0,
+            steady < 0.0,
+            least < 0.0,
+            lift > rubbing,
+            -lift > rubbing,
+            *self.standard,
+        ]
         loadings = {DRIVE_FORCE: candidates[0]}
         for state in self._states:
             for sought in self._candidates(state):
@@ -224,7 +231,10 @@ class Loadings:
     @cached_property
     def at_rest(self) -> tuple[tuple[float, Array], tuple[float, Array]]:
         """Lift, and what friction certainly holds [N]: of the empty belt, and what the bulk of each section adds."""
-        (base, more), (certain, more_certain) = self.resistance(self.line.least_friction), self.resistance(0.0)
+        (base, more), (certain, more_certain) = (
+            self.resistance(self.line.least_friction),
+            self.resistance(0.0),
+        )
         moving = np.zeros(self.count)
         for force in self.full.settled.points:
             if force.certain and force.kind != "lift" and force.bulk is not None:

@@ -19,18 +19,20 @@ from numpy.typing import NDArray
 
 from conveyor.errors import NoSolutionError
 from conveyor.laws.motion import bulk_slip_limits
+from conveyor.laws.resistance.defaults import ROLL_DRAG_STANDSTILL_FACTOR
 from conveyor.laws.tension import grip_tension
 from conveyor.line.stretches import STRANDS
-from conveyor.loop.equilibrium import BRAKES, COASTING, LEAST, LEAST_BRAKING, START
-from conveyor.loop.run_up import asked_over_given, uncontrolled
+from conveyor.loop.equilibrium import BRAKES, BRAKING, COASTING, LEAST, LEAST_BRAKING, START
+from conveyor.loop.run_up import asked_over_given, rated_force, uncontrolled
 from conveyor.loop.superposition import Array, Loading, Loadings
 from conveyor.loop.tensions import STEADY
 from conveyor.units import si
 
 EVERY: Final = 10
 """Sections up to which every loading is looked at."""
-ONE_BY_ONE: Final = 60
-"""Sections up to which they are changed one by one."""
+ONE_BY_ONE: Final = 40
+"""Sections up to which they are changed one by one, and every curve and raised set is looked at."""
+_TRIED: Final = 3  # sections whose bulk slips first
 _ROUNDS: Final = 20  # of changes; every one makes a figure worse, and few take more than five
 _ALIKE: Final = 1e-9  # of a figure: rounding
 
@@ -71,18 +73,23 @@ class CriterionLoadings(Loadings):
             every = np.array(list(itertools.product([True, False], repeat=self.count)))
             return _distinct(np.concatenate([standard, every]))
         of_drives = np.array(list(self.worst().values()))
-        return _distinct(np.concatenate([standard, of_drives, self._corners(), np.array(list(self._by_signs()))]))
+        return _distinct(
+            np.concatenate([standard, of_drives, self._corners(), np.array(list(self._by_signs()))])
+        )
 
     def _corners(self) -> Flags:
-        """Loadings at the corners of all sums of resistance and mass."""
+        """Loadings at the corners of all sums of resistance and mass, with what slips first and without what slides."""
         mass, rows = self._masses[1], list[Flags]()
-        for friction in (1.0, self.line.least_friction):
-            more = self.resistance(friction)[1]
+        steady, least = (self.resistance(friction)[1] for friction in (1.0, self.line.least_friction))
+        for more in (steady, least, steady + self._sticking[1]):
             square = 0.5 * np.pi
             turns = np.sort(np.concatenate([np.arctan2(mass, more) + s * square for s in (-1.0, 1.0)]))
             between = 0.5 * (turns + np.append(turns[1:], turns[0] + 4.0 * square))
             rows.append(np.outer(np.cos(between), more) + np.outer(np.sin(between), mass) > 0.0)
-        return np.concatenate(rows)
+        corners = np.concatenate(rows)
+        *limits, slides = self._slip_limits
+        first = [np.arange(self.count) == k for limit in limits for k in np.argsort(limit)[:_TRIED]]
+        return np.concatenate([corners, *((corners | one) & ~slides for one in first)])
 
     def _by_signs(self) -> Iterator[Loading]:
         """Loadings with the highest and the lowest tension of even motion at every place that is looked at."""
@@ -125,6 +132,8 @@ class CriterionLoadings(Loadings):
     def _stretches(self) -> tuple[int, ...]:
         """Stretches, in loop order, on whose tension curves or raised sets depend."""
         line = self.line
+        if self.count > ONE_BY_ONE:
+            return ()
         curved = {section.name for section in line.sections if section.curve is not None}
         return tuple(
             k
@@ -134,18 +143,20 @@ class CriterionLoadings(Loadings):
 
     @cached_property
     def _sticking(self) -> tuple[float, Array]:
-        """Drag of the rolls' rotation [N], as `at_rest`."""
+        """What the drag of the rolls after standstill is over that in running [N], at most; as `at_rest`."""
         drags = []
         for one in (self.empty, self.full):
             (drag,) = (force.newtons for force in one.along if force.key == "idler_rotation")
             drags.append(np.broadcast_to(drag, 2 * self.count))
         bare, laden = drags
-        return float(bare.sum()), (laden - bare)[: self.count]
+        share = ROLL_DRAG_STANDSTILL_FACTOR - 1.0
+        return share * float(bare.sum()), share * (laden - bare)[: self.count]
 
     @cached_property
-    def _slip_limits(self) -> tuple[Array, Array]:
-        """How hard each section may be slowed and accelerated until its bulk slips [m/s²]; infinite where it rests."""
+    def _slip_limits(self) -> tuple[Array, Array, Loading]:
+        """How hard each section may be slowed and accelerated until its bulk slips [m/s²]; which slip at any speed."""
         slowing, starting = np.full((2, self.count), np.inf)
+        slides = np.zeros(self.count, dtype=bool)
         for i, stretch in enumerate(self.full.line.stretches[: self.count]):
             if stretch.bulk_mass == 0.0:
                 continue
@@ -153,10 +164,11 @@ class CriterionLoadings(Loadings):
                 low, high = bulk_slip_limits(
                     self.line.bulk_on_belt, inclination=stretch.inclination, gravity=self.line.gravity
                 )
-            except NoSolutionError:  # it slides in any loading that has it, the full one too
+            except NoSolutionError:
+                slides[i] = True
                 continue
             slowing[i], starting[i] = -low, high
-        return slowing, starting
+        return slowing, starting, slides
 
     def criterion_figures(self, flags: Flags) -> Figures:
         """Figures of the criteria under loadings.
@@ -185,22 +197,35 @@ class CriterionLoadings(Loadings):
         whole, brakes = mass + self.rotating.sum(), float(self.brakes.sum())
         if line.stop_deceleration is not None:
             figures["stopping brake"] = line.stop_deceleration * whole - least
+        figures["coast-down stop"] = _where(least > 0.0, whole / np.where(least > 0.0, least, 1.0))
         slowing = figures["coasting"] = np.maximum(steady, 0.0) / whole
         if brakes > 0.0:
             gripping = np.maximum(0.0, line.speed - least / whole * line.brake_delay)
             braked = np.where(gripping > 0.0, least + brakes, least) / whole
             stops = (braked > 0.0) & (gripping > 0.0)
-            figures["brake heat"] = _where(stops, brakes * gripping**2 / (2.0 * np.where(stops, braked, 1.0)))
+            after = gripping / np.where(stops, braked, 1.0)
+            figures["brake heat"] = _where(stops, 0.5 * brakes * gripping * after)
+            unbraked = line.speed * whole / np.where(least > 0.0, least, 1.0)
+            figures["stop with brakes"] = np.where(
+                stops, line.brake_delay + after, _where((gripping == 0.0) & (least > 0.0), unbraked)
+            )
             slowing = np.maximum(slowing, braked)
-        start, _ = self._motion(self._states[1], steady, mass)
-        hard, fast = (np.where(flags, limit, np.inf).min(axis=-1) for limit in self._slip_limits)
-        figures["slip on stopping"] = np.maximum(slowing, -start) / hard
-        figures["slip on starting"] = np.maximum(start, 0.0) / fast
+        start, pushing = self._motion(self._states[1], steady, mass)
+        *limits, slides = self._slip_limits
+        hard, fast = (np.where(flags, limit, np.inf).min(axis=-1) for limit in limits)
+        rests = np.asarray(~(flags & slides).any(axis=-1))
+        figures["slip on stopping"] = _where(rests, np.maximum(slowing, -start) / hard)
+        figures["slip on starting"] = _where(rests, np.maximum(start, 0.0) / fast)
         pulls, pull = steady > 0.0, self.full.frame.standing.pull
-        if not uncontrolled(line):
+        if pull.kind == "limited":
             asked = asked_over_given(pull, np.where(pulls, steady, 1.0), mass)
             figures["start of the motors"] = _where(pulls, asked)
-        figures["breakaway"] = _where(pulls, steady + self._sums(self._sticking, flags))
+        at_rest, rated = np.ones_like(steady), rated_force(line)  # motors not given are one for every load
+        if uncontrolled(line):
+            at_rest = steady + (line.torque_curve[0][1] * (rated or 0.0) - steady) * mass / whole
+        elif rated is not None:
+            at_rest = np.maximum(pushing.sum(axis=0), rated)
+        figures["breakaway"] = _where(pulls, -at_rest / (steady + self._sums(self._sticking, flags)))
         return figures
 
     def _of_tension(self, flags: Flags) -> Figures:
@@ -208,7 +233,12 @@ class CriterionLoadings(Loadings):
         line, figures = self.line, Figures()
         steady, least = (self._sums(self.resistance(f), flags) for f in (1.0, line.least_friction))
         mass, brakes = self._sums(self._masses, flags), float(self.brakes.sum())
-        occurs = {LEAST: least < 0.0, LEAST_BRAKING: least < 0.0, BRAKES: least + brakes > 0.0, COASTING: steady > 0.0}
+        occurs = {
+            LEAST: least < 0.0,
+            LEAST_BRAKING: least < 0.0,
+            BRAKES: least + brakes > 0.0,
+            COASTING: steady > 0.0,
+        }
         means = dict[str, Array]()
         for state in (*self._states, replace(self._states[0], name=COASTING, over=None)):
             here = occurs.get(state.name, np.ones(len(flags), dtype=bool))
@@ -220,22 +250,27 @@ class CriterionLoadings(Loadings):
             ends = np.stack([tensions[:, self.stretch_at], tensions[:, self.stretch_at + 1]])
             shares = line.loop.length / (2.0 * float(line.loop.way[-1]))
             means[state.name] = ends.sum(axis=0) @ shares
-            high, low = np.maximum(ends[0], ends[1]), np.minimum(ends[0], ends[1])
-            found = dict(self._of_places(tensions, forces, high, low, means[state.name], flags))
+            found = dict(self._of_places(tensions, flags))
+            found |= {"mean": means[state.name], "least mean": -means[state.name]}
+            for drive, force in zip(line.drives, forces, strict=True):
+                found[f"force of {drive.name}"] = np.abs(force)
             if state.over == 1.0:
-                found |= self._of_sag(low, flags)
-            for name, values in found.items():
-                values = _where(here, values)
+                found |= self._of_sag(ends.min(axis=0), flags)
+            for name, everywhere in found.items():
+                values = _where(here, everywhere)
                 figures[name] = np.maximum(figures.get(name, values), values)
                 if state.name == STEADY:
                     figures[f"{name}, steady"] = values
             for drive, d, force in zip(line.drives, self.drive_at.tolist(), forces, strict=True):
-                asked = grip_tension(1.0, friction=drive.friction, wrap_angle=drive.wrap_angle) * np.abs(force)
-                slack = np.minimum(tensions[:, d], tensions[:, d + 1])
-                grips = here & (asked > 0.0)
-                figures[f"grip of {drive.name}, {state.name}"] = _where(
-                    grips, 1.0 - slack / np.where(grips, asked, 1.0)
+                asked = grip_tension(1.0, friction=drive.friction, wrap_angle=drive.wrap_angle) * np.abs(
+                    force
                 )
+                slack = np.minimum(tensions[:, d], tensions[:, d + 1])
+                pulls = asked > 0.0
+                over = -slack / np.where(pulls, asked, 1.0)
+                for name, there in _called(state.name, here, steady):
+                    figures[f"grip of {drive.name}, {name}"] = _where(there & pulls, over)
+                    figures[f"slack at {drive.name}, {name}"] = _where(there & ~pulls, -slack)
             if state.name == START:
                 figures["speed of the carriage"] = np.abs((means[START] - means[STEADY]) * acceleration)
         return figures
@@ -251,27 +286,23 @@ class CriterionLoadings(Loadings):
         offsets = np.concatenate([np.zeros((len(flags), 1)), np.cumsum(steps, axis=-1)], axis=-1)
         return np.asarray(offsets - (offsets @ self._anchor)[:, None])
 
-    def _of_places(
-        self, tensions: Array, forces: Array, high: Array, low: Array, mean: Array, flags: Flags
-    ) -> Iterator[tuple[str, Array]]:
+    def _of_places(self, tensions: Array, flags: Flags) -> Iterator[tuple[str, Array]]:
         """Tensions of one state where criteria look at them; the lowest with their sign turned."""
         yield "tension", tensions.max(axis=-1)
         yield "slack", -tensions.min(axis=-1)
-        yield "mean", mean
-        yield "least mean", -mean
         for i, places in self._pulleys.items():
             sides = tensions[:, places]
             yield f"pulley {i}", sides.sum(axis=-1)
             yield f"tight side of pulley {i}", sides.max(axis=-1)
-        for drive, force in zip(self.line.drives, forces, strict=True):
-            yield f"force of {drive.name}", np.abs(force)
         for k in self._stretches:
-            yield f"stretch {k}", high[:, k]
-            yield f"least of stretch {k}", -low[:, k]
+            ends = tensions[:, [self.stretch_at[k], self.stretch_at[k] + 1]]
+            high, low = ends.max(axis=-1), ends.min(axis=-1)
+            yield f"stretch {k}", high
+            yield f"least of stretch {k}", -low
             if k >= self.count:  # its bulk holds a curve and bears on its sets
                 for words, on in (("loaded", flags[:, k - self.count]), ("empty", ~flags[:, k - self.count])):
-                    yield f"stretch {k}, {words}", _where(on, high[:, k])
-                    yield f"least of stretch {k}, {words}", _where(on, -low[:, k])
+                    yield f"stretch {k}, {words}", _where(on, high)
+                    yield f"least of stretch {k}, {words}", _where(on, -low)
         if self.line.transitions:
             tail, head = tensions[:, self.stretch_at[self.count]], tensions[:, self.stretch_at[-1] + 1]
             for end, there in (("tail", tail), ("head", head)):
@@ -284,7 +315,19 @@ class CriterionLoadings(Loadings):
         over = low / (self.least + on * self.more_least)
         strands = [stretch.strand for stretch in self.line.loop.stretches]
         for strand in STRANDS:
-            yield f"sag, {strand}", -over[:, [k for k, one in enumerate(strands) if one == strand]].min(axis=-1)
+            yield (
+                f"sag, {strand}",
+                -over[:, [k for k, one in enumerate(strands) if one == strand]].min(axis=-1),
+            )
+
+
+def _called(state: str, here: NDArray[np.bool_], steady: Array) -> Iterator[tuple[str, NDArray[np.bool_]]]:
+    """A state by its names, and where it has them: the start of a belt that drives is its braking."""
+    if state != START:
+        yield state, here
+    else:
+        yield START, here & (steady >= 0.0)
+        yield BRAKING, here & (steady < 0.0)
 
 
 def _where(there: NDArray[np.bool_], values: Array) -> Array:

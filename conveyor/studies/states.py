@@ -26,7 +26,14 @@ from conveyor.models import Conveyor, LoadCase
 from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
 from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate, calculate_many
-from conveyor.studies.cases import AS_GIVEN, CalculatedCases, Load, figures_for_the_worse
+from conveyor.studies.cases import (
+    AS_GIVEN,
+    CalculatedCases,
+    Load,
+    figures_for_the_worse,
+    start_of_motors,
+    with_motors,
+)
 from conveyor.ties import largest
 from conveyor.units import from_si
 from conveyor.units.sentences import Said, quoted, said
@@ -35,7 +42,7 @@ _ROW: Final = 3  # sections from which a row of them is named by its ends
 _ROUNDS: Final = 20  # of loading the rolls anew; their share in the tensions is a hundredth of it
 _IN_FULL: Final = frozenset({DRIVE_FORCE, HOLDING_BACK, HOLDING_DOWN})
 """Figures whose worst loading is calculated with contacts of its own."""
-_NAMED: Final = 3  # figures that name a state
+_NAMED: Final = 2  # figures that name a state
 _FIGURE: Final = 3  # rank of what is no criterion: behind those that are not checked
 _DIGITS: Final = 9  # of figures: what rounding parts is equal
 _KEYS: Final = {"full": "full", "empty": "empty", "inclines only": "inclines", "declines only": "declines"}
@@ -265,8 +272,8 @@ def at_one_take_up(
 ) -> tuple[CalculatedStates, CalculatedCases | None]:
     """The same loads with the take-up at the least setting that serves the load states too; a given one stands.
 
-    Cases that the rubber's data do not cover are at the setting, and do not ask for it. Loadings under which a criterion
-    is worse than under every other load, the take-up at that setting, become load states.
+    Cases that the rubber's data do not cover are at the setting, and do not ask for it. Loadings under which a
+    criterion is worse than under every other load, the take-up at that setting, become load states.
 
     Where tension acts on the rolls, every load is loaded anew until setting and rolls agree.
 
@@ -287,6 +294,7 @@ def at_one_take_up(
         before = states.setting
         states, cases = _at_one_setting(_with_candidates(states, cases), cases)
         if math.isclose(before, states.setting, rel_tol=states.own.line.rtol):
+            states, cases = _with_motors(states, cases)
             return _governing_only(states, cases), cases
     raise NoSolutionError("the setting of the take-up and the loadings that ask for it do not settle")
 
@@ -316,6 +324,16 @@ def _at_one_setting(
             return replace(states, own=as_given, states=tuple(moved)), cases
         states = load_states(before.conveyor, as_given, cases)
     raise NoSolutionError("the setting of the take-up and what it does to the rolls do not settle")
+
+
+def _with_motors(
+    states: CalculatedStates, cases: CalculatedCases | None
+) -> tuple[CalculatedStates, CalculatedCases | None]:
+    """Loads that know what motors of a power not given have at rest."""
+    of_states = [states.own, *(load.found for load in states.loads)]
+    of_cases = [] if cases is None else [result.found for result in cases.designing]
+    own = replace(states.own, start_of_motors=start_of_motors([*of_states, *of_cases]))
+    return replace(states, own=own), None if cases is None else with_motors(cases, of_states)
 
 
 def _with_candidates(states: CalculatedStates, cases: CalculatedCases | None) -> CalculatedStates:
