@@ -31,6 +31,7 @@ from conveyor.loop.horizontal import DriftState, HorizontalCheck
 from conveyor.loop.set_duty import SetDuty
 from conveyor.loop.starting import every_state
 from conveyor.loop.take_up import TakeUpDuty
+from conveyor.loop.worst_loadings import ONE_BY_ONE
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.ties import largest
 from conveyor.units.sentences import Said, band_words, percent, quoted, said
@@ -243,15 +244,23 @@ def leading(checks: Iterable[Check]) -> tuple[Check, ...]:
     return tuple(min(group, key=severity) for group in groups.values())
 
 
-def severity(check: Check) -> tuple[int, float]:
-    """How a check ranks among others: the least governs. A failure without a margin is beyond any."""
-    margin = check.margin
-    if margin is None:
+def severity(check: Check) -> tuple[int, float, float]:
+    """How a check ranks among others: the least governs. A failure without a margin is beyond any.
+
+    Where nothing is there at all, which is the same margin whatever is needed, the one that needs more governs; where
+    no limit is known, the one without a figure, else the lowest or highest.
+    """
+    margin, further = check.margin, 0.0
+    sign = 1.0 if check.relation == "at least" else -1.0
+    if check.required is not None and check.calculated is not None:
+        over = sign * (check.calculated - check.required)
+        margin = over if margin is None else margin
+        further = 0.0 if check.calculated else over
+    else:
         margin = -math.inf if check.failed else math.inf
-        if check.required is not None and check.calculated is not None:
-            over = check.calculated - check.required
-            margin = over if check.relation == "at least" else -over
-    return ("FAIL", "pass", "not checked").index(check.verdict), round(margin, _DIGITS)
+        further = -math.inf if check.calculated is None else sign * check.calculated
+    order = ("FAIL", "pass", "not checked").index(check.verdict)
+    return order, round(margin, _DIGITS), float(f"{further:.{_DIGITS}g}")
 
 
 def filling(result: CalculatedConveyor) -> Iterator[Check]:
@@ -731,8 +740,9 @@ def starting_force(result: CalculatedConveyor) -> Iterator[Check]:
             )
             given, limit, relation = start.least, result.balance.settled.force, _AT_LEAST
         yield compared("starting_force", "starting force, motors", given, relation, limit, "force", why=why)
+    given = start.standstill if result.start_of_motors is None else result.start_of_motors
     yield compared(
-        "breakaway", "starting force after standstill", start.standstill, "at least", start.breakaway, "force",
+        "breakaway", "starting force after standstill", given, "at least", start.breakaway, "force",
         why="the starting force of {calculated} does not overcome the resistance after standstill, up to {required}: "
         "raise drive.start_factor or the motors' torque",
     )  # fmt: skip
@@ -753,14 +763,14 @@ def comes_to_rest(result: CalculatedConveyor) -> Iterator[Check]:
     asked = said("a stop at minimum friction" if brakes == 0.0 else "a stop at minimum friction, or brakes")
     yield Check(
         "comes_to_rest", said("coast-down stop"), None if alone is None else alone.time, None,
-        "duration", words, asked, verdict(holds=safe), why,
+        "duration", words, asked, verdict(holds=safe), why, _AT_MOST,
     )  # fmt: skip
     if brakes > 0.0:
         why = said("brakes of {} do not stop the conveyor", (brakes, "force"))
         yield Check(
             "comes_to_rest", said("coast-down stop, brakes on"), None if stopped is None else stopped.time,
             None, "duration", _rest(stopped, None), said("a stop at minimum friction"),
-            verdict(holds=stopped is not None), why,
+            verdict(holds=stopped is not None), why, _AT_MOST,
         )  # fmt: skip
 
 
@@ -1035,6 +1045,11 @@ def _covering(
     return replace(min(ends, key=severity), asked=said(f"within {band_words(data)}"))
 
 
+def worst_not_sought(line: Line) -> frozenset[str]:
+    """Keys of criteria for which no loading of a conveyor is sought that would be worse than those calculated."""
+    return _LOADS_THERE_ARE | (_OF_STRETCHES if line.count > ONE_BY_ONE else frozenset())
+
+
 def covered(result: CalculatedConveyor) -> bool:
     """Whether the rubber's data cover what a calculation rests on; else its figures are none to design by."""
     return not any(check.failed for check in rubber_coverage(result))
@@ -1042,6 +1057,10 @@ def covered(result: CalculatedConveyor) -> bool:
 
 OF_CONTACTS: Final = (penetration, rubber_coverage)
 """Criteria that need every roll's contact; the others need forces and tensions only."""
+_LOADS_THERE_ARE: Final = frozenset({"belt_flap", "load_sharing", "penetration", "rubber_coverage"})
+"""Keys of criteria of which only the loads that are calculated anyway are looked at."""
+_OF_STRETCHES: Final = frozenset({"curve_radius", "belt_drift", "set_rating"})
+"""Keys of criteria of single sections: of long routes they are looked at as the others are."""
 CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     filling, motor_power, take_up_tension, take_up_reach, drive_grip, sag, slack_belt, belt_safety, belt_rating,
     belt_breakage, splice_strength, cover_thickness, belt_temperature, pulley_diameter, curve_radius,

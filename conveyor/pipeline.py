@@ -151,6 +151,9 @@ class CalculatedConveyor:
         How tensions and what they do to the rolls settled; None where they do nothing.
     friction_band : tuple of float or None
         Friction over the computed one to reckon with, low and high end [-]; drive.least_friction and 1 where None.
+    start_of_motors : float or None
+        Force at the belt that motors whose power is not given have at rest, sized for the load that needs most [N];
+        None where only this load is known, or every power.
     """
 
     conveyor: Conveyor
@@ -160,6 +163,7 @@ class CalculatedConveyor:
     fixed: WithoutRubber
     convergence: Convergence | None = None
     friction_band: tuple[float, float] | None = None
+    start_of_motors: float | None = None
 
     @cached_property
     def drive_forces(self) -> tuple[float, float]:

@@ -149,14 +149,19 @@ def _state(
         tight, loose = tight[:1], loose[1:]
     drawn, slack = pull_inside(line, stretch, highest), pull_inside(line, stretch, lowest)
     came_in, came_out = entry
+    off_in, off_out = math.isinf(came_in), math.isinf(came_out)  # it ran off its rolls in the curve before
     return DriftState(
         state=state.name,
         lowest=lowest,
         highest=highest,
-        inside=came_in + max(law.drift(drawn + turn.wind) for law in tight),
-        outside=came_out + min(law.drift(slack - turn.wind) for law in loose),
-        least=_radius(turn.radius, drawn, min(law.force(turn.room - came_in) for law in tight) - turn.wind),
-        most=_radius(turn.radius, slack, max(law.force(-turn.room - came_out) for law in loose) + turn.wind),
+        inside=came_in if off_in else came_in + max(law.drift(drawn + turn.wind) for law in tight),
+        outside=came_out if off_out else came_out + min(law.drift(slack - turn.wind) for law in loose),
+        least=math.inf
+        if off_in
+        else _radius(turn.radius, drawn, min(law.force(turn.room - came_in) for law in tight) - turn.wind),
+        most=0.0
+        if off_out
+        else _radius(turn.radius, slack, max(law.force(-turn.room - came_out) for law in loose) + turn.wind),
     )
 
 

@@ -146,6 +146,18 @@ def started(pull: Pull, steady: Array, mass: Array) -> tuple[Array, Array]:
     return (factor - 1.0) * steady / mass, pull.share * (factor * steady)[..., None]
 
 
+def rated_force(line: Line) -> float | None:
+    """Rated force of all motors at the belt [N]; None where a power is not known."""
+    rated = _rated(line)
+    return None if rated is None else math.fsum(rated)
+
+
+def asked_over_given(pull: Pull, steady: Array, mass: Array) -> Array:
+    """What a controlled start asks of the motors over what the weakest of them lets all give [-]; of kind "limited"."""
+    own, possible = pull.own.sum() / mass, _possible(pull, steady, mass)
+    return np.asarray((pull.factor + (pull.factor - 1.0) * own) / (possible + (possible - 1.0) * own))
+
+
 def _possible(pull: Pull, steady: Array, mass: Array) -> Array:
     """The same at which the weakest motor, at its least torque, still keeps its share; infinite where not known."""
     own = pull.own / mass[..., None]

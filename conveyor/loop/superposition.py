@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from conveyor.forces import without_rubber
 from conveyor.laws.tension import grip_tension
-from conveyor.loop.balance import Balance, balance
+from conveyor.loop.balance import Balance, OpenLoop, answers, balances
 from conveyor.loop.equilibrium import BRAKES, LEAST, LEAST_BRAKING, START
 from conveyor.loop.frame import Frame
 from conveyor.loop.run_up import started, uncontrolled
@@ -38,6 +38,9 @@ DRIVE_FORCE: Final = "drive force"
 LEAST_FORCE: Final = "least drive force"
 TENSION: Final = "largest tension"
 TAKE_UP: Final = "tension of the take-up"
+HOLDING_BACK: Final = "holding force of a backstop"
+HOLDING_DOWN: Final = "holding force of a brake"
+_IF_ANY: Final = (LEAST_FORCE, HOLDING_BACK, HOLDING_DOWN)  # looked for where they are above 0
 _TRIED = 3  # places of the loop that the first estimate puts first
 
 
@@ -47,7 +50,7 @@ class _Events:
 
     Forces, their certain parts [N] and masses [kg] with the section empty, and what its bulk adds; `section` is -1
     where it is none. `stretches` is where every stretch stands, shape (2n,), `drives` where every drive
-    does, `held` the place behind the take-up.
+    does, `held` the place behind the take-up, `spots` the place before what stands at every spot.
     """
 
     force: Array
@@ -60,6 +63,7 @@ class _Events:
     stretches: NDArray[np.int_]
     drives: NDArray[np.int_]
     held: int
+    spots: tuple[int, ...]
 
     def by_section(self, values: Array, count: int) -> Array:
         """Sum what belongs to each section, shape (n,)."""
@@ -118,11 +122,19 @@ class Loadings:
         """Loading that is worst for each figure, by its name; none is beaten as far as single sections go.
 
         The largest drive force, the least one where it is negative, the tension anywhere, the tension of the take-up,
-        and what the grip of each of several drives asks of it.
+        what the grip of each of several drives asks of it, and the force that holds a belt which would roll off.
         """
         steady = self.resistance(1.0)[1]
         least = self.resistance(self.line.least_friction)[1]
-        candidates = [steady > 0.0, steady < 0.0, least < 0.0, *self.standard]
+        (_, lift), (_, rubbing) = self.at_rest
+        candidates = [
+            steady > 0.0,
+            steady < 0.0,
+            least < 0.0,
+            lift > rubbing,
+            -lift > rubbing,
+            *self.standard,
+        ]
         loadings = {DRIVE_FORCE: candidates[0]}
         for state in self._states:
             for sought in self._candidates(state):
@@ -133,12 +145,17 @@ class Loadings:
         for name in figures[candidates[0].tobytes()]:
             known = {key: of[name] for key, of in figures.items()}
             best = largest(known, known.__getitem__)
-            if name != LEAST_FORCE or known[best] > 0.0:
+            if name not in _IF_ANY or known[best] > 0.0:
                 loadings[name] = tried[best]
         return loadings
 
     def loaded(self, loading: Loading) -> Balance:
         """The loop under one loading: forces of the full belt where it bears bulk, of the empty one elsewhere."""
+        (made,) = answers(balances([self.open_loop(loading)]))
+        return made
+
+    def open_loop(self, loading: Loading) -> OpenLoop:
+        """The same, to be closed beside others at the setting of the take-up."""
         line, count = self.line, self.count
         on = np.append(loading, np.ones(count, bool))
         pairs = zip(line.stretches, self.empty.line.stretches, on.tolist(), strict=True)
@@ -162,7 +179,7 @@ class Loadings:
             for laden, bare in zip(self.full.along, self.empty.along, strict=True)
         )
         unit_main = float(without_rubber(mixed.strands).unit_main.sum())
-        return balance(Frame(mixed), along, unit_main, self.setting)
+        return OpenLoop(Frame(mixed), along, unit_main, self.setting)
 
     def figures(self, loading: Loading) -> dict[str, float]:
         """What `worst` looks for under one loading [N]; the least drive force with its sign turned."""
@@ -183,11 +200,14 @@ class Loadings:
                 least[self.count :] += self.more_least[self.count :] * loading
                 ends = np.minimum(offsets[self.stretch_at], offsets[self.stretch_at + 1])
                 asked.append(float((least - ends).max()))
+        lift, rubbing = (base + float(more @ loading) for base, more in self.at_rest)
         named = {
             DRIVE_FORCE: self._total(1.0, loading),
             LEAST_FORCE: -self._total(self.line.least_friction, loading),
             TENSION: self.setting + largest,
             TAKE_UP: max(*asked, *grips),
+            HOLDING_BACK: max(0.0, lift - rubbing),
+            HOLDING_DOWN: max(0.0, -lift - rubbing),
         }
         if len(grips) > 1:
             named |= {
@@ -207,6 +227,19 @@ class Loadings:
         base = events.certain + friction * (events.force - events.certain)
         more = events.more_certain + friction * (events.more_force - events.more_certain)
         return float(base.sum()), events.by_section(more, self.count)
+
+    @cached_property
+    def at_rest(self) -> tuple[tuple[float, Array], tuple[float, Array]]:
+        """Lift, and what friction certainly holds [N]: of the empty belt, and what the bulk of each section adds."""
+        (base, more), (certain, more_certain) = (
+            self.resistance(self.line.least_friction),
+            self.resistance(0.0),
+        )
+        moving = np.zeros(self.count)
+        for force in self.full.settled.points:
+            if force.certain and force.kind != "lift" and force.bulk is not None:
+                moving[force.bulk] += force.total
+        return (certain, more_certain - moving), (base - certain, more - more_certain)
 
     @cached_property
     def standard(self) -> list[Loading]:
@@ -252,8 +285,9 @@ class Loadings:
         """Acceleration and drives' forces, shape (d,) or (d, m), at one or many resistances and masses."""
         resistance, mass = np.asarray(resistance), np.asarray(mass)
         if state.over is None:
-            slowing = (resistance + self.brakes.sum()) / (mass + self.rotating.sum())
-            return -slowing, np.multiply.outer(self.rotating, slowing) - _column(self.brakes, slowing)
+            brakes = self.brakes if state.name == BRAKES else np.zeros_like(self.brakes)
+            slowing = (resistance + brakes.sum()) / (mass + self.rotating.sum())
+            return -slowing, np.multiply.outer(self.rotating, slowing) - _column(brakes, slowing)
         acceleration = (state.over - 1.0) * resistance / mass
         forces = np.multiply.outer(self.shares * state.over, resistance)
         if state.name != START:
@@ -342,9 +376,7 @@ class Loadings:
         stretch: int | None = None,
     ) -> _Sought:
         """Tension at a place over what the take-up holds, or with sign -1 what it lacks there."""
-        events = self.events
-        # the offset at a place is the sum of the events before it; so is every offset the take-up holds
-        weights = sign * ((np.arange(events.force.size) < at) - _behind(self._anchor))
+        events, weights = self.events, sign * self._weights(at)
         base = events.certain + state.friction * (events.force - events.certain)
         more = events.more_certain + state.friction * (events.more_force - events.more_certain)
         constant = float(weights @ base)
@@ -362,6 +394,13 @@ class Loadings:
             -weights[self.drive_at],
             grip,
         )
+
+    def _weights(self, at: int) -> Array:
+        """Of every event in the tension at a place over what the take-up holds, shape (e,).
+
+        The offset at a place is the sum of the events before it; so is every offset the take-up holds.
+        """
+        return np.asarray((np.arange(self.events.force.size) < at) - _behind(self._anchor))
 
     def _ascent(self, sought: _Sought, loading: Loading) -> Loading:
         """Change sections, all that gain together while that gains, then the one that gains most, until none does."""
@@ -441,12 +480,13 @@ def _events(full: Balance, empty: Balance) -> _Events:
     rows: list[_Row] = []
     stretches: list[int] = []
     drives = np.zeros(len(line.drives), dtype=int)
-    held = 0
+    held, spots = 0, list[int]()
     standing = iter(list(enumerate(frame.spots)))
     following = next(standing, None)
     for boundary, (bare, laden) in enumerate(zip([*_along(empty), None], [*_along(full), None], strict=True)):
         while following is not None and following[1].boundary == boundary:
             j = following[0]
+            spots.append(len(rows))
             rows += _singles(full, empty, j)
             for d in frame.drives[j]:
                 drives[d] = len(rows)
@@ -472,7 +512,7 @@ def _events(full: Balance, empty: Balance) -> _Events:
     force, certain, mass, more_force, more_certain, more_mass = values
     return _Events(
         force, certain, mass, more_force, more_certain, more_mass,
-        section=np.array(columns[-1]), stretches=np.array(stretches), drives=drives, held=held,
+        section=np.array(columns[-1]), stretches=np.array(stretches), drives=drives, held=held, spots=tuple(spots),
     )  # fmt: skip
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import platform
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import asdict, replace
 from datetime import date
 from functools import partial
@@ -17,7 +17,7 @@ from typing import Any, Final, NamedTuple, TypeVar
 
 import numpy as np
 
-from conveyor.checks import Check, deciding, leading
+from conveyor.checks import Check, deciding, leading, worst_not_sought
 from conveyor.files.marks import version
 from conveyor.laws.drives import next_preferred
 from conveyor.laws.power import JOULE_PER_KWH
@@ -180,7 +180,7 @@ def of_analysis(
         *compounds(analysis, system),
         *(() if further is None else further.parts),
         *case_checks(every, system),
-        checked(governing, system),
+        checked(governing, system, worst_not_sought(analysis.line)),
         remarks(analysis, governing, system, () if further is None else further.assumptions),
         provenance(about.fingerprint),
     )
@@ -1360,10 +1360,12 @@ class CheckRow(NamedTuple):
     leads: bool
 
     @classmethod
-    def of(cls, check: Check, system: System, *, leads: bool = False) -> CheckRow:
-        """Write a check in a system of units."""
+    def of(cls, check: Check, system: System, *, leads: bool = False, not_sought: bool = False) -> CheckRow:
+        """Write a check in a system of units, and whether no loading was sought that would be worse."""
         name, calculated, asked = (said.text(system) for said in (check.name, check.found, check.asked))
         case = AS_GIVEN if check.case is None else check.case.text(system)
+        if not_sought:
+            case += "; worst loading not sought"
         margin = None if check.verdict == "not checked" else check.margin
         return cls(name, calculated, asked, margin, case, check.verdict, leads)
 
@@ -1378,10 +1380,17 @@ _OF_CASE: Final = Column("case", "text", "case")
 _VERDICT: Final = Column("verdict", "verdict", "verdict")
 
 
-def checked(checks: tuple[Check, ...], system: System) -> Table:
-    """What was checked, of all cases the one that governs: what was found, what is asked for, pass or fail."""
+def checked(checks: tuple[Check, ...], system: System, not_sought: Collection[str] = ()) -> Table:
+    """What was checked, of all cases the one that governs: what was found, what is asked for, pass or fail.
+
+    Of several loads it says of which keys no loading was sought that would be worse.
+    """
     first = leading(checks)
-    rows = tuple(CheckRow.of(check, system, leads=any(check is one for one in first)) for check in checks)
+    unsought = not_sought if any(check.case is not None for check in checks) else ()
+    rows = tuple(
+        CheckRow.of(check, system, leads=any(check is one for one in first), not_sought=check.key in unsought)
+        for check in checks
+    )
     caption = "Calculated against required; of all calculated cases the least margin"
     note = "margin: reserve over the limit; least of all calculated cases"
     of_case = (_OF_CASE,) if any(row.case != AS_GIVEN for row in rows) else ()

@@ -9,7 +9,7 @@ a band, generators and brakes at its lower end.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Final
@@ -310,7 +310,25 @@ def analyse_cases(
         else:
             refused.append(CaseRefusal(case.name, setting.temperature, setting.speed, str(result)))
     own = as_given if isinstance(as_given, CalculatedConveyor) else None
-    return CalculatedCases(conveyor, chosen, band, tuple(results), tuple(refused), own)
+    return with_motors(CalculatedCases(conveyor, chosen, band, tuple(results), tuple(refused), own))
+
+
+def with_motors(cases: CalculatedCases, further: Iterable[CalculatedConveyor] = ()) -> CalculatedCases:
+    """Cases that know what motors of a power not given have at rest: what the load that needs most is started with."""
+    own = () if cases.as_given is None else (cases.as_given,)
+    force = start_of_motors([*own, *(result.found for result in cases.designing), *further])
+    if force is None:
+        return cases
+    results = tuple(replace(r, found=replace(r.found, start_of_motors=force)) for r in cases.results)
+    as_given = None if cases.as_given is None else replace(cases.as_given, start_of_motors=force)
+    return replace(cases, results=results, as_given=as_given)
+
+
+def start_of_motors(loads: Sequence[CalculatedConveyor]) -> float | None:
+    """Force at the belt at rest that the load which needs most is started with [N]; None where motors are given."""
+    if not loads or all(drive.power is not None for drive in loads[0].line.drives):
+        return None
+    return max(load.motions.start.standstill for load in loads)
 
 
 _FIGURES: Final[dict[str, tuple[str, str, bool, Callable[[Load], float]]]] = {
@@ -344,6 +362,11 @@ _FIGURES: Final[dict[str, tuple[str, str, bool, Callable[[Load], float]]]] = {
         lambda r: r.found.balance.forces.indentation,
     ),
 }
+
+
+def figures_for_the_worse(load: Load) -> dict[str, float]:
+    """Figures that loads are compared by, by their names: the higher, the more a load governs it."""
+    return {figure: value(load) if most else -value(load) for figure, _, most, value in _FIGURES.values()}
 
 
 def governing(loads: Sequence[Load]) -> tuple[Governing, ...]:

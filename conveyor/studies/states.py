@@ -8,30 +8,43 @@ calculated in full besides: its own tensions press on the rolls of vertical curv
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import groupby
 from operator import itemgetter
 from typing import Final
 
-from conveyor.checks import Check, checks
+from conveyor.checks import Check, checks, severity
 from conveyor.errors import ConveyorError, NoSolutionError
-from conveyor.loop.balance import Balance
+from conveyor.loop.balance import Balance, balances, held
 from conveyor.loop.frame import TakeUpSetting
-from conveyor.loop.superposition import DRIVE_FORCE, Loading, Loadings
+from conveyor.loop.superposition import DRIVE_FORCE, HOLDING_BACK, HOLDING_DOWN, Loading, Loadings
 from conveyor.loop.take_up import at_one_setting, on_one_side
+from conveyor.loop.worst_loadings import CriterionLoadings
 from conveyor.models import Conveyor, LoadCase
 from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
 from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate, calculate_many
-from conveyor.studies.cases import CalculatedCases, Load
+from conveyor.studies.cases import (
+    AS_GIVEN,
+    CalculatedCases,
+    Load,
+    figures_for_the_worse,
+    start_of_motors,
+    with_motors,
+)
 from conveyor.ties import largest
 from conveyor.units import from_si
 from conveyor.units.sentences import Said, quoted, said
 
 _ROW: Final = 3  # sections from which a row of them is named by its ends
 _ROUNDS: Final = 20  # of loading the rolls anew; their share in the tensions is a hundredth of it
+_IN_FULL: Final = frozenset({DRIVE_FORCE, HOLDING_BACK, HOLDING_DOWN})
+"""Figures whose worst loading is calculated with contacts of its own."""
+_NAMED: Final = 2  # figures that name a state
+_FIGURE: Final = 3  # rank of what is no criterion: behind those that are not checked
+_DIGITS: Final = 9  # of figures: what rounding parts is equal
 _KEYS: Final = {"full": "full", "empty": "empty", "inclines only": "inclines", "declines only": "declines"}
 
 
@@ -110,11 +123,14 @@ class CalculatedStates:
         The spec's own load.
     states, refused : tuple
         The standard ones first, then worst loadings that are none of them; what has no answer.
+    ends : tuple
+        Temperatures at which loadings are looked at [K], each with the loops under full and empty belt.
     """
 
     own: CalculatedConveyor
     states: tuple[LoadState, ...]
     refused: tuple[StateRefusal, ...]
+    ends: tuple[tuple[float, Balance, Balance], ...] = ()
 
     @property
     def conveyor(self) -> Conveyor:
@@ -142,11 +158,12 @@ class CalculatedStates:
     @cached_property
     def loads(self) -> tuple[Load, ...]:
         """Every state that is not the spec's own load; its contacts are those of the spec's."""
-        return tuple(
-            Load(s.title, s.case, replace(self.own, temperature=s.temperature, balance=s.balance))
-            for s in self.states
-            if s.balance is not self.own.balance
-        )
+        return tuple(self.load(state) for state in self.states if state.balance is not self.own.balance)
+
+    def load(self, state: LoadState) -> Load:
+        """A state as a load; its contacts are those of the spec's."""
+        found = replace(self.own, temperature=state.temperature, balance=state.balance)
+        return Load(state.title, state.case, found)
 
     @cached_property
     def checks(self) -> tuple[Check, ...]:
@@ -223,19 +240,25 @@ def load_states(
             one = adding[at].loaded(loading) if known is None else known
             keys = (*map(_KEYS.__getitem__, names), *map(worst_key, figures))
             states.append(LoadState(names[0], _names(own, loading), at, figures, keys, one))
+    alone = [
+        (temperature, _names(own, loading))
+        for (temperature, _), (loading, figures) in worst.items()
+        if not _IN_FULL.isdisjoint(figures) and loading.any() and not loading.all()
+    ]
+    full_ones = dict(zip(alone, _in_full(conveyor, alone, own), strict=True))
     for (temperature, _), (loading, figures) in worst.items():
         loaded = _names(own, loading)
         full, empty = ends[temperature]
         one = full if loading.all() else adding[temperature].loaded(loading) if loading.any() else empty
-        if DRIVE_FORCE in figures and loading.any() and not loading.all():
-            again = _in_full(conveyor, loaded, temperature, own)
-            if isinstance(again, CalculatedConveyor):
-                one = again.balance
-            else:
-                refused.append(StateRefusal(f"worst for {DRIVE_FORCE}", temperature, str(again)))
+        again = full_ones.get((temperature, loaded))
+        if isinstance(again, CalculatedConveyor):
+            one = again.balance
+        elif again is not None:
+            refused.append(StateRefusal(f"worst for {figures[0]}", temperature, str(again)))
         keys = tuple(map(worst_key, figures))
         states.append(LoadState(f"worst for {', '.join(figures)}", loaded, temperature, figures, keys, one))
-    return CalculatedStates(own, tuple(states), tuple(refused))
+    looked_at = tuple((temperature, *pair) for temperature, pair in ends.items())
+    return CalculatedStates(own, tuple(states), tuple(refused), looked_at)
 
 
 def _standing(own: CalculatedConveyor) -> CalculatedConveyor:
@@ -249,7 +272,8 @@ def at_one_take_up(
 ) -> tuple[CalculatedStates, CalculatedCases | None]:
     """The same loads with the take-up at the least setting that serves the load states too; a given one stands.
 
-    Cases that the rubber's data do not cover are at the setting, and do not ask for it.
+    Cases that the rubber's data do not cover are at the setting, and do not ask for it. Loadings under which a
+    criterion is worse than under every other load, the take-up at that setting, become load states.
 
     Where tension acts on the rolls, every load is loaded anew until setting and rolls agree.
 
@@ -265,6 +289,20 @@ def at_one_take_up(
     NoSolutionError
         No setting serves every load, or a load has no answer at it.
     """
+    states, cases = _at_one_setting(states, cases)
+    for _ in range(_ROUNDS):
+        before = states.setting
+        states, cases = _at_one_setting(_with_candidates(states, cases), cases)
+        if math.isclose(before, states.setting, rel_tol=states.own.line.rtol):
+            states, cases = _with_motors(states, cases)
+            return _governing_only(states, cases), cases
+    raise NoSolutionError("the setting of the take-up and the loadings that ask for it do not settle")
+
+
+def _at_one_setting(
+    states: CalculatedStates, cases: CalculatedCases | None
+) -> tuple[CalculatedStates, CalculatedCases | None]:
+    """Every load with the take-up at one setting."""
     if states.own.line.take_up.tension is not None:
         return states, cases
     for _ in range(_ROUNDS):
@@ -288,6 +326,116 @@ def at_one_take_up(
     raise NoSolutionError("the setting of the take-up and what it does to the rolls do not settle")
 
 
+def _with_motors(
+    states: CalculatedStates, cases: CalculatedCases | None
+) -> tuple[CalculatedStates, CalculatedCases | None]:
+    """Loads that know what motors of a power not given have at rest."""
+    of_states = [states.own, *(load.found for load in states.loads)]
+    of_cases = [] if cases is None else [result.found for result in cases.designing]
+    own = replace(states.own, start_of_motors=start_of_motors([*of_states, *of_cases]))
+    return replace(states, own=own), None if cases is None else with_motors(cases, of_states)
+
+
+def _with_candidates(states: CalculatedStates, cases: CalculatedCases | None) -> CalculatedStates:
+    """With the loadings that are worst for a figure of the criteria at whichever temperature, but those there are."""
+    own = states.own
+    ends = iter(held([loop for _, *pair in states.ends for loop in pair], states.take_up))
+    looked_at = {temperature: CriterionLoadings(next(ends), next(ends)) for temperature, *_ in states.ends}
+    worst: dict[str, tuple[float, float, Loading]] = {}
+    for temperature, loadings in looked_at.items():
+        for figure, (value, loading) in loadings.worst_of_each().items():
+            if figure not in worst or value > worst[figure][0]:
+                worst[figure] = (value, temperature, loading)
+    there = _loadings_there(states, cases)
+    wanted = {
+        (temperature, _names(own, loading)): (figure, loading)
+        for figure, (_, temperature, loading) in worst.items()
+        if (temperature, _names(own, loading)) not in there
+    }
+    loops = balances([looked_at[at].open_loop(loading) for (at, _), (_, loading) in wanted.items()])
+    candidates, refused = [], []
+    for ((at, loaded), (figure, _)), loop in zip(wanted.items(), loops, strict=True):
+        if isinstance(loop, Balance):
+            candidates.append(LoadState(figure, loaded, at, (figure,), (), loop))
+        else:
+            refused.append(StateRefusal(f"worst for {figure}", at, str(loop)))
+    standing = tuple(state for state in states.states if state.keys)
+    return replace(states, states=(*standing, *candidates), refused=(*states.refused, *refused))
+
+
+def _loadings_there(
+    states: CalculatedStates, cases: CalculatedCases | None
+) -> set[tuple[float, tuple[str, ...]]]:
+    """Temperature and loaded sections of every load that is calculated at the spec's speed and full cross-section."""
+    there = {(state.temperature, state.loaded) for state in states.states if state.keys}
+    for result in () if cases is None else cases.designing:
+        if result.speed == states.own.line.speed and result.case.loading in STANDARD_LOADINGS:
+            stretches = result.found.line.stretches[: result.found.line.count]
+            there.add((result.temperature, tuple(s.section for s in stretches if s.bulk_mass > 0.0)))
+    return there
+
+
+def _governing_only(states: CalculatedStates, cases: CalculatedCases | None) -> CalculatedStates:
+    """Of the candidates those that govern a criterion or a figure, each named by what it governs."""
+    own, of_cases = states.own, () if cases is None else cases.designing
+    fixed = [state for state in states.states if state.keys]
+    candidates = [state for state in states.states if not state.keys]
+    loads = [Load(AS_GIVEN, said(AS_GIVEN), own), *of_cases, *(states.load(state) for state in fixed)]
+    count = len(loads)
+    governs: dict[tuple[str, str], tuple[Rank, int]] = {}
+    for i, load in enumerate([*loads, *map(states.load, candidates)]):
+        for name, rank in _ranks(load):
+            if name not in governs or rank < governs[name][0]:
+                governs[name] = (rank, i)
+    named: list[list[tuple[Rank, str]]] = [[] for _ in candidates]
+    for (_, subject), (rank, i) in governs.items():
+        if i >= count:
+            named[i - count].append((rank, subject))
+    kept = []
+    for state, subjects in zip(candidates, named, strict=True):
+        if subjects:
+            figures = tuple(dict.fromkeys(subject for _, subject in sorted(subjects)))
+            keys = tuple(map(worst_key, figures))
+            kept.append(replace(state, name=_called(figures), worst_for=figures, keys=keys))
+    return replace(states, states=(*fixed, *kept))
+
+
+def _ranks(load: Load) -> Iterator[tuple[tuple[str, str], Rank]]:
+    """Criteria and figures of a load by key and name, and how they rank: the least governs, as in `deciding`."""
+    for check in checks(load.found, contacts=False):
+        yield (check.key, check.subject.text()), severity(check)
+    figures = figures_for_the_worse(load)
+    for duty in load.found.pulley_duty:
+        figures[f"load of the {duty.pulley.name} pulley"] = duty.largest.resultant
+    for zone in load.found.belt_duty.transitions:
+        for what, least in (("stretched", zone.stretched), ("slackened", zone.slackened)):
+            figures[f"length of the {zone.zone.end} transition, strips {what}"] = least or 0.0
+    if load.found.line.take_up.travel is not None or load.found.take_up.travel is not None:
+        lengths = load.found.line.loop.length
+        means = [state.mean(lengths) for state in load.found.every_state]
+        steady = load.found.balance.settled.steady.mean(lengths)
+        for name, low, high in (
+            ("mean tension", min(means), max(means)),
+            ("mean tension, steady", steady, steady),
+        ):
+            figures[f"travel of the take-up, least {name}"] = -low
+            figures[f"travel of the take-up, largest {name}"] = high
+        figures["speed of the take-up"] = load.found.take_up.speed or 0.0
+    for name, value in figures.items():
+        yield ("", name), (_FIGURE, -_to_digits(value), 0.0)
+
+
+def _to_digits(value: float) -> float:
+    """A figure without what rounding parts."""
+    return float(f"{value:.{_DIGITS}g}")
+
+
+def _called(figures: Sequence[str]) -> str:
+    """Name of a state that is the worst for figures."""
+    more = f" and {len(figures) - _NAMED} more" if len(figures) > _NAMED else ""
+    return f"worst for {', '.join(figures[:_NAMED])}{more}"
+
+
 def _loaded_anew(loads: Sequence[CalculatedConveyor], take_up: TakeUpSetting) -> list[CalculatedConveyor]:
     """Loads whose rolls bear what the take-up at a setting does to them; the first is the spec's own."""
     variants = [Variant(one.conveyor, one.temperature, take_up=take_up) for one in loads]
@@ -299,6 +447,8 @@ def _loaded_anew(loads: Sequence[CalculatedConveyor], take_up: TakeUpSetting) ->
     return made
 
 
+Rank = tuple[int, float, float]
+"""As `severity` has it."""
 _Ends = tuple[Balance, Balance]
 """Under full and empty belt."""
 
@@ -370,16 +520,24 @@ def _worst(
 
 
 def _in_full(
-    conveyor: Conveyor, loaded: tuple[str, ...], temperature: float, own: CalculatedConveyor
-) -> CalculatedConveyor | ConveyorError:
-    """A worst loading with its own contacts, or why it has none."""
-    case = LoadCase(name="worst", loading="sections", sections=loaded)
-    try:
-        made = _loaded(conveyor, case, temperature, own)
-    except ConveyorError as error:
-        return error
-    (result,) = calculate_many([Variant(made, take_up=own.balance.settled.take_up)], known=own)
-    return result
+    conveyor: Conveyor, loads: Sequence[tuple[float, tuple[str, ...]]], own: CalculatedConveyor
+) -> list[CalculatedConveyor | ConveyorError]:
+    """Loadings at temperatures with their own contacts, or why they have none."""
+    made: list[CalculatedConveyor | ConveyorError] = []
+    variants: dict[int, Variant] = {}
+    for i, (temperature, loaded) in enumerate(loads):
+        case = LoadCase(name="worst", loading="sections", sections=loaded)
+        try:
+            one = _loaded(conveyor, case, temperature, own)
+        except ConveyorError as error:
+            made.append(error)
+        else:
+            variants[i] = Variant(one, take_up=own.balance.settled.take_up)
+            made.append(own)
+    if variants:
+        for i, answer in zip(variants, calculate_many(list(variants.values()), known=own), strict=True):
+            made[i] = answer
+    return made
 
 
 def _names(own: CalculatedConveyor, loading: Loading) -> tuple[str, ...]:

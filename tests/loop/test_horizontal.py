@@ -269,6 +269,17 @@ def test_a_hill_in_the_curve_presses_the_belt_into_its_trough(found):
     assert forces == pytest.approx([load.force for s in hill.line.stretches for load in s.loads], rel=1e-5)
 
 
+def test_what_presses_on_an_empty_trough_holds_as_so_much_more_belt_does(found):
+    """Without bulk every force of a set goes with the belt's weight: 3 m of 20 kg/m, pressed by twice that, thrice."""
+    back = found.horizontal[1].turn
+    weight = 3.0 * 20.0 * found.line.gravity
+    for least in (False, True):
+        bare, pressed, lifted = (back.law(f * weight, least=least) for f in (0.0, 2.0, -0.5))
+        for drift in (-0.04, 0.0, 0.05):
+            assert pressed.force(drift) == pytest.approx(3.0 * bare.force(drift), rel=1e-9)
+            assert lifted.force(drift) == pytest.approx(0.5 * bare.force(drift), rel=1e-9)
+
+
 FLAT = {"return": {"rolls": 1, "spacing": "3 m", "roll": _ROLL | {"length": "1400 mm"}}}
 
 

@@ -139,6 +139,14 @@ def test_what_is_not_given_is_not_checked(plain):
     assert (life.verdict, life.asked.text()) == ("not checked", "life asked of it (bearing_life) not given")
 
 
+@pytest.mark.parametrize("given", ["hub_centres", "bearing_centres"])
+def test_one_distance_alone_gives_no_bending(given):
+    found = with_pulleys(HEAD | {given: SHAFT[given], "shaft_steel": "C1045"}, TAIL)
+    duty = duties(found)["head"]
+    assert (duty.moment, duty.slope, duty.safety, duty.least_shaft) == (None, None, None, None)
+    assert list(pulley_shaft(found)) == []
+
+
 @pytest.mark.parametrize(
     ("changed", "message"),
     [

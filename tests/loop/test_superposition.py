@@ -7,7 +7,16 @@ import itertools
 import numpy as np
 import pytest
 
-from conveyor.loop.superposition import DRIVE_FORCE, LEAST_FORCE, TAKE_UP, TENSION, Loadings
+from conveyor.loop.starting import motions
+from conveyor.loop.superposition import (
+    DRIVE_FORCE,
+    HOLDING_BACK,
+    HOLDING_DOWN,
+    LEAST_FORCE,
+    TAKE_UP,
+    TENSION,
+    Loadings,
+)
 from conveyor.loop.take_up import at_one_setting
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
@@ -75,9 +84,12 @@ def looked_for(found):
         )
         for drive in found.line.drives
     }
+    moving = motions(found)
     figures = {
         DRIVE_FORCE: settled.force, LEAST_FORCE: -settled.least_force,
         TENSION: found.tensions.largest, TAKE_UP: settled.needed,
+        HOLDING_BACK: moving.brake_to_hold if moving.rolls_back else 0.0,
+        HOLDING_DOWN: 0.0 if moving.rolls_back else moving.brake_to_hold,
     }  # fmt: skip
     return figures | ({f"grip, {name}": grip for name, grip in grips.items()} if len(grips) > 1 else {})
 
@@ -130,8 +142,8 @@ def _never_beaten(found):
     for figure, loading in worst.items():
         most = max(figures[figure] for figures in every)
         assert found.figures(loading)[figure] == pytest.approx(most, rel=CLOSED), figure
-    least = max(figures[LEAST_FORCE] for figures in every)
-    assert (LEAST_FORCE in worst) == (least > 0.0)
+    for figure in (LEAST_FORCE, HOLDING_BACK, HOLDING_DOWN):
+        assert (figure in worst) == (max(figures[figure] for figures in every) > 0.0)
 
 
 def test_signs_by_hand():

@@ -91,6 +91,27 @@ def test_trajectory_begins_on_the_bulk_and_ends_at_the_depth(found):
     assert len(shown["trajectory"].rows) >= path.fall.time.size
 
 
+@pytest.mark.parametrize(("belt_speed", "wraps"), [("1.6 m/s", True), ("3 m/s", False)])
+def test_the_centre_of_the_bulk_is_faster_than_the_belt_by_their_radii(belt_speed, wraps):
+    """V = v r/R with r of the bulk, R of the belt's face; a slow one is carried to V²/(g r) = cos θ."""
+    data = _spec(discharge={"drop": "2 m", "pulley_diameter": "1 m"})
+    data["belt"] = {**data["belt"], "speed": belt_speed}
+    data["material"] = {**data["material"], "flow": "300 t/h"}
+    one = calculate(from_data(data))
+    path, line = one.trajectory, one.line
+    face = 0.5 + line.belt.thickness
+    area = 300.0 / 3.6 / line.speed / line.density
+    radius = face + bulk_on_pulley(area, width=width_on_pulley(line.belt.width)).centroid
+    speed = line.speed * (radius / face)
+    assert path.ratio == pytest.approx(speed**2 / (line.gravity * radius), rel=1e-12)
+    assert path.wraps == wraps
+    if wraps:
+        assert path.speed == pytest.approx(speed, rel=1e-12)
+        assert math.cos(path.angle) == pytest.approx(speed**2 / (line.gravity * radius), rel=1e-12)
+    else:
+        assert path.speed == pytest.approx(line.speed, rel=1e-12)
+
+
 @pytest.mark.parametrize(
     ("route", "message"),
     [

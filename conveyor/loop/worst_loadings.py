@@ -1,0 +1,340 @@
+"""Loadings that a criterion may be worst under, the take-up at its setting.
+
+Every loading of a short route is looked at. Of a longer one those that signs say: a tension in even motion and the
+force that holds the belt are sums over the sections, what resistance and mass decide is worst at a corner of all their
+sums; then sections are changed one by one until no change makes a figure worse. Figures here are those of the criteria
+or rise with them; what a criterion says under a loading is its own to say.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.errors import NoSolutionError
+from conveyor.laws.motion import bulk_slip_limits
+from conveyor.laws.resistance.defaults import ROLL_DRAG_STANDSTILL_FACTOR
+from conveyor.laws.tension import grip_tension
+from conveyor.line.stretches import STRANDS
+from conveyor.loop.equilibrium import BRAKES, BRAKING, COASTING, LEAST, LEAST_BRAKING, START
+from conveyor.loop.run_up import asked_over_given, rated_force, uncontrolled
+from conveyor.loop.superposition import Array, Loading, Loadings
+from conveyor.loop.tensions import STEADY
+from conveyor.units import si
+
+EVERY: Final = 10
+"""Sections up to which every loading is looked at."""
+ONE_BY_ONE: Final = 40
+"""Sections up to which they are changed one by one, and every curve and raised set is looked at."""
+_TRIED: Final = 3  # sections whose bulk slips first
+_ROUNDS: Final = 20  # of changes; every one makes a figure worse, and few take more than five
+_ALIKE: Final = 1e-9  # of a figure: rounding
+
+Flags = NDArray[np.bool_]
+"""Loadings, one in a row, shape (m, n)."""
+Figures = dict[str, Array]
+"""What loadings make of each figure, shape (m,): the higher the worse, -inf where there is none."""
+
+
+class CriterionLoadings(Loadings):
+    """The loadings of one conveyor between empty and full, and under which of them its criteria are worst."""
+
+    def worst_of_each(self) -> dict[str, tuple[float, Loading]]:
+        """The highest value of every figure and the first loading that has it, by the figure's name; SI."""
+        best: dict[str, tuple[float, Loading]] = {}
+        known: set[bytes] = set()
+        flags = self._first_tried()
+        for _ in range(_ROUNDS):
+            known |= {row.tobytes() for row in flags}
+            before = dict(best)
+            for name, values in self.criterion_figures(flags).items():
+                most = float(values.max())
+                slack = _ALIKE * abs(most)
+                if most > -np.inf and (name not in best or most > best[name][0] + slack):
+                    best[name] = (most, flags[int(np.argmax(values >= most - slack))])
+            if best == before or not EVERY < self.count <= ONE_BY_ONE:
+                break
+            near = np.concatenate([loading ^ self._single for _, loading in best.values()])
+            flags = np.array([row for row in _distinct(near) if row.tobytes() not in known])
+            if not flags.size:
+                break
+        return best
+
+    def _first_tried(self) -> Flags:
+        """All loadings of a short route, the standard ones first; of a long one those that signs say."""
+        standard = np.array(self.standard)
+        if self.count <= EVERY:
+            every = np.array(list(itertools.product([True, False], repeat=self.count)))
+            return _distinct(np.concatenate([standard, every]))
+        of_drives = np.array(list(self.worst().values()))
+        return _distinct(
+            np.concatenate([standard, of_drives, self._corners(), np.array(list(self._by_signs()))])
+        )
+
+    def _corners(self) -> Flags:
+        """Loadings at the corners of all sums of resistance and mass, with what slips first and without what slides."""
+        mass, rows = self._masses[1], list[Flags]()
+        steady, least = (self.resistance(friction)[1] for friction in (1.0, self.line.least_friction))
+        for more in (steady, least, steady + self._sticking[1]):
+            square = 0.5 * np.pi
+            turns = np.sort(np.concatenate([np.arctan2(mass, more) + s * square for s in (-1.0, 1.0)]))
+            between = 0.5 * (turns + np.append(turns[1:], turns[0] + 4.0 * square))
+            rows.append(np.outer(np.cos(between), more) + np.outer(np.sin(between), mass) > 0.0)
+        corners = np.concatenate(rows)
+        *limits, slides = self._slip_limits
+        first = [np.arange(self.count) == k for limit in limits for k in np.argsort(limit)[:_TRIED]]
+        return np.concatenate([corners, *((corners | one) & ~slides for one in first)])
+
+    def _by_signs(self) -> Iterator[Loading]:
+        """Loadings with the highest and the lowest tension of even motion at every place that is looked at."""
+        events = self.events
+        everywhere = range(events.force.size + 1)
+        places = everywhere if self.count <= ONE_BY_ONE else sorted(self._places)
+        for friction in (1.0, self.line.least_friction):
+            step = events.more_certain + friction * (events.more_force - events.more_certain)
+            whole = self.resistance(friction)[1]
+            for at in places:
+                weights = self._weights(at)
+                rise = events.by_section(weights * step, self.count)
+                rise -= float(weights[self.drive_at] @ self.shares) * whole
+                yield rise > 0.0
+                yield rise < 0.0
+
+    @cached_property
+    def _places(self) -> set[int]:
+        """Places whose tension a criterion looks at."""
+        places = {at for d in self.drive_at.tolist() for at in (d, d + 1)}
+        places |= {at for several in self._pulleys.values() for at in several}
+        for k in (*self._stretches, self.count, 2 * self.count - 1):
+            places |= {int(self.stretch_at[k]), int(self.stretch_at[k]) + 1}
+        return places
+
+    @cached_property
+    def _pulleys(self) -> dict[int, list[int]]:
+        """Places on both sides of every pulley that the belt's own tension acts on, by the pulley's number."""
+        line, places = self.line, {}
+        for i, pulley in enumerate(line.pulleys):
+            if line.take_up.pulls(pulley) or pulley.assumed:
+                continue
+            pairs = zip(line.drives, self.drive_at.tolist(), strict=True)
+            beside = [d for drive, d in pairs if pulley.driven and drive.spot == pulley.spot]
+            before = self.events.spots[self.full.frame.at[pulley.spot]]
+            places[i] = [at for d in beside for at in (d, d + 1)] or [before]
+        return places
+
+    @cached_property
+    def _stretches(self) -> tuple[int, ...]:
+        """Stretches, in loop order, on whose tension curves or raised sets depend."""
+        line = self.line
+        if self.count > ONE_BY_ONE:
+            return ()
+        curved = {section.name for section in line.sections if section.curve is not None}
+        return tuple(
+            k
+            for k, one in enumerate(line.loop.stretches)
+            if one.section in curved or one.turn is not None or si(one.idlers.raised) > 0.0
+        )
+
+    @cached_property
+    def _sticking(self) -> tuple[float, Array]:
+        """What the drag of the rolls after standstill is over that in running [N], at most; as `at_rest`."""
+        drags = []
+        for one in (self.empty, self.full):
+            (drag,) = (force.newtons for force in one.along if force.key == "idler_rotation")
+            drags.append(np.broadcast_to(drag, 2 * self.count))
+        bare, laden = drags
+        share = ROLL_DRAG_STANDSTILL_FACTOR - 1.0
+        return share * float(bare.sum()), share * (laden - bare)[: self.count]
+
+    @cached_property
+    def _slip_limits(self) -> tuple[Array, Array, Loading]:
+        """How hard each section may be slowed and accelerated until its bulk slips [m/s²]; which slip at any speed."""
+        slowing, starting = np.full((2, self.count), np.inf)
+        slides = np.zeros(self.count, dtype=bool)
+        for i, stretch in enumerate(self.full.line.stretches[: self.count]):
+            if stretch.bulk_mass == 0.0:
+                continue
+            try:
+                low, high = bulk_slip_limits(
+                    self.line.bulk_on_belt, inclination=stretch.inclination, gravity=self.line.gravity
+                )
+            except NoSolutionError:
+                slides[i] = True
+                continue
+            slowing[i], starting[i] = -low, high
+        return slowing, starting, slides
+
+    def criterion_figures(self, flags: Flags) -> Figures:
+        """Figures of the criteria under loadings.
+
+        Parameters
+        ----------
+        flags : ndarray of bool, shape (m, n)
+            Which sections bear bulk.
+
+        Returns
+        -------
+        dict of str to ndarray, shape (m,)
+            By their names; SI, the higher the worse, -inf where there is none.
+        """
+        return self._of_motion(flags) | self._of_tension(flags)
+
+    def _sums(self, linear: tuple[float, Array], flags: Flags) -> Array:
+        """A sum over the sections under loadings, shape (m,)."""
+        return np.asarray(linear[0] + flags @ linear[1])
+
+    def _of_motion(self, flags: Flags) -> Figures:
+        """Figures that resistance and mass alone decide."""
+        line, figures = self.line, Figures()
+        steady, least = (self._sums(self.resistance(f), flags) for f in (1.0, line.least_friction))
+        mass = self._sums(self._masses, flags)
+        whole, brakes = mass + self.rotating.sum(), float(self.brakes.sum())
+        if line.stop_deceleration is not None:
+            figures["stopping brake"] = line.stop_deceleration * whole - least
+        figures["coast-down stop"] = _where(least > 0.0, whole / np.where(least > 0.0, least, 1.0))
+        slowing = figures["coasting"] = np.maximum(steady, 0.0) / whole
+        if brakes > 0.0:
+            gripping = np.maximum(0.0, line.speed - least / whole * line.brake_delay)
+            braked = np.where(gripping > 0.0, least + brakes, least) / whole
+            stops = (braked > 0.0) & (gripping > 0.0)
+            after = gripping / np.where(stops, braked, 1.0)
+            figures["brake heat"] = _where(stops, 0.5 * brakes * gripping * after)
+            unbraked = line.speed * whole / np.where(least > 0.0, least, 1.0)
+            figures["stop with brakes"] = np.where(
+                stops, line.brake_delay + after, _where((gripping == 0.0) & (least > 0.0), unbraked)
+            )
+            slowing = np.maximum(slowing, braked)
+        start, pushing = self._motion(self._states[1], steady, mass)
+        *limits, slides = self._slip_limits
+        hard, fast = (np.where(flags, limit, np.inf).min(axis=-1) for limit in limits)
+        rests = np.asarray(~(flags & slides).any(axis=-1))
+        figures["slip on stopping"] = _where(rests, np.maximum(slowing, -start) / hard)
+        figures["slip on starting"] = _where(rests, np.maximum(start, 0.0) / fast)
+        pulls, pull = steady > 0.0, self.full.frame.standing.pull
+        if pull.kind == "limited":
+            asked = asked_over_given(pull, np.where(pulls, steady, 1.0), mass)
+            figures["start of the motors"] = _where(pulls, asked)
+        at_rest, rated = np.ones_like(steady), rated_force(line)  # motors not given are one for every load
+        if uncontrolled(line):
+            at_rest = steady + (line.torque_curve[0][1] * (rated or 0.0) - steady) * mass / whole
+        elif rated is not None:
+            at_rest = np.maximum(pushing.sum(axis=0), rated)
+        figures["breakaway"] = _where(pulls, -at_rest / (steady + self._sums(self._sticking, flags)))
+        return figures
+
+    def _of_tension(self, flags: Flags) -> Figures:
+        """Figures that tensions decide, in every state of motion that there is under each loading."""
+        line, figures = self.line, Figures()
+        steady, least = (self._sums(self.resistance(f), flags) for f in (1.0, line.least_friction))
+        mass, brakes = self._sums(self._masses, flags), float(self.brakes.sum())
+        occurs = {
+            LEAST: least < 0.0,
+            LEAST_BRAKING: least < 0.0,
+            BRAKES: least + brakes > 0.0,
+            COASTING: steady > 0.0,
+        }
+        means = dict[str, Array]()
+        for state in (*self._states, replace(self._states[0], name=COASTING, over=None)):
+            here = occurs.get(state.name, np.ones(len(flags), dtype=bool))
+            if not here.any():
+                continue
+            resistance = steady if state.friction == 1.0 else least
+            acceleration, forces = self._motion(state, resistance, mass)
+            tensions = self.setting + self._over_the_take_up(state.friction, flags, acceleration, forces)
+            ends = np.stack([tensions[:, self.stretch_at], tensions[:, self.stretch_at + 1]])
+            shares = line.loop.length / (2.0 * float(line.loop.way[-1]))
+            means[state.name] = ends.sum(axis=0) @ shares
+            found = dict(self._of_places(tensions, flags))
+            found |= {"mean": means[state.name], "least mean": -means[state.name]}
+            for drive, force in zip(line.drives, forces, strict=True):
+                found[f"force of {drive.name}"] = np.abs(force)
+            if state.over == 1.0:
+                found |= self._of_sag(ends.min(axis=0), flags)
+            for name, everywhere in found.items():
+                values = _where(here, everywhere)
+                figures[name] = np.maximum(figures.get(name, values), values)
+                if state.name == STEADY:
+                    figures[f"{name}, steady"] = values
+            for drive, d, force in zip(line.drives, self.drive_at.tolist(), forces, strict=True):
+                asked = grip_tension(1.0, friction=drive.friction, wrap_angle=drive.wrap_angle) * np.abs(
+                    force
+                )
+                slack = np.minimum(tensions[:, d], tensions[:, d + 1])
+                pulls = asked > 0.0
+                over = -slack / np.where(pulls, asked, 1.0)
+                for name, there in _called(state.name, here, steady):
+                    figures[f"grip of {drive.name}, {name}"] = _where(there & pulls, over)
+                    figures[f"slack at {drive.name}, {name}"] = _where(there & ~pulls, -slack)
+            if state.name == START:
+                figures["speed of the carriage"] = np.abs((means[START] - means[STEADY]) * acceleration)
+        return figures
+
+    def _over_the_take_up(self, friction: float, flags: Flags, acceleration: Array, forces: Array) -> Array:
+        """Tension before and behind every event over what the take-up holds [N], shape (m, e + 1)."""
+        events = self.events
+        step = events.certain + friction * (events.force - events.certain)
+        more = events.more_certain + friction * (events.more_force - events.more_certain)
+        on = np.column_stack([flags, np.zeros(len(flags), dtype=bool)])[:, events.section]
+        steps = step + on * more + acceleration[:, None] * (events.mass + on * events.more_mass)
+        steps[:, self.drive_at] -= forces.T
+        offsets = np.concatenate([np.zeros((len(flags), 1)), np.cumsum(steps, axis=-1)], axis=-1)
+        return np.asarray(offsets - (offsets @ self._anchor)[:, None])
+
+    def _of_places(self, tensions: Array, flags: Flags) -> Iterator[tuple[str, Array]]:
+        """Tensions of one state where criteria look at them; the lowest with their sign turned."""
+        yield "tension", tensions.max(axis=-1)
+        yield "slack", -tensions.min(axis=-1)
+        for i, places in self._pulleys.items():
+            sides = tensions[:, places]
+            yield f"pulley {i}", sides.sum(axis=-1)
+            yield f"tight side of pulley {i}", sides.max(axis=-1)
+        for k in self._stretches:
+            ends = tensions[:, [self.stretch_at[k], self.stretch_at[k] + 1]]
+            high, low = ends.max(axis=-1), ends.min(axis=-1)
+            yield f"stretch {k}", high
+            yield f"least of stretch {k}", -low
+            if k >= self.count:  # its bulk holds a curve and bears on its sets
+                for words, on in (("loaded", flags[:, k - self.count]), ("empty", ~flags[:, k - self.count])):
+                    yield f"stretch {k}, {words}", _where(on, high)
+                    yield f"least of stretch {k}, {words}", _where(on, -low)
+        if self.line.transitions:
+            tail, head = tensions[:, self.stretch_at[self.count]], tensions[:, self.stretch_at[-1] + 1]
+            for end, there in (("tail", tail), ("head", head)):
+                yield f"transition, {end}", there
+                yield f"least of transition, {end}", -there
+
+    def _of_sag(self, low: Array, flags: Flags) -> Iterator[tuple[str, Array]]:
+        """Lowest tension over what the sag asks for, each strand, with its sign turned."""
+        on = np.column_stack([np.ones_like(flags), flags])
+        over = low / (self.least + on * self.more_least)
+        strands = [stretch.strand for stretch in self.line.loop.stretches]
+        for strand in STRANDS:
+            yield (
+                f"sag, {strand}",
+                -over[:, [k for k, one in enumerate(strands) if one == strand]].min(axis=-1),
+            )
+
+
+def _called(state: str, here: NDArray[np.bool_], steady: Array) -> Iterator[tuple[str, NDArray[np.bool_]]]:
+    """A state by its names, and where it has them: the start of a belt that drives is its braking."""
+    if state != START:
+        yield state, here
+    else:
+        yield START, here & (steady >= 0.0)
+        yield BRAKING, here & (steady < 0.0)
+
+
+def _where(there: NDArray[np.bool_], values: Array) -> Array:
+    """Values where they are, else -inf."""
+    return np.where(there, values, -np.inf)
+
+
+def _distinct(flags: Flags) -> Flags:
+    """Loadings once each, in their order."""
+    return np.array(list({row.tobytes(): row for row in flags}.values()))
