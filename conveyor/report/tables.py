@@ -317,8 +317,8 @@ def _left_open(power: PowerRange, system: System) -> str:
     low, high = (figure(end, "power", system) for end in (power.low, power.high))
     first, motor = power.effects[0], figure(power.motor, "power", system)
     said = (
-        f"Motor power {motor}, 90 % interval {low.rpartition(' ')[0]} to {high} by defaults and the level of the "
-        f"rubber. Replace first: {first.name} (give {first.give})."
+        f"Motor power: expected {motor}, design {high}, least {low} (90 % interval by site, defaults and rubber). "
+        f"Replace first: {first.name} (give {first.give})."
     )
     untested = (f"Beyond the tests: {one.text(system)}." for one in power.untested)
     return " ".join((said, *untested, *(f"Not included: {note}." for note in power.notes)))

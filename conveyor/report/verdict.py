@@ -84,11 +84,11 @@ def _rows(
     yield GoverningRow("maximum motor power", _held(power, most.found.motor_asked), most.label.text(system))
     where = figure(a.temperature, "temperature", system)
     if left_open.effects:
-        low, high = power.short(left_open.low).rpartition(" ")[0], power.short(left_open.high)
-        where += f"; 90 % interval {low} to {high} by defaults and the level of the rubber"
+        low, high = map(power.short, (left_open.low, left_open.high))
+        where += f"; design {high}, least {low} (90 % interval by site, defaults and rubber)"
     if left_open.untested:
         where += "; beyond the tested temperatures of the rubber"
-    yield GoverningRow("motor power as given", power.short(left_open.motor), where)
+    yield GoverningRow("motor power as given, expected", power.short(left_open.motor), where)
     installed = [drive.power for drive in a.line.drives if drive.power is not None]
     if installed:
         yield GoverningRow("installed power", power.short(sum(installed)), f"{len(installed)} driven pulleys"
