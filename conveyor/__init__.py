@@ -42,7 +42,10 @@ if TYPE_CHECKING:
         SpecError,
         ValidityWarning,
     )
-    from conveyor.models import Conveyor, RubberCompound
+    from conveyor.models import Conveyor, MeasuredRun, RubberCompound
+    from conveyor.models.cases import LoadCase
+    from conveyor.models.sizing import SizingDuty
+    from conveyor.models.study import StudyPlan
     from conveyor.spec import load
 
     __version__: str
@@ -67,7 +70,10 @@ _WHERE = {
         "SpecError",
         "ValidityWarning",
     ),
-    "conveyor.models": ("Conveyor", "RubberCompound"),
+    "conveyor.models": ("Conveyor", "MeasuredRun", "RubberCompound"),
+    "conveyor.models.cases": ("LoadCase",),
+    "conveyor.models.sizing": ("SizingDuty",),
+    "conveyor.models.study": ("StudyPlan",),
     "conveyor.spec": ("load",),
 }
 """Modules of names; `conveyor.analysis` has the others."""
@@ -81,13 +87,17 @@ __all__ = [
     "ConveyorError",
     "DutyStudy",
     "InputError",
+    "LoadCase",
+    "MeasuredRun",
     "NoSolutionError",
     "RangeError",
     "RubberCompound",
     "Sizing",
+    "SizingDuty",
     "SpecError",
     "Studies",
     "Study",
+    "StudyPlan",
     "ValidityWarning",
     "VerificationSheet",
     "__version__",

@@ -113,6 +113,17 @@ def test_unknown_options_are_refused() -> None:
         conveyor.calibrate(line, "runs.csv", error="2 %")  # type: ignore[arg-type]
 
 
+def test_what_files_hold_is_data_of_the_public_interface() -> None:
+    line = conveyor.load(SPECS / "shuttle.yaml")
+    half = conveyor.LoadCase.from_data({"name": "half", "loading": "part load", "share": "50 %"})
+    found = conveyor.analyse_cases(line, [half])
+    assert [one.case.name for one in found.results] == ["half"]
+    assert found.results[0].found.line.flow == pytest.approx(line.mass_flow / 2.0, rel=1e-12)
+    for model in (conveyor.LoadCase, conveyor.MeasuredRun, conveyor.SizingDuty, conveyor.StudyPlan):
+        with pytest.raises(conveyor.SpecError, match=r"(?m)^flux: unknown key"):
+            model.from_data({"flux": 1})
+
+
 def test_analyse_says_what_it_takes() -> None:
     with pytest.raises(
         conveyor.InputError, match=r"analyse: takes a Conveyor, got str; conveyor\.load\(path\)"

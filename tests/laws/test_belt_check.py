@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import inspect
+import math
 from itertools import pairwise
 
 import pytest
@@ -36,6 +38,24 @@ def test_groups_are_steps_of_the_r10_series():
     assert belt_check.pulley_group_diameter(0.5, group="B") == pytest.approx(0.4, rel=ROUNDING)
 
 
+def test_sizes_are_preferred_numbers():
+    """ISO 3: the numbers of R20 are its powers of 10^(1/20), rounded by at most 1.26 %."""
+    for size in {*belt_check.PULLEY_DIAMETERS, *TABLE_SIZES}:
+        exponent = 20.0 * math.log10(size)
+        assert size == pytest.approx(10.0 ** (round(exponent) / 20.0), rel=0.0127)
+
+
+@pytest.mark.parametrize("group", ["A", "B", "C"])
+@pytest.mark.parametrize("size", [belt_check.pulley_group_diameter, belt_check.standard_pulley_diameter])
+def test_without_a_use_the_tension_is_the_allowed_one(size, group):
+    """Not above it, where no table reaches, nor at 60 % of it and less, where pulleys are a step smaller."""
+    full = size(1.0, group=group)
+    assert full == size(1.0, group=group, utilisation=1.0)
+    assert full > size(1.0, group=group, utilisation=0.6)
+    default = inspect.signature(size).parameters["utilisation"].default
+    assert default == pytest.approx(1.0, rel=ROUNDING)
+
+
 def test_next_pulley_is_the_first_that_is_large_enough():
     for series in (belt_check.PULLEY_DIAMETERS, belt_check.CEMA_PULLEYS):
         for small, large in pairwise(series):
@@ -55,6 +75,9 @@ TABLE = {
     1600: ((1600, 1250, 1000), (1250, 1000, 800), (1000, 1000, 800)),
     2000: ((2000, 1600, 1250), (1600, 1250, 1000), (1250, 1250, 1000)),
 }
+
+
+TABLE_SIZES = {size / 1e3 for rows in TABLE.values() for row in rows for size in row}
 
 
 @pytest.mark.parametrize("drive", TABLE)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import mpmath
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -48,6 +49,17 @@ def test_segment_holds_the_bulk_and_its_centre_is_that_of_its_strips(filled):
     height = (radius**2 - x**2 - bottom**2) / (np.sqrt(radius**2 - x**2) + bottom)
     assert 2.0 * float(height @ dx) == pytest.approx(area, rel=2e-7)
     assert float((0.5 * height**2) @ dx) * 2.0 / area == pytest.approx(found.centroid, rel=1e-6)
+
+
+@pytest.mark.parametrize("half", ["0.005", "0.019", "0.0199", "0.0201", "0.05", "1.2"])
+def test_the_segment_of_a_half_angle_is_found_on_either_side_of_the_series(half):
+    """Its area to fifty digits: A = (L/2)² (φ - sin φ cos φ)/sin² φ, of height L/2 tan(φ/2)."""
+    with mpmath.workdps(50):
+        phi = mpmath.mpf(half)
+        area = float((0.55 / mpmath.sin(phi)) ** 2 * (phi - mpmath.sin(phi) * mpmath.cos(phi)))
+        height = float(0.55 * mpmath.tan(phi / 2))
+    # below the series' end its next term is 0.02^6/4725, above it the difference keeps 16 - 5 digits
+    assert bulk_on_pulley(area, width=1.1).height == pytest.approx(height, rel=2e-11)
 
 
 def test_flat_heap_has_its_centre_at_two_fifths():

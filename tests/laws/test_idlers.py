@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
+from itertools import pairwise
 
 import pytest
 
@@ -103,3 +105,17 @@ def test_the_edge_of_a_column_in_pounds_is_that_edge(density):
     for lump in (0.1, 0.3, 0.5):
         factors = [idlers.lump_load_factor(lump, density=one) for one in (density, again)]
         assert factors[0] == factors[1]
+
+
+@pytest.mark.parametrize("name", idlers.CEMA_CLASSES)
+def test_no_wider_or_steeper_set_of_a_class_bears_more(name):
+    widths = [18, 24, 30, 36, 42, 48, 54, 60, 72, 84, 96]
+    table = []
+    for inches in widths:
+        with contextlib.suppress(RangeError):
+            table.append([rated(name, inches, degrees, 3) for degrees in (20, 35, 45)])
+    assert len(table) >= 6
+    for narrow, wide in pairwise(table):
+        assert all(w <= n * (1.0 + ROUNDING) for n, w in zip(narrow, wide, strict=True))
+    for row in table:
+        assert all(steep <= flat * (1.0 + ROUNDING) for flat, steep in pairwise(row))

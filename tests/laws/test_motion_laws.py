@@ -56,6 +56,10 @@ def test_bulk_slips_symmetrically_on_the_level_and_mirrors_with_the_slope():
             r"retarding force of -5000 N does not stop the belt: a brake of more than 5000 N",
         ),
         (
+            lambda: motion.stop(4.0, retarding_force=0.0, moving_mass=1.0),
+            r"retarding force of 0 N does not stop the belt: a brake of more than 0 N",
+        ),
+        (
             lambda: motion.bulk_slip_limits(0.3, inclination=0.3, gravity=9.81),
             r"the bulk slides at a slope of 17\.2 deg with friction 0\.3",
         ),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from conveyor.laws import energy, resistance, roll_life
@@ -33,6 +34,14 @@ HORSES = "0.5 0.75 1 1.5 2 3 5 7.5 10 15 20 25 30 40 50 60 75 100 125 150 200 25
 def test_nema_motors_of_the_printed_powers():
     printed = [745.69987158227 * float(word) for word in HORSES.split()]
     assert printed == pytest.approx(energy.NEMA_MOTORS[: len(printed)], rel=1e-12)
+
+
+def test_large_nema_motors_go_in_whole_steps():
+    """Beyond the table by 50 hp to 500, by 100 to 1000, then by 250: general knowledge of MG 1."""
+    horses = np.array(energy.NEMA_MOTORS) / 745.69987158227
+    large = horses[horses > 199.0]
+    steps = np.where(large[1:] < 501.0, 50.0, np.where(large[1:] < 1001.0, 100.0, 250.0))
+    assert np.diff(large) == pytest.approx(steps, rel=1e-9)
 
 
 def test_exponents_of_rating_life():

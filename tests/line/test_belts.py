@@ -12,9 +12,10 @@ from conveyor.errors import InputError, NoSolutionError
 from conveyor.indentation import indentation_resistance
 from conveyor.line.belts import GAUSS, BeltContacts
 from conveyor.loop.curves import pulls
-from conveyor.models import Conveyor
+from conveyor.models import Conveyor, RubberCompound
 from conveyor.pipeline import calculate
 from conveyor.remarks import warnings
+from conveyor.rubber import PronySeries
 from conveyor.spec import load
 from conveyor.units import quantity, si
 
@@ -40,6 +41,20 @@ def test_a_stiff_carcass_does_not_give():
     stiff = calculate(given({"bending_stiffness": quantity("10000 N*m^2")}))
     for give in stiff.contacts.gives:
         assert -0.0073 < give.change < 0.0
+
+
+def test_a_belt_that_loses_nothing_has_no_indentation():
+    """Elastic covers and carcass give and come back: every roll's indentation is zero, without a logarithm of it."""
+    line = load(SPECS / "shuttle.yaml")
+    elastic = RubberCompound.from_series(
+        PronySeries(6e6, [], []), name="elastic", reference_temperature=line.temperature
+    )
+    belt = line.belt.replace(
+        bottom_cover=line.belt.bottom_cover.replace(compound=elastic),
+        top_cover=line.belt.top_cover.replace(compound=elastic),
+    )
+    gives = line.replace(belt=belt, calculation=line.calculation.replace(support="belt"))
+    assert calculate(gives).balance.forces.indentation == pytest.approx(0.0, abs=1e-9)
 
 
 def test_what_is_read_between_tensions_is_what_is_solved_there(found):
