@@ -22,7 +22,7 @@ ROOT = Path(__file__).parent.parent
 FOLDER = ROOT / "examples" / "laboratory"
 FILES = [FOLDER / name for name in ("isotherms.csv", "relaxation.txt", "ramp.csv")]
 AT = "20 degC"
-TRUTH = shelf.compound("standard-cover")
+TRUTH = runpy.run_path(str(ROOT / "examples" / "07_laboratory.py"))["TRUTH"]
 
 
 @pytest.fixture(scope="module")

@@ -18,7 +18,7 @@ from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.tables import bands, document, provenance
 from conveyor.rubber.anchor import UNANCHORED
 from conveyor.spec import fingerprint
-from conveyor.studies.comparison import Standing
+from conveyor.studies.comparison import RankedPower
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, NEVER, unit
 from conveyor.units.sentences import celsius, degrees
@@ -344,7 +344,7 @@ def _row(
 def _places(comparison: CalculatedComparison, scenes: Sequence[list[ComparedScene]]) -> dict[str, int]:
     """Place of each compound by the mean of its scenes; one for those that cannot be told apart."""
     places: dict[str, int] = {}
-    for group in comparison.groups(map(Standing.of, scenes)):
+    for group in comparison.groups(map(RankedPower.of, scenes)):
         places |= dict.fromkeys((one.compound for one in group), len(places) + 1)
     return places
 
@@ -616,7 +616,8 @@ def turned(comparison: CalculatedComparison, system: System = "SI") -> list[str]
             if scene.temperature in shared:
                 shared[scene.temperature].append(scene)
         grouped = {
-            warmth: comparison.groups(Standing.of([scene]) for scene in row) for warmth, row in shared.items()
+            warmth: comparison.groups(RankedPower.of([scene]) for scene in row)
+            for warmth, row in shared.items()
         }
         by_order: dict[tuple[frozenset[str], ...], list[float]] = {}
         for warmth, groups in grouped.items():
@@ -636,7 +637,7 @@ def turned(comparison: CalculatedComparison, system: System = "SI") -> list[str]
     return lines
 
 
-def _in_order(groups: Sequence[Sequence[Standing]]) -> str:
+def _in_order(groups: Sequence[Sequence[RankedPower]]) -> str:
     """Compounds, the least first; what cannot be told apart says so."""
     return ", then ".join(
         group[0].compound

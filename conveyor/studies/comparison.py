@@ -110,7 +110,7 @@ class CalculatedComparison:
         tests = {compound.name: {test.conditions for test in compound.tests} for compound in self.compounds}
         return bool(tests[one]) and tests[one] == tests[other]
 
-    def told_apart(self, less: Standing, more: Standing) -> bool:
+    def told_apart(self, less: RankedPower, more: RankedPower) -> bool:
         """Whether one compound asks for less than another by more than both may be off, common errors left out.
 
         Errors of the two are independent: the root of their squares counts.
@@ -119,9 +119,9 @@ class CalculatedComparison:
         (_, up), (down, _) = (less.own, more.own) if alike else (less.whole, more.whole)
         return more.motor - less.motor > math.hypot(up, down)
 
-    def groups(self, standings: Iterable[Standing]) -> list[list[Standing]]:
+    def groups(self, standings: Iterable[RankedPower]) -> list[list[RankedPower]]:
         """Compounds by their power, the least first, those together that cannot be told apart from their first."""
-        grouped: list[list[Standing]] = []
+        grouped: list[list[RankedPower]] = []
         for one in sorted(standings, key=lambda standing: standing.motor):
             if grouped and not self.told_apart(grouped[-1][0], one):
                 grouped[-1].append(one)
@@ -138,7 +138,7 @@ class CalculatedComparison:
 
 
 @dataclass(frozen=True)
-class Standing:
+class RankedPower:
     """The motor power of a compound, at one temperature or its mean over several, and how far it may be off.
 
     Attributes
@@ -157,7 +157,7 @@ class Standing:
     own: tuple[float, float]
 
     @classmethod
-    def of(cls, scenes: Sequence[ComparedScene]) -> Standing:
+    def of(cls, scenes: Sequence[ComparedScene]) -> RankedPower:
         """The mean of scenes of one compound, at least one.
 
         An error of the rubber is taken to be the same at all temperatures; that of the contacts is added to it.

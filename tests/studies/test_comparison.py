@@ -17,7 +17,7 @@ from conveyor.pipeline import calculate
 from conveyor.report.columns import ordered
 from conveyor.report.comparison_tables import remarks
 from conveyor.spec import load
-from conveyor.studies.comparison import RTOL, Standing, compare_compounds
+from conveyor.studies.comparison import RTOL, RankedPower, compare_compounds
 from conveyor.studies.duty import analyse_duty
 from conveyor.units import quantity, si
 
@@ -255,7 +255,7 @@ def test_compounds_apart_by_less_than_both_may_be_off_are_one_group(found):
     """Gaps against the root of the squares: 3 up of the one, 4 down of the other are 5 together."""
 
     def one(name, motor, whole, own):
-        return Standing(name, motor, (whole, whole), (own, own))
+        return RankedPower(name, motor, (whole, whole), (own, own))
 
     standard, easy = (shelf.compound(name) for name in NAMES[:2])
     assert {test.conditions for test in standard.tests} == {test.conditions for test in easy.tests}
@@ -286,7 +286,7 @@ def test_the_ranking_in_the_cold_is_that_of_the_trade(line):
     assert by_power[0].compound == "cold-resistant-cover"
     assert any("which cannot be told apart" in said for said in remarks(cold))
     warm = compare_compounds(line, names, temperatures=["20 degC"], speeds=["5 m/s"])
-    (first, *_, last) = warm.groups(Standing.of([one]) for one in warm.scenes)
+    (first, *_, last) = warm.groups(RankedPower.of([one]) for one in warm.scenes)
     assert "low-rolling-resistance-cover" in {one.compound for one in first}
     assert {one.compound for one in last} == {"standard-cover"}
 
