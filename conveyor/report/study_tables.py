@@ -90,7 +90,7 @@ def load_states(study: CalculatedStates) -> Table:
     note = (
         "All with the take-up at its setting. Inclines only and declines only leave level sections empty; not listed "
         "where that is the full or the empty belt. The worst "
-        "loadings follow from the signs of the forces by section, at every temperature of the cases."
+        "loadings are looked for at every temperature of the cases: to calculate one as a case, loading: sections."
     )
     return Table("load_states", "Load cases", "Load states", columns, study.states, _STATES, note)
 
