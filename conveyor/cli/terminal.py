@@ -333,7 +333,7 @@ def _ranges(screen: Console, contents: Contents) -> None:
     inputs = contents["sensitivity"]
     first = ", ".join(inputs.columns[0].get(row) for row in inputs.rows[:_MATTERS])
     screen.print(words("\nuncertainty", style="bold"))
-    of = "90 % interval of the inputs' ranges, first order"
+    of = "90 % interval of the inputs' ranges alone, first order"
     said = f"motor power {said} ({of}){''.join(exact)}; most sensitive to: {first}"
     screen.print(words(wrapped(said, screen.width, first="  ", further="  ")))
 

@@ -61,7 +61,8 @@ def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[
         exact = study.monte_carlo
         if exact is not None:
             caption = (
-                "Ends of the 90 % interval after ever more draws; shaded: between which each lies with 90 %."
+                "Ends of the 90 % interval of the inputs' ranges alone after ever more draws; shaded: between "
+                "which each lies with 90 %."
             )
             draw = partial(analysis_plots.settling, exact, study.sampled, system=system)
             drawn.append(Drawing("settling", caption, draw, "convergence_of_draws"))
@@ -89,7 +90,7 @@ def load_states(study: CalculatedStates) -> Table:
     note = (
         "All with the take-up at its setting. Inclines only and declines only leave level sections empty; not listed "
         "where that is the full or the empty belt. The worst "
-        "loadings follow from the signs of the forces by section, at every temperature of the cases."
+        "loadings are looked for at every temperature of the cases: to calculate one as a case, loading: sections."
     )
     return Table("load_states", "Load cases", "Load states", columns, study.states, _STATES, note)
 
@@ -293,8 +294,13 @@ def band(study: CalculatedRanges) -> Table:
     ]  # fmt: skip
     if exact is not None:
         rows.append((f"Monte Carlo, {len(exact.power)} draws in full", exact.band))
+    note = ""
+    if study.left_open:
+        names = "; ".join(effect.name for effect in study.left_open)
+        rows.append((f"root sum of squares, with the defaults in use: {names}", study.band_with_defaults))
+        note = "The last row alone has the defaults in use that no range covers; the others leave them out."
     heading = "Motor power, 90 % interval of the inputs' ranges"
-    return Table("power_band", "Uncertainty", heading, columns, rows, _UNCERTAINTY)
+    return Table("power_band", "Uncertainty", heading, columns, rows, _UNCERTAINTY, note)
 
 
 def convergence_of_draws(study: CalculatedRanges) -> Table:

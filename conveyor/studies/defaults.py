@@ -38,7 +38,7 @@ from conveyor.line.stretches import STRANDS
 from conveyor.loop.balance import Balance, OpenLoop, balances
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.rubber.anchor import UNANCHORED
-from conveyor.studies.uncertainty import Effect, ends_of_band, root_of_squares
+from conveyor.studies.effects import Effect, ends_of_band, root_of_squares
 from conveyor.units.sentences import Said, quoted, said, told
 
 Shares: TypeAlias = NDArray[np.float64] | float

@@ -9,7 +9,7 @@ quantiles. Both are exact for a power that is linear and inputs that are normal.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Final
@@ -27,6 +27,8 @@ from conveyor.models import Conveyor, Uncertainty
 from conveyor.models.variants import scaled, with_alternative, with_belt_temperature_changed
 from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many
 from conveyor.rubber.anchor import COVERED, ends
+from conveyor.studies.defaults import power_range
+from conveyor.studies.effects import Effect, root_of_squares
 from conveyor.studies.monte_carlo import DrawnInput, MonteCarlo, drawn
 from conveyor.units import Quantity, between, from_si, text
 from conveyor.units.sentences import figure, percent
@@ -39,31 +41,13 @@ SAMPLES: Final = 4096
 """Of the hypercube: its quantiles are then good to about 1 % of the band."""
 
 
-@dataclass(frozen=True)
-class Effect:
-    """What one input does to the power.
-
-    Attributes
-    ----------
-    name : str
-        The input.
-    low, given, high : str
-        Its values, in words.
-    motor_low, motor_high : float
-        Power at the motors' shafts at both [W]; for rubber the 5 % and 95 % quantiles of its replicas.
-    """
-
-    name: str
-    low: str
-    given: str
-    high: str
-    motor_low: float
-    motor_high: float
-
-    @property
-    def swing(self) -> float:
-        """Change of the power between both ends [W]."""
-        return abs(self.motor_high - self.motor_low)
+_COVERS: Final = {
+    "roll_drag": "roll_drag",
+    "flexure_share": "flexure",
+    "cleaner_pressure": "cleaner_pressure",
+    "rubber": "tested_level",
+}
+"""Ranges that stand for the band of a default, and its key."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -84,6 +68,8 @@ class CalculatedRanges:
         What was left out, and why.
     monte_carlo : MonteCarlo or None
         Draws of all inputs together, each calculated in full; None where the ranges ask for none.
+    left_open : tuple of Effect
+        Defaults in use that no range covers: neither the bands nor the draws have them.
     """
 
     conveyor: Conveyor
@@ -93,11 +79,20 @@ class CalculatedRanges:
     sampled: tuple[float, float]
     notes: tuple[str, ...]
     monte_carlo: MonteCarlo | None = None
+    left_open: tuple[Effect, ...] = ()
 
     def __repr__(self) -> str:
-        low, high = (value / 1e3 for value in self.band)
-        name, motor = self.conveyor.name, self.motor / 1e3
-        return f'UncertaintyStudy("{name}": motor power {motor:.1f} kW, 90 % interval {low:.1f} to {high:.1f} kW)'
+        ends = " to ".join(f"{value / 1e3:.1f}" for value in self.band)
+        words = f"90 % interval of its ranges {ends} kW"
+        if self.left_open:
+            whole = " to ".join(f"{value / 1e3:.1f}" for value in self.band_with_defaults)
+            words += f", with the defaults in use {whole} kW"
+        return f'UncertaintyStudy("{self.conveyor.name}": motor power {self.motor / 1e3:.1f} kW, {words})'
+
+    @property
+    def band_with_defaults(self) -> tuple[float, float]:
+        """Between which nine tenths lie by the ranges and by the defaults that none of them covers [W]."""
+        return root_of_squares(self.motor, (*self.effects, *self.left_open))
 
     @property
     def shares(self) -> tuple[float, ...]:
@@ -210,45 +205,20 @@ def study(
         sampled=hypercube_band(motor, effects, samples=samples, seed=seed),
         notes=tuple(notes),
         monte_carlo=exact,
+        left_open=_left_open(middle, given),
     )
+
+
+def _left_open(result: CalculatedConveyor, ranges: Uncertainty) -> tuple[Effect, ...]:
+    """What the defaults in use that no range covers do to the power."""
+    covered = {key for name, key in _COVERS.items() if getattr(ranges, name)}
+    return tuple(effect for effect in power_range(result).effects if effect.key not in covered)
 
 
 def _answer(result: CalculatedConveyor | NoAnswer) -> CalculatedConveyor:
     if not isinstance(result, CalculatedConveyor):
         raise result
     return result
-
-
-def root_of_squares(motor: float, effects: Sequence[Effect]) -> tuple[float, float]:
-    """Band of independent inputs: the roots of the squares of all changes down and of all up [W].
-
-    Parameters
-    ----------
-    motor : float
-        Power as given [W].
-    effects : sequence of Effect
-        What each input does.
-
-    Examples
-    --------
-    >>> root_of_squares(100.0, [Effect("a", "", "", "", 97.0, 103.0), Effect("b", "", "", "", 104.0, 96.0)])
-    (95.0, 105.0)
-    """
-    return ends_of_band(motor, [(effect.motor_low, effect.motor_high) for effect in effects])
-
-
-def ends_of_band(value: float, ends: Iterable[Sequence[float]]) -> tuple[float, float]:
-    """Band of a figure from what it is at both ends of each of several independent inputs.
-
-    Examples
-    --------
-    >>> ends_of_band(100.0, [(97.0, 103.0), (104.0, 96.0)])
-    (95.0, 105.0)
-    """
-    changes = [(low - value, high - value) for low, high in ends]
-    down = math.hypot(*(min(*pair, 0.0) for pair in changes))
-    up = math.hypot(*(max(*pair, 0.0) for pair in changes))
-    return value - down, value + up
 
 
 def hypercube_band(

@@ -332,6 +332,22 @@ def test_a_flat_strand_falls_off_a_long_curve():
         flat({"horizontal_radius": "600 m", "return_banking": "0 deg", "carry_banking": "6 deg"})
 
 
+def test_a_flat_strand_that_ran_off_in_one_curve_is_off_in_the_next():
+    """A storm: no radius of the second curve brings it back, whichever way that one turns."""
+    for side in ("left", "right"):
+        bends = [CURVE | {"return_banking": "1.5 deg", "length": "30 m", "name": name, "horizontal_curve": turned}
+                 for name, turned in (("one", side), ("two", "left"))]  # fmt: skip
+        route = {"sections": [*bends, {"name": "c", "length": "200 m", "lift": "10 m"}], "pulleys": PULLEYS}
+        given = data(
+            idlers=FLAT, route=route, ambient={"wind_speed": "60 m/s"}, calculation={"strain": "off"}
+        )
+        second, first = sorted(of_return(calculate(from_data(given))), key=lambda bend: bend.section)
+        assert (first.section, second.section) == ("two", "one")  # the return strand comes from the head
+        for bend in (first, second):
+            assert {(state.inside, state.outside) for state in bend.states} == {(math.inf, -math.inf)}
+        assert {(state.least, state.most) for state in second.states} == {(math.inf, 0.0)}
+
+
 def test_rolls_that_hold_no_belt_are_refused_in_a_curve():
     pair = {"rolls": 2, "spacing": "3 m", "roll": _ROLL}
     bad = data(idlers={"return": pair}, route={"sections": [CURVE], "pulleys": PULLEYS})

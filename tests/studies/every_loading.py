@@ -18,10 +18,18 @@ from conveyor.pipeline import CalculatedConveyor
 from tests.loop.loop_lines import BOOSTER, DATA, TAIL_DRIVE, closed, line
 
 FEEDING = DATA["route"]["feeding"]
-SHAFT = {"diameter": "1 m", "mass": "2 t",
-         "shaft_diameter": "200 mm", "bearing_centres": "1.9 m",
-         "hub_centres": "1.4 m", "hub_shaft_diameter": "220 mm", "shaft_steel": "C1045", "bearing_rating": "900 kN", "bearing_life": "40000 h",
-         "lagging_pressure": "1 MPa"}  # fmt: skip
+SHAFT = {
+    "diameter": "1 m",
+    "mass": "2 t",
+    "shaft_diameter": "200 mm",
+    "bearing_centres": "1.9 m",
+    "hub_centres": "1.4 m",
+    "hub_shaft_diameter": "220 mm",
+    "shaft_steel": "C1045",
+    "bearing_rating": "900 kN",
+    "bearing_life": "40000 h",
+    "lagging_pressure": "1 MPa",
+}
 PULLEYS = [SHAFT | {"name": "head", "position": "head"}, SHAFT | {"name": "tail", "position": "tail"},
            SHAFT | {"name": "bend", "position": "take-up"}]  # fmt: skip
 PARTS = {"pulley_diameter": "1 m", "backstop": True, "backstop_torque": "150 kN*m", "brake_heat": "50 MJ"}

@@ -13,7 +13,7 @@ from conveyor.laws.misalignment import misalignment_friction
 from conveyor.models import Conveyor
 from conveyor.pipeline import Variant, calculate, calculate_many
 from conveyor.studies.defaults import power_range
-from conveyor.studies.uncertainty import root_of_squares
+from conveyor.studies.effects import root_of_squares
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 ROUNDING = 1e-10  # sums of 40 forces whose lift cancels in part, and a loop closed to 1e-13

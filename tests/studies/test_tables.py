@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 
 import numpy as np
@@ -12,10 +13,13 @@ import pytest
 
 import conveyor
 from conveyor import shelf
-from conveyor.analysis import studies
+from conveyor.analysis import Studies, studies, study_ranges
 from conveyor.errors import InputError
 from conveyor.models import RubberCompound, standard_cases
 from conveyor.models.variants import with_compound
+from conveyor.pipeline import calculate
+from conveyor.report.study_tables import of_studies
+from conveyor.studies.defaults import power_range
 from conveyor.ties import ALIKE
 from tests.written_tables import written_tables
 
@@ -170,13 +174,48 @@ def test_tornado_and_band(line):
     )
     data = json.loads(json.dumps(found.to_dict()["uncertainty"], allow_nan=False))
     assert data["tornado"][0]["motor power at high [kW]"] == pytest.approx(effects[0].motor_high / 1e3)
-    assert [row["combined by"] for row in data["band"]] == [
+    *alone, whole = data["band"]
+    assert [row["combined by"] for row in alone] == [
         "root sum of squares, first order",
         "Latin hypercube, first order",
     ]
-    assert [row["motor power, high [kW]"] for row in data["band"]] == pytest.approx(
+    assert [row["motor power, high [kW]"] for row in alone] == pytest.approx(
         [found.uncertainty.band[1] / 1e3, found.uncertainty.sampled[1] / 1e3], rel=1e-15
     )
+    names = "; ".join(effect.name for effect in found.uncertainty.left_open)
+    assert whole["combined by"] == f"root sum of squares, with the defaults in use: {names}"
+    assert whole["motor power, high [kW]"] > alone[0]["motor power, high [kW]"]
+
+
+def test_the_band_of_the_ranges_says_what_it_leaves_out(line):
+    """Squares of the ranges' changes and of those of every default that none of them covers; never the former alone."""
+    given = line.replace(uncertainty={"roll_drag": "30 %", "temperature": "5 K"})
+    found = study_ranges(given)
+    defaults = power_range(calculate(given))
+    left = [effect for effect in defaults.effects if effect.key != "roll_drag"]
+    assert {effect.name for effect in found.left_open} == {effect.name for effect in left}
+    motor = found.motor
+    for k, end, worse in ((0, "motor_low", min), (1, "motor_high", max)):
+        changes = [
+            worse(effect.motor_low - motor, effect.motor_high - motor, 0.0)
+            for effect in (*found.effects, *left)
+        ]
+        assert abs(found.band_with_defaults[k] - motor) == pytest.approx(math.hypot(*changes), rel=1e-9), end
+    assert found.band_with_defaults[0] < found.band[0] < found.band[1] < found.band_with_defaults[1]
+    low, high = (f"{value / 1e3:.1f}" for value in found.band_with_defaults)
+    assert f"90 % interval of its ranges {found.band[0] / 1e3:.1f} to" in repr(found)
+    assert f"with the defaults in use {low} to {high} kW" in repr(found)
+    (note,) = [
+        part.note for part in of_studies(Studies(uncertainty=found), "SI")[0] if part.key == "power_band"
+    ]
+    assert (
+        note == "The last row alone has the defaults in use that no range covers; the others leave them out."
+    )
+    covering = given.replace(
+        uncertainty={"flexure_share": ["8 %", "14 %"], "roll_drag": "30 %", "rubber": True}
+    )
+    keys = {effect.key for effect in study_ranges(covering).left_open}
+    assert not keys & {"flexure", "roll_drag", "tested_level"}
 
 
 # comparisons ------------------------------------------------------------------------------------------------------

@@ -15,7 +15,8 @@ from conveyor.models import Conveyor, RubberCompound, Uncertainty
 from conveyor.pipeline import calculate
 from conveyor.rubber.anchor import COVERED
 from conveyor.spec import load
-from conveyor.studies.uncertainty import SAMPLES, Effect, hypercube_band, root_of_squares, study
+from conveyor.studies.effects import Effect, root_of_squares
+from conveyor.studies.uncertainty import SAMPLES, hypercube_band, study
 from conveyor.units import quantity, si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -108,7 +109,7 @@ def test_roll_drag_without_pulleys_is_a_linear_input(line):
     assert found.band == (pytest.approx(one.motor_low), pytest.approx(one.motor_high))
     assert found.shares == (1.0,)
     low, motor, high = (f"{power / 1e3:.1f}" for power in (found.band[0], found.motor, found.band[1]))
-    assert f"motor power {motor} kW, 90 % interval {low} to {high} kW" in repr(found)
+    assert f"motor power {motor} kW, 90 % interval of its ranges {low} to {high} kW" in repr(found)
 
 
 @pytest.mark.parametrize(
