@@ -66,6 +66,8 @@ class LoadState:
         For programs; a loading that is several of the standard states and the worst has the keys of all.
     balance : Balance
         Forces, tensions and power, the take-up at its setting.
+    found : CalculatedConveyor or None
+        The same with all that follows from it, where that is known.
     """
 
     name: str
@@ -74,6 +76,7 @@ class LoadState:
     worst_for: tuple[str, ...]
     keys: tuple[str, ...]
     balance: Balance
+    found: CalculatedConveyor | None = None
 
     @property
     def label(self) -> str:
@@ -162,7 +165,9 @@ class CalculatedStates:
 
     def load(self, state: LoadState) -> Load:
         """A state as a load; its contacts are those of the spec's."""
-        found = replace(self.own, temperature=state.temperature, balance=state.balance)
+        found = state.found
+        if found is None or found.balance is not state.balance:
+            found = replace(self.own, temperature=state.temperature, balance=state.balance)
         return Load(state.title, state.case, found)
 
     @cached_property
@@ -380,10 +385,12 @@ def _governing_only(states: CalculatedStates, cases: CalculatedCases | None) -> 
     own, of_cases = states.own, () if cases is None else cases.designing
     fixed = [state for state in states.states if state.keys]
     candidates = [state for state in states.states if not state.keys]
-    loads = [Load(AS_GIVEN, said(AS_GIVEN), own), *of_cases, *(states.load(state) for state in fixed)]
-    count = len(loads)
+    of_states = [replace(state, found=states.load(state).found) for state in (*fixed, *candidates)]
+    fixed, candidates = of_states[: len(fixed)], of_states[len(fixed) :]
+    loads = [Load(AS_GIVEN, said(AS_GIVEN), own), *of_cases]
+    count = len(loads) + len(fixed)
     governs: dict[tuple[str, str], tuple[Rank, int]] = {}
-    for i, load in enumerate([*loads, *map(states.load, candidates)]):
+    for i, load in enumerate([*loads, *map(states.load, of_states)]):
         for name, rank in _ranks(load):
             if name not in governs or rank < governs[name][0]:
                 governs[name] = (rank, i)

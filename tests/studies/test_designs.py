@@ -356,7 +356,7 @@ def test_figures_of_all_loads_are_those_of_power(tmp_path):
     plan = {
         "axes": axes,
         "figures": ["motor_power highest", *ALL_LOADS],
-        "limits": {"all_loads_failed": {"most": 1}},
+        "limits": {"all_loads_failed": {"most": 2}},
     }
     with Answers(tmp_path / "a") as known:
         study, (own, slower) = designed(given, known, **plan, best={})
@@ -369,7 +369,7 @@ def test_figures_of_all_loads_are_those_of_power(tmp_path):
     studied = studies(given, found)
     plain = found.beside(studied).to_dict(studied)
     governing = [check for check in plain["checks"] if check["governs"]]
-    assert own.figures["all_loads_failed"] == sum(check["verdict"] == "fail" for check in governing) == 1
+    assert own.figures["all_loads_failed"] == sum(check["verdict"] == "fail" for check in governing) == 2
     assert own.figures["all_loads_take_up"] == pytest.approx(plain["take_up"]["setting_N"])
     power, safety = (
         next(check["calculated"] for check in governing if check["key"] == key)
