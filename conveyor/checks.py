@@ -236,7 +236,7 @@ def severity(check: Check) -> tuple[int, float]:
 
 
 def filling(result: CalculatedConveyor) -> Iterator[Check]:
-    """On its slope every section holds its bulk; what the belt does not hold on the level is refused."""
+    """On its slope every section holds its bulk."""
     line, holds_on = result.line, result.conveyor.section_on_slope
     loaded = [
         (stretch, stretch.bulk_mass / line.density, holds_on(stretch.inclination))
@@ -245,11 +245,22 @@ def filling(result: CalculatedConveyor) -> Iterator[Check]:
     ]
     if loaded:
         stretch, bulk, most = largest(loaded, lambda one: -one[2] / one[1])
+        section = f'section "{quoted(stretch.section)}"'
+        why = said(f"the bulk takes {{}}, {section} holds nothing on its slope", (bulk, "area"))
+        if most > 0.0:
+            flooded = (result.conveyor.flooded_section, "area")
+            spills = [flooded] if bulk > flooded[0] else []
+            why = said(
+                f"the bulk takes {{}}, {percent(bulk / most)} of the {{}} that {section} holds on its slope"
+                f"{', and spills beyond {}, heaped from edge to edge' if spills else ''}: reduce "
+                "material.flow to {}, raise belt.speed to {}, or take a wider belt",
+                (bulk, "area"), (most, "area"), *spills,
+                (line.flow * most / bulk, "mass flow"), (line.speed * bulk / most, "speed"),
+            )  # fmt: skip
         yield compared(
             "filling", "filling of the belt", bulk, "at most", most, "area", source="ISO 5048",
             wording=said(f"{{}}, {percent(bulk / holds_on(0.0))} of the level cross-section", (bulk, "area")),
-            where=stretch.section,
-            why=f'the bulk takes {{calculated}}, section "{quoted(stretch.section)}" holds {{required}} on its slope',
+            where=stretch.section, why=why,
         )  # fmt: skip
 
 
