@@ -219,6 +219,17 @@ class Indentation:
     error: float
     energy_error: float
 
+    @property
+    def each(self) -> tuple[Indentation, ...]:
+        """Each of the line loads alone, in order of a flat array."""
+        fields = (self.line_load, self.resistance, self.half_width, self.eccentricity, self.penetration,
+                  self.peak_pressure, self.peak_error)  # fmt: skip
+        columns = [np.asarray(figures).ravel() for figures in fields]
+        return tuple(
+            Indentation(*map(np.asarray, row), self.error, self.energy_error)
+            for row in zip(*columns, strict=True)
+        )
+
 
 def to_problem(contact: RollContact, line_load: float) -> ContactProblem:
     """Dimensionless problem of a roll under a line load.
