@@ -224,10 +224,10 @@ class Indentation:
         """Each of the line loads alone, in order of a flat array."""
         fields = (self.line_load, self.resistance, self.half_width, self.eccentricity, self.penetration,
                   self.peak_pressure, self.peak_error)  # fmt: skip
-        columns = [np.asarray(figures).ravel() for figures in fields]
+        columns = (np.asarray(figures).ravel() for figures in fields)
         return tuple(
-            Indentation(*map(np.asarray, row), self.error, self.energy_error)
-            for row in zip(*columns, strict=True)
+            Indentation(w, f, a, e, depth, peak, unsure, self.error, self.energy_error)
+            for w, f, a, e, depth, peak, unsure in zip(*columns, strict=True)
         )
 
 
