@@ -412,6 +412,7 @@ def analyse_studies(
         cases=None if made.cases is None else faced(made.cases, CaseStudy),
         duty=None if made.duty is None else faced(made.duty, DutyStudy),
         uncertainty=None if made.uncertainty is None else faced(made.uncertainty, UncertaintyStudy),
+        flooded=made.flooded,
         dynamics=_followed(conveyor, made, progress) if conveyor.scenarios else None,
     )
 

@@ -30,7 +30,7 @@ from conveyor.loop.equilibrium import holds
 from conveyor.loop.horizontal import DriftState, HorizontalCheck
 from conveyor.loop.set_duty import SetDuty
 from conveyor.loop.starting import every_state
-from conveyor.loop.take_up import TakeUpDuty
+from conveyor.loop.take_up import TakeUpDuty, weight_mass
 from conveyor.loop.worst_loadings import ONE_BY_ONE
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.ties import largest
@@ -264,7 +264,7 @@ def severity(check: Check) -> tuple[int, float, float]:
 
 
 def filling(result: CalculatedConveyor) -> Iterator[Check]:
-    """On its slope every section holds its bulk; what the belt does not hold on the level is refused."""
+    """On its slope every section holds its bulk."""
     line, holds_on = result.line, result.conveyor.section_on_slope
     loaded = [
         (stretch, stretch.bulk_mass / line.density, holds_on(stretch.inclination))
@@ -273,11 +273,22 @@ def filling(result: CalculatedConveyor) -> Iterator[Check]:
     ]
     if loaded:
         stretch, bulk, most = largest(loaded, lambda one: -one[2] / one[1])
+        section = f'section "{quoted(stretch.section)}"'
+        why = said(f"the bulk takes {{}}, {section} holds nothing on its slope", (bulk, "area"))
+        if most > 0.0:
+            flooded = (result.conveyor.flooded_section, "area")
+            spills = [flooded] if bulk > flooded[0] else []
+            why = said(
+                f"the bulk takes {{}}, {percent(bulk / most)} of the {{}} that {section} holds on its slope"
+                f"{', and spills beyond {}, heaped from edge to edge' if spills else ''}: reduce "
+                "material.flow to {}, raise belt.speed to {}, or take a wider belt",
+                (bulk, "area"), (most, "area"), *spills,
+                (line.flow * most / bulk, "mass flow"), (line.speed * bulk / most, "speed"),
+            )  # fmt: skip
         yield compared(
             "filling", "filling of the belt", bulk, "at most", most, "area", source="ISO 5048",
             wording=said(f"{{}}, {percent(bulk / holds_on(0.0))} of the level cross-section", (bulk, "area")),
-            where=stretch.section,
-            why=f'the bulk takes {{calculated}}, section "{quoted(stretch.section)}" holds {{required}} on its slope',
+            where=stretch.section, why=why,
         )  # fmt: skip
 
 
@@ -302,10 +313,21 @@ def take_up_tension(result: CalculatedConveyor) -> Iterator[Check]:
     """The take-up holds what grip and sag ask for in every state; what governs is named, or all it falls short of."""
     settled = result.balance.settled
     for name, asked in (settled.short or {settled.governing: settled.needed}).items():
+        words, figures = _setting(result.line, asked)
+        why = said(
+            f"the take-up holds {{}}, {quoted(name)} requires {words}", (settled.setting, "force"), *figures
+        )
         yield compared(
             "take_up_tension", "take-up tension", settled.setting, "at least", asked, "force", holds=not settled.short,
-            why=f"the take-up holds {{calculated}}, {quoted(name)} requires {{required}}", where=name,
+            why=why, where=name,
         )  # fmt: skip
+
+
+def _setting(line: Line, tension: float) -> tuple[str, tuple[tuple[float, str], ...]]:
+    """A setting of the take-up in words, with the weight of one by gravity, and its figures."""
+    if line.take_up.kind != "gravity":
+        return "{}", ((tension, "force"),)
+    return "{} (a weight of {})", ((tension, "force"), (weight_mass(line, tension), "mass"))
 
 
 def take_up_reach(result: CalculatedConveyor) -> Iterator[Check]:
@@ -375,14 +397,19 @@ def sag(result: CalculatedConveyor) -> Iterator[Check]:
 
 def slack_belt(result: CalculatedConveyor) -> Iterator[Check]:
     """The belt is nowhere slack in any state of motion; the slackest state is named, or every one that fails."""
-    states = every_state(result.balance, result.motions)
+    states, settled = every_state(result.balance, result.motions), result.balance.settled
     slack = [state for state in states if state.slack]
     for state in slack or [min(states, key=lambda state: state.smallest)]:
+        words, figures = _setting(result.line, settled.setting - state.smallest)
+        slower = ", or slow the stop by a flywheel or the drives" if state.acceleration < 0.0 else ""
+        why = said(
+            f'the belt goes slack in the state "{state.name}": down to {{}}; raise the take-up\'s tension from {{}} to '
+            f"about {words}{slower}",
+            (state.smallest, "force"), (settled.setting, "force"), *figures,
+        )  # fmt: skip
         yield compared(
             "slack_belt", "minimum belt tension, all states", state.smallest, "at least", 0.0, "force",
-            asked=said("at least 0 (not slack)"), where=state.name,
-            why=f'the belt goes slack in the state "{state.name}": down to {{calculated}}; raise the take-up\'s '
-            "tension, or slow the stop by a flywheel or the drives",
+            asked=said("at least 0 (not slack)"), where=state.name, why=why,
         )  # fmt: skip
 
 

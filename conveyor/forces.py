@@ -14,7 +14,6 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.errors import Amount, NoSolutionError
 from conveyor.laws.resistance import (
     ROLL_ON_BELT_FRICTION,
     TILT_COEFFICIENT_30,
@@ -423,16 +422,6 @@ class Bend:
     pulley: BendPulley
     wrap: tuple[float, float]
     bearings: float | None
-
-    def slack(self, tension: float) -> NoSolutionError:
-        """What to say of a belt that is slack at the pulley [N]."""
-        return NoSolutionError(
-            'the belt is slack at pulley "{}" ({}): '
-            "raise the take-up's tension (route.take_up.tension), or look for a resistance far too large among the "
-            "forces before it",
-            self.pulley.name,
-            Amount(tension, "force", f"{tension:.6g} N"),
-        )
 
     def forces(self, wrap: float, bearings: float) -> Iterator[Force]:
         """Bending and bearings [N] as forces with their names."""

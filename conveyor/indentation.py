@@ -237,6 +237,17 @@ class Indentation:
     error: float
     energy_error: float
 
+    @property
+    def each(self) -> tuple[Indentation, ...]:
+        """Each of the line loads alone, in order of a flat array."""
+        fields = (self.line_load, self.resistance, self.half_width, self.eccentricity, self.penetration,
+                  self.peak_pressure, self.peak_error)  # fmt: skip
+        columns = (np.asarray(figures).ravel() for figures in fields)
+        return tuple(
+            Indentation(w, f, a, e, depth, peak, unsure, self.error, self.energy_error)
+            for w, f, a, e, depth, peak, unsure in zip(*columns, strict=True)
+        )
+
 
 def to_problem(contact: RollContact, line_load: float) -> ContactProblem:
     """Dimensionless problem of a roll under a line load.

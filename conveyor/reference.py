@@ -233,7 +233,8 @@ class _Writer:
         what = "list" if isinstance(part, FieldTable) else "block"
         title = self._title(path)
         linked = f"{what} [{title}](#{anchor(title)})"
-        return _cells(f"`{part.key}`", _sentence(part.doc), linked, "", _without_block(part))
+        allowed = part.allowed if isinstance(part, FieldTable) else ""
+        return _cells(f"`{part.key}`", _sentence(part.doc), linked, allowed, _without_block(part))
 
     def _row(self, leaf: Leaf, path: str) -> str:
         return _cells(

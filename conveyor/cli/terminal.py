@@ -146,6 +146,8 @@ def show_power(contents: Contents) -> None:
     if "load_states" in contents:
         screen.print()
         screen.print(_states(contents["load_states"], contents.system))
+    if "flooded" in contents:
+        screen.print(words(wrapped(_flooded(contents["flooded"], contents.system), screen.width)))
     if "governing_cases" in contents:
         screen.print()
         screen.print(_cases(contents["governing_cases"], contents.system))
@@ -398,6 +400,12 @@ def _number(written: Unit, given: float | None) -> str:
     if math.isinf(value):
         return written.written(given)
     return f"{value:,.0f}" if abs(value) >= 100.0 else f"{value:.1f}"
+
+
+def _flooded(table: Table, system: System) -> str:
+    """The flooded belt in a sentence, or why it has no answer."""
+    said = ", ".join(f"{row.called(system)} {row.unit(system).said(row.value)}" for row in table.rows)
+    return f"flooded belt: {said}. {table.note}"
 
 
 def show_dynamics(contents: Contents) -> None:

@@ -22,9 +22,9 @@ from conveyor.errors import InputError
 from conveyor.files.content import file_content
 from conveyor.files.syntax import plain_json, plain_yaml
 
-LARGEST_FILE: Final = 500_000
-"""Bytes; a spec of a thousand sections with two inline compounds has a fifth of it."""
-MOST_NODES: Final = 100_000
+LARGEST_FILE: Final = 5_000_000
+"""Bytes; a spec of 20,000 sections, the most there may be, has half of it."""
+MOST_NODES: Final = 500_000
 """Values after aliases are expanded: stops a file whose aliases multiply."""
 DEEPEST: Final = 50
 """Levels of nesting; a spec has 7."""

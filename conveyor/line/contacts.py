@@ -41,6 +41,19 @@ SolvedCurves: TypeAlias = dict[tuple[RollContact, float, float, float], Indentat
 
 
 @dataclass(frozen=True, eq=False)
+class PeakContacts:
+    """Contacts of many rolls of one load curve at the highest line load of each [N/m], read side by side."""
+
+    curve: IndentationCurve
+    loads: Array
+
+    @cached_property
+    def every(self) -> tuple[Indentation, ...]:
+        """One a roll."""
+        return self.curve.at(self.loads).each
+
+
+@dataclass(frozen=True, eq=False)
 class RollResult:
     """One roll of a set: its load and its indentation.
 
@@ -54,22 +67,30 @@ class RollResult:
         Indentation resistance of the roll, ∫ f(w(y)) dy along it [N].
     held : IndentationCurve, optional
         Of the same cover on a carcass that does not give, where the one of `curve` does.
+    beside : (PeakContacts, int), optional
+        Rolls read from the same curve, and the number of this one; read alone without.
     """
 
     load: RollLoad
     curve: IndentationCurve
     resistance: float
     held: IndentationCurve | None = None
+    beside: tuple[PeakContacts, int] | None = None
 
     @cached_property
     def peak(self) -> Indentation:
         """Contact at the highest line load, for a wing that of its inner end."""
-        return self.curve.at(self.load.peak_line_load)
+        if self.beside is None:
+            return self.curve.at(self.load.peak_line_load)
+        contacts, i = self.beside
+        return contacts.every[i]
 
     @property
     def pressed_in(self) -> float:
         """Penetration of the cover alone at the highest line load, without what the carcass yields [m]."""
-        return float((self.held or self.curve).penetration(self.load.peak_line_load))
+        if self.held is None:
+            return float(self.peak.penetration)
+        return float(self.held.penetration(self.load.peak_line_load))
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,8 +129,10 @@ class Contacts:
         stretches = self.line.stretches
         by_position: list[dict[int, RollResult]] = [{} for _ in stretches]
         for kind, curve, drags in zip(self.line.kinds, self.curves, self.drags, strict=True):
-            for (i, place), drag in zip(kind.rolls, drags.tolist(), strict=True):
-                by_position[i][place] = RollResult(stretches[i].loads[place], curve, drag)
+            loads = [stretches[i].loads[place] for i, place in kind.rolls]
+            peaks = PeakContacts(curve, np.array([load.peak_line_load for load in loads]))
+            for n, ((i, place), load, drag) in enumerate(zip(kind.rolls, loads, drags.tolist(), strict=True)):
+                by_position[i][place] = RollResult(load, curve, drag, beside=(peaks, n))
         return tuple(tuple(rolls[place] for place in sorted(rolls)) for rolls in by_position)
 
     def curves_of(self, strand: Strand) -> tuple[IndentationCurve, ...]:

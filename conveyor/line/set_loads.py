@@ -5,9 +5,10 @@ from __future__ import annotations
 from conveyor.laws.loading import (
     Heap,
     RollLoad,
-    filled_width,
+    Spread,
     roll_loads,
     shares_by_area,
+    spread_bulk,
 )
 from conveyor.models import Conveyor, IdlerSet
 from conveyor.units import Quantity, si
@@ -85,26 +86,27 @@ class SetLoads:
 
     def _shares_by_area(self, flow_mass: float) -> tuple[float, ...]:
         """By the area above each roll at the filling of this stretch; a narrow heap lies on the inner rolls alone."""
-        rolls, across = self.idlers.rolls, self.covered(flow_mass)
+        rolls, (across, surcharge) = self.idlers.rolls, self.spread(flow_mass)
         if across <= self._middle:
             return tuple(float(place == rolls // 2) for place in range(rolls))
         middle, *wings = shares_by_area(
             across,
             middle_roll_length=self._middle,
             trough_angle=self._trough,
-            surcharge_angle=self._surcharge,
+            surcharge_angle=surcharge,
             heap=self._heap,
             inner_wing=self.idlers.inner_wing,
         )
         wings += [0.0] * (rolls // 2 - len(wings))
         return (*reversed(wings), *([middle] * (rolls % 2)), *wings)
 
-    def covered(self, flow_mass: float) -> float:
-        """Width of the belt under the bulk of a mass per length [m]."""
+    def spread(self, flow_mass: float) -> Spread:
+        """Width of the belt under the bulk of a mass per length and the slope of its heap [m, rad]."""
         if flow_mass == 0.0:
-            return 0.0
-        return filled_width(
+            return Spread(0.0, self._surcharge)
+        return spread_bulk(
             flow_mass / self._density,
+            belt_width=self._width,
             middle_roll_length=self._middle,
             trough_angle=self._trough,
             surcharge_angle=self._surcharge,
@@ -115,7 +117,7 @@ class SetLoads:
         """Width of each wing's belt under the bulk, for sets of up to 3 rolls [m]; none on a flat belt."""
         if self.idlers.rolls == 1:
             return 0.0
-        return max(0.5 * (self.covered(flow_mass) - self._middle), 0.0)
+        return max(0.5 * (self.spread(flow_mass).width - self._middle), 0.0)
 
 
 def _shares(given: tuple[Quantity, ...] | None) -> tuple[float, ...] | None:

@@ -182,7 +182,7 @@ def balance(
     Raises
     ------
     NoSolutionError
-        The tensions do not settle (wraps that grow faster than the tension they need), or the belt is slack.
+        The tensions do not settle (wraps that grow faster than the tension they need).
     """
     (found,) = answers(balances([OpenLoop(frame, along, unit_main, setting)]))
     return found

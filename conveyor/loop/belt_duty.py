@@ -276,11 +276,11 @@ def _curves(balance: Balance, states: Sequence[MotionState]) -> Iterator[CurveCh
         if section is None or section.curve is None:
             continue
         tensions = [float(end[i]) for state in states for end in (state.starts, state.ends)]
-        lowest, highest = max(0.0, min(tensions)), max(0.0, *tensions)
+        lowest, highest = min(tensions), max(tensions)
         lift = None
         if section.curve == "concave":
             lift = lift_off_radius(
-                highest,
+                max(0.0, highest),
                 belt_mass=stretch.belt_mass,
                 inclination=section.steepest,
                 gravity=line.gravity,
@@ -316,7 +316,10 @@ def _strips(
     over = slack = math.inf
     if highest / width < allowed:
         over = overstress_radius(
-            highest / width, distance=stretched, stiffness_per_width=stiffness, allowed_per_width=allowed
+            max(0.0, highest / width),
+            distance=stretched,
+            stiffness_per_width=stiffness,
+            allowed_per_width=allowed,
         )
     if lowest / width > LEAST_EDGE_TENSION:
         slack = buckling_radius(
@@ -353,7 +356,7 @@ def _transition(line: Line, zone: TransitionZone, states: Sequence[MotionState])
         stretch, tensions = line.loop.stretches[-1], [float(state.ends[-1]) for state in states]
     else:
         stretch, tensions = line.loop.stretches[half], [float(state.starts[half]) for state in states]
-    lowest, highest = max(0.0, min(tensions)) / width, max(0.0, *tensions) / width
+    lowest, highest = min(tensions) / width, max(tensions) / width
     rated, stiffness = allowed_tension(line), line.belt.tensile_stiffness
     if rated is None or stiffness is None:
         missing = (
@@ -385,8 +388,8 @@ def _transition(line: Line, zone: TransitionZone, states: Sequence[MotionState])
         lowest,
         highest,
         allowed,
-        least(highest, zone_length.largest, allowed),
-        least(lowest, zone_length.least, 0.0),
+        least(max(0.0, highest), zone_length.largest, allowed),
+        least(max(0.0, lowest), zone_length.least, 0.0),
         most,
         lower,
     )

@@ -144,7 +144,8 @@ def pushed_down(line: Line, stretch: Stretch, tension: float) -> float:
 
 
 def _on_set(line: Line, stretch: Stretch, tension: float, radius: float) -> float:
-    pull = effective_tension(tension, line_mass=stretch.line_mass, belt_speed=line.speed)
+    """Force of a curve on one set [N]; a belt bears no pressure, a slack one acts as one without tension."""
+    pull = effective_tension(max(0.0, tension), line_mass=stretch.line_mass, belt_speed=line.speed)
     return math.copysign(curve_set_force(abs(pull), radius=radius, spacing=stretch.spacing), pull * radius)
 
 

@@ -280,7 +280,12 @@ def settle(loops: Loops, given: Array | None = None) -> tuple[Closed, dict[int, 
     -------
     tuple
         The loops at rest, and why a row has no answer: its tensions do not settle (wraps that grow faster than the
-        tension they need), or its belt is slack at a pulley.
+        tension they need).
+
+    Notes
+    -----
+    A belt bears no pressure: where its tension comes out negative it bends round a pulley and loads its bearings as at
+    none. The tensions stay as they come out, below zero by what the take-up lacks.
     """
     kinds, b, whole = _Kinds(loops), len(loops.frames), np.abs(loops.along[:, :2, -1].sum(axis=-1))
     bends, drive = np.zeros((b, len(loops.plan.bends))), np.full(b, np.inf)
@@ -329,18 +334,19 @@ def _further(last: tuple[Array, Array], step: tuple[Array, Array]) -> Array:
 def _pulleys(
     loops: Loops, moving: Moving, setting: Array, refused: dict[int, NoSolutionError]
 ) -> tuple[Array, Array]:
-    """Wrap and bearings of every pulley in steady running [N], shape (b, pulleys); refused are rows slack at one."""
+    """Wrap and bearings of every pulley in steady running [N], shape (b, pulleys); refused are rows without end.
+
+    Slack belt bends and loads as belt without tension.
+    """
     standing = loops.standing
     sides = (setting - moving.anchor[:, 0])[:, None, None] + moving.offsets[:, 0, loops.plan.sides]
     sides = np.where(loops.plan.carried[:, None], setting[:, None, None], sides)
-    tight, slack = sides.max(axis=-1), sides.min(axis=-1)
-    lost = ~((slack >= 0.0) & (tight < np.inf))
+    lost: NDArray[np.bool_] = ~np.all(np.isfinite(sides), axis=(1, 2))
     if lost.any():
-        for row in np.flatnonzero(lost.any(axis=-1)).tolist():
-            first = int(np.argmax(lost[row]))
-            why = loops.frames[row].bends[first].slack(float(slack[row, first]))
-            refused.setdefault(row, why if slack[row, first] < 0.0 else _unsettled())
-        tight[list(refused)] = slack[list(refused)] = 0.0
+        for row in np.flatnonzero(lost).tolist():
+            refused.setdefault(row, _unsettled())
+        sides = np.where(lost[:, None, None], 0.0, sides)
+    tight, slack = np.maximum(sides.max(axis=-1), 0.0), np.maximum(sides.min(axis=-1), 0.0)
     load = pulley_load(
         tight_tension=tight,
         slack_tension=slack,

@@ -142,7 +142,7 @@ def _state(
     line: Line, stretch: Stretch, turn: Turn, state: MotionState, i: int, *, entry: tuple[float, float]
 ) -> DriftState:
     ends = float(state.starts[i]), float(state.ends[i])
-    lowest, highest = max(0.0, min(ends)), max(0.0, *ends)
+    lowest, highest = min(ends), max(ends)
     tight = [turn.law(pushed_down(line, stretch, highest), least=least) for least in (True, False)]
     loose = [turn.law(pushed_down(line, stretch, lowest), least=least) for least in (True, False)]
     if not turn.flat:  # a trough holds less with less friction to the inside, to the outside more

@@ -406,7 +406,7 @@ class Loadings:
         """Change sections, all that gain together while that gains, then the one that gains most, until none does."""
         here, together = self._values(sought, loading, self._unchanged)[0], True
         while True:
-            values = self._values(sought, loading, self._single)
+            values = self._values(sought, loading)
             gains = values > here
             if together and gains.any():
                 tried = loading ^ gains
@@ -418,25 +418,20 @@ class Loadings:
             best = int(np.argmax(values))
             if not values[best] > here:
                 return loading
-            loading, here = loading ^ self._single[best], values[best]
+            loading, here = loading ^ (np.arange(self.count) == best), values[best]
 
     @cached_property
     def _unchanged(self) -> Loading:
         return np.zeros((1, self.count), bool)
 
-    @cached_property
-    def _single(self) -> Loading:
-        """Every section alone, shape (n, n)."""
-        return np.eye(self.count, dtype=bool)
-
-    def _values(self, sought: _Sought, loading: Loading, changes: Loading) -> Array:
-        """The figure with each of several changes of a loading, shape (m,)."""
-        turn = changes * np.where(loading, -1.0, 1.0) if changes is not self._single else None
+    def _values(self, sought: _Sought, loading: Loading, changes: Loading | None = None) -> Array:
+        """The figure with each of several changes of a loading, without them with that of each section, shape (m,)."""
+        turn = None if changes is None else changes * np.where(loading, -1.0, 1.0)
 
         def changed(linear: tuple[float, Array]) -> Array:
             base, more = linear
             here = base + float(more @ loading)
-            if turn is None:  # a product with the identity
+            if turn is None:
                 return here + np.where(loading, -more, more)
             return np.asarray(here + turn @ more)
 

@@ -153,7 +153,7 @@ def take_up_duty(
         governing=governing,
         governed_by=settled.governing,
         steady_means=steady,
-        mass=None if unit.keeps_length else _mass(line, setting),
+        mass=None if unit.keeps_length else weight_mass(line, setting),
         warmth=warmth,
         travel=travel,
         mean_change=change,
@@ -179,8 +179,8 @@ def _speed(loops: Sequence[Balance], stiffness: float) -> float:
     return max(speeds)
 
 
-def _mass(line: Line, setting: float) -> float:
-    """Of a gravity take-up [kg]; none pulls where nothing is asked for."""
+def weight_mass(line: Line, setting: float) -> float:
+    """Mass of a gravity take-up's weight at a setting [N] [kg]; none pulls where nothing is asked for."""
     unit = line.take_up
     return take_up_mass(max(setting, 0.0), reeving=unit.reeving, gravity=line.gravity, strands=unit.strands)
 

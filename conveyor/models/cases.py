@@ -24,7 +24,7 @@ class LoadCase(Model):
     """Each its own."""
     loading: Loading = "as given"
     """Sections that bear bulk: as given (part load too), all, none, those that rise or fall only, or those named."""
-    sections: Annotated[tuple[Name, ...], Field(max_length=1000)] = ()
+    sections: Annotated[tuple[Name, ...], Field(max_length=20000)] = ()
     """The sections that bear bulk, for loading "sections"."""
     share: Annotated[Fraction, Bounds(gt="0 %", le="200 %")] | None = None
     """Mass flow over material.flow, for part load (a surge is above 100 %)."""

@@ -20,6 +20,11 @@ from conveyor.models.route import Feeding
 from conveyor.models.wording import Location
 from conveyor.units import Quantity, display, from_si, si, system_of, text
 
+OVERFULL: Final = 1.5
+"""Of the cross-section that a belt holds the share up to which it is calculated [-], further where its edges reach."""
+_ROUNDING: Final = 1e-9
+"""Of a flow that is made from a cross-section [-]."""
+
 
 def _sets(conveyor: ConveyorParts) -> tuple[tuple[str, IdlerSet], tuple[str, IdlerSet]]:
     return (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_))
@@ -53,7 +58,17 @@ def _like(length: float, idlers: IdlerSet) -> str:
 
 def largest_section(conveyor: ConveyorParts) -> CrossSection:
     """Largest cross-section of the bulk that the belt holds on the level (ISO 5048)."""
-    carry, across = conveyor.idlers.carry, usable_width(si(conveyor.belt.width))
+    return _section(conveyor, usable_width(si(conveyor.belt.width)))
+
+
+def flooded_section(conveyor: ConveyorParts) -> CrossSection:
+    """Cross-section of the bulk that lies on the whole width of the belt, heaped from edge to edge, on the level."""
+    return _section(conveyor, si(conveyor.belt.width))
+
+
+def _section(conveyor: ConveyorParts, across: float) -> CrossSection:
+    """Of bulk on a width of the belt [m]."""
+    carry = conveyor.idlers.carry
     return cross_section(
         across,
         middle_roll_length=carry.middle_belt(across),
@@ -64,27 +79,30 @@ def largest_section(conveyor: ConveyorParts) -> CrossSection:
 
 
 def _flow_fits(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """The bulk fits the trough (ISO 5048)."""
+    """The bulk stays on the belt: what is more than the trough holds (ISO 5048) is calculated and fails its check."""
     belt, material = conveyor.belt, conveyor.material
     if si(material.flow) == 0.0:
         return
     needed = bulk_line_mass(si(material.flow), belt_speed=si(belt.speed)) / si(material.density)
-    area = largest_section(conveyor).area
-    if needed <= area:
+    area, flooded = largest_section(conveyor).area, flooded_section(conveyor).area
+    calculated = max(OVERFULL * area, flooded)
+    if needed <= calculated * (1.0 + _ROUNDING):
         return
     system = system_of(belt.width)
-    sections_of = (Amount(each, "area", display(each, "area", system)) for each in (needed, area))
+    sections_of = (Amount(each, "area", display(each, "area", system)) for each in (needed, area, calculated))
     most = from_si(si(material.flow) * area / needed, "mass flow", text(material.flow).split()[1])
     least = from_si(si(belt.speed) * needed / area, "speed", text(belt.speed).split()[1])
     metric = ""
     if system == "US" and text(material.flow).endswith(" tph"):
         metric = "; tph are metric tonnes per hour, short tons per hour are stph"
+    why = "heaped from edge to edge" if calculated == flooded else f"{100.0 * OVERFULL:g} % of that"
     yield Problem(
         ("material", "flow"),
         InputError(
             f"got {text(material.flow)}, which at {text(belt.speed)} (belt.speed) needs a cross-section of {{}}, the "
-            f"belt holds {{}}: reduce material.flow to {_rounded(most, down=True)} or less, raise belt.speed to "
-            f"{_rounded(least, down=False)} or more, or take a wider belt{metric}",
+            f"belt holds {{}} and is calculated up to {{}}, {why}: reduce material.flow to "
+            f"{_rounded(most, down=True)} or less, raise belt.speed to {_rounded(least, down=False)} or more, or take "
+            f"a wider belt{metric}",
             *sections_of,
         ),
     )

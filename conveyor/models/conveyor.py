@@ -9,7 +9,7 @@ from pydantic import Field, ValidationError, model_validator
 
 from conveyor.models.base import Model, Problem, refuse
 from conveyor.models.cases import LoadCase, named_once
-from conveyor.models.checks import CONFLICTS, largest_section
+from conveyor.models.checks import CONFLICTS, flooded_section, largest_section
 from conveyor.models.parts import ConveyorParts
 from conveyor.models.report import Report
 from conveyor.models.scenarios import Scenario, scenario_problems
@@ -105,6 +105,11 @@ class Conveyor(ConveyorParts):
         """Largest cross-section of the bulk that the belt holds at an inclination [rad] (ISO 5048) [m²]."""
         angle = si(self.material.surcharge_angle)
         return largest_section(self).on_slope(inclination, surcharge_angle=angle)
+
+    @property
+    def flooded_section(self) -> float:
+        """Cross-section of the bulk heaped from edge to edge of the belt on the level [m²]."""
+        return flooded_section(self).area
 
 
 CHECKS: Final[Mapping[Callable[[Any], Iterator[Problem]], tuple[str, ...]]] = {

@@ -398,7 +398,7 @@ class TakeUp(Model):
 class Route(Model):
     """Sections in running direction of the carry strand, tail first."""
 
-    sections: Annotated[tuple[Section, ...], Field(min_length=1, max_length=1000)]
+    sections: Annotated[tuple[Section, ...], Field(min_length=1, max_length=20000)]
     feeding: Feeding | None = None
     """The loading point, or the first of several."""
     further_feeding: Annotated[tuple[Feeding, ...], Field(max_length=100)] = ()
@@ -452,11 +452,16 @@ class Route(Model):
             if name is not None:
                 yield from self.section_problem(location, name)
 
+    @cached_property
+    def _names(self) -> frozenset[str]:
+        """Of the sections."""
+        return frozenset(section.name for section in self.sections)
+
     def section_problem(self, location: Location, name: str) -> Iterator[Problem]:
         """Refuse the name of a section that the route has not."""
-        names = [section.name for section in self.sections]
-        if name not in names:
-            shown = ", ".join(names[:10]) + (", …" if len(names) > 10 else "")
+        if name not in self._names:
+            names = [section.name for section in self.sections[:10]]
+            shown = ", ".join(names) + (", …" if len(self.sections) > 10 else "")
             yield Problem(location, f'got "{name}", which is none of the sections: {shown}')
 
     def _tripper_problems(self) -> Iterator[Problem]:

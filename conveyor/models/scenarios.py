@@ -48,7 +48,7 @@ class Scenario(Model):
     """Held at rest as after a slow stop, or in steady running."""
     loading: Loading | Literal["worst"] = "as given"
     """Sections that bear bulk, as in cases; worst: those that make the drive force largest."""
-    sections: Annotated[tuple[Name, ...], Field(max_length=1000)] = ()
+    sections: Annotated[tuple[Name, ...], Field(max_length=20000)] = ()
     """The sections that bear bulk, for loading "sections"."""
     share: Annotated[Fraction, Bounds(gt="0 %", le="200 %")] | None = None
     """Mass flow over material.flow, for part load."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -64,7 +64,8 @@ def with_case(conveyor: Conveyor, case: LoadCase, *, speed: Quantity | None = No
         share = 0.0 if case.share is None else si(case.share)
         changes["material"] = conveyor.material.replace(flow=scaled(conveyor.material.flow, share))
     if case.loading in {"full", "inclines only", "declines only", "sections"}:
-        sections = [_loaded(section, case) for section in conveyor.route.sections]
+        named = frozenset(case.sections)
+        sections = [_loaded(section, case, named) for section in conveyor.route.sections]
         if any(new is not old for new, old in zip(sections, conveyor.route.sections, strict=True)):
             changes["route"] = _fed(conveyor, sections, conveyor.belt.speed if speed is None else speed)
     return conveyor.replace(**changes) if changes else conveyor
@@ -87,12 +88,12 @@ def slowed(conveyor: Conveyor, share: float) -> Conveyor:
     )
 
 
-def _loaded(section: Section, case: LoadCase) -> Section:
+def _loaded(section: Section, case: LoadCase, named: Collection[str]) -> Section:
     loaded = {
         "full": True,
         "inclines only": section.rise > 0.0,
         "declines only": section.rise < 0.0,
-        "sections": section.name in case.sections,
+        "sections": section.name in named,
     }[case.loading]
     return section if section.loaded is loaded else section.replace(loaded=loaded)
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from conveyor.contact import solve
 from conveyor.errors import InputError
 from conveyor.indentation import to_problem
-from conveyor.laws.loading import Wing, filled_width, wings
+from conveyor.laws.loading import Wing, spread_bulk, wings
 from conveyor.laws.tension import grip_tension
 from conveyor.line.contacts import Contacts, RollResult
 from conveyor.line.stretches import STRANDS
@@ -344,8 +344,9 @@ def cross_section(conveyor: Conveyor, line: Line, *, system: System = "SI") -> F
         x, y = _mirrored(0.5 * middle, trough(width))
         axis.plot(size(x), size(y), color="#1F4E79", linewidth=3, zorder=3)
         if stretch.bulk_mass > 0.0:
-            covered = filled_width(
+            covered, slope = spread_bulk(
                 stretch.bulk_mass / line.density,
+                belt_width=width,
                 middle_roll_length=middle,
                 trough_angle=angle,
                 surcharge_angle=conveyor.material.surcharge,
@@ -354,7 +355,7 @@ def cross_section(conveyor: Conveyor, line: Line, *, system: System = "SI") -> F
             lying = 0.5 * min(middle, covered)
             x, y = _mirrored(lying, trough(covered) if covered > middle else ())
             over = np.linspace(x[-1], x[0], _HEAP)
-            heap = y[-1] + math.tan(conveyor.material.surcharge) * (x[-1] ** 2 - over**2) / (2.0 * x[-1])
+            heap = y[-1] + math.tan(slope) * (x[-1] ** 2 - over**2) / (2.0 * x[-1])
             axis.fill(size(np.append(x, over)), size(np.append(y, heap)), color="#C9A66B", zorder=2)
         axis.set_aspect("equal", adjustable="datalim")
         axis.set_ylabel(size.beside(f"{strand}, up"))

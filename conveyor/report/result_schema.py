@@ -205,6 +205,7 @@ _POWER: Final = _of(
         )
         | {"additionalProperties": _STATE},
         "worst_states": _each(_STATE, of="loadings that are worst for a figure, those of `states` among them"),
+        "flooded": _ROW | {"type": ["object", "null"], "description": "bulk from edge to edge of the belt"},
         "load_cases": _of(
             {
                 "conveyor": _TEXT,

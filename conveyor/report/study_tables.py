@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, replace
 from functools import partial
@@ -23,10 +24,16 @@ if TYPE_CHECKING:
     from conveyor.studies import CalculatedStudies
     from conveyor.studies.cases import CalculatedCases, Governing
     from conveyor.studies.duty import CalculatedYear
+    from conveyor.studies.flooded import FloodedBelt
     from conveyor.studies.monte_carlo import Percentiles
     from conveyor.studies.states import CalculatedStates, LoadState
     from conveyor.studies.uncertainty import CalculatedRanges
 
+_FLOODED = (
+    "Bulk heaped from edge to edge of the belt at its surcharge angle, on the whole route, at the take-up's setting: "
+    "what structure, belt and drives may see where a feeder does not stop (general knowledge). Nothing is checked by "
+    "it; the mass is without sets and frame."
+)
 _STATES, _CASES, _DUTY, _UNCERTAINTY = "load-states", "load-cases", "duty", "uncertainty"
 _TENSIONS = (
     "tight_side_tension", "slack_side_tension", "largest_tension", "smallest_tension", "take_up_tension_asked_for",
@@ -47,6 +54,8 @@ def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[
     drawn: list[Drawing] = []
     if studies.states is not None:
         tables += [load_states(studies.states), refused_states(studies.states)]
+    if studies.flooded is not None:
+        tables.append(flooded(studies.flooded))
     if studies.cases is not None:
         tables += _of_cases(studies, studies.cases, system)
         drawn += _case_drawings(studies.cases, system)
@@ -303,6 +312,33 @@ def band(study: CalculatedRanges) -> Table:
     return Table("power_band", "Uncertainty", heading, columns, rows, _UNCERTAINTY, note)
 
 
+def flooded(study: FloodedBelt) -> Table:
+    """What a belt under bulk from edge to edge asks of drives, belt and structure."""
+    found, heading = study.found, "Flooded belt"
+    rows: list[Figure] = [
+        Figure("cross-section of the bulk", "area", study.section),
+        Figure("cross-section over what the belt holds", "share", study.section / study.held),
+    ]
+    note = f"No answer: {study.reason}." if found is None else _FLOODED
+    if found is not None:
+        balance, duty = found.balance, found.belt_duty
+        powers = [drive.power for drive in found.line.drives]
+        installed = None if None in powers else math.fsum(power for power in powers if power is not None)
+        rows += [
+            Figure("mass flow", "mass flow", found.line.flow),
+            Figure("mass of belt and bulk", "line mass", study.line_mass),
+            Figure("load of a carry set", "force", study.set_load),
+            Figure("effective tension", "force", balance.forces.total),
+            Figure("motor power", "power", balance.power.motor),
+            Figure("motor power over installed", "share", installed and abs(balance.power.motor) / installed),
+            Figure("resistance after standstill, at most", "force", found.motions.start.breakaway),
+            Figure("maximum tension, all states", "force", balance.tensions.largest),
+            Figure("safety, steady", "ratio", duty.safety_steady),
+            Figure("required take-up tension", "force", balance.settled.needed),
+        ]
+    return figures("flooded", "Load cases", heading, rows, page=_STATES, note=note, prefix="flooded_")
+
+
 def convergence_of_draws(study: CalculatedRanges) -> Table:
     """Ends of the interval after ever more draws, and how well they are known; no rows without draws."""
 
@@ -333,6 +369,7 @@ def plain(studies: CalculatedStudies) -> dict[str, Any]:
         named = {key: _plain_state(state) for state in studies.states.states for key in state.keys}
         parts["states"] = {key: named[key] for key in _STATE_KEYS if key in named}
         parts["worst_states"] = [_plain_state(state) for state in studies.states.states if state.worst_for]
+        parts["flooded"] = None if studies.flooded is None else flooded(studies.flooded).series("").to_dict()
         parts["take_up"] = plain_take_up(*asked_of_take_up(studies.states.own, studies.states, studies.cases))
     study = studies.cases
     if study is not None:

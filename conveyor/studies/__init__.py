@@ -18,6 +18,7 @@ from conveyor.studies.cases import (
     recommended_motors,
 )
 from conveyor.studies.duty import CalculatedYear, analyse_duty
+from conveyor.studies.flooded import FloodedBelt, flooded_belt
 from conveyor.studies.loads import Progress, designing, every_load
 from conveyor.studies.states import CalculatedStates
 from conveyor.studies.uncertainty import CalculatedRanges, study
@@ -37,12 +38,15 @@ class CalculatedStudies:
         Of `operation.duty`.
     uncertainty : CalculatedRanges or None
         Of `uncertainty`.
+    flooded : FloodedBelt or None
+        Bulk from edge to edge, for every spec that carries some.
     """
 
     states: CalculatedStates | None = None
     cases: CalculatedCases | None = None
     duty: CalculatedYear | None = None
     uncertainty: CalculatedRanges | None = None
+    flooded: FloodedBelt | None = None
 
     def __repr__(self) -> str:
         held = [field.name for field in fields(self) if getattr(self, field.name) is not None]
@@ -101,4 +105,5 @@ def studies(
         uncertainty=None
         if conveyor.uncertainty is None
         else study(conveyor, take_up=loads.states.take_up, progress=told("ranges of the inputs")),
+        flooded=flooded_belt(loads.own),
     )

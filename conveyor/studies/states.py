@@ -98,9 +98,9 @@ class LoadState:
     @property
     def loaded_in_words(self) -> str:
         """The sections that bear bulk, by name, or those that do not where these are fewer words."""
-        names = [section.name for section in self.balance.line.sections]
+        names, bearing = [section.name for section in self.balance.line.sections], frozenset(self.loaded)
         loaded, empty = (
-            _in_words(names, [(name in self.loaded) is on for name in names]) for on in (True, False)
+            _in_words(names, [(name in bearing) is on for name in names]) for on in (True, False)
         )
         if not loaded or not empty:
             return "all" if loaded else "none"

@@ -5,11 +5,19 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from conveyor.checks import checks
 from conveyor.errors import InputError
-from conveyor.laws.loading import cross_section, filled_width, shares_by_area, surcharge_from_slope
+from conveyor.laws.loading import (
+    Wing,
+    cross_section,
+    filled_width,
+    shares_by_area,
+    spread_bulk,
+    surcharge_from_slope,
+)
 from conveyor.line.line import Line
 from conveyor.line.set_loads import SetLoads
 from conveyor.line.stretches import roll_masses
@@ -74,6 +82,63 @@ def test_filled_width_refuses(change, message):
         filled_width(given.pop("area"), **given)
 
 
+SETS = {
+    "flat": {"middle_roll_length": 1.2, "trough_angle": 0.0},
+    "V": {"middle_roll_length": 0.0, "trough_angle": math.radians(20.0)},
+    "three": {"middle_roll_length": 0.465, "trough_angle": math.radians(45.0)},
+    "five": {
+        "middle_roll_length": 0.28,
+        "trough_angle": math.radians(60.0),
+        "inner_wing": Wing(0.28, math.radians(30.0)),
+    },
+}
+
+
+@pytest.mark.parametrize("name", SETS)
+@pytest.mark.parametrize("over", [0.5, 0.999, 1.001, 1.3])
+def test_bulk_spreads_to_the_edges_and_then_heaps(name, over):
+    """Its width and slope hold the very area; never wider than the belt, steeper only where it is as wide."""
+    trough, surcharge = SETS[name], math.radians(15.0)
+    area = over * cross_section(1.2, surcharge_angle=surcharge, **trough).area
+    width, slope = spread_bulk(area, belt_width=1.2, surcharge_angle=surcharge, **trough)
+    middle = min(width, trough["middle_roll_length"])
+    held = cross_section(width, surcharge_angle=slope, **trough | {"middle_roll_length": middle}).area
+    assert held == pytest.approx(area, rel=1e-12)
+    assert (width < 1.2, slope == surcharge) == ((True, True) if over < 1.0 else (False, False))
+
+
+def by_columns(area, belt_width):
+    """Middle share of three rolls by columns of a millimetre: the bulk's height over the belt, summed up."""
+    middle, angle = 0.465, math.radians(45.0)
+    half = 0.5 * middle + 0.5 * (belt_width - middle) * math.cos(angle)
+    edge = 0.5 * (belt_width - middle) * math.sin(angle)
+    n = 20000
+    x = (np.arange(n) + 0.5) * half / n
+    belt = np.maximum(0.0, x - 0.5 * middle) * math.tan(angle)
+    # parabola through the edge: what the trough does not hold has the heap (half² - x²)
+    trough, heap = edge - belt, half**2 - x**2
+    heap *= (0.5 * area - trough.sum() * half / n) / (heap.sum() * half / n)
+    height = trough + heap
+    return float(height[x < 0.5 * middle].sum() / height.sum())
+
+
+@pytest.mark.parametrize("over", [1.0, 1.2, 1.5])
+def test_the_share_of_an_overfull_belt_is_that_of_the_bulk_over_its_roll(line, over):
+    """Bulk does not lie beyond the belt's edges: columns over the whole belt, whatever stands on them."""
+    made = with_carry(line, share_rule="cross-section")
+    belt_width = si(made.belt.width)
+    flooded = made.flooded_section
+    loads = SetLoads(made, made.idlers.carry)
+    bulk = over * flooded * si(made.material.density)
+    shares = [
+        load.bulk_force
+        for load in loads.of(spacing=1.2, inclination=0.0, belt_mass=20.0, bulk_mass=bulk, flow_mass=bulk)
+    ]
+    # columns at a bend: two of 20,000 are cut there
+    assert shares[1] / sum(shares) == pytest.approx(by_columns(over * flooded, belt_width), rel=2e-4)
+    assert shares[0] == pytest.approx(shares[2], rel=1e-15)
+
+
 def test_vdi_2341_is_the_default(line):
     assert middle_share(loads_of(line)) == pytest.approx(0.5 + 0.005 * 45.0, rel=1e-12)
 
@@ -81,7 +146,7 @@ def test_vdi_2341_is_the_default(line):
 def test_each_wing_bears_half_of_what_lies_beside_the_middle_roll(line):
     loads = SetLoads(line, line.idlers.carry)
     # 2400 t/h at 5 m/s: 133.3 kg/m
-    covered = loads.covered(400.0 / 3.0)
+    covered = loads.spread(400.0 / 3.0).width
     assert loads.wing_contact(400.0 / 3.0) == pytest.approx((covered - 0.465) / 2.0, rel=1e-12)
     # so little that it lies on the middle roll alone
     assert loads.wing_contact(1.0) == pytest.approx(0.0, abs=1e-15)
@@ -136,7 +201,7 @@ def test_the_conventions_of_the_heap_hold_the_same_bulk(line):
     # by area the same width is covered; the triangle has more of its heap over the middle
     iso = SetLoads(with_carry(line, share_rule="cross-section"), line.idlers.carry)
     triangle = SetLoads(with_carry(other, share_rule="cross-section"), line.idlers.carry)
-    assert triangle.covered(100.0) == pytest.approx(iso.covered(100.0), rel=1e-13)
+    assert triangle.spread(100.0).width == pytest.approx(iso.spread(100.0).width, rel=1e-13)
     by_din = middle_share(loads_of(with_carry(other, share_rule="cross-section")))
     by_iso = middle_share(loads_of(with_carry(line, share_rule="cross-section")))
     assert by_din > by_iso
@@ -146,7 +211,7 @@ def test_the_conventions_of_the_heap_hold_the_same_bulk(line):
 def test_as_din_slope_the_same_angle_holds_more(line):
     steep = line.material.replace(surcharge_convention="DIN 22101")
     more = with_carry(line.replace(material=steep), share_rule="cross-section")
-    assert SetLoads(more, more.idlers.carry).covered(100.0) < SetLoads(line, line.idlers.carry).covered(100.0)
+    assert SetLoads(more, more.idlers.carry).spread(100.0) < SetLoads(line, line.idlers.carry).spread(100.0)
 
 
 def test_an_even_load_on_the_wings_keeps_the_force_and_lowers_the_peak(line):

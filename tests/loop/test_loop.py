@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
 
-from conveyor.errors import NoSolutionError
 from conveyor.laws import tension
 from conveyor.laws.resistance import ROLL_DRAG_STANDSTILL_FACTOR
 from conveyor.loop.starting import every_state, motions
@@ -283,10 +283,51 @@ def test_a_given_take_up_is_held_and_judged():
     assert closed(mass).settled.setting == pytest.approx(10e3 * 9.81, rel=1e-15)
 
 
-def test_too_little_tension_for_a_pulley_has_no_answer():
-    conveyor = line(route={"take_up": {"kind": "winch", "position": "tail", "tension": "100 N"}})
-    with pytest.raises(NoSolutionError, match=r'the belt is slack at pulley ".*raise the take-up'):
-        closed(conveyor, 0.03)
+def slack_line(tension, **changes):
+    """The line of these tests with a winch at the tail that holds too little."""
+    return line(
+        route={"take_up": {"kind": "winch", "position": "tail", "tension": f"{tension} N"}, **changes}
+    )
+
+
+def test_a_slack_belt_is_calculated_and_fails_with_what_would_cure_it():
+    found = closed(slack_line(100.0), 0.03)
+    lowest = min(state.smallest for state in every_state(found, motions(found)))
+    assert lowest < 0.0
+    (words,) = {
+        w for w in told(slack_line(100.0), found) if w.startswith("the belt goes slack") and '"start"' in w
+    }
+    cured = float(re.search(r"from 100 N to about ([\d.]+) kN", words).group(1)) * 1e3
+    start = found.settled.states["start"].smallest
+    assert cured == pytest.approx(100.0 - start, rel=5e-3)  # three digits
+    # there nothing is slack but by what the tension adds to the resistance of the pulleys, which a start raises by 1.3
+    added = 1.3 * sum(bend.wrap[1] + 2.0 * (bend.bearings or 0.0) for bend in found.frame.bends)
+    again = closed(slack_line(cured), 0.03).settled.states["start"].smallest
+    assert abs(again) < (added + 5e-3) * cured
+
+
+def test_tensions_of_a_slack_belt_are_straight_lines():
+    """Without wraps and bearings a loop is linear in the setting, above and below no tension."""
+    found = balanced(calculation={"secondary": "C"}, route={"take_up": {"kind": "winch", "position": "tail"}})
+
+    def tensions(setting):
+        steady = found.held(setting).settled.steady
+        return np.append(steady.starts, steady.ends)
+
+    taut, slack = tensions(200e3), tensions(100.0)
+    assert slack.min() < 0.0 < taut.min()
+    assert slack == pytest.approx(taut - 199.9e3, abs=CLOSED * 200e3)
+
+
+def test_a_slack_belt_loads_its_pulleys_as_one_without_tension():
+    """At -1 MN the belt is slack everywhere: each pulley has the wrap of no tension and bears its own weight."""
+    found = balanced().held(-1e6)
+    assert found.tensions.largest < 0.0
+    for pulley, resistance in zip(found.line.pulleys, found.settled.bends, strict=True):
+        # ISO 5048, steel cord: 12 B (200 + 0.01 F/B) d/D [N, m], F = 0; F_t = 0.005 d0/D G
+        wrap = 12.0 * 1.0 * 200.0 * 0.015 / pulley.diameter
+        turn = 0.0 if pulley.driven else 0.005 * pulley.shaft_diameter / pulley.diameter * pulley.mass * 9.81
+        assert resistance == pytest.approx(wrap + turn, rel=ROUNDING), pulley.name
 
 
 def test_the_numbers_follow_the_conveyor_not_its_predecessor():

@@ -246,16 +246,18 @@ def test_factors(kind, value, sign, expected):
 
 
 def test_filling_is_bulk_over_what_the_belt_holds(line, all_of):
-    """The flow raised by the inverse of the filling is the most that a spec may hold on the level."""
+    """The flow raised by the inverse of the filling is what the belt holds on the level; half of it more is refused."""
     filled = all_of["filling of the belt (incline)"]
     assert filled.verdict == "pass"
     (percent,) = re.findall(r"(\d+) % of the level cross-section", filled.found)
     share = float(percent) / 100.0
     flow = line.material.flow
-    line.replace(material={**line.material.as_data(), "flow": f"{flow.magnitude / (share + 0.005):.6g} stph"})
+    line.replace(
+        material={**line.material.as_data(), "flow": f"{1.5 * flow.magnitude / (share + 0.005):.6g} stph"}
+    )
     with pytest.raises(conveyor.InputError, match="needs a cross-section"):
         line.replace(
-            material={**line.material.as_data(), "flow": f"{flow.magnitude / (share - 0.005):.6g} stph"}
+            material={**line.material.as_data(), "flow": f"{1.5 * flow.magnitude / (share - 0.005):.6g} stph"}
         )
 
 

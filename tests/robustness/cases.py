@@ -56,9 +56,9 @@ YAML_SYNTAX = [
     Case("YAML", "nested sixty deep", power("a: " + "[" * 60 + "]" * 60), "nested deeper than 50 levels"),
     Case("YAML", "nested a hundred thousand deep", power("a: " + "[" * 100_000), "nested deeper than 50 levels"),
     Case("YAML", "an alias of itself", power("a: &a [*a]\n"), "nested deeper than 50 levels"),
-    Case("YAML", "aliases that multiply to 10^10 values", power(ALIASES), "more than 100,000 values, aliases expanded"),
+    Case("YAML", "aliases that multiply to 10^10 values", power(ALIASES), "more than 500,000 values, aliases expanded"),
     Case("YAML", "an anchor given twice", edited(("width: 1000 mm", "width: &w 1000 mm"), ("thickness: 6 mm", "thickness: &w 6 mm")), "spec.yaml:5:26 syntax: the anchor (&) is given twice"),
-    Case("YAML", "a megabyte", power(SPEC + "# filler\n" * 120_000), "larger than 500,000 bytes"),
+    Case("YAML", "six megabytes", power(SPEC + "# filler\n" * 700_000), "larger than 5,000,000 bytes"),
 ]  # fmt: skip
 
 ENCODINGS = [

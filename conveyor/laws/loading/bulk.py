@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple, TypedDict
 
 from conveyor.laws.loading.wings import NO_WING, Wing, wings
 from conveyor.require import require, require_angle, require_not_negative, require_positive
@@ -280,3 +280,85 @@ def filled_width(
     )
     root = math.sqrt(linear**2 + 4.0 * square * (area - over_middle))
     return middle + 2.0 * (area - over_middle) / (linear + root)
+
+
+class Spread(NamedTuple):
+    """How a cross-section of bulk lies on a belt: width of belt under it [m], and surcharge angle of its heap [rad]."""
+
+    width: float
+    surcharge_angle: float
+
+
+def spread_bulk(
+    area: float,
+    *,
+    belt_width: float,
+    middle_roll_length: float,
+    trough_angle: float,
+    surcharge_angle: float,
+    inner_wing: Wing = NO_WING,
+) -> Spread:
+    """Width of belt under a cross-section and slope of its heap: `filled_width` as far as the belt's edges.
+
+    What the heap of the bulk's slope does not hold from edge to edge stands in a steeper one on the whole belt:
+    tan β = 6 (A - A_bottom)/W², W the width of the trough across (`cross_section` solved for β).
+
+    Parameters
+    ----------
+    area : float
+        A of the bulk [m²], positive.
+    belt_width : float
+        B [m], positive, at least l_M.
+    middle_roll_length : float
+        l_M [m], at least 0.
+    trough_angle : float
+        λ of the outer rolls [rad], from 0 to below pi/2.
+    surcharge_angle : float
+        β, dynamic slope of the heap [rad], from 0 to below pi/2.
+    inner_wing : Wing
+        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wings`.
+
+    Returns
+    -------
+    Spread
+        Its width, at most B, and its slope, at least β.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range, or a flat belt without a slope holds nothing.
+
+    Notes
+    -----
+    Derived. Steeper than the bulk's own slope it does not stay: such a belt spills, and its check fails.
+
+    Examples
+    --------
+    >>> trough = {"middle_roll_length": 0.4, "trough_angle": 0.6, "surcharge_angle": 0.3}
+    >>> full = cross_section(1.0, **trough).area
+    >>> [round(figure, 9) for figure in spread_bulk(full, belt_width=1.0, **trough)]
+    [1.0, 0.3]
+    >>> [round(figure, 3) for figure in spread_bulk(1.2 * full, belt_width=1.0, **trough)]
+    [1.0, 0.549]
+    """
+    require_positive(belt_width=belt_width)
+    trough: _Trough = {
+        "middle_roll_length": middle_roll_length,
+        "trough_angle": trough_angle,
+        "inner_wing": inner_wing,
+    }
+    width = filled_width(area, surcharge_angle=surcharge_angle, **trough)
+    if width <= belt_width:
+        return Spread(width, surcharge_angle)
+    pieces = wings(belt_width, **trough)
+    across = middle_roll_length + 2.0 * math.fsum(wing.length * math.cos(wing.angle) for wing in pieces)
+    level = cross_section(belt_width, surcharge_angle=0.0, **trough).bottom
+    return Spread(belt_width, math.atan(6.0 * (area - level) / across**2))
+
+
+class _Trough(TypedDict):
+    """What makes the shape of a set."""
+
+    middle_roll_length: float
+    trough_angle: float
+    inner_wing: Wing

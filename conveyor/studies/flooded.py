@@ -1,0 +1,90 @@
+"""The flooded belt: bulk heaped from edge to edge over the whole route, and what drives, belt and structure then bear.
+
+A feeder that does not stop fills the belt to its edges: the load that structures are designed for and from which drives
+may have to start (general knowledge). It is no load to design the conveyor by: nothing is checked, the figures stand
+beside those that are installed.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from conveyor.errors import ConveyorError
+from conveyor.line.stretches import Stretch
+from conveyor.models import LoadCase
+from conveyor.models.variants import with_case
+from conveyor.pipeline import CalculatedConveyor, Variant, calculate_many
+from conveyor.units import from_si
+
+_RTOL = 1e-3
+"""Of the contacts [-]: the flooded cross-section is known to per cents."""
+
+
+@dataclass(frozen=True, eq=False)
+class FloodedBelt:
+    """A conveyor under bulk from edge to edge, on every section that bears some.
+
+    Attributes
+    ----------
+    section, held : float
+        Cross-section of the bulk, and that which the belt holds by ISO 5048, on the level [m²].
+    found : CalculatedConveyor or None
+        Forces, tensions and power, the take-up at its setting; None where it has no answer.
+    reason : str
+        Why it has none.
+    """
+
+    section: float
+    held: float
+    found: CalculatedConveyor | None
+    reason: str = ""
+
+    @property
+    def heaviest(self) -> Stretch | None:
+        """The carry stretch whose sets bear most."""
+        if self.found is None:
+            return None
+        carry = self.found.line.stretches[: self.found.line.count]
+        return max(carry, key=_set_load)
+
+    @property
+    def set_load(self) -> float | None:
+        """Largest force of belt and bulk on a carry set [N]; None without an answer."""
+        return None if self.heaviest is None else _set_load(self.heaviest)
+
+    @property
+    def line_mass(self) -> float | None:
+        """Mass of belt and bulk per length of the carry strand there, without the sets [kg/m]."""
+        return None if self.heaviest is None else self.heaviest.line_mass
+
+
+def _set_load(stretch: Stretch) -> float:
+    """Of belt and bulk on one set [N]."""
+    return math.fsum(roll.force for roll in stretch.loads)
+
+
+def flooded_belt(own: CalculatedConveyor) -> FloodedBelt | None:
+    """Calculate a conveyor with bulk heaped from edge to edge at its surcharge angle; None where it carries none.
+
+    Parameters
+    ----------
+    own : CalculatedConveyor
+        The spec's own load; its take-up setting is that of the flooded belt.
+    """
+    conveyor, line = own.conveyor, own.line
+    section, held = conveyor.flooded_section, conveyor.section_on_slope(0.0)
+    if line.flow == 0.0 or section == 0.0:
+        return None
+    material = conveyor.material
+    flow = from_si(section * line.speed * line.density, "mass flow", "kg/s")
+    try:
+        filled = conveyor.replace(material=material.replace(flow=flow))
+        flooded = with_case(filled, LoadCase.from_data({"name": "flooded", "loading": "full"}))
+    except ConveyorError as error:
+        return FloodedBelt(section, held, None, str(error))
+    variant = Variant(flooded, own.temperature, take_up=own.balance.settled.take_up)
+    (found,) = calculate_many([variant], _RTOL, known=own)
+    if not isinstance(found, CalculatedConveyor):
+        return FloodedBelt(section, held, None, str(found))
+    return FloodedBelt(section, held, found)

@@ -1,0 +1,87 @@
+"""Surveyed profiles: as many sections as a survey has, at an effort that grows with their number."""
+
+from __future__ import annotations
+
+import math
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import conveyor
+from conveyor.analysis import studies
+from conveyor.errors import InputError
+from conveyor.models import Conveyor
+from conveyor.spec import load
+
+SPEC = Path(__file__).parent.parent.parent / "examples" / "specs" / "overland.yaml"
+ALIKE = 1e-9
+"""Of sums of thousands of forces, and contacts read at slightly other loads."""
+
+
+def divided(parts: int, *, curved: float = 0.0) -> Conveyor:
+    """A line of 4 km that rises by 40 m, in equal sections; lifted by a wave of an amplitude [m]."""
+    line = load(SPEC)
+    length, rise = 4000.0 / parts, 40.0 / parts
+    wave = [curved * math.sin(12.0 * math.pi * i / parts) for i in range(parts + 1)]
+    sections: list[dict[str, Any]] = [
+        {
+            "name": f"s{i}",
+            "length": f"{length!r} m",
+            "lift": f"{rise + wave[i + 1] - wave[i]!r} m",
+        }
+        for i in range(parts)
+    ]
+    route = {"sections": sections, "take_up": {"kind": "gravity", "position": "tail"}}
+    return line.replace(route=route, cases=[], drive=line.drive.replace(further_drives=[]))
+
+
+def test_a_straight_line_is_the_same_in_2000_sections() -> None:
+    whole, parts = (conveyor.analyse(divided(n)).balance for n in (2, 2000))
+    assert parts.forces.total == pytest.approx(whole.forces.total, rel=ALIKE)
+    assert parts.tensions.largest == pytest.approx(whole.tensions.largest, rel=ALIKE)
+    assert parts.tensions.smallest == pytest.approx(whole.tensions.smallest, rel=ALIKE)
+
+
+def test_the_effort_grows_with_the_number_of_sections() -> None:
+    """Ten times the sections cost at most twenty times as much: without work that grows with their square, tenfold."""
+
+    def taken(parts: int) -> float:
+        line = divided(parts, curved=10.0)
+        start = time.process_time()
+        found = conveyor.analyse(line)
+        found.contents(studies(line, found))
+        return time.process_time() - start
+
+    taken(50)
+    assert taken(3000) < 20.0 * taken(300)
+
+
+def test_rolls_read_side_by_side_are_those_read_alone() -> None:
+    found = conveyor.analyse(divided(40, curved=10.0))
+    for rolls in found.contacts.rolls:
+        for roll in rolls:
+            alone = roll.curve.at(roll.load.peak_line_load)
+            for name in (
+                "line_load",
+                "half_width",
+                "penetration",
+                "peak_pressure",
+                "peak_error",
+                "resistance",
+            ):
+                assert float(getattr(roll.peak, name)) == pytest.approx(
+                    float(getattr(alone, name)), rel=1e-11
+                ), name
+            assert roll.pressed_in == pytest.approx(
+                float(roll.curve.penetration(roll.load.peak_line_load)), rel=1e-11
+            )
+
+
+def test_more_than_20000_sections_are_refused() -> None:
+    section = {"name": "s", "length": "1 m"}
+    sections = [section | {"name": f"s{i}"} for i in range(20_001)]
+    line = load(SPEC)
+    with pytest.raises(InputError, match=r"route\.sections: got more than 20000 entries, the most allowed"):
+        line.replace(route={"sections": sections})
