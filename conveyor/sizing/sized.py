@@ -2,13 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from conveyor.line.task import Choice, Chosen
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor
+from conveyor.sizing.screen import Limit
 from conveyor.studies.costs import Costs
+from conveyor.units.sentences import Said
+
+
+@dataclass(frozen=True)
+class Shortfall:
+    """Why a calculated candidate is no design.
+
+    Attributes
+    ----------
+    rule : str
+        What it does not keep, without figures.
+    why : Said
+        With its figures, and what to change.
+    over : float
+        What is needed over what series and rules allow [-]; infinite where no figure says it.
+    uses : mapping of str to float
+        Of what each limit of series and rules allows the share that is used, as far as known [-].
+    """
+
+    rule: str
+    why: Said
+    over: float
+    uses: Mapping[Limit, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,6 +53,8 @@ class SizedDesign:
         Cost of a year by the closed estimate that chose it [currency/a].
     roll_life : float
         Of the set that lives shortest, L10 of its bearings [s].
+    uses : mapping of str to float
+        Of what each limit of series and rules allows the share that is used [-].
     """
 
     choice: Choice
@@ -38,6 +64,7 @@ class SizedDesign:
     costs: Costs
     estimate: float
     roll_life: float
+    uses: Mapping[Limit, float]
 
     @property
     def conveyor(self) -> Conveyor:
