@@ -22,7 +22,9 @@ from conveyor.loop.tensions import MotionState
 from conveyor.ties import largest
 
 _STEPS = 50  # wraps add about 1e-3 of what they are bent by: a few are enough
-_SETTLED = 1e-12  # of the setting: no check of a tension that is a small part of it, to 1e-9, fails by what is left
+_SETTLED = (
+    1e-12  # of the setting: no check of a tension that is a small part of it, to 1e-9, fails by what is left
+)
 
 
 @dataclass(frozen=True, eq=False)

@@ -261,8 +261,10 @@ class _Search:
         choice, system = self.choices[i], self.task.duty.report.units
         width, speed = choice.trough.width.belt, choice.speed
         counted = "; ".join(f"{count} times: {rule}" for rule, count in self.reasons.most_common(3))
-        words = f"none of {combinations:,} combinations is a design. The nearest ({{}}, {{}}, {choice.kind}, drives at "
-        words += f"{choice.drives}): {nearest.why.words}. Of {len(self.answers)} calculated {counted}"
+        words = (
+            f"none of {combinations:,} combinations is a design. The nearest ({{}}, {{}}, {choice.kind}; drives: "
+            f"{choice.drives}): {nearest.why.words}. Of {len(self.answers)} calculated {counted}"
+        )
         figures = ((width, "thickness"), (speed, "speed"), *nearest.why.figures)
         return NoSolutionError(Said(words, figures).text(system))
 
@@ -362,7 +364,8 @@ def _estimated(task: SizingTask, choice: Choice, estimate: Screened, i: int) -> 
     """Class and motors as the estimate has them."""
     carcass = task.carcasses[choice.kind][int(estimate.carcass[i])]
     power = abs(float(estimate.force[i])) * choice.speed / task.efficiency
-    motors = tuple(map(task.motors, spread(power, choice.drives)))
+    most = task.largest_drive / task.rules.motor_reserve
+    motors = tuple(task.motors(min(each, most)) for each in spread(power, choice.drives))
     return Chosen(carcass, *task.covers(choice, carcass), motors, 0.0)
 
 
