@@ -209,7 +209,7 @@ class _Search:
         if not probes:
             probes = _shortlist(task, self.choices, self.estimate.farthest, count, covers=True)
         first = _first(task, self.choices, self.estimate, probes, self.anchors)
-        self._levelled(zip(probes, first, strict=True), {})
+        self._levelled(first, {})
 
     def draw(self, most: int) -> list[int]:
         """The cheapest by the estimate that may be designs and are not calculated yet, of so many that lead."""
@@ -236,7 +236,7 @@ class _Search:
         found = _designs(self.task, self.choices, self.estimate, new, self.anchors)
         self.answers |= zip(new, found, strict=True)
         self.reasons.update(one.rule for one in found if isinstance(one, Shortfall))
-        made = ((i, one.found) for i, one in self.answers.items() if isinstance(one, SizedDesign))
+        made = {i: one.found for i, one in self.answers.items() if isinstance(one, SizedDesign)}
         self._levelled(made, {i: one.uses for i, one in self.answers.items()})
         return [one for one in found if isinstance(one, SizedDesign)]
 
@@ -249,7 +249,7 @@ class _Search:
 
     def _levelled(
         self,
-        calculated: Iterable[tuple[int, CalculatedConveyor | None]],
+        calculated: Mapping[int, CalculatedConveyor],
         uses: Mapping[int, Mapping[Limit, float]],
     ) -> None:
         self.levels = _levels(self.choices, self.estimate, self.levels, calculated, uses)
@@ -320,24 +320,20 @@ def _shortlist(
 
 def _first(
     task: SizingTask, choices: Candidates, estimate: Screened, chosen: Sequence[int], anchors: Anchors
-) -> list[CalculatedConveyor | None]:
-    """Calculations of candidates as the estimate chose them, to set its levels; None without an answer."""
-    specs = [task.spec(choices[i], _estimated(task, choices[i], estimate, i), "probe") for i in chosen]
-    return [
-        one if isinstance(one, CalculatedConveyor) else None
-        for one in calculate_many([Variant(spec) for spec in specs], RTOL, anchors=anchors)
-    ]
+) -> dict[int, CalculatedConveyor]:
+    """Calculations of candidates as the estimate chose them, to set its levels; of those with an answer."""
+    specs, _ = _specs(task, {i: (choices[i], _estimated(task, choices[i], estimate, i)) for i in chosen})
+    found = _calculated(specs, anchors, {})
+    return {i: one for i, one in found.items() if isinstance(one, CalculatedConveyor)}
 
 
 def _levels(
     choices: Candidates, estimate: Screened, levels: Levels,
-    calculated: Iterable[tuple[int, CalculatedConveyor | None]], uses: Mapping[int, Mapping[Limit, float]],
+    calculated: Mapping[int, CalculatedConveyor], uses: Mapping[int, Mapping[Limit, float]],
 ) -> Levels:  # fmt: skip
     """Levels at which the estimate meets calculations in the middle."""
     over: dict[object, list[float]] = {}
-    for i, one in calculated:
-        if one is None:
-            continue
+    for i, one in calculated.items():
         main = {force.key: force for force in one.balance.along}
         cover, forces = choices[i].cover, one.balance.forces
         for k, strand in enumerate(STRANDS):
@@ -377,7 +373,7 @@ def _designs(
     anchors: Anchors,
 ) -> list[SizedDesign | Shortfall]:
     """Candidates calculated exactly."""
-    begin = [(choices[i], _estimated(task, choices[i], estimate, i), float(estimate.year[i])) for i in chosen]
+    begin = [(choices[i], _estimated(task, choices[i], estimate, i), float(estimate.cost[i])) for i in chosen]
     return settled(task, begin, anchors)
 
 

@@ -158,8 +158,8 @@ class Screened:
 
     Attributes
     ----------
-    year : ndarray
-        Cost of a year [currency/a]; infinite where no belt, motor or bearing of the series does.
+    cost, year : ndarray
+        Cost of a year [currency/a]; `year` is infinite where no belt, motor or bearing of the series does.
     carcass : ndarray of int
         Number of the class of the belt.
     force : ndarray
@@ -174,6 +174,7 @@ class Screened:
         Of what each limit of series and rules allows the share that is used [-]; beyond 1 none of the series does.
     """
 
+    cost: Array
     year: Array
     carcass: NDArray[np.int64]
     force: Array
@@ -292,9 +293,10 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
     drawn, fed_back = np.maximum(0.0, force) / task.efficiency, np.maximum(0.0, -force) * task.efficiency
     worth = (task.energy_price * drawn - task.feed_in_price * fed_back) * speed * task.seconds / JOULE_PER_KWH
     cost = costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=worth)
-    year = np.where(possible, cost.year, np.inf)
+    yearly = np.asarray(cost.year)
+    year = np.where(possible, yearly, np.inf)
     rolls = length * per_metre.sum(axis=0)
-    return Screened(year, carcass, force, around.indentation, rolls, rest, uses)
+    return Screened(yearly, year, carcass, force, around.indentation, rolls, rest, uses)
 
 
 def _around(

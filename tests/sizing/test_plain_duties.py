@@ -53,7 +53,7 @@ PLAIN = {
     "take-up travel, stone, long": (1000.0, 2000.0, 60.0, STONE | COLD),
     "backstop of the warm belt": (1000.0, 800.0, 15.0, STONE | COLD),
     "backstop of the warm belt, coal": (1000.0, 1000.0, 15.0, COLD),
-    "backstop of the warm belt, short": (1000.0, 500.0, 10.0, COLD),
+    "backstop of the warm belt, long": (1000.0, 1200.0, 20.0, STONE | COLD),
     "motor of the warm belt": (175.0, 5680.0, -104.0, {"ambient": {"temperature": "-19 degC"}, "coldest": "-29 degC"}),
     "breaking away": (110.0, 573.0, -12.0, STONE | {"lump": 100.0, "ambient": {"temperature": "41 degC"}}),
     "US trade": (780.0, 3220.0, 47.0, STONE | {"report": {"units": "US"}}),
@@ -201,7 +201,7 @@ def test_levels_of_one_calculation_make_the_estimate_that_calculation():
         [Variant(task.spec(choices[i], _estimated(task, choices[i], estimate, i), "probe"))]
     )
     assert isinstance(found, CalculatedConveyor)
-    again = screen(task, choices, made := _levels(choices, estimate, levels, [(i, found)], {}))
+    again = screen(task, choices, made := _levels(choices, estimate, levels, {i: found}, {}))
     assert again.carcass[i] == estimate.carcass[i]
     forces = found.balance.forces
     main = {force.key: force for force in found.balance.along}
@@ -213,7 +213,7 @@ def test_levels_of_one_calculation_make_the_estimate_that_calculation():
         "belt strength": 1.2 * float(again.uses["belt strength"][i]),
         "motor power": 0.9 * float(again.uses["motor power"][i]),
     }
-    leveled = screen(task, choices, _levels(choices, again, made, [(i, found)], {i: used}))
+    leveled = screen(task, choices, _levels(choices, again, made, {i: found}, {i: used}))
     for limit, share in used.items():
         assert leveled.uses[limit][i] == pytest.approx(share, rel=1e-9)
 
