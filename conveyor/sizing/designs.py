@@ -53,10 +53,14 @@ BRAKE_RESERVE: Final = 1.3
 """Brake force, or torque of a backstop, over that which holds the loaded belt; general knowledge."""
 _SIZINGS: Final = 5  # belt class, motors and brake against their own tensions
 _SCREENINGS: Final = 2  # levels of the estimate against calculated candidates
-_DRAWS: Final = 30  # of further candidates, where designs are wanted
+_DRAWS: Final = 20  # of further candidates, where designs are wanted
 _NEAR: Final = (
     1.1  # use of a limit by the estimate up to which candidates are calculated where no other is a design
 )
+_ALIKE_DRAWS: Final = (
+    4  # after so many whose candidates all fail by what ends no series, none comes nearer any more
+)
+_NEARER: Final = 0.9  # of what the nearest needs over what it has, from which a draw came nearer
 _PROVEN: Final = 4  # candidates calculated where the estimate finds none near
 TAKE_UP_STEP: Final = 500.0
 """Of a take-up that is set, because the belt would go slack at the least that grip and sag ask for [N]."""
@@ -72,6 +76,13 @@ _BEYOND: Final[Mapping[Limit, str]] = {
     "set rating": "its idler sets bear {}, their class is rated for {}: allow closer sets (rules.carry_spacings)",
 }
 """What to say of a limit, and what to change."""
+_CURES: Final = {
+    "bulk_slip_start": "a softer start (rules.start_factor) or less slope",
+    "bulk_slip_stopping": "less slope or a longer conveyor",
+    "bulk_slip": "less slope",
+    "curve_radius": "a larger radius on the route",
+}
+"""What else of a duty to change where a check fails that no choice of parts mends, by its key."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,15 +156,21 @@ def size(duty: SizingDuty, *, best: int = 3, progress: Progress | None = None) -
     for _ in range(_SCREENINGS):
         new = search.draw(CALCULATED)
         search.calculate(new, progress)
-    ranked = list(search.designs)
+    ranked, alike = list(search.designs), 0
     for _ in range(_DRAWS):
         final = _ranked([*final, *_final(search, ranked, best - len(final))])
         if len(final) >= best:
             break
         new = search.draw(CALCULATED + len(list(search.designs))) or search.nearest(CALCULATED)
+        nearest = search.nearest_over
         if not new:
             break
         ranked = search.calculate(new, progress)
+        fails = {one.rule for i in new if isinstance(one := search.answers[i], Shortfall)}
+        if ranked or fails & set(_BEYOND) or search.nearest_over < _NEARER * nearest:
+            alike = 0
+        elif (alike := alike + 1) == _ALIKE_DRAWS:
+            break
     if not final:
         raise search.refusal(len(every))
     return CalculatedSizing(
@@ -200,6 +217,11 @@ class _Search:
     def short(self) -> Iterator[tuple[int, Shortfall]]:
         """Candidates that are no designs."""
         return ((i, one) for i, one in self.answers.items() if isinstance(one, Shortfall))
+
+    @property
+    def nearest_over(self) -> float:
+        """What the nearest of them needs over what it has [-]; infinite without a figure."""
+        return min((one.over for _, one in self.short), default=math.inf)
 
     def begin(self) -> None:
         """Set the levels of the estimate by a few candidates."""
@@ -671,6 +693,8 @@ def _failed(task: SizingTask, asked: _Asked) -> Iterator[Shortfall]:
                 why = check.why or said(
                     f"{check.name.words}: {check.found.words}", *check.name.figures, *check.found.figures
                 )
+                if check.key in _CURES:
+                    why = replace(why, words=f"{why.words}: {_CURES[check.key]}")
                 yield Shortfall(check.subject.text("SI"), why, check.use or math.inf, asked.uses)
         life = roll_life(one)
         if life < task.roll_life:

@@ -281,7 +281,9 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
         "set rating": np.max(around.sets.T / every.ratings(), axis=0),
     }
     pushed = (every.driven(_at_tail) == 1.0) & (force >= 0.0)  # the belt is pushed by a drive at the tail
-    possible = (np.max(list(uses.values()), axis=0) <= 1.0) & ~pushed
+    possible = np.max(list(uses.values()), axis=0) <= 1.0
+    if (possible & ~pushed).any():
+        possible &= ~pushed
     first = cover == 0
     parts = Parts(
         width=width, length=length, strength=series.strengths[kind, carcass], steel_cord=steel.astype(float),
