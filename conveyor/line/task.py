@@ -30,7 +30,13 @@ from conveyor.laws.sizing import (
     standard_edge_distance,
     wear_addition,
 )
-from conveyor.laws.tension import least_pulley_diameter
+from conveyor.laws.take_up import (
+    PERMANENT_STRETCH_STEEL_CORD,
+    PERMANENT_STRETCH_TEXTILE,
+    STEEL_EXPANSION,
+    TRAVEL_RESERVE,
+)
+from conveyor.laws.tension import least_pulley_diameter, usual_stiffness
 from conveyor.line.defaults import SHAFT, usual_lump_factor
 from conveyor.models import Conveyor
 from conveyor.models.sizing import (
@@ -79,6 +85,15 @@ class CarcassClass:
         if self.rating is not None:
             return self.strength / self.rating
         return CLASSIC_SAFETY["steel cord" if self.steel_cord else "textile"]
+
+    @property
+    def stiffness(self) -> float:
+        """Usual tensile stiffness per width [N/m]."""
+        strength = self.strength if self.rating is None else None
+        usual = usual_stiffness(strength, rating=self.rating, carcass=self.kind)
+        if usual is None:
+            raise AssertionError("every kind of the series has a usual stiffness")
+        return usual
 
     @property
     def name(self) -> str:
@@ -181,7 +196,8 @@ class Choice:
 class Chosen:
     """What follows from a candidate's tensions: class, covers [m], motors of each drive [W], brakes at the belt [N].
 
-    `backstop`: torque of that on the first pulley [N m]; `settling`: whether it follows from exact ones already.
+    `backstop`: torque of that on the first pulley [N m]; `take_up`: tension that it is set to [N], 0 where grip and sag
+    alone set it; `settling`: whether it follows from exact ones already.
     """
 
     carcass: CarcassClass
@@ -190,6 +206,7 @@ class Chosen:
     motors: tuple[float, ...]
     brake: float
     backstop: float = 0.0
+    take_up: float = 0.0
     settling: bool = False
 
 
@@ -305,6 +322,23 @@ class SizingTask:
     def take_up_travel(self) -> float:
         """Longest of a take-up [m]."""
         return si(self.rules.take_up_travel)
+
+    @property
+    def take_up_strain(self) -> float:
+        """Strain of the loop that the take-up's travel holds beside the reserve [-]."""
+        return self.take_up_travel / (self.length * (1.0 + TRAVEL_RESERVE.value))
+
+    def lasting_strain(self, kind: str) -> float:
+        """Permanent stretch of a kind of carcass, and what it grows between the temperatures of the duty [-]."""
+        if kind != "steel cord":
+            return PERMANENT_STRETCH_TEXTILE.value
+        return PERMANENT_STRETCH_STEEL_CORD.value + STEEL_EXPANSION.value * self.warmth
+
+    @property
+    def warmth(self) -> float:
+        """Between the coldest covers and those of the duty's temperature [K]."""
+        coldest = self.duty.coldest
+        return si(self.duty.ambient.belt) - si(coldest) if coldest is not None and self.cold else 0.0
 
     @property
     def kinds(self) -> tuple[str, ...]:
@@ -530,7 +564,8 @@ class SizingTask:
                 ("tail", "tail", drive_diameter if "tail" in choice.drives else bend_diameter),
             )
         ]
-        route["take_up"] = {"kind": "gravity"}
+        tension = {"tension": written(chosen.take_up, "kN", 4)} if chosen.take_up > 0.0 else {}
+        route["take_up"] = {"kind": "gravity", **tension}
         covers = duty.covers
         return Conveyor.from_data({
             "name": name,

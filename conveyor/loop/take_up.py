@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -17,11 +18,13 @@ from conveyor.laws.take_up import (
 )
 from conveyor.line.line import BeltBody, Line, TakeUpUnit
 from conveyor.loop.balance import Balance, held
-from conveyor.loop.equilibrium import holds
 from conveyor.loop.tensions import MotionState
 from conveyor.ties import largest
 
 _STEPS = 50  # wraps add about 1e-3 of what they are bent by: a few are enough
+_SETTLED = (
+    1e-12  # of the setting: no check of a tension that is a small part of it, to 1e-9, fails by what is left
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +103,7 @@ def at_one_setting(loops: Sequence[Balance], asking: Sequence[bool] = ()) -> lis
     for _ in range(_STEPS):
         closed = held(loops, kept)
         asked = max(closed[i].settled.needed for i in served)
-        if holds(kept.tension, asked) and holds(asked, kept.tension):
+        if math.isclose(kept.tension, asked, rel_tol=_SETTLED):
             return closed
         kept = kept._replace(tension=asked)
     raise NoSolutionError(

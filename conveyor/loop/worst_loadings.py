@@ -60,7 +60,8 @@ class CriterionLoadings(Loadings):
                     best[name] = (most, flags[int(np.argmax(values >= most - slack))])
             if best == before or not EVERY < self.count <= ONE_BY_ONE:
                 break
-            near = np.concatenate([loading ^ self._single for _, loading in best.values()])
+            single = np.eye(self.count, dtype=bool)
+            near = np.concatenate([loading ^ single for _, loading in best.values()])
             flags = np.array([row for row in _distinct(near) if row.tobytes() not in known])
             if not flags.size:
                 break

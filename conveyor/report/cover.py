@@ -220,7 +220,7 @@ def _checked(page: Page, row: int) -> int:
     _rule(sheet, row, f"Checks: {counted}")
     header_row(sheet, row + 1, 1, ("check", "", "", "calculated, required", "margin", "case", "verdict"))
     sheet.cell(row + 1, 5).alignment = Alignment(horizontal="right", vertical="center")
-    written = unit("share", system)
+    written = unit("margin", system)
     leading = [check for check in checks if check.leads or check.verdict == "FAIL"]
     safe = sorted((check for check in leading if check.verdict == "pass"), key=_margin)
     left = safe[len(safe) - max(0, len(leading) - _MOST_CHECKS) :]

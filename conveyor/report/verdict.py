@@ -182,7 +182,8 @@ def sentence(governing: Sequence[Check], system: System) -> str:
     if margins:
         margin, nearest = min(margins, key=lambda each: each[0])
         words += (
-            f"; {'otherwise ' if least else ''}least margin {percent(margin, 1)}, {_told(nearest, system)}"
+            f"; {'otherwise ' if least else ''}least margin {unit('margin', system).written(margin)}, "
+            f"{_told(nearest, system)}"
         )
     missing = [check for check in governing if check.verdict == "not checked"]
     if missing:

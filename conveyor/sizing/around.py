@@ -8,7 +8,7 @@ from typing import Final, TypeAlias
 
 from conveyor.line.task import Choice, RollSize, SizingTask, Trough
 from conveyor.sizing.designs import settled
-from conveyor.sizing.sized import SizedDesign
+from conveyor.sizing.sized import Shortfall, SizedDesign
 
 _Point: TypeAlias = tuple[float, "Choice | None"]
 _THICKER: Final = (0, 2, 4, 8)  # steps of the bottom cover
@@ -56,7 +56,12 @@ def around(task: SizingTask, design: SizedDesign) -> tuple[VariedChoice, ...]:
     axes = list(_axes(task, base, design.chosen.bottom))
     varied = list(dict.fromkeys(choice for *_, points in axes for _, choice in points if choice is not None))
     begin = [(choice, replace(design.chosen, settling=False), design.estimate) for choice in varied]
-    answers = dict(zip(varied, settled(task, begin, []), strict=True))
+    made = settled(task, begin, [])
+    system = task.duty.report.units
+    answers = {
+        choice: one.why.text(system) if isinstance(one, Shortfall) else one
+        for choice, one in zip(varied, made, strict=True)
+    }
     return tuple(
         VariedChoice(
             name,

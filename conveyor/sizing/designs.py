@@ -7,16 +7,19 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from conveyor.checks import checks, motor_power
 from conveyor.errors import InputError, NoSolutionError, RangeError
+from conveyor.laws.belt import RATED_START
 from conveyor.laws.drives import next_preferred
+from conveyor.laws.take_up import TRAVEL_RESERVE
 from conveyor.line.stretches import STRANDS
 from conveyor.line.task import CarcassClass, Choice, Chosen, SizingTask, spread
 from conveyor.models import Conveyor
@@ -30,12 +33,13 @@ from conveyor.pipeline import (
     calculate_many,
     take_up_of,
 )
-from conveyor.sizing.screen import Candidates, Levels, Screened, first_levels, screen
-from conveyor.sizing.sized import SizedDesign, highest_tension
+from conveyor.sizing.screen import Candidates, Levels, Limit, Screened, first_levels, screen
+from conveyor.sizing.sized import Shortfall, SizedDesign, highest_tension
 from conveyor.sizing.spacing import graduated_spacings
 from conveyor.studies.costs import costs, parts_of, roll_life
 from conveyor.studies.loads import EveryLoad
 from conveyor.studies.states import at_one_take_up, load_states
+from conveyor.units.sentences import Said, figure, quoted, said
 
 RTOL: Final = 1e-4
 """Of the contacts, as in studies."""
@@ -49,11 +53,36 @@ BRAKE_RESERVE: Final = 1.3
 """Brake force, or torque of a backstop, over that which holds the loaded belt; general knowledge."""
 _SIZINGS: Final = 5  # belt class, motors and brake against their own tensions
 _SCREENINGS: Final = 2  # levels of the estimate against calculated candidates
-_TOO_MUCH: Final = (
-    "no candidate has a belt, motors, bearings and take-up that do among the series: allow further carcasses, drives, "
-    "motors, closer sets (rules.carcasses, rules.drives, rules.motors_per_pulley, rules.take_up_travel, "
-    "rules.carry_spacings), or split the conveyor"
+_DRAWS: Final = 20  # of further candidates, where designs are wanted
+_NEAR: Final = (
+    1.1  # use of a limit by the estimate up to which candidates are calculated where no other is a design
 )
+_ALIKE_DRAWS: Final = (
+    4  # after so many whose candidates all fail by what ends no series, none comes nearer any more
+)
+_NEARER: Final = 0.9  # of what the nearest needs over what it has, from which a draw came nearer
+_PROVEN: Final = 4  # candidates calculated where the estimate finds none near
+TAKE_UP_STEP: Final = 500.0
+"""Of a take-up that is set, because the belt would go slack at the least that grip and sag ask for [N]."""
+_BEYOND: Final[Mapping[Limit, str]] = {
+    "belt strength": "its tension asks for a belt of {}, the strongest of the series has {}: allow further drives or "
+    "carcasses (rules.drives, rules.carcasses), or split the conveyor",
+    "motor power": "a drive pulley needs motors of {}, one may have {}: allow further or larger motors, or further "
+    "pulleys (rules.motors_per_pulley, rules.largest_motor, rules.drives), or split the conveyor",
+    "take-up travel": "its take-up needs {} of travel, {} are allowed: allow a longer one or steel cord "
+    "(rules.take_up_travel, rules.carcasses)",
+    "bearings": "the bearings of its idler sets reach an L10 of {}, {} are asked: allow closer sets or a shorter life "
+    "(rules.carry_spacings, rules.return_spacings, rules.roll_life)",
+    "set rating": "its idler sets bear {}, their class is rated for {}: allow closer sets (rules.carry_spacings)",
+}
+"""What to say of a limit, and what to change."""
+_CURES: Final = {
+    "bulk_slip_start": "a softer start (rules.start_factor) or less slope",
+    "bulk_slip_stopping": "less slope or a longer conveyor",
+    "bulk_slip": "less slope",
+    "curve_radius": "a larger radius on the route",
+}
+"""What else of a duty to change where a check fails that no choice of parts mends, by its key."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,59 +146,163 @@ def size(duty: SizingDuty, *, best: int = 3, progress: Progress | None = None) -
     Raises
     ------
     NoSolutionError
-        No candidate keeps the rules; the message says which rule leaves none.
+        No candidate keeps the rules; the message says what limits the nearest one, with figures, and what to change.
     """
     task = SizingTask(duty)
-    choices = Candidates.of(task)
-    if not len(choices):
+    every = Candidates.of(task)
+    if not len(every):
         task.fits()
         raise NoSolutionError(
             "no belt width and speed keep the rules of lumps, filling, edge distance and roll speed: allow wider belts "
             "(rules.widths), other speeds (rules.speeds, rules.fastest, rules.roll_rotation) fillings or troughs"
         )
-    candidates, choices, levels = len(choices), choices.taken_up(), first_levels(len(duty.covers))
-    estimate = screen(task, choices, levels)
-    probes = _shortlist(task, choices, estimate, 2 * len(duty.covers), covers=True)
-    if not probes:
-        raise NoSolutionError(_TOO_MUCH)
-    anchors: Anchors = []
-    first = _first(task, choices, estimate, probes, anchors)
-    levels = _levels(choices, estimate, probes, first, levels)
-    sized: dict[int, SizedDesign | str] = {}
+    choices = every.taken_up()
+    if not len(choices):
+        raise _too_long(task)
+    search = _Search(task, choices, first_levels(len(duty.covers)))
+    search.begin()
+    final: list[SizedDesign] = []
     for _ in range(_SCREENINGS):
-        estimate = screen(task, choices, levels)
-        new = [i for i in _shortlist(task, choices, estimate, CALCULATED) if i not in sized]
-        if progress is not None:
-            progress(len(sized), len(sized) + len(new))
-        sized |= zip(new, _designs(task, choices, estimate, new, anchors), strict=True)
-        made = {i: one for i, one in sized.items() if isinstance(one, SizedDesign)}
-        levels = _levels(choices, estimate, list(made), [one.found for one in made.values()], levels)
-    if not sized:
-        raise NoSolutionError(_TOO_MUCH)
-    reasons = Counter(one for one in sized.values() if isinstance(one, str))
-    final = _final(task, made.values(), best, anchors, reasons)
+        new = search.draw(CALCULATED)
+        search.calculate(new, progress)
+    ranked, alike = list(search.designs), 0
+    for _ in range(_DRAWS):
+        final = _ranked([*final, *_final(search, ranked, best - len(final))])
+        if len(final) >= best:
+            break
+        new = search.draw(CALCULATED + len(list(search.designs))) or search.nearest(CALCULATED)
+        nearest = search.nearest_over
+        if not new:
+            break
+        ranked = search.calculate(new, progress)
+        fails = {one.rule for i in new if isinstance(one := search.answers[i], Shortfall)}
+        if ranked or fails & set(_BEYOND) or search.nearest_over < _NEARER * nearest:
+            alike = 0
+        elif (alike := alike + 1) == _ALIKE_DRAWS:
+            break
     if not final:
-        told = "; ".join(f"{count} times: {why}" for why, count in reasons.most_common(3))
-        raise NoSolutionError(f"no candidate of {len(sized)} calculated keeps every check: {told}")
+        raise search.refusal(len(every))
     return CalculatedSizing(
         duty,
         tuple(final[:best]),
-        candidates,
-        int(np.isfinite(estimate.year).sum()),
-        len(sized),
-        reasons,
-        max(abs(one.estimate / one.year - 1.0) for one in [*made.values(), *final]),
+        len(every),
+        int(np.isfinite(search.estimate.year).sum()),
+        len(search.answers),
+        search.reasons,
+        max(abs(one.estimate / one.year - 1.0) for one in [*search.designs, *final]),
     )
 
 
-def _final(
-    task: SizingTask,
-    designs: Iterable[SizedDesign],
-    best: int,
-    anchors: Anchors,
-    reasons: Counter[str],
-) -> list[SizedDesign]:
+def _too_long(task: SizingTask) -> NoSolutionError:
+    """Every carcass stretches more for good than the take-up's travel holds."""
+    least = min(task.lasting_strain(kind) for kind in task.kinds) * task.length
+    reserve = 1.0 + TRAVEL_RESERVE.value
+    kinds, system = " and ".join(task.kinds), task.duty.report.units
+    needed, allowed = (figure(x, "length", system) for x in (least * reserve, task.take_up_travel))
+    cure = "" if "steel cord" in task.kinds else ", or steel cord (rules.carcasses)"
+    return NoSolutionError(
+        f"the lasting stretch of {kinds} belts alone asks for {needed} of the take-up's travel, {allowed} are allowed: "
+        f"a longer one (rules.take_up_travel){cure}"
+    )
+
+
+class _Search:
+    """Candidates of a duty, the estimate of each, and what is calculated of them so far."""
+
+    def __init__(self, task: SizingTask, choices: Candidates, levels: Levels) -> None:
+        self.task, self.choices, self.levels = task, choices, levels
+        self.estimate = screen(task, choices, levels)
+        self.answers: dict[int, SizedDesign | Shortfall] = {}
+        """Of candidates calculated under the full belt; of those that fail under another load that failure."""
+        self.anchors: Anchors = []
+        self.reasons: Counter[str] = Counter()
+
+    @property
+    def designs(self) -> Iterator[SizedDesign]:
+        """Those that are none so far of another load."""
+        return (one for one in self.answers.values() if isinstance(one, SizedDesign))
+
+    @property
+    def short(self) -> Iterator[tuple[int, Shortfall]]:
+        """Candidates that are no designs."""
+        return ((i, one) for i, one in self.answers.items() if isinstance(one, Shortfall))
+
+    @property
+    def nearest_over(self) -> float:
+        """What the nearest of them needs over what it has [-]; infinite without a figure."""
+        return min((one.over for _, one in self.short), default=math.inf)
+
+    def begin(self) -> None:
+        """Set the levels of the estimate by a few candidates."""
+        task = self.task
+        count = 2 * len(task.duty.covers)
+        probes = _shortlist(task, self.choices, self.estimate.year, count, covers=True)
+        if not probes:
+            probes = _shortlist(task, self.choices, self.estimate.farthest, count, covers=True)
+        first = _first(task, self.choices, self.estimate, probes, self.anchors)
+        self._levelled(first, {})
+
+    def draw(self, most: int) -> list[int]:
+        """The cheapest by the estimate that may be designs and are not calculated yet, of so many that lead."""
+        year = self.estimate.year.copy()
+        year[[i for i, _ in self.short]] = np.inf
+        listed = _shortlist(self.task, self.choices, year, most)
+        return [i for i in listed if i not in self.answers]
+
+    def nearest(self, most: int) -> list[int]:
+        """Those that the estimate finds beyond a limit by no more than it may be off, the nearest first.
+
+        Where none is calculated yet the nearest of all, so that a refusal rests on exact figures.
+        """
+        over = self.estimate.farthest.copy()
+        over[list(self.answers)] = np.inf
+        if self.answers:
+            over[over > _NEAR] = np.inf
+        return _shortlist(self.task, self.choices, over, most if self.answers else _PROVEN)
+
+    def calculate(self, new: Sequence[int], progress: Progress | None) -> list[SizedDesign]:
+        """Calculate candidates; the levels of the estimate follow. Those that are designs."""
+        if progress is not None:
+            progress(len(self.answers), len(self.answers) + len(new))
+        found = _designs(self.task, self.choices, self.estimate, new, self.anchors)
+        self.answers |= zip(new, found, strict=True)
+        self.reasons.update(one.rule for one in found if isinstance(one, Shortfall))
+        made = {i: one.found for i, one in self.answers.items() if isinstance(one, SizedDesign)}
+        self._levelled(made, {i: one.uses for i, one in self.answers.items()})
+        return [one for one in found if isinstance(one, SizedDesign)]
+
+    def failed(self, design: SizedDesign, why: Shortfall) -> None:
+        """A design is none under another load."""
+        self.reasons[why.rule] += 1
+        for i, one in self.answers.items():
+            if one is design:
+                self.answers[i] = why
+
+    def _levelled(
+        self,
+        calculated: Mapping[int, CalculatedConveyor],
+        uses: Mapping[int, Mapping[Limit, float]],
+    ) -> None:
+        self.levels = _levels(self.choices, self.estimate, self.levels, calculated, uses)
+        self.estimate = screen(self.task, self.choices, self.levels)
+
+    def refusal(self, combinations: int) -> NoSolutionError:
+        """Why there is no design: what the candidate that comes nearest to one does not keep."""
+        i, nearest = min(self.short, key=lambda of: of[1].over)
+        choice, system = self.choices[i], self.task.duty.report.units
+        width, speed = choice.trough.width.belt, choice.speed
+        counted = "; ".join(f"{count} times: {rule}" for rule, count in self.reasons.most_common(3))
+        words = (
+            f"none of {combinations:,} combinations is a design. The nearest ({{}}, {{}}, {choice.kind}; drives: "
+            f"{choice.drives}): {nearest.why.words}. Of {len(self.answers)} calculated {counted}"
+        )
+        figures = ((width, "thickness"), (speed, "speed"), *nearest.why.figures)
+        return NoSolutionError(Said(words, figures).text(system))
+
+
+def _final(search: _Search, designs: Iterable[SizedDesign], best: int) -> list[SizedDesign]:
     """Designs sized for every load, by rank; further loads never make one cheaper, so that no other can be better."""
+    task, anchors = search.task, search.anchors
     ranked = sorted(designs, key=_year)
     if task.rules.graduated and len(task.sections) > 1:
         first = max(best, GRADUATED)
@@ -178,14 +311,20 @@ def _final(
     while ranked and (len(final) < best or ranked[0].year < final[best - 1].year):
         batch, ranked = ranked[: max(1, best - len(final))], ranked[max(1, best - len(final)) :]
         begin = [(design.choice, _foreseen(task, design), design.estimate) for design in batch]
-        for one in settled(task, begin, anchors, every_load=True, made=batch):
+        made = settled(task, begin, anchors, every_load=True, made=batch)
+        for design, one in zip(batch, made, strict=True):
             if isinstance(one, SizedDesign):
                 final.append(one)
             else:
-                reasons[one] += 1
-        cheapest_last = sorted(final, key=_year, reverse=True)
-        final = sorted({replace(one.choice, graduated=()): one for one in cheapest_last}.values(), key=_year)
+                search.failed(design, one)
+        final = _ranked(final)
     return final
+
+
+def _ranked(designs: Iterable[SizedDesign]) -> list[SizedDesign]:
+    """The cheapest first; of those that differ in graduated distances alone the cheapest one."""
+    cheapest_last = sorted(designs, key=_year, reverse=True)
+    return sorted({replace(one.choice, graduated=()): one for one in cheapest_last}.values(), key=_year)
 
 
 def _year(design: SizedDesign) -> float:
@@ -193,13 +332,13 @@ def _year(design: SizedDesign) -> float:
 
 
 def _shortlist(
-    task: SizingTask, choices: Candidates, estimate: Screened, most: int, *, covers: bool = False
+    task: SizingTask, choices: Candidates, order: NDArray[np.float64], most: int, *, covers: bool = False
 ) -> list[int]:
-    """Candidates of the lowest estimated cost, not too many alike; with `covers` as many of each cover."""
+    """Candidates of the lowest figures that are finite, not too many alike; with `covers` as many of each cover."""
     taken: Counter[object] = Counter()
     chosen: list[int] = []
-    for i in np.argsort(estimate.year, kind="stable").tolist():
-        if not math.isfinite(estimate.year[i]) or len(chosen) == most:
+    for i in np.argsort(order, kind="stable").tolist():
+        if not math.isfinite(order[i]) or len(chosen) == most:
             break
         choice = choices[i]
         key: object = (choice.trough.width, choice.speed, choice.drives) if not covers else choice.cover
@@ -212,24 +351,20 @@ def _shortlist(
 
 def _first(
     task: SizingTask, choices: Candidates, estimate: Screened, chosen: Sequence[int], anchors: Anchors
-) -> list[CalculatedConveyor | None]:
-    """Calculations of candidates as the estimate chose them, to set its levels; None without an answer."""
-    specs = [task.spec(choices[i], _estimated(task, choices[i], estimate, i), "probe") for i in chosen]
-    return [
-        one if isinstance(one, CalculatedConveyor) else None
-        for one in calculate_many([Variant(spec) for spec in specs], RTOL, anchors=anchors)
-    ]
+) -> dict[int, CalculatedConveyor]:
+    """Calculations of candidates as the estimate chose them, to set its levels; of those with an answer."""
+    specs, _ = _specs(task, {i: (choices[i], _estimated(task, choices[i], estimate, i)) for i in chosen})
+    found = _calculated(specs, anchors, {})
+    return {i: one for i, one in found.items() if isinstance(one, CalculatedConveyor)}
 
 
 def _levels(
-    choices: Candidates, estimate: Screened, chosen: Sequence[int],
-    results: Iterable[CalculatedConveyor | None], levels: Levels,
+    choices: Candidates, estimate: Screened, levels: Levels,
+    calculated: Mapping[int, CalculatedConveyor], uses: Mapping[int, Mapping[Limit, float]],
 ) -> Levels:  # fmt: skip
     """Levels at which the estimate meets calculations in the middle."""
     over: dict[object, list[float]] = {}
-    for i, one in zip(chosen, results, strict=True):
-        if one is None:
-            continue
+    for i, one in calculated.items():
         main = {force.key: force for force in one.balance.along}
         cover, forces = choices[i].cover, one.balance.forces
         for k, strand in enumerate(STRANDS):
@@ -238,20 +373,26 @@ def _levels(
         over.setdefault("drag", []).append(main["idler_rotation"].total / estimate.rolls[i])
         over.setdefault("rest", []).append((forces.secondary + forces.special) / estimate.rest[i])
 
+    for i, used in uses.items():
+        for limit, exact in used.items():
+            over.setdefault(limit, []).append(exact / float(estimate.uses[limit][i]))
+
     def middle(key: object) -> float:
         return float(np.median(over[key])) if key in over else 1.0
 
     carry, back = ([k * middle((strand, i)) for i, k in enumerate(of)] for strand, of in
                    zip(STRANDS, (levels.carry, levels.back), strict=True))  # fmt: skip
     drag = middle("drag") if "drag" in over else levels.drag
-    return Levels(tuple(carry), tuple(back), drag, levels.rest * middle("rest"))
+    limits = {limit: levels.uses.get(limit, 1.0) * middle(limit) for limit in estimate.uses}
+    return Levels(tuple(carry), tuple(back), drag, levels.rest * middle("rest"), limits)
 
 
 def _estimated(task: SizingTask, choice: Choice, estimate: Screened, i: int) -> Chosen:
     """Class and motors as the estimate has them."""
     carcass = task.carcasses[choice.kind][int(estimate.carcass[i])]
     power = abs(float(estimate.force[i])) * choice.speed / task.efficiency
-    motors = tuple(map(task.motors, spread(power, choice.drives)))
+    most = task.largest_drive / task.rules.motor_reserve
+    motors = tuple(task.motors(min(each, most)) for each in spread(power, choice.drives))
     return Chosen(carcass, *task.covers(choice, carcass), motors, 0.0)
 
 
@@ -261,9 +402,9 @@ def _designs(
     estimate: Screened,
     chosen: Sequence[int],
     anchors: Anchors,
-) -> list[SizedDesign | str]:
+) -> list[SizedDesign | Shortfall]:
     """Candidates calculated exactly."""
-    begin = [(choices[i], _estimated(task, choices[i], estimate, i), float(estimate.year[i])) for i in chosen]
+    begin = [(choices[i], _estimated(task, choices[i], estimate, i), float(estimate.cost[i])) for i in chosen]
     return settled(task, begin, anchors)
 
 
@@ -274,8 +415,10 @@ def settled(
     *,
     every_load: bool = False,
     made: Sequence[SizedDesign] = (),
-) -> list[SizedDesign | str]:
-    """Designs whose class, motors and brake suit their own calculated tensions, or why there is none.
+) -> list[SizedDesign | Shortfall]:
+    """Designs whose class, motors, brake and take-up suit their own calculated tensions, or why there is none.
+
+    At the coldest and at the temperature of the duty: less friction asks more of a backstop or a brake.
 
     Parameters
     ----------
@@ -286,67 +429,96 @@ def settled(
     anchors : list
         Of the compounds, from calculations before; what is new is added.
     every_load : bool
-        Whether empty, inclines only, declines only and the worst loadings count, too, not the full belt alone; then
-        also at the temperature of the duty, where less friction relieves a brake.
+        Whether empty, inclines only, declines only and the worst loadings count, too, not the full belt alone.
     made : sequence of SizedDesign
         The same candidates as designs for the full belt: what is calculated of them is not calculated again.
     """
     now = {i: chosen for i, (_, chosen, _) in enumerate(begin)}
-    designs: dict[int, SizedDesign | str] = {}
-    sized: dict[int, tuple[Chosen, Conveyor, tuple[CalculatedConveyor, ...]]] = {}
-    mild: dict[int, CalculatedConveyor] = {}
+    answers: dict[int, SizedDesign | Shortfall] = {}
+    both = set(now) if every_load and task.cold else set[int]()  # calculated at both temperatures
     for _ in range(_SIZINGS):
         specs, refused = _specs(task, {i: (begin[i][0], chosen) for i, chosen in now.items()})
-        designs |= refused
-        coldest = {i: task.colder(spec) if task.cold else spec for i, spec in specs.items()}
+        answers |= refused
         alike = {i: made[i] for i in specs if made and now[i] == made[i].chosen}
+        coldest = {i: task.colder(spec) if task.cold else spec for i, spec in specs.items()}
+        known = {i: one.found for i, one in alike.items()}
         cold = _calculated(coldest, anchors, {i: one.coldest for i, one in alike.items()})
-        warm = dict[int, CalculatedConveyor | NoAnswer]()
-        if every_load and task.cold:
-            warm = _calculated(specs, anchors, {i: one.found for i, one in alike.items()})
+        warm = _calculated({i: spec for i, spec in specs.items() if i in both}, anchors, known)
+        asked = _asked(task, begin, now, cold, warm, every_load=every_load)
+        late = {i for i, one in asked.items() if task.cold and i not in both and one.settles(now[i])}
+        warm = _calculated({i: specs[i] for i in late}, anchors, {})
+        asked |= _asked(task, begin, now, {i: cold[i] for i in late}, warm, every_load=every_load)
+        both |= late
+        answers |= {i: one.short for i, one in asked.items() if one.short is not None}
         again = {}
-        for i, answer in cold.items():
-            try:
-                loads = _loads(answer, every_load=every_load)
-                if i in warm:
-                    mild[i], *others = _loads(warm[i], every_load=True)
-                    loads += (mild[i], *others)
-                wanted = _chosen(task, begin[i][0], now[i], loads)
-            except (NoSolutionError, RangeError, InputError) as error:
-                designs[i] = str(error)
-                continue
-            if replace(wanted, settling=now[i].settling) == now[i]:
-                sized[i] = now[i], specs[i], loads
-            else:
-                again[i] = wanted
+        for i, one in asked.items():
+            if one.settles(now[i]):
+                answers[i] = _design(task, begin[i], now[i], one)
+            elif one.chosen is not None:
+                again[i] = one.chosen
         now = again
         if not now:
             break
-    held = {
-        i: made[i].found for i, (chosen, _, _) in sized.items() if made and chosen == made[i].chosen
-    } | mild
-    left = {i: spec for i, (_, spec, _) in sized.items() if task.cold}
-    found = _calculated(left, anchors, {i: one for i, one in held.items() if i in left})
-    for i, (chosen, _, loads) in sized.items():
-        answer = found.get(i, loads[0])
-        designs[i] = (
-            _design(task, begin[i], chosen, answer, loads)
-            if isinstance(answer, CalculatedConveyor)
-            else str(answer)
-        )
-    return [designs.get(i, "belt class and motors do not settle") for i in range(len(begin))]
+    unsettled = Shortfall("parts do not settle", said("belt class and motors do not settle"), math.inf, {})
+    return [answers.get(i, unsettled) for i in range(len(begin))]
+
+
+@dataclass(frozen=True, eq=False)
+class _Asked:
+    """What the loads of a candidate, those at the coldest first, ask of its parts; or why no parts do."""
+
+    cold: tuple[CalculatedConveyor, ...] = ()
+    warm: tuple[CalculatedConveyor, ...] = ()
+    chosen: Chosen | None = None
+    uses: Mapping[Limit, float] = field(default_factory=dict)
+    short: Shortfall | None = None
+
+    @property
+    def loads(self) -> tuple[CalculatedConveyor, ...]:
+        """All of them."""
+        return self.cold + self.warm
+
+    def settles(self, now: Chosen) -> bool:
+        """Whether the parts that they were calculated with are those asked for."""
+        return self.chosen is not None and replace(self.chosen, settling=now.settling) == now
+
+
+def _asked(
+    task: SizingTask,
+    begin: Sequence[tuple[Choice, Chosen, float]],
+    now: Mapping[int, Chosen],
+    cold: Mapping[int, CalculatedConveyor | NoAnswer],
+    warm: Mapping[int, CalculatedConveyor | NoAnswer],
+    *,
+    every_load: bool,
+) -> dict[int, _Asked]:
+    """What candidates calculated at the coldest, and some at the temperature of the duty, ask of their parts."""
+    asked = {}
+    for i, answer in cold.items():
+        try:
+            loads = _loads(answer, every_load=every_load)
+            milder = _loads(warm[i], every_load=every_load) if i in warm else ()
+        except (NoSolutionError, RangeError, InputError) as error:
+            asked[i] = _Asked(short=_without_answer(error))
+            continue
+        asked[i] = _chosen(task, begin[i][0], now[i], _Asked(loads, milder), every_load=every_load)
+    return asked
+
+
+def _without_answer(error: NoAnswer) -> Shortfall:
+    return Shortfall(str(error), said(quoted(str(error))), math.inf, {})
 
 
 def _specs(
     task: SizingTask, now: Mapping[int, tuple[Choice, Chosen]]
-) -> tuple[dict[int, Conveyor], dict[int, str]]:
+) -> tuple[dict[int, Conveyor], dict[int, Shortfall]]:
     """Specs of candidates as they are chosen now, and why others have none."""
-    specs, refused = dict[int, Conveyor](), dict[int, str]()
+    specs, refused = dict[int, Conveyor](), dict[int, Shortfall]()
     for i, (choice, chosen) in now.items():
         try:
             specs[i] = task.spec(choice, chosen, task.duty.name)
         except InputError as error:
-            refused[i] = str(error)
+            refused[i] = _without_answer(error)
     return specs, refused
 
 
@@ -373,40 +545,97 @@ def _loads(answer: CalculatedConveyor | NoAnswer, *, every_load: bool) -> tuple[
     return EveryLoad(*at_one_take_up(load_states(answer.conveyor, answer), None)).designing
 
 
-def _chosen(task: SizingTask, choice: Choice, before: Chosen, pair: Sequence[CalculatedConveyor]) -> Chosen:
-    """What calculated tensions ask for; after the first time no weaker class is taken, so that sizing ends.
+def _chosen(task: SizingTask, choice: Choice, before: Chosen, asked: _Asked, *, every_load: bool) -> _Asked:
+    """The parts that calculated tensions ask for, or what no part of the series does.
 
-    Raises
-    ------
-    NoSolutionError
-        No class of the belt is strong enough, or no motor large enough.
+    After the first time no weaker class is taken, so that sizing ends. A backstop neither costs nor bends anything: it
+    is chosen under every load alone.
     """
-    tension = highest_tension(pair)
+    loads = asked.loads
+    classes, last = task.carcasses[choice.kind], task.carcasses[choice.kind][-1]
+    strength, travel = partial(_needed, choice=choice, loads=loads), _travel(before.carcass, loads)
+    power, rated = _needed_power(task, loads), task.largest_drive
+    uses: dict[Limit, float] = {
+        "belt strength": strength(last) / last.strength,
+        "motor power": power * task.rules.motor_reserve / rated,
+        "take-up travel": travel(last) / task.take_up_travel,
+    }
+    asked = replace(asked, uses=uses)
+    if max(uses.values()) > 1.0:
+        limit = max(uses, key=uses.__getitem__)
+        figures = {
+            "belt strength": ((strength(last), "belt strength"), (last.strength, "belt strength")),
+            "motor power": ((power * task.rules.motor_reserve, "power"), (rated, "power")),
+            "take-up travel": ((travel(last), "length"), (task.take_up_travel, "length")),
+        }[limit]
+        return replace(asked, short=Shortfall(limit, said(_BEYOND[limit], *figures), uses[limit], uses))
     carcass = next(
-        (one for one in task.carcasses[choice.kind] if _needed(one, choice, tension) <= one.strength), None
+        one for one in classes if strength(one) <= one.strength and travel(one) <= task.take_up_travel
     )
-    if carcass is None:
-        raise NoSolutionError("no class of the belt is strong enough (rules.carcasses)")
     if before.settling and carcass.strength < before.carcass.strength:
         carcass = before.carcass
-    powers = [_powers(one) for one in pair]
-    needed = [max(each) for each in zip(*powers, strict=True)]
-    most = max(needed)
-    if most * task.rules.motor_reserve > task.largest_drive:
-        raise NoSolutionError(
-            "no motor is large enough for its drive (rules.largest_motor, rules.motors_per_pulley)"
-        )
-    motor = task.motors(most)
-    brake = max((0.0 if one.motions.rolls_back else one.motions.brake_to_hold) for one in pair)
+    motor = task.motors(power)
+    brake = max((0.0 if one.motions.rolls_back else one.motions.brake_to_hold) for one in loads)
     brake = 0.0 if brake <= 0.0 else max(before.brake, BRAKE_RESERVE * brake)
     if before.brake > 0.0 and brake <= before.brake * (1.0 + RTOL):
         brake = before.brake
-    held = max((one.motions.brake_to_hold if one.motions.rolls_back else 0.0) for one in pair)
+    backstop = max(before.backstop, _backstop(task, carcass, loads)) if every_load else before.backstop
+    chosen = Chosen(
+        carcass, *task.covers(choice, carcass), (motor,) * len(before.motors), brake, backstop,
+        _take_up(before.take_up, loads), settling=True,
+    )  # fmt: skip
+    return replace(asked, chosen=chosen)
+
+
+def _backstop(task: SizingTask, carcass: CarcassClass, loads: Iterable[CalculatedConveyor]) -> float:
+    """Torque of the next preferred backstop for what loads ask of it, with a reserve [N m]; 0 where none rolls back."""
+    held = max((one.motions.brake_to_hold if one.motions.rolls_back else 0.0) for one in loads)
     torque = BRAKE_RESERVE * held * 0.5 * task.drive_diameter(carcass)
-    backstop = max(before.backstop, next_preferred(torque)) if torque > 0.0 else 0.0
-    return Chosen(
-        carcass, *task.covers(choice, carcass), (motor,) * len(needed), brake, backstop, settling=True
-    )
+    return next_preferred(torque) if torque > 0.0 else 0.0
+
+
+def _take_up(before: float, loads: Sequence[CalculatedConveyor]) -> float:
+    """Tension that keeps the belt taut in every state of motion [N]; 0 where what grip and sag ask for does."""
+    slack = max(-state.smallest for one in loads for state in one.every_state)
+    if slack <= 0.0 and before == 0.0:
+        return 0.0
+    setting = max(one.balance.settled.setting for one in loads)
+    needed = max(setting + max(slack, 0.0), *(one.balance.settled.needed for one in loads))
+    return before if needed <= before * (1.0 + RTOL) else TAKE_UP_STEP * math.ceil(needed / TAKE_UP_STEP)
+
+
+def _needed(carcass: CarcassClass, choice: Choice, loads: Sequence[CalculatedConveyor]) -> float:
+    """Strength that the tensions ask of a class [N/m]; of one with a rating also while starting and stopping."""
+    tension = highest_tension(loads)
+    if carcass.rating is not None:
+        tension = max(tension, max(one.belt_duty.largest for one in loads) / RATED_START)
+    return carcass.safety * tension / choice.trough.width.belt
+
+
+def _travel(now: CarcassClass, loads: Sequence[CalculatedConveyor]) -> Callable[[CarcassClass], float]:
+    """Travel of the take-up with another class of belt than the one calculated [m]: Hooke, at the same tensions."""
+    duty = take_up_of(loads)
+    parts = duty.travel
+    if parts is None:
+        raise AssertionError("every belt of the series has a usual stiffness")
+    elastic = parts.tensioning + parts.load + parts.motion
+    lasting = parts.permanent + parts.temperature
+    return lambda one: (1.0 + duty.unit.reserve) * (elastic * now.stiffness / one.stiffness + lasting)
+
+
+def _needed_power(task: SizingTask, loads: Sequence[CalculatedConveyor]) -> float:
+    """Power asked of each drive [W]: its share at both ends of the friction, and what starts the belt from rest.
+
+    The latter at the rated power itself, so that the reserve is taken off.
+    """
+    running = max(check.calculated or 0.0 for one in loads for check in motor_power(one))
+    starts = [(one, one.motions.start) for one in loads]
+    stuck = max(
+        (start.breakaway * one.line.speed / (one.line.efficiency * len(one.line.drives))
+         for one, start in starts if 0.0 < start.force < start.breakaway),
+        default=0.0,
+    )  # fmt: skip
+    return max(running, stuck / task.rules.motor_reserve)
 
 
 def _foreseen(task: SizingTask, design: SizedDesign) -> Chosen:
@@ -425,17 +654,21 @@ def _foreseen(task: SizingTask, design: SizedDesign) -> Chosen:
     motor = task.motors(
         min(max(_powers(one)) * (1.0 + more / steady), task.largest_drive / task.rules.motor_reserve)
     )
-    needed = partial(_needed, choice=design.choice, tension=highest_tension([one]) + more)
+    strength = (highest_tension([one]) + more) / design.choice.trough.width.belt
     carcass = next(
-        (each for each in task.carcasses[design.choice.kind] if needed(each) <= each.strength), chosen.carcass
+        (
+            each
+            for each in task.carcasses[design.choice.kind]
+            if max(each.safety * strength, chosen.carcass.strength) <= each.strength
+        ),
+        chosen.carcass,
     )
-    covers, motors = task.covers(design.choice, carcass), (motor,) * len(chosen.motors)
-    return Chosen(carcass, *covers, motors, chosen.brake, chosen.backstop, settling=False)
-
-
-def _needed(carcass: CarcassClass, choice: Choice, tension: float) -> float:
-    """Strength that a tension asks of a class [N/m]."""
-    return carcass.safety * tension / choice.trough.width.belt
+    top, bottom = task.covers(design.choice, carcass)
+    motors = (max(motor, *chosen.motors),) * len(chosen.motors)
+    backstop = _backstop(task, carcass, design.pair)
+    return replace(
+        chosen, carcass=carcass, top=top, bottom=bottom, motors=motors, backstop=backstop, settling=False
+    )
 
 
 def _powers(one: CalculatedConveyor) -> list[float]:
@@ -444,36 +677,45 @@ def _powers(one: CalculatedConveyor) -> list[float]:
 
 
 def _design(
-    task: SizingTask,
-    begin: tuple[Choice, Chosen, float],
-    chosen: Chosen,
-    result: CalculatedConveyor,
-    loads: Sequence[CalculatedConveyor],
-) -> SizedDesign | str:
+    task: SizingTask, begin: tuple[Choice, Chosen, float], chosen: Chosen, asked: _Asked
+) -> SizedDesign | Shortfall:
     """The design, or what fails in it."""
-    failed = next(_failed(task, (result, *loads)), None)
+    failed = next(_failed(task, asked), None)
     if failed is not None:
         return failed
     choice, _, estimate = begin
+    result = (asked.warm or asked.cold)[0]
     energy = 0.0 if result.year is None or result.year.cost is None else result.year.cost
     parts = parts_of(result)
     if parts is None:
         raise AssertionError("a sized spec lists its parts")
     cost = costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=energy)
-    return SizedDesign(choice, chosen, result, loads[0], cost, estimate, roll_life(result))
+    life = roll_life(result)
+    return SizedDesign(choice, chosen, result, asked.cold[0], cost, estimate, life, asked.uses)
 
 
-def _failed(task: SizingTask, pair: Sequence[CalculatedConveyor]) -> Iterator[str]:
-    """Criteria that fail in either; of penetration and rubber data the report warns."""
-    for one in pair:
+def _failed(task: SizingTask, asked: _Asked) -> Iterator[Shortfall]:
+    """Criteria that fail under a load; of penetration and rubber data the report warns."""
+    for one in asked.loads:
         for check in checks(one, contacts=False):
             if check.failed:
-                yield check.subject.text("SI")
-        if roll_life(one) < task.roll_life:
-            yield "L10 life of a roll set (rules.roll_life)"
-    travel = take_up_of(pair).travel
+                why = check.why or said(
+                    f"{check.name.words}: {check.found.words}", *check.name.figures, *check.found.figures
+                )
+                if check.key in _CURES:
+                    why = replace(why, words=f"{why.words}: {_CURES[check.key]}")
+                yield Shortfall(check.subject.text("SI"), why, check.use or math.inf, asked.uses)
+        life = roll_life(one)
+        if life < task.roll_life:
+            figures = (life, "duration"), (task.roll_life, "duration")
+            yield Shortfall(
+                "bearings", said(_BEYOND["bearings"], *figures), task.roll_life / life, asked.uses
+            )
+    travel = take_up_of(asked.loads).travel
     if travel is not None and travel.whole > task.take_up_travel:
-        yield "travel of the take-up (rules.take_up_travel)"
+        figures = (travel.whole, "length"), (task.take_up_travel, "length")
+        over = travel.whole / task.take_up_travel
+        yield Shortfall("take-up travel", said(_BEYOND["take-up travel"], *figures), over, asked.uses)
 
 
 def _graduated(task: SizingTask, designs: Sequence[SizedDesign], anchors: Anchors) -> list[SizedDesign]:

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Final, NamedTuple
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from operator import attrgetter
+from typing import Final, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,6 @@ from conveyor.laws.loading import middle_share_belt, middle_share_bulk
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.laws.resistance.flexure import FLEXURE_COEFFICIENT
 from conveyor.laws.roll_life import BALL_EXPONENT, RATED_REVOLUTIONS
-from conveyor.laws.take_up import PERMANENT_STRETCH_STEEL_CORD, PERMANENT_STRETCH_TEXTILE
 from conveyor.line.task import Choice, RollSize, SizingTask, Trough, spread
 from conveyor.models.belt import RUBBER_DENSITY
 from conveyor.models.sizing import DriveLayout
@@ -35,7 +35,14 @@ _SKIRTS: Final = (
     2.0 * 0.7 * 9.81 / 0.625**2
 )  # [m/s²]: both zones of the usual skirts, over (Q/v)²/(ρ B²) and 1 m
 _SET: Final = 0.5  # life of the bearings of a set over that of the heaviest loaded alone
+_STARTED: Final = (
+    0.375  # of what a start adds to the force its mean round a loop, a quarter of whose mass returns
+)
 _ROUNDS: Final = 4  # class of the belt, its mass, its tensions
+
+
+Limit = Literal["belt strength", "motor power", "take-up travel", "bearings", "set rating"]
+"""What ends the series: the strongest belt, the largest motors, the longest travel, the strongest rolls."""
 
 
 @dataclass(frozen=True)
@@ -50,12 +57,15 @@ class Levels:
         Of a roll [N].
     rest : float
         Secondary and special resistances over the estimated ones [-].
+    uses : mapping of str to float
+        Of what a limit allows the share that is used by calculation over that by the estimate [-]; 1 of those left out.
     """
 
     carry: tuple[float, ...]
     back: tuple[float, ...]
     drag: float
     rest: float
+    uses: Mapping[Limit, float] = field(default_factory=dict)
 
 
 def first_levels(covers: int) -> Levels:
@@ -115,7 +125,8 @@ class Candidates:
 
     def taken_up(self) -> Candidates:
         """Those whose permanent stretch the take-up's travel holds, whatever the tensions."""
-        travel = [_stretch(kind) * self.task.length <= self.task.take_up_travel for kind in self.task.kinds]
+        task = self.task
+        travel = [task.lasting_strain(kind) < task.take_up_strain for kind in task.kinds]
         return self.only(np.array(travel)[self.numbers[:, 4]])
 
     def __getitem__(self, i: int) -> Choice:
@@ -147,8 +158,8 @@ class Screened:
 
     Attributes
     ----------
-    year : ndarray
-        Cost of a year [currency/a]; infinite where no belt, motor or bearing of the series does.
+    cost, year : ndarray
+        Cost of a year [currency/a]; `year` is infinite where no belt, motor or bearing of the series does.
     carcass : ndarray of int
         Number of the class of the belt.
     force : ndarray
@@ -159,28 +170,40 @@ class Screened:
         In all sets.
     rest : ndarray
         Secondary and special resistances [N].
+    uses : mapping of str to ndarray
+        Of what each limit of series and rules allows the share that is used [-]; beyond 1 none of the series does.
     """
 
+    cost: Array
     year: Array
     carcass: NDArray[np.int64]
     force: Array
     indentation: Array
     rolls: Array
     rest: Array
+    uses: Mapping[Limit, Array]
+
+    @property
+    def farthest(self) -> Array:
+        """Of each candidate the largest use of a limit [-]."""
+        return np.asarray(np.max(list(self.uses.values()), axis=0))
 
 
 class _Series(NamedTuple):
     """Classes of belts, by kind and number; beyond the last of a kind as its last, but infinitely strong.
 
-    Strength [N/m], mass of the carcass [kg/m²], pulleys per width of belt [kg/m]; `covers` also by what runs: top and
-    bottom [m]; `last` number of each kind.
+    Strength and stiffness [N/m], mass of the carcass [kg/m²], pulleys per width of belt [kg/m]; `covers` also by what
+    runs: top and bottom [m]; `last` number of each kind, and its strength and stiffness.
     """
 
     strengths: Array
+    stiffnesses: Array
     masses: Array
     pulleys: Array
     covers: Array
     last: NDArray[np.int64]
+    strongest: Array
+    stiffest: Array
 
     @classmethod
     def of(cls, task: SizingTask, wear: Sequence[float]) -> _Series:
@@ -188,29 +211,31 @@ class _Series(NamedTuple):
         kinds = [task.carcasses[kind] for kind in task.kinds]
         most = max(map(len, kinds))
         filled = [[each[min(k, len(each) - 1)] for k in range(most)] for each in kinds]
-        strengths = [[one.strength if k < len(each) else np.inf for k, one in enumerate(row)]
-                     for each, row in zip(kinds, filled, strict=True)]  # fmt: skip
+        known = np.array([[k < len(each) for k in range(most)] for each in kinds])
+        strengths, stiffnesses = (
+            np.where(known, [[get(one) for one in row] for row in filled], np.inf)
+            for get in (attrgetter("strength"), attrgetter("stiffness"))
+        )
         return cls(
-            np.array(strengths),
+            strengths,
+            stiffnesses,
             np.array([[one.mass for one in row] for row in filled]),
             np.array([[task.pulley_mass(one, 1.0) for one in row] for row in filled]),
             np.array(
                 [[[task.worn_covers(one, addition) for addition in wear] for one in row] for row in filled]
             ),
             np.array([len(each) - 1 for each in kinds]),
+            np.array([each[-1].strength for each in kinds]),
+            np.array([each[-1].stiffness for each in kinds]),
         )
-
-
-def _stretch(kind: str) -> float:
-    """Permanent, of a kind of carcass [-]."""
-    return (PERMANENT_STRETCH_STEEL_CORD if kind == "steel cord" else PERMANENT_STRETCH_TEXTILE).value
 
 
 class _Loop(NamedTuple):
     """Candidates with a class of belt each.
 
     Covers [m], load of the middle roll and of carry and return sets, indentation, force on all drives, tension behind
-    the head [N]; the class that the tensions ask for, and whether there is one.
+    the head [N]; the class that the tensions ask for, and of the strongest one the shares of its strength and of the
+    take-up's travel that are used.
     """
 
     covers: Array
@@ -220,7 +245,8 @@ class _Loop(NamedTuple):
     force: Array
     slack: Array
     carcass: NDArray[np.int64]
-    strong: NDArray[np.bool_]
+    strength: Array
+    travel: Array
 
 
 def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
@@ -246,14 +272,18 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
     (top, bottom), carcass, force = around.covers.T, around.carcass, around.force
     power, drives = np.abs(force) * speed / task.efficiency, every.driven(lambda one: len(spread(1.0, one)))
     life = _roll_life(every, around.middle)
-    possible = (
-        around.strong
-        & (power * task.rules.motor_reserve <= drives * task.largest_drive)
-        & (life >= task.roll_life)
-    )
-    for load, rating in zip(around.sets.T, every.ratings(), strict=True):
-        possible &= load <= rating
-    possible &= (every.driven(_at_tail) == 1.0) == (force < 0.0)
+    uses: dict[Limit, Array] = {
+        "belt strength": around.strength,
+        "motor power": levels.uses.get("motor power", 1.0)
+        * (power * task.rules.motor_reserve / (drives * task.largest_drive)),
+        "take-up travel": around.travel,
+        "bearings": task.roll_life / life,
+        "set rating": np.max(around.sets.T / every.ratings(), axis=0),
+    }
+    pushed = (every.driven(_at_tail) == 1.0) & (force >= 0.0)  # the belt is pushed by a drive at the tail
+    possible = np.max(list(uses.values()), axis=0) <= 1.0
+    if (possible & ~pushed).any():
+        possible &= ~pushed
     first = cover == 0
     parts = Parts(
         width=width, length=length, strength=series.strengths[kind, carcass], steel_cord=steel.astype(float),
@@ -265,8 +295,10 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
     drawn, fed_back = np.maximum(0.0, force) / task.efficiency, np.maximum(0.0, -force) * task.efficiency
     worth = (task.energy_price * drawn - task.feed_in_price * fed_back) * speed * task.seconds / JOULE_PER_KWH
     cost = costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=worth)
-    year = np.where(possible, cost.year, np.inf)
-    return Screened(year, carcass, force, around.indentation, length * per_metre.sum(axis=0), rest)
+    yearly = np.asarray(cost.year)
+    year = np.where(possible, yearly, np.inf)
+    rolls = length * per_metre.sum(axis=0)
+    return Screened(yearly, year, carcass, force, around.indentation, rolls, rest, uses)
 
 
 def _around(
@@ -303,11 +335,19 @@ def _around(
     up[:, 0] += rest
     force = up.sum(axis=1) + down.sum(axis=1)
     spans = belt * g * back, (belt + bulk) * g * carry
-    slack, largest = _tensions(every, force, (down[:, ::-1], up), spans)
-    asked = (series.strengths[kind] < (safety * largest / width)[:, None]).sum(axis=1)
-    last = series.last[kind]
+    slack, largest, mean = _tensions(every, force, (down[:, ::-1], up), spans)
+    strength = safety * largest / width
+    lasting = np.array([task.lasting_strain(one) for one in task.kinds])[kind]
+    travel = levels.uses.get("take-up travel", 1.0) / task.take_up_strain
+    left = 1.0 / travel - lasting
+    stiffness = np.divide(mean / width, left, out=np.full_like(mean, np.inf), where=left > 0.0)
+    weak = (series.strengths[kind] < strength[:, None]) | (series.stiffnesses[kind] < stiffness[:, None])
+    asked, last = weak.sum(axis=1), series.last[kind]
+    strength *= levels.uses.get("belt strength", 1.0) / series.strongest[kind]
+    travel = travel * (mean / width / series.stiffest[kind] + lasting)
     sets = np.array([(belt + task.lump_factor * bulk) * g * carry, spans[0]]).T
-    return _Loop(covers, middle, sets, indentation.T, force, slack, np.minimum(asked, last), asked <= last)
+    chosen = np.minimum(asked, last)
+    return _Loop(covers, middle, sets, indentation.T, force, slack, chosen, strength, travel)
 
 
 def _roll_life(every: Candidates, middle: Array) -> Array:
@@ -329,8 +369,8 @@ def _turning(every: Candidates, carry: Array, back: Array) -> Array:
 
 def _tensions(
     every: Candidates, force: Array, along: tuple[Array, Array], spans: tuple[Array, Array]
-) -> tuple[Array, Array]:
-    """Tension right behind the head, and the largest one, by grip and sag [N].
+) -> tuple[Array, Array, Array]:
+    """Tension right behind the head, the largest, and the highest mean of the loop, at a start; by grip and sag [N].
 
     `along` are the forces on return sections from the head and carry sections from the tail, `spans` loads of return
     and carry strand between two sets [N].
@@ -354,7 +394,9 @@ def _tensions(
         start * np.abs(at_tail * force) * grips - np.minimum(before_tail, after_tail),
     ], axis=0)  # fmt: skip
     highest = np.maximum(np.maximum(0.0, returning.max(axis=1)), np.maximum(after_tail, carrying.max(axis=1)))
-    return slack, slack + highest
+    lengths = np.array([length for length, _ in task.sections]) / (2.0 * task.length)
+    mean = slack + (returning - 0.5 * down) @ lengths[::-1] + (carrying - 0.5 * up) @ lengths
+    return slack, slack + highest, mean + (start - 1.0) * np.abs(force) * _STARTED
 
 
 def _at_tail(drives: DriveLayout) -> float:

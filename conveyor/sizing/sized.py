@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from conveyor.line.task import Choice, Chosen
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor
+from conveyor.sizing.screen import Limit
 from conveyor.studies.costs import Costs
 from conveyor.units.sentences import figure, rounded
 
@@ -30,6 +31,8 @@ class SizedDesign:
         Cost of a year by the closed estimate that chose it [currency/a].
     roll_life : float
         Of the set that lives shortest, L10 of its bearings [s].
+    uses : mapping of str to float
+        Of what each limit of series and rules allows the share that is used [-].
     """
 
     choice: Choice
@@ -39,6 +42,7 @@ class SizedDesign:
     costs: Costs
     estimate: float
     roll_life: float
+    uses: Mapping[Limit, float]
 
     def __repr__(self) -> str:
         line, motor = self.found.line, self.found.balance.power.motor

@@ -10,7 +10,7 @@ import pytest
 
 import conveyor
 from conveyor.analysis import Analysis, CaseStudy, Studies, analyse_cases
-from conveyor.checks import Check, checks, deciding, leading
+from conveyor.checks import Check, checks, compared, deciding, leading
 from conveyor.models.fields import with_fields
 from conveyor.models.variants import with_case, with_temperature
 from conveyor.pipeline import CalculatedConveyor, calculate
@@ -100,6 +100,15 @@ def test_the_margin_is_what_is_left_over_the_limit(calculated, relation, require
 
 def made(case: str, verdict: str, calculated: float | None, subject: str = "s", key: str = "k") -> Check:
     return Check(key, said(subject), calculated, 1.0, "force", said(""), said(""), verdict, case=said(case))
+
+
+def test_a_margin_of_many_times_the_limit_is_told_as_more_than_all_of_it() -> None:
+    """49 times more strength than asked: beyond 100 % a margin says no more than that it is large."""
+    large = compared("belt_safety", "belt safety", 50.0, "at least", 1.0, "safety")
+    assert large.margin == pytest.approx(49.0)
+    assert "; least margin > 100 %, belt safety" in sentence([large], "SI")
+    small = compared("belt_safety", "belt safety", 1.046, "at least", 1.0, "safety")
+    assert "; least margin 4.6 %, belt safety" in sentence([large, small], "SI")
 
 
 def test_a_failure_governs_then_the_least_margin_then_the_first() -> None:

@@ -228,6 +228,15 @@ def test_verdicts_are_words_on_their_colours(brakes, tmp_path):
     assert not VERDICTS["pass"].font.b
 
 
+def test_margins_of_the_cover_are_written_as_those_of_every_check(brakes, tmp_path):
+    """A spreadsheet's format has its conditions in brackets: beyond 100 % it shows no more than that."""
+    book = openpyxl.load_workbook(brakes.to_excel(tmp_path / "b.xlsx"))
+    cover = [row[4] for row in book["Summary"].iter_rows() if row[6].value in {"pass", "FAIL"}]
+    margins = [cell for cell in cover if isinstance(cell.value, float)]
+    assert any(cell.value > 1.0 for cell in margins)
+    assert all(cell.number_format.startswith('[>1]"> 100 %";') for cell in margins)
+
+
 def test_what_failed_is_on_the_cover_however_many_passed(brakes, tmp_path):
     """Of every criterion the cover shows the least margin; a brake too weak fails and stays."""
     pulley = brakes.conveyor.drive.replace(brake_force="1 kN")
