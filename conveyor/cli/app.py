@@ -173,17 +173,22 @@ def read_spec(path: Path, shelves: list[Path] | None, changed: list[str] | None 
 
     line = conveyor.load(path, shelves=shelves or ())
     changes: dict[str, Any] = {}
+    refused: list[str] = []
     for given in changed or ():
         parts = _ASSIGNED.fullmatch(given)
         if parts is None:
-            raise InputError(f'--set: got "{given}", expected FIELD=VALUE, as in "belt.speed=5.5 m/s"')
-        if parts[1] in changes:
-            raise InputError(f"--set: {parts[1]} is given twice")
-        changes[parts[1]] = _value(parts[2])
+            refused.append(f'--set: got "{given}", expected FIELD=VALUE, as in "belt.speed=5.5 m/s"')
+        elif parts[1] in changes:
+            refused.append(f"--set: {parts[1]} is given twice")
+        else:
+            changes[parts[1]] = _value(parts[2])
     try:
-        return with_fields(line, changes, resolve=shelf.resolver(extra=shelves or (), base=path.parent))
+        line = with_fields(line, changes, resolve=shelf.resolver(extra=shelves or (), base=path.parent))
     except InputError as error:
-        raise InputError("\n".join(f"--set {line}" for line in str(error).splitlines())) from None
+        refused += [f"--set {said}" for said in str(error).splitlines()]
+    if refused:
+        raise InputError("\n".join(refused))
+    return line
 
 
 def _value(written: str) -> Any:

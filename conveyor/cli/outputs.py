@@ -148,7 +148,9 @@ class Outputs:
             if path.suffix.lower() == ".pdf":
                 from conveyor.report import pdf
 
-                self.add("PDF", path, {path: pdf.printed(page)})
+                with saving.naming(path):
+                    made = pdf.printed(page)
+                self.add("PDF", path, {path: made})
             else:
                 self.add("page", path, {path: page.encode()})
 

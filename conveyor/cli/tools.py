@@ -22,6 +22,7 @@ from conveyor.cli.app import (
 from conveyor.cli.outputs import Outputs
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.files.marks import TO_FILL_IN
+from conveyor.files.saving import naming
 
 
 @app.command(
@@ -101,11 +102,9 @@ def template(
             "--units: with --from the spec says the units (report.units); leave one of the two out"
         )
     line = None if spec is None else conveyor.load(spec, shelves=shelf or ())
-    to.add(
-        "template",
-        output,
-        {output: made(line, shelves=shelf or (), units="US" if units is Units.US else "SI")},
-    )
+    with naming(output):  # made by way of temporary files
+        content = made(line, shelves=shelf or (), units="US" if units is Units.US else "SI")
+    to.add("template", output, {output: content})
     lines = to.save()
     if not quiet:
         say(*lines)

@@ -90,6 +90,21 @@ def save(contents: Mapping[Path, bytes | memoryview], *, folders: Iterable[Path]
 
 
 @contextmanager
+def naming(path: Path) -> Iterator[None]:
+    """Name a file that cannot be written, also where that shows as its content is made: in files of the system's own.
+
+    Raises
+    ------
+    InputError
+        The system refuses to write: no room, a file too large, no permission.
+    """
+    try:
+        yield
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
+
+
+@contextmanager
 def growing(path: Path) -> Iterator[Path]:
     """A temporary file beside a path, for what is written piece by piece; it takes the path's name when it is whole.
 
@@ -101,10 +116,9 @@ def growing(path: Path) -> Iterator[Path]:
     writable(path)
     part = _beside(_target(path))
     try:
-        yield part
-        part.replace(_target(path))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
+        with naming(path):
+            yield part
+            part.replace(_target(path))
     finally:
         part.unlink(missing_ok=True)
 

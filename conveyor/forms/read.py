@@ -155,6 +155,7 @@ class SheetReader:
             key, place = grid.text(row, columns[KEY]), address(grid.name, row, columns[VALUE])
             value, unit = grid.cells.get((row, columns[VALUE])), grid.cells.get((row, columns[UNIT]))
             if not key:
+                self._refuse_strays(grid, row, set(columns.values()), "form")
                 if value is not None:
                     self.refuse(place, f'a value in a row without a field (column "{KEY}"); remove it')
             elif key not in wanted:
@@ -189,7 +190,7 @@ class SheetReader:
                 parent = self._whole(grid, row, columns[PARENT]) if PARENT in columns else None
                 items.append(Item(address(grid.name, row, columns[NUMBER]), number, parent, entries))
             else:
-                self._refuse_strays(grid, row, set(columns.values()))
+                self._refuse_strays(grid, row, set(columns.values()), "list")
         return items
 
     def _header(self, grid: Sheet, needed: tuple[str, ...]) -> tuple[int, dict[str, int]]:
@@ -225,12 +226,12 @@ class SheetReader:
                 end = address(grid.name, last_row, last).rpartition("!")[2]
                 self.refuse(f"{begin}:{end}", "cells are merged; unmerge them, one cell holds one value")
 
-    def _refuse_strays(self, grid: Sheet, row: int, columns: set[int]) -> None:
-        """Refuse what stands beside the columns of a list in a row that gives no item."""
+    def _refuse_strays(self, grid: Sheet, row: int, columns: set[int], of: str) -> None:
+        """Refuse what stands beside the columns of a form or list in a row that gives no field or item."""
         for (r, column), cell in grid.cells.items():
             if r == row and column not in columns and not problem_of(cell):
                 place = address(grid.name, row, column)
-                self.refuse(place, "outside the columns of the list; remove it or move it to another sheet")
+                self.refuse(place, f"outside the columns of the {of}; remove it or move it to another sheet")
 
     def _whole(self, grid: Sheet, row: int, column: int) -> int | None:
         cell = grid.cells.get((row, column))

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import lru_cache, partial
 from itertools import count
-from typing import Any, Final, TypeAlias
+from typing import Any, Final, TypeAlias, TypeVar
 
 from conveyor.errors import InputError
 from conveyor.models.base import Model
@@ -17,6 +17,8 @@ from conveyor.units import is_quantity
 
 Resolve: TypeAlias = Callable[[str], RubberCompound]
 """A compound by its name or path."""
+Change = TypeVar("Change")
+Made = TypeVar("Made")
 _PART: Final = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
 _WHOLE: Final = re.compile(r"[^.\[\]]+(?:\.[^.\[\]]+|\[\d+\])*")
 
@@ -80,17 +82,27 @@ def with_fields(
     5.5
     """
     tree: dict[str, Any] = {}
-    for path, value in changes.items():
-        _plant(tree, path, value)
-    known, made, numbers, alike = known or KnownParts(), {}, {}, True
-    for name, below in _named(conveyor, tree, ""):
-        old = getattr(conveyor, name)
-        make = partial(_changed, old, below, name, resolve)
-        numbers[name], made[name] = known.once((name, _frozen(below)), make)
-        alike = alike and isinstance(old, Model) and type(made[name]) is type(old)
+    refused: list[str] = []
+    try:
+        _gathered(changes.items(), lambda change: _plant(tree, *change))
+    except InputError as error:
+        refused.append(str(error))
+    parts = known or KnownParts()
+
+    def changed(change: tuple[str, Any]) -> tuple[str, tuple[int, Any]]:
+        name, below = _name(conveyor, change[0], ""), change[1]
+        make = partial(_changed, getattr(conveyor, name), below, name, resolve)
+        return name, parts.once((name, _frozen(below)), make)
+
+    new = dict(_gathered(tree.items(), changed, refused))
+    numbers = {name: number for name, (number, _) in new.items()}
+    made = {name: part for name, (_, part) in new.items()}
     if not made:
         return conveyor
-    return conveyor.with_parts(made, numbers, known.fit) if alike else _replaced(conveyor, made, "")
+    alike = all(
+        isinstance(part, Model) and type(part) is type(getattr(conveyor, name)) for name, part in made.items()
+    )
+    return conveyor.with_parts(made, numbers, parts.fit) if alike else _replaced(conveyor, made, "")
 
 
 def field(conveyor: Conveyor, path: str) -> Any:
@@ -109,8 +121,7 @@ def field(conveyor: Conveyor, path: str) -> Any:
         if isinstance(value, tuple):
             value = value[_item(value, part, way)]
         elif isinstance(value, Model):
-            ((name, _),) = _named(value, {part: None}, way)
-            value = getattr(value, name)
+            value = getattr(value, _name(value, part, way))
         else:
             raise InputError(f"{path}: {way} has no parts")
         way = f"{way}.{part}" if way else part
@@ -160,31 +171,69 @@ def _changed(old: Any, below: Any, path: str, resolve: Resolve | None) -> Any:
             return resolve(below.value)
         return below.value
     if isinstance(old, Model):
-        made = {
-            name: _changed(getattr(old, name), lower, f"{path}.{name}", resolve)
-            for name, lower in _named(old, below, path)
-        }
-        return _replaced(old, made, path)
+        return _with_changed(old, below, path, resolve)
     if isinstance(old, tuple):
         items = list(old)
-        for part, lower in below.items():
-            i = _item(old, part, path)
-            items[i] = _changed(items[i], lower, f"{path}[{i}]", resolve)
+
+        def item(change: tuple[str, Any]) -> None:
+            i = _item(old, change[0], path)
+            items[i] = _changed(items[i], change[1], f"{path}[{i}]", resolve)
+
+        _gathered(below.items(), item)
         return tuple(items)
     if old is None:
         return _plain(below)
     raise InputError(f"{path}: is a single value, it has no {', '.join(below)}")
 
 
-def _named(old: Model, below: Mapping[str, Any], path: str) -> list[tuple[str, Any]]:
-    """Names of the fields in Python, and what is below them."""
+def _with_changed(old: Model, below: Mapping[str, Any], path: str, resolve: Resolve | None) -> Any:
+    """A part with fields changed; every refusal of them at once."""
+    made, refused, wrong = {}, [], {}
+    for key, lower in below.items():
+        name = key
+        try:
+            name = _name(old, key, path)
+            made[name] = _changed(getattr(old, name), lower, f"{path}.{name}", resolve)
+        except InputError as error:
+            refused.append(str(error))
+            wrong[name] = object()
+    if not wrong:
+        return _replaced(old, made, path)
+    try:
+        # of a part with a field that is none only the fields are checked, not how they fit each other
+        old.replace(**made, **wrong)
+    except InputError as error:
+        known = {*wrong, *(alias for alias, name in _aliases(type(old)).items() if name in wrong)}
+        said = str(error).splitlines()
+        refused += [
+            f"{path}.{line}" for line in said if re.split(r"[.:\[]", line, maxsplit=1)[0] not in known
+        ]
+    raise InputError("\n".join(refused))
+
+
+def _gathered(
+    changes: Iterable[Change], make: Callable[[Change], Made], refused: Sequence[str] = ()
+) -> list[Made]:
+    """What is made of changes; every refusal at once where there are any, after those known already."""
+    made, every = [], [*refused]
+    for change in changes:
+        try:
+            made.append(make(change))
+        except InputError as error:
+            every.append(str(error))
+    if every:
+        raise InputError("\n".join(every))
+    return made
+
+
+def _name(old: Model, key: str, path: str) -> str:
+    """Name in Python of a field that specs call so."""
     aliases = _aliases(type(old))
-    for key in below:
-        if key not in aliases:
-            near = difflib.get_close_matches(key, aliases, n=1)
-            guess = f"did you mean {near[0]}?" if near else f"there are {', '.join(aliases)}"
-            raise InputError(f"{path + '.' if path else ''}{key}: no such field; {guess}")
-    return [(aliases[key], lower) for key, lower in below.items()]
+    if key not in aliases:
+        near = difflib.get_close_matches(key, aliases, n=1)
+        guess = f"did you mean {near[0]}?" if near else f"there are {', '.join(aliases)}"
+        raise InputError(f"{path + '.' if path else ''}{key}: no such field; {guess}")
+    return aliases[key]
 
 
 @lru_cache(maxsize=128)

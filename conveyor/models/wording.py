@@ -12,9 +12,8 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from conveyor.errors import shortened
-from conveyor.units import Measure
-from conveyor.units.kinds import KINDS
-from conveyor.units.misreadings import on_one_line
+from conveyor.units import Bounds, Measure
+from conveyor.units.misreadings import expected_of, on_one_line
 
 Location = tuple[int | str, ...]
 
@@ -120,7 +119,8 @@ def _expected(model: type[BaseModel], location: Location) -> str:
         return "a value"
     measure = next((mark for mark in field.metadata if isinstance(mark, Measure)), None)
     if measure is not None:
-        return KINDS[measure.kind].expected
+        bounds = [mark for mark in field.metadata if isinstance(mark, Bounds)]
+        return expected_of(measure.kind, lambda given: all(one.allows(measure.kind, given) for one in bounds))
     listed = get_origin(field.annotation) in {tuple, list}
     marks = (*field.metadata, *(part for arg in get_args(field.annotation) for part in get_args(arg)))
     wanted = next((mark.wanted for mark in marks if hasattr(mark, "wanted")), None)

@@ -17,7 +17,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.errors import InputError
 from conveyor.files import marks
-from conveyor.files.saving import save, writable
+from conveyor.files.saving import naming, save, writable
 from conveyor.report import cover, sheets
 from conveyor.report.cells import legible, print_set_up
 from conveyor.report.columns import CHECKS_AND_NOTES, Contents
@@ -129,10 +129,8 @@ def files(contents: Contents, path: Path) -> dict[Path, bytes]:
     live: dict[tuple[str, str], float | str] = {}
     with _uncollected():
         book, content = build(contents, path.stem, live), BytesIO()
-        try:
+        with naming(path):
             book.save(content)  # by way of temporary files
-        except OSError as error:
-            raise InputError(f"{path}: cannot be written ({error.strerror or error})") from None
     long = [part for part in contents.tables if len(part.rows) > MOST_ROWS]
     beside = {path.with_name(file_name(path.stem, part)): csv(part.frame(contents.system)) for part in long}
     values = {(book.sheetnames.index(sheet) + 1, cell): value for (sheet, cell), value in live.items()}

@@ -13,6 +13,28 @@ from conveyor.studies.costs import Costs
 from conveyor.units.sentences import figure, rounded
 
 
+@dataclass(frozen=True)
+class Shortfall:
+    """Why a calculated candidate is no design.
+
+    Attributes
+    ----------
+    rule : str
+        What it does not keep, without figures.
+    why : Said
+        With its figures, and what to change.
+    over : float
+        What is needed over what series and rules allow [-]; infinite where no figure says it.
+    uses : mapping of str to float
+        Of what each limit of series and rules allows the share that is used, as far as known [-].
+    """
+
+    rule: str
+    why: Said
+    over: float
+    uses: Mapping[Limit, float]
+
+
 @dataclass(frozen=True, eq=False)
 class SizedDesign:
     """A design that keeps every rule.

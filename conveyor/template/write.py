@@ -11,7 +11,7 @@ from conveyor import shelf, spec
 from conveyor.arguments import checked
 from conveyor.errors import InputError
 from conveyor.files import marks
-from conveyor.files.saving import save, writable
+from conveyor.files.saving import naming, save, writable
 from conveyor.forms.read import read_filled
 from conveyor.models import Conveyor
 from conveyor.report.cells import legible
@@ -69,7 +69,9 @@ def write_template(
     if where.suffix.lower() != ".xlsx":
         raise InputError(f'{where}: a workbook\'s name ends in .xlsx, got "{where.suffix}"')
     writable(where)
-    save({where: template(conveyor, shelves=shelves, units=units)})
+    with naming(where):  # made by way of temporary files
+        made = template(conveyor, shelves=shelves, units=units)
+    save({where: made})
     return where
 
 

@@ -6,14 +6,16 @@ import difflib
 import math
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from conveyor.errors import shortened
-from conveyor.units.kinds import KINDS, SPELLINGS, Kind
+from conveyor.units.kinds import KINDS, SPELLINGS
 
 NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 NUMBER_UNIT = re.compile(rf"\s*({NUMBER})\s*([^\s0-9.,+-](?:.*\S)?|)\s*")
 _LARGEST = sys.float_info.max
+_POWERS = (-1, 1, -2, 2, -3, 3, -4, 4)
+"""Of ten, by which the example of a kind becomes one that a range allows."""
 LONGEST = 80
 """Characters: no quantity needs more, and messages quote the text."""
 
@@ -41,25 +43,63 @@ _OFTEN_MEANT = {
 }  # fmt: skip
 
 
-def why_not(given: object, kind: str | None) -> str:
-    """Say why `given` is no quantity of `kind` and what to write instead."""
+def every(_: str) -> bool:
+    """Allow whatever a message proposes."""
+    return True
+
+
+def why_not(given: object, kind: str | None, allows: Callable[[str], bool] = every) -> str:
+    """Say why `given` is no quantity of `kind` and what to write instead, of that only what is allowed."""
     if isinstance(given, str):
-        return _why_not_text(given, None if kind is None else KINDS[kind], kind)
-    expected = _expected(None if kind is None else KINDS[kind])
+        return _why_not_text(given, kind, allows)
+    expected = expected_of(kind, allows)
     if isinstance(given, int | float) and not isinstance(given, bool):
         if not -_LARGEST <= given <= _LARGEST:
             return f"got {_shown(given)}, expected a finite number"
-        return f"got {given} without a unit; {_give_the_unit(str(given), kind)}"
+        return f"got {given} without a unit; {_give_the_unit(str(given), kind, allows)}"
     return f"expected {expected}, got {_shown(given)}"
 
 
-def _expected(kind: Kind | None) -> str:
-    return 'a number and a unit such as "1200 mm"' if kind is None else kind.expected
+def expected_of(kind: str | None, allows: Callable[[str], bool] = every) -> str:
+    """What a message asks for: the noun of a kind and an example that is allowed, where there is one.
+
+    Examples
+    --------
+    >>> expected_of("distance"), expected_of("distance", lambda given: given == "15 m")
+    ('a length such as "150 m"', 'a length such as "15 m"')
+    """
+    if kind is None:
+        return 'a number and a unit such as "1200 mm"'
+    noun, example = KINDS[kind].noun, example_of(kind, allows)
+    if kind == "fraction":
+        noun, _, _ = noun.partition(" (")
+        if example is not None:
+            return f'{noun} ({float(example.split()[0]) / 100.0:.12g} or "{example}")'
+    return noun if example is None else f'{noun} such as "{example}"'
 
 
-def _give_the_unit(number: str, kind: str | None) -> str:
-    unit = "mm" if kind is None else KINDS[kind].example.split()[1]
-    return f'give the unit, e.g. "{number} {unit}"'
+def example_of(kind: str, allows: Callable[[str], bool] = every) -> str | None:
+    """Example of a kind that is allowed: the kind's own, or that times a power of ten; None where none is.
+
+    Examples
+    --------
+    >>> example_of("distance"), example_of("distance", lambda given: given == "15 m")
+    ('150 m', '15 m')
+    """
+    own = KINDS[kind].example
+    number, _, unit = own.partition(" ")
+    scaled = (f"{float(number) * 10.0**power:.12g} {unit}".strip() for power in _POWERS)
+    return own if allows(own) else next(filter(allows, scaled), None)
+
+
+def _give_the_unit(number: str, kind: str | None, allows: Callable[[str], bool]) -> str:
+    """Propose the first unit with which the number is allowed, that of the kind's example before others."""
+    first = "mm" if kind is None else KINDS[kind].example.split()[1]
+    units = dict.fromkeys([first, *([] if kind is None else KINDS[kind].units.values())])
+    meant = next((unit for unit in units if unit and allows(f"{number} {unit}")), None)
+    if meant is None:
+        return f"give the unit, as in {expected_of(kind, allows)}"
+    return f'give the unit, e.g. "{number} {meant}"'
 
 
 def _shown(value: object) -> str:
@@ -83,36 +123,43 @@ def on_one_line(text: str) -> str:
     return text.replace("\n", "\\n").replace("\r", "\\r").replace("\t", "\\t")
 
 
-def _why_not_text(given: str, kind: Kind | None, key: str | None) -> str:
-    shown = _shown(given)
+def _why_not_text(given: str, kind: str | None, allows: Callable[[str], bool]) -> str:
+    shown, expected = _shown(given), expected_of(kind, allows)
     start = given.strip()
     if len(given) > LONGEST:
-        return f"expected {_expected(kind)}, got {shown}"
-    advice = _trapped(start)
+        return f"expected {expected}, got {shown}"
+    advice = _trapped(start, allows)
     if advice is not None:
         return f"got {shown}: {advice}"
     match = NUMBER_UNIT.fullmatch(given)
     if match is None:
-        return f"expected {_expected(kind)}, got {shown}"
+        return f"expected {expected}, got {shown}"
     number, unit = match.groups()
     if not math.isfinite(float(number)):
         return f"got {shown}, expected a finite number"
     if unit == "":
-        return f"got {shown} without a unit; {_give_the_unit(number, key)}"
-    return f"got {shown}" + _wrong_unit(number, unit, kind, key)
+        return f"got {shown} without a unit; {_give_the_unit(number, kind, allows)}"
+    return f"got {shown}" + _wrong_unit(number, unit, kind, allows)
 
 
-def _trapped(start: str) -> str | None:
+def _trapped(start: str, allows: Callable[[str], bool]) -> str | None:
     """Say what to write instead where a text is one of the traps."""
     if re.match(_THOUSANDS, start):
         together = re.sub(rf"(?<=[0-9]){_SEPARATORS}(?=[0-9]{{3}})", "", on_one_line(start))
-        return f'write the number without a thousands sign, e.g. "{together}"'
+        meant = f', e.g. "{together}"' if _may_be(together, allows) else ""
+        return f"write the number without a thousands sign{meant}"
     if comma := _COMMA.match(start):
         rest = on_one_line(start[comma.end() :])
-        meant = " or ".join(f'"{number}{rest}"' for number in _readings(comma[0]))
+        readings = [f"{number}{rest}" for number in _readings(comma[0])]
+        meant = " or ".join(f'"{one}"' for one in readings if _may_be(one, allows))
         advice = "a comma is ambiguous; write a decimal point and no thousands sign"
         return f"{advice}: {meant}" if meant else advice
     return next((advice for trap, advice in _TRAPS if re.match(trap, start)), None)
+
+
+def _may_be(meant: str, allows: Callable[[str], bool]) -> bool:
+    """Whether a text is allowed, or what else is wrong with it remains to be said."""
+    return allows(meant) or NUMBER_UNIT.fullmatch(meant) is None
 
 
 def _readings(number: str) -> Iterator[str]:
@@ -123,23 +170,27 @@ def _readings(number: str) -> Iterator[str]:
         yield number.replace(",", "")
 
 
-def _wrong_unit(number: str, unit: str, kind: Kind | None, key: str | None) -> str:
+def _wrong_unit(number: str, unit: str, kind: str | None, allows: Callable[[str], bool]) -> str:
     """Say which unit to write when the number is fine."""
     others = [name for name, other in KINDS.items() if unit in other.units]
     if others:
         hint = next(
-            (_CONFUSED[key or "", other] for other in others if (key or "", other) in _CONFUSED), None
+            (_CONFUSED[kind or "", other] for other in others if (kind or "", other) in _CONFUSED), None
         )
-        return f" ({KINDS[others[0]].noun}), expected {_expected(kind)}" + (f"; {hint}" if hint else "")
+        return f" ({KINDS[others[0]].noun}), expected {expected_of(kind, allows)}" + (
+            f"; {hint}" if hint else ""
+        )
     if re.search(r"\b(short |long )?tons?\b", unit, re.IGNORECASE):
         rest = re.sub(r"^.*?tons?", "", unit, flags=re.IGNORECASE)
-        metric, short = f"{number} t{rest}", f"{number} short_ton{rest}"
-        return f': "ton" is ambiguous; write "{metric}" (metric) or "{short}"'
-    forms = [form for form in (SPELLINGS if kind is None else kind.units) if form]
+        both = {f"{number} t{rest}": " (metric)", f"{number} short_ton{rest}": ""}
+        meant = [f'"{one}"{which}' for one, which in both.items() if allows(one)]
+        written = " or ".join(meant) or "t (metric) or short_ton"
+        return f': "ton" is ambiguous; write {written}'
+    forms = [form for form in (SPELLINGS if kind is None else KINDS[kind].units) if form]
     tight = re.sub(r"\s+", "", unit).lower()
     same_but_case = [form for form in forms if form.lower() == tight]
     meant = [_OFTEN_MEANT[unit]] if _OFTEN_MEANT.get(unit) in forms else same_but_case
     near = meant or difflib.get_close_matches(unit, forms, n=1)
-    guess = f'; did you mean "{number} {near[0]}"?' if near else ""
+    guess = f'; did you mean "{number} {near[0]}"?' if near and allows(f"{number} {near[0]}") else ""
     allowed = "" if kind is None else "; units allowed: " + ", ".join(forms)
     return f': unknown unit "{unit}"{guess}{allowed}'

@@ -20,7 +20,7 @@ from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from conveyor.errors import InputError
 from conveyor.units.kinds import KINDS, MAGNITUDES
-from conveyor.units.misreadings import LONGEST, NUMBER, NUMBER_UNIT, why_not
+from conveyor.units.misreadings import LONGEST, NUMBER, NUMBER_UNIT, every, example_of, expected_of, why_not
 from conveyor.units.registry import REGISTRY, UNITS
 
 System = Literal["SI", "US"]
@@ -40,6 +40,9 @@ _SPELLED: dict[Any, str] = {}
 for _form, _unit in UNITS.items():
     _SPELLED.setdefault(_unit, _form)
 _PERCENT, _PLAIN = UNITS["%"], UNITS[""]
+Allows = Callable[[str], bool]
+"""Whether a message may propose a text."""
+_MEASURE = "measure"  # in the schema of a field
 
 
 def quantity(value: object, kind: str | None = None) -> Quantity:
@@ -62,21 +65,26 @@ def quantity(value: object, kind: str | None = None) -> Quantity:
     >>> text(quantity("1200 mm", "length")), si(quantity("1200 mm"))
     ('1200 mm', 1.2)
     """
+    return _read(value, kind, every)
+
+
+def _read(value: object, kind: str | None, allows: Allows) -> Quantity:
+    """`quantity` whose messages propose only what is allowed."""
     if isinstance(value, str):
         match = NUMBER_UNIT.fullmatch(value) if len(value) <= LONGEST else None
         if match is not None:
             unit = _TABLES[kind].get(match[2])
             number = float(match[1])
             if unit is not None and math.isfinite(number):
-                return _sized(_build(number, unit), kind, match[2])
+                return _sized(_build(number, unit), kind, allows, match[2])
     elif isinstance(value, pint.Quantity):
-        return _sized(_checked(value, kind), kind)
+        return _sized(_checked(value, kind, allows), kind, allows)
     elif kind == "fraction" and _is_finite_number(value):
-        return _sized(_build(float(value), _PLAIN), kind)
-    raise InputError(why_not(value, kind))
+        return _sized(_build(float(value), _PLAIN), kind, allows)
+    raise InputError(why_not(value, kind, allows))
 
 
-def _sized(value: Quantity, kind: str | None, unit: str | None = None) -> Quantity:
+def _sized(value: Quantity, kind: str | None, allows: Allows, unit: str | None = None) -> Quantity:
     """Refuse a size that nothing of its kind has: what is computed with it would overflow or vanish."""
     if kind == "temperature" and si(value) < 0.0:
         raise InputError(f"got {text(value)}, below absolute zero (-273.15 degC)")
@@ -90,7 +98,7 @@ def _sized(value: Quantity, kind: str | None, unit: str | None = None) -> Quanti
     label = "" if kind == "fraction" else f" {si_with_unit(value)[1]}"
     if system_of(value) == "US" and kind != "temperature":
         low, high, label = float(f"{smallest:.4g}"), float(f"{largest:.4g}"), f" {_SPELLED[value.units]}"
-    expected = f"{KINDS[kind].expected}, in size from {low:g} to {high:g}{label}"
+    expected = f"{expected_of(kind, allows)}, in size from {low:g} to {high:g}{label}"
     raise InputError(f"got {text(value)}, expected {expected}")
 
 
@@ -111,9 +119,9 @@ def _build(number: float, unit: Any) -> Quantity:
     return built
 
 
-def _checked(value: Any, kind: str | None) -> Quantity:
+def _checked(value: Any, kind: str | None, allows: Allows) -> Quantity:
     """Check a quantity built in Python: our registry, a unit of the table, finite."""
-    expected = "a quantity" if kind is None else KINDS[kind].expected
+    expected = "a quantity" if kind is None else expected_of(kind, allows)
     if not isinstance(value, REGISTRY.Quantity):
         raise InputError(f"got {value} of another pint registry, expected {expected}; give it as text")
     if value.units not in _TABLES[kind].values():
@@ -369,9 +377,17 @@ class Measure:
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         """Validate with `quantity`; keep quantities in Python, write text to JSON."""
         return core_schema.no_info_plain_validator_function(
-            _refusing(partial(quantity, kind=self.kind)),
+            self._reads(every),
             serialization=core_schema.plain_serializer_function_ser_schema(written, when_used="json"),
+            metadata={_MEASURE: self},
         )
+
+    def within(self, schema: Any, bounds: Bounds) -> None:
+        """Let the messages of a schema of this measure propose only what lies within bounds."""
+        schema["function"] = schema["function"] | {"function": self._reads(partial(bounds.allows, self.kind))}
+
+    def _reads(self, allows: Allows) -> Callable[[Any], Quantity]:
+        return _refusing(partial(_read, kind=self.kind, allows=allows))
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
@@ -409,24 +425,39 @@ class Bounds:
         ]
         return [(sign, quantity(limit), holds) for sign, limit, holds in signs if limit is not None]
 
+    def _hold(self, value: Quantity) -> bool:
+        given = si(value)
+        return all(holds(given, si(limit)) for _, limit, holds in self._limits())
+
+    def allows(self, kind: str, given: str) -> bool:
+        """Whether a text is a quantity of a kind within this range."""
+        try:
+            return self._hold(quantity(given, kind))
+        except InputError:
+            return False
+
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         """Check the range after the field has been read."""
+        inner: Any = handler(source)
+        measure = inner.get("metadata", {}).get(_MEASURE)
+        if measure is not None:
+            measure.within(inner, self)
 
         def check(value: Quantity) -> Quantity:
-            given = si(value)
-            if all(holds(given, si(limit)) for _, limit, holds in self._limits()):
+            if self._hold(value):
                 return value
             allowed = " and ".join(f"{sign} {_rounded(limit, value)}" for sign, limit, _ in self._limits())
             raise InputError(f"got {text(value)}, allowed: {allowed}")
 
-        return core_schema.no_info_after_validator_function(_refusing(check), handler(source))
+        return core_schema.no_info_after_validator_function(_refusing(check), inner)
 
-    def __get_pydantic_json_schema__(
-        self, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
+    def __get_pydantic_json_schema__(self, schema: Any, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         """Add the range to the description."""
         described = handler(schema)
         allowed = " and ".join(f"{sign} {text(limit)}" for sign, limit, _ in self._limits())
+        measure = schema.get("schema", {}).get("metadata", {}).get(_MEASURE)
+        if measure is not None and "examples" in described:
+            described["examples"] = [example_of(measure.kind, partial(self.allows, measure.kind))]
         described["description"] = f"{described.get('description', '')}, {allowed}"
         return described | {"x-allowed": allowed}
 

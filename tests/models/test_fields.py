@@ -125,3 +125,35 @@ def test_a_check_reads_the_fields_that_it_names(spec):
     given = conveyor.load(spec)
     for check, reads in CHECKS.items():
         assert list(check(_Only(given, reads))) == []
+
+
+def test_every_change_that_is_refused_is_named_at_once(line):
+    changes = {
+        "belt.speed": "50 m/s",
+        "belt.width": "2 kg",
+        "belt.top_cover.thickness": "-1 mm",
+        "idlers.carry.spacing": "2 kg",
+        "idlers.carry.spacin": "1 m",
+        "route.sections[0].length": "1 kg",
+        "route.sections.nowhere.lift": "1 m",
+        "a b.": 1,
+    }
+    with pytest.raises(InputError, match="a b") as refused:
+        with_fields(line, changes)
+    assert [said.partition(":")[0] for said in str(refused.value).splitlines()] == [
+        "a b.",
+        "belt.top_cover.thickness",
+        "belt.width",
+        "belt.speed",
+        "idlers.carry.spacin",
+        "idlers.carry.spacing",
+        "route.sections[0].length",
+        "route.sections",
+    ]
+
+
+def test_a_refused_field_is_not_held_against_those_that_it_would_fit(line):
+    """The angle alone would not fit the one roll that stays; with the number that is refused it might."""
+    with pytest.raises(InputError, match=r"^idlers\.carry\.rolls: ") as refused:
+        with_fields(line, {"idlers.carry.rolls": "many", "idlers.carry.trough_angle": "20 deg"})
+    assert len(str(refused.value).splitlines()) == 1

@@ -16,6 +16,7 @@ from conveyor.errors import InputError
 from conveyor.files.saving import save
 from conveyor.report import plots
 from conveyor.template.write import write_template
+from tests import command_line
 from tests.robustness.arrange import SPEC, full
 from tests.robustness.table import files
 
@@ -88,7 +89,7 @@ def test_a_full_disk_leaves_the_folder_as_it_was(
 
 
 @pytest.mark.parametrize("older", [True, False])
-@pytest.mark.parametrize("name", CHEAP)
+@pytest.mark.parametrize("name", [*CHEAP, "report.xlsx", "template.xlsx"])
 def test_a_disk_that_is_really_full_leaves_the_folder_as_it_was(
     name: str, older: bool, tmp_path: Path
 ) -> None:
@@ -121,4 +122,16 @@ def test_ctrl_c_while_it_writes_leaves_the_folder_as_it_was(
         patched.setattr(Path, "write_text", stopped)
         with pytest.raises(KeyboardInterrupt):
             OUTPUTS[name](path)
+    assert files(tmp_path) == before
+
+
+@pytest.mark.parametrize("command", [("template", "t.xlsx"), ("power", "spec.yaml", "-o", "t.xlsx")])
+def test_a_command_names_the_file_whose_temporary_ones_found_no_room(
+    command: tuple[str, ...], tmp_path: Path
+) -> None:
+    (tmp_path / "spec.yaml").write_text(SPEC, encoding="utf-8")
+    before = files(tmp_path)
+    with _full_disk():
+        done = command_line.run(*command, cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (2, "t.xlsx: cannot be written (File too large)\n")
     assert files(tmp_path) == before

@@ -28,7 +28,7 @@ from conveyor.models.study import StudyPlan
 from conveyor.pipeline import Kept, calculate
 from conveyor.report.point_tables import CampaignTable, PartedTable, of_points
 from conveyor.studies.campaign import BATCH, Answers, Campaign, point_of, rows, run
-from conveyor.studies.points import OUTPUTS, _opened, answers
+from conveyor.studies.points import OUTPUTS, _Opened, _opened, answers
 from tests.command_line import run as command
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -206,6 +206,20 @@ def test_what_batches_before_made_changes_no_bit(monkeypatch):
     anew = answers(study.job, batches[2])
     assert forward == backward
     assert anew == forward[2]
+
+
+def test_loads_of_so_many_designs_are_remembered_and_no_more(line, monkeypatch):
+    """Of a design once as long as no more than that many came since; never more than that many."""
+    made = []
+    monkeypatch.setattr("conveyor.studies.points._loads", lambda design, _: made.append(design) or len(made))
+    monkeypatch.setattr("conveyor.studies.points.Kept.MOST", 3)
+    opened = _Opened(campaign(line, axes={"belt.speed": "1:2:0.1 m/s"}).job)
+    three = [{"belt.speed": f"{speed} m/s"} for speed in (1.1, 1.2, 1.3)]
+    assert [opened.loads(point) for point in three + three] == [1, 2, 3, 1, 2, 3]
+    assert opened.loads({"belt.speed": "1.4 m/s"}) == 4
+    assert opened.loads({"belt.speed": "1.4 m/s"}) == 4
+    assert opened.loads(three[0]) == 5  # the fourth took the place of the three
+    assert len(made) == 5
 
 
 def test_no_batch_finds_the_level_of_a_compound_anew(line):

@@ -310,6 +310,10 @@ SHEETS: dict[str, tuple[Callable[[Workbook], object], str]] = {
         lambda b: b["Sections"].__setitem__("AZ40", 5),
         r"Sections!AZ40 outside the columns of the list",
     ),
+    "stray beside a form": (
+        lambda b: belt(b).__setitem__("XFD1048576", 1),
+        r"Belt!XFD1048576 outside the columns of the form; remove it",
+    ),
     "merged value": (lambda b: belt(b).merge_cells("B5:C5"), r"Belt!B5:C5 cells are merged; unmerge them"),
     "merged items": (
         lambda b: b["Sections"].merge_cells("B7:B9"),
