@@ -63,6 +63,9 @@ class Chain:
         Mass right before the take-up; mass 0 is right behind it.
     nodes : ndarray of int, shape (s, d)
         Masses on driven pulleys, all of them different.
+    before : ndarray, shape (6, s, d)
+        Of each of those what lies before its pulley: mass [kg], weight, friction f0, f1, f2, and that at rest, as those
+        of the whole mass; the rest lies behind it.
     lumps : ndarray of int, shape (s, l)
         Masses on which friction stands that does not get less with the cell, and those beside the take-up; a driven
         one has its friction with its pulley.
@@ -91,6 +94,7 @@ class Chain:
     sticking: Array
     end: Integers
     nodes: Integers
+    before: Array
     lumps: Integers
     rim: Array
     grip: Array
@@ -176,14 +180,16 @@ class Record:
     step : float
         Of the calculation [s].
     highest, lowest, highest_at, lowest_at : ndarray, shape (s, n)
-        Extreme tensions of every cell [N], and when [s].
+        Extreme tensions in the middle of every cell, and at the driven pulley where one ends there [N]; when [s].
+    highest_speed, lowest_speed, highest_speed_at, lowest_speed_at : ndarray, shape (s, n + 1)
+        Extreme speeds of every mass, that at the begin too [m/s], and when [s].
     times, tensions : ndarray, shape (m,), (m, s, n)
         Samples of the tension [N].
     speeds : ndarray, shape (m, s, n + 1)
         Samples of the belt's speed [m/s].
     drives : dict of str to ndarray, shape (steps, s, d)
-        At every step: "force" on the belt, "motor", "rim", "belt" speeds, "arriving" and "leaving" tensions, "holding"
-        force of brake and backstop.
+        At every step: "force" on the belt, "motor", "rim", "belt" speeds, "arriving" and "leaving" tensions at the
+        pulley, "holding" force of brake and backstop.
     take_up : dict of str to ndarray, shape (steps, s)
         Its "tension" [N] and the "belt" it has taken in [m].
     slipped, heat : ndarray, shape (s, d)
@@ -199,6 +205,10 @@ class Record:
     lowest: Array
     highest_at: Array
     lowest_at: Array
+    highest_speed: Array
+    lowest_speed: Array
+    highest_speed_at: Array
+    lowest_speed_at: Array
     times: Array
     tensions: Array
     speeds: Array
@@ -245,6 +255,15 @@ class _Extremes:
             at[new] = (self.first + extreme)[new]
         self.first += self.count
         self.count = 0
+
+    def look_at(self, *place: int, values: Array) -> None:
+        """Take in what else one of them was from the begin on."""
+        for i, best, at, better in (
+            (int(values.argmax()), self.high, self.high_at, np.greater),
+            (int(values.argmin()), self.low, self.low_at, np.less),
+        ):
+            if better(values[i], best[place]):
+                best[place], at[place] = values[i], i - 1
 
 
 class _BeltLaw:
@@ -470,13 +489,14 @@ class _Motion:
         self.strained = start.tension + self.tau_k * self.law.eased * self.stretching
         self.resisting = start.resisting * self.loose
         self.driving, self.rims = start.driving, start.rims
+        self.gripping = np.ones(chain.nodes.shape, dtype=bool)
         self.rubbing = start.resisting[self.rows, self.at]
         self.on_pulleys = start.speed[
             self.rows, self.at
         ]  # at rest exactly 0, which the solver's rounding blurs
         self.lumps_rest = start.speed[self.rows, chain.lumps] == 0.0
         self.pulled, self.taken, self.winding = chain.held, np.zeros(s), np.zeros(s)
-        self.extremes = _Extremes((s, n))
+        self.extremes, self.speeds = _Extremes((s, n)), _Extremes((s, n + 1))
         names = ("force", "motor", "rim", "belt", "arriving", "leaving", "holding")
         self.drives = {name: np.zeros((self.steps, *chain.nodes.shape)) for name in names}
         self.take_up = {name: np.zeros((self.steps, s)) for name in ("tension", "belt")}
@@ -502,25 +522,35 @@ class _Motion:
             at == chain.end[:, None],
         )  # beside the take-up pulleys bear its tension
         self.before, self.behind = np.maximum(at - 1, 0), np.minimum(at, n - 1)
-        apart = at[:, :, None] - at[:, None, :]
-        self.alone = ~self.first & np.all(apart != 1, axis=2), ~self.last & np.all(apart != -1, axis=2)
         self.turns = [_only(chain, self.machines, some) for some in self.solver.pulleys.turns()]
-        self.here = np.where(
-            self.first | self.last, 1.0, 0.5
-        )  # of what lies on a pulley's mass, on either side
+        weight = chain.weight[self.rows, at]
+        self.lying = chain.before[1], weight - chain.before[1]
+        self.inert = chain.before[0] / step, (chain.mass[self.rows, at] - chain.before[0]) / step
 
     def followed(self) -> Record:
         """Take every step."""
-        self.extremes.tell(self._at_pulleys(self.tension))
+        before, behind = self._shares(self.chain.resisting(self.speed)[self.rows, self.at])
+        tight = self.chain.held[:, None]
+        coming = np.where(self.first, tight, self.tension[self.rows, self.before])
+        parting = np.where(self.last, tight, self.tension[self.rows, self.behind])
+        self.beside = beside = (
+            coming + self.lying[0] + before * self.rubbing,
+            parting - self.lying[1] - behind * self.rubbing,
+        )
+        self.extremes.tell(self.tension)
+        self.speeds.tell(self.speed)
         for i in range(self.steps):
             self._step(i)
             self._keep(i)
         self.extremes.look()
-        extremes, kept = self.extremes, self.kept
+        self.speeds.look()
+        self._at_pulleys(*beside)
+        extremes, speeds, kept = self.extremes, self.speeds, self.kept
         if not (np.all(np.isfinite(extremes.high)) and np.all(np.isfinite(self.speed))):
             raise NoSolutionError("the belt's motion has no finite answer: look for extreme inputs")
         return Record(
             self.dt, extremes.high, extremes.low, self._time(extremes.high_at), self._time(extremes.low_at),
+            speeds.high, speeds.low, self._time(speeds.high_at), self._time(speeds.low_at),
             np.array([time for time, _, _ in kept]), np.stack([t for _, t, _ in kept]),
             np.stack([v for _, _, v in kept]), self.drives, self.take_up, self.slipped, self.heat, self.fastest,
             self.slowest, self.ledger.closed(self.speed, self.rims, self.law),
@@ -572,7 +602,9 @@ class _Motion:
     def _driven(self, i: int, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array]:
         """Speeds with new forces of pulleys, in turn where they move each other, and what the take-up lacks then."""
         chain, rows, pulleys = self.chain, self.rows, self.solver.pulleys
-        softer = self.law.eased * (self.dt * (self.law.k + self.law.branch_k) + self.tau_k)
+        half = 0.5 * self.solver.shares
+        softer, stressed = self.tau_k * half, self.tau_k * (self.law.eased - half) * self.stretching
+        shares = self._shares(rolling[rows, self.at])
         impulse, friction, over = (
             self.dt * (self.driving - self.rubbing),
             self.rubbing.copy(),
@@ -585,31 +617,36 @@ class _Motion:
             )
             answer, going = pulleys.own[:, k], new[rows, at]
             of_take_up = pulleys.of_take_up[:, k] / (answer * self.dt)
+            inert = tuple(part[:, k] for part in self.inert)
             yields = (
-                np.where(first, -of_take_up, softer[rows, left] * pulleys.beside[0][:, k]),
-                np.where(last, of_take_up, softer[rows, right] * pulleys.beside[1][:, k]),
+                inert[0] + np.where(first, -of_take_up, softer[rows, left] * pulleys.beside[0][:, k]),
+                inert[1] + np.where(last, of_take_up, softer[rows, right] * pulleys.beside[1][:, k]),
             )
-            lying = self.here[:, k] * (chain.weight[rows, at] + np.sign(on) * rolling[rows, at])
             tight = (chain.held - lacking / self.dt)[:, None]
-            coming = self.tension[rows, left] + softer[rows, left] * (new[rows, left + 1] - new[rows, left])
-            parting = self.tension[rows, right] + softer[rows, right] * (
-                new[rows, right + 1] - new[rows, right]
-            )
+            coming, parting = (
+                self.tension[rows, side] + stressed[rows, side]
+                + softer[rows, side] * (new[rows, side + 1] - new[rows, side])
+                for side in (left, right)
+            )  # fmt: skip
+            coming = np.where(first, tight, coming) + self.lying[0][:, k] + inert[0] * (going - on)
+            parting = np.where(last, tight, parting) - self.lying[1][:, k] - inert[1] * (going - on)
             moved = _pulleys(
                 drive, machine, i, step=self.dt, answer=answer, rim=self.rims[:, k],
                 free=going - answer * impulse[:, k],
-                arriving=np.where(first, tight, coming + lying) - yields[0] * going,
-                leaving=np.where(last, tight, parting - lying) + yields[1] * going,
+                arriving=coming - yields[0] * going, leaving=parting + yields[1] * going,
                 yields=yields, friction=np.where(on == 0.0, self.stuck[:, k], rolling[rows, at]),
+                shares=(shares[0][:, k], shares[1][:, k]),
+                last=(self.driving[:, k], self.beside[0][:, k], self.beside[1][:, k]), gripped=self.gripping[:, k],
             )  # fmt: skip
             for name, values in self.drives.items():
                 values[i][:, k] = getattr(moved, name)
-            friction[:, k] = moved.friction
+            friction[:, k], self.gripping[:, k] = moved.friction, moved.grips
             over[:, k] = np.where(moved.grips, 0.0, self.dt * (moved.rim - moved.belt))
             change = (moved.belt - going) / answer
             new = new + np.einsum("sd,sdn->sn", change, pulleys.columns[:, k])
             lacking = lacking + (pulleys.of_take_up[:, k] * change).sum(axis=1)
         now = {name: values[i] for name, values in self.drives.items()} | {"friction": friction}
+        self.beside = now["arriving"], now["leaving"]
         self.slipped = self.slipped + np.abs(over)
         self.heat = self.heat + over * now["force"]
         self.ledger.drives(self.rims, self.speed[rows, self.at], now)
@@ -639,7 +676,8 @@ class _Motion:
 
     def _keep(self, i: int) -> None:
         """Note extremes, samples, and what the take-up does."""
-        self.extremes.tell(self._at_pulleys(self.shown))
+        self.extremes.tell(self.shown)
+        self.speeds.tell(self.speed)
         self.taken = self.taken + self.dt * (self.speed[self.one, self.chain.end] - self.speed[:, 0])
         self.take_up["tension"][i], self.take_up["belt"][i] = self.pulled, self.taken
         if i % self.every == 0:
@@ -652,13 +690,26 @@ class _Motion:
                 )
             self.sampled = self.speed
 
-    def _at_pulleys(self, tension: Array) -> Array:
-        """Tension of every cell, of one that ends on a driven pulley that at the pulley: there it has its extremes."""
-        told, rows = tension.copy(), self.rows
-        lying = self.here * (self.chain.weight[rows, self.at] + self.rubbing)
-        told[rows, self.before] += np.where(self.alone[0], lying, 0.0)
-        told[rows, self.behind] -= np.where(self.alone[1], lying, 0.0)
-        return told
+    def _shares(self, rolling: Array) -> tuple[Array, Array]:
+        """Of the friction on the driven masses what acts before and behind their pulleys [-]."""
+        _, _, *parabola, sticking = self.chain.before
+        size = np.minimum(np.abs(self.on_pulleys), self.chain.known)
+        moving = parabola[0] + size * (parabola[1] + size * parabola[2])
+        still = self.on_pulleys == 0.0
+        of, part = np.where(still, self.stuck, rolling), np.where(still, sticking, moving)
+        before = np.divide(part, of, out=np.zeros_like(of), where=of > 0.0)
+        return before, 1.0 - before
+
+    def _at_pulleys(self, arriving: Array, leaving: Array) -> None:
+        """Extremes of cells that end on driven pulleys: what acts there at once jumps there first."""
+        for cells, end, begin, name in (
+            (self.before, self.first, arriving, "arriving"),
+            (self.behind, self.last, leaving, "leaving"),
+        ):
+            values = np.concatenate([begin[None], self.drives[name]])
+            for d in range(cells.shape[1]):
+                for row in np.flatnonzero(~end[:, d]).tolist():
+                    self.extremes.look_at(row, int(cells[row, d]), values=values[:, row, d])
 
 
 def _only(chain: Chain, machines: Machines, k: list[int]) -> tuple[list[int], Chain, Machines]:
@@ -700,13 +751,17 @@ def _rest(free: Array, forward: Array, backward: Array) -> Array:
 
 def _pulleys(
     chain: Chain, machines: Machines, i: int, *, step: float, answer: Array, rim: Array, free: Array,
-    arriving: Array, leaving: Array, yields: tuple[Array, Array], friction: Array,
+    arriving: Array, leaving: Array, yields: tuple[Array, Array], friction: Array, shares: tuple[Array, Array],
+    last: tuple[Array, Array, Array], gripped: NDArray[np.bool_],
 ) -> _Moved:  # fmt: skip
     """Motors, brakes, rims and the belt on them, each at once; a motor on its line, beyond its limit at that.
 
     `free` is the belt's speed without the pulley, `answer` what an impulse adds to it; the tensions are those at no
-    speed there, and `yields` what a speed adds before and takes off behind. They are those at the end of the step:
-    earlier ones would make a slipping belt unstable, whose slack side tells its force.
+    speed there and without friction, `yields` what a speed adds before and takes off behind, `shares` those of the
+    friction there. They are those between which the force stands, mass and damping of the half cells up to the pulley
+    taken in: a force that comes at once is split as the impedances of both sides, however long the cells. A belt that
+    `gripped` and slips now is taken to do so in the middle of the step: force and tensions are half the `last` ones,
+    half those told. At the begin of the step they would make the tension swing from cell to cell.
     """
     most = machines.share[i] * machines.limit(rim)
     brake, back, grip = machines.brake[i], chain.backstop, chain.grip
@@ -714,22 +769,32 @@ def _pulleys(
     slope = np.where(on, machines.slope, 0.0)
     base = slope * machines.reference[i]
     for tried in range(2):
-        mass = chain.rim + 0.5 * step * slope
-        alone = (chain.rim * rim + step * (base - 0.5 * slope * rim)) / mass
+        # the mean of both ends while a step resolves how a rim comes to its line, else later: no swing about it
+        gives = step * slope
+        late = np.maximum(
+            0.5, 1.0 - np.divide(chain.rim, gives, out=np.full_like(gives, 0.5), where=gives > 0.0)
+        )
+        mass = chain.rim + late * gives
+        alone = (chain.rim * rim + step * (base - (1.0 - late) * slope * rim)) / mass
         together = 1.0 / answer + mass
         stop = step * (brake + friction) / together
         common = _rest((free / answer + mass * alone) / together, stop, np.where(back, np.inf, stop))
-        force = (common - free) / (answer * step) + np.sign(common) * friction
-        forward = force > grip * np.maximum(leaving - yields[1] * common, 0.0)
-        backward = force < -grip * np.maximum(arriving + yields[0] * common, 0.0)
+        against = np.sign(common) * friction
+        before, behind = arriving + shares[0] * against, leaving - shares[1] * against
+        force = (common - free) / (answer * step) + against
+        forward = force > grip * np.maximum(behind - yields[1] * common, 0.0)
+        backward = force < -grip * np.maximum(before + yields[0] * common, 0.0)
         grips = ~(forward | backward)
-        belt, turned = common, common
+        belt, turned, begins = common, common, gripped & ~grips
         if not grips.all():
-            pushed, slack = np.where(forward, leaving, -arriving), np.where(forward, yields[1], yields[0])
+            pushed, slack = np.where(forward, behind, -before), np.where(forward, yields[1], yields[0])
             eased = 1.0 + answer * step * grip * slack
             rub = answer * step * friction / eased
-            slid = _rest((free + answer * step * grip * pushed) / eased, rub, rub)
-            limit = grip * (pushed - slack * slid)
+            driven = grip * pushed + np.where(
+                begins, 0.5 * (last[0] + grip * np.where(forward, -last[2], last[1])), 0.0
+            )
+            slid = _rest((free + answer * step * driven) / eased, rub, rub)
+            limit = driven - grip * slack * slid
             limit = np.where(forward, np.maximum(limit, 0.0), np.minimum(limit, 0.0))
             slid = np.where(
                 limit == 0.0, _rest(free, answer * step * friction, answer * step * friction), slid
@@ -738,14 +803,17 @@ def _pulleys(
             stop = step * (brake + np.where(on, 0.0, machines.drag)) / mass
             spun = _rest(alone - step * force / mass, stop, np.where(back, np.inf, stop))
             belt, turned = np.where(grips, common, slid), np.where(grips, common, spun)
-        motor = base - 0.5 * slope * (turned + rim)
+        motor = base - slope * (late * turned + (1.0 - late) * rim)
         beyond = np.abs(motor) > most
         if tried or not beyond.any():
             break
         base, slope = np.where(beyond, np.copysign(most, motor), base), np.where(beyond, 0.0, slope)
+    taken = force - (belt - free) / (answer * step)
+    arriving = arriving + yields[0] * belt + shares[0] * taken
+    leaving = leaving - yields[1] * belt - shares[1] * taken
     return _Moved(
-        force, motor, mass * (alone - turned) / step - force, force - (belt - free) / (answer * step), turned,
-        belt, arriving + yields[0] * belt, leaving - yields[1] * belt, grips,
+        force, motor, mass * (alone - turned) / step - force, taken, turned, belt,
+        np.where(begins, 2.0 * arriving - last[1], arriving), np.where(begins, 2.0 * leaving - last[2], leaving), grips,
     )  # fmt: skip
 
 
