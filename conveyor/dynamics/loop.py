@@ -187,7 +187,7 @@ class CutLoop:
         def lumped(values: Array) -> Array:
             """Half of what lies along each cell to each of its ends."""
             before = half(values)
-            return before + np.append(before[1:], 0.0)
+            return np.asarray(before + np.append(before[1:], 0.0))
 
         hanging = np.concatenate([np.zeros(1), np.cumsum(self.hanging * np.diff(self.way))])
         sag = np.diff(np.interp(at, self.way, hanging))
