@@ -222,7 +222,7 @@ def _take_up(scenario: Followed) -> Iterator[Check]:
 
 def _end(scenario: Followed) -> Iterator[Check]:
     """A stop comes to rest without running away; a start reaches full speed."""
-    full, top = scenario.line.speed, float(np.abs(scenario.belt_speed).max())
+    full, (top, place, at) = scenario.line.speed, scenario.top_speed
     if scenario.stops:
         words = said("not within the calculated time")
         if scenario.rests_at is not None:
@@ -231,7 +231,8 @@ def _end(scenario: Followed) -> Iterator[Check]:
         yield Check("dynamic_rest", said("stopping"), scenario.rests_at, None, "duration", words, said("a stop"),
                     verdict(holds=scenario.rests_at is not None), why)  # fmt: skip
         yield compared("dynamic_overspeed", "speed of the belt", top, "at most", OVERSPEED * full, "speed",
-                       source="general knowledge", why="the belt runs away to {calculated}")  # fmt: skip
+                       source="general knowledge", where=f"{place}, {at:.1f} s",
+                       why=f"the belt runs away to {{calculated}}, most in {quoted(place)}")  # fmt: skip
     elif not scenario.ride.scene.running:
         end = float(scenario.belt_speed[-1])
         yield compared("dynamic_full_speed", "speed at the end", end, "at least", FULL_SPEED * full, "speed",

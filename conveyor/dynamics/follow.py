@@ -104,9 +104,23 @@ class Followed:
 
     def place(self, i: int) -> str:
         """Where a cell is, in words: section and strand."""
-        at = int(np.searchsorted(self.ride.loop.way, self.middles[i], side="right")) - 1
-        stretch = self.line.loop.stretches[self.ride.loop.order[at]]
+        return self._words(float(self.middles[i]))
+
+    def _words(self, distance: float) -> str:
+        """Section and strand at a distance from the take-up."""
+        order = self.ride.loop.order
+        at = int(np.searchsorted(self.ride.loop.way, distance, side="right")) - 1
+        stretch = self.line.loop.stretches[order[min(at, order.size - 1)]]
         return f"{stretch.section}, {stretch.strand}"
+
+    @cached_property
+    def top_speed(self) -> tuple[float, str, float]:
+        """Highest speed anywhere on the belt, either way, its begin too [m/s]; where in words, and when [s]."""
+        record = self.record
+        size = np.maximum(record.highest_speed, -record.lowest_speed)
+        i = int(size.argmax())
+        when = record.highest_speed_at if record.highest_speed[i] >= size[i] else record.lowest_speed_at
+        return float(size[i]), self._words(float(self.cells.at[i])), float(when[i])
 
     @cached_property
     def round_loop(self) -> tuple[NDArray[np.int_], Array]:
@@ -463,7 +477,9 @@ def _only(record: Record, i: int, size: int, duration: float) -> Record:
     steps, kept = math.ceil(duration / record.step) + 1, record.times <= duration
     return Record(
         record.step, record.highest[i, : size - 1], record.lowest[i, : size - 1], record.highest_at[i, : size - 1],
-        record.lowest_at[i, : size - 1], record.times[kept], record.tensions[kept, i, : size - 1],
+        record.lowest_at[i, : size - 1], record.highest_speed[i, :size], record.lowest_speed[i, :size],
+        record.highest_speed_at[i, :size], record.lowest_speed_at[i, :size], record.times[kept],
+        record.tensions[kept, i, : size - 1],
         record.speeds[kept, i, :size], {name: values[:steps, i] for name, values in record.drives.items()},
         {name: values[:steps, i] for name, values in record.take_up.items()}, record.slipped[i], record.heat[i],
         record.fastest[i, :size], record.slowest[i, :size], {name: v[i] for name, v in record.work.items()},

@@ -29,9 +29,10 @@ _WITH_SPEED = frozenset({"acceleration", "loading_skirts"})
 
 @dataclass(frozen=True)
 class _Lump:
-    """What stands at one place: distance [m], mass [kg], friction f0, f2 [N, N s²/m²], weight [N]."""
+    """What stands at one place: distance [m] and order, mass [kg], friction f0, f2 [N, N s²/m²], weight [N]."""
 
     at: float
+    stand: Stand
     mass: float = 0.0
     friction: float = 0.0
     square: float = 0.0
@@ -178,26 +179,37 @@ class CutLoop:
         time = np.concatenate(times)
         at = np.interp(time, self.travel, self.way)
 
+        def half(values: Array) -> Array:
+            """Of what lies along the cell before every mass."""
+            cell = np.diff(np.interp(at, self.way, np.concatenate([np.zeros(1), np.cumsum(values)])))
+            return np.asarray(0.5 * np.append(0.0, cell))
+
         def lumped(values: Array) -> Array:
             """Half of what lies along each cell to each of its ends."""
-            cell = np.diff(np.interp(at, self.way, np.concatenate([np.zeros(1), np.cumsum(values)])))
-            return np.asarray(0.5 * (np.append(cell, 0.0) + np.append(0.0, cell)))
+            before = half(values)
+            return np.asarray(before + np.append(before[1:], 0.0))
 
         hanging = np.concatenate([np.zeros(1), np.cumsum(self.hanging * np.diff(self.way))])
         sag = np.diff(np.interp(at, self.way, hanging))
-        mass, weight, stuck = lumped(self.mass), lumped(self.weight), lumped(self.stuck)
-        friction = np.stack([lumped(part) for part in self.friction])
+        lying = np.stack([lumped(one) for one in (self.mass, self.weight, *self.friction, self.stuck)])
+        nodes = np.array([int(np.argmin(np.abs(time - t))) for t in arriving], dtype=int)
+        before = np.stack([half(one)[nodes] for one in (self.mass, self.weight, *self.friction, self.stuck)])
         rubbing = {0, at.size - 1}
         for lump in self.lumps:
             k = int(np.argmin(np.abs(at - lump.at)))
-            mass[k] += lump.mass
-            weight[k] += lump.weight
-            friction[:, k] += lump.friction, 0.0, lump.square
+            part = np.array([lump.mass, lump.weight, lump.friction, 0.0, lump.square, 0.0])
+            lying[:, k] += part
+            for d in np.flatnonzero(nodes == k).tolist():
+                if (lump.at, lump.stand) <= (float(self.drives[d]), self.line.drives[d].spot.stand):
+                    before[:, d] += part
             if lump.friction or lump.square:
                 rubbing.add(k)
-        nodes = np.array([int(np.argmin(np.abs(time - t))) for t in arriving], dtype=int)
+        mass, weight, friction, stuck = lying[0], lying[1], lying[2:5], lying[5]
+        before[5] += before[2]
         lumps = np.array(sorted(rubbing.difference(nodes.tolist())), dtype=int)
-        return Cells(at, mass, self.stiffness / np.diff(at), weight, friction, stuck, nodes, lumps, sag)
+        return Cells(
+            at, mass, self.stiffness / np.diff(at), weight, friction, stuck, nodes, before, lumps, sag
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -211,6 +223,7 @@ class Cells:
     friction: Array
     stuck: Array
     nodes: NDArray[np.int_]
+    before: Array
     lumps: NDArray[np.int_]
     sag: Array
 
@@ -270,16 +283,16 @@ def _lumps(result: CalculatedConveyor, distance: Callable[[Spot], float]) -> Ite
     for force in result.balance.singles:
         if force.spot is None:
             continue
-        at = distance(force.spot)
+        at, stand = distance(force.spot), force.spot.stand
         if force.kind == "lift":
-            yield _Lump(at, weight=force.total)
+            yield _Lump(at, stand, weight=force.total)
         elif force.key in _WITH_SPEED:
-            yield _Lump(at, square=force.total / speed**2)
+            yield _Lump(at, stand, square=force.total / speed**2)
         else:
-            yield _Lump(at, friction=force.total)
+            yield _Lump(at, stand, friction=force.total)
     for pulley in result.line.pulleys:
         if not pulley.driven:
-            yield _Lump(distance(pulley.spot), mass=PULLEY_INERTIA.value * pulley.mass)
+            yield _Lump(distance(pulley.spot), pulley.spot.stand, mass=PULLEY_INERTIA.value * pulley.mass)
 
 
 def _apart(times: Array, whole: float, step: float) -> list[float]:

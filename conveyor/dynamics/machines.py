@@ -285,6 +285,10 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
         sticking=filled([one.sticking(rest) for one, rest in zip(cells, friction, strict=True)], 0.0, most),
         end=np.array([one.at.size - 1 for one in cells]),
         nodes=np.array([one.nodes for one in cells]),
+        before=np.stack([
+            one.before * np.array([1.0, 1.0, rest, rest, rest, rest])[:, None]
+            for one, rest in zip(cells, friction.tolist(), strict=True)
+        ], axis=1),
         lumps=_even(cells),
         rim=np.array([ride.rims for ride in rides]),
         grip=np.array([[math.expm1(drive.friction * drive.wrap_angle) for drive in ride.drives] for ride in rides]),

@@ -73,6 +73,10 @@ class EvenLoop:
                 np.zeros((1, n + 1)),
             ]),
             sticking=(1.0 - self.rising) * friction[None], end=np.array([n]), nodes=np.array([[node]]),
+            before=(1.0 if node == n else 0.5) * np.array([  # the belt is even where a drive stands
+                mass[node], 0.0, (1.0 - self.rising) * friction[node], self.rising / self.speed * friction[node], 0.0,
+                (1.0 - self.rising) * friction[node],
+            ])[:, None, None],
             lumps=np.zeros((1, 0), int),
             rim=np.ones((1, 1)), grip=np.full((1, 1), 1e12), backstop=np.zeros((1, 1), bool),
             held=np.array([self.held]), carriage=np.array([self.carriage]), winch=np.zeros((3, 1)),

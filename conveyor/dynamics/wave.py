@@ -34,6 +34,10 @@ _NEWTON, _NEAR = (
     1e-4,
 )  # steps for a tension at most, and a relative one after which the rest is its square
 _SHARE = 0.05  # of k by which the damping of the solver may be above that of a cell: half of it moves no peak by 1e-4
+_SIDES, _FROM = (
+    np.array([1.0, -1.0])[:, None, None],
+    np.array([0.0, 1.0])[:, None, None],
+)  # before and behind a pulley
 SPEED_POINTS = 65  # points of the motors' limits over speed
 
 
@@ -63,6 +67,9 @@ class Chain:
         Mass right before the take-up; mass 0 is right behind it.
     nodes : ndarray of int, shape (s, d)
         Masses on driven pulleys, all of them different.
+    before : ndarray, shape (6, s, d)
+        Of each of those what lies before its pulley: mass [kg], weight, friction f0, f1, f2, and that at rest, as those
+        of the whole mass; the rest lies behind it.
     lumps : ndarray of int, shape (s, l)
         Masses on which friction stands that does not get less with the cell, and those beside the take-up; a driven
         one has its friction with its pulley.
@@ -91,6 +98,7 @@ class Chain:
     sticking: Array
     end: Integers
     nodes: Integers
+    before: Array
     lumps: Integers
     rim: Array
     grip: Array
@@ -147,8 +155,16 @@ class Machines:
     top: float
     drag: Array
 
+    @cached_property
+    def even(self) -> Array | None:
+        """The limits where they do not change with the speed, shape (s, d)."""
+        first = self.limits[..., 0]
+        return first if bool(np.all(self.limits == first[..., None])) else None
+
     def limit(self, speed: Array) -> Array:
         """Largest force at a speed [N], shape (s, d)."""
+        if self.even is not None:
+            return self.even
         over = np.minimum(np.abs(speed) / self.top, 1.0) * (SPEED_POINTS - 1)
         low = np.minimum(over.astype(int), SPEED_POINTS - 2)
         s, d = np.ogrid[: low.shape[0], : low.shape[1]]
@@ -176,14 +192,16 @@ class Record:
     step : float
         Of the calculation [s].
     highest, lowest, highest_at, lowest_at : ndarray, shape (s, n)
-        Extreme tensions of every cell [N], and when [s].
+        Extreme tensions in the middle of every cell, and at the driven pulley where one ends there [N]; when [s].
+    highest_speed, lowest_speed, highest_speed_at, lowest_speed_at : ndarray, shape (s, n + 1)
+        Extreme speeds of every mass, that at the begin too [m/s], and when [s].
     times, tensions : ndarray, shape (m,), (m, s, n)
         Samples of the tension [N].
     speeds : ndarray, shape (m, s, n + 1)
         Samples of the belt's speed [m/s].
     drives : dict of str to ndarray, shape (steps, s, d)
-        At every step: "force" on the belt, "motor", "rim", "belt" speeds, "arriving" and "leaving" tensions, "holding"
-        force of brake and backstop.
+        At every step: "force" on the belt, "motor", "rim", "belt" speeds, "arriving" and "leaving" tensions at the
+        pulley, "holding" force of brake and backstop.
     take_up : dict of str to ndarray, shape (steps, s)
         Its "tension" [N] and the "belt" it has taken in [m].
     slipped, heat : ndarray, shape (s, d)
@@ -199,6 +217,10 @@ class Record:
     lowest: Array
     highest_at: Array
     lowest_at: Array
+    highest_speed: Array
+    lowest_speed: Array
+    highest_speed_at: Array
+    lowest_speed_at: Array
     times: Array
     tensions: Array
     speeds: Array
@@ -246,12 +268,22 @@ class _Extremes:
         self.first += self.count
         self.count = 0
 
+    def look_at(self, *place: int, values: Array) -> None:
+        """Take in what else one of them was from the begin on."""
+        for i, best, at, better in (
+            (int(values.argmax()), self.high, self.high_at, np.greater),
+            (int(values.argmin()), self.low, self.low_at, np.less),
+        ):
+            if better(values[i], best[place]):
+                best[place], at[place] = values[i], i - 1
+
 
 class _BeltLaw:
     """Tension of every cell by how far its ends have moved apart, u = T/k - b/T², and a relaxing branch beside it."""
 
     def __init__(self, chain: Chain, step: float, tension: Array) -> None:
         self.bears = chain.stiffness > 0.0
+        self.idle = not bool(self.bears.all())
         self.k, self.sag = np.where(self.bears, chain.stiffness, 1.0), chain.sag
         self.hangs = bool(chain.sag.any())
         if self.hangs:
@@ -268,7 +300,7 @@ class _BeltLaw:
         self.fades = math.exp(-step / time)
         self.branch_k = share * np.where(self.bears, self.k, 0.0)
         self.fed = self.branch_k * time / step * (1.0 - self.fades)
-        self.branch = np.zeros_like(tension)
+        self.branch, self.relaxes = np.zeros_like(tension), bool(self.branch_k.any())
         self._ease()
 
     def _ease(self) -> None:
@@ -281,6 +313,8 @@ class _BeltLaw:
 
     def stretch(self, way: Array) -> Array:
         """Move the ends of the cells apart [m]; the tension without damping [N]."""
+        if self.idle:
+            way = np.where(self.bears, way, 0.0)
         self.apart = self.apart + way
         if not self.hangs:
             self.root = self.k * self.apart
@@ -295,9 +329,12 @@ class _BeltLaw:
             else:
                 raise NoSolutionError("the tension of a slack belt has no answer: look for extreme inputs")
         self._ease()
-        if self.branch_k.any():
+        self.tension = self.root
+        if self.relaxes:
             self.branch = self.fades * self.branch + self.eased * self.fed * way
-        self.tension = np.where(self.bears, self.root + self.branch, 0.0)
+            self.tension = self.root + self.branch
+        if self.idle:
+            self.tension = np.where(self.bears, self.tension, 0.0)
         return self.tension
 
     def stored(self) -> tuple[Array, Array]:
@@ -313,33 +350,20 @@ class _BeltLaw:
 class _Answer:
     """Of a belt to an impulse of 1 N s at each of some places.
 
-    The places; all speeds [m/s], shape (s, d, n + 1); what the take-up lacks [N s].
+    All speeds [m/s], shape (s, d, n + 1); what the take-up lacks [N s]; speeds of the places, shape (s, d, d), of each
+    by its own impulse, and of the masses before and behind it, shape (2, s, d).
     """
 
-    places: Integers
     columns: Array
     of_take_up: Array
+    mutual: Array
+    own: Array
+    near: Array
 
-    @cached_property
-    def mutual(self) -> Array:
-        """Speeds of the places, shape (s, d, d)."""
-        return np.take_along_axis(self.columns, self.places[:, None], axis=2)
-
-    @cached_property
-    def own(self) -> Array:
-        """Speed of each place by its own impulse."""
-        return np.asarray(np.einsum("sdd->sd", self.mutual))
-
-    @cached_property
-    def beside(self) -> tuple[Array, Array]:
+    @property
+    def beside(self) -> Array:
         """Of the speed of each place by its own impulse what the masses before and behind it do not share [-]."""
-        last = self.columns.shape[2] - 1
-        shared = (
-            np.take_along_axis(self.columns, masses[:, :, None], axis=2)[:, :, 0]
-            for masses in (np.maximum(self.places - 1, 0), np.minimum(self.places + 1, last))
-        )
-        before, behind = (1.0 - speed / self.own for speed in shared)
-        return before, behind
+        return np.asarray(1.0 - self.near / self.own)
 
     def turns(self) -> list[list[int]]:
         """Places that move each other, to rounding, are not in one group."""
@@ -362,6 +386,14 @@ class _Answer:
         )
 
 
+def _counted(places: Integers, masses: int, first: int, count: int) -> tuple[Integers, Integers, Integers]:
+    """Where speeds of places, by impulses at all, at themselves, and beside them stand in the columns of `count`."""
+    s, d = places.shape
+    rows = masses * (count * np.arange(s)[:, None] + first + np.arange(d))
+    near = np.stack([np.maximum(places - 1, 0), np.minimum(places + 1, masses - 1)])
+    return rows[:, :, None] + places[:, None], rows + places, rows + near
+
+
 class _Solver:
     """One step's linear system: masses, damping, the take-up between both ends; pulleys' responses beside it."""
 
@@ -372,23 +404,30 @@ class _Solver:
         self.carriage = np.where(self.stiff, 0.0, chain.carriage)
         self.damping = 0.5 * step * chain.retardation * chain.stiffness
         self.shares, self.drives = np.full((s, n), np.inf), chain.nodes.shape[1]
+        self.middle, self.damps = self.shares, bool(self.damping.any())
         places = np.hstack([chain.end[:, None], chain.nodes, chain.lumps])
         units = np.zeros((places.shape[1], s, n + 1))
         units[np.arange(places.shape[1]), self.rows[:, None], places] = 1.0
         units[0, :, 0] -= 1.0
-        self.units, self.places = units.reshape(len(units), -1).T, places[:, 1:]
+        self.units = units.reshape(len(units), -1).T
+        self.answers = [
+            (part, *_counted(places[:, 1:][:, part], n + 1, part.start, places.shape[1] - 1))
+            for part in (slice(0, self.drives), slice(self.drives, places.shape[1] - 1))
+        ]
 
-    def eases(self, shares: Array) -> None:
-        """Make the system anew for belts some of whose shares of k have changed.
+    def eases(self, shares: Array) -> bool:
+        """Make the system anew for belts some of whose shares of k have changed; whether it is made anew.
 
         A share below that of the cell would make the step unstable, one above it puts the difference off by a step.
         """
-        shares = np.where(self.damping > 0.0, shares, 0.0)
-        over = self.shares - shares
-        changed = np.any((over < 0.0) | (over > _SHARE), axis=1)
-        if not changed.any():
-            return
+        if not self.damps:  # made once
+            shares = np.zeros_like(shares)
+        off = np.abs(shares - self.middle) > 0.5 * _SHARE
+        if not off.any():
+            return False
+        changed = off.any(axis=1)
         self.shares = np.where(changed[:, None], np.minimum(shares + 0.5 * _SHARE, 1.0), self.shares)
+        self.middle = self.shares - 0.5 * _SHARE
         damping = self.damping * self.shares
         diagonal, beside = self.mass.copy(), np.zeros_like(self.mass)
         diagonal[:, :-1] += damping
@@ -406,9 +445,12 @@ class _Solver:
         of_take_up = self.kappa[:, None] * (columns[self.rows, :, self.end] - columns[:, :, 0])
         columns = columns - self.pair[:, None] * of_take_up[:, :, None]
         self.pulleys, self.lumps = (
-            _Answer(self.places[:, k], columns[:, k], of_take_up[:, k])
-            for k in (slice(self.drives), slice(self.drives, None))
+            _Answer(
+                columns[:, k], of_take_up[:, k], columns.take(mutual), columns.take(own), columns.take(near)
+            )
+            for k, mutual, own, near in self.answers
         )
+        return True
 
     def _banded(self, right: Array) -> Array:
         solution, _ = dpttrs(self.lower, self.off, right.ravel())
@@ -464,23 +506,26 @@ class _Motion:
         self.solver.eases(self.law.eased)
         self.ledger = _Ledger(chain, step, start, self.law)
         self._set_up()
+        self._answered()
         s, n = chain.stiffness.shape
         self.speed, self.tension = start.speed, start.tension
         self.stretching = np.diff(start.speed, axis=1)
         self.strained = start.tension + self.tau_k * self.law.eased * self.stretching
         self.resisting = start.resisting * self.loose
         self.driving, self.rims = start.driving, start.rims
+        self.begun = start.rims
+        self.gripping = np.ones(chain.nodes.shape, dtype=bool)
         self.rubbing = start.resisting[self.rows, self.at]
         self.on_pulleys = start.speed[
             self.rows, self.at
         ]  # at rest exactly 0, which the solver's rounding blurs
         self.lumps_rest = start.speed[self.rows, chain.lumps] == 0.0
         self.pulled, self.taken, self.winding = chain.held, np.zeros(s), np.zeros(s)
-        self.extremes = _Extremes((s, n))
+        self.extremes, self.speeds = _Extremes((s, n)), _Extremes((s, n + 1))
         names = ("force", "motor", "rim", "belt", "arriving", "leaving", "holding")
         self.drives = {name: np.zeros((self.steps, *chain.nodes.shape)) for name in names}
         self.take_up = {name: np.zeros((self.steps, s)) for name in ("tension", "belt")}
-        self.slipped, self.heat = np.zeros(chain.nodes.shape), np.zeros(chain.nodes.shape)
+        self.frictions, self.going = np.zeros((2, self.steps, *chain.nodes.shape))
         self.fastest, self.slowest = np.zeros((s, n + 1)), np.zeros((s, n + 1))
         self.sampled = start.speed
         self.kept: list[tuple[float, Array, Array]] = []
@@ -497,32 +542,43 @@ class _Motion:
         self.over_mass, self.under_mass = alone * step / chain.mass, alone * chain.mass / step
         self.still, self.stuck = chain.sticking * self.over_mass, chain.sticking[self.rows, at]
         self.tau_k = chain.retardation * chain.stiffness
-        self.first, self.last = (
-            at == 0,
-            at == chain.end[:, None],
-        )  # beside the take-up pulleys bear its tension
-        self.before, self.behind = np.maximum(at - 1, 0), np.minimum(at, n - 1)
-        apart = at[:, :, None] - at[:, None, :]
-        self.alone = ~self.first & np.all(apart != 1, axis=2), ~self.last & np.all(apart != -1, axis=2)
-        self.turns = [_only(chain, self.machines, some) for some in self.solver.pulleys.turns()]
-        self.here = np.where(
-            self.first | self.last, 1.0, 0.5
-        )  # of what lies on a pulley's mass, on either side
+        self.flat = self.rows * (n + 1) + at
+        self.turns = [_Turn.of(chain, self.machines, step, k) for k in self.solver.pulleys.turns()]
+
+    def _answered(self) -> None:
+        """What the solver says of the pulleys: until it is made anew."""
+        self.replies = [_Reply.of(self.solver, turn, self.dt) for turn in self.turns]
 
     def followed(self) -> Record:
         """Take every step."""
-        self.extremes.tell(self._at_pulleys(self.tension))
+        rolling = self.chain.resisting(self.speed)
+        self.beside = np.empty((2, *self.at.shape))
+        for turn in self.turns:
+            k, on = turn.drives, self.on_pulleys[:, turn.drives]
+            self.beside[:, :, k] = (
+                np.where(turn.ends, self.chain.held[:, None], self.tension.take(turn.sides))
+                + turn.lying + turn.shares(on, rolling.take(turn.at)) * self.rubbing[:, k]
+            )  # fmt: skip
+        beside = self.beside.copy()
+        self.extremes.tell(self.tension)
+        self.speeds.tell(self.speed)
         for i in range(self.steps):
             self._step(i)
             self._keep(i)
         self.extremes.look()
-        extremes, kept = self.extremes, self.kept
+        self.speeds.look()
+        self._at_pulleys(beside)
+        slip = self.dt * (self.drives["rim"] - self.drives["belt"])
+        self.ledger.drives(self.begun, self.drives, self.frictions, self.going)
+        extremes, speeds, kept = self.extremes, self.speeds, self.kept
         if not (np.all(np.isfinite(extremes.high)) and np.all(np.isfinite(self.speed))):
             raise NoSolutionError("the belt's motion has no finite answer: look for extreme inputs")
         return Record(
             self.dt, extremes.high, extremes.low, self._time(extremes.high_at), self._time(extremes.low_at),
+            speeds.high, speeds.low, self._time(speeds.high_at), self._time(speeds.low_at),
             np.array([time for time, _, _ in kept]), np.stack([t for _, t, _ in kept]),
-            np.stack([v for _, _, v in kept]), self.drives, self.take_up, self.slipped, self.heat, self.fastest,
+            np.stack([v for _, _, v in kept]), self.drives, self.take_up, np.abs(slip).sum(axis=0),
+            (slip * self.drives["force"]).sum(axis=0), self.fastest,
             self.slowest, self.ledger.closed(self.speed, self.rims, self.law),
         )  # fmt: skip
 
@@ -537,7 +593,8 @@ class _Motion:
         if np.any(speed):
             wanted, most = speed * _winding(self.pulled / chain.held - 1.0, band), self.dt * speed / run_up
             self.winding = np.clip(wanted, self.winding - most, self.winding + most)
-        self.solver.eases(self.law.eased)
+        if self.solver.eases(self.law.eased):
+            self._answered()
         change, lacking = self.solver.change(self.dt * self._acting(), self.speed, self.winding)
         new, rolling = self.speed + change, chain.resisting(self.speed)
         new, lacking, lumped = self._rubbed(new, lacking, rolling)
@@ -545,7 +602,7 @@ class _Motion:
             new, lacking = self._driven(i, new, lacking, rolling)
         # what acts: of τ k the solver's share on half the new speeds, before masses rub alone, the rest on the old
         half = 0.5 * self.solver.shares
-        damping = self.tau_k * (half * np.diff(new, axis=1) + (self.law.eased - half) * self.stretching)
+        damping = self.tau_k * (half * (new[:, 1:] - new[:, :-1]) + (self.law.eased - half) * self.stretching)
         free = new + self.resisting * self.over_mass
         allowed = np.where(self.speed == 0.0, self.still, rolling * self.over_mass)
         rubbed = np.minimum(np.maximum(free, -allowed), allowed)
@@ -553,9 +610,13 @@ class _Motion:
         self.resisting = rubbed * self.under_mass
         self.resisting[self.rows, chain.lumps] = lumped
         self.pulled = chain.held - lacking / self.dt
-        self.ledger.belts(self.speed, new, self.resisting, self.pulled, damping + self.law.branch)
-        self.shown = self.tension + damping
-        self.speed, self.stretching = new, np.diff(new, axis=1)
+        self.shown, spread = self.tension + damping, self.stretching
+        self.stretching = new[:, 1:] - new[:, :-1]
+        if self.law.relaxes:
+            damping = damping + self.law.branch
+        spread = 0.5 * (spread + self.stretching)
+        self.ledger.belts(0.5 * (self.speed + new), spread, self.resisting, self.pulled, damping)
+        self.speed = new
         self.tension = self.law.stretch(self.dt * self.stretching)
         self.strained = self.tension + self.tau_k * self.law.eased * self.stretching
 
@@ -571,54 +632,39 @@ class _Motion:
 
     def _driven(self, i: int, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array]:
         """Speeds with new forces of pulleys, in turn where they move each other, and what the take-up lacks then."""
-        chain, rows, pulleys = self.chain, self.rows, self.solver.pulleys
-        softer = self.law.eased * (self.dt * (self.law.k + self.law.branch_k) + self.tau_k)
-        impulse, friction, over = (
-            self.dt * (self.driving - self.rubbing),
-            self.rubbing.copy(),
-            self.rubbing.copy(),
-        )
-        for k, drive, machine in self.turns:
-            at, first, last, left, right, on = (
-                part[:, k]
-                for part in (self.at, self.first, self.last, self.before, self.behind, self.on_pulleys)
+        record, impulse = self.drives, self.dt * (self.driving - self.rubbing)
+        friction, beside = self.frictions[i], np.empty_like(self.beside)
+        self.going[i] = self.speed.take(self.flat)
+        for turn, reply in zip(self.turns, self.replies, strict=True):
+            k, on, going, rolls = (
+                turn.drives,
+                self.on_pulleys[:, turn.drives],
+                new.take(turn.at),
+                rolling.take(turn.at),
             )
-            answer, going = pulleys.own[:, k], new[rows, at]
-            of_take_up = pulleys.of_take_up[:, k] / (answer * self.dt)
-            yields = (
-                np.where(first, -of_take_up, softer[rows, left] * pulleys.beside[0][:, k]),
-                np.where(last, of_take_up, softer[rows, right] * pulleys.beside[1][:, k]),
-            )
-            lying = self.here[:, k] * (chain.weight[rows, at] + np.sign(on) * rolling[rows, at])
-            tight = (chain.held - lacking / self.dt)[:, None]
-            coming = self.tension[rows, left] + softer[rows, left] * (new[rows, left + 1] - new[rows, left])
-            parting = self.tension[rows, right] + softer[rows, right] * (
-                new[rows, right + 1] - new[rows, right]
-            )
-            moved = _pulleys(
-                drive, machine, i, step=self.dt, answer=answer, rim=self.rims[:, k],
-                free=going - answer * impulse[:, k],
-                arriving=np.where(first, tight, coming + lying) - yields[0] * going,
-                leaving=np.where(last, tight, parting - lying) + yields[1] * going,
-                yields=yields, friction=np.where(on == 0.0, self.stuck[:, k], rolling[rows, at]),
+            eased = self.law.eased.take(turn.sides) - reply.half
+            cells = (
+                self.tension.take(turn.sides) + turn.tau_k * eased * self.stretching.take(turn.sides)
+                + reply.softer * (new.take(turn.ahead) - new.take(turn.astern))
             )  # fmt: skip
-            for name, values in self.drives.items():
-                values[i][:, k] = getattr(moved, name)
-            friction[:, k] = moved.friction
-            over[:, k] = np.where(moved.grips, 0.0, self.dt * (moved.rim - moved.belt))
-            change = (moved.belt - going) / answer
-            new = new + np.einsum("sd,sdn->sn", change, pulleys.columns[:, k])
-            lacking = lacking + (pulleys.of_take_up[:, k] * change).sum(axis=1)
-        now = {name: values[i] for name, values in self.drives.items()} | {"friction": friction}
-        self.slipped = self.slipped + np.abs(over)
-        self.heat = self.heat + over * now["force"]
-        self.ledger.drives(self.rims, self.speed[rows, self.at], now)
-        self.driving, self.rubbing, self.rims, self.on_pulleys = (
-            now["force"],
-            friction,
-            now["rim"],
-            now["belt"],
-        )
+            tight = (self.chain.held - lacking / self.dt)[:, None]
+            moved = _pulleys(
+                turn, i, step=self.dt, answer=reply.own, rim=self.rims[:, k], free=going - reply.own * impulse[:, k],
+                sides=np.where(turn.ends, tight, cells) + turn.lying + turn.inert * (going - on)
+                - reply.yields * going,
+                yields=reply.yields, friction=np.where(on == 0.0, turn.stuck, rolls), shares=turn.shares(on, rolls),
+                last=(self.driving[:, k], self.beside[:, :, k]), gripped=self.gripping[:, k],
+            )  # fmt: skip
+            record["force"][i][:, k], record["motor"][i][:, k] = moved.force, moved.motor
+            record["rim"][i][:, k], record["belt"][i][:, k] = moved.rim, moved.belt
+            record["holding"][i][:, k], beside[:, :, k] = moved.holding, moved.sides
+            friction[:, k], self.gripping[:, k] = moved.friction, moved.grips
+            change = (moved.belt - going) / reply.own
+            new = new + np.einsum("sd,sdn->sn", change, reply.columns)
+            lacking = lacking + (reply.of_take_up * change).sum(axis=1)
+        record["arriving"][i], record["leaving"][i] = self.beside = beside
+        self.driving, self.rubbing = record["force"][i], friction
+        self.rims, self.on_pulleys = record["rim"][i], record["belt"][i]
         return new, lacking
 
     def _rubbed(self, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array, Array]:
@@ -639,7 +685,8 @@ class _Motion:
 
     def _keep(self, i: int) -> None:
         """Note extremes, samples, and what the take-up does."""
-        self.extremes.tell(self._at_pulleys(self.shown))
+        self.extremes.tell(self.shown)
+        self.speeds.tell(self.speed)
         self.taken = self.taken + self.dt * (self.speed[self.one, self.chain.end] - self.speed[:, 0])
         self.take_up["tension"][i], self.take_up["belt"][i] = self.pulled, self.taken
         if i % self.every == 0:
@@ -652,25 +699,96 @@ class _Motion:
                 )
             self.sampled = self.speed
 
-    def _at_pulleys(self, tension: Array) -> Array:
-        """Tension of every cell, of one that ends on a driven pulley that at the pulley: there it has its extremes."""
-        told, rows = tension.copy(), self.rows
-        lying = self.here * (self.chain.weight[rows, self.at] + self.rubbing)
-        told[rows, self.before] += np.where(self.alone[0], lying, 0.0)
-        told[rows, self.behind] -= np.where(self.alone[1], lying, 0.0)
-        return told
+    def _at_pulleys(self, begin: Array) -> None:
+        """Extremes of cells that end on driven pulleys: what acts there at once jumps there first."""
+        for side, name in enumerate(("arriving", "leaving")):
+            values = np.concatenate([begin[side][None], self.drives[name]])
+            for row, d in np.argwhere(self.at != (self.chain.end[:, None] if side else 0)).tolist():
+                self.extremes.look_at(row, int(self.at[row, d]) - 1 + side, values=values[:, row, d])
 
 
-def _only(chain: Chain, machines: Machines, k: list[int]) -> tuple[list[int], Chain, Machines]:
-    """Some drives of every belt."""
-    return (
-        k,
-        replace(chain, rim=chain.rim[:, k], grip=chain.grip[:, k], backstop=chain.backstop[:, k]),
-        replace(
-            machines, slope=machines.slope[:, k], reference=machines.reference[..., k], share=machines.share[..., k],
-            brake=machines.brake[..., k], limits=machines.limits[:, k], drag=machines.drag[:, k],
-        ),
-    )  # fmt: skip
+@dataclass(frozen=True, eq=False)
+class _Turn:
+    """Drives that are solved at once: what stays the same of them; shape (2, s, d) of both sides, behind it negative.
+
+    Their places and the cells beside them are counted through all belts; where the take-up stands beside one `ends`.
+    """
+
+    drives: list[int] | slice
+    chain: Chain
+    machines: Machines
+    at: Integers
+    sides: Integers
+    ahead: Integers
+    astern: Integers
+    ends: NDArray[np.bool_]
+    lying: Array
+    inert: Array
+    tau_k: Array
+    stuck: Array
+    at_rest: Array
+
+    @classmethod
+    def of(cls, chain: Chain, machines: Machines, step: float, k: list[int]) -> _Turn:
+        """Some drives of every belt."""
+        drives: list[int] | slice = slice(None) if len(k) == chain.nodes.shape[1] else k
+        (s, n), at, before = chain.stiffness.shape, chain.nodes[:, drives], chain.before[:, :, drives]
+        rows = np.arange(s)[:, None]
+        side = np.stack([np.maximum(at - 1, 0), np.minimum(at, n - 1)])
+        astern = rows * (n + 1) + side
+        weight, mass, stuck = chain.weight[rows, at], chain.mass[rows, at], chain.sticking[rows, at]
+        return cls(
+            drives,
+            replace(chain, rim=chain.rim[:, drives], grip=chain.grip[:, drives], backstop=chain.backstop[:, drives],
+                    before=before),
+            replace(
+                machines, slope=machines.slope[:, drives], reference=machines.reference[..., drives],
+                share=machines.share[..., drives], brake=machines.brake[..., drives], limits=machines.limits[:, drives],
+                drag=machines.drag[:, drives],
+            ),
+            at=rows * (n + 1) + at, sides=rows * n + side, ahead=astern + 1, astern=astern,
+            ends=np.stack([at == 0, at == chain.end[:, None]]),
+            lying=np.stack([before[1], before[1] - weight]),
+            inert=np.stack([before[0], before[0] - mass]) / step,
+            tau_k=chain.retardation * chain.stiffness[rows, side], stuck=stuck, at_rest=_share(before[5], stuck),
+        )  # fmt: skip
+
+    def shares(self, on: Array, rolling: Array) -> Array:
+        """Of the friction on the driven masses what acts before the pulleys, and behind them negative [-]."""
+        parabola, size = self.chain.before[2:5], np.minimum(np.abs(on), self.chain.known)
+        moving = _share(parabola[0] + size * (parabola[1] + size * parabola[2]), rolling)
+        return np.asarray(np.where(on == 0.0, self.at_rest, moving) - _FROM)
+
+
+def _share(part: Array, whole: Array) -> Array:
+    """Of something what is part of it; nothing of nothing."""
+    return np.divide(part, whole, out=np.zeros_like(whole), where=whole > 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class _Reply:
+    """What the belts answer to the drives of a turn: speeds by an impulse, damping and tensions beside them by a speed.
+
+    `softer` is the damping at new speeds, `half` its share; `yields` what a speed adds before, and behind negative.
+    """
+
+    own: Array
+    columns: Array
+    of_take_up: Array
+    half: Array
+    softer: Array
+    yields: Array
+
+    @classmethod
+    def of(cls, solver: _Solver, turn: _Turn, step: float) -> _Reply:
+        """Of the system as it is."""
+        k, pulleys = turn.drives, solver.pulleys
+        half = 0.5 * solver.shares.take(turn.sides)
+        softer, own, of_take_up = turn.tau_k * half, pulleys.own[:, k], pulleys.of_take_up[:, k]
+        apart = pulleys.beside[:, :, k] * _SIDES
+        tight = -of_take_up / (own * step)
+        yields = turn.inert + np.where(turn.ends, tight, softer * apart)
+        return cls(own, pulleys.columns[:, k], of_take_up, half, softer, yields)
 
 
 def _winding(over: Array, band: Array) -> Array:
@@ -680,7 +798,10 @@ def _winding(over: Array, band: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class _Moved:
-    """A driven pulley after a step: forces on the belt, of motor, brake and friction of the belt there [N], speeds."""
+    """A driven pulley after a step: forces on the belt, of motor, brake and friction of the belt there [N], speeds.
+
+    Of both `sides` the tensions [N].
+    """
 
     force: Array
     motor: Array
@@ -688,8 +809,7 @@ class _Moved:
     friction: Array
     rim: Array
     belt: Array
-    arriving: Array
-    leaving: Array
+    sides: Array
     grips: NDArray[np.bool_]
 
 
@@ -699,37 +819,50 @@ def _rest(free: Array, forward: Array, backward: Array) -> Array:
 
 
 def _pulleys(
-    chain: Chain, machines: Machines, i: int, *, step: float, answer: Array, rim: Array, free: Array,
-    arriving: Array, leaving: Array, yields: tuple[Array, Array], friction: Array,
+    turn: _Turn, i: int, *, step: float, answer: Array, rim: Array, free: Array, sides: Array, yields: Array,
+    friction: Array, shares: Array, last: tuple[Array, Array], gripped: NDArray[np.bool_],
 ) -> _Moved:  # fmt: skip
     """Motors, brakes, rims and the belt on them, each at once; a motor on its line, beyond its limit at that.
 
-    `free` is the belt's speed without the pulley, `answer` what an impulse adds to it; the tensions are those at no
-    speed there, and `yields` what a speed adds before and takes off behind. They are those at the end of the step:
-    earlier ones would make a slipping belt unstable, whose slack side tells its force.
+    `free` is the belt's speed without the pulley, `answer` what an impulse adds to it; `sides` are the tensions before
+    and behind at no speed there and without friction, `yields` what a speed adds to them, `shares` what the friction
+    there does. They are those between which the force stands, mass and damping of the half cells up to the pulley
+    taken in: a force that comes at once is split as the impedances of both sides, however long the cells. A belt that
+    `gripped` and slips now is taken to do so in the middle of the step: force and tensions are half the `last` ones,
+    half those told. At the begin of the step they would make the tension swing from cell to cell.
     """
+    chain, machines = turn.chain, turn.machines
     most = machines.share[i] * machines.limit(rim)
     brake, back, grip = machines.brake[i], chain.backstop, chain.grip
     on = most > 0.0
     slope = np.where(on, machines.slope, 0.0)
     base = slope * machines.reference[i]
     for tried in range(2):
-        mass = chain.rim + 0.5 * step * slope
-        alone = (chain.rim * rim + step * (base - 0.5 * slope * rim)) / mass
+        # the mean of both ends while a step resolves how a rim comes to its line, else later: no swing about it
+        gives = step * slope
+        late = np.maximum(
+            0.5, 1.0 - np.divide(chain.rim, gives, out=np.full_like(gives, 0.5), where=gives > 0.0)
+        )
+        mass = chain.rim + late * gives
+        alone = (chain.rim * rim + step * (base - (1.0 - late) * slope * rim)) / mass
         together = 1.0 / answer + mass
         stop = step * (brake + friction) / together
         common = _rest((free / answer + mass * alone) / together, stop, np.where(back, np.inf, stop))
-        force = (common - free) / (answer * step) + np.sign(common) * friction
-        forward = force > grip * np.maximum(leaving - yields[1] * common, 0.0)
-        backward = force < -grip * np.maximum(arriving + yields[0] * common, 0.0)
+        against = np.sign(common) * friction
+        rubbed = sides + shares * against
+        force = (common - free) / (answer * step) + against
+        bears = grip * np.maximum(rubbed + yields * common, 0.0)
+        forward, backward = force > bears[1], force < -bears[0]
         grips = ~(forward | backward)
-        belt, turned = common, common
+        belt, turned, begins = common, common, gripped & ~grips
         if not grips.all():
-            pushed, slack = np.where(forward, leaving, -arriving), np.where(forward, yields[1], yields[0])
+            pushed, slack = np.where(forward, rubbed[1], -rubbed[0]), np.where(forward, -yields[1], yields[0])
             eased = 1.0 + answer * step * grip * slack
             rub = answer * step * friction / eased
-            slid = _rest((free + answer * step * grip * pushed) / eased, rub, rub)
-            limit = grip * (pushed - slack * slid)
+            earlier = last[0] + grip * np.where(forward, -last[1][1], last[1][0])
+            driven = grip * pushed + np.where(begins, 0.5 * earlier, 0.0)
+            slid = _rest((free + answer * step * driven) / eased, rub, rub)
+            limit = driven - grip * slack * slid
             limit = np.where(forward, np.maximum(limit, 0.0), np.minimum(limit, 0.0))
             slid = np.where(
                 limit == 0.0, _rest(free, answer * step * friction, answer * step * friction), slid
@@ -738,14 +871,16 @@ def _pulleys(
             stop = step * (brake + np.where(on, 0.0, machines.drag)) / mass
             spun = _rest(alone - step * force / mass, stop, np.where(back, np.inf, stop))
             belt, turned = np.where(grips, common, slid), np.where(grips, common, spun)
-        motor = base - 0.5 * slope * (turned + rim)
+        motor = base - slope * (late * turned + (1.0 - late) * rim)
         beyond = np.abs(motor) > most
         if tried or not beyond.any():
             break
         base, slope = np.where(beyond, np.copysign(most, motor), base), np.where(beyond, 0.0, slope)
+    taken = force - (belt - free) / (answer * step)
+    tensions = sides + yields * belt + shares * taken
     return _Moved(
-        force, motor, mass * (alone - turned) / step - force, force - (belt - free) / (answer * step), turned,
-        belt, arriving + yields[0] * belt, leaving - yields[1] * belt, grips,
+        force, motor, mass * (alone - turned) / step - force, taken, turned, belt,
+        np.where(begins, 2.0 * tensions - last[1], tensions), grips,
     )  # fmt: skip
 
 
@@ -757,31 +892,28 @@ class _Ledger:
         self.rows = np.arange(chain.end.size)
         names = ("motors", "lift", "friction", "damping", "brakes", "slip", "take-up")
         self.sums = {name: np.zeros(chain.end.size) for name in names}
+        self.winches = chain.winch[0] > 0.0
         self.first = self._stored(start.speed, start.rims, law)
 
-    def drives(self, rims: Array, belt: Array, now: dict[str, Array]) -> None:
-        """Add the work of a step at the driven pulleys, from their speeds and the belt's before it."""
-        rim, at = 0.5 * (rims + now["rim"]), 0.5 * (belt + now["belt"])
+    def drives(self, begun: Array, drives: dict[str, Array], frictions: Array, going: Array) -> None:
+        """Add the work of all steps at the driven pulleys; rims' speeds at the begin, the belt's before each step."""
+        rim = 0.5 * (drives["rim"] + np.concatenate([begun[None], drives["rim"][:-1]]))
+        at = 0.5 * (drives["belt"] + going)
         for name, power in (
-            ("motors", now["motor"] * rim),
-            ("friction", now["friction"] * at),
-            ("brakes", now["holding"] * rim),
-            ("slip", now["force"] * (rim - at)),
+            ("motors", drives["motor"] * rim),
+            ("friction", frictions * at),
+            ("brakes", drives["holding"] * rim),
+            ("slip", drives["force"] * (rim - at)),
         ):
-            self.sums[name] += self.dt * power.sum(axis=1)
+            self.sums[name] += self.dt * power.sum(axis=(0, 2))
 
-    def belts(self, before: Array, now: Array, friction: Array, tight: Array, damping: Array) -> None:
-        """Add the work of a step all along the belts."""
-        mean = 0.5 * (before + now)
+    def belts(self, mean: Array, spread: Array, friction: Array, tight: Array, damping: Array) -> None:
+        """Add the work of a step all along the belts, at the mean of old and new speeds and of what they differ."""
         apart = mean[self.rows, self.chain.end] - mean[:, 0]
-        spread = np.diff(mean, axis=1)
-        for name, power in (
-            ("lift", np.einsum("sn,sn->s", self.chain.weight, mean)),
-            ("friction", np.einsum("sn,sn->s", friction, mean)),
-            ("damping", np.einsum("sn,sn->s", damping, spread)),
-            ("take-up", -np.where(self.chain.winch[0] > 0.0, tight, self.chain.held) * apart),
-        ):
-            self.sums[name] += self.dt * power
+        self.sums["lift"] += self.dt * np.einsum("sn,sn->s", self.chain.weight, mean)
+        self.sums["friction"] += self.dt * np.einsum("sn,sn->s", friction, mean)
+        self.sums["damping"] += self.dt * np.einsum("sn,sn->s", damping, spread)
+        self.sums["take-up"] -= self.dt * np.where(self.winches, tight, self.chain.held) * apart
 
     def _stored(self, speed: Array, rims: Array, law: _BeltLaw) -> tuple[Array, Array, Array]:
         apart = speed[self.rows, self.chain.end] - speed[:, 0]

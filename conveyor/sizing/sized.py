@@ -10,7 +10,7 @@ from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.sizing.screen import Limit
 from conveyor.studies.costs import Costs
-from conveyor.units.sentences import figure, rounded
+from conveyor.units.sentences import Said, figure, rounded
 
 
 @dataclass(frozen=True)

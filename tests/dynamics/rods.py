@@ -26,7 +26,16 @@ def rod(cells: int, **changes: Any) -> Chain:
         "rim": np.zeros((1, 0)), "grip": np.zeros((1, 0)), "backstop": np.zeros((1, 0), bool),
         "held": np.array([PULL]), "carriage": np.zeros(1), "winch": np.zeros((3, 1)), "sag": np.zeros((1, cells)),
     }  # fmt: skip
-    return Chain(**(parts | changes))
+    made = parts | changes
+    return Chain(**({"before": lying_before(made)} | made))
+
+
+def lying_before(parts: dict[str, Any]) -> np.ndarray:
+    """What lies before the driven pulleys: half of it, nothing right behind the take-up, all right before it."""
+    nodes, last = parts["nodes"], parts["end"][:, None]
+    share = np.where(nodes == 0, 0.0, np.where(nodes == last, 1.0, 0.5))
+    lying = np.stack([parts["mass"], parts["weight"], *parts["friction"], parts["sticking"]])
+    return share * np.take_along_axis(lying, np.broadcast_to(nodes, (6, *nodes.shape)), axis=2)
 
 
 def clamped(cells: int, *nodes: int) -> dict[str, Any]:
