@@ -25,7 +25,7 @@ from conveyor.fitting.laying import (
 from conveyor.fitting.request import Request
 from conveyor.fitting.rows import CURVES, MeasuredRows, entropic, excluded, excluded_of, moduli_of
 from conveyor.laboratory import DmaData
-from conveyor.laboratory.read import read_answered, sheets
+from conveyor.laboratory.read import own_answers, read_answered, sheets
 from conveyor.models import RubberCompound
 from conveyor.rubber import (
     WLF,
@@ -276,6 +276,7 @@ def _read_all(paths: Sequence[Path], request: Request) -> tuple[list[DmaData], t
     rows = excluded(
         tables, request.exclude, [path for path in (request.shift, request.strain) if path is not None]
     )
+    _check_columns([*tables, *((p, None) for p in (request.shift, request.strain) if p is not None)], request)
     files = []
     for k, (path, sheet) in enumerate(tables):
         answers = {**request.reading, "sheet": sheet, "exclude": rows.get(k)}
@@ -283,6 +284,15 @@ def _read_all(paths: Sequence[Path], request: Request) -> tuple[list[DmaData], t
     return files, tuple(
         f"{Path(files[k].source).name}: rows excluded by hand: {left_out}" for k, left_out in rows.items()
     )
+
+
+def _check_columns(tables: Sequence[tuple[Path, str | None]], request: Request) -> None:
+    """Refuse names of columns, of --column and --ignore, that no file has."""
+    for option, key in (("--column", "columns"), ("--ignore", "ignore")):
+        for name in request.reading.get(key) or ():
+            one = {"columns": {name: ""}} if key == "columns" else {"ignore": [name]}
+            if not any(own_answers(path, {**one, "sheet": sheet})[key] for path, sheet in tables):
+                raise InputError(f'{option}: no file has a column "{name}"')
 
 
 def _compound(described: dict[str, Any], shifted_by: Path) -> RubberCompound:
