@@ -78,7 +78,8 @@ def fit(
     shift: Annotated[Path | None, option("File of shift factors: temperature and a_T.")] = None,
     strain: Annotated[Path | None, option("File of strain sweeps (Payne effect).")] = None,
     reference_strain: Annotated[
-        str | None, option('Strain amplitude of the master curve, e.g. "0.1 %".')
+        str | None,
+        option('Strain amplitude of the master curve, "0.1 %" or "0.15 % shear"; else a column says it.'),
     ] = None,
     equilibrium: Annotated[str | None, option('Hold the equilibrium modulus, e.g. "4 MPa".')] = None,
     terms_per_decade: Annotated[
@@ -182,7 +183,6 @@ def fit(
         "columns": dict(map(_column, column or ())) or None, "ignore": ignore or None,
         "temperature": si_of("--temperature", temperature, "temperature"),
     }  # fmt: skip
-    si_of("--reference-strain", reference_strain, "fraction")
     request = compound_file.Request(
         name=name or data[0].name.split(".")[0],
         reference_temperature=reference_temperature,

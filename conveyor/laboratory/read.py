@@ -37,6 +37,7 @@ from conveyor.laboratory.layout import (
 from conveyor.laboratory.moduli import Letter, dynamic_moduli, equivalent_strain, letter_of, to_tensile
 from conveyor.laboratory.names import DIMENSIONS
 from conveyor.laboratory.plausible import TEMPERATURE_RANGE, check_possible, doubts
+from conveyor.laboratory.ramp import isotherms_of_ramp
 from conveyor.laboratory.separated import text_grid
 from conveyor.laboratory.table import DmaData, FloatArray
 from conveyor.laboratory.units import ColumnUnit
@@ -213,9 +214,13 @@ def _read(
         labels = np.array(table.blocks, dtype=np.int64)
         notes.append("each block of the file is a run of its own")
     kind, reason = _kind(table, columns, read, labels, asked.kind)
+    ramp = isotherms_of_ramp(columns) if kind == "temperature sweep" and asked.kind is None else None
+    if ramp is not None:
+        kind, reason, columns, labels = "isotherms", ramp.note, ramp.columns, ramp.group
+        table = replace(table, rows=tuple(table.rows[row] for row in ramp.rows.tolist()))
     arranged = arrange(kind, columns, labels)
     check_trend(table, kind, columns, arranged)
-    notes += [*derived, f"{kind}: {reason}", *_order_notes(table, kind, arranged)]
+    notes += [*derived, f"{kind}: {reason}", *(_order_notes(table, kind, arranged) if ramp is None else [])]
     data = _assembled(table, kind, columns, arranged)
     return replace(data, understood=tuple(notes), shear=shear), table
 
