@@ -21,7 +21,12 @@ SAME_STRAIN: Final = 1.1
 doubling, general knowledge) [-]."""
 UNLIKE_STRAINS: Final = 1.25
 """Isotherms whose amplitudes lie further apart differ by their strain more than by scatter: 2 to 3 % of E' [-]."""
+WORKING_STRAIN: Final = 0.022
+"""Amplitude that rolls work a cover at: 0.8 to 2.2 % of a 5 mm cover of S100 under a 159 mm roll and 1 to 4 N/mm
+(docs/rubber.md, section 5) [-]."""
 _PERCENT: Final = re.compile(r"\s*(\d+(?:[.,]\d*)?(?:[eE][+-]?\d+)?)\s*%")
+FEWEST_STRAINS: Final = 4
+"""Of a run that can be interpolated; a stray row is a run of one."""
 _OF_SHEAR: Final = re.compile(r"\s+(shear|tensile|tension)\s*$", re.IGNORECASE)
 
 
@@ -81,6 +86,18 @@ def _of_file(read: DmaData, poisson_ratio: float) -> Iterator[Amplitudes]:
             place = f'{data}:{read.metadata_rows[key]}: "{key}"'
             yield Amplitudes(place, strain, strain, float(strain), shear)
             return
+
+
+def short_sweeps(sweeps: DmaData) -> str:
+    """What to say of strain sweeps that end below what rolls work a cover at; "" of others."""
+    ends = [float(run.strain[-1]) for run in sweeps.strain_sweeps() if run.strain.size >= FEWEST_STRAINS]
+    if not ends or min(ends) >= WORKING_STRAIN:
+        return ""
+    return (
+        f"strain dependence above {written(min(ends))}, where the sweeps end: rolls work covers at up to"
+        f" {written(WORKING_STRAIN)}, the factors of the largest strain are held there; measure larger strains, or"
+        " leave strain out (calculation: {strain: off})"
+    )
 
 
 def apart(known: Sequence[Amplitudes]) -> float:

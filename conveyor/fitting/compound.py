@@ -11,7 +11,7 @@ import numpy as np
 
 from conveyor.arguments import checked
 from conveyor.errors import InputError
-from conveyor.fitting.amplitude import Amplitudes, amplitudes_of, reference_strain
+from conveyor.fitting.amplitude import Amplitudes, amplitudes_of, reference_strain, short_sweeps
 from conveyor.fitting.compound_file import add_shift, as_fitted, mega, of_series, strain_of
 from conveyor.fitting.findings import check_findings
 from conveyor.fitting.laying import (
@@ -219,6 +219,8 @@ def fit_file(data: Path | Sequence[Path], request: Request) -> Fitted:
     if strains is not None:
         described["strain_dependence"] = strain_of(at_strain, strains)
         described["missing"].remove("strain dependence")
+        if short := short_sweeps(strains):
+            described["missing"].append(short)
     files = [file for file in (*read, shifts, strains) if file is not None]
     return Fitted(
         compound=_compound(described, Path((shifts or read[0]).source)),

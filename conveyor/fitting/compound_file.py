@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.errors import InputError
+from conveyor.fitting.amplitude import FEWEST_STRAINS
 from conveyor.fitting.request import Request
 from conveyor.fitting.rows import shift_factors
 from conveyor.laboratory import DmaData
@@ -24,7 +25,6 @@ DIGITS = 12
 _BAND_DIGITS = 6  # the band is known to one or two
 _ERROR_DECIMALS = 8  # of a relative error: an exact fit leaves rounding, which is none
 _UNKNOWN = "not stated"
-_FEWEST_STRAINS = 4  # of a run that can be interpolated; a stray row is a run of one
 
 
 def as_fitted(
@@ -181,9 +181,9 @@ def strain_of(reference: str | None, sweeps: DmaData) -> dict[str, Any]:
             f"{sweeps.source}: at which strain was the master curve measured? Give it, e.g. "
             '--reference-strain "0.1 %"; everything is counted from it'
         )
-    runs = [run for run in sweeps.strain_sweeps() if run.strain.size >= _FEWEST_STRAINS]
+    runs = [run for run in sweeps.strain_sweeps() if run.strain.size >= FEWEST_STRAINS]
     if not runs:
-        raise InputError(f"{sweeps.source}: no sweep of {_FEWEST_STRAINS} strains and more is in it")
+        raise InputError(f"{sweeps.source}: no sweep of {FEWEST_STRAINS} strains and more is in it")
     columns = {"temperature": "temperature [degC]", "frequency": "frequency [Hz]"}
     unknown = [name for name in columns if any(getattr(run, name) is None for run in runs)]
     if unknown:

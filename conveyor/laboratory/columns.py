@@ -190,8 +190,8 @@ def _second(table: DataTable, first: DataColumn, column: DataColumn) -> InputErr
     name = table.grid.column(column.index)
     what = (
         f"a second column for {column.meaning.quantity} (the first is {table.label(first)}) with other values; keep"
-        f' one: ignore=["{name}"] (--ignore {name}) leaves this one aside, "{table.grid.column(first.index)}" the first; or'
-        " give one row for each measurement with the temperature in a column of its own"
+        f' one: ignore=["{name}"] (--ignore {name}) leaves this one aside, {table.grid.column(first.index)} the first;'
+        " or give one row for each measurement with the temperature in a column of its own"
     )
     return AnswerableError(str(table.refusal(column, what)), option="ignore", value=name)
 

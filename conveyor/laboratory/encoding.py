@@ -45,8 +45,8 @@ def decoded(data: bytes, name: str) -> tuple[str, str]:
     A byte-order mark decides; then UTF-8 if every byte fits; then EUC-KR or CP949 if what is not ASCII becomes
     Korean; then the encoding of another language in which the most words are names of columns that are read here, two
     at the least and more than in Korean or CP1252; else CP1252, and Latin-1 for bytes CP1252 does not know. Numbers are
-    ASCII in all of them. (A detector by frequencies of letters has too few to go by: it takes a short CP1252 file with a degree sign
-    for Big5.)
+    ASCII in all of them. (A detector by frequencies of letters has too few to go by: it takes a short CP1252 file
+    with a degree sign for Big5.)
 
     Examples
     --------

@@ -35,15 +35,17 @@ def isotherms_of_ramp(columns: Mapping[str, FloatArray]) -> Ramp | None:
 
     Notes
     -----
-    While an instrument goes through its frequencies the temperature goes on. So rows of one cycle differ in temperature,
-    by a kelvin or two, which near the glass transition is as much as a tenth of a decade. Here ln E' and ln E'' of each
-    frequency, monotone cubics over its own temperatures, are taken at those of the middle frequency; none is taken
+    While an instrument goes through its frequencies the temperature goes on. So rows of one cycle differ in
+    temperature, by a kelvin or two, which near the glass transition is as much as a tenth of a decade. Here ln E' and
+    ln E'' of each frequency, monotone cubics over its own temperatures, are taken at those of the middle frequency; none is taken
     beyond the temperatures of any.
 
     Examples
     --------
     >>> f, t = np.tile([1.0, 10.0, 100.0], 5), np.arange(15.0) + 273.0
-    >>> made = isotherms_of_ramp({"frequency": f, "temperature": t, "storage": np.exp(-t), "loss": np.exp(-t)})
+    >>> made = isotherms_of_ramp(
+    ...     {"frequency": f, "temperature": t, "storage": np.exp(-t), "loss": np.exp(-t)}
+    ... )
     >>> made.columns["temperature"].tolist()[::3], made.group.tolist()[:6]
     ([277.0, 280.0, 283.0], [0, 0, 0, 1, 1, 1])
     """
@@ -57,7 +59,10 @@ def isotherms_of_ramp(columns: Mapping[str, FloatArray]) -> Ramp | None:
     if len(sweeps) < LEAST_FREQUENCIES or min(rows.size for rows in sweeps) < FEWEST_TEMPERATURES:
         return None
     steps = [np.diff(temperature[rows]) for rows in sweeps]
-    if min(float(step.min()) for step in steps) <= 0.0 or max(float(step.max()) for step in steps) > LARGEST_STEP:
+    if (
+        min(float(step.min()) for step in steps) <= 0.0
+        or max(float(step.max()) for step in steps) > LARGEST_STEP
+    ):
         return None
     middle = sorted(sweeps, key=lambda rows: float(np.mean(temperature[rows])))[len(sweeps) // 2]
     low = max(float(temperature[rows[0]]) for rows in sweeps)
