@@ -199,6 +199,13 @@ def _strain(result: CalculatedConveyor) -> Iterator[Said]:
                 f"{worked.frequency:.3g} Hz: E' x {worked.storage_factor:.3g}, E'' x {worked.loss_factor:.3g} of "
                 f"the master curve at {text(known.reference_strain)}{note}"
             )
+            largest = factors.largest_strain(result.temperature)
+            if worked.strain > largest:
+                yield said(
+                    f'compound "{name}": its strain sweeps end at {percent(largest, 2)}, below the working strain: the '
+                    "factors there are held, the rubber is softer than that; measure larger strains, or leave strain "
+                    "out (calculation: {{strain: off}})"
+                )
             if not factors.known_at(result.temperature):
                 reached = [(kelvin, "temperature") for kelvin in factors.temperatures[[0, -1]].tolist()]
                 held = (factors.nearest(result.temperature), "temperature")

@@ -198,7 +198,7 @@ def _master(folder: Path, low: float, high: float) -> Path:
     rows = zip(f, SERIES.storage(omega), SERIES.loss(omega), strict=True)
     path = folder / "master.csv"
     text = "".join(f"{a:.6g},{b:.6g},{c:.6g}\n" for a, b, c in rows)
-    path.write_text("frequency_Hz,storage_Pa,loss_Pa\n" + text, encoding="utf-8")
+    path.write_text("frequency_Hz,E'_Pa,E''_Pa\n" + text, encoding="utf-8")
     return path
 
 

@@ -231,6 +231,8 @@ def test_fit_asks_for_a_temperature_that_nobody_states(tmp_path: Path) -> None:
     data = tmp_path / "mine.csv"
     data.write_text("\n".join(text for text in lines if not text.startswith("#")), encoding="utf-8")
     done = run("fit", data)
+    assert "--moduli E" in done.stderr
+    done = run("fit", data, "--moduli", "E")
     assert done.returncode == 2
     assert "--at" in done.stderr
 

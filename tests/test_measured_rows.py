@@ -190,7 +190,7 @@ def test_errors_weigh_the_moduli(tmp_path: Path):
     rows = zip(f, series.storage(omega), 1.2 * series.loss(omega), strict=True)
     path = tmp_path / "m.csv"
     path.write_text(
-        "frequency_Hz,storage_Pa,loss_Pa\n" + "".join(f"{a:.8g},{b:.8g},{c:.8g}\n" for a, b, c in rows),
+        "frequency_Hz,E'_Pa,E''_Pa\n" + "".join(f"{a:.8g},{b:.8g},{c:.8g}\n" for a, b, c in rows),
         encoding="utf-8",
     )
     left = {}

@@ -78,7 +78,8 @@ def fit(
     shift: Annotated[Path | None, option("File of shift factors: temperature and a_T.")] = None,
     strain: Annotated[Path | None, option("File of strain sweeps (Payne effect).")] = None,
     reference_strain: Annotated[
-        str | None, option('Strain amplitude of the master curve, e.g. "0.1 %".')
+        str | None,
+        option('Strain amplitude of the master curve, "0.1 %" or "0.15 % shear"; else a column says it.'),
     ] = None,
     equilibrium: Annotated[str | None, option('Hold the equilibrium modulus, e.g. "4 MPa".')] = None,
     terms_per_decade: Annotated[
@@ -112,6 +113,17 @@ def fit(
     strain_unit: Annotated[str | None, option("%, 1, ...")] = None,
     moduli: Annotated[
         str | None, option("E or G, where a file does not say whether its moduli are tensile or shear.")
+    ] = None,
+    column: Annotated[
+        list[str] | None,
+        option(
+            'What a column holds whose name is not known, by one that is: "Modul A=E\' [MPa]"; may be repeated.',
+            "NAME=MEANING",
+        ),
+    ] = None,
+    ignore: Annotated[
+        list[str] | None,
+        option("Column to leave aside, by its name, number or letter; may be repeated.", "COLUMN"),
     ] = None,
     instantaneous: Annotated[
         str | None, option('Tensile modulus at time 0 of a Prony table of shares, e.g. "800 MPa".')
@@ -168,9 +180,9 @@ def fit(
         "frequency_unit": frequency_unit, "modulus_unit": modulus_unit, "temperature_unit": temperature_unit,
         "strain_unit": strain_unit, "sheet": sheet, "kind": kind, "letter": moduli,
         "instantaneous": si_of("--instantaneous", instantaneous, "pressure"),
+        "columns": dict(map(_column, column or ())) or None, "ignore": ignore or None,
         "temperature": si_of("--temperature", temperature, "temperature"),
     }  # fmt: skip
-    si_of("--reference-strain", reference_strain, "fraction")
     request = compound_file.Request(
         name=name or data[0].name.split(".")[0],
         reference_temperature=reference_temperature,
@@ -225,6 +237,14 @@ def _said(words: str) -> tuple[str, str]:
     return name.strip(), value.strip()
 
 
+def _column(words: str) -> tuple[str, str]:
+    """Name of a column and what it holds, from NAME=MEANING."""
+    name, _, meant = words.rpartition("=")
+    if not name.strip() or not meant.strip():
+        raise InputError(f'--column: got "{words}", expected NAME=MEANING such as "Modul A=E\' [MPa]"')
+    return name.strip(), meant.strip()
+
+
 def _judged(
     rubber: Fitted | Tabulated,
     spec: Path | None,
@@ -256,8 +276,10 @@ def _placed(files: Sequence[Path]) -> Iterator[None]:
     except InputError as error:
         said = str(error)
         for file in files:
-            if re.match(rf"{re.escape(file.name)}[:\[]", said):
-                raise InputError(f"{file.parent / said}") from None
+            own = re.compile(rf"^(?={re.escape(file.name)}[:\[])")
+            if own.match(said):
+                lines = (f"{file.parent / line}" if own.match(line) else line for line in said.splitlines())
+                raise InputError("\n".join(lines)) from None
         known = said.startswith((*map(str, files), "--"))
         raise InputError(said if known else f"{files[0]}: {said}") from None
 

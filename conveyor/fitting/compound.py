@@ -11,6 +11,7 @@ import numpy as np
 
 from conveyor.arguments import checked
 from conveyor.errors import InputError
+from conveyor.fitting.amplitude import Amplitudes, amplitudes_of, reference_strain, short_sweeps
 from conveyor.fitting.compound_file import add_shift, as_fitted, mega, of_series, strain_of
 from conveyor.fitting.findings import check_findings
 from conveyor.fitting.laying import (
@@ -25,7 +26,7 @@ from conveyor.fitting.laying import (
 from conveyor.fitting.request import Request
 from conveyor.fitting.rows import CURVES, MeasuredRows, entropic, excluded, excluded_of, moduli_of
 from conveyor.laboratory import DmaData
-from conveyor.laboratory.read import read_answered, sheets
+from conveyor.laboratory.read import own_answers, read_answered, sheets
 from conveyor.models import RubberCompound
 from conveyor.rubber import (
     WLF,
@@ -73,6 +74,8 @@ class Fitted:
         That the rows are numbered by.
     metadata : mapping of str to str
         What the files state of themselves.
+    amplitudes : tuple of Amplitudes
+        Strain of each file that states it.
     """
 
     compound: RubberCompound
@@ -85,6 +88,7 @@ class Fitted:
     rows: MeasuredRows
     files: tuple[str, ...]
     metadata: Mapping[str, str]
+    amplitudes: tuple[Amplitudes, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,11 +145,12 @@ def _tabulated(read: DmaData, request: Request) -> Tabulated:
     strains = None if request.strain is None else _of_kind(request.strain, "strain sweep", request)
     series = PronySeries(equilibrium, moduli, times)
     window = tuple(1.0 / (2.0 * np.pi * float(t)) for t in (np.max(times), np.min(times)))
-    described = of_series([read], request, reference_of([read], request), series, window)
+    at_strain = reference_strain([read], (), request, needed=strains is not None)
+    described = of_series([read], (request, at_strain), reference_of([read], request), series, window)
     described["missing"] = ["the measurement behind the table", "density"]
     add_shift(described, None, shifts, _law_of_table(shifts, described, request))
     if strains is not None:
-        described["strain_dependence"] = strain_of(request, strains)
+        described["strain_dependence"] = strain_of(at_strain, strains)
     return Tabulated(
         _compound(described, Path((shifts or read).source)),
         tuple(
@@ -189,6 +194,8 @@ def fit_file(data: Path | Sequence[Path], request: Request) -> Fitted:
     if request.terms_per_decade is not None and not 0.1 <= request.terms_per_decade <= 20.0:
         raise InputError(f"--terms-per-decade: got {request.terms_per_decade:g}, allowed: >= 0.1 and <= 20")
     reference = reference_of(read, request)
+    amplitudes = amplitudes_of(read, request.poisson_ratio)
+    at_strain = reference_strain(read, amplitudes, request, needed=strains is not None)
     rows, superposition, told = laid_out(read, shifts, reference, request)
     f, e1, e2 = rows.curve
     place = ", ".join(each.source for each in read)
@@ -206,12 +213,14 @@ def fit_file(data: Path | Sequence[Path], request: Request) -> Fitted:
     band = None
     if request.replicas:
         band = bootstrap(fit, superposition, rows.temperature, law=maker, replicas=request.replicas)
-    described = as_fitted(read, request, (reference, fit), band)
+    described = as_fitted(read, (request, at_strain), (reference, fit), band)
     described["fit"]["method"] = "; ".join([described["fit"]["method"], *accepted, *said, *told])
     add_shift(described, superposition, shifts, law)
     if strains is not None:
-        described["strain_dependence"] = strain_of(request, strains)
+        described["strain_dependence"] = strain_of(at_strain, strains)
         described["missing"].remove("strain dependence")
+        if short := short_sweeps(strains):
+            described["missing"].append(short)
     files = [file for file in (*read, shifts, strains) if file is not None]
     return Fitted(
         compound=_compound(described, Path((shifts or read[0]).source)),
@@ -222,11 +231,13 @@ def fit_file(data: Path | Sequence[Path], request: Request) -> Fitted:
         understood=(
             *(f"{Path(file.source).name}: {line}" for file in files for line in file.understood),
             *(*told, *accepted),
+            *(f"{each.place}: the master curve was measured at {each.text}" for each in amplitudes),
         ),
         entropic_floor=advised,
         rows=rows,
         files=tuple(Path(each.source).name for each in read),
         metadata={key: value for each in reversed(files) for key, value in each.metadata.items()},
+        amplitudes=amplitudes,
     )
 
 
@@ -276,6 +287,7 @@ def _read_all(paths: Sequence[Path], request: Request) -> tuple[list[DmaData], t
     rows = excluded(
         tables, request.exclude, [path for path in (request.shift, request.strain) if path is not None]
     )
+    _check_columns([*tables, *((p, None) for p in (request.shift, request.strain) if p is not None)], request)
     files = []
     for k, (path, sheet) in enumerate(tables):
         answers = {**request.reading, "sheet": sheet, "exclude": rows.get(k)}
@@ -283,6 +295,15 @@ def _read_all(paths: Sequence[Path], request: Request) -> tuple[list[DmaData], t
     return files, tuple(
         f"{Path(files[k].source).name}: rows excluded by hand: {left_out}" for k, left_out in rows.items()
     )
+
+
+def _check_columns(tables: Sequence[tuple[Path, str | None]], request: Request) -> None:
+    """Refuse names of columns, of --column and --ignore, that no file has."""
+    for option, key in (("--column", "columns"), ("--ignore", "ignore")):
+        for name in request.reading.get(key) or ():
+            one = {"columns": {name: ""}} if key == "columns" else {"ignore": [name]}
+            if not any(own_answers(path, {**one, "sheet": sheet})[key] for path, sheet in tables):
+                raise InputError(f'{option}: no file has a column "{name}"')
 
 
 def _compound(described: dict[str, Any], shifted_by: Path) -> RubberCompound:

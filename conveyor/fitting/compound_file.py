@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.errors import InputError
+from conveyor.fitting.amplitude import FEWEST_STRAINS
 from conveyor.fitting.request import Request
 from conveyor.fitting.rows import shift_factors
 from conveyor.laboratory import DmaData
@@ -24,15 +25,18 @@ DIGITS = 12
 _BAND_DIGITS = 6  # the band is known to one or two
 _ERROR_DECIMALS = 8  # of a relative error: an exact fit leaves rounding, which is none
 _UNKNOWN = "not stated"
-_FEWEST_STRAINS = 4  # of a run that can be interpolated; a stray row is a run of one
 
 
 def as_fitted(
-    read: Sequence[DmaData], request: Request, fitted: tuple[str, PronyFit], band: ReplicaBand | None
+    read: Sequence[DmaData],
+    asked: tuple[Request, str | None],
+    fitted: tuple[str, PronyFit],
+    band: ReplicaBand | None,
 ) -> dict[str, Any]:
-    """What a compound file says of a fit at its reference temperature, with its band."""
+    """What a compound file says of a fit at its reference temperature, with its band; the strain beside the request."""
+    request = asked[0]
     reference, fit = fitted
-    described = of_series(read, request, reference, fit.series, fit.window)
+    described = of_series(read, asked, reference, fit.series, fit.window)
     if band is not None:
         described["prony"]["band"] = _band(band)
     described["fit"] = {
@@ -47,9 +51,14 @@ def as_fitted(
 
 
 def of_series(
-    read: Sequence[DmaData], request: Request, reference: str, series: PronySeries, window: Sequence[float]
+    read: Sequence[DmaData],
+    asked: tuple[Request, str | None],
+    reference: str,
+    series: PronySeries,
+    window: Sequence[float],
 ) -> dict[str, Any]:
-    """What a compound file says of a series at its reference temperature."""
+    """What a compound file says of a series at its reference temperature; asked for, and at which strain."""
+    request, strain = asked
     stated = {key: value for each in reversed(read) for key, value in each.metadata.items()}
     prony: dict[str, Any] = {
         "equilibrium": mega(series.equilibrium),
@@ -67,7 +76,7 @@ def of_series(
             "data": ", ".join(Path(each.source.partition("[")[0]).name for each in read),
         },
         "poisson_ratio": request.poisson_ratio,
-        "strain": stated.get("strain", request.reference_strain or _UNKNOWN),
+        "strain": strain or stated.get("strain", _UNKNOWN),
         "reference_temperature": reference,
         "prony": prony,
         "range": {
@@ -165,25 +174,25 @@ def add_shift(
         described["shift"]["log10_bT"] = [float(f"{y:.{DIGITS}g}") for y in vertical[order]]
 
 
-def strain_of(request: Request, sweeps: DmaData) -> dict[str, Any]:
+def strain_of(reference: str | None, sweeps: DmaData) -> dict[str, Any]:
     """Strain dependence: runs of four rows and more; shorter ones are strays."""
-    if request.reference_strain is None:
+    if reference is None:
         raise InputError(
-            f"{request.strain}: at which strain was the master curve measured? Give it, e.g. "
+            f"{sweeps.source}: at which strain was the master curve measured? Give it, e.g. "
             '--reference-strain "0.1 %"; everything is counted from it'
         )
-    runs = [run for run in sweeps.strain_sweeps() if run.strain.size >= _FEWEST_STRAINS]
+    runs = [run for run in sweeps.strain_sweeps() if run.strain.size >= FEWEST_STRAINS]
     if not runs:
-        raise InputError(f"{request.strain}: no sweep of {_FEWEST_STRAINS} strains and more is in it")
+        raise InputError(f"{sweeps.source}: no sweep of {FEWEST_STRAINS} strains and more is in it")
     columns = {"temperature": "temperature [degC]", "frequency": "frequency [Hz]"}
     unknown = [name for name in columns if any(getattr(run, name) is None for run in runs)]
     if unknown:
         raise InputError(
-            f"{request.strain}: {' and '.join(unknown)} of the strain sweep not stated; give every row "
+            f"{sweeps.source}: {' and '.join(unknown)} of the strain sweep not stated; give every row "
             + " and ".join(f'a column "{columns[name]}"' for name in unknown)
         )
     return {
-        "reference_strain": request.reference_strain,
+        "reference_strain": reference,
         "reference_note": sweeps.metadata.get("reference_strain", ""),
         "source": Path(sweeps.source).name,
         "sweeps": [

@@ -26,7 +26,8 @@ class Request:
     strain : Path, optional
         File of strain sweeps.
     reference_strain : str, optional
-        Single strain amplitude of the master curve, with unit ("0.1 %"); needed with `strain`.
+        Single strain amplitude of the master curve, with unit ("0.1 %"), of shear "0.15 % shear"; needed with `strain`
+        where the files do not state it.
     poisson_ratio : float
         ν; also turns shear moduli into tensile ones [-].
     equilibrium : float, optional

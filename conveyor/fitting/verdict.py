@@ -11,6 +11,7 @@ import numpy as np
 
 from conveyor.checks import rubber_coverage
 from conveyor.errors import ConveyorError
+from conveyor.fitting.amplitude import UNLIKE_STRAINS, apart, written
 from conveyor.fitting.compound import Fitted
 from conveyor.fitting.findings import DOUBTED, OVER_SCATTER
 from conveyor.fitting.rows import MeasuredRows
@@ -103,7 +104,7 @@ def verdict(fitted: Fitted, conveyor: Conveyor | None = None) -> tuple[Criterion
     conveyor : Conveyor, optional
         Its rolls, speed and temperature tell which frequencies the rubber has to be known at.
     """
-    made = (_noise, _shifts, _shape, _collapse, _consistent, _residual, _ends)
+    made = (_noise, _strain, _shifts, _shape, _collapse, _consistent, _residual, _ends)
     return (
         *(one for of in made for one in of(fitted)),
         *(() if conveyor is None else _covered(fitted, conveyor)),
@@ -139,6 +140,18 @@ def _noise(fitted: Fitted) -> Iterator[Criterion]:
         yield (
             _open(name, "fewer than three rows") if value is None else _most(name, value, most, _percent, why)
         )
+
+
+def _strain(fitted: Fitted) -> Iterator[Criterion]:
+    name, known = "strain of the isotherms", fitted.amplitudes
+    if not known:
+        yield _open(
+            name, "no file states it: measure all at one amplitude and write it into a column 'strain [%]'"
+        )
+        return
+    low, high = min(known, key=lambda one: one.low), max(known, key=lambda one: one.high)
+    why = f"{written(low.low)} to {written(high.high)}: filled rubber softens with strain, measure all at one"
+    yield _most(name, apart(known), UNLIKE_STRAINS, lambda v: f"a factor of {v:.3g}", why)
 
 
 def _shifts(fitted: Fitted) -> Iterator[Criterion]:

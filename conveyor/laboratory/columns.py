@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
 from typing import Final, NamedTuple
@@ -10,13 +11,15 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from conveyor.errors import InputError
-from conveyor.laboratory.layout import EXCLUDE, DataColumn, DataTable
+from conveyor.laboratory.grid import AnswerableError
+from conveyor.laboratory.layout import DataColumn, DataTable
 from conveyor.laboratory.names import DIMENSIONS, Meaning
-from conveyor.laboratory.numbers import decimal_mark, is_number, why_not_a_number
+from conveyor.laboratory.numbers import decimal_mark, is_number, last_digit, why_not_a_number
 from conveyor.laboratory.table import FloatArray, IntArray
 from conveyor.laboratory.units import ColumnUnit, allowed, find_unit
 
 _EXAMPLES: Final = {"frequency": "Hz", "modulus": "MPa", "temperature": "degC", "strain": "%"}
+_ROUNDING: Final = 1e-6  # of a digit: decimal numbers are none in binary
 FREQUENCY_AGREEMENT: Final = 1e-2
 """Relative difference allowed between a column in Hz and one in rad/s of one file: three printed digits."""
 
@@ -86,9 +89,16 @@ def check_units(units: Mapping[str, str | None]) -> dict[str, ColumnUnit]:
 
 def read_columns(table: DataTable, given: Mapping[str, ColumnUnit]) -> Read:
     """Numbers of every known column; `given` units override those of the file."""
-    used = _used(table)
     _check_width(table)
-    cells = {column.index: _cells(table, column) for column in chain(*used.values())}
+    every = {
+        column.index: [_cell(table, row, column) for row in range(len(table.rows))]
+        for column in table.columns
+        if column.meaning is not None
+    }
+    empty = [c for c in table.columns if c.index in every and not any(every[c.index])]
+    used, spare = _used(table, every, empty)
+    _check_cells(table, list(chain(*used.values())), every)
+    cells = every
     unneeded = _unneeded(used)
     labelled = next(iter(used.pop("run", ())), None)
     labels = None if labelled is None else _labels(table, labelled, cells[labelled.index])
@@ -99,11 +109,10 @@ def read_columns(table: DataTable, given: Mapping[str, ColumnUnit]) -> Read:
     read = Read({}, labels, notes, [])
     for quantity, columns in used.items():
         in_si = [
-            _in_si(table, column, _numbers(table, column, cells[column.index], mark), given, read)
-            for column in columns
+            _in_si(table, column, _numbers(cells[column.index], mark), given, read) for column in columns
         ]
         read.series[quantity] = in_si[0] if len(in_si) == 1 else _agreed(table, *in_si)
-    notes += [f"{table.label(c)} is not needed" for c in unneeded]
+    notes += [*(f"{table.label(c)} is not needed" for c in unneeded), *spare]
     for column in table.columns:
         if column.meaning is None and any(_cell(table, row, column) for row in range(len(table.rows))):
             why = "its name is not a quantity read here" if column.header else "it has no name"
@@ -117,24 +126,74 @@ def spoken(meaning: Meaning) -> str:
     return f"{words} (peak to peak)" if meaning.peak_to_peak else words
 
 
-def _used(table: DataTable) -> dict[str, list[DataColumn]]:
-    """Columns by quantity; only frequency may come twice, once as an angular frequency, which is then the second."""
+def _used(
+    table: DataTable, cells: Mapping[int, list[str]], empty: Sequence[DataColumn]
+) -> tuple[dict[str, list[DataColumn]], list[str]]:
+    """Columns by quantity, and why others are spare: empty, commanded beside measured, a repetition.
+
+    Only frequency may come twice, once as an angular frequency, which is then the second.
+    """
     used: dict[str, list[DataColumn]] = {}
-    angular = {c.index for c in table.columns if c.meaning is not None and c.meaning.angular}
-    for column in table.columns:
-        if column.meaning is None:
+    said = [f"{table.label(column)} is empty in every row and not used" for column in empty]
+    named = [column for column in table.columns if column.meaning is not None and column not in empty]
+    measured = {_sense(c) for c in named if c.meaning is not None and not c.meaning.commanded}
+    angular = {c.index for c in named if c.meaning is not None and c.meaning.angular}
+    for column in named:
+        assert column.meaning is not None  # noqa: S101
+        if column.meaning.commanded and _sense(column) in measured:
+            said.append(f"{table.label(column)} is not used: what was commanded, beside what was measured")
             continue
         others = used.setdefault(column.meaning.quantity, [])
-        if others and not (len(others) == 1 and (others[0].index in angular) != (column.index in angular)):
-            raise table.refusal(
-                column,
-                f"a second column for {column.meaning.quantity} (the first is {table.label(others[0])});"
-                " keep one, or one row for each measurement with the temperature in a column of its own; rename what"
-                " is not to be read",
-            )
+        first = next((other for other in others if _sense(other) == _sense(column)), None)
+        if (
+            first is None
+            and others
+            and (len(others) > 1 or (others[0].index in angular) == (column.index in angular))
+        ):
+            first = others[0]
+        if first is not None:
+            if _repeats(cells[first.index], cells[column.index]) and _sense(first, unit=True) == _sense(
+                column, unit=True
+            ):
+                said.append(f"{table.label(column)} repeats {table.label(first)} and is not used")
+                continue
+            raise _second(table, first, column)
         others.append(column)
         others.sort(key=lambda c: c.index in angular)
-    return used
+    return used, said
+
+
+def _sense(column: DataColumn, *, unit: bool = False) -> tuple[object, ...]:
+    """What two columns have in common that hold the same quantity in the same way."""
+    sense = column.meaning
+    assert sense is not None  # noqa: S101
+    units = (sense.unit, column.unit) if unit else ()
+    return (sense.quantity, sense.angular, sense.log_base, sense.peak_to_peak, sense.at, *units)
+
+
+def _repeats(first: Sequence[str], second: Sequence[str]) -> bool:
+    """Whether two columns hold the same numbers, to their printed digits."""
+    for a, b in zip(first, second, strict=True):
+        if a == b:
+            continue
+        if not (is_number(a) and is_number(b)):
+            return False
+        x, y = (float(each.replace(",", ".")) for each in (a, b))
+        if abs(x - y) > 0.5 * (last_digit(a) + last_digit(b)) * (1.0 + _ROUNDING):
+            return False
+    return True
+
+
+def _second(table: DataTable, first: DataColumn, column: DataColumn) -> InputError:
+    """What to say of a second column of a quantity, with other values than the first."""
+    assert column.meaning is not None  # noqa: S101
+    name = table.grid.column(column.index)
+    what = (
+        f"a second column for {column.meaning.quantity} (the first is {table.label(first)}) with other values; keep"
+        f' one: ignore=["{name}"] (--ignore {name}) leaves this one aside, {table.grid.column(first.index)} the first;'
+        " or give one row for each measurement with the temperature in a column of its own"
+    )
+    return AnswerableError(str(table.refusal(column, what)), option="ignore", value=name)
 
 
 def _unneeded(used: dict[str, list[DataColumn]]) -> list[DataColumn]:
@@ -168,24 +227,30 @@ def _cell(table: DataTable, row: int, column: DataColumn) -> str:
     return cells[column.index] if column.index < len(cells) else ""
 
 
-def _cells(table: DataTable, column: DataColumn) -> list[str]:
-    """Cells of one column, none empty."""
-    cells = [_cell(table, row, column) for row in range(len(table.rows))]
-    if "" in cells:
-        hint = "or a formula without a stored value" if table.grid.sheet else "a line cut short?"
-        what = f"the cell is empty ({hint}); complete or delete the row, {EXCLUDE}"
-        raise table.refusal(column, what, cells.index(""))
-    return cells
+def _check_cells(table: DataTable, columns: Sequence[DataColumn], cells: Mapping[int, list[str]]) -> None:
+    """Refuse every row in which a cell is empty, or no finite number, of a column that holds numbers."""
+    hint = "or a formula without a stored value" if table.grid.sheet else "a line cut short?"
+    faults: list[tuple[DataColumn, str, int]] = []
+    for column in columns:
+        assert column.meaning is not None  # noqa: S101
+        label = column.meaning.quantity == "run"
+        for row, cell in enumerate(cells[column.index]):
+            if not cell:
+                faults.append((column, f"the cell is empty ({hint}); complete or delete the row", row))
+            elif not label and not is_number(cell):
+                line = table.rows[row]
+                faults.append(
+                    (column, why_not_a_number(cell if any(map(is_number, line.cells)) else line.text), row)
+                )
+            elif not label and not math.isfinite(float(cell.replace(",", "."))):
+                faults.append((column, f"'{cell}' is too large for a number; repair or delete the row", row))
+    first = {row: (column, text, row) for column, text, row in reversed(faults)}
+    if first:
+        raise table.refusal_of_rows([first[row] for row in sorted(first)])
 
 
 def _mark(table: DataTable, columns: list[DataColumn], cells: Mapping[int, list[str]]) -> str:
     """Decimal mark of all number columns together."""
-    for column in columns:
-        for row, cell in enumerate(cells[column.index]):
-            if not is_number(cell):
-                line = table.rows[row]
-                said = why_not_a_number(cell if any(map(is_number, line.cells)) else line.text)
-                raise table.refusal(column, f"{said}, {EXCLUDE}", row)
     every = [cell for column in columns for cell in cells[column.index]]
     mark, doubtful = decimal_mark(every)
     if doubtful is not None:
@@ -200,13 +265,8 @@ def _mark(table: DataTable, columns: list[DataColumn], cells: Mapping[int, list[
     return mark
 
 
-def _numbers(table: DataTable, column: DataColumn, cells: list[str], mark: str) -> FloatArray:
-    numbers = np.array([float(cell.replace(",", ".") if mark == "," else cell) for cell in cells])
-    bad = np.flatnonzero(~np.isfinite(numbers))
-    if bad.size:
-        what = f"'{cells[bad[0]]}' is too large for a number; repair or delete the row, {EXCLUDE}"
-        raise table.refusal(column, what, bad[0])
-    return numbers
+def _numbers(cells: list[str], mark: str) -> FloatArray:
+    return np.array([float(cell.replace(",", ".") if mark == "," else cell) for cell in cells])
 
 
 def _labels(table: DataTable, column: DataColumn, cells: list[str]) -> IntArray:
@@ -262,7 +322,9 @@ def _unit_problem(
             known = f"unit '{text}' of {spoken(meaning)} is not known"
             if dimension == "frequency" and text.replace(" ", "") in {"1/s", "s^-1", "s-1", "s⁻¹"}:
                 known = f"unit '{text}' may be Hz or rad/s"
-            if text in {"mPa", "mpa"}:
+            if text.lower() == "mhz":
+                known = f"unit '{text}' may be mHz or MHz"
+            if text == "mPa":
                 known = f"unit '{text}' reads millipascal, is MPa meant?"
             return f"{known} (allowed: {allowed(dimension)}); {remedy(dimension)}"
     if len({unit.name for unit in stated if unit}) > 1:

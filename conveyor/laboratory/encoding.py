@@ -7,7 +7,10 @@ import re
 from typing import Final
 
 from conveyor.laboratory.grid import refusal
+from conveyor.laboratory.names import known_names
 
+_LONGEST_HEAD: Final = 20_000
+"""Characters in which names of columns are looked for, to tell encodings apart."""
 _NOT_TEXT: Final = {
     b"\xd0\xcf\x11\xe0": "an old .xls workbook, or one with a password; save it as .xlsx or CSV",
     b"%PDF": "a PDF report; export the table as CSV or .xlsx",
@@ -20,6 +23,18 @@ _BYTE_ORDER_MARKS: Final = (
     (codecs.BOM_UTF16_BE, "utf-16", "UTF-16 by its byte-order mark"),
 )
 _KOREAN: Final = re.compile("[가-힣ㄱ-ㅎㅏ-ㅣ　-〿℃℉°μ㎐㎑㎒㎩㎪㎫㎬·×±′″]+")
+_SIGNS: Final = "°℃℉′″‘’“”·×±µμ²³⁻¹【】。、–—Δδωεγτηα*"
+"""Signs between words of any language, full-width ones among them."""
+_FOREIGN: Final = (
+    ("cp932", "Japanese", "ぁ-んァ-ヶー一-鿿々"),
+    ("gb18030", "Chinese", "一-鿿"),
+    ("big5", "Chinese", "一-鿿"),
+    ("cp1251", "Russian", "А-Яа-яЁё№"),
+    ("cp1254", "Turkish", "ÇçĞğİıÖöŞşÜüâîû"),
+    ("cp1250", "Polish", "ĄąĆćĘęŁłŃńÓóŚśŹźŻżÄäÖöÜüßÉéŐőŰűČčŘřŠšŽž"),
+    ("euc_jp", "Japanese", "ぁ-んァ-ヶー一-鿿々"),
+)
+"""Encodings by language and letters, tried in this order on files with known words."""
 
 
 def decoded(data: bytes, name: str) -> tuple[str, str]:
@@ -28,8 +43,10 @@ def decoded(data: bytes, name: str) -> tuple[str, str]:
     Notes
     -----
     A byte-order mark decides; then UTF-8 if every byte fits; then EUC-KR or CP949 if what is not ASCII becomes
-    Korean; else CP1252, and Latin-1 for bytes CP1252 does not know. Numbers are ASCII in all of them. (A detector by
-    frequencies of letters has too few to go by: it takes a short CP1252 file with a degree sign for Big5.)
+    Korean; then the encoding of another language in which the most words are names of columns that are read here, two
+    at the least and more than in Korean or CP1252; else CP1252, and Latin-1 for bytes CP1252 does not know. Numbers are
+    ASCII in all of them. (A detector by frequencies of letters has too few to go by: it takes a short CP1252 file
+    with a degree sign for Big5.)
 
     Examples
     --------
@@ -62,14 +79,36 @@ def _text(data: bytes, name: str) -> tuple[str, str]:
     text = _as(data, "utf-8")
     if text is not None:
         return text, "ASCII" if data.isascii() else "UTF-8"
-    for codec in ("euc_kr", "cp949"):
+    western = _as(data, "cp1252")
+    usual = None if western is None else (western, "cp1252 (not UTF-8)")
+    for codec in ("cp949", "euc_kr"):
         text = _as(data, codec)
         if text is not None and _is_korean(text, codec):
-            return text, f"{codec} (not UTF-8; Korean)"
-    text = _as(data, "cp1252")
-    if text is not None:
-        return text, "cp1252 (not UTF-8)"
-    return data.decode("latin-1"), "latin-1 (neither UTF-8 nor cp1252; words may show wrong letters)"
+            usual = text, f"{codec} (not UTF-8; Korean)"
+    foreign = _foreign(data, 0 if usual is None else known_names(_head(usual[0])))
+    latin = (data.decode("latin-1"), "latin-1 (neither UTF-8 nor cp1252; words may show wrong letters)")
+    return foreign or usual or latin
+
+
+def _head(text: str) -> str:
+    """The lines of a text before its numbers, so far as they are not ASCII."""
+    return "\n".join(line for line in text[:_LONGEST_HEAD].splitlines() if not line.isascii())
+
+
+def _foreign(data: bytes, known: int) -> tuple[str, str] | None:
+    """The text in the encoding in which the most words are known, and its name; None if CP1252 knows as many."""
+    best: tuple[int, str, str] | None = None
+    for codec, language, letters in _FOREIGN:
+        text = _as(data, codec)
+        if text is None:
+            continue
+        runs = re.findall(r"[^\x00-\x7f]+", text)
+        if not all(re.fullmatch(f"[{letters}！-～{re.escape(_SIGNS)}]+", run) for run in runs):
+            continue
+        count = known_names(_head(text))
+        if count > max(known, 1 if best is None else best[0]):
+            best = count, text, f"{codec} (not UTF-8; {language})"
+    return None if best is None else best[1:]
 
 
 def _as(data: bytes, codec: str) -> str | None:

@@ -11,6 +11,22 @@ _LONGEST_LABEL: Final = 60
 """Characters of a column's name shown in a message."""
 
 
+class AnswerableError(InputError):
+    """A fault of a file that an option settles without a doubt, so that the rest of the file can be read on.
+
+    Attributes
+    ----------
+    option : str
+        Keyword of `conveyor.laboratory.read_dma`: exclude or ignore.
+    value : str
+        Rows or columns it has to name [-].
+    """
+
+    def __init__(self, message: object = "", *parts: object, option: str, value: str) -> None:
+        super().__init__(message, *parts)
+        self.option, self.value = option, value
+
+
 class TextLine(NamedTuple):
     """One line of a text file or one row of a sheet."""
 
@@ -45,6 +61,18 @@ class TextGrid:
         """Error that begins with file, row (from 1) and column (from 0)."""
         return refusal(self.name, row, column, message, header=header, lettered=bool(self.sheet))
 
+    def column(self, index: int) -> str:
+        """How a person names a column, counted from 0: its number from 1, or its letter."""
+        return _column(index, lettered=bool(self.sheet))
+
+
+def _column(index: int, *, lettered: bool) -> str:
+    if not lettered:
+        return str(index + 1)
+    from openpyxl.utils import get_column_letter
+
+    return get_column_letter(index + 1)
+
 
 def refusal(
     name: str, row: int, column: int, message: str, *, header: str = "", lettered: bool = False
@@ -56,10 +84,6 @@ def refusal(
     >>> print(refusal("pad.csv", 3, 1, "not a number", header="E' [MPa]"))
     pad.csv:3: column 2 "E' [MPa]": not a number
     """
-    shown = str(column + 1)
-    if lettered:
-        from openpyxl.utils import get_column_letter
-
-        shown = get_column_letter(column + 1)
+    shown = _column(column, lettered=lettered)
     label = f' "{header[:_LONGEST_LABEL]}"' if header else ""
     return InputError(" ".join(f"{name}:{row}: column {shown}{label}: {message}".split()))

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TypeAlias
 
 from conveyor.laboratory.grid import TextLine
-from conveyor.laboratory.layout import EXCLUDE, DataColumn, DataTable
+from conveyor.laboratory.layout import DataColumn, DataTable, left_out
 from conveyor.laboratory.names import Meaning, SetPoint
 from conveyor.laboratory.numbers import is_number, why_not_a_number
 
@@ -72,7 +72,10 @@ def _rows(table: DataTable, line: TextLine, groups: Groups) -> Sequence[TextLine
             if not is_number(cell := cells[column.index]):
                 said = why_not_a_number(cell) if cell else "the cell is empty; complete or delete the row"
                 raise table.grid.refusal(
-                    line.number, column.index, f"{said}, {EXCLUDE}", header=column.header
+                    line.number,
+                    column.index,
+                    f"{said}, or {left_out(str(line.number))}",
+                    header=column.header,
                 )
         if any(values.values()):
             own = [values.get(index, cell) for index, cell in enumerate(cells)]

@@ -5,23 +5,26 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import compress, pairwise, zip_longest
+from itertools import pairwise, zip_longest
 from typing import Final
 
 import numpy as np
 
 from conveyor.errors import InputError
-from conveyor.laboratory.grid import TextGrid, TextLine
-from conveyor.laboratory.names import Meaning, meaning
+from conveyor.laboratory.grid import AnswerableError, TextGrid, TextLine
+from conveyor.laboratory.names import Meaning, bare_name, meaning
 from conveyor.laboratory.numbers import is_number
 from conveyor.laboratory.table import IntArray
 from conveyor.laboratory.units import is_any_unit
 
-EXCLUDE: Final = "or leave it out with exclude (--exclude)"
-"""The cure of a row that needs not be read."""
 _EXCLUDED: Final = re.compile(r"\d{1,9}(?:-\d{1,9})?(?:,\d{1,9}(?:-\d{1,9})?)*")
 _LISTED: Final = re.compile(r"[A-Za-z]+ ?(\d{1,2})")
-EXAMPLE: Final = "a header row such as 'frequency_Hz,storage_MPa,loss_MPa'"
+EXAMPLE: Final = "a header row such as 'frequency_Hz,E'_MPa,E''_MPa'"
+_SUPERPOSED: Final = re.compile(r"\btts\b|master\s*(?:curve|kurve)|masterkurve|superposition", re.IGNORECASE)
+_TITLE: Final = 3
+"""Lines above a header that may name its table."""
+_MOST_NAMED: Final = 6
+"""Rows of one fault that a message names one by one."""
 
 
 @dataclass(frozen=True)
@@ -51,6 +54,25 @@ class DataTable:
         number = self.header_row if row is None else self.rows[row].number
         return self.grid.refusal(number, column.index, message, header=column.header)
 
+    def refusal_of_rows(self, faults: Sequence[tuple[DataColumn, str, int]]) -> InputError:
+        """Error at rows, counted from 0, each with its column and what is wrong in it; says how to leave all out.
+
+        Where more than every second row is at fault, it is not the rows: then the first of them alone is named.
+        """
+        column, message, row = faults[0]
+        rows = sorted({each for _, _, each in faults})
+        if 2 * len(rows) > len(self.rows) > 1:
+            return self.refusal(column, message, row)
+        numbers = spans([self.rows[each].number for each in rows])
+        first = str(self.refusal(column, f"{message}, or {left_out(numbers)}", row))
+        others = [(c, what, each) for c, what, each in faults if each != row]
+        also = [
+            str(self.refusal(c, what, each)).split(":", 1)[1] for c, what, each in others[: _MOST_NAMED - 1]
+        ]
+        more = f" and {len(others) - len(also)} more" if len(others) > len(also) else ""
+        text = first + "".join(f"; likewise row {each}" for each in also) + more
+        return AnswerableError(text, option="exclude", value=numbers)
+
     def label(self, column: DataColumn) -> str:
         """How notes name a column, as in `column 2 "E' (Pa)"`."""
         return str(self.refusal(column, "")).split(": ", 1)[1].removesuffix(":")
@@ -64,6 +86,26 @@ class DataTable:
     def row_numbers(self) -> IntArray:
         """Of each row in the file."""
         return np.array([line.number for line in self.rows], dtype=np.int64)
+
+
+def left_out(rows: str) -> str:
+    """The option that leaves out rows, for Python and for the command line."""
+    return f'leave {"it" if rows.isdigit() else "them"} out: exclude="{rows}" (--exclude {rows})'
+
+
+def spans(numbers: Sequence[int]) -> str:
+    """Row numbers, ascending, as --exclude takes them.
+
+    Examples
+    --------
+    >>> spans([4, 11, 12, 13, 20])
+    '4,11-13,20'
+    """
+    ends = [k for k in range(len(numbers)) if k == len(numbers) - 1 or numbers[k + 1] != numbers[k] + 1]
+    starts = [0, *(k + 1 for k in ends[:-1])]
+    return ",".join(
+        f"{numbers[a]}-{numbers[b]}" if b > a else f"{numbers[a]}" for a, b in zip(starts, ends, strict=True)
+    )
 
 
 def has_table(grid: TextGrid) -> bool:
@@ -81,6 +123,13 @@ def find_table(grid: TextGrid) -> DataTable:
     starts = [start for start in tables if _measures(grid.lines[start])] or tables
     columns, body = _columns(grid, starts[0])
     notes = [f"row {grid.lines[starts[0]].number} is the header"]
+    made = [start for start in starts[1:] if _is_made_of_steps(grid, start, columns)]
+    starts = [start for start in starts if start not in made]
+    notes += [
+        f"row {grid.lines[start].number} begins a table that the instrument made of the steps (time-temperature"
+        " superposition); it is not read, save it in a file of its own to use it"
+        for start in made
+    ]
     if body > starts[0] + 1:
         notes.append(f"row {grid.lines[starts[0] + 1].number} holds the units")
     notes += [
@@ -91,7 +140,7 @@ def find_table(grid: TextGrid) -> DataTable:
     notes += [
         f"row {grid.lines[t].number} begins a table that names no modulus and is not read"
         for t in tables
-        if t not in starts
+        if t not in starts and t not in made
     ]
     for start, end in pairwise([*tables, len(grid.lines)]):
         if start not in starts:
@@ -102,7 +151,7 @@ def find_table(grid: TextGrid) -> DataTable:
     ranges = [(start, end) for start, end in pairwise([*tables, len(grid.lines)]) if start in starts]
     for block, (start, end) in enumerate(ranges):
         here, body = _columns(grid, start)
-        _check_same(grid, start, here, columns)
+        _check_same(grid, (start, end), here, columns)
         lines = [line for line in grid.lines[body:end] if not line.comment]
         stop = len(lines)
         while end < len(grid.lines) and stop and not _is_row(lines[stop - 1], columns):
@@ -135,23 +184,97 @@ def _check_left_aside(grid: TextGrid, start: int, end: int) -> None:
             )
 
 
-def without_rows(table: DataTable, exclude: str) -> DataTable:
-    """The table without the rows that a person names by their number in the file, as 12-15,20; read or not."""
+def without_rows(grid: TextGrid, exclude: str) -> TextGrid:
+    """The grid without the rows that a person names by their number in the file, as 12-15,20."""
     if not _EXCLUDED.fullmatch(exclude):
         raise InputError(f'exclude = "{exclude}" (--exclude): expected rows such as 12-15,20')
-    spans = [
+    ranges = [
         (int(low), int(high or low)) for low, _, high in (part.partition("-") for part in exclude.split(","))
     ]
-    kept = [not any(low <= line.number <= high for low, high in spans) for line in table.rows]
-    if all(kept) or not any(kept):
-        what = "the table has no such rows" if all(kept) else "no row would be left"
-        raise InputError(f'{table.grid.name}: exclude = "{exclude}" (--exclude): {what}')
+    lines = tuple(line for line in grid.lines if not any(low <= line.number <= high for low, high in ranges))
+    if len(lines) == len(grid.lines) or not any(map(_is_data, lines)):
+        what = "the table has no such rows" if len(lines) == len(grid.lines) else "no row would be left"
+        raise InputError(f'{grid.name}: exclude = "{exclude}" (--exclude): {what}')
     return replace(
-        table,
-        rows=tuple(compress(table.rows, kept)),
-        blocks=tuple(compress(table.blocks, kept)),
-        notes=(*table.notes, f"{kept.count(False)} row(s) excluded by hand: {exclude}"),
+        grid,
+        lines=lines,
+        notes=(*grid.notes, f"{len(grid.lines) - len(lines)} row(s) excluded by hand: {exclude}"),
     )
+
+
+def without_columns(table: DataTable, ignore: Sequence[str]) -> DataTable:
+    """The table with columns left aside that a person names, by their header, number or letter."""
+    columns = list(table.columns)
+    for name in ignore:
+        known = [
+            k
+            for k, column in enumerate(columns)
+            if column.header and _plain(name) in {_plain(column.header), _plain(bare_name(column.header))}
+        ] or [
+            k for k, column in enumerate(columns) if name.strip().upper() == table.grid.column(column.index)
+        ]
+        if not known:
+            names = ", ".join(column.header for column in columns if column.header)
+            raise table.refusal(
+                columns[0], f'ignore = "{name}" (--ignore): no such column; there are: {names}'
+            )
+        for k in known:
+            columns[k] = replace(columns[k], meaning=None)
+    notes = tuple(f"column left aside as asked: {name}" for name in ignore)
+    return replace(table, columns=tuple(columns), notes=(*table.notes, *notes))
+
+
+def with_names(grid: TextGrid, columns: Mapping[str, str]) -> TextGrid:
+    """The grid with names of columns put in the place of others: what a person says that a column holds."""
+    lines, notes = list(grid.lines), []
+    for name, given in columns.items():
+        if meaning(given) is None:
+            raise InputError(
+                f'{grid.name}: columns: "{name}={given}" (--column): "{given}" is no name of a column known here; write'
+                " one such as E' [MPa], storage, loss, tan_delta, phase [deg], frequency [Hz], temperature [degC],"
+                " strain [%]"
+            )
+        found = False
+        for k, line in enumerate(lines):
+            cells = line.cells
+            if len(cells) < 2 or _numbers(line):
+                continue
+            named = tuple(
+                _with_unit_of(cell, given)
+                if cell and _plain(name) in {_plain(cell), _plain(bare_name(cell))}
+                else cell
+                for cell in cells
+            )
+            if named != cells:
+                lines[k], found = line._replace(cells=named), True
+        if not found:
+            raise InputError(
+                f'{grid.name}: columns: "{name}={given}" (--column): no column has the name "{name}"'
+            )
+        notes.append(f'"{name}" is {given} as given')
+    return replace(grid, lines=tuple(lines), notes=(*grid.notes, *notes))
+
+
+def names_column(grid: TextGrid, name: str) -> bool:
+    """Whether some line of names holds this one, or has a column of this number or letter."""
+    for line in grid.lines:
+        if len(line.cells) >= 2 and not _numbers(line):
+            if any(_plain(name) in {_plain(cell), _plain(bare_name(cell))} for cell in line.cells if cell):
+                return True
+            if name.strip().upper() in {grid.column(k) for k in range(len(line.cells))}:
+                return True
+    return False
+
+
+def _plain(name: str) -> str:
+    """A name for comparison: capitals and blanks do not count."""
+    return re.sub(r"\s+", "", name).lower()
+
+
+def _with_unit_of(cell: str, given: str) -> str:
+    """A given name with the unit in brackets of the cell in whose place it stands, if it has none of its own."""
+    sense, unit = meaning(given), cell.removeprefix(bare_name(cell)).strip()
+    return f"{given} {unit}" if sense is not None and sense.unit is None and unit else given
 
 
 def _with_listed_names(grid: TextGrid) -> TextGrid:
@@ -230,14 +353,32 @@ def _columns(grid: TextGrid, position: int) -> tuple[tuple[DataColumn, ...], int
     return columns, position + 1 + bool(units)
 
 
-def _check_same(grid: TextGrid, start: int, here: Sequence[DataColumn], first: Sequence[DataColumn]) -> None:
+def _is_made_of_steps(grid: TextGrid, start: int, steps: Sequence[DataColumn]) -> bool:
+    """Whether a table behind isotherms holds their shift factors or their master curve, by its names and its title."""
+    first = {column.meaning.quantity for column in steps if column.meaning is not None}
+    here = {m.quantity for cell in grid.lines[start].cells if cell and (m := meaning(cell)) is not None}
+    if not {"frequency", "temperature"} <= first or not first & {"storage", "loss", "complex"}:
+        return False
+    if "a_T" in here and not here & {"storage", "loss", "complex"}:
+        return True
+    title = " ".join(line.text for line in grid.lines[max(0, start - _TITLE) : start] if not _is_data(line))
+    return "temperature" not in here and _SUPERPOSED.search(title) is not None
+
+
+def _check_same(
+    grid: TextGrid, block: tuple[int, int], here: Sequence[DataColumn], first: Sequence[DataColumn]
+) -> None:
     for index, (now, then) in enumerate(zip_longest(here, first)):
         if now != then:
+            start, end = block
+            lines = [line.number for line in grid.lines[start:end] if not line.comment]
+            rows = spans(lines)
             what = (
                 "a second table begins here with other names or units than the first; save each table in a file"
-                " of its own"
+                f" of its own, or {left_out(rows)}"
             )
-            raise grid.refusal(grid.lines[start].number, index, what, header=now.header if now else "")
+            refused = grid.refusal(grid.lines[start].number, index, what, header=now.header if now else "")
+            raise AnswerableError(str(refused), option="exclude", value=rows)
 
 
 def _metadata(grid: TextGrid, header: int) -> Iterator[tuple[str, str, int]]:

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
-from conveyor.laboratory.columns import Series
+from conveyor.laboratory.columns import Question, Series
 from conveyor.laboratory.layout import DataColumn, DataTable
 from conveyor.laboratory.numbers import last_digit
 from conveyor.laboratory.table import FloatArray
+from conveyor.laboratory.vocabulary import deformations
 
 TAN_DELTA_AGREEMENT: Final = 0.05
 """Relative difference allowed between tan delta and E''/E' of one row: two printed digits."""
@@ -24,11 +25,8 @@ FEWEST_TOLD: Final = 5
 """Rows that tell one reading from another: of fewer, chance agrees with either."""
 MOST_TOLD: Final = 0.75
 """Share of them that has to say so: the rest may be misprints [-]."""
-_SHEAR_WORDS: Final = re.compile(
-    r"\b(shear\w*|torsion\w*|rheom\w*|parallel plates?|plate[- ]plate|cone|ares|rpa|mcr|scher\w*|schub\w*)\b|전단|비틀",
-    re.IGNORECASE,
-)
-"""Words of shear tests and of instruments that make only those (general knowledge)."""
+_NAMED_IN_TEXT: Final = re.compile(r"(?<!\w)([EG])(?=['′″’])|\bmodul(?:us|i|e)?\s*[:=]\s*([EG])\b")
+"""A modulus in a remark: "E' and E''", "modulus: E"."""
 
 
 @dataclass(frozen=True)
@@ -162,15 +160,18 @@ def _digits(table: DataTable, series: Series) -> FloatArray:
     return np.asarray(digit * series.unit.factor / series.values)
 
 
-def to_tensile(
-    table: DataTable, used: list[Series], poisson_ratio: float, answer: str | None
-) -> tuple[float, str]:
-    """Factor from the moduli of the file to tensile ones, and the sentence that says why.
+class Letter(NamedTuple):
+    """Whether moduli are tensile, E, or shear ones, G; the sentence that says why; the question where it is open."""
 
-    Notes
-    -----
-    E = 2 (1 + nu) G, isotropic elasticity; by the correspondence principle also for moduli of time or
-    frequency if nu is constant. 3 G at nu = 0.5. `answer` is "E" or "G" where the names have no letter.
+    letter: str
+    why: str
+    question: Question | None = None
+
+
+def letter_of(table: DataTable, used: Sequence[Series], strain: Series | None, answer: str | None) -> Letter:
+    """Which moduli a file holds, by the names of its columns, by what it says of its test, by an answer.
+
+    `answer` is "E" or "G", where the names have no letter or the test that the file speaks of is of the other one.
     """
     letters = {s.meaning.letter for s in used if s.meaning.letter}
     first = used[0].column
@@ -179,25 +180,63 @@ def to_tensile(
         raise table.refusal(
             other, "a shear modulus beside a tensile one; keep two E or two G and rename the rest"
         )
-    if answer is not None and letters and letters != {answer}:
-        what = f"the name says {''.join(letters)}, not {answer}; rename the column, or leave out letter (--moduli)"
-        raise table.refusal(first, what)
-    letter = answer or next(iter(letters), None)
-    if letter == "G":
+    named = next(iter(letters), "")
+    said = dict(_evidence(table, strain, beside=not named))
+    against = said.get("G" if named == "E" else "E", "") if named and named not in said else ""
+    if answer is not None:
+        if named and named != answer and not against:
+            what = f"the name says {named}, not {answer}; rename the column, or leave out letter (--moduli)"
+            raise table.refusal(first, what)
+        return Letter(answer, "as given")
+    if against:
+        what = (
+            f'the name says {named}, but {against}: a tensile or a shear modulus? give letter "E" or "G" (--moduli E,'
+            " --moduli G); G is converted with poisson_ratio (--poisson)"
+        )
+        return Letter(named, "", Question(first, what))
+    if named or set(said) == {"E"}:
+        return Letter(named or "E", "" if named else said["E"])
+    known = said.get("G", "nothing in the file says whether tension or shear was measured")
+    what = (
+        f'E or G? the name has no letter and {known}; give letter "E" or "G" (--moduli E, --moduli G), or name the'
+        " columns so (G is converted with poisson_ratio, --poisson)"
+    )
+    return Letter("E", "", Question(first, what))
+
+
+def _evidence(table: DataTable, strain: Series | None, *, beside: bool) -> Iterator[tuple[str, str]]:
+    """Letters that the file speaks for outside the names of its moduli, and where; `beside` names of columns, too."""
+    for line in reversed(table.grid.lines):
+        before = line.number < table.rows[0].number and line.number != table.header_row
+        if not (line.comment or before):
+            continue
+        for one in deformations(line.text):
+            yield one.letter, f"row {line.number} speaks of '{one.words}'"
+        if beside and (match := _NAMED_IN_TEXT.search(line.text)):
+            yield match[1] or match[2], f"row {line.number} speaks of {match[1] or match[2]}"
+    for column in table.columns if beside else ():
+        for one in deformations(column.header, column=True):
+            yield one.letter, f"{table.label(column)} speaks of '{one.words}'"
+    if strain is not None and strain.meaning.letter:
+        yield (
+            strain.meaning.letter,
+            f"{table.label(strain.column)} is a {'shear' if strain.meaning.letter == 'G' else 'tensile'} strain",
+        )
+
+
+def to_tensile(letter: Letter, poisson_ratio: float) -> tuple[float, str]:
+    """Factor from the moduli of the file to tensile ones, and the sentence that says why.
+
+    Notes
+    -----
+    E = 2 (1 + nu) G, isotropic elasticity; by the correspondence principle also for moduli of time or
+    frequency if nu is constant. 3 G at nu = 0.5.
+    """
+    why = f": {letter.why}" if letter.why else ""
+    if letter.letter == "G":
         factor = 2.0 * (1.0 + poisson_ratio)
-        return factor, f"shear moduli: E = 2 (1 + nu) G = {factor:g} G with nu = {poisson_ratio:g}"
-    if letter == "E":
-        return 1.0, "the moduli are tensile (E)"
-    for line in table.grid.lines:
-        word = _SHEAR_WORDS.search(line.text)
-        if word is not None and line.number < table.rows[0].number:
-            raise table.refusal(
-                first,
-                f"E or G? the name has no letter and row {line.number} speaks of '{word[0]}'; give letter"
-                ' "E" or "G" (--moduli E, --moduli G), or name the columns so (G is converted with poisson_ratio,'
-                " --poisson)",
-            )
-    return 1.0, "the moduli are taken as tensile (E): a shear modulus is named G' or shear"
+        return factor, f"shear moduli: E = 2 (1 + nu) G = {factor:g} G with nu = {poisson_ratio:g}{why}"
+    return 1.0, f"the moduli are tensile (E){why}"
 
 
 def equivalent_strain(shear: FloatArray, poisson_ratio: float) -> tuple[FloatArray, str]:

@@ -1,4 +1,4 @@
-"""What a column header means: quantity, logarithm, shear, unit; English, German, French and Korean names."""
+"""What a column header means: quantity, logarithm, shear, unit; names in the languages of `words/columns.txt`."""
 
 from __future__ import annotations
 
@@ -7,7 +7,9 @@ import re
 from types import MappingProxyType
 from typing import Final, NamedTuple
 
-from conveyor.laboratory.units import find_unit
+from conveyor.laboratory.numbers import half_width
+from conveyor.laboratory.units import find_unit, is_any_unit
+from conveyor.laboratory.vocabulary import compact, word_lists
 
 DIMENSIONS: Final = MappingProxyType(
     {
@@ -51,49 +53,41 @@ class Meaning(NamedTuple):
     angular: bool = False
     peak_to_peak: bool = False
     reduced: bool = False
+    commanded: bool = False
     at: SetPoint | None = None
 
 
-_NAMES = {
-    "frequency": """f freq frequency frequenz prüffrequenz messfrequenz testfrequency oscillationfrequency 주파수
-        fréquence frequence 시험주파수 진동수""",
-    "temperature": """temp temperature temperatur sampletemperature sampletemp probentemperatur prüftemperatur
-        température 온도 시험온도 시료온도""",
-    "strain": """strain strainamplitude strainamp dynamicstrain dynstrain straindyn oscillationstrain oscillatorystrain
-        shearstrain tensilestrain dehnung dehnungsamplitude dynamischedehnung dyndehnung dehnungdyn verformung
-        scherung deformation déformation déformationdynamique deformationdynamique γ γ0 gamma gamma0 ε ε0 εdyn
-        epsilon epsilon0 eps 변형률 변형율 동적변형률""",
-    "time": "time zeit temps relaxationtime testtime 시간",
-    "storage": """storage storagemod storagemodulus speichermodul estor estorage e' e1 eprime m' tensilestoragemodulus
-        moduledeconservation moduledestockage gstor gstorage g' g1 gprime shearstoragemodulus
-        저장탄성률 저장탄성율 저장모듈러스 저장계수""",
-    "loss": """loss lossmod lossmodulus verlustmodul eloss e'' e2 edoubleprime m'' tensilelossmodulus
-        moduledeperte gloss g'' g2 gdoubleprime shearlossmodulus 손실탄성률 손실탄성율 손실모듈러스 손실계수탄성률""",
-    "complex": """e* estar complexmodulus tensilecomplexmodulus komplexermodul modulecomplexe g* gstar
-        shearcomplexmodulus 복소탄성률 복소탄성율""",
-    "relaxation": """erelax e(t) et relaxation relaxationmodulus relaxationsmodul grelax g(t) gt
-        shearrelaxationmodulus modulus e g 완화탄성률 이완탄성률""",
-    "tau": "tau taui τ τi",
-    "term": "ei",
-    "share": "alphai alpha αi α gi relativemodulus",
-    "instant": "e0 g0 instantaneousmodulus",
-    "tan_delta": """tandelta tan(delta) tand tanδ tan(δ) tan(d) tandel lossfactor lossfaktor verlustfaktor
-        facteurdeperte dampingfactor losstangent 손실계수 손실탄젠트""",
-    "phase": "phase phaseangle phaselag lossangle phasenwinkel verlustwinkel delta δ 위상각 위상",
-    "a_T": "at shiftfactor horizontalshift horizontalshiftfactor verschiebungsfaktor 이동인자 시프트팩터",
-    "b_T": "bt verticalshift verticalshiftfactor",
-    "run": "set setno run runno runnumber cycle sweep sweepno step stepno segment specimen probe sample sampleno",
-}
-_ANGULAR = "ω omega w angularfrequency angfrequency angfreq circularfrequency kreisfrequenz 각주파수"
-_REDUCED = "fred reducedfrequency redfrequency f·at fat at·f atf fr reduziertefrequenz f*at at*f 환산주파수"
-_PEAK_TO_PEAK = "dsa doublestrainamplitude peaktopeakstrain strainp-p strainpp"
+def _meanings() -> tuple[dict[str, Meaning], tuple[str, ...], tuple[str, ...]]:
+    """Meanings by compact names, and the words for what was commanded and what was measured."""
+    made: dict[str, Meaning] = {}
+    beside: dict[str, list[str]] = {"commanded": [], "measured": []}
+    for head, words in word_lists("columns"):
+        quantity, *of = head.split()
+        if quantity in beside:
+            beside[quantity] += words
+            continue
+        sense = Meaning(
+            quantity,
+            letter="G" if "shear" in of else "E" if "tensile" in of else "",
+            angular="angular" in of,
+            peak_to_peak="peak-to-peak" in of,
+            reduced="reduced" in of,
+        )
+        made |= {compact(word): sense for word in words}
+    return made, tuple(beside["commanded"]), tuple(beside["measured"])
 
-_MEANINGS: Final = (
-    {name: Meaning(quantity) for quantity, names in _NAMES.items() for name in names.split()}
-    | {name: Meaning("frequency", angular=True) for name in _ANGULAR.split()}
-    | {name: Meaning("frequency", reduced=True) for name in _REDUCED.split()}
-    | {name: Meaning("strain", peak_to_peak=True) for name in _PEAK_TO_PEAK.split()}
+
+_MEANINGS, _COMMANDED, _MEASURED = _meanings()
+_BESIDE: Final = re.compile(
+    rf"(?P<commanded>{'|'.join(map(re.escape, _COMMANDED))})|{'|'.join(map(re.escape, _MEASURED))}",
+    re.IGNORECASE,
 )
+_QUALIFIED: Final = (
+    re.compile(r"(?P<name>.+?)\s*[(\[](?P<word>[^()\[\]]+)[)\]](?P<rest>.*)"),
+    re.compile(r"(?P<word>\w+)[\s_\-]+(?P<name>.+)(?P<rest>)"),
+    re.compile(r"(?P<name>.+?)[\s_,]+(?P<word>\w+)(?P<rest>(?:\s*[\[(].*)?)"),
+)
+"""Where a word such as "cmd" or "measured" stands: in brackets, before the name, behind it."""
 _LONGEST_NAME = 80
 """Longer cells are sentences."""
 _OTHER_LETTERS = {"e", "g"}
@@ -116,6 +110,12 @@ _LOOSE: Final = (
 )
 """What stands behind is a unit only if it is known."""
 _WITH_LOGARITHMS: Final = frozenset({"frequency", "time", "storage", "loss", "relaxation", "a_T", "b_T"})
+_WITH_SYMBOL: Final = (
+    r"(.+?)\s*[(\[]([^()\[\]]+)[)\]]",
+    r"(.+)[\s,]+(\S+)",
+    r"(.*[\u2e80-\uffef])([A-Za-z|]\S*)",
+)
+"""A symbol beside words, in Chinese, Japanese and Korean also without a blank."""
 _AT: Final = re.compile(
     r"\s*(?:(?:@|\bat\b|\bbei\b)\s*|(?=[(\[]))(?P<open>[(\[])?\s*(?<![\w.,])(?P<number>-?\d+(?:[.,]\d+)?)\s*"
     r"(?P<unit>k?Hz|°C|ºC|℃|degC)(?(open)\s*[)\]])",
@@ -147,7 +147,7 @@ def meaning(header: str) -> Meaning | None:
         sense = meaning((text[: point.start()] + text[point.end() :]).strip())
         quantity = "temperature" if point["unit"].lower()[-1] in "c℃" else "frequency"
         return sense and sense._replace(at=SetPoint(quantity, point["number"], point["unit"]))
-    sense = _linear(text)
+    sense = _qualified(text) or _linear(text)
     if sense is not None or not (log := _LOG.fullmatch(text)):
         return sense
     rest = log["rest"].strip()
@@ -157,6 +157,43 @@ def meaning(header: str) -> Meaning | None:
     if inner is None or inner.quantity not in _WITH_LOGARITHMS:
         return None
     return inner._replace(log_base=math.e if log["log"].lower() == "ln" else 10.0)
+
+
+def known_names(text: str) -> int:
+    """How many cells of a text, between any separators, are names of columns with letters beyond ASCII.
+
+    Examples
+    --------
+    >>> known_names("Частота, Гц;Температура, °С;E' [MPa]")
+    2
+    """
+    parts = (part.strip(' "') for part in re.split(r"[\t;\n(\[,]| / |  +|/", half_width(text)))
+    return sum(not part.isascii() and meaning(part) is not None for part in parts)
+
+
+def bare_name(header: str) -> str:
+    """A header without its unit in brackets.
+
+    Examples
+    --------
+    >>> bare_name("Modul A [MPa]"), bare_name("Point"), bare_name("Strain (cmd)")
+    ('Modul A', 'Point', 'Strain (cmd)')
+    """
+    for split in _BRACKETS:
+        match = re.fullmatch(split, header.strip())
+        if match and is_any_unit(match["unit"]):
+            return match["name"]
+    return header.strip()
+
+
+def _qualified(text: str) -> Meaning | None:
+    """A name beside which stands that it was commanded or measured, as in "Strain (cmd) [%]"."""
+    for form in _QUALIFIED:
+        if (match := form.fullmatch(text)) and (word := _BESIDE.fullmatch(match["word"].strip())):
+            sense = _linear(f"{match['name']} {match['rest'].strip()}".strip())
+            if sense is not None:
+                return sense._replace(commanded=word["commanded"] is not None)
+    return None
 
 
 def _linear(text: str) -> Meaning | None:
@@ -179,7 +216,7 @@ def _named(text: str, unit: str | None = None) -> Meaning | None:
     sense = _word(text)
     if sense is not None:
         return _by_unit(text.strip(), sense, unit)
-    parts = re.fullmatch(r"(.+?)\s*[(\[]([^()\[\]]+)[)\]]", text) or re.fullmatch(r"(.+)[\s,]+(\S+)", text)
+    parts = next(filter(None, (re.fullmatch(form, text) for form in _WITH_SYMBOL)), None)
     if parts is None:
         return None
     first, second = _word(parts[1]), _word(parts[2])
@@ -210,15 +247,5 @@ def _time_or_temperature(letter: str, unit: str | None) -> str:
 
 
 def _word(text: str) -> Meaning | None:
-    """A name alone, with the letter of its modulus."""
-    compact = re.sub(r"[\s_.|\-]+", "", text.lower())
-    sense = _MEANINGS.get(compact)
-    if sense is None or DIMENSIONS[sense.quantity] != "modulus":
-        return sense
-    return sense._replace(
-        letter="G"
-        if compact.startswith(("g", "shear"))
-        else "E"
-        if compact.startswith(("e", "tensile"))
-        else ""
-    )
+    """A name alone, with the letter of its modulus or strain."""
+    return _MEANINGS.get(compact(text))

@@ -27,12 +27,29 @@ _NO_NUMBER: Final = "is not a number; delete the row, or put # in front if it is
 _LONGEST_CELL: Final = 60
 """Longer cells are no numbers; patterns with two stars would take their time over them."""
 _NOTHING: Final = frozenset({
-    "nan", "n/a", "na", "#n/a", "inf", "-inf", "+inf", "none", "null", "ovl", "ovf", "-", "--", "---", "*",
+    "nan", "n/a", "na", "n.a.", "k.a.", "#n/a", "inf", "-inf", "+inf", "none", "null", "ovl", "ovf", "o.l.", "ol",
+    "overload", "over load", "overrange", "over range", "overflow", "over", "err", "error", "invalid", "-", "*",
 })  # fmt: skip
+_SIGNS: Final = re.compile(r"[-–—*#.?]{2,}")
 DATE_MARK: Final = "date "
 """What a workbook cell holding a date begins with in the grid."""
 PERCENT_MARK: Final = "percent-format "
 """What a workbook cell shown as a percentage begins with in the grid."""
+
+
+_HALF: Final = {code: code - 0xFEE0 for code in range(0xFF01, 0xFF5F)} | str.maketrans("−　【】", "- []")
+"""Full-width signs of Chinese and Japanese, the minus sign, the wide blank."""
+
+
+def half_width(text: str) -> str:
+    """A text with signs of full width, as Chinese and Japanese programs write them, as ASCII.
+
+    Examples
+    --------
+    >>> half_width("（ＭＰａ）　１．５")
+    '(MPa) 1.5'
+    """
+    return text if text.isascii() else text.translate(_HALF)
 
 
 def is_number(cell: str) -> bool:
@@ -112,7 +129,7 @@ def why_not_a_number(cell: str) -> str:
         )
     if cell.startswith(DATE_MARK):
         return f"Excel made a date of it ({cell}); restore the number and format the column as Number"
-    if cell.lower() in _NOTHING:
+    if cell.lower() in _NOTHING or _SIGNS.fullmatch(cell):
         return f"'{cell}' is not a finite number; delete the row, or repair the value"
     if len(cell) > _LONGEST_CELL:
         return f"'{cell[:_LONGEST_CELL]}...' {_NO_NUMBER}"

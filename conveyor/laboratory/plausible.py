@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.laboratory.columns import Question, Series, remedy
-from conveyor.laboratory.layout import EXCLUDE, DataTable
+from conveyor.laboratory.layout import DataTable
 from conveyor.laboratory.moduli import Moduli
 
 STORAGE_RANGE: Final = (1.0e4, 1.0e11)
@@ -24,9 +24,12 @@ HIGHEST_TAN_DELTA: Final = 10.0
 """No rubber reaches it in any row; its glass transition gives 1 to 3 (general knowledge) [-]."""
 USUAL_TAN_DELTA: Final = 3.0
 """No rubber exceeds it in half of its rows [-]."""
+OVERLOAD: Final = 1e20
+"""No modulus, temperature, strain or angle reaches it in any unit: instruments write 9.9E+37 and the like for a reading
+that they have not (general knowledge) [-]."""
 MEASURABLE: Final = (1e-30, 1e30)
 """Frequencies [Hz] and times [s] of any master curve, with room: a shift of 30 decades is none."""
-_DELETE: Final = f"repair or delete the row, {EXCLUDE}"
+_DELETE: Final = "repair or delete the row"
 _POSITIVE: Final = {
     "frequency": "; if the column is log10 f, name it 'log10 f', else " + _DELETE,
     "time": "; if the column is log10 t, name it 'log10 t', else " + _DELETE,
@@ -41,11 +44,18 @@ _POSITIVE: Final = {
 """What must be > 0, and what to do where it is not."""
 
 
+_WITHOUT_END: Final = frozenset({"frequency", "time", "tau", "a_T", "b_T", "run"})
+"""Quantities that may be as large as a shift makes them."""
+
+
 def check_possible(table: DataTable, series: Mapping[str, Series]) -> None:
     """Refuse what cannot be in any unit: not finite, not > 0, a phase angle of 90 degrees or more."""
     low, high = MEASURABLE
     for quantity, column in series.items():
         values = column.values
+        if quantity not in _WITHOUT_END and column.meaning.log_base is None:
+            overload = np.abs(values / column.unit.factor) > OVERLOAD
+            _refuse(table, column, overload, f"is no reading but an overload of the instrument; {_DELETE}")
         _refuse(table, column, ~np.isfinite(values), f"is too large once its logarithm is undone; {_DELETE}")
         logarithm = quantity in {"a_T", "b_T"} and column.meaning.log_base is not None
         if quantity in _POSITIVE and not logarithm:
@@ -60,8 +70,8 @@ def check_possible(table: DataTable, series: Mapping[str, Series]) -> None:
 
 def _refuse(table: DataTable, series: Series, bad: NDArray[np.bool_], what: str) -> None:
     if bad.any():
-        column, text, row = _question(table, series, int(np.argmax(bad)), what)
-        raise table.refusal(column, text, row)
+        faults = [_question(table, series, row, what) for row in np.flatnonzero(bad).tolist()]
+        raise table.refusal_of_rows([(each.column, each.text, each.row or 0) for each in faults])
 
 
 def _question(table: DataTable, series: Series, row: int, text: str) -> Question:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from fnmatch import fnmatchcase
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Final, TypeVar
+from typing import Any, Final, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,15 +21,26 @@ from conveyor.files.workbook import MAGIC
 from conveyor.laboratory.arrange import Arrangement, arrange, check_trend
 from conveyor.laboratory.columns import Question, Read, Series, check_units, read_columns
 from conveyor.laboratory.encoding import decoded
-from conveyor.laboratory.grid import TextGrid, refusal
+from conveyor.laboratory.grid import AnswerableError, TextGrid, refusal
 from conveyor.laboratory.header_points import row_each
 from conveyor.laboratory.kinds import NEEDS, decide, possible_kinds
-from conveyor.laboratory.layout import EXAMPLE, DataTable, find_table, has_table, without_rows
-from conveyor.laboratory.moduli import dynamic_moduli, equivalent_strain, to_tensile
+from conveyor.laboratory.layout import (
+    EXAMPLE,
+    DataTable,
+    find_table,
+    has_table,
+    names_column,
+    with_names,
+    without_columns,
+    without_rows,
+)
+from conveyor.laboratory.moduli import Letter, dynamic_moduli, equivalent_strain, letter_of, to_tensile
 from conveyor.laboratory.names import DIMENSIONS
 from conveyor.laboratory.plausible import TEMPERATURE_RANGE, check_possible, doubts
+from conveyor.laboratory.ramp import isotherms_of_ramp
 from conveyor.laboratory.separated import text_grid
 from conveyor.laboratory.table import DmaData, FloatArray
+from conveyor.laboratory.units import ColumnUnit
 from conveyor.laboratory.workbook import workbook_grids
 
 _COMPLIANCE: Final = re.compile(r"^\W*[DJ]\W*['′″\"(12*]|compliance|nachgiebigkeit", re.IGNORECASE)
@@ -38,7 +49,9 @@ KINDS: Final = tuple(NEEDS)
 """What a file can hold."""
 LARGEST_FILE: Final = 50_000_000
 """Bytes; a table of a million rows has about as many."""
-_OF_ONE_FILE: Final = frozenset({"sheet", "kind", "instantaneous", "exclude"})
+_MOST_FINDINGS: Final = 8
+"""Rounds in which a file is read on without the rows and columns at fault; each tells all of one kind."""
+_OF_ONE_FILE: Final = frozenset({"sheet", "kind", "instantaneous", "exclude", "columns", "ignore"})
 """Answers that hold for the file they were asked for."""
 T = TypeVar("T", bound=np.generic)
 
@@ -57,6 +70,8 @@ def read_dma(
     letter: str | None = None,
     instantaneous: float | None = None,
     exclude: str | None = None,
+    columns: Mapping[str, str] | None = None,
+    ignore: Sequence[str] | None = None,
 ) -> DmaData:
     r"""Read a measurement from CSV, TXT, TSV or XLSX.
 
@@ -81,11 +96,15 @@ def read_dma(
     kind : str or None
         One of `KINDS`, if the columns leave it open [-].
     letter : str or None
-        "E" or "G", if the file does not say whether its moduli are tensile or shear ones [-].
+        "E" or "G", if the file does not say whether its moduli are tensile or shear ones, or contradicts itself [-].
     instantaneous : float or None
         Tensile modulus at time 0 of a Prony series of shares, if the file does not say [Pa].
     exclude : str or None
         Rows to leave out unread, by their number in the file: "12-15,20" [-].
+    columns : mapping of str to str or None
+        What columns hold by a name that is read here: ``{"Modul A [MPa]": "E'"}`` [-].
+    ignore : sequence of str or None
+        Columns to leave aside, by their name, number or letter [-].
 
     Returns
     -------
@@ -95,7 +114,8 @@ def read_dma(
     Raises
     ------
     InputError
-        As `file:row: column n "name": what; remedy`, for anything doubtful.
+        As `file:row: column n "name": what; remedy`, for anything doubtful; a line for each finding where several can
+        be told at once.
 
     Notes
     -----
@@ -120,40 +140,103 @@ def read_dma(
         "strain": strain_unit,
     }
     given = check_units(units)
-    table = find_table(_grid(Path(path), sheet))
+    whole = _grid(Path(path), sheet)
+    grid = with_names(whole, columns or {})
+    asked = _Asked(given, temperature, poisson_ratio, kind, letter, instantaneous)
+    findings: list[AnswerableError] = []
+    rows, aside = exclude, tuple(ignore or ())
+    for _ in range(_MOST_FINDINGS):
+        try:
+            data, table = _read(grid, rows, aside, asked)
+        except AnswerableError as finding:
+            findings.append(finding)
+            if finding.option == "exclude":
+                rows = ",".join(filter(None, [rows, finding.value]))
+            else:
+                aside = (*aside, finding.value)
+        except InputError as error:
+            if not findings:
+                raise
+            raise _together([*findings, error]) from None
+        else:
+            if findings:
+                raise _together(findings)
+            return replace(data, source=_source(path, table))
+    raise _together(findings)
+
+
+class _Asked(NamedTuple):
+    """Answers to what a file may leave open."""
+
+    units: Mapping[str, ColumnUnit]
+    temperature: float | None
+    poisson_ratio: float
+    kind: str | None
+    letter: str | None
+    instantaneous: float | None
+
+
+def _together(findings: Sequence[InputError]) -> InputError:
+    """One error of all findings, a line each; of several that options settle, the options together."""
+    if len(findings) == 1:
+        return findings[0]
+    lines = [str(finding) for finding in findings]
+    settled = [finding for finding in findings if isinstance(finding, AnswerableError)]
+    if len(settled) > 1:
+        said = [
+            f"--{option} {value}"
+            for option in ("exclude", "ignore")
+            for value in (
+                [each.value for each in settled if each.option == option]
+                if option == "ignore"
+                else filter(None, [",".join(each.value for each in settled if each.option == option)])
+            )
+        ]
+        lines.append(f"these at once: {' '.join(said)}")
+    return InputError("\n".join(lines))
+
+
+def _read(
+    grid: TextGrid, exclude: str | None, ignore: Sequence[str], asked: _Asked
+) -> tuple[DmaData, DataTable]:
+    """The table of a grid with some rows and columns left out, without its source."""
     if exclude is not None:
-        table = without_rows(table, exclude)
-    table = row_each(table)
-    read = read_columns(table, given)
-    columns, derived = _quantities(table, read, (poisson_ratio, letter), temperature, instantaneous)
+        grid = without_rows(grid, exclude)
+    table = row_each(without_columns(find_table(grid), ignore))
+    read = read_columns(table, asked.units)
+    columns, derived, shear = _quantities(table, read, asked)
     notes = [*table.grid.notes, *table.notes, *read.notes]
-    for dimension, unit in given.items():
+    for dimension, unit in asked.units.items():
         if not any(s.explicit and s.unit == unit for s in read.series.values()):
             notes.append(f"{dimension}_unit {unit.name} was given, but the file has no such column")
     labels = read.labels
     if labels is None and table.blocks[-1] > 0:
         labels = np.array(table.blocks, dtype=np.int64)
         notes.append("each block of the file is a run of its own")
-    kind, reason = _kind(table, columns, read, labels, kind)
+    kind, reason = _kind(table, columns, read, labels, asked.kind)
+    ramp = isotherms_of_ramp(columns) if kind == "temperature sweep" and asked.kind is None else None
+    if ramp is not None:
+        kind, reason, columns, labels = "isotherms", ramp.note, ramp.columns, ramp.group
+        table = replace(table, rows=tuple(table.rows[row] for row in ramp.rows.tolist()))
     arranged = arrange(kind, columns, labels)
     check_trend(table, kind, columns, arranged)
-    notes += [*derived, f"{kind}: {reason}", *_order_notes(table, kind, arranged)]
-    return replace(
-        _assembled(table, kind, columns, arranged), understood=tuple(notes), source=_source(path, table)
-    )
+    notes += [*derived, f"{kind}: {reason}", *(_order_notes(table, kind, arranged) if ramp is None else [])]
+    data = _assembled(table, kind, columns, arranged)
+    return replace(data, understood=tuple(notes), shear=shear), table
 
 
 def read_answered(path: Path, answers: Mapping[str, Any], *, poisson_ratio: float, several: bool) -> DmaData:
     """Read a file with the answers of a command, keywords of `read_dma`.
 
     Of several files one may state units, or temperatures, that another leaves open: those that this file contradicts
-    are left to it.
+    are left to it, and so are the names of columns that it has not.
 
     Raises
     ------
     InputError
         As `read_dma`, of the reading with all answers.
     """
+    answers = own_answers(path, answers) if several else answers
     try:
         return read_dma(path, poisson_ratio=poisson_ratio, **answers)
     except InputError:
@@ -163,6 +246,17 @@ def read_answered(path: Path, answers: Mapping[str, Any], *, poisson_ratio: floa
             with suppress(InputError):
                 return read_dma(path, poisson_ratio=poisson_ratio, **fewer)
         raise
+
+
+def own_answers(path: Path, answers: Mapping[str, Any]) -> dict[str, Any]:
+    """Answers of a command to one of several files: of named columns those that it has."""
+    own = dict(answers)
+    if not answers.get("columns") and not answers.get("ignore"):
+        return own
+    grid = _grid(path, answers.get("sheet"))
+    own["columns"] = {k: v for k, v in (answers.get("columns") or {}).items() if names_column(grid, k)}
+    own["ignore"] = [name for name in answers.get("ignore") or () if names_column(grid, name)]
+    return own
 
 
 def sheets(path: Path, pattern: str | None) -> list[str | None]:
@@ -231,20 +325,22 @@ def _grid(path: Path, sheet: str | None) -> TextGrid:
     return replace(tables[0], notes=(*tables[0].notes, *more))
 
 
-def _quantities(
-    table: DataTable,
-    read: Read,
-    tensile_by: tuple[float, str | None],
-    temperature: float | None,
-    instantaneous: float | None,
-) -> tuple[dict[str, FloatArray], list[str]]:
-    """SI arrays by their names in `DmaData`, and how they were derived; open questions are raised here."""
-    series = read.series
+def _quantities(table: DataTable, read: Read, asked: _Asked) -> tuple[dict[str, FloatArray], list[str], bool]:
+    """SI arrays by their names in `DmaData`, how they were derived, whether of shear; questions are raised here."""
+    series, temperature = read.series, asked.temperature
     check_possible(table, series)
-    asked = {question.column for question in read.questions}
-    clear = {q: s for q, s in series.items() if s.column not in asked}
+    open_ = {question.column for question in read.questions}
+    clear = {q: s for q, s in series.items() if s.column not in open_}
     moduli = dynamic_moduli(table, clear)
-    _ask(table, [*read.questions, *doubts(table, clear, moduli)])
+    letter = _letter(table, series, asked.letter)
+    _ask(
+        table,
+        [
+            *read.questions,
+            *doubts(table, clear, moduli),
+            *([letter.question] if letter and letter.question else []),
+        ],
+    )
     direct = {"frequency", "temperature", "strain", "time"}
     columns = {q: s.values for q, s in series.items() if q in direct}
     if {"term", "share"} & series.keys():
@@ -255,24 +351,17 @@ def _quantities(
         }
         columns.pop("time", None)
     arrays = {name: series[q].values for name, q in _MODULI.items() if q in series}
-    used = [series[q] for q in _MODULI.values() if q in series]
     notes: list[str] = []
     if moduli is not None:
         arrays |= {"storage": moduli.storage, "loss": moduli.loss}
-        used = [
-            s for s in (moduli.storage_from, moduli.loss_from) if DIMENSIONS[s.meaning.quantity] == "modulus"
-        ] + used
         notes += [moduli.note] if moduli.note else []
-    if used:
-        factor, note = to_tensile(table, used, *tensile_by)
+    shear = letter is not None and letter.letter == "G"
+    if letter is not None:
+        factor, note = to_tensile(letter, asked.poisson_ratio)
         columns |= {name: factor * values for name, values in arrays.items()}
         notes.append(note)
-    if (
-        "strain" in columns
-        and moduli is not None
-        and (moduli.storage_from.meaning.letter or tensile_by[1]) == "G"
-    ):
-        columns["strain"], note = equivalent_strain(columns["strain"], tensile_by[0])
+    if "strain" in columns and moduli is not None and _is_shear(series["strain"], shear):
+        columns["strain"], note = equivalent_strain(columns["strain"], asked.poisson_ratio)
         notes.append(note)
     for quantity in ("a_T", "b_T"):
         if quantity in series:
@@ -285,7 +374,18 @@ def _quantities(
             raise table.refusal(series["temperature"].column, what)
         columns["temperature"] = np.full(len(table.rows), temperature)
         notes.append(f"temperature of every row {temperature:g} K as given")
-    return columns, notes + _terms(table, series, columns, instantaneous)
+    return columns, notes + _terms(table, series, columns, asked.instantaneous), shear
+
+
+def _letter(table: DataTable, series: Mapping[str, Series], answer: str | None) -> Letter | None:
+    """Whether the moduli of a table are tensile or shear ones; None without any."""
+    used = [s for s in series.values() if DIMENSIONS[s.meaning.quantity] == "modulus"]
+    return letter_of(table, used, series.get("strain"), answer) if used else None
+
+
+def _is_shear(strain: Series, shear: bool) -> bool:
+    """Whether a strain is one of shear, by its own name or else as the moduli are."""
+    return strain.meaning.letter == "G" or (shear and strain.meaning.letter != "E")
 
 
 _MODULI: Final = {"modulus": "relaxation", "term": "term", "instant": "instant"}

@@ -10,7 +10,7 @@ from contextlib import suppress
 from typing import Final
 
 from conveyor.laboratory.grid import TextGrid, TextLine
-from conveyor.laboratory.numbers import is_number, looks_like_number
+from conveyor.laboratory.numbers import half_width, is_number, looks_like_number
 
 _SEPARATORS: Final = {"\t": "tab", ";": "semicolon", ",": "comma", " ": "blanks"}
 _COMMENT: Final = re.compile(r"\s*(?:#+|%+(?!\s*[;,\t])|//+|!+)\s?")
@@ -35,7 +35,7 @@ def text_grid(text: str, name: str, note: str) -> TextGrid:
     """
     raw = [
         (number, line)
-        for number, line in enumerate(re.split(r"\r\n|\n|\r", text.replace("−", "-")), start=1)
+        for number, line in enumerate(re.split(r"\r\n|\n|\r", half_width(text)), start=1)
         if line.strip() and not re.fullmatch(r"\s*sep=.\s*", line)
     ]
     separator, width = _separator([line for _, line in raw if not _COMMENT.match(line)])

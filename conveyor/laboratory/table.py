@@ -100,6 +100,8 @@ class DmaData:
         The file, for a workbook with its sheet [-].
     instantaneous : float or None
         E_e + sum of E_i of a Prony series, where the file states it [Pa].
+    shear : bool
+        Whether the file holds shear moduli, converted to these [-].
     """
 
     kind: str
@@ -120,6 +122,7 @@ class DmaData:
     understood: tuple[str, ...]
     source: str
     instantaneous: float | None = None
+    shear: bool = False
 
     def columns(self, what: str, *names: str) -> tuple[FloatArray, ...]:
         """Columns by their names, for what needs them all.

@@ -6,7 +6,7 @@ from typing import Final
 
 from conveyor.files.workbook import Limits, Sheet, SheetCell, read_sheets
 from conveyor.laboratory.grid import TextGrid, TextLine
-from conveyor.laboratory.numbers import DATE_MARK, PERCENT_MARK
+from conveyor.laboratory.numbers import DATE_MARK, PERCENT_MARK, half_width
 
 LIMITS: Final = Limits(
     content=100_000_000, parts=2_000, elements=3_000_000, expected="table of a laboratory; export it as CSV"
@@ -52,4 +52,4 @@ def _text(cell: SheetCell) -> str:
         return f"{DATE_MARK}{cell.value}"
     if isinstance(cell.value, float | int) and not isinstance(cell.value, bool):
         return PERCENT_MARK * cell.percent + repr(cell.value)
-    return " ".join(str(cell.value).split())
+    return half_width(" ".join(str(cell.value).split()))

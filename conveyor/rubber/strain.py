@@ -108,22 +108,23 @@ class _Run:
         flat = head.size >= _PLATEAU_POINTS and float(np.ptp(head)) <= PLATEAU_SPREAD * float(head.mean())
         run = cls(sweep.strain, curve, 1.0, flat)
         label, amplitude = f"reference_strain at {{}} ({name})", np.array([reference])
+        at = Amount(sweep.temperature, "temperature", f"{sweep.temperature:.2f} K", digits=6)
+        if reference > sweep.strain[-1]:
+            raise RangeError(
+                f"{label}: a strain of {reference:.4g} is above the largest measured, {sweep.strain[-1]:.4g}; "
+                "measure further, or lower it",
+                at,
+            )
         return cls(sweep.strain, curve, float(run.at(amplitude, label, sweep.temperature)[0]), flat)
 
     def at(self, strain: FloatArray, label: str, temperature: float) -> FloatArray:
-        """Interpolate the factor; below the measured strains it is constant on a plateau and refused elsewhere.
+        """Interpolate the factor, held above the measured strains; below them constant on a plateau, refused elsewhere.
 
         Refusals have the label, with {} for the temperature [K].
         """
         at = Amount(temperature, "temperature", f"{temperature:.2f} K", digits=6)
         low, high = float(self.strain[0]), float(self.strain[-1])
-        least, most = float(strain.min()), float(strain.max())
-        if most > high:
-            raise RangeError(
-                f"{label}: a strain of {most:.4g} is above the largest measured, {high:.4g}; "
-                "measure further, or lower it",
-                at,
-            )
+        least = float(strain.min())
         if least < low and not self.plateau:
             raise RangeError(
                 f"{label}: a strain of {least:.4g} is below the lowest measured, {low:.4g}, where the data show no "
@@ -131,7 +132,7 @@ class _Run:
                 "measure smaller strains",
                 at,
             )
-        return np.asarray(self.curve(np.log(np.maximum(strain, low)))) / self.unit
+        return np.asarray(self.curve(np.log(np.clip(strain, low, high)))) / self.unit
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,9 +157,9 @@ class AmplitudeFactors:
     Notes
     -----
     Monotone cubic (PCHIP) in ln strain, linear in temperature. Beyond the measured temperatures the factors of the
-    nearest are held (`known_at` says whether); above the measured strains they are refused; below the lowest
-    measured strain constant only where the data show a plateau, i.e. the modulus asked for varies by no more than 4 %
-    of its mean over three or more points up to twice that strain.
+    nearest are held (`known_at` says whether), above the measured strains those of the largest (`largest_strain`);
+    below the lowest measured strain they are constant only where the data show a plateau, i.e. the modulus asked for
+    varies by no more than 4 % of its mean over three or more points up to twice that strain.
     The factors are taken to be independent of frequency: they hold near that of the sweeps, in the sense of the
     time-temperature shift.
 
@@ -209,6 +210,15 @@ class AmplitudeFactors:
         low, high = self.temperatures[0] - SAME_TEMPERATURE, self.temperatures[-1] + SAME_TEMPERATURE
         return bool(low <= temperature <= high)
 
+    def largest_strain(self, temperature: float) -> float:
+        """Strain amplitude to which all runs behind the factors at a temperature [K] are measured [-]."""
+        used = [
+            level
+            for level, weight in zip(self._levels, self._between(np.array([temperature])), strict=True)
+            if weight[0]
+        ]
+        return min(float(sweep.strain[-1]) for level in used for sweep in level)
+
     def nearest(self, temperature: float) -> float:
         """Temperature whose factors stand for one [K]: itself inside the sweeps, else that of the nearest."""
         return min(max(temperature, float(self.temperatures[0])), float(self.temperatures[-1]))
@@ -233,7 +243,7 @@ class AmplitudeFactors:
         InputError
             If a strain is not finite and > 0.
         RangeError
-            If a strain is outside the data.
+            If a strain is below the data, where these show no plateau.
         """
         return self._factor("storage", strain, temperature)
 
@@ -257,7 +267,7 @@ class AmplitudeFactors:
         InputError
             If a strain is not finite and > 0.
         RangeError
-            If a strain is outside the data.
+            If a strain is below the data, where these show no plateau.
         """
         return self._factor("loss", strain, temperature)
 

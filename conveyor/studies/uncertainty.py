@@ -23,7 +23,7 @@ from conveyor.errors import InputError
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.stretches import Strand
 from conveyor.loop.frame import TakeUpSetting
-from conveyor.models import Conveyor, Uncertainty
+from conveyor.models import Conveyor, RubberCompound, StrainDependence, Uncertainty
 from conveyor.models.variants import scaled, with_alternative, with_belt_temperature_changed
 from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many
 from conveyor.rubber.anchor import COVERED, ends
@@ -100,6 +100,10 @@ class CalculatedRanges:
         squares = [effect.swing**2 for effect in self.effects]
         whole = math.fsum(squares)
         return tuple(square / whole if whole > 0.0 else 0.0 for square in squares)
+
+
+_BEYOND: Final = 2.0
+"""To how many times the working strain sweeps are carried on: softer rubber is strained more [-]."""
 
 
 @dataclass(frozen=True)
@@ -409,6 +413,31 @@ def _rubber(result: CalculatedConveyor, notes: list[str]) -> Iterator[_Variation
             held = f"held from {nearest}"
             ends = (Variant(linear), Variant(conveyor))
             yield _Variation(f'strain of "{name}"', "that of the master curve", held, held, ends)
+        if factors is not None and cover.strain is not None:
+            largest = factors.largest_strain(result.temperature)
+            if cover.strain.strain > largest:
+                softer = compound.replace(strain_dependence=_carried_on(compound, cover.strain.strain))
+                held = f"held from {percent(largest, 2)}"
+                ends = (Variant(conveyor), Variant(with_alternative(conveyor, compound, softer)))
+                yield _Variation(f'largest strain of "{name}"', held, held, "carried on", ends)
+
+
+def _carried_on(compound: RubberCompound, strain: float) -> StrainDependence:
+    """Strain sweeps that end below a working strain [-], carried on to twice that by the power law of their end."""
+    known = compound.strain_dependence
+    if known is None:
+        raise TypeError(compound.name)
+    reach, sweeps = 100.0 * _BEYOND * strain, []
+    for sweep in known.sweeps:
+        longer = {"strain": sweep.strain, "storage": sweep.storage, "loss": sweep.loss}
+        if sweep.strain[-1] < reach:
+            power = math.log(reach / sweep.strain[-1]) / math.log(sweep.strain[-1] / sweep.strain[-2])
+            longer = {
+                name: (*values, values[-1] * (values[-1] / values[-2]) ** power)
+                for name, values in longer.items()
+            }
+        sweeps.append(sweep.replace(**longer))
+    return known.replace(sweeps=tuple(sweeps))
 
 
 def _level(conveyor: Conveyor, name: str, bands: Mapping[Strand, float]) -> _Variation:

@@ -52,7 +52,7 @@ def test_titles_with_numbers_between_blocks(tmp_path: Path) -> None:
         for t in (0, 20)
     }
     title = "Result:\tFrequency sweep {} °C\nInterval and data points:\t1\t3\n"
-    data = read_dma(written(tmp_path, "".join(title.format(t) + head + rows[t] for t in rows)))
+    data = read_dma(written(tmp_path, "".join(title.format(t) + head + rows[t] for t in rows)), letter="E")
     assert data.row_numbers.tolist() == [5, 6, 7, 12, 13, 14]
     assert "rows 8-9 stand between blocks and are not read" in data.understood
 
@@ -62,7 +62,7 @@ def test_steps_without_a_modulus_are_not_read(tmp_path: Path) -> None:
     sweep = "[step]\nSweep\nFrequency\tStorage modulus\tLoss modulus\tTemperature\nHz\tMPa\tMPa\t°C\n"
     rows = "1\t5.6\t0.56\t{0}\n10\t6.8\t0.748\t{0}\n"
     data = read_dma(
-        written(tmp_path, "".join(soak + sweep + rows.format(t) for t in ("20.0", "40.0")) + soak)
+        written(tmp_path, "".join(soak + sweep + rows.format(t) for t in ("20.0", "40.0")) + soak), letter="E"
     )
     assert data.row_numbers.tolist() == [11, 12, 23, 24]
     assert data.kind == "isotherms"
@@ -129,7 +129,7 @@ def test_names_listed_above_the_numbers(tmp_path: Path) -> None:
         f"Sig{k}\t{name}\n" for k, name in enumerate(names, start=1)
     )
     rows = "1.0\t20.1\t1.0\t5.6\t0.56\n2.0\t20.0\t10.0\t6.8\t0.68\n"
-    data = read_dma(written(tmp_path, head + "Date\t12-Mar-25\nTime\t09:14:07\nStartOfData\n" + rows))
+    data = read_dma(written(tmp_path, head + "Clamp\tTension\nTime\t09:14:07\nStartOfData\n" + rows))
     assert data.row_numbers.tolist() == [11, 12]
     np.testing.assert_allclose(data.storage, [5.6e6, 6.8e6], rtol=1e-14)
     with pytest.raises(InputError, match="fewer than two known quantities"):
@@ -146,7 +146,7 @@ def test_rows_are_not_left_aside_for_a_remark_of_two_names(tmp_path: Path, remar
 
 def test_listed_names_of_as_many_words_as_there_are_columns(tmp_path: Path) -> None:
     head = "Sig1\tFrequency (Hz)\nSig2\tStorage Modulus (MPa)\nSig3\tLoss Modulus (MPa)\nStartOfData\n"
-    data = read_dma(written(tmp_path, head + "1.0\t5.6\t0.56\n10.0\t6.8\t0.68\n"))
+    data = read_dma(written(tmp_path, head + "1.0\t5.6\t0.56\n10.0\t6.8\t0.68\n"), letter="E")
     np.testing.assert_allclose(data.storage, [5.6e6, 6.8e6], rtol=1e-14)
     np.testing.assert_allclose(data.loss, [5.6e5, 6.8e5], rtol=1e-14)
 
@@ -185,7 +185,7 @@ def test_sheets_of_one_rubber_are_taken_together(tmp_path: Path) -> None:
         sheet = book.create_sheet(f"Frequency sweep - {number}")
         for cells in (
             [sheet.title],
-            ["Storage modulus", "Loss modulus", "Frequency", "Temperature"],
+            ["E'", "E''", "Frequency", "Temperature"],
             ["Pa", "Pa", "Hz", "K"],
         ):
             sheet.append(cells)

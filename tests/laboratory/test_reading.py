@@ -210,7 +210,7 @@ def test_temperatures_of_one_isotherm(tmp_path: Path, drift: float) -> None:
     assert starts == [2 + 5 * step for step in range(6)]
 
 
-def test_files_cut_anywhere_are_read_or_refused_in_one_line(tmp_path: Path) -> None:
+def test_files_cut_anywhere_are_read_or_refused_in_a_line_each(tmp_path: Path) -> None:
     rng = np.random.default_rng(5)
     messages = []
     for source in sorted((FILES / "good").iterdir()):
@@ -223,7 +223,13 @@ def test_files_cut_anywhere_are_read_or_refused_in_one_line(tmp_path: Path) -> N
             except InputError as error:
                 messages.append(str(error))
     assert len(messages) > 100
-    assert not any("\n" in message for message in messages)
+    # one line each, and one for the options together
+    names = tuple(file.name for file in (FILES / "good").iterdir())
+    assert all(
+        line.startswith((*names, "these at once: --"))
+        for message in messages
+        for line in message.splitlines()
+    )
 
 
 def test_ten_thousand_rows_in_half_a_second(tmp_path: Path) -> None:
@@ -246,8 +252,10 @@ def test_modulus_without_letter_in_a_shear_test_is_asked_about(tmp_path: Path, w
     rows = "frequency_Hz,storage_MPa,loss_MPa\n1,5.6,0.56\n10,6.8,0.748\n"
     with pytest.raises(InputError, match=r"pad\.csv:2: column 2 .*E or G\?.*row 1 speaks of .*--poisson"):
         read_dma(write(tmp_path, f"# {word}\n{rows}"))
-    # other words do not matter: "compares" holds "ares"
-    assert read_dma(write(tmp_path, f"# it compares two cases\n{rows}")).kind == "master curve"
+    # other words do not matter: "compares" holds "ares"; then nothing says which, and tension does
+    with pytest.raises(InputError, match=r"E or G\?.*nothing in the file says whether tension or shear"):
+        read_dma(write(tmp_path, f"# it compares two cases\n{rows}"))
+    assert read_dma(write(tmp_path, f"# clamp: tension\n{rows}")).kind == "master curve"
 
 
 def test_pooled_temperatures_are_no_isotherm(tmp_path: Path) -> None:

@@ -16,7 +16,7 @@ from conveyor.rubber import PronySeries
 @pytest.mark.parametrize(("by", "placed"), [("storage", "E'"), ("loss", "E''")])
 def test_isotherms_placed_by_one_modulus(tmp_path: Path, by: Literal["storage", "loss"], placed: str) -> None:
     series = PronySeries(2e6, np.logspace(8.0, 5.5, 12), np.logspace(-8.0, 0.0, 12))
-    rows = ["temperature_degC,frequency_Hz,storage_Pa,loss_Pa"]
+    rows = ["temperature_degC,frequency_Hz,E'_Pa,E''_Pa"]
     for celsius, shift in ((0, 2.0), (10, 0.9), (20, 0.0)):
         for f in np.logspace(-1.0, 2.0, 10):
             omega = 2.0 * np.pi * f * 10.0**shift
@@ -31,7 +31,7 @@ def test_isotherms_placed_by_one_modulus(tmp_path: Path, by: Literal["storage", 
 def isotherms(path: Path, vertical: float, resonance: float) -> Path:
     series = PronySeries(2e6, np.logspace(8.0, 5.5, 26), np.logspace(-9.0, 2.0, 26))
     rng = np.random.default_rng(0)
-    rows = ["temperature_degC,frequency_Hz,storage_Pa,loss_Pa"]
+    rows = ["temperature_degC,frequency_Hz,E'_Pa,E''_Pa"]
     for celsius, shift in ((0, 2.0), (10, 0.9), (20, 0.0), (30, -0.8)):
         for f in np.logspace(-1.0, 2.0, 10):
             omega = 2.0 * np.pi * f * 10.0**shift
@@ -71,7 +71,7 @@ def test_a_row_that_stands_off_is_named(tmp_path: Path) -> None:
     e1, e2 = series.storage(omega) * noise[0], series.loss(omega) * noise[1]
     e2[20] *= 2.0
     rows = [f"{a},{b},{c}" for a, b, c in zip(f, e1, e2, strict=True)]
-    (tmp_path / "x.csv").write_text("\n".join(["frequency_Hz,storage_Pa,loss_Pa", *rows]), encoding="utf-8")
+    (tmp_path / "x.csv").write_text("\n".join(["frequency_Hz,E'_Pa,E''_Pa", *rows]), encoding="utf-8")
     found = fit_file(tmp_path / "x.csv", Request("x", "20 degC", replicas=0))
     (line,) = (line for line in summary.lines(found) if "stands off" in line)
     assert "E'' of 1 rows" in line

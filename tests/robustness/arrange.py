@@ -244,7 +244,7 @@ def laboratory(content: str | bytes, *arguments: str, name: str = "data.csv") ->
     return arrange
 
 
-MASTER = "frequency_Hz,storage_MPa,loss_MPa\n" + "".join(
+MASTER = "frequency_Hz,E'_MPa,E''_MPa\n" + "".join(
     f"{10.0**k:g},{5.0 + k:g},{0.5 + 0.1 * k:g}\n" for k in range(6)
 )
 

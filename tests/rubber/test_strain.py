@@ -126,16 +126,21 @@ def test_runs_at_one_temperature_are_averaged_over_what_both_cover():
     shorter = AmplitudeFactors([flat(280.0, 0.8), flat(280.0, 0.4, low=5e-5)], 1e-4)
     # between its points the second run has fallen by a thousandth at the reference strain
     assert shorter.storage(0.03, 280.0) == pytest.approx(0.6, rel=1e-3)
-    with pytest.raises(RangeError, match=r"a strain of 0\.08 is above the largest measured, 0\.05"):
-        shorter.storage(0.08, 280.0)
+    # the second run ends at 0.05, half the strain of the first: beyond it its own last factor is held
+    assert shorter.largest_strain(280.0) == pytest.approx(0.05)
+    assert shorter.storage(0.08, 280.0) == pytest.approx(0.6, rel=1e-3)
 
 
-def test_no_extrapolation_in_strain():
-    factors = AmplitudeFactors([flat(280.0, 0.5)], 1e-4)
-    with pytest.raises(
-        RangeError, match=r"factor of the loss modulus at 280\.00 K: a strain of 0\.11 is above"
-    ):
-        factors.loss([0.01, 0.11], 280.0)
+def test_beyond_the_largest_strain_its_factor_is_held():
+    factors = AmplitudeFactors([flat(280.0, 0.5), LAW_SWEEP], 1e-3)
+    for temperature, end in ((280.0, 0.1), (293.15, float(LAW_SWEEP.strain[-1]))):
+        assert factors.largest_strain(temperature) == pytest.approx(end)
+        for factor in (factors.storage, factors.loss):
+            assert factor([end, 3.0 * end], temperature).tolist() == pytest.approx(
+                [float(factor(end, temperature))] * 2
+            )
+    # between two temperatures both sweeps are needed
+    assert factors.largest_strain(285.0) == pytest.approx(min(0.1, LAW_SWEEP.strain[-1]))
     with pytest.raises(InputError, match=r"strain\[0\] = 0 - must be > 0"):
         factors.storage(0.0, 280.0)
 
@@ -322,10 +327,12 @@ def test_strains_that_never_settle_are_said_so():
         )
 
 
-def test_strains_beyond_the_sweep_are_refused():
+def test_strains_beyond_the_sweep_hold_its_last_factors():
     factors = AmplitudeFactors([LAW_SWEEP], 1e-3)
-    with pytest.raises(RangeError, match="above the largest measured"):
-        equivalent_linear(SERIES, factors, stress_controlled(4e6), temperature=293.15)
+    end = float(LAW_SWEEP.strain[-1])
+    found = equivalent_linear(SERIES, factors, stress_controlled(4e6), temperature=293.15)
+    assert found.strain > end
+    assert found.storage_factor == pytest.approx(float(factors.storage(end, 293.15)), rel=1e-12)
 
 
 # a roll on a measured rubber

@@ -1,0 +1,89 @@
+"""Words of laboratories in many languages, from the lists in `words/`: names of columns, deformations of specimens."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterator
+from importlib.resources import files
+from typing import Final, NamedTuple
+
+_SEPARATORS: Final = re.compile(r"[\s_.|\-]+")
+_ALONE: Final = str.maketrans({"ı": "i", "ł": "l", "ß": "ss", "ø": "o", "đ": "d"})
+"""Letters that Unicode does not take apart."""
+
+
+class Deformation(NamedTuple):
+    """What a text says of how a specimen was deformed: E or G, and the words that say so."""
+
+    letter: str
+    words: str
+
+
+def compact(name: str) -> str:
+    """A name without what does not count: capitals, accents, blanks, points, bars, hyphens, underscores.
+
+    Examples
+    --------
+    >>> compact("Módulo de almacenamiento"), compact("ＳＩＣＡＫＬＩＫ".lower()), compact("Sıcaklık")
+    ('modulodealmacenamiento', 'ｓｉｃａｋｌｉｋ', 'sicaklik')
+    """
+    apart = unicodedata.normalize("NFD", name.lower().translate(_ALONE))
+    plain = "".join(sign for sign in apart if unicodedata.category(sign) != "Mn")
+    return _SEPARATORS.sub("", unicodedata.normalize("NFC", plain))
+
+
+def word_lists(name: str) -> Iterator[tuple[str, list[str]]]:
+    """Each line of a list in `words/`: what it stands for, and its words."""
+    text = (files("conveyor.laboratory") / "words" / f"{name}.txt").read_text(encoding="utf-8")
+    for line in text.splitlines():
+        head, bar, words = line.partition(" | ")
+        if bar and not line.startswith("#"):
+            yield head.strip(), [word.strip() for word in words.split(",")]
+
+
+def _pattern(words: list[str], *, as_written: bool) -> re.Pattern[str]:
+    """A pattern of whole words, of Chinese, Japanese and Korean ones anywhere."""
+    one = [
+        re.escape(word).replace(r"\*", r"\w*").replace(r"\#", r"\d+").replace(r"\ ", r"\s+") for word in words
+    ]
+    whole = [
+        each if ord(word[0]) > 0x2E00 else rf"(?<!\w){each}(?!\w)"
+        for word, each in zip(words, one, strict=True)
+    ]
+    return re.compile("|".join(whole), re.NOFLAG if as_written else re.IGNORECASE)
+
+
+def _deformations() -> dict[bool, list[tuple[str, re.Pattern[str]]]]:
+    """Patterns of shear and of tension, of names of columns alone and of texts.
+
+    Words with capitals count as they are written, the others in any case.
+    """
+    words: dict[tuple[bool, str, bool], list[str]] = {}
+    for what, listed in word_lists("deformation"):
+        way, _, beside = what.partition(" ")
+        for word in listed:
+            key = (bool(beside), "G" if way == "shear" else "E", word != word.lower())
+            words.setdefault(key, []).append(word)
+    made: dict[bool, list[tuple[str, re.Pattern[str]]]] = {True: [], False: []}
+    for (of_column, letter, written), some in words.items():
+        made[of_column].append((letter, _pattern(some, as_written=written)))
+    return made
+
+
+_DEFORMATIONS: Final = _deformations()
+
+
+def deformations(text: str, *, column: bool = False) -> Iterator[Deformation]:
+    """Which moduli a text, or the name of a column, speaks of: E of tension, bending, compression; G of shear, torsion.
+
+    Examples
+    --------
+    >>> [one.letter for one in deformations("Measuring system: PP25")]
+    ['G']
+    >>> list(deformations("Clamp: Tension Film")), list(deformations("Laboratory Fischer, sheared off"))
+    ([Deformation(letter='E', words='Tension')], [Deformation(letter='G', words='sheared')])
+    """
+    for letter, pattern in _DEFORMATIONS[column]:
+        if match := pattern.search(text):
+            yield Deformation(letter, match[0])
