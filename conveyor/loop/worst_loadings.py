@@ -9,6 +9,7 @@ or rise with them; what a criterion says under a loading is its own to say.
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
@@ -34,6 +35,7 @@ ONE_BY_ONE: Final = 40
 """Sections up to which they are changed one by one, and every curve and raised set is looked at."""
 _TRIED: Final = 3  # sections whose bulk slips first
 _ROUNDS: Final = 20  # of changes; every one makes a figure worse, and few take more than five
+_CORNERS: Final = 64  # of each pair of sums on a long route; a sixty-fourth of a turn costs 1e-3 of their range
 _ALIKE: Final = 1e-9  # of a figure: rounding
 
 Flags = NDArray[np.bool_]
@@ -86,6 +88,8 @@ class CriterionLoadings(Loadings):
             square = 0.5 * np.pi
             turns = np.sort(np.concatenate([np.arctan2(mass, more) + s * square for s in (-1.0, 1.0)]))
             between = 0.5 * (turns + np.append(turns[1:], turns[0] + 4.0 * square))
+            if self.count > ONE_BY_ONE:  # neighbouring corners differ by a section or two
+                between = between[:: math.ceil(between.size / _CORNERS)]
             rows.append(np.outer(np.cos(between), more) + np.outer(np.sin(between), mass) > 0.0)
         corners = np.concatenate(rows)
         *limits, slides = self._slip_limits
