@@ -338,7 +338,9 @@ def test_a_flat_strand_that_ran_off_in_one_curve_is_off_in_the_next():
         bends = [CURVE | {"return_banking": "1.5 deg", "length": "30 m", "name": name, "horizontal_curve": turned}
                  for name, turned in (("one", side), ("two", "left"))]  # fmt: skip
         route = {"sections": [*bends, {"name": "c", "length": "200 m", "lift": "10 m"}], "pulleys": PULLEYS}
-        given = data(idlers=FLAT, route=route, ambient={"wind_speed": "60 m/s"}, calculation={"strain": "off"})
+        given = data(
+            idlers=FLAT, route=route, ambient={"wind_speed": "60 m/s"}, calculation={"strain": "off"}
+        )
         second, first = sorted(of_return(calculate(from_data(given))), key=lambda bend: bend.section)
         assert (first.section, second.section) == ("two", "one")  # the return strand comes from the head
         for bend in (first, second):
