@@ -66,7 +66,7 @@ class SetLimits:
         given, belt_width = stretch.idlers, line.belt.width
         lumps = given.lump_factor or usual_lump_factor(line.lump, line.density)
         load = math.fsum(roll.belt_force + (lumps or 1.0) * roll.bulk_force for roll in stretch.loads)
-        load += raised_set_load(max(tension, 0.0), height=si(given.raised), spacing=stretch.spacing)
+        load += raised_set_load(max(tension, 0.0), height=raised(stretch), spacing=stretch.spacing)
         ratings = {
             name: rating
             for name in CEMA_CLASSES
@@ -83,6 +83,11 @@ class SetLimits:
             flap_margin=None if given.flap_margin is None else si(given.flap_margin),
             axle=_axle(stretch, line.speed),
         )
+
+
+def raised(stretch: Stretch) -> float:
+    """Height by which one of its sets may stand over its neighbours [m]."""
+    return si(stretch.idlers.raised)
 
 
 def _rating(name: CemaClass, stretch: Stretch, belt_width: float) -> float | None:

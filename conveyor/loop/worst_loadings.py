@@ -22,12 +22,12 @@ from conveyor.errors import NoSolutionError
 from conveyor.laws.motion import bulk_slip_limits
 from conveyor.laws.resistance.defaults import ROLL_DRAG_STANDSTILL_FACTOR
 from conveyor.laws.tension import grip_tension
+from conveyor.line.set_limits import raised
 from conveyor.line.stretches import STRANDS
 from conveyor.loop.equilibrium import BRAKES, BRAKING, COASTING, LEAST, LEAST_BRAKING, START
 from conveyor.loop.run_up import asked_over_given, rated_force, uncontrolled
 from conveyor.loop.superposition import Array, Loading, Loadings
 from conveyor.loop.tensions import STEADY
-from conveyor.units import si
 
 EVERY: Final = 10
 """Sections up to which every loading is looked at."""
@@ -143,7 +143,7 @@ class CriterionLoadings(Loadings):
         return tuple(
             k
             for k, one in enumerate(line.loop.stretches)
-            if one.section in curved or one.turn is not None or si(one.idlers.raised) > 0.0
+            if one.section in curved or one.turn is not None or raised(one) > 0.0
         )
 
     @cached_property

@@ -10,6 +10,7 @@ import pytest
 
 import conveyor
 from conveyor.analysis import studies
+from conveyor.checks import deciding
 from conveyor.errors import InputError
 from conveyor.markup import Html, element, escaped
 from conveyor.report import html
@@ -233,13 +234,18 @@ def test_verdicts_are_words(result, page, studied):
         assert table.count(f" {word} ") == words.count(word)
 
 
-def test_numbers_are_those_of_the_analysis(result, page):
+def test_numbers_are_those_of_the_analysis(result, page, studied):
     for figure in result.tables["results"].rows:
         assert figure.unit("SI").written(figure.value) in page.prose
     for row in result.stretches:
         assert unit("force").written(row.total) in page.prose
-    for remark in (*result.warnings, *result.assumptions):
+    for remark in (*result.contents(studied).lines("warning"), *result.assumptions):
         assert remark in page.prose
+    # the belt loaded on its incline alone rolls back with more than the full one: its level feed holds
+    (asked,) = (one.required for one in result.checks if one.key == "holding_brake")
+    (worst,) = (one.required for one in deciding(studied.states.checks) if one.key == "holding_brake")
+    assert worst > asked
+    assert f"needs a backstop of {worst / 1e3:.1f} kN at the belt" in page.prose
 
 
 def test_numbers_as_in_the_workbook():
