@@ -50,6 +50,12 @@ def main() -> None:
         _leave(usage(error), WRONG_INPUT)
     except (KeyboardInterrupt, typer.Abort):
         code = INTERRUPTED
+    except MemoryError:
+        _leave(
+            "conveyor: this machine has no memory left for it; close other programs, or ask for less at once "
+            "(shorter ranges, fewer samples or sections, fewer --workers)",
+            NO_SOLUTION,
+        )
     except OSError as error:
         _discard_output()
         _leave(f"conveyor: {error.filename or 'output'}: {error.strerror or error}", WRONG_INPUT)

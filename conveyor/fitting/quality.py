@@ -11,6 +11,7 @@ from conveyor.fitting.compound import Fitted
 from conveyor.fitting.rows import MeasuredRows
 from conveyor.fitting.summary import figure as band
 from conveyor.report.plots import colour, stacked
+from conveyor.report.settings import own_settings
 from conveyor.rubber import ShiftTable
 from conveyor.units.sentences import ZERO_CELSIUS, celsius
 
@@ -86,6 +87,7 @@ def _reduced(fitted: Fitted) -> str:
     return f"frequency at {celsius(fitted.compound.reference):.4g} °C [Hz]"
 
 
+@own_settings()
 def isotherms(fitted: Fitted) -> Figure:
     """E' and E'' over frequency, as measured above, shifted below."""
     rows = fitted.rows
@@ -107,6 +109,7 @@ def isotherms(fitted: Fitted) -> Figure:
     return made
 
 
+@own_settings()
 def shifts(fitted: Fitted) -> Figure:
     """log10 a_T over temperature with the laws; below, what the laws miss."""
     made, (above, below) = stacked(2, _HEIGHT)
@@ -138,6 +141,7 @@ def shifts(fitted: Fitted) -> Figure:
     return made
 
 
+@own_settings()
 def frequency_free(fitted: Fitted) -> Figure:
     """Phase angle over |E*| above, E'' over E' below: without frequency, so without shift."""
     rows = fitted.rows
@@ -165,6 +169,7 @@ def frequency_free(fitted: Fitted) -> Figure:
     return made
 
 
+@own_settings()
 def residuals(fitted: Fitted) -> Figure:
     """Series over data less one: E' above, E'' below."""
     from matplotlib.ticker import MaxNLocator

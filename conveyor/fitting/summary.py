@@ -9,6 +9,7 @@ import numpy as np
 from conveyor.errors import InputError
 from conveyor.fitting.compound import Fitted, Tabulated
 from conveyor.report.plots import colour, keyed, master_curve, stacked
+from conveyor.report.settings import own_settings
 from conveyor.rubber.superposition import STRAY
 from conveyor.units import text
 from conveyor.units.sentences import celsius, percent
@@ -184,6 +185,7 @@ def shift_table(rubber: Fitted | Tabulated) -> str:
     return "\n".join(["temperature_degC,log10_aT,log10_bT", *rows, ""])
 
 
+@own_settings()
 def figure(rubber: Fitted | Tabulated) -> Figure:
     """Data, fit and band: E', E'' above, tan δ below."""
     if isinstance(rubber, Tabulated):

@@ -23,6 +23,7 @@ from conveyor.line.stretches import STRANDS
 from conveyor.loop.equilibrium import holds
 from conveyor.report.columns import FAILS
 from conveyor.report.plots import Over, colour, finished, keyed, master_curve, placed, stacked, titled
+from conveyor.report.settings import own_settings
 from conveyor.units import System
 from conveyor.units.presentation import unit
 
@@ -53,6 +54,7 @@ _PRESSURE_RTOL = 1e-6  # of friction; the pressure is then good to about 1 % at 
 _TORNADO = 12  # inputs drawn, those that matter most
 
 
+@own_settings()
 def resistance_breakdown(balance: Balance, *, system: System = "SI") -> Figure:
     """Every kind of resistance [kN, lbf], the classical estimates beside their sums; numbers at the bars."""
     force = unit("force", system, large=True)
@@ -106,6 +108,7 @@ def governing_roll(contacts: Contacts, strand: Strand) -> RollResult:
     return max(of_strand, key=lambda roll: roll.load.peak_line_load)
 
 
+@own_settings()
 def pressure_under_rolls(contacts: Contacts, *, system: System = "SI") -> Figure:
     """Contact pressure under the highest line load of each strand, over the distance from the roll's axis.
 
@@ -156,6 +159,7 @@ def _figures(value: float) -> str:
     return f"{value:,.0f}" if value >= 100.0 else f"{value:.4g}"
 
 
+@own_settings()
 def rubber_at_work(
     compound: RubberCompound,
     temperature: float,
@@ -177,6 +181,7 @@ def rubber_at_work(
     return figure
 
 
+@own_settings()
 def case_power(
     study: CalculatedCases, over: Over, at: float | None = None, *, system: System = "SI"
 ) -> Figure:
@@ -204,6 +209,7 @@ def case_power(
     return figure
 
 
+@own_settings()
 def _power_lines(cases: list[CaseResult], over: str, system: System) -> Figure:
     figure, (axis,) = stacked(1, 3.8)
     power, along = unit("power", system, large=True), unit(over, system, large=True)
@@ -225,6 +231,7 @@ def _power_lines(cases: list[CaseResult], over: str, system: System) -> Figure:
     return finished(figure, along.beside(f"belt {over}"), power.beside("motor power"), group="y")
 
 
+@own_settings()
 def tornado(study: CalculatedRanges, *, system: System = "SI") -> Figure:
     """Change of the motor power [kW, hp] at both ends of every input's range, the one that matters most on top."""
     effects, power = study.effects[:_TORNADO], unit("power", system, large=True)
@@ -243,6 +250,7 @@ def tornado(study: CalculatedRanges, *, system: System = "SI") -> Figure:
     return finished(figure, power.beside("change of the motor power"), title=study.conveyor.name)
 
 
+@own_settings()
 def settling(exact: MonteCarlo, first_order: tuple[float, float], *, system: System = "SI") -> Figure:
     """Ends of the 90 % interval of the motor power [kW, hp] after ever more draws, beside those of first order."""
     figure, (axis,) = stacked(1, 3.6)
@@ -302,6 +310,7 @@ def fault(line: Line, state: MotionState) -> str:
     return f", {FAILS}: {', '.join(wrong)}" if wrong else ""
 
 
+@own_settings()
 def route_profile(
     conveyor: Conveyor, line: Line, boundaries: Sequence[tuple[float, float]], *, system: System = "SI"
 ) -> Figure:
@@ -329,6 +338,7 @@ def route_profile(
     return finished(figure, across, up, conveyor.name, group="x")
 
 
+@own_settings()
 def cross_section(conveyor: Conveyor, line: Line, *, system: System = "SI") -> Figure:
     """A set of each strand with its belt, and with the bulk as it lies there, to scale; the belt is centred."""
     figure, axes = stacked(2, 1.4 * _HEIGHT)
@@ -397,6 +407,7 @@ def _drawn(section: RouteSection, heading: float) -> tuple[Array, float]:
     return level / pieces * np.stack([np.cos(middles), np.sin(middles)], axis=1), heading + turned
 
 
+@own_settings()
 def plan(line: Line, *, system: System = "SI") -> Figure:
     """The route seen from above, from the tail, which heads along x; sections on horizontal curves in red."""
     figure, (axis,) = stacked(1, _HEIGHT)
@@ -418,6 +429,7 @@ def plan(line: Line, *, system: System = "SI") -> Figure:
     return finished(figure, along, across, "Plan of the route", group="xy")
 
 
+@own_settings()
 def drift(loads: Sequence[tuple[str, Sequence[HorizontalCheck]]], *, system: System = "SI") -> Figure:
     """Range of the drift over all states of each load in every horizontal curve; the room on the rolls in grey."""
     bends, size = loads[0][1], unit("size", system)
@@ -447,6 +459,7 @@ def drift(loads: Sequence[tuple[str, Sequence[HorizontalCheck]]], *, system: Sys
     return finished(figure, words, title="Drift in the horizontal curves")
 
 
+@own_settings()
 def tension_diagram(balance: Balance, moving: Motions | None = None, *, system: System = "SI") -> Figure:
     """Tension round the loop from the head and back, a line a state; the least that the sag allows in grey."""
     figure, (axis,) = stacked(1, _HEIGHT)
@@ -476,6 +489,7 @@ def tension_diagram(balance: Balance, moving: Motions | None = None, *, system: 
     )
 
 
+@own_settings()
 def flap_diagram(result: CalculatedConveyor, *, system: System = "SI") -> Figure:
     """Natural frequencies of the belt between the sets round the loop, steady running, beside the rolls' rotation."""
     figure, (axis,) = stacked(1, _HEIGHT)

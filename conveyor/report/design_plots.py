@@ -11,6 +11,7 @@ import numpy as np
 
 from conveyor.report.plots import colour, grouped, keyed, stacked
 from conveyor.report.point_tables import priced
+from conveyor.report.settings import own_settings
 from conveyor.units import System
 from conveyor.units.presentation import Unit, unit
 
@@ -59,6 +60,7 @@ class Shown:
         """Words of it for an axis."""
         return self.units[k].beside(self.labels[k])
 
+    @own_settings()
     def effects(self) -> Figure:
         """Effect of each field to what is sought first: means over all other fields, and from least to most.
 
@@ -96,6 +98,7 @@ class Shown:
             axis.tick_params(labelsize=8, labelleft=place % _COLUMNS == 0)
         return figure
 
+    @own_settings()
     def heat_map(self) -> Figure:
         """The best over all other fields, at every pair of values of the two fields that matter most."""
         from matplotlib import colormaps
@@ -146,6 +149,7 @@ class Shown:
             scale.set_label_text(_head(field))
         return shaded
 
+    @own_settings()
     def front(self) -> Figure:
         """The first two figures that are sought: every design, and those that none beats."""
         figures = self.found
@@ -167,6 +171,7 @@ class Shown:
         keyed(axis)
         return figure
 
+    @own_settings()
     def parallel(self) -> Figure:
         """A line a design across its fields and what is sought, shaded by what is sought first, the best on top."""
         from matplotlib import colormaps

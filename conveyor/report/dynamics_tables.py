@@ -28,6 +28,7 @@ from conveyor.report.columns import (
 )
 from conveyor.report.plots import colour, named, stacked, titled
 from conveyor.report.result_schema import SCHEMA_VERSION
+from conveyor.report.settings import own_settings
 from conveyor.report.tables import Further, checked, document, provenance, told
 from conveyor.spec import fingerprint
 from conveyor.units import System
@@ -343,6 +344,7 @@ def profile(scenario: Followed, *, system: System = "SI") -> Html:
     )  # fmt: skip
 
 
+@own_settings()
 def picture(scenario: Followed, *names: str, system: System = "SI") -> Picture:
     """Its figures on a sheet: tension over place and time, its ends over the place, speeds, forces; or those named."""
     drawn = {"tension_map": (_map, _HEIGHT), "envelope": (_envelope, _HEIGHT), "speeds": (_speeds, _LOW),

@@ -21,6 +21,7 @@ from conveyor.markup import Html
 from conveyor.report.columns import Contents
 from conveyor.report.html import build
 from conveyor.report.page import COLOURS
+from conveyor.report.settings import matplotlib
 
 _FORMS: Final = Path(__file__).with_name("page.typ")
 _FONT: Final = "DejaVu Sans"  # comes with matplotlib; what it lacks is from the fonts of the machine
@@ -141,10 +142,9 @@ def printed(page: Html) -> bytes:
         The package typst is not installed.
     """
     require()
-    import matplotlib as mpl
     import typst
 
-    fonts = Path(mpl.get_data_path()) / "fonts" / "ttf"
+    fonts = Path(matplotlib().get_data_path()) / "fonts" / "ttf"
     known = typst.Fonts(font_paths=sorted(fonts.glob("DejaVuSans*.ttf")))
     return typst.compile(source(page).encode(), format="pdf", font_paths=known)
 

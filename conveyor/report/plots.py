@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
-from threading import Lock
 from typing import TYPE_CHECKING, Final, Literal, Protocol, TypeAlias
 
 import numpy as np
@@ -15,6 +14,7 @@ import numpy as np
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.files import marks, saving
 from conveyor.printable import printable
+from conveyor.report.settings import own_settings, refuse_no_date
 from conveyor.units import System
 from conveyor.units.presentation import unit
 
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from conveyor.studies.comparison_scenes import ComparedScene, Coverage
 
 _NO_GLYPH = "Glyph .* missing from font"  # a letter that our font lacks is no fault
-_one_at_a_time = Lock()
 _COLOURS = ("#1F4E79", "#C55A11", "#2E8B57", "#8064A2", "#B8860B", "#7F7F7F", "#A61C3C", "#008B8B")
 _SIZE = (8.0, 4.8)
 _POINTS = 400
@@ -128,7 +127,7 @@ def drawn(figure: Figure, path: Path) -> bytes:
     Raises
     ------
     InputError
-        An unknown ending.
+        An unknown ending, or settings or variables of the user that keep matplotlib from drawing.
     """
     maker = marks.maker()
     about: dict[str, dict[str, str | None]] = {
@@ -149,12 +148,13 @@ def drawn(figure: Figure, path: Path) -> bytes:
 def drawing(*, letters: Literal["path", "none"] = "path") -> Iterator[None]:
     """Draw one figure at a time, letters of SVG as paths or as text: settings and warnings are the whole process's.
 
-    Only what draws SVG reads these settings: figures that another thread makes meanwhile do not see them.
+    Raises
+    ------
+    InputError
+        Settings or variables of the user keep matplotlib from drawing.
     """
-    import matplotlib as mpl
-
-    settings = {"svg.fonttype": letters, "svg.hashsalt": "conveyor"}
-    with _one_at_a_time, mpl.rc_context(settings), warnings.catch_warnings():  # type: ignore[arg-type]
+    refuse_no_date()
+    with own_settings(svg__fonttype=letters, svg__hashsalt="conveyor"), warnings.catch_warnings():
         warnings.filterwarnings("ignore", _NO_GLYPH, UserWarning)
         yield
 
@@ -199,6 +199,7 @@ def drawn_at(comparison: Scenes, over: Over) -> float | None:
     return min(known, key=lambda given: abs(given - spec), default=spec if over == "temperature" else None)
 
 
+@own_settings()
 def power_over(comparison: Scenes, over: Over, at: float | None = None, *, system: System = "SI") -> Figure:
     """Motor power of every compound over temperature at one speed [m/s], or over belt speed at one temperature [K].
 
@@ -228,6 +229,7 @@ def placed(name: str, value: float, system: System) -> str:
     return written.brief(value) if name == "speed" else f"{written(value):g} {written.sign}"
 
 
+@own_settings()
 def _power(comparison: Scenes, scenes: Sequence[ComparedScene], over: str, system: System) -> Figure:
     """Lines of scenes over temperature or speed."""
     figure, (axis,) = stacked(1, 4.0)
@@ -258,6 +260,7 @@ def _power(comparison: Scenes, scenes: Sequence[ComparedScene], over: str, syste
     return finished(figure, along.beside(f"belt {over}"), power.beside("motor power"), group="y")
 
 
+@own_settings()
 def differences(rows: Sequence[tuple[str, float, tuple[float | None, float | None]]], base: str) -> Figure:
     """Difference of the motor power to a base's in per cent, a dot a compound with its band."""
     figure, (axis,) = stacked(1, 1.4 + 0.36 * len(rows))
@@ -273,6 +276,7 @@ def differences(rows: Sequence[tuple[str, float, tuple[float | None, float | Non
     return figure
 
 
+@own_settings()
 def loss_tangents(
     compounds: Sequence[RubberCompound],
     temperature: float,
@@ -317,6 +321,7 @@ def loss_tangents(
     return figure
 
 
+@own_settings()
 def compared_loss_tangents(
     comparison: CalculatedComparison, temperature: float | None = None, *, system: System = "SI"
 ) -> Figure:
@@ -343,6 +348,7 @@ def compared_loss_tangents(
     return loss_tangents(comparison.compounds, chosen, {"90 % loss band of the rolls": band}, system=system)
 
 
+@own_settings()
 def master_curve(
     compound: RubberCompound, temperature: float | None = None, *, system: System = "SI"
 ) -> Figure:

@@ -12,6 +12,7 @@ from conveyor.remarks import assumptions
 from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table, noted
 from conveyor.report.plots import colour, finished, grouped, keyed, stacked, titled
 from conveyor.report.result_schema import SCHEMA_VERSION
+from conveyor.report.settings import own_settings
 from conveyor.report.tables import checked, document, provenance
 from conveyor.sizing.around import VariedChoice, around
 from conveyor.sizing.designs import CalculatedSizing
@@ -241,6 +242,7 @@ def idler_cost(design: SizedDesign) -> float:
     return float(design.costs.yearly["rolls"] + design.costs.yearly["idler frames"])
 
 
+@own_settings()
 def cost_shares(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
     """What a year costs by part, a bar a design."""
     money = unit(f"{MONEY}{sizing.duty.prices.currency}", system, large=True)
@@ -256,6 +258,7 @@ def cost_shares(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
     return finished(figure, money.beside("cost of a year"), "rank", sizing.duty.name, group="x")
 
 
+@own_settings()
 def cost_lines(
     sizing: CalculatedSizing, varied: tuple[VariedChoice, ...], *, system: System = "SI"
 ) -> Figure:
@@ -288,6 +291,7 @@ def cost_lines(
     return figure
 
 
+@own_settings()
 def spacing_drawn(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
     """Distances of the sets of the best design along its profile, beside the widest that sag and bearings allow."""
     figure, (profile, axis) = stacked(2, _HEIGHT + _TALL)

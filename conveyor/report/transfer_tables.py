@@ -12,6 +12,7 @@ from conveyor.laws.transfer import CLEANER_EFFICIENCY
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, Table, at, figures
 from conveyor.report.plots import colour, finished, stacked
+from conveyor.report.settings import own_settings
 from conveyor.units import System
 from conveyor.units.presentation import unit
 from conveyor.units.sentences import percent
@@ -196,6 +197,7 @@ def drawing(a: CalculatedConveyor, system: System) -> tuple[Drawing, ...]:
     return (Drawing("trajectory", words, lambda: picture(a, system=system), "discharge"),)
 
 
+@own_settings()
 def picture(a: CalculatedConveyor, *, system: System = "SI") -> Picture:
     """The stream over the head pulley, to scale."""
     flight = a.trajectory

@@ -1,0 +1,92 @@
+"""Matplotlib as the figures here need it: with its own defaults, whatever settings of the user it starts with."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from threading import RLock
+from typing import Any, Final
+
+from conveyor.errors import InputError, shortened
+
+_STARTS: Final = ("MPLBACKEND", "MATPLOTLIBRC", "MPLCONFIGDIR")
+"""Variables that say how matplotlib starts."""
+_PROCESS: Final = (
+    "backend",
+    "interactive",
+    "toolbar",
+    "timezone",
+    "date.epoch",
+    "figure.hooks",
+    "keymap",
+    "webagg",
+)
+"""Begin names of settings that are not about what a figure looks like."""
+_DATE: Final = "SOURCE_DATE_EPOCH"
+_LAST_DATE: Final = 253_402_300_799  # the end of the year 9999, the last that a date can have
+_one_at_a_time = RLock()
+
+
+def matplotlib() -> Any:
+    """The module.
+
+    Raises
+    ------
+    InputError
+        Settings of the user keep it from being loaded; the message names the variables.
+    """
+    try:
+        import matplotlib as mpl
+    except (ValueError, OSError) as error:
+        given = [f'{name}="{shortened(os.environ[name])}"' for name in _STARTS if name in os.environ]
+        variables = ", ".join(given) or f"none of {', '.join(_STARTS)} is set"
+        said = str(error).partition(";")[0].splitlines()[0]
+        raise InputError(
+            f"figures: matplotlib does not start with its settings here ({shortened(said, 200)}): correct its "
+            f"matplotlibrc, or correct or unset the variable ({variables})"
+        ) from None
+    return mpl
+
+
+@contextmanager
+def own_settings(**more: object) -> Iterator[None]:
+    """Matplotlib's defaults and some settings more, for one figure at a time: settings are the whole process's.
+
+    Also a decorator, of functions that make a figure: its texts take their font, and whether TeX sets them, as they
+    are made.
+
+    Parameters
+    ----------
+    more : object
+        Settings by name, a point written as two underscores.
+
+    Raises
+    ------
+    InputError
+        Settings of the user keep matplotlib from being loaded.
+    """
+    mpl = matplotlib()
+    with _one_at_a_time:
+        own = {
+            name: value
+            for name, value in mpl.rcParamsDefault.items()
+            if not name.startswith(_PROCESS) and mpl.rcParams[name] != value
+        }
+        with mpl.rc_context(own | {name.replace("__", "."): value for name, value in more.items()}):
+            yield
+
+
+def refuse_no_date() -> None:
+    """Refuse a date for documents that is none: matplotlib reads it for PDF and SVG.
+
+    Raises
+    ------
+    InputError
+        The variable holds something else than seconds since 1970.
+    """
+    given = os.environ.get(_DATE, "")
+    if given and not (given.isascii() and given.isdecimal() and int(given) <= _LAST_DATE):
+        raise InputError(
+            f'{_DATE}="{shortened(given)}": expected whole seconds since 1970, as in "1700000000"; correct or unset it'
+        )
