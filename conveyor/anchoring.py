@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,12 +11,12 @@ import numpy as np
 
 from conveyor.arguments import checked
 from conveyor.errors import InputError
-from conveyor.line.anchors import RollingRow, anchor_of, anchor_rows
+from conveyor.line.anchors import RollingRow, anchor_of, anchor_rows, load_exponents
 from conveyor.models import RubberCompound
 from conveyor.models.rolling_tests import RollingTest
 from conveyor.report.columns import Column, Table
-from conveyor.rubber.anchor import Anchor
-from conveyor.units.sentences import percent
+from conveyor.rubber.anchor import UNANCHORED, USUAL_COVER, USUAL_FACTOR, USUAL_ROLL, Anchor
+from conveyor.units.sentences import celsius, percent
 
 SHEET = "Anchor"
 
@@ -148,7 +148,36 @@ def lines(anchored: Anchored) -> tuple[str, ...]:
         said.append("one roll, cover and speed: what the theory errs in carrying it to others is not tested")
     if level.temperatures.size == 1:
         said.append("one temperature: the factor is held at others, its band widens by 0.5 % a kelvin")
-    return tuple(said)
+    return (*said, *_unusual(anchored))
+
+
+def _unusual(anchored: Anchored) -> Iterator[str]:
+    """Figures of the tests that are possible and not usual, with what they may come from."""
+    for number, exponent, (least, most) in load_exponents(anchored.rows):
+        if not least <= exponent <= most:
+            yield (
+                f"test {number + 1}: resistance goes as the line load to the power of {exponent:.2f}, rolls have "
+                f"{least:.3g} to {most:.3g}: is the drag of bearings in it, or a load a roll taken for one a width?"
+            )
+    for number, test in enumerate(anchored.compound.tests, start=1):
+        points = test.points()
+        for name, value, usual, slip in (
+            ("roll diameter", 2.0 * points.radius, USUAL_ROLL, "is it a radius, or a drum?"),
+            ("cover thickness", points.cover_thickness, USUAL_COVER, "is it the thickness of the belt?"),
+        ):
+            if not usual[0] <= value <= usual[1]:
+                yield (
+                    f"test {number}: {name} {1e3 * value:.3g} mm, usual are {1e3 * usual[0]:g} to "
+                    f"{1e3 * usual[1]:g} mm: {slip}"
+                )
+    level, (least, most) = anchored.anchor, USUAL_FACTOR
+    for t in level.temperatures.tolist():
+        factor = max(level.factor(level.loads, t).tolist(), key=lambda value: abs(math.log(value)))
+        if not least <= factor <= most:
+            yield (
+                f"{factor:.2f} times the theory at {celsius(t):.0f} degC, published tests lie at 1 to {UNANCHORED:g}: "
+                "a radius given as roll diameter makes 0.6 of it, a belt's thickness given as cover changes it as much"
+            )
 
 
 def plain(anchored: Anchored) -> dict[str, Any]:

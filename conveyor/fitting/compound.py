@@ -24,7 +24,16 @@ from conveyor.fitting.laying import (
     stored_law,
 )
 from conveyor.fitting.request import Request
-from conveyor.fitting.rows import CURVES, MeasuredRows, entropic, excluded, excluded_of, moduli_of
+from conveyor.fitting.rows import (
+    CURVES,
+    MeasuredRows,
+    disagreement_of,
+    entropic,
+    excluded,
+    excluded_of,
+    moduli_of,
+    scatter_of,
+)
 from conveyor.laboratory import DmaData
 from conveyor.laboratory.read import own_answers, read_answered, sheets
 from conveyor.models import RubberCompound
@@ -89,6 +98,16 @@ class Fitted:
     files: tuple[str, ...]
     metadata: Mapping[str, str]
     amplitudes: tuple[Amplitudes, ...] = ()
+
+    @property
+    def noise(self) -> tuple[float | None, float | None]:
+        """Scatter of E' and E'' from row to row within isotherms, of a master curve along it [-]."""
+        return scatter_of(self.rows, self.fit)
+
+    @property
+    def disagreement(self) -> tuple[float, float] | None:
+        """What E' and E'' of isotherms differ by where they lie side by side, beyond their scatter [-]."""
+        return disagreement_of(self.rows, self.fit)
 
 
 @dataclass(frozen=True, eq=False)
@@ -213,7 +232,7 @@ def fit_file(data: Path | Sequence[Path], request: Request) -> Fitted:
     band = None
     if request.replicas:
         band = bootstrap(fit, superposition, rows.temperature, law=maker, replicas=request.replicas)
-    described = as_fitted(read, (request, at_strain), (reference, fit), band)
+    described = as_fitted(read, (request, at_strain), (reference, fit), (band, rows))
     described["fit"]["method"] = "; ".join([described["fit"]["method"], *accepted, *said, *told])
     add_shift(described, superposition, shifts, law)
     if strains is not None:

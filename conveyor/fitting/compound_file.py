@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from conveyor.errors import InputError
 from conveyor.fitting.amplitude import FEWEST_STRAINS
 from conveyor.fitting.request import Request
-from conveyor.fitting.rows import shift_factors
+from conveyor.fitting.rows import MeasuredRows, scatter_of, shift_factors
 from conveyor.laboratory import DmaData
 from conveyor.rubber import WLF, Arrhenius, PronyFit, PronySeries, ReplicaBand, ShiftLaw, Superposition
 from conveyor.rubber.band import METHOD
@@ -31,10 +31,10 @@ def as_fitted(
     read: Sequence[DmaData],
     asked: tuple[Request, str | None],
     fitted: tuple[str, PronyFit],
-    band: ReplicaBand | None,
+    made: tuple[ReplicaBand | None, MeasuredRows],
 ) -> dict[str, Any]:
     """What a compound file says of a fit at its reference temperature, with its band; the strain beside the request."""
-    request = asked[0]
+    (request, _), (band, rows) = asked, made
     reference, fit = fitted
     described = of_series(read, asked, reference, fit.series, fit.window)
     if band is not None:
@@ -44,7 +44,7 @@ def as_fitted(
         "loss_rms": _six(round(fit.loss.rms, _ERROR_DECIMALS)),
         "storage_worst": _six(round(abs(fit.storage.worst), _ERROR_DECIMALS)),
         "loss_worst": _six(round(abs(fit.loss.worst), _ERROR_DECIMALS)),
-        "method": _method(fit, request),
+        "method": _method(fit, request, rows),
     }
     described["missing"] = ["strain dependence", "density"]
     return described
@@ -118,7 +118,8 @@ def _law(law: ShiftLaw, digits: int) -> dict[str, Any]:
     raise TypeError(type(law).__name__)
 
 
-def _method(fit: PronyFit, request: Request) -> str:
+def _method(fit: PronyFit, request: Request, rows: MeasuredRows) -> str:
+    storage, loss = scatter_of(rows, fit)
     equilibrium = "free" if request.equilibrium is None else "held"
     left = (
         f"leaves {percent(fit.residual, 1)} rms of both, the best positive spectrum of all "
@@ -131,11 +132,8 @@ def _method(fit: PronyFit, request: Request) -> str:
         )
     scatter = (
         ""
-        if fit.storage_noise is None or fit.loss_noise is None
-        else (
-            f"; scatter of the data from row to row {percent(fit.storage_noise, 1)} (E') and "
-            f"{percent(fit.loss_noise, 1)} (E'')"
-        )
+        if storage is None or loss is None
+        else f"; scatter of the data from row to row {percent(storage, 1)} (E') and {percent(loss, 1)} (E'')"
     )
     return (
         f"NNLS on errors of E' and E'' relative to the fit, {fit.candidates[0].terms_per_decade:g} relaxation times "

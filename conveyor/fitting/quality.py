@@ -178,8 +178,8 @@ def residuals(fitted: Fitted) -> Figure:
     f, storage, loss = fitted.rows.curve
     omega, series = 2.0 * np.pi * f, fitted.fit.series
     both = (
-        (series.storage(omega), storage, fitted.fit.storage_noise),
-        (series.loss(omega), loss, fitted.fit.loss_noise),
+        (series.storage(omega), storage, fitted.noise[0]),
+        (series.loss(omega), loss, fitted.noise[1]),
     )
     for axis, (model, data, noise), label in zip(axes, both, ("E'", "E''"), strict=True):
         for k, name in enumerate(fitted.files):

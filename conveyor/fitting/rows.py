@@ -16,7 +16,8 @@ from conveyor.errors import InputError
 from conveyor.laboratory import DmaData
 from conveyor.laboratory.groups import ISOTHERM_GAP, set_points, temperature_groups
 from conveyor.laboratory.kinds import UNLIKE
-from conveyor.rubber import Isotherm, ShiftLaw, Superposition, entropic_b_T, equivalent_sweep
+from conveyor.rubber import Isotherm, PronyFit, ShiftLaw, Superposition, entropic_b_T, equivalent_sweep
+from conveyor.rubber.misfit import scatter_within
 from conveyor.rubber.superposition import LEAST_ROWS
 from conveyor.units.sentences import celsius
 
@@ -69,6 +70,28 @@ class MeasuredRows:
         """By ascending reduced frequency."""
         order = np.argsort(self.curve[0], kind="stable")
         return MeasuredRows(**{name: getattr(self, name)[order] for name in self.__dataclass_fields__})
+
+
+def scatter_of(rows: MeasuredRows, fit: PronyFit) -> tuple[float | None, float | None]:
+    """Scatter of E' and E'' from row to row [-]: within isotherms; of a master curve along it."""
+    f, storage, loss = rows.curve
+    within = [scatter_within(f, modulus, rows.temperature) for modulus in (storage, loss)]
+    if None in within:
+        return fit.storage_noise, fit.loss_noise
+    return within[0], within[1]
+
+
+def disagreement_of(rows: MeasuredRows, fit: PronyFit) -> tuple[float, float] | None:
+    """What E' and E'' of isotherms differ by on the master curve, beyond their own scatter [-]; None of one."""
+    counts = np.unique(rows.temperature, return_counts=True)[1]
+    pooled, within = (fit.storage_noise, fit.loss_noise), scatter_of(rows, fit)
+    if np.count_nonzero(counts > 2) < 2 or None in pooled or None in within:
+        return None
+    first, second = (
+        float(np.sqrt(max(0.0, (p or 0.0) ** 2 - (w or 0.0) ** 2)))
+        for p, w in zip(pooled, within, strict=True)
+    )
+    return first, second
 
 
 class ShiftFactors(NamedTuple):

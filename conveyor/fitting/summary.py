@@ -120,8 +120,12 @@ def _series(fitted: Fitted) -> Iterator[str]:
             f"{misfit.worst_frequency:.3g} Hz"
         )
     yield from _outliers(fit)
-    if fit.storage_noise is not None and fit.loss_noise is not None:
-        yield f"  scatter from row to row: {percent(fit.storage_noise, 1)} (E'), {percent(fit.loss_noise, 1)} (E'')"
+    storage, loss = fitted.noise
+    if storage is not None and loss is not None:
+        yield f"  scatter from row to row: {percent(storage, 1)} (E'), {percent(loss, 1)} (E'')"
+    if fitted.disagreement is not None:
+        apart = [percent(value, 1) for value in fitted.disagreement]
+        yield f"  disagreement between isotherms beyond it: {apart[0]} (E'), {apart[1]} (E'')"
 
 
 def _outliers(fit: PronyFit) -> Iterator[str]:

@@ -133,13 +133,15 @@ def _open(name: str, why: str) -> Criterion:
 
 
 def _noise(fitted: Fitted) -> Iterator[Criterion]:
-    for label, value, most in zip(
-        ("E'", "E''"), (fitted.fit.storage_noise, fitted.fit.loss_noise), NOISE, strict=True
-    ):
+    for label, value, most in zip(("E'", "E''"), fitted.noise, NOISE, strict=True):
         name, why = f"scatter of {label} from row to row", "instrument, clamping, range of its force"
         yield (
             _open(name, "fewer than three rows") if value is None else _most(name, value, most, _percent, why)
         )
+    apart_by = fitted.disagreement
+    for label, value, most in zip(("E'", "E''"), apart_by or (), NOISE if apart_by else (), strict=True):
+        why = "rows of one isotherm agree: another specimen, clamping, strain or temperature, or a vertical shift"
+        yield _most(f"disagreement of {label} between isotherms", value, most, _percent, why)
 
 
 def _strain(fitted: Fitted) -> Iterator[Criterion]:
@@ -248,7 +250,7 @@ def collapse(rows: MeasuredRows, noise: tuple[float, float]) -> tuple[float, flo
 
 
 def _collapse(fitted: Fitted) -> Iterator[Criterion]:
-    noise = (fitted.fit.storage_noise or 0.0, fitted.fit.loss_noise or 0.0)
+    noise = (fitted.noise[0] or 0.0, fitted.noise[1] or 0.0)
     worst, name = collapse(fitted.rows, noise), "van Gurp-Palmen collapse"
     if worst is None:
         yield _open(name, "no two isotherms with moduli in common")
@@ -276,7 +278,7 @@ def _consistent(fitted: Fitted) -> Iterator[Criterion]:
 
 def _residual(fitted: Fitted) -> Iterator[Criterion]:
     fit = fitted.fit
-    scatter = float(np.hypot(fit.storage_noise or 0.0, fit.loss_noise or 0.0)) / np.sqrt(2.0)
+    scatter = float(np.hypot(fitted.noise[0] or 0.0, fitted.noise[1] or 0.0)) / np.sqrt(2.0)
     most = max(fit.consistency_floor + BEYOND_BEST, OVER_SCATTER * scatter)
     yield _most(
         "left by the series", fit.residual, most, _percent,

@@ -37,8 +37,8 @@ def isotherms_of_ramp(columns: Mapping[str, FloatArray]) -> Ramp | None:
     -----
     While an instrument goes through its frequencies the temperature goes on. So rows of one cycle differ in
     temperature, by a kelvin or two, which near the glass transition is as much as a tenth of a decade. Here ln E' and
-    ln E'' of each frequency, monotone cubics over its own temperatures, are taken at those of the middle frequency; none is taken
-    beyond the temperatures of any.
+    ln E'' of each frequency, monotone cubics over its own temperatures, are taken at those of the middle frequency;
+    none is taken beyond the temperatures of any.
 
     Examples
     --------

@@ -18,7 +18,15 @@ from conveyor.laws.softening import COARSE, SoftCover, WorkedCover, softened_man
 from conveyor.line.covers import FELT
 from conveyor.models import RubberCompound
 from conveyor.models.rolling_tests import RollingPoints
-from conveyor.rubber.anchor import PLAUSIBLE, UNANCHORED, Anchor, fit_anchor
+from conveyor.rubber.anchor import (
+    OVER_THEORY,
+    PLAUSIBLE,
+    UNANCHORED,
+    USUAL_EXPONENT,
+    Anchor,
+    fit_anchor,
+    load_exponent,
+)
 from conveyor.units.sentences import celsius
 
 Array = NDArray[np.float64]
@@ -107,7 +115,7 @@ def anchor_of(compound: RubberCompound, rows: Sequence[RollingRow]) -> Anchor:
     Raises
     ------
     InputError
-        The tests are farther from the theory than tests of rubber are.
+        The tests are farther from the theory than tests of rubber are, or go with the line load as no roll does.
     """
     level = fit_anchor(
         [row.line_load for row in rows],
@@ -127,7 +135,27 @@ def anchor_of(compound: RubberCompound, rows: Sequence[RollingRow]) -> Anchor:
                 compound.name,
                 Amount(t, "temperature", f"{celsius(t):.0f} degC"),
             )
+    for number, exponent, (least, most) in load_exponents(rows):
+        if not 2.0 * least - most <= exponent <= 2.0 * most - least:
+            raise InputError(
+                f'tests[{number}]: the resistance of "{{}}" goes as the line load to the power of {exponent:.2f}, '
+                f"where rolls have {least:.3g} to {most:.3g} (as far again on either side is taken); are line loads "
+                "and resistances per width, without the drag of bearings, in the units of the columns? To calculate "
+                "without the tests: calculation: {{anchor: off}}",
+                compound.name,
+            )
     return level
+
+
+def load_exponents(rows: Sequence[RollingRow]) -> Iterator[tuple[int, float, tuple[float, float]]]:
+    """Number of each test whose loads tell it, exponent of the line load in its resistance, and what is usual [-]."""
+    for number in dict.fromkeys(row.test for row in rows):
+        mine = [row for row in rows if row.test == number]
+        loads = [row.line_load for row in mine]
+        measured = load_exponent(loads, [row.measured for row in mine])
+        theory = load_exponent(loads, [row.calculated for row in mine])
+        if measured is not None and theory is not None:
+            yield number, measured, (USUAL_EXPONENT[0], max(USUAL_EXPONENT[1], theory + OVER_THEORY))
 
 
 def _tested(

@@ -26,6 +26,16 @@ data of tyre-type rubber [-]: how far indentation without tests may be below wha
 PLAUSIBLE: Final = (0.5, 2.0 * UNANCHORED)
 """Twice beyond the theory itself (1) and the highest published tests (2.5): what lies outside is a slip of unit, roll
 or cover (derived; that twice is enough is general knowledge) [-]."""
+USUAL_FACTOR: Final = (0.7, 3.0)
+"""Factors beyond it are remarked: published tests lie at 1 to 2.5 (derived: a fifth to a third beyond) [-]."""
+USUAL_EXPONENT: Final = (1.1, 1.45)
+"""Of the line load in the resistance of a roll: 4/3 by the theory of a half-space (general knowledge) [-]."""
+OVER_THEORY: Final = 0.1
+"""By which measured exponents may exceed the theory's own on a thin cover and be usual (general knowledge) [-]."""
+USUAL_ROLL: Final = (0.05, 0.25)
+"""Diameter of rolls of belt conveyors and of test rigs [m] (general knowledge)."""
+USUAL_COVER: Final = (0.001, 0.015)
+"""Thickness of covers [m] (general knowledge); more is the thickness of a belt."""
 NINE_TENTHS: Final = 1.6448536269514722
 """Standard deviations from the middle of a normal distribution within which nine tenths lie [-]."""
 ONE_TEMPERATURE: Final = 2.0
@@ -179,6 +189,25 @@ def fit_anchor(
         points=int(y.size),
         shared=shared,
     )
+
+
+def load_exponent(line_load: ArrayLike, resistance: ArrayLike) -> float | None:
+    """Exponent of the line load [N/m] in measured resistances [N/m] of one roll, cover, speed and temperature.
+
+    None where the loads are too near each other to tell it.
+
+    Examples
+    --------
+    >>> (
+    ...     round(load_exponent([1e3, 2e3, 4e3], [10.0, 25.2, 63.5]), 2),
+    ...     load_exponent([1e3, 1.2e3], [10.0, 12.7]),
+    ... )
+    (1.33, None)
+    """
+    w, f = positive_vector("line_load", line_load, "N/m"), positive_vector("resistance", resistance, "N/m")
+    if w.max() < LEAST_SPAN * w.min():
+        return None
+    return float(np.polyfit(np.log(w), np.log(f), 1)[0])
 
 
 def _levels(temperature: FloatArray) -> FloatArray:

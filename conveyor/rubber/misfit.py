@@ -86,14 +86,41 @@ def scatter(frequency: FloatArray, modulus: FloatArray) -> float | None:
     >>> scatter(f, 1e6 * f**0.1) < 1e-12
     True
     """
+    squares = _squares(frequency, modulus)
+    return float(np.sqrt(np.mean(squares))) if squares.size else None
+
+
+def scatter_within(frequency: FloatArray, modulus: FloatArray, group: FloatArray) -> float | None:
+    """Relative standard deviation of a row from the line through its neighbours in its own group [-].
+
+    As `scatter` of each group of three rows and more, their squares in the mean over all; None without such a group.
+    What groups, isotherms on a master curve, differ by does not count.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> f, group = np.logspace(0, 4, 9), np.arange(9.0) % 2
+    >>> moduli = 1e6 * f**0.1 * (1.0 + 0.1 * group)
+    >>> scatter(f, moduli) > 0.05, scatter_within(f, moduli, group) < 1e-12
+    (True, True)
+    """
+    squares = [
+        _squares(frequency[rows], modulus[rows]) for rows in (group == each for each in np.unique(group))
+    ]
+    joined = np.concatenate(squares)
+    return float(np.sqrt(np.mean(joined))) if joined.size else None
+
+
+def _squares(frequency: FloatArray, modulus: FloatArray) -> FloatArray:
+    """Squares of the residuals of `scatter`, shape `(n - 2,)`."""
     if frequency.size < 3:
-        return None
+        return np.zeros(0)
     x, y = np.log(frequency), np.log(modulus)
     width = x[2:] - x[:-2]
     a = np.divide(x[2:] - x[1:-1], width, out=np.full(width.size, 0.5), where=width > 0.0)
     b = 1.0 - a
     eps = a * y[:-2] + b * y[2:] - y[1:-1]
-    return float(np.sqrt(np.mean(eps**2 / (a * a + b * b + 1.0))))
+    return np.asarray(eps**2 / (a * a + b * b + 1.0))
 
 
 def neighbour_correlation(error: FloatArray) -> float:
