@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Final
+from typing import Any, Final, NoReturn
 
 from conveyor.errors import NoSolutionError, RangeError
 from conveyor.files import libraries
@@ -50,7 +50,7 @@ from conveyor.models.sizing import (
     within,
 )
 from conveyor.units import Quantity, from_si, in_si, si, text
-from conveyor.units.sentences import figure
+from conveyor.units.sentences import figure, percent
 
 _BEARING_INSET: Final = 0.02  # [m], middle of a bearing inside the tube's end; general knowledge
 _OVERLAND: Final = 1000.0  # [m], from which sets stand as far apart as overland; general knowledge
@@ -412,13 +412,14 @@ class SizingTask:
                     shapes.append(Trough(width, angle, area))
         return tuple(shapes)
 
-    def fits(self) -> None:
-        """Refuse lumps and flows that no belt takes.
+    def refuse(self) -> NoReturn:
+        """Refuse what no belt, speed and rolls of the series take, with the rule that the last of them do not keep.
 
         Raises
         ------
         NoSolutionError
-            Lumps ask for a wider belt than the widest, or the flow for a faster or fuller one.
+            Lumps ask for a wider belt than the widest, or the flow for a faster or fuller one; the speeds are too fast,
+            the belts too wide for so little, their edges too narrow, or their rolls turn too fast.
         """
         duty, rules, system = self.duty, self.rules, self.duty.report.units
         lumps = least_width_for_lumps(
@@ -436,13 +437,69 @@ class SizingTask:
                 f"route: on a slope of {figure(self.steepest, 'angle', system)} no heap of {text(surcharge)} stands, "
                 "and flat sets hold nothing else: allow troughs (rules.trough_angles)"
             )
-        allowed = (trough.area * v for trough in self.troughs for v in self.speeds if self.allows(trough, v))
-        most = max(allowed, default=math.inf) * self.density * si(rules.filling)
+        pairs = [(trough, v) for trough in self.troughs for v in self.speeds if self.allows(trough, v)]
+        if not pairs:
+            slowest = figure(min(self.speeds), "speed", system)
+            raise NoSolutionError(
+                f"every speed, from {slowest}, is faster than the rules or CEMA allow for every width and abrasiveness "
+                f'"{duty.abrasiveness}": allow slower ones or a faster belt (rules.speeds, rules.fastest, rules.widths)'
+            )
+        most = max(trough.area * v for trough, v in pairs) * self.density * si(rules.filling)
         if self.flow > most:
             raise NoSolutionError(
                 f"material.flow: {text(duty.material.flow)} is more than the widest and fastest belt takes, "
                 f"{figure(most, 'mass flow', system)} (rules.widths, rules.fastest, rules.speeds, rules.filling)"
             )
+        pairs = [pair for pair in pairs if self._filled(*pair) <= si(rules.filling)]
+        if not any(self._full_enough(*pair) for pair in pairs):
+            fullest = max(self._filled(*pair) for pair in pairs)
+            raise NoSolutionError(
+                f"material.flow: {text(duty.material.flow)} fills no belt that may be chosen to more than "
+                f"{percent(fullest)}, rules.least_filling asks for {text(rules.least_filling)}: allow narrower or "
+                "slower belts (rules.widths, rules.speeds), or a lower filling"
+            )
+        pairs = [pair for pair in pairs if self._full_enough(*pair)]
+        if all(self.filling(*pair) is None for pair in pairs):
+            edges = [(self._edge(*pair), standard_edge_distance(pair[0].width.belt)) for pair in pairs]
+            edge, asked = (
+                figure(each, "thickness", system) for each in max(edges, key=lambda of: of[0] / of[1])
+            )
+            raise NoSolutionError(
+                f"the bulk leaves {edge} of either edge of the belt free, CEMA asks for {asked}: allow wider or faster "
+                "belts (rules.widths, rules.speeds, rules.fastest)"
+            )
+        slowest_belt = min(v for trough, v in pairs if self.filling(trough, v) is not None)
+        largest = max(roll.diameter for roll in self.rolls)
+        if not any(self.turns_slowly(roll, slowest_belt) for roll in self.rolls):
+            turns = figure(slowest_belt / (math.pi * largest), "rotation", system)
+            raise NoSolutionError(
+                f"at {figure(slowest_belt, 'speed', system)}, the slowest belt that takes the flow, the largest rolls "
+                f"turn at {turns}, {text(rules.roll_rotation)} are allowed (rules.roll_rotation): allow slower or "
+                "wider belts (rules.speeds, rules.widths)"
+            )
+        raise NoSolutionError(
+            "no class of rolls of the series has sets for the widths and troughs that take the flow: allow others "
+            "(rules.widths, rules.trough_angles, rules.series)"
+        )
+
+    def _filled(self, trough: Trough, speed: float) -> float:
+        """Share of the cross-section under bulk [-]."""
+        return self.flow / (self.density * speed) / trough.area
+
+    def _full_enough(self, trough: Trough, speed: float) -> bool:
+        """Whether the rule of the least filling is kept, which the narrowest belt need not."""
+        narrowest = trough.width.belt == self.troughs[0].width.belt
+        return narrowest or self._filled(trough, speed) >= si(self.rules.least_filling)
+
+    def _edge(self, trough: Trough, speed: float) -> float:
+        """Belt free of bulk at either edge [m]."""
+        under = filled_width(
+            self.flow / (self.density * speed),
+            middle_roll_length=trough.width.three,
+            trough_angle=trough.angle,
+            surcharge_angle=self.duty.material.surcharge,
+        )
+        return 0.5 * (trough.width.belt - under)
 
     def allows(self, trough: Trough, speed: float) -> bool:
         """Whether the rules allow a belt to be so fast."""
@@ -454,21 +511,12 @@ class SizingTask:
 
     def filling(self, trough: Trough, speed: float) -> float | None:
         """Share of the cross-section under bulk [-]; None where rules of speed, filling or edges are not kept."""
-        width = trough.width.belt
         if not self.allows(trough, speed):
             return None
-        area = self.flow / (self.density * speed)
-        filling = area / trough.area
-        narrowest = width == self.troughs[0].width.belt
-        if filling > si(self.rules.filling) or (filling < si(self.rules.least_filling) and not narrowest):
+        filling = self._filled(trough, speed)
+        if filling > si(self.rules.filling) or not self._full_enough(trough, speed):
             return None
-        under = filled_width(
-            area,
-            middle_roll_length=trough.width.three,
-            trough_angle=trough.angle,
-            surcharge_angle=self.duty.material.surcharge,
-        )
-        return filling if 0.5 * (width - under) >= standard_edge_distance(width) else None
+        return filling if self._edge(trough, speed) >= standard_edge_distance(trough.width.belt) else None
 
     @cached_property
     def rolls(self) -> tuple[RollSize, ...]:

@@ -51,7 +51,7 @@ GRADUATED: Final = 3
 """Designs whose carry sets are tried farther apart where the belt is tighter, if no more are wanted."""
 BRAKE_RESERVE: Final = 1.3
 """Brake force, or torque of a backstop, over that which holds the loaded belt; general knowledge."""
-_SIZINGS: Final = 5  # belt class, motors and brake against their own tensions
+_SIZINGS: Final = 8  # belt class, motors and brake against their own tensions
 _SCREENINGS: Final = 2  # levels of the estimate against calculated candidates
 _DRAWS: Final = 20  # of further candidates, where designs are wanted
 _NEAR: Final = (
@@ -151,11 +151,7 @@ def size(duty: SizingDuty, *, best: int = 3, progress: Progress | None = None) -
     task = SizingTask(duty)
     every = Candidates.of(task)
     if not len(every):
-        task.fits()
-        raise NoSolutionError(
-            "no belt width and speed keep the rules of lumps, filling, edge distance and roll speed: allow wider belts "
-            "(rules.widths), other speeds (rules.speeds, rules.fastest, rules.roll_rotation) fillings or troughs"
-        )
+        task.refuse()
     choices = every.taken_up()
     if not len(choices):
         raise _too_long(task)

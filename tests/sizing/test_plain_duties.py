@@ -191,6 +191,27 @@ def test_what_a_stiffer_class_leaves_of_the_travel_is_foreseen():
     )  # the belt's mass is a tenth more, a third of it elastic
 
 
+def test_a_belt_that_would_go_slack_in_a_stop_has_its_take_up_set_higher():
+    """2.5 km that climb 300 m stop hard: at the least setting that grip and sag ask for the belt is slack behind."""
+    rules = {
+        "widths": ["1000 mm"],
+        "speeds": ["3.5 m/s"],
+        "drives": ["head, two pulleys"],
+        "trough_angles": ["35 deg"],
+    }
+    best = size(duty(1000.0, 2500.0, 300.0, rules=rules), best=1).best
+    assert best.conveyor.route.take_up is not None
+    assert si(best.conveyor.route.take_up.tension) == pytest.approx(best.chosen.take_up)
+    assert not [check.subject.text() for check in every_load(best.conveyor).governing if check.failed]
+    least = best.conveyor.route.replace(take_up={"kind": "gravity"})
+    loose = every_load(best.conveyor.replace(route=least))
+    assert {check.key for check in loose.governing if check.failed} == {"slack_belt"}
+    slack = -min(state.smallest for one in loose.designing for state in one.every_state)
+    assert (
+        0.0 <= best.chosen.take_up - loose.take_up - slack < 0.05 * best.chosen.take_up
+    )  # a wider class weighs more
+
+
 def test_levels_of_one_calculation_make_the_estimate_that_calculation():
     given = duty(800.0, 300.0, 20.0)
     task = SizingTask(given)

@@ -257,7 +257,17 @@ def test_what_is_wrong_is_refused_with_its_place(tmp_path, old, new, message):
 @pytest.mark.parametrize(
     ("changes", "rules", "message"),
     [
-        ({}, {"roll_rotation": "10 rpm"}, "no belt width and speed keep the rules"),
+        # 2.5 m/s over pi times 219 mm are 218 rpm
+        (
+            {},
+            {"roll_rotation": "10 rpm"},
+            r"at 2.5 m/s, the slowest belt .* turn at 218 rpm, 10 rpm are allowed \(rules\.roll_rotation\)",
+        ),
+        (
+            {},
+            {"speeds": ["4 m/s"]},
+            r"every speed, from 4 m/s, is faster than .*\(rules\.speeds, rules\.fastest",
+        ),
         (
             {},
             {"largest_motor": "1 kW"},
@@ -287,6 +297,27 @@ def test_what_is_wrong_is_refused_with_its_place(tmp_path, old, new, message):
 def test_what_leaves_nothing_is_named(small, changes, rules, message):
     with pytest.raises(NoSolutionError, match=message):
         size(small.replace(rules=small.rules.replace(**rules), **changes))
+
+
+def test_a_flow_that_fills_no_belt_enough_is_named(small):
+    """A belt of 500 mm may not run at 3.5 m/s; 20 t/h over 850 kg/m³ take 19 cm² of the 1600 mm one's 0.3 m²."""
+    rules = small.rules.replace(widths=["500 mm", "1600 mm"], speeds=["3.5 m/s"])
+    message = (
+        r"20 t/h fills no belt that may be chosen to more than 1 %, rules\.least_filling asks for 40 %: allow"
+    )
+    with pytest.raises(NoSolutionError, match=message):
+        size(small.replace(rules=rules, material=small.material.replace(flow="20 t/h")))
+
+
+def test_a_heap_that_comes_too_near_to_the_edges_is_named(small):
+    """ISO 5048 fills 0.9 B - 50 mm, which leaves 0.05 B + 25 mm; CEMA asks for 0.055 B + 22.86 mm."""
+    rules = small.rules.replace(widths=["800 mm"], speeds=["2.5 m/s"], filling="100 %")
+    level = small.replace(route=None, length="100 m", lift="0 m", rules=rules)
+    most = SizingTask(level).troughs[0].area * 2.5 * 850.0 * 3.6  # [t/h]
+    with pytest.raises(
+        NoSolutionError, match=r"leaves 65 mm of either edge .* CEMA asks for 66\.9 mm: allow wider"
+    ):
+        size(level.replace(material=small.material.replace(flow=f"{most * (1.0 - 1e-9)} t/h")))
 
 
 @pytest.mark.parametrize("most", [1, 2])
