@@ -17,6 +17,7 @@ from conveyor.errors import InputError
 Array = NDArray[np.float64]
 
 _TIMES = 1e-100, 1e100
+_STIFFEST = 1e-30  # products of smaller ones with a load underflow; rubber stiffens by 1e5
 _SUM_TOLERANCE = 1e-9  # j∞ + Σ d = 1: users type decimals
 
 
@@ -66,8 +67,10 @@ class CreepSpectrum:
             raise InputError(
                 f"times = {z.tolist()}: each ζ is finite and not negative: 0, or from {least:g} to {most:g}"
             )
-        if not (math.isfinite(instantaneous) and 0.0 < instantaneous <= 1.0 + _SUM_TOLERANCE):
-            raise InputError(f"instantaneous = {instantaneous!r}: j∞ = E0/E∞ lies in (0, 1]")
+        if not (math.isfinite(instantaneous) and _STIFFEST <= instantaneous <= 1.0 + _SUM_TOLERANCE):
+            raise InputError(
+                f"instantaneous = {instantaneous!r}: j∞ = E0/E∞ lies in (0, 1]; at least {_STIFFEST:g}"
+            )
         if abs((whole := instantaneous + float(d.sum())) - 1.0) > _SUM_TOLERANCE:
             raise InputError(
                 f"instantaneous + sum(weights) = {whole:.12g}: must be 1 "

@@ -163,11 +163,12 @@ def _first_strips(scene: Scene, grid: GridContact) -> _Start | None:
     force = np.array([grid.pressure[nodes].sum() for nodes in inside])
     centre = np.array([grid.pressure[nodes] @ grid.x[nodes] for nodes in inside]) / force
     alpha[unseen] = _NARROW * step
-    for _ in range(_FITS):
-        carried = loads(scene, centre[None], alpha[None])[0] * grid.points / force
-        alpha[unseen] /= np.sqrt(np.clip(carried[unseen], _FIT**-2, _FIT**2))
+    for fits in range(_FITS + 1):
         if (alpha + np.abs(centre) >= rho).any() or too_close(centre, alpha):
             return None
+        if fits < _FITS:
+            carried = loads(scene, centre[None], alpha[None])[0] * grid.points / force
+            alpha[unseen] /= np.sqrt(np.clip(carried[unseen], _FIT**-2, _FIT**2))
     return _Start(centre, alpha, 0)
 
 
