@@ -179,9 +179,14 @@ def _repeats(first: Sequence[str], second: Sequence[str]) -> bool:
         if not (is_number(a) and is_number(b)):
             return False
         x, y = (float(each.replace(",", ".")) for each in (a, b))
-        if abs(x - y) > 0.5 * (last_digit(a) + last_digit(b)) * (1.0 + _ROUNDING):
+        if abs(x - y) > 0.5 * (_digit(a) + _digit(b)) * (1.0 - _ROUNDING):
             return False
     return True
+
+
+def _digit(cell: str) -> float:
+    """What one more in the last digit is worth; of a whole number 1, all its digits count."""
+    return 1.0 if cell.lstrip("+-").isdigit() else last_digit(cell)
 
 
 def _second(table: DataTable, first: DataColumn, column: DataColumn) -> InputError:

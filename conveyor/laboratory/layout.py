@@ -108,6 +108,12 @@ def spans(numbers: Sequence[int]) -> str:
     )
 
 
+def row_numbers(rows: str) -> set[int]:
+    """Every row of 12-15,20."""
+    parts = (part.partition("-") for part in rows.split(","))
+    return {row for low, _, high in parts for row in range(int(low), int(high or low) + 1)}
+
+
 def has_table(grid: TextGrid) -> bool:
     """Whether some line names two or more known quantities, one of them measured, and rows of numbers follow."""
     return any(_measures(grid.lines[header]) for header in _with_rows(grid, _headers(grid)))

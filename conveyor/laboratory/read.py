@@ -30,6 +30,8 @@ from conveyor.laboratory.layout import (
     find_table,
     has_table,
     names_column,
+    row_numbers,
+    spans,
     with_names,
     without_columns,
     without_rows,
@@ -183,16 +185,10 @@ def _together(findings: Sequence[InputError]) -> InputError:
     lines = [str(finding) for finding in findings]
     settled = [finding for finding in findings if isinstance(finding, AnswerableError)]
     if len(settled) > 1:
-        said = [
-            f"--{option} {value}"
-            for option in ("exclude", "ignore")
-            for value in (
-                [each.value for each in settled if each.option == option]
-                if option == "ignore"
-                else filter(None, [",".join(each.value for each in settled if each.option == option)])
-            )
-        ]
-        lines.append(f"these at once: {' '.join(said)}")
+        ranges = ",".join(each.value for each in settled if each.option == "exclude")
+        rows = f"--exclude {spans(sorted(row_numbers(ranges)))}" if ranges else ""
+        columns = [f"--ignore {each.value}" for each in settled if each.option == "ignore"]
+        lines.append(f"these at once: {' '.join(filter(None, [rows, *columns]))}")
     return InputError("\n".join(lines))
 
 
