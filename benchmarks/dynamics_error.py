@@ -125,10 +125,12 @@ def measured(
     except (NoSolutionError, RangeError) as error:
         return [], [f"{name}: {error}"]
     found = []
-    for one in followed:
-        (true,) = side_by_side([one.ride], one.record.step / CLOSER)
-        off = max(abs(true.highest - one.highest), abs(true.lowest - one.lowest)) / true.highest
-        found.append((f"{name}: {one.name}", one.error or 0.0, off))
+    steps = {one.record.step for one in followed}
+    for step in sorted(steps):  # those of one length of cells side by side
+        told = [one for one in followed if one.record.step == step]
+        for one, true in zip(told, side_by_side([one.ride for one in told], step / CLOSER), strict=True):
+            off = max(abs(true.highest - one.highest), abs(true.lowest - one.lowest)) / true.highest
+            found.append((f"{name}: {one.name}", one.error or 0.0, off))
     return found, [f"{name}: {one.scenario}: {one.reason.text()}" for one in refused]
 
 

@@ -510,7 +510,7 @@ class _Motion:
         s, n = chain.stiffness.shape
         self.speed, self.tension = start.speed, start.tension
         self.stretching = np.diff(start.speed, axis=1)
-        self.strained = start.tension + self.tau_k * self.law.eased * self.stretching
+        self.viscous = self.tau_k * self.law.eased * self.stretching
         self.resisting = start.resisting * self.loose
         self.driving, self.rims = start.driving, start.rims
         self.begun = start.rims
@@ -540,13 +540,17 @@ class _Motion:
         alone = self.loose.copy()
         alone[self.rows, chain.lumps] = 0.0
         self.over_mass, self.under_mass = alone * step / chain.mass, alone * chain.mass / step
-        self.still, self.stuck = chain.sticking * self.over_mass, chain.sticking[self.rows, at]
+        self.still = chain.sticking * self.over_mass
+        self.lumps = self.rows * (n + 1) + chain.lumps
+        self.lumps_loose, self.lumps_stuck = self.loose.take(self.lumps), chain.sticking.take(self.lumps)
+        self.winds = bool(np.any(chain.winch[0]))
         self.tau_k = chain.retardation * chain.stiffness
         self.flat = self.rows * (n + 1) + at
         self.turns = [_Turn.of(chain, self.machines, step, k) for k in self.solver.pulleys.turns()]
 
     def _answered(self) -> None:
         """What the solver says of the pulleys: until it is made anew."""
+        self.half_k = 0.5 * self.tau_k * self.solver.shares
         self.replies = [_Reply.of(self.solver, turn, self.dt) for turn in self.turns]
 
     def followed(self) -> Record:
@@ -589,8 +593,8 @@ class _Motion:
     def _step(self, i: int) -> None:
         """Speeds by forces, pulleys, friction; then tensions by speeds."""
         chain = self.chain
-        speed, band, run_up = chain.winch
-        if np.any(speed):
+        if self.winds:
+            speed, band, run_up = chain.winch
             wanted, most = speed * _winding(self.pulled / chain.held - 1.0, band), self.dt * speed / run_up
             self.winding = np.clip(wanted, self.winding - most, self.winding + most)
         if self.solver.eases(self.law.eased):
@@ -601,8 +605,7 @@ class _Motion:
         if self.at.size:
             new, lacking = self._driven(i, new, lacking, rolling)
         # what acts: of τ k the solver's share on half the new speeds, before masses rub alone, the rest on the old
-        half = 0.5 * self.solver.shares
-        damping = self.tau_k * (half * (new[:, 1:] - new[:, :-1]) + (self.law.eased - half) * self.stretching)
+        damping = self.viscous + self.half_k * (new[:, 1:] - new[:, :-1] - self.stretching)
         free = new + self.resisting * self.over_mass
         allowed = np.where(self.speed == 0.0, self.still, rolling * self.over_mass)
         rubbed = np.minimum(np.maximum(free, -allowed), allowed)
@@ -618,14 +621,14 @@ class _Motion:
         self.ledger.belts(0.5 * (self.speed + new), spread, self.resisting, self.pulled, damping)
         self.speed = new
         self.tension = self.law.stretch(self.dt * self.stretching)
-        self.strained = self.tension + self.tau_k * self.law.eased * self.stretching
+        self.viscous = self.tau_k * self.law.eased * self.stretching
 
     def _acting(self) -> Array:
         """Force on every mass, friction and drives as they were."""
-        acting = -self.chain.weight - self.resisting
-        acting[:, 1:] -= self.strained
-        acting[:, :-1] += self.strained
-        acting[:, 0] -= self.chain.held
+        acting, strained = -self.chain.weight - self.resisting, self.tension + self.viscous
+        acting[:, 1:] -= strained
+        acting[:, :-1] += strained
+        acting[:, 0] -= self.chain.held  # what cancels at rest cancels exactly
         acting[self.one, self.chain.end] += self.chain.held
         acting[self.rows, self.at] += self.driving - self.rubbing
         return acting
@@ -642,11 +645,8 @@ class _Motion:
                 new.take(turn.at),
                 rolling.take(turn.at),
             )
-            eased = self.law.eased.take(turn.sides) - reply.half
-            cells = (
-                self.tension.take(turn.sides) + turn.tau_k * eased * self.stretching.take(turn.sides)
-                + reply.softer * (new.take(turn.ahead) - new.take(turn.astern))
-            )  # fmt: skip
+            faster = new.take(turn.ahead) - new.take(turn.astern) - self.stretching.take(turn.sides)
+            cells = self.tension.take(turn.sides) + self.viscous.take(turn.sides) + reply.softer * faster
             tight = (self.chain.held - lacking / self.dt)[:, None]
             moved = _pulleys(
                 turn, i, step=self.dt, answer=reply.own, rim=self.rims[:, k], free=going - reply.own * impulse[:, k],
@@ -669,11 +669,11 @@ class _Motion:
 
     def _rubbed(self, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array, Array]:
         """Speeds with the friction of the lumps, one after the other, what the take-up lacks with it, and itself."""
-        rows, at, answer = self.rows, self.chain.lumps, self.solver.lumps
-        earlier, speed = self.resisting[rows, at], new[rows, at]
-        most = self.loose[rows, at] * np.where(
-            self.lumps_rest, self.chain.sticking[rows, at], rolling[rows, at]
-        )
+        at, answer = self.lumps, self.solver.lumps
+        if not at.size:
+            return new, lacking, np.zeros(at.shape)
+        earlier, speed = self.resisting.take(at), new.take(at)
+        most = self.lumps_loose * np.where(self.lumps_rest, self.lumps_stuck, rolling.take(at))
         over_force, impulse = self.dt * answer.own, np.zeros_like(most)
         free, allowed = over_force * earlier, over_force * most
         for j in range(at.shape[1]):
@@ -769,13 +769,12 @@ def _share(part: Array, whole: Array) -> Array:
 class _Reply:
     """What the belts answer to the drives of a turn: speeds by an impulse, damping and tensions beside them by a speed.
 
-    `softer` is the damping at new speeds, `half` its share; `yields` what a speed adds before, and behind negative.
+    `softer` is the damping at new speeds, `yields` what a speed adds before, and behind negative.
     """
 
     own: Array
     columns: Array
     of_take_up: Array
-    half: Array
     softer: Array
     yields: Array
 
@@ -783,12 +782,12 @@ class _Reply:
     def of(cls, solver: _Solver, turn: _Turn, step: float) -> _Reply:
         """Of the system as it is."""
         k, pulleys = turn.drives, solver.pulleys
-        half = 0.5 * solver.shares.take(turn.sides)
-        softer, own, of_take_up = turn.tau_k * half, pulleys.own[:, k], pulleys.of_take_up[:, k]
+        softer = 0.5 * turn.tau_k * solver.shares.take(turn.sides)
+        own, of_take_up = pulleys.own[:, k], pulleys.of_take_up[:, k]
         apart = pulleys.beside[:, :, k] * _SIDES
         tight = -of_take_up / (own * step)
         yields = turn.inert + np.where(turn.ends, tight, softer * apart)
-        return cls(own, pulleys.columns[:, k], of_take_up, half, softer, yields)
+        return cls(own, pulleys.columns[:, k], of_take_up, softer, yields)
 
 
 def _winding(over: Array, band: Array) -> Array:
