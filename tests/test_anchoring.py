@@ -81,6 +81,52 @@ def test_tests_far_from_any_published_ones_are_refused(carrier, tmp_path, times,
         anchoring.anchored(carrier, tests)
 
 
+@pytest.mark.parametrize(("tilt", "said"), [(-1.2, "refused"), (-0.4, "remarked"), (0.0, "")])
+def test_resistance_goes_with_the_line_load_as_rolls_have_it(carrier, tmp_path, tilt, said):
+    """The theory times a power of the line load: of 1.3 to 1.5 of its own, 0.4 less is unusual, 1.2 less no roll's."""
+    path = tmp_path / "campaign.csv"
+    path.write_text(campaign(carrier, POINTS, lambda load, *_: 1.5 * (load / 2.0) ** tilt), encoding="utf-8")
+    tests = read_rolling_tests(path)
+    if said == "refused":
+        with pytest.raises(
+            InputError, match=r"line load to the power of \d\.\d+, where rolls have 1\.1 to 1\.[45]"
+        ):
+            anchoring.anchored(carrier, tests, softened=False)
+        return
+    lines = anchoring.lines(anchoring.anchored(carrier, tests, softened=False))
+    assert any("is the drag of bearings in it" in line for line in lines) == (said == "remarked")
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "remark"),
+    [
+        ("roll_diameter", "45 mm", "roll diameter 45 mm, usual are 50 to 250 mm: is it a radius, or a drum?"),
+        ("roll_diameter", "400 mm", "roll diameter 400 mm, usual are 50 to 250 mm"),
+        (
+            "cover_thickness",
+            "18 mm",
+            "cover thickness 18 mm, usual are 1 to 15 mm: is it the thickness of the belt?",
+        ),
+    ],
+)
+def test_unusual_rolls_and_covers_are_remarked(carrier, tmp_path, field, value, remark):
+    path = tmp_path / "campaign.csv"
+    path.write_text(campaign(carrier, POINTS, lambda *_: 1.5), encoding="utf-8")
+    tests = read_rolling_tests(path)
+    assert not any("usual are" in line for line in anchoring.lines(anchoring.anchored(carrier, tests)))
+    changed = [tests[0].replace(**{field: value})]
+    lines = anchoring.lines(anchoring.anchored(carrier, changed, softened=False))
+    assert any(remark in line for line in lines)
+
+
+@pytest.mark.parametrize(("times", "remarked"), [(0.6, True), (0.8, False), (2.8, False), (3.5, True)])
+def test_factors_beyond_published_ones_are_remarked(carrier, tmp_path, times, remarked):
+    path = tmp_path / "campaign.csv"
+    path.write_text(campaign(carrier, POINTS, lambda *_: times), encoding="utf-8")
+    lines = anchoring.lines(anchoring.anchored(carrier, read_rolling_tests(path)))
+    assert any("published tests lie at 1 to 2.5" in line for line in lines) == remarked
+
+
 def test_scatter_of_the_transfer_is_the_band(carrier, tmp_path):
     """A roll that reads 10 % higher than the other one does."""
 

@@ -117,7 +117,7 @@ def fit(
     column: Annotated[
         list[str] | None,
         option(
-            'What a column holds whose name is not known, by one that is: "Modul A=E\' [MPa]"; may be repeated.',
+            'What a column holds whose name is not known, by one that is: "Modul A=E\'"; may be repeated.',
             "NAME=MEANING",
         ),
     ] = None,
@@ -241,7 +241,7 @@ def _column(words: str) -> tuple[str, str]:
     """Name of a column and what it holds, from NAME=MEANING."""
     name, _, meant = words.rpartition("=")
     if not name.strip() or not meant.strip():
-        raise InputError(f'--column: got "{words}", expected NAME=MEANING such as "Modul A=E\' [MPa]"')
+        raise InputError(f'--column: got "{words}", expected NAME=MEANING such as "Modul A=E\'"')
     return name.strip(), meant.strip()
 
 
