@@ -35,7 +35,9 @@ ONE_BY_ONE: Final = 40
 """Sections up to which they are changed one by one, and every curve and raised set is looked at."""
 _TRIED: Final = 3  # sections whose bulk slips first
 _ROUNDS: Final = 20  # of changes; every one makes a figure worse, and few take more than five
-_CORNERS: Final = 64  # of each pair of sums on a long route; a sixty-fourth of a turn costs 1e-3 of their range
+_CORNERS: Final = (
+    64  # of each pair of sums on a long route; a sixty-fourth of a turn costs 1e-3 of their range
+)
 _ALIKE: Final = 1e-9  # of a figure: rounding
 
 Flags = NDArray[np.bool_]

@@ -423,20 +423,27 @@ def _rubber(result: CalculatedConveyor, notes: list[str]) -> Iterator[_Variation
 
 
 def _carried_on(compound: RubberCompound, strain: float) -> StrainDependence:
-    """Strain sweeps that end below a working strain [-], carried on to twice that by the power law of their end."""
+    """Strain sweeps that end below a working strain [-], carried on to twice that, steeper than they end.
+
+    Measured on S100 and S120 cut off at 0.3 to 1 %: over the next factor of five in strain ln E' falls 1.2 to 2.1 times
+    as steeply as at the end, ln E'' more steeply by at most the slope of ln E'.
+    """
     known = compound.strain_dependence
     if known is None:
         raise TypeError(compound.name)
     reach, sweeps = 100.0 * _BEYOND * strain, []
     for sweep in known.sweeps:
-        longer = {"strain": sweep.strain, "storage": sweep.storage, "loss": sweep.loss}
-        if sweep.strain[-1] < reach:
-            power = math.log(reach / sweep.strain[-1]) / math.log(sweep.strain[-1] / sweep.strain[-2])
-            longer = {
-                name: (*values, values[-1] * (values[-1] / values[-2]) ** power)
-                for name, values in longer.items()
-            }
-        sweeps.append(sweep.replace(**longer))
+        if sweep.strain[-1] >= reach:
+            sweeps.append(sweep)
+            continue
+        step, far = math.log(sweep.strain[-1] / sweep.strain[-2]), math.log(reach / sweep.strain[-1])
+        stiff, lossy = (math.log(values[-1] / values[-2]) / step for values in (sweep.storage, sweep.loss))
+        falls = min(stiff, 0.0)
+        longer = {
+            name: (*values, values[-1] * math.exp((slope + falls) * far))
+            for name, values, slope in (("storage", sweep.storage, stiff), ("loss", sweep.loss, lossy))
+        }
+        sweeps.append(sweep.replace(strain=(*sweep.strain, reach), **longer))
     return known.replace(sweeps=tuple(sweeps))
 
 

@@ -11,7 +11,7 @@ import conveyor
 from conveyor import shelf
 from conveyor.checks import checks
 from conveyor.contact import interior, solve
-from conveyor.errors import InputError, RangeError
+from conveyor.errors import InputError
 from conveyor.indentation import RollContact, to_problem
 from conveyor.laws.softening import WorkedCover, losing_load, softened_at, softened_each
 from conveyor.models import RubberCompound
@@ -96,9 +96,12 @@ def test_at_the_reference_strain_nothing_changes(compound, contact, softened):
     assert float(series.equilibrium) == pytest.approx(contact.rubber.equilibrium, rel=0.1)
 
 
-def test_strains_beyond_the_sweeps_are_refused(compound, contact):
-    with pytest.raises(RangeError, match=r"strain"):
-        softened_each([WorkedCover(contact, 5e6, compound.amplitude_factors(), AT)])[0]
+def test_strains_beyond_the_sweeps_hold_their_last_factors(compound, contact):
+    factors = compound.amplitude_factors()
+    found = softened_each([WorkedCover(contact, 5e6, factors, AT)])[0][1]
+    largest = factors.largest_strain(AT)
+    assert found.strain > largest
+    assert found.storage_factor == pytest.approx(float(factors.storage(10.0 * found.strain, AT)), rel=1e-12)
 
 
 def test_losing_load():
