@@ -62,9 +62,9 @@ def test_yes_and_no_are_words(book):
 def test_spec_without_studies_studies_nothing():
     none = studies(conveyor.load("examples/specs/downhill.yaml"))
     assert (none.cases, none.duty, none.uncertainty) == (None, None, None)
-    assert set(none.to_dict()) == {"states", "worst_states", "take_up"}
+    assert set(none.to_dict()) == {"states", "worst_states", "flooded", "take_up"}
 
 
 def test_json_holds_what_was_asked(asked):
     found = asked.to_dict()
-    assert set(found) == {"states", "worst_states", "take_up", "load_cases", "duty", "uncertainty"}
+    assert set(found) == {"states", "worst_states", "flooded", "take_up", "load_cases", "duty", "uncertainty"}

@@ -339,7 +339,7 @@ def spread_bulk(
     >>> [round(figure, 9) for figure in spread_bulk(full, belt_width=1.0, **trough)]
     [1.0, 0.3]
     >>> [round(figure, 3) for figure in spread_bulk(1.2 * full, belt_width=1.0, **trough)]
-    [1.0, 0.549]
+    [1.0, 0.492]
     """
     require_positive(belt_width=belt_width)
     trough: _Trough = {
