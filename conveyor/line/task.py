@@ -21,6 +21,7 @@ from conveyor.laws.belt import (
 from conveyor.laws.energy import MOTOR_SERIES, NEMA_MOTORS, next_motor
 from conveyor.laws.idlers import CemaClass, rated_set_load
 from conveyor.laws.loading import cross_section, filled_width, usable_width
+from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
 from conveyor.laws.sizing import (
     PULLEY_MASS,
     carcass_mass,
@@ -272,6 +273,11 @@ class SizingTask:
     def roll_life(self) -> float:
         """L10 asked of a set [s]."""
         return si(self.rules.roll_life)
+
+    @property
+    def misalignment_friction(self) -> float:
+        """Drag of misaligned sets over their load [-]."""
+        return misalignment_friction(MISALIGNMENT[self.duty.site].value)
 
     @property
     def sags(self) -> tuple[float, float]:
@@ -617,6 +623,7 @@ class SizingTask:
         covers = duty.covers
         return Conveyor.from_data({
             "name": name,
+            "site": duty.site,
             "belt": {
                 "width": written(choice.trough.width.belt, "mm"),
                 "speed": written(choice.speed, "m/s"),

@@ -11,6 +11,7 @@ from pydantic import Field, model_validator
 
 from conveyor.files import libraries
 from conveyor.laws.idlers import CemaClass
+from conveyor.laws.resistance import Site
 from conveyor.laws.sizing import Severity
 from conveyor.models.base import Model, Name, Number, Problem, refuse
 from conveyor.models.compound import CompoundReference
@@ -193,6 +194,8 @@ class SizingDuty(Model):
 
     name: Name
     """What the conveyor is called in reports."""
+    site: Site = "plant"
+    """How well it will be aligned and kept: as a good overland conveyor, as plants usually are, or poorly."""
     material: BulkMaterial
     lump: Annotated[Length, Bounds(ge="0 mm", le="2 m")]
     """Largest size of the bulk."""

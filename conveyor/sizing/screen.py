@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from conveyor.laws.loading import middle_share_belt, middle_share_bulk
 from conveyor.laws.power import JOULE_PER_KWH
+from conveyor.laws.resistance.defaults import CLEANER_PRESSURE
 from conveyor.laws.resistance.flexure import FLEXURE_COEFFICIENT
 from conveyor.laws.roll_life import BALL_EXPONENT, RATED_REVOLUTIONS
 from conveyor.line.task import Choice, RollSize, SizingTask, Trough, spread
@@ -30,7 +31,7 @@ Array = NDArray[np.float64]
 
 _LOAD: Final = 4.0 / 3.0  # exponent of the line load
 _WING: Final = 2.0**_LOAD / (_LOAD + 1.0)  # a triangular load over an even one
-_CLEANERS: Final = 2.0 * 0.008 * 30e3 * 0.6  # [N/m], of belt width: `line.defaults`
+_CLEANERS: Final = 2.0 * 0.008 * CLEANER_PRESSURE.value * 0.6  # [N/m], of belt width: `line.defaults`
 _SKIRTS: Final = (
     2.0 * 0.7 * 9.81 / 0.625**2
 )  # [m/s²]: both zones of the usual skirts, over (Q/v)²/(ρ B²) and 1 m
@@ -329,7 +330,11 @@ def _around(
     ])  # fmt: skip
     sags = np.array(task.sags)[:, None]
     bent = FLEXURE_COEFFICIENT.value * g * sags * np.array([belt + bulk, belt])
-    friction = indentation / length + levels.drag * np.array([3.0 / carry, count / back]) + bent
+    square = (
+        1.0 - (1.0 - of_bulk) * np.sin(every.runs(lambda on: on.trough.angle)) ** 2
+    )  # wings turn by cos λ
+    askew = task.misalignment_friction * g * np.array([(belt + bulk) * square, belt])
+    friction = indentation / length + levels.drag * np.array([3.0 / carry, count / back]) + bent + askew
     up = np.outer(bulk + belt, g * sections[:, 1]) + np.outer(friction[0], sections[:, 0])
     down = np.outer(-belt, g * sections[:, 1]) + np.outer(friction[1], sections[:, 0])
     up[:, 0] += rest
