@@ -404,7 +404,7 @@ def analyse_studies(
     --------
     >>> import conveyor
     >>> conveyor.analyse_studies(conveyor.load("examples/specs/shuttle.yaml"))
-    Studies(states)
+    Studies(states, flooded)
     """
     made = study.studies(conveyor, given, progress=progress)
     return Studies(

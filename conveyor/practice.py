@@ -21,7 +21,6 @@ from conveyor.models.variants import with_case
 from conveyor.pipeline import CalculatedConveyor, calculate
 from conveyor.spec import load
 from conveyor.studies.defaults import power_range
-from conveyor.units import quantity, si
 
 Evidence = Literal["printed", "measured"]
 Resistance = Literal["friction", "main", "f", "carry set"]
@@ -94,7 +93,6 @@ def practice_figures() -> Iterator[PracticeFigure]:
             loaded = with_case(conveyor, LoadCase(name="empty", loading="empty")) if empty else conveyor
             result = calculate(loaded)
             low, high = power_range(result).friction
-            value = figure["value"]
             expected = _resistance(result, figure["what"])
             yield PracticeFigure(
                 spec=case["spec"],
@@ -103,7 +101,7 @@ def practice_figures() -> Iterator[PracticeFigure]:
                 evidence=case["kind"],
                 resistance=figure["what"],
                 loading=figure["loading"],
-                stated=value if isinstance(value, float) else si(quantity(value)),
+                stated=float(figure["value"]),
                 expected=expected,
                 least=low * expected,
                 design=high * expected,

@@ -242,7 +242,11 @@ def test_studies_show_themselves_in_one_line() -> None:
         operation={"price": "0.1 USD/kWh", "duty": [{"hours": "3000 h", "share": "100 %"}]},
     )
     made = conveyor.studies.studies(line)
-    assert repr(made) == repr(conveyor.analyse_studies(line)) == "Studies(states, cases, duty, uncertainty)"
+    assert (
+        repr(made)
+        == repr(conveyor.analyse_studies(line))
+        == "Studies(states, cases, duty, uncertainty, flooded)"
+    )
     compared = conveyor.compare_compounds(line, ["s100"])
     for shown in map(repr, (made, made.states, made.cases, made.duty, made.uncertainty, compared)):
         assert len(shown) < 300

@@ -31,7 +31,7 @@ def test_power_json_is_clean_and_complete() -> None:
     found = json.loads(done.stdout)
     forces = found["forces_N"]
     assert set(forces) == {
-        "indentation", "idler_rotation", "flexure", "secondary", "special", "lift", "total",
+        "indentation", "idler_rotation", "flexure", "misalignment", "secondary", "special", "lift", "total",
     }  # fmt: skip
     assert forces["total"] == pytest.approx(
         math.fsum(v for k, v in forces.items() if k != "total"), rel=1e-12

@@ -138,8 +138,9 @@ def _noise(fitted: Fitted) -> Iterator[Criterion]:
         yield (
             _open(name, "fewer than three rows") if value is None else _most(name, value, most, _percent, why)
         )
-    apart_by = fitted.disagreement
-    for label, value, most in zip(("E'", "E''"), apart_by or (), NOISE if apart_by else (), strict=True):
+    if fitted.disagreement is None:
+        return
+    for label, value, most in zip(("E'", "E''"), fitted.disagreement, NOISE, strict=True):
         why = "rows of one isotherm agree: another specimen, clamping, strain or temperature, or a vertical shift"
         yield _most(f"disagreement of {label} between isotherms", value, most, _percent, why)
 

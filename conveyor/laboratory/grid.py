@@ -22,7 +22,7 @@ class AnswerableError(InputError):
         Rows or columns it has to name [-].
     """
 
-    def __init__(self, message: object = "", *parts: object, option: str, value: str) -> None:
+    def __init__(self, message: object = "", *parts: object, option: str = "", value: str = "") -> None:
         super().__init__(message, *parts)
         self.option, self.value = option, value
 

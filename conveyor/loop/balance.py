@@ -70,7 +70,7 @@ class Balance:
     --------
     >>> import conveyor
     >>> conveyor.analyse(conveyor.load("examples/specs/overland.yaml")).balance
-    Balance(effective tension 234 kN, motor 1,250 kW, f 0.0134, tight side 351 kN, slack side 117 kN)
+    Balance(effective tension 228 kN, motor 1,210 kW, f 0.0129, tight side 342 kN, slack side 114 kN)
     """
 
     along: tuple[Force, ...]

@@ -68,7 +68,7 @@ def test_length_coefficients_at_the_printed_lengths():
         (resistance.BULK_ON_BELT_FRICTION, 0.5, 0.5, 0.5),
         (resistance.BULK_ON_SKIRT_FRICTION, 0.7, 0.7, 0.7),
         (resistance.CLEANER_FRICTION, 0.6, 0.5, 0.7),
-        (resistance.CLEANER_PRESSURE, 3e4, 3e4, 1e5),
+        (resistance.CLEANER_PRESSURE, 6e4, 3e4, 1e5),
         (resistance.ROLL_ON_BELT_FRICTION, 0.35, 0.3, 0.4),
         (resistance.TILT_COEFFICIENT_30, 0.4, 0.4, 0.4),
         (resistance.TILT_COEFFICIENT_45, 0.5, 0.5, 0.5),

@@ -58,13 +58,13 @@ def test_bars_are_the_forces(result):
     (axis,) = plots.resistance_breakdown(result.balance).axes
     forces, classical = result.balance.forces, result.balance.classical
     names = ("main", "secondary", "special", "lift", "total")
-    parts = [forces.parts[name] for name in ("indentation", "idler_rotation", "flexure")]
+    parts = [forces.parts[name] for name in ("indentation", "idler_rotation", "flexure", "misalignment")]
     drawn = bars(axis, "this calculation")
     assert drawn == pytest.approx(
         [newtons / 1e3 for newtons in (*parts, *(getattr(forces, name) for name in names))]
     )
-    assert sum(drawn[:3]) == pytest.approx(drawn[3])
-    assert sum(drawn[3:7]) == pytest.approx(drawn[7])
+    assert sum(drawn[:4]) == pytest.approx(drawn[4])
+    assert sum(drawn[4:8]) == pytest.approx(drawn[8])
     assert bars(axis, f"ISO 5048 / DIN 22101, f = {classical.friction_factor:g}") == pytest.approx(
         [getattr(classical, name) / 1e3 for name in names]
     )

@@ -109,7 +109,7 @@ def test_us_units(line):
             "take-up",
             {"kind": "gravity", "tension": "15 kN"},
             "take-up tension (sag, carry, incline, steady)",
-            "requires 26",
+            "requires 25.9 kN",
         ),
     ],
 )

@@ -15,6 +15,7 @@ from conveyor.errors import InputError
 from conveyor.markup import Html, element, escaped
 from conveyor.report import html
 from conveyor.report.page import COLOURS, DARK
+from conveyor.units import sentences
 from conveyor.units.presentation import unit
 from tests.report.checking import checks
 from tests.report.reading import HOSTILE, Page
@@ -245,7 +246,7 @@ def test_numbers_are_those_of_the_analysis(result, page, studied):
     (asked,) = (one.required for one in result.checks if one.key == "holding_brake")
     (worst,) = (one.required for one in deciding(studied.states.checks) if one.key == "holding_brake")
     assert worst > asked
-    assert f"needs a backstop of {worst / 1e3:.1f} kN at the belt" in page.prose
+    assert f"needs a backstop of {sentences.figure(worst, 'force')} at the belt" in page.prose
 
 
 def test_numbers_as_in_the_workbook():

@@ -94,6 +94,7 @@ def test_every_case_is_the_analysis_of_a_conveyor_loaded_so(line, found, loading
         route=line.route.replace(sections=sections, feeding=feeding),
         belt=line.belt.replace(speed="4.5 m/s"),
         ambient=line.ambient.replace(temperature="0 degC"),
+        calculation=line.calculation.replace(not_given="nothing"),
     )
     alone = calculate(loaded).balance.held(found.take_up.setting)
     one = result(found, loading, 0.0, 4.5).found.balance

@@ -145,7 +145,7 @@ def test_the_command_has_a_front_of_capital_and_energy(tmp_path):
     text = (SPECS / "shuttle.yaml").read_text(encoding="utf-8")
     spec.write_text(f"{text}\noperation: {{hours_per_year: 5000 h, price: 0.1 EUR/kWh}}\n", encoding="utf-8")
     plan = PLAN | {
-        "axes": {"idlers.carry.spacing": ["0.8 m", "1 m", "1.2 m"]},
+        "axes": {"idlers.carry.spacing": ["1 m", "1.1 m", "1.2 m"]},
         "base": "spec.yaml",
         "states": [],
     }

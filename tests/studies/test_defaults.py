@@ -94,7 +94,7 @@ def test_beyond_the_tested_temperatures_the_headline_says_so(line):
     printed = analysis.contents(system="SI")
     assert f"Beyond the tests: {said}." in printed["defaults"].note
     rows = {row.subject: row.where for row in printed["governing_figures"].rows}
-    assert rows["motor power as given"].endswith("; beyond the tested temperatures of the rubber")
+    assert rows["motor power as given, expected"].endswith("; beyond the tested temperatures of the rubber")
 
 
 def test_what_is_given_is_in_no_range(bare):

@@ -352,11 +352,11 @@ ALL_LOADS = [key for key, one in OUTPUTS.items() if one.of == "loads"]
 def test_figures_of_all_loads_are_those_of_power(tmp_path):
     """In any state of the design: what `power` finds of the design's spec."""
     given = conveyor.load(SPECS / "overland_10km.yaml")
-    axes = {"belt.speed": ["5.5 m/s", "5 m/s"]}
+    axes = {"belt.speed": ["5.5 m/s", "4 m/s"]}  # overfull at 4 m/s
     plan = {
         "axes": axes,
         "figures": ["motor_power highest", *ALL_LOADS],
-        "limits": {"all_loads_failed": {"most": 2}},
+        "limits": {"all_loads_failed": {"most": 0}},
     }
     with Answers(tmp_path / "a") as known:
         study, (own, slower) = designed(given, known, **plan, best={})
@@ -369,7 +369,7 @@ def test_figures_of_all_loads_are_those_of_power(tmp_path):
     studied = studies(given, found)
     plain = found.beside(studied).to_dict(studied)
     governing = [check for check in plain["checks"] if check["governs"]]
-    assert own.figures["all_loads_failed"] == sum(check["verdict"] == "fail" for check in governing) == 2
+    assert own.figures["all_loads_failed"] == sum(check["verdict"] == "fail" for check in governing) == 0
     assert own.figures["all_loads_take_up"] == pytest.approx(plain["take_up"]["setting_N"])
     power, safety = (
         next(check["calculated"] for check in governing if check["key"] == key)

@@ -230,9 +230,9 @@ def test_refusals_name_the_bar(line):
     with pytest.raises(InputError, match="operation: missing; hours_per_year or duty"):
         analyse_duty(line.replace(operation=None))
     with pytest.raises(
-        InputError, match=r"operation.duty\[1\] \(5 h, share 150 %\): material.flow: got 3600 t/h"
+        InputError, match=r"operation.duty\[1\] \(5 h, share 200 %\): material.flow: got 4800 t/h"
     ):
-        analyse_duty(operated(line, HOURS, {"hours": "5 h", "share": "150 %"}))
+        analyse_duty(operated(line, HOURS, {"hours": "5 h", "share": "200 %"}))
     with pytest.raises(
         InputError, match=r"operation.duty\[0\] \(5 h, share 100 %, 190 degC\): ambient.temperature"
     ):

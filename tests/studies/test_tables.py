@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -283,12 +284,13 @@ def test_untested_beside_tested_compounds_have_their_power_and_no_saving(line, t
 
 @pytest.fixture(scope="module")
 def short(line):
-    """The same rubber twice: all of it, and as a fit whose data ended at 1e8 Hz at 20 degC."""
+    """The same rubber twice: all of it, and as a fit whose data ended at 1e6 Hz at 20 degC."""
     whole = shelf.compound("standard-cover").replace(tests=(), strain_dependence=None)
     data = whole.as_data()
-    data["name"], data["range"]["frequency"] = "ended", ["1e-3 Hz", "1e8 Hz"]
+    data["name"], data["range"]["frequency"] = "ended", ["1e-3 Hz", "1e6 Hz"]
+    del data["prony"]["band"]
     data["prony"]["terms"] = [
-        term for term in data["prony"]["terms"] if float(term["time"].split()[0]) > 5e-10
+        term for term in data["prony"]["terms"] if float(term["time"].split()[0]) > 5e-8
     ]
     return conveyor.compare_compounds(
         line, [whole, RubberCompound.from_data(data)], temperatures=["-30 degC", "10 degC", "20 degC"]
@@ -409,15 +411,19 @@ def test_a_ranking_that_turns_with_the_temperature_is_said(line, compared, tmp_p
         assert said.startswith(
             f"the ranking changes with temperature; least motor power first, at {speed:g} m/s: "
         )
-        for celsius in (-10, 0, 20):
-            (order,) = (
-                part.rpartition(": ")[2].split(", then ")
-                for part in said.partition("m/s: ")[2].split("; ")
-                if str(celsius) in part.partition(" °C")[0].split(", ")
-            )
-            power = [scene(compared, name, celsius + 273.15, speed).motor for name in order]
-            assert power == sorted(power)
+        by_temperature = {
+            int(celsius): order
+            for temperatures, order in re.findall(r"((?:-?\d+, )*-?\d+)\s°C: ([^;]*)", said)
+            for celsius in temperatures.split(", ")
+        }
+        assert by_temperature.keys() == {-10, 0, 20}
+        for celsius, order in by_temperature.items():
+            names = re.split(r", then | and ", order.removesuffix(", which cannot be told apart"))
+            power = [scene(compared, name, celsius + 273.15, speed).motor for name in names]
             assert len(power) == 2  # S100 has no tests: it is not ranked
+            # away from 20 °C, at which both are tested, the spectra are known too little
+            assert order.endswith("cannot be told apart") == (celsius != 20)
+            assert power == sorted(power) or celsius != 20
     steady = conveyor.compare_compounds(line, NAMES, temperatures=["20 degC"], speeds=SPEEDS)
     assert not [remark for remark in remarks(steady, tmp_path) if "the ranking changes" in remark]
 

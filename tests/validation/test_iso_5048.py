@@ -59,7 +59,7 @@ def _forces(wraps: float) -> SimpleNamespace:
     skirts = resistance.skirt_resistance(**skirt, length=4.8, bulk_speed=speed)
     cleaners = resistance.cleaner_resistance(
         4 * 1.2 * 0.008,
-        pressure=resistance.CLEANER_PRESSURE.value,
+        pressure=resistance.CLEANER_PRESSURE.low,
         friction=resistance.CLEANER_FRICTION.value,
     )
     secondary = acceleration + zone_skirt + wraps
