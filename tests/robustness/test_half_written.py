@@ -88,6 +88,7 @@ def test_a_full_disk_leaves_the_folder_as_it_was(
     assert files(tmp_path) == before
 
 
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")  # of openpyxl's own generators
 @pytest.mark.parametrize("older", [True, False])
 @pytest.mark.parametrize("name", [*CHEAP, "report.xlsx", "template.xlsx"])
 def test_a_disk_that_is_really_full_leaves_the_folder_as_it_was(
@@ -125,6 +126,7 @@ def test_ctrl_c_while_it_writes_leaves_the_folder_as_it_was(
     assert files(tmp_path) == before
 
 
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")  # of openpyxl's own generators
 @pytest.mark.parametrize("command", [("template", "t.xlsx"), ("power", "spec.yaml", "-o", "t.xlsx")])
 def test_a_command_names_the_file_whose_temporary_ones_found_no_room(
     command: tuple[str, ...], tmp_path: Path
