@@ -1,7 +1,6 @@
-"""Results for people: tables, reports, figures and notebooks of all that is calculated; nothing below imports this.
+"""Results for people: tables, reports, figures and notebooks; nothing below imports this.
 
-The functions calculate as those of `conveyor.pipeline` and `conveyor.studies` do, and return what they do with
-these faces.
+The functions calculate like those of `conveyor.pipeline` and `conveyor.studies`, and add tables, reports and figures.
 """
 
 from __future__ import annotations
@@ -51,22 +50,22 @@ class Analysis(CalculatedConveyor):
     """
 
     def __getstate__(self) -> dict[str, Any]:
-        """What was calculated; tables are made anew, their columns are functions."""
+        """Calculated fields only; tables are built anew, as their columns are functions."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @cached_property
     def checks(self) -> tuple[Check, ...]:
-        """Every criterion, and how it stands."""
+        """Every criterion with its verdict."""
         return checks(self)
 
     @property
     def assumptions(self) -> tuple[str, ...]:
-        """What every figure rests on."""
+        """Assumptions behind every figure."""
         return assumptions(self.conveyor)
 
     @cached_property
     def warnings(self) -> tuple[str, ...]:
-        """Where an assumption is strained or a criterion is not met, in the units of the spec's report."""
+        """Strained assumptions and criteria not met, in the units of the spec's report."""
         return tuple(said.text(self.conveyor.report.units) for said in warnings(self, self.checks))
 
     def in_units(self, system: System | None) -> Self:
@@ -80,7 +79,7 @@ class Analysis(CalculatedConveyor):
         return replace(self, conveyor=self.conveyor.replace(report=report))
 
     def beside(self, studies: Studies | None) -> Self:
-        """Return the same load with the one take-up that the loads of `conveyor.studies` ask for too."""
+        """Return the same load at the common take-up setting of the loads of `conveyor.studies`."""
         states = None if studies is None else studies.states
         if states is None:
             return self
@@ -90,7 +89,7 @@ class Analysis(CalculatedConveyor):
         )
 
     def contents(self, studies: Studies | None = None, *, system: System | None = None) -> Contents:
-        """Everything a report holds, in a system of units, and of `conveyor.studies` where they are given."""
+        """Contents of a report in a system of units, with `conveyor.studies` if given."""
         from conveyor.report.tables import of_analysis
 
         shown = self.beside(studies).in_units(chosen(self.conveyor.report.units, system))
@@ -108,7 +107,7 @@ class Analysis(CalculatedConveyor):
 
     @cached_property
     def sections(self) -> pd.DataFrame:
-        """One row a section and strand; units in the names."""
+        """One row per section and strand; units in the names."""
         return self.tables["sections"].frame()
 
     @cached_property
@@ -118,16 +117,16 @@ class Analysis(CalculatedConveyor):
 
     @cached_property
     def rolls(self) -> pd.DataFrame:
-        """One row a roll of every section's set; units in the names."""
+        """One row per roll of every section's set; units in the names."""
         return self.tables["rolls"].frame()
 
     @cached_property
     def rubber(self) -> pd.DataFrame:
-        """One row a strand: compound, excited band against its data, working strain; units in the names."""
+        """One row per strand: compound, excited band against its data, working strain; units in the names."""
         return self.tables["rubber"].frame()
 
     def to_dict(self, studies: Studies | None = None) -> dict[str, Any]:
-        """Plain numbers for JSON, SI or the unit in the key, and of `conveyor.studies` where they are given.
+        """Plain numbers for JSON, SI or the unit in the key, with `conveyor.studies` if given.
 
         `conveyor schema --result` prints the JSON schema of it.
         """
@@ -139,7 +138,7 @@ class Analysis(CalculatedConveyor):
     def to_excel(
         self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
     ) -> Path:
-        """Write the workbook, with the sheets of `conveyor.studies` where they are given.
+        """Write the workbook, with the sheets of `conveyor.studies` if given.
 
         Parameters
         ----------
@@ -195,7 +194,7 @@ class Analysis(CalculatedConveyor):
     def to_html(
         self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
     ) -> Path:
-        """Write the HTML report, one static page, with the parts of `conveyor.studies` where they are given.
+        """Write the HTML report, one static page, with the parts of `conveyor.studies` if given.
 
         Parameters
         ----------
@@ -219,7 +218,7 @@ class Analysis(CalculatedConveyor):
     def to_pdf(
         self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
     ) -> Path:
-        """Write the HTML report as it prints; as `to_html`, to a name ending in ``.pdf``.
+        """Write the HTML report as a PDF; as `to_html`, to a name ending in ``.pdf``.
 
         Raises
         ------
@@ -256,7 +255,7 @@ class CaseStudy(case_study.CalculatedCases):
 
     @cached_property
     def table(self) -> pd.DataFrame:
-        """One row a case, temperature and speed; units in the names."""
+        """One row per case, temperature and speed; units in the names."""
         from conveyor.report.study_tables import cases
 
         return cases(self).frame()
@@ -272,7 +271,7 @@ class StateStudy(state_study.CalculatedStates):
 
     @cached_property
     def table(self) -> pd.DataFrame:
-        """One row a state; units in the names."""
+        """One row per state; units in the names."""
         from conveyor.report.study_tables import load_states
 
         return load_states(self).frame()
@@ -288,7 +287,7 @@ class DutyStudy(duty_study.CalculatedYear):
 
     @cached_property
     def table(self) -> pd.DataFrame:
-        """One row a bar; units in the names."""
+        """One row per bar; units in the names."""
         from conveyor.report.study_tables import duty
 
         return duty(self).frame()
@@ -307,11 +306,11 @@ class DutyStudy(duty_study.CalculatedYear):
 
 
 class UncertaintyStudy(range_study.CalculatedRanges):
-    """The power with its band, with the table of what matters."""
+    """The power with its band, with the table of effects."""
 
     @cached_property
     def table(self) -> pd.DataFrame:
-        """The tornado: one row an input, the largest swing first; units in the names."""
+        """The tornado: one row per input, the largest swing first; units in the names."""
         from conveyor.report.study_tables import sensitivity
 
         return sensitivity(self).frame()
@@ -324,7 +323,7 @@ class UncertaintyStudy(range_study.CalculatedRanges):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Studies(study.CalculatedStudies):
-    """Studies of one conveyor, each with its tables; None where the spec has nothing to study."""
+    """Studies of one conveyor, each with its tables; None for those that the spec does not request."""
 
     states: StateStudy | None = None
     cases: CaseStudy | None = None
@@ -333,28 +332,28 @@ class Studies(study.CalculatedStudies):
     dynamics: CalculatedDynamics | None = None
 
     def _repr_html_(self) -> str:
-        """For notebooks: what there is, one after the other."""
+        """For notebooks: every study present."""
         held = (self.states, self.cases, self.duty, self.uncertainty)
         return (
             "".join(study._repr_html_() for study in held if study is not None) or "<p>nothing to study</p>"
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain numbers for JSON, only of what there is; units in the keys."""
+        """Plain numbers of the studies present for JSON; units in the keys."""
         from conveyor.report.study_tables import plain
 
         return plain(self)
 
 
 def faced(plain: Any, face: Callable[..., Face]) -> Face:
-    """Results with their face."""
+    """Convert plain results to their class for people."""
     return face(**{field.name: getattr(plain, field.name) for field in fields(plain)})
 
 
 def facing(name: str, work: Callable[Given, Any], face: type[Face]) -> Callable[Given, Face]:
-    """A function whose results have their face, by its name in the face's module: workers find it there.
+    """Wrap a function to return results of a class for people, named as in the module of that class for pickling.
 
-    Its signature and its docstring state the face, too.
+    Its signature and docstring state that class, too.
     """
 
     @wraps(work)
@@ -379,21 +378,21 @@ load_states = facing("load_states", state_study.load_states, StateStudy)
 def analyse_studies(
     conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: Progress | None = None
 ) -> Studies:
-    """Calculate the load states and what the spec asks for: load cases, duty, ranges, scenarios.
+    """Calculate the load states and what the spec requests: load cases, duty, ranges, scenarios.
 
     Parameters
     ----------
     conveyor : Conveyor
         With `cases`, `operation.duty`, `uncertainty`, `scenarios`, or none of them.
     given : CalculatedConveyor, optional
-        The spec's own load, where it is calculated already; `conveyor.analyse` returns it.
+        The spec's own load, if already calculated; `conveyor.analyse` returns it.
     progress : callable, optional
-        Called with the study's name, what is done of it and its whole; nothing without it.
+        Called with the study's name, the items done and their total.
 
     Returns
     -------
     Studies
-        What reports of an `Analysis` take beside it.
+        Studies for the reports of an `Analysis`.
 
     Raises
     ------
@@ -423,7 +422,7 @@ studies = analyse_studies
 def _followed(
     conveyor: Conveyor, made: study.CalculatedStudies, progress: Progress | None
 ) -> CalculatedDynamics:
-    """Scenarios of a spec through time, with the take-up of its loads."""
+    """Simulated scenarios of a spec, at the take-up setting of its loads."""
     from conveyor.dynamics.follow import follow
 
     loads = None if made.states is None else EveryLoad(made.states, made.cases)
@@ -432,7 +431,7 @@ def _followed(
 
 
 def _further(studies: Studies | None, system: System) -> Further | None:
-    """What scenarios add to a report."""
+    """Additions of scenarios to a report."""
     if studies is None or studies.dynamics is None:
         return None
     from conveyor.report.dynamics_tables import further

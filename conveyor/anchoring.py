@@ -1,4 +1,4 @@
-"""Rolling-resistance tests beside a compound's theory: the anchored compound, and tables to judge it by."""
+"""Calibrate a compound by rolling-resistance tests, and tabulate measured against calculated indentation."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ SHEET = "Anchor"
 
 @dataclass(frozen=True, eq=False)
 class Anchored:
-    """A compound with its tests, and how they stand to the theory.
+    """A compound calibrated by rolling-resistance tests.
 
     Attributes
     ----------
     compound : RubberCompound
         With the tests; of a carrier's spectrum where it has none of its own.
     rows : tuple of RollingRow
-        Every row of the tests beside the theory.
+        Each test point, measured and calculated.
     anchor : Anchor
-        The factor that the tests put on the theory.
+        Test factor: measured over calculated indentation.
     softened : bool
         Whether the theory took the rubber at the strain of each test.
     """
@@ -43,7 +43,7 @@ class Anchored:
     softened: bool
 
     def left(self, row: RollingRow) -> float:
-        """What the anchor leaves of a row: measured over anchored, less 1 [-]."""
+        """Residual of a test point: measured over theory times test factor, less 1 [-]."""
         factor = float(self.anchor.factor(row.line_load, row.temperature))
         return row.measured / (factor * row.calculated) - 1.0
 
@@ -52,12 +52,12 @@ class Anchored:
 def anchored(
     compound: RubberCompound, tests: Sequence[RollingTest], *, name: str | None = None, softened: bool = True
 ) -> Anchored:
-    """Set the level of a compound by rolling-resistance tests.
+    """Fit the test factor of a compound to rolling-resistance tests.
 
     Parameters
     ----------
     compound : RubberCompound
-        Whose spectrum, shift and strain sweeps the theory takes; tests it has already are replaced.
+        Gives spectrum, shift and strain sweeps to the theory; tests it already has are replaced.
     tests : sequence of RollingTest
         Of the compound itself, or of the one called `name`.
     name : str, optional
@@ -68,7 +68,7 @@ def anchored(
     Returns
     -------
     Anchored
-        The compound with its tests, every row beside the theory, the anchor.
+        The compound with its tests, each point measured and calculated, and the test factor.
 
     Raises
     ------
@@ -93,7 +93,7 @@ def anchored(
 
 
 def levels(anchored: Anchored) -> Table:
-    """One row a tested temperature: the factor over the loads, and its band."""
+    """Test factor and its band at each tested temperature."""
     level = anchored.anchor
     low, high = level.loads
     columns = (
@@ -109,7 +109,7 @@ def levels(anchored: Anchored) -> Table:
 
 
 def rows(anchored: Anchored) -> Table:
-    """One row a test point: measured, calculated, their ratio, and what the anchor leaves."""
+    """Measured and calculated resistance, their ratio and the residual of each test point."""
     tests = anchored.compound.tests
     points = [test.points() for test in tests]
     columns = (
@@ -127,7 +127,7 @@ def rows(anchored: Anchored) -> Table:
 
 
 def lines(anchored: Anchored) -> tuple[str, ...]:
-    """What to know of an anchor, in sentences."""
+    """Notes on a calibration: points, residuals, limits and unusual figures."""
     left = [abs(anchored.left(row)) for row in anchored.rows]
     level, tests = anchored.anchor, anchored.compound.tests
     moved = {(test.points().radius, test.points().cover_thickness, test.points().speed) for test in tests}
@@ -152,7 +152,7 @@ def lines(anchored: Anchored) -> tuple[str, ...]:
 
 
 def _unusual(anchored: Anchored) -> Iterator[str]:
-    """Figures of the tests that are possible and not usual, with what they may come from."""
+    """Notes on unusual exponents, dimensions and factors, with their likely cause."""
     for number, exponent, (least, most) in load_exponents(anchored.rows):
         if not least <= exponent <= most:
             yield (
@@ -181,7 +181,7 @@ def _unusual(anchored: Anchored) -> Iterator[str]:
 
 
 def plain(anchored: Anchored) -> dict[str, Any]:
-    """Plain numbers for JSON; units in the keys."""
+    """A calibration as plain numbers for JSON, units in the keys."""
     return {
         "compound": anchored.compound.name,
         "carrier": anchored.compound.carrier,

@@ -1,4 +1,4 @@
-"""Arguments of public functions: one of a wrong type is refused by its name, once, at the door."""
+"""Type checks of the arguments of public functions."""
 
 from __future__ import annotations
 
@@ -25,8 +25,7 @@ _LISTS: Final = (list, tuple)
 def checked(function: Callable[P, R]) -> Callable[P, R]:
     """Refuse arguments of another type than the function's signature states.
 
-    Containers are looked into where they are lists, tuples or mappings; what a signature states in ways that cannot
-    be told from a value (protocols, callables' arguments) is left to the function.
+    Items of lists, tuples and mappings are checked too; protocols and the arguments of callables are not.
 
     Raises
     ------
@@ -67,11 +66,11 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
 
 
 class _NotLoaded:
-    """Stands for a type of a module that is not imported: no value can be of it."""
+    """Placeholder for a type of a module that is not imported: no value is of it."""
 
 
 class _Known(dict[str, Any]):
-    """Names of a module; those it imports for types only are looked for in the modules that are there."""
+    """Names of a module; those imported for types only are looked up in the loaded modules."""
 
     def __missing__(self, name: str) -> Any:
         if hasattr(builtins, name):
@@ -81,7 +80,7 @@ class _Known(dict[str, Any]):
 
 
 def _hint(module: str, written: Any) -> Any:
-    """Type that an annotation names; Any where it cannot be told."""
+    """Type of an annotation; Any if it cannot be evaluated."""
     if not isinstance(written, str):
         return Any if written is inspect.Parameter.empty else written
     try:
@@ -92,12 +91,12 @@ def _hint(module: str, written: Any) -> Any:
 
 @cache
 def _evaluated(module: str, written: str, _loaded: int) -> Any:
-    """Type that our own source names; told anew when further modules are loaded."""
+    """Evaluate an annotation of this package; again whenever further modules are loaded."""
     return eval(written, {}, _Known(vars(sys.modules[module])))  # noqa: S307
 
 
 def _fits(value: Any, hint: Any) -> bool:
-    """Whether a value is of a type, as far as can be told."""
+    """Check a value's type, as far as it can be checked."""
     origin, arguments = get_origin(hint), get_args(hint)
     if origin in {typing.Union, types.UnionType}:
         fits = any(_fits(value, one) for one in arguments)
@@ -118,7 +117,7 @@ def _fits(value: Any, hint: Any) -> bool:
 
 
 def _holds(value: Any, origin: Any, arguments: tuple[Any, ...]) -> bool:
-    """Whether a container is one, and holds what it may."""
+    """Check the type of a container and of its items."""
     if origin in {Sequence, Iterable} and isinstance(value, str | bytes):
         return False
     if getattr(origin, "_is_protocol", False):

@@ -1,7 +1,7 @@
-"""What a conveyor is checked for: one function a criterion.
+"""Checks of a conveyor: one function for each criterion.
 
-A run and each of its load cases are checked by the very same functions; the warnings and every output use what they
-say, nothing else says what passes. Of all cases the one with the least margin governs a criterion.
+The same functions check a run and each of its load cases; warnings and all outputs use their results. The case of the
+least margin governs a criterion.
 """
 
 from __future__ import annotations
@@ -44,35 +44,35 @@ _AT_LEAST: Final[Relation] = "at least"
 _HALF_TROUGH: Final = 0.5
 _FIGURE: Final = re.compile(r"(?<!{){(?:calculated|required)}(?!})")
 _DIGITS: Final = 9
-"""Of margins: what rounding parts is equal, see `conveyor.ties`."""
+"""Digits of margins, so that rounding does not decide between equals, see `conveyor.ties`."""
 DEEP: Final = 0.2
-"""Δ/h beyond which a linear small-strain cover is a stretch of the law; strain is about Δ/h [-]."""
+"""Largest Δ/h for linear small-strain theory; strain is about Δ/h [-]."""
 
 
 @dataclass(frozen=True)
 class Check:
-    """One criterion and how it stands.
+    """Result of one criterion.
 
     Attributes
     ----------
     key : str
-        Of the criterion, for programs.
+        Key of the criterion in files.
     subject : Said
         What is checked.
     calculated, required : float or None
-        SI; None where no figure says it.
+        Values in SI; None without a figure.
     kind : str
-        Kind of both.
+        Kind of quantity of both.
     found, asked : Said
         Both in words, with their units.
     verdict : {"pass", "FAIL", "not checked"}
-        "not checked" where the spec does not say what is needed for it.
+        "not checked" where the spec lacks data for it.
     why : Said or None
-        What to say of it where it fails.
+        Message where it fails.
     relation : {"at least", "at most"}
-        How the calculated figure must stand to the required one.
+        Relation of the calculated to the required figure.
     where : str
-        What decides in it: a state of motion, a section.
+        Governing state of motion or section.
     case : Said or None
         The load case; None for the conveyor as its spec gives it.
 
@@ -111,21 +111,21 @@ class Check:
 
     @property
     def failed(self) -> bool:
-        """Whether the criterion is not met."""
+        """True if the criterion is not met."""
         return self.verdict == "FAIL"
 
     @property
     def name(self) -> Said:
-        """What is checked, and what decides in it."""
+        """Subject of the check with the governing state or section."""
         if not self.where:
             return self.subject
         return replace(self.subject, words=f"{self.subject.words} ({quoted(self.where)})")
 
     @property
     def margin(self) -> float | None:
-        """How far the calculated figure is on the safe side of the required one, over that one [-].
+        """Relative margin of the calculated to the required figure, positive on the safe side [-].
 
-        Calculated over required less 1 where at least that is required, 1 less calculated over required where at most;
+        Calculated over required less 1 for "at least", 1 less calculated over required for "at most";
         None where a figure is missing, the required one is 0, or both are temperatures, which have no ratio.
         """
         if self.calculated is None or not self.required or self.kind == "temperature":
@@ -135,7 +135,7 @@ class Check:
 
     @property
     def use(self) -> float | None:
-        """Of what is allowed the share that is used [-]; None where a figure is missing or 0."""
+        """Utilisation of the limit [-]; None where a figure is missing or 0."""
         if not self.calculated or not self.required:
             return None
         ratio = self.calculated / self.required
@@ -143,13 +143,13 @@ class Check:
 
 
 def highest_use(checks: Iterable[Check], keys: Collection[str]) -> tuple[float | None, Check | None]:
-    """The highest use of criteria [-] and its check; None where no check of these keys says one."""
+    """Highest utilisation among checks of these keys [-] and its check; None without one."""
     used = [(one.use, one) for one in checks if one.key in keys and one.use is not None]
     return max(used, key=lambda pair: pair[0] or 0.0, default=(None, None))
 
 
 BELT_USE: Final = frozenset({"belt_safety", "belt_rating"})
-"""Criteria of what a belt bears, by its strength or its rating."""
+"""Criteria of belt tension, by strength or rating."""
 
 
 def verdict(*, holds: bool) -> Verdict:
@@ -178,27 +178,27 @@ def compared(  # noqa: PLR0917 reads as the sentence it checks
     Parameters
     ----------
     key, subject : str
-        Of the criterion.
+        Key and subject of the criterion.
     calculated, required : float
-        SI; `required` is None where it is not known.
+        Values in SI; `required` is None if unknown.
     relation : {"at least", "at most"}
-        How the calculated figure must stand to the required one.
+        Relation of the calculated to the required figure.
     kind : str
-        Kind of both.
+        Kind of quantity of both.
     source : str
-        Where the limit comes from.
+        Source of the limit.
     wording : Said, optional
         The calculated figure in other words.
     asked : Said, optional
-        What is required in other words.
+        The required figure in other words.
     holds : bool, optional
-        Whether it is met, where the figures alone do not tell.
+        Result, where the figures alone do not decide.
     missing : str
-        What to say where no limit is known.
+        Message where no limit is known.
     why : Said or str, optional
-        What to say where it fails; in plain words {calculated} and {required} stand for the figures.
+        Message where it fails; in a str {calculated} and {required} are replaced by the figures.
     where : str
-        What decides in it.
+        Governing state or section.
     """
     shown = said("{}", (calculated, kind)) if wording is None else wording
     name = said(subject) if isinstance(subject, str) else subject
@@ -219,16 +219,16 @@ def compared(  # noqa: PLR0917 reads as the sentence it checks
 
 
 def checks(result: CalculatedConveyor, *, contacts: bool = True) -> tuple[Check, ...]:
-    """Check one calculation for every criterion, in the order of `CRITERIA`; without contacts not `OF_CONTACTS`."""
+    """Check one calculation for every criterion in the order of `CRITERIA`; `OF_CONTACTS` only with contacts."""
     chosen = [criterion for criterion in CRITERIA if contacts or criterion not in OF_CONTACTS]
     return tuple(check for criterion in chosen for check in criterion(result))
 
 
 def deciding(every: Iterable[Check]) -> tuple[Check, ...]:
-    """Of each criterion and subject the check that governs, those of one criterion together.
+    """Governing check of each criterion and subject, those of one criterion together.
 
-    One that fails goes before one that passes, that before one that is not checked; then the least margin decides, and
-    among equals the first.
+    A failed check goes before a passed one, that before one not checked; then the least margin decides, among equals
+    the first.
     """
     groups: dict[str, dict[Said, list[Check]]] = {}
     for check in every:
@@ -237,7 +237,7 @@ def deciding(every: Iterable[Check]) -> tuple[Check, ...]:
 
 
 def leading(checks: Iterable[Check]) -> tuple[Check, ...]:
-    """Of each criterion the check that governs, whatever its subject."""
+    """Governing check of each criterion over all subjects."""
     groups: dict[str, list[Check]] = {}
     for check in checks:
         groups.setdefault(check.key, []).append(check)
@@ -245,10 +245,10 @@ def leading(checks: Iterable[Check]) -> tuple[Check, ...]:
 
 
 def severity(check: Check) -> tuple[int, float, float]:
-    """How a check ranks among others: the least governs. A failure without a margin is beyond any.
+    """Sort key of a check: the least governs; a failure without margin comes first.
 
-    Where nothing is there at all, which is the same margin whatever is needed, the one that needs more governs; where
-    no limit is known, the one without a figure, else the lowest or highest.
+    Among checks of a calculated 0, which has the same margin for any limit, the larger requirement governs; without a
+    limit the one without a figure, else the lowest or highest.
     """
     margin, further = check.margin, 0.0
     sign = 1.0 if check.relation == "at least" else -1.0
@@ -264,7 +264,7 @@ def severity(check: Check) -> tuple[int, float, float]:
 
 
 def filling(result: CalculatedConveyor) -> Iterator[Check]:
-    """On its slope every section holds its bulk."""
+    """Every section holds its bulk on its slope."""
     line, holds_on = result.line, result.conveyor.section_on_slope
     loaded = [
         (stretch, stretch.bulk_mass / line.density, holds_on(stretch.inclination))
@@ -310,7 +310,7 @@ def motor_power(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def take_up_tension(result: CalculatedConveyor) -> Iterator[Check]:
-    """The take-up holds what grip and sag ask for in every state; what governs is named, or all it falls short of."""
+    """The take-up's tension suffices for grip and sag in every state; names the governing or all failed conditions."""
     settled = result.balance.settled
     for name, asked in (settled.short or {settled.governing: settled.needed}).items():
         words, figures = _setting(result.line, asked)
@@ -324,14 +324,14 @@ def take_up_tension(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def _setting(line: Line, tension: float) -> tuple[str, tuple[tuple[float, str], ...]]:
-    """A setting of the take-up in words, with the weight of one by gravity, and its figures."""
+    """Setting of the take-up in words, for a gravity take-up with its weight, and its figures."""
     if line.take_up.kind != "gravity":
         return "{}", ((tension, "force"),)
     return "{} (a weight of {})", ((tension, "force"), (weight_mass(line, tension), "mass"))
 
 
 def take_up_reach(result: CalculatedConveyor) -> Iterator[Check]:
-    """The take-up's carriage goes as far and as fast as this load asks for; screws keep short conveyors only."""
+    """Travel and speed of the take-up suffice for this load; screws are for short conveyors only."""
     unit = result.line.take_up
     if unit.travel is not None or unit.winch is not None:
         yield from reach(result.take_up)
@@ -343,7 +343,7 @@ def take_up_reach(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def reach(duty: TakeUpDuty) -> Iterator[Check]:
-    """Travel and speed that loads ask of the take-up, where its spec gives them."""
+    """Travel and speed of the take-up suffice for the loads; if given."""
     unit, travel = duty.unit, duty.travel
     if unit.travel is not None and travel is not None:
         why = "the take-up has {required} of travel, {calculated} are needed"
@@ -396,7 +396,7 @@ def sag(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def slack_belt(result: CalculatedConveyor) -> Iterator[Check]:
-    """The belt is nowhere slack in any state of motion; the slackest state is named, or every one that fails."""
+    """The belt is nowhere slack in any state of motion; names the slackest state or every one that fails."""
     states, settled = every_state(result.balance, result.motions), result.balance.settled
     slack = [state for state in states if state.slack]
     for state in slack or [min(states, key=lambda state: state.smallest)]:
@@ -414,7 +414,7 @@ def slack_belt(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def belt_safety(result: CalculatedConveyor) -> Iterator[Check]:
-    """The belt's strength over its tension in steady running; not asked of a belt given by its rating alone."""
+    """Belt strength over its steady tension; not for a belt given by its rating alone."""
     duty, subject = result.belt_duty, said("belt safety factor, steady")
     if duty.safety_steady is None and duty.rating is not None:
         return
@@ -433,7 +433,7 @@ def belt_safety(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def belt_rating(result: CalculatedConveyor) -> Iterator[Check]:
-    """The tension per width, steady at most the rated one and else somewhat more; said only where a rating is given."""
+    """Tension per width is within the rated one when steady, somewhat above it otherwise; if a rating is given."""
     duty = result.belt_duty
     steady, unsteady = said("belt tension per width, steady"), said("belt tension per width, all states")
     if duty.rating is None:
@@ -452,7 +452,7 @@ def belt_rating(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def belt_breakage(result: CalculatedConveyor) -> Iterator[Check]:
-    """The largest tension of all states is below the belt's strength; said only where it is not."""
+    """The largest tension of all states is below the belt's strength; reported only on failure."""
     safety = result.belt_duty.safety
     if safety is not None and safety < 1.0:
         largest = (result.belt_duty.largest, "force")
@@ -463,7 +463,7 @@ def belt_breakage(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def splice_strength(result: CalculatedConveyor) -> Iterator[Check]:
-    """The belt is as strong as its splice asks for: by mean tension, by the strips that are longest, by starts."""
+    """The belt is strong enough for its splice: by mean tension, by the most stretched strips, by starts."""
     duty, strength = result.belt_duty, result.line.belt.strength
     if strength is None:
         return
@@ -477,7 +477,7 @@ def splice_strength(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def cover_thickness(result: CalculatedConveyor) -> Iterator[Check]:
-    """The covers protect the carcass and outlast the bulk; where the spec says how it wears them."""
+    """The covers protect the carcass and withstand wear; if the spec gives the wear."""
     for cover in result.line.belt.covers:
         least = cover.least + cover.wear
         why = said(
@@ -492,7 +492,7 @@ def cover_thickness(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def belt_temperature(result: CalculatedConveyor) -> Iterator[Check]:
-    """The covers stay within the temperatures that the belt's maker allows, as far as given."""
+    """The covers stay within the belt's temperature limits; if given."""
     relations: tuple[Relation, Relation] = ("at least", "at most")
     for limit, relation in zip(result.line.belt.bears, relations, strict=True):
         if limit is None:
@@ -505,7 +505,7 @@ def belt_temperature(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def pulley_diameter(result: CalculatedConveyor) -> Iterator[Check]:
-    """Every pulley is as large as the carcass asks for."""
+    """Every pulley has at least the diameter that the carcass requires."""
     for pulley in result.belt_duty.pulleys:
         size, figures = "", [(pulley.diameter, "thickness"), (pulley.least, "thickness")]
         if pulley.next_size is not None:
@@ -619,7 +619,7 @@ def _drift(bend: HorizontalCheck, state: DriftState, way: str, drift: float, cur
 
 
 def transitions(result: CalculatedConveyor) -> Iterator[Check]:
-    """Between trough and pulley no strip of the belt is overstressed or slack; of the transitions given."""
+    """In every transition given no strip of the belt is overstressed or slack."""
     for zone in result.belt_duty.transitions:
         for least, fine, bad in (
             (zone.stretched, "no strip overstressed", "a strip of the belt is overstressed"),
@@ -652,7 +652,7 @@ def _transition(of: TransitionCheck, least: float | None, fine: str, bad: str) -
 
 
 def impact_load(result: CalculatedConveyor) -> Iterator[Check]:
-    """Where bulk falls, the sets bear what rests on them with the impact; of loading points that give the drop."""
+    """Impact sets bear resting weight and impact; for loading points with a drop height."""
     for landing in result.landings:
         point, load = landing.point, landing.load
         if load is None:
@@ -670,7 +670,7 @@ def impact_load(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def skirtboards(result: CalculatedConveyor) -> Iterator[Check]:
-    """Skirtboards reach at least as far as the belt accelerates the bulk; of loading points that give their length."""
+    """Skirtboards are at least as long as the zone of acceleration; where their length is given."""
     for landing in result.landings:
         point = landing.point
         if point.skirtboards is not None:
@@ -683,7 +683,7 @@ def skirtboards(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def belt_cleaning(result: CalculatedConveyor) -> Iterator[Check]:
-    """The cleaners leave no more on the belt than is allowed; where the spec says what clings to it."""
+    """Carryback behind the cleaners is within the limit; if the spec gives the carryback."""
     on_belt, allowed = result.line.carryback
     if on_belt is not None:
         left = result.cleanings[-1].left if result.cleanings else None
@@ -696,7 +696,7 @@ def belt_cleaning(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def pulley_shaft(result: CalculatedConveyor) -> Iterator[Check]:
-    """The shaft of every pulley that gives its distances bears bending and torsion, and bends little at the hubs."""
+    """Pulley shafts withstand bending and torsion with little slope at the hubs; where their distances are given."""
     for duty in result.pulley_duty:
         if duty.slope is None:
             continue
@@ -723,7 +723,7 @@ def pulley_shaft(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def pulley_bearings(result: CalculatedConveyor) -> Iterator[Check]:
-    """The bearings of every pulley that gives their rating live as long as asked, in steady running."""
+    """Pulley bearings reach the required life in steady running; where their rating is given."""
     for duty in result.pulley_duty:
         seconds, name = duty.bearing_seconds, quoted(duty.pulley.name)
         if seconds is None:
@@ -736,7 +736,7 @@ def pulley_bearings(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def lagging(result: CalculatedConveyor) -> Iterator[Check]:
-    """The belt presses no harder on a lagging than its maker allows; of laggings that give it."""
+    """Pressure on the lagging is within its limit; where given."""
     for duty in result.pulley_duty:
         allowed, name = duty.pulley.allowed_pressure, quoted(duty.pulley.name)
         if allowed is not None:
@@ -748,7 +748,7 @@ def lagging(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def starting_force(result: CalculatedConveyor) -> Iterator[Check]:
-    """The motors give what a controlled start asks, or accelerate the belt over its whole run-up; it breaks away."""
+    """Motor force suffices for a controlled start or the whole run-up, and for breaking away after standstill."""
     start = result.motions.start
     if start.force <= 0.0:
         return
@@ -776,7 +776,7 @@ def starting_force(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def comes_to_rest(result: CalculatedConveyor) -> Iterator[Check]:
-    """The conveyor stops without power by friction alone, or by its brakes; each beside the other."""
+    """The conveyor stops without power, by friction alone or by its brakes; both are reported."""
     moving, brakes = result.motions, math.fsum(result.line.brakes)
     alone, stopped = moving.coasting_least, moving.braked
     why = said("the conveyor does not stop by itself and has no brake: give drive.brake_force")
@@ -802,14 +802,14 @@ def comes_to_rest(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def _rest(stopping: Stop | None, runaway: float | None) -> Said:
-    """How a conveyor comes to rest, in words."""
+    """Stop or runaway in words."""
     if stopping is not None:
         return said(f"in {stopping.time:,.1f} s, {{}}", (stopping.distance, "length"))
     return said("does not") if runaway is None else said("runs away at {}", (runaway, "acceleration"))
 
 
 def holding(result: CalculatedConveyor) -> Iterator[Check]:
-    """A brake or backstop holds the loaded belt, and brakes give the deceleration wanted."""
+    """A brake or backstop holds the loaded belt, and brakes give the required deceleration."""
     moving, line = result.motions, result.line
     given = any(drive.brake is not None for drive in line.drives)
     brakes = math.fsum(line.brakes)
@@ -833,7 +833,7 @@ def holding(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def _backstops(line: Line) -> tuple[float, ...]:
-    """What the backstops of given torque bear at the belt [N]."""
+    """Forces at the belt of the backstops of given torque [N]."""
     parts = ((drive.parts, drive.radius) for drive in line.drives)
     return tuple(
         part.backstop / radius
@@ -843,7 +843,7 @@ def _backstops(line: Line) -> tuple[float, ...]:
 
 
 def drive_parts(result: CalculatedConveyor) -> Iterator[Check]:
-    """Backstops, brakes, starts an hour and sharing without control, of drives that give what they bear."""
+    """Backstops, brakes, starts an hour and uncontrolled load sharing are within their limits; where given."""
     motor = result.balance.frame.motor
     for duty in result.drive_duty:
         name, parts, installed = quoted(duty.drive.name), duty.parts, duty.drive.power
@@ -883,7 +883,7 @@ def _starts(name: str, asked: float, allowed: float | str) -> Check:
 
 
 def coasting_time(result: CalculatedConveyor) -> Iterator[Check]:
-    """Without power and brakes the conveyor runs on as long as wanted; else the flywheel for it is named."""
+    """Coasting without power and brakes lasts the required time; on failure the flywheel needed is named."""
     wanted, stopped = result.line.coast_time, result.motions.coasting
     if wanted is None or stopped is None:
         return
@@ -922,7 +922,7 @@ def bulk_slip(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def penetration(result: CalculatedConveyor) -> Iterator[Check]:
-    """No roll presses deeper into its cover than the law of small strain bears."""
+    """Penetration of the rolls is within the range of small-strain theory."""
     for strand in STRANDS:
         deepest, thickness = result.contacts.deepest(strand), result.contacts.covers[strand].thickness
         why = said(
@@ -938,7 +938,7 @@ def penetration(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def roll_life(result: CalculatedConveyor) -> Iterator[Check]:
-    """Idler sets last as long as light series are rated for, where their bearings are given."""
+    """Idler sets reach the rated life of light series; where their bearings are given."""
     for strand in STRANDS:
         life = shortest_life(result.line.stretches, strand, result.line.speed)
         if life is None:
@@ -959,7 +959,7 @@ def roll_life(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def set_rating(result: CalculatedConveyor) -> Iterator[Check]:
-    """No set bears more than it is rated for; of sets that give a class or a rating."""
+    """No set is loaded above its rating; where a class or rating is given."""
     for strand, duties in _sets_of_strands(result):
         rated = [(duty, duty.limits.rating) for duty in duties if duty.limits.rating is not None]
         if not rated:
@@ -979,7 +979,7 @@ def set_rating(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def roll_axle(result: CalculatedConveyor) -> Iterator[Check]:
-    """The axles of the rolls bend no more at their bearings than these bear; of axles that are given."""
+    """Slope of the rolls' axles at their bearings is within its limit; where given."""
     for strand, duties in _sets_of_strands(result):
         axles = [(duty.limits.axle, duty.stretch.section) for duty in duties if duty.limits.axle is not None]
         if not axles:
@@ -994,7 +994,7 @@ def roll_axle(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def belt_flap(result: CalculatedConveyor) -> Iterator[Check]:
-    """The rolls' rotation stays off the belt's natural frequencies between sets; where a distance is asked for."""
+    """The rolls' rotation is off the belt's natural frequencies between sets; where a distance is required."""
     for strand, duties in _sets_of_strands(result):
         asked = [duty for duty in duties if duty.limits.flap_margin is not None]
         if not asked:
@@ -1017,7 +1017,7 @@ def belt_flap(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def _band(ends: tuple[float, float]) -> str:
-    """Both ends of a band in words, an even one once."""
+    """Both ends of a band in words, equal ones once."""
     return " to ".join(dict.fromkeys(f"{end:.3g}" for end in ends))
 
 
@@ -1027,7 +1027,7 @@ def _sets_of_strands(result: CalculatedConveyor) -> Iterator[tuple[Strand, list[
 
 
 def rubber_coverage(result: CalculatedConveyor) -> Iterator[Check]:
-    """The data of each rubber cover the band in which its rolls lose nine tenths of their energy."""
+    """The data of each rubber cover the band of nine tenths of its rolls' energy loss."""
     for strand, compound in compounds_by_strand(result.conveyor).items():
         if compound.kind == "illustrative":
             if result.contacts.lossy(strand):
@@ -1047,7 +1047,7 @@ def rubber_coverage(result: CalculatedConveyor) -> Iterator[Check]:
 def _covering(
     strand: Strand, name: str, band: tuple[float, float], data: tuple[float, float] | None, at: float
 ) -> Check:
-    """A band against that of the data [Hz]; the end that is nearer to theirs, or farther beyond it, decides."""
+    """Check a band against that of the data [Hz]; the end of less margin decides."""
     subject = f"rubber data over the excitation band, {strand}"
     shown = said(f"{band_words(band)} at {{}}", (at, "temperature"))
     if data is None:
@@ -1073,21 +1073,21 @@ def _covering(
 
 
 def worst_not_sought(line: Line) -> frozenset[str]:
-    """Keys of criteria for which no loading of a conveyor is sought that would be worse than those calculated."""
+    """Keys of criteria that are checked under the calculated loads only, not under the worst loading."""
     return _LOADS_THERE_ARE | (_OF_STRETCHES if line.count > ONE_BY_ONE else frozenset())
 
 
 def covered(result: CalculatedConveyor) -> bool:
-    """Whether the rubber's data cover what a calculation rests on; else its figures are none to design by."""
+    """True if the rubber's data cover the excited band; otherwise results are not for design."""
     return not any(check.failed for check in rubber_coverage(result))
 
 
 OF_CONTACTS: Final = (penetration, rubber_coverage)
-"""Criteria that need every roll's contact; the others need forces and tensions only."""
+"""Criteria that need the contacts of all rolls; the others need forces and tensions only."""
 _LOADS_THERE_ARE: Final = frozenset({"belt_flap", "load_sharing", "penetration", "rubber_coverage"})
-"""Keys of criteria of which only the loads that are calculated anyway are looked at."""
+"""Keys of criteria checked under the calculated loads only."""
 _OF_STRETCHES: Final = frozenset({"curve_radius", "belt_drift", "set_rating"})
-"""Keys of criteria of single sections: of long routes they are looked at as the others are."""
+"""Keys of criteria of single sections, on long routes checked under the calculated loads only."""
 CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     filling, motor_power, take_up_tension, take_up_reach, drive_grip, sag, slack_belt, belt_safety, belt_rating,
     belt_breakage, splice_strength, cover_thickness, belt_temperature, pulley_diameter, curve_radius,

@@ -1,6 +1,6 @@
-"""Compounds compared, held to a maker's tests, and forces fitted to measured power: the results for people.
+"""Results for people: compounds compared and verified against tests, factors fitted to measured power.
 
-Apart from `conveyor.analysis`, so that one conveyor is calculated without reading any of this.
+Separate from `conveyor.analysis`, so that one conveyor is calculated without importing any of this.
 """
 
 from __future__ import annotations
@@ -39,14 +39,14 @@ class Comparison(compound_study.CalculatedComparison, Reports):
 
     @cached_property
     def table(self) -> pd.DataFrame:
-        """One row a scene; units in the names."""
+        """One row per scene; units in the names."""
         from conveyor.report import comparison_tables
 
         return comparison_tables.scenes(self).frame()
 
     @cached_property
     def ranking(self) -> pd.DataFrame:
-        """One row a compound and speed, the least mean power first; savings and payback against the base."""
+        """One row per compound and speed, the least mean power first; savings and payback against the base."""
         from conveyor.report import comparison_tables
 
         return comparison_tables.ranking(self).frame()
@@ -65,7 +65,7 @@ class Comparison(compound_study.CalculatedComparison, Reports):
         return ComparisonPlots(self)
 
     def _repr_html_(self) -> str:
-        """For notebooks: the ranking and what to know of it."""
+        """For notebooks: the ranking and its remarks."""
         from conveyor.report import comparison_tables
 
         return comparison_tables.notebook_of_comparison(self)
@@ -76,14 +76,14 @@ class CalibrationStudy(calibration_study.CalculatedCalibration, Reports):
 
     @cached_property
     def table(self) -> pd.DataFrame:
-        """One row a factor with its band."""
+        """One row per factor with its band."""
         from conveyor.report.calibration_tables import factors
 
         return factors(self).frame()
 
     @cached_property
     def residuals(self) -> pd.DataFrame:
-        """One row a run: measured, calculated before and after; units in the names."""
+        """One row per run: measured, calculated before and after; units in the names."""
         from conveyor.report.calibration_tables import runs
 
         return runs(self).frame()
@@ -102,15 +102,15 @@ class CalibrationStudy(calibration_study.CalculatedCalibration, Reports):
 
 
 class VerificationSheet(verification_study.CalculatedVerification, Reports):
-    """What compounds lose under rolls, to be held to a maker's tests, with its tables and reports."""
+    """Losses of compounds under rolls for comparison with a maker's tests, with tables and reports."""
 
     @cached_property
     def table(self) -> pd.DataFrame:
-        """One row a compound, cover, roll, speed and temperature; units in the names."""
+        """One row per compound, cover, roll, speed and temperature; units in the names."""
         return self.contents()["per_width"].frame()
 
     def contents(self, system: System | None = None) -> Contents:
-        """Everything a report holds, in a system of units; SI without it."""
+        """Contents of a report in a system of units, SI by default."""
         from conveyor.report.verification_tables import of_verification
 
         return of_verification(self, "SI" if system is None else system)
@@ -136,22 +136,22 @@ def calibrate(
     rtol: float | None = None,
     progress: Progress | None = None,
 ) -> CalibrationStudy:
-    """Factors on forces from measured power; how they are fitted: `conveyor.studies.calibration.calibrate`.
+    """Fit factors on forces to measured power, as `conveyor.studies.calibration.calibrate`.
 
     Parameters
     ----------
     conveyor : Conveyor
-        The spec; a calibration that it has is left out, and replaced.
+        The spec; its own calibration is ignored and replaced.
     runs : path or sequence of MeasuredRun
         Measured power: a file or data.
     error : float, optional
-        Standard deviation of a power over itself [-], of runs that do not state theirs; without it from the residuals.
+        Relative standard deviation of a power [-], for runs that do not state theirs; by default from the residuals.
     factors : sequence of str, optional
-        Which of indentation, idler_rotation and flexure are wanted; without it as many as the runs tell apart.
+        Those of indentation, idler_rotation, flexure and misalignment to fit; by default as many as the runs resolve.
     rtol : float, optional
-        Relative tolerance of the contacts [-]; that of the spec without it.
+        Relative tolerance of the contacts [-]; by default that of the spec.
     progress : callable, optional
-        Called with what is done and the whole; nothing without it.
+        Called with the items done and their total.
 
     Returns
     -------
@@ -161,7 +161,7 @@ def calibrate(
     Raises
     ------
     InputError
-        The file is refused, or the runs do not tell the factors.
+        The file is refused, or the runs do not resolve the factors.
     NoSolutionError, RangeError
         A run has no answer.
 
@@ -195,7 +195,7 @@ def compare(
     workers: int = 1,
     progress: Progress | None = None,
 ) -> pd.DataFrame:
-    """The table of `compare_compounds`, one row a scene.
+    """The table of `compare_compounds`, one row per scene.
 
     Parameters
     ----------
@@ -204,23 +204,23 @@ def compare(
     compounds : iterable of str or RubberCompound
         Shelf names, paths of compound files, or compounds.
     temperatures, speeds : iterable of str or Quantity, optional
-        Of the belt, each with its unit ("-30 degC", "5 m/s"); those of the spec without them.
+        Of the belt, each with its unit ("-30 degC", "5 m/s"); by default those of the spec.
     cover : {"bottom", "top", "both"}
-        Which cover is made of the compounds, the bottom one by default.
+        Cover made of the compounds, the bottom one by default.
     base : str, optional
-        Name of the compound that the others are compared with; the first without it.
+        Name of the reference compound; by default the first.
     extra_costs : mapping of str to float, optional
-        What a belt of a compound costs more than one of the base, in the currency of the spec's energy price.
+        Price of a belt of a compound above that of the base, in the currency of the spec's energy price.
     rtol : float
         Relative tolerance of the contacts, 1e-4 by default [-].
     shelves : iterable of path
         Further folders of compounds; none by default.
     executor : concurrent.futures.Executor, optional
-        Where groups of compounds are calculated; one after the other here without one.
+        Executor of groups of compounds; by default they are calculated one after the other in this process.
     workers : int
-        Of the executor: as many groups.
+        Workers of the executor, and number of groups.
     progress : callable, optional
-        Called with the number of compounds done and their total; nothing without it.
+        Called with the number of compounds done and their total.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Designs for people: those of a duty, those of a study; with their tables and reports. Nothing below imports this."""
+"""Designs for people, of a duty or a study, with tables and reports; nothing below imports this."""
 
 from __future__ import annotations
 
@@ -37,16 +37,16 @@ class Sizing(sizing.CalculatedSizing, Reports):
 
     @cached_property
     def table(self) -> pd.DataFrame:
-        """One row a design; units in the names."""
+        """One row per design; units in the names."""
         return self.contents(vary=False)["designs"].frame()
 
     @cached_property
     def around(self) -> pd.DataFrame:
-        """One row a value of what varies around the best design; units in the names."""
+        """Sensitivity of the best design, one row per varied value; units in the names."""
         return self.contents()["around"].frame()
 
     def contents(self, system: System | None = None, *, vary: bool = True) -> Contents:
-        """Everything a report holds, in a system of units; what varies around the best design takes seconds."""
+        """Contents of a report in a system of units; the sensitivity of the best design takes seconds."""
         from conveyor.report.sizing_tables import of_sizing
 
         return of_sizing(self, chosen(self.duty.report.units, system), vary=vary)
@@ -54,16 +54,16 @@ class Sizing(sizing.CalculatedSizing, Reports):
 
 @dataclass(frozen=True, eq=False)
 class Study(Reports):
-    """Every point of a study, and its designs: `explored.best` are the ten that come first.
+    """Every point of a study, and its designs: `explored.best` are the ten best.
 
     Attributes
     ----------
     campaign : Campaign
         The study on its spec.
     points : tuple of (int, values, answer)
-        Number, values of the fields, SI figures or why there are none.
+        Number, values of the fields, SI figures or the reason why there are none.
     explored : Explored
-        The designs as numbers: best ones, front, main effects.
+        Summary of the designs: best ones, front, main effects.
     """
 
     campaign: Campaign
@@ -77,7 +77,7 @@ class Study(Reports):
 
     @cached_property
     def table(self) -> pd.DataFrame:
-        """One row a point; units in the names."""
+        """One row per point; units in the names."""
         import pandas as pd
 
         from conveyor.report.point_tables import of_points
@@ -99,11 +99,11 @@ def size(duty: str | Path | SizingDuty, *, best: int = 3, progress: Progress | N
     Parameters
     ----------
     duty : path or SizingDuty
-        What is conveyed, and the rules: a file or data.
+        The duty and its rules: a file or data.
     best : int
         Designs wanted, 3 by default.
     progress : callable, optional
-        Called with what is done of all; nothing without it.
+        Called with the candidates calculated and their total.
 
     Returns
     -------
@@ -137,20 +137,20 @@ def study(
     workers: int = 1,
     shelves: Iterable[str | Path] = (),
 ) -> Study:
-    """Every point of a study, of a file or as data; as `conveyor.studies.campaign.run`.
+    """Calculate every point of a study, from a file or data, as `conveyor.studies.campaign.run`.
 
     Parameters
     ----------
     plan : path or StudyPlan
         The study.
     conveyor : Conveyor, optional
-        Its spec; else the file that it names, from the folder of the study.
+        Its spec; by default the file that it names, from the folder of the study.
     answers : path, optional
-        File in which answers are kept as they come, and known from; without it they end with the call.
+        File that stores answers as they come and supplies known ones; by default a temporary one.
     executor : concurrent.futures.Executor, optional
-        Where points are calculated; in this process without one.
+        Executor of the points; by default this process.
     workers : int
-        Of the executor: points are shared out among so many.
+        Workers of the executor, among which the points are shared.
     shelves : iterable of path
         Further folders of compounds.
 

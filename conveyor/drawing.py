@@ -1,6 +1,6 @@
-"""Figures of results, to be reached from them: `analysis.plots.tensions()`, `comparison.plots.loss_tangents()`.
+"""Figures of results: `analysis.plots.tensions()`, `comparison.plots.loss_tangents()`.
 
-Every one is a matplotlib figure, returned, never shown or saved; `conveyor.report.plots.save` writes one.
+Matplotlib figures are returned, never shown or saved; `conveyor.report.plots.save` writes one.
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ if TYPE_CHECKING:
     from conveyor.pipeline import CalculatedConveyor
     from conveyor.studies.comparison import CalculatedComparison
 
-_WARMER: Final = tuple(range(-40, 41, 5))  # than the spec's belt [K]
-_FASTER: Final = tuple(round(0.6 + 0.1 * k, 1) for k in range(9))  # than the spec's belt, times
+_WARMER: Final = tuple(range(-40, 41, 5))  # from the spec's belt temperature [K]
+_FASTER: Final = tuple(round(0.6 + 0.1 * k, 1) for k in range(9))  # on the spec's belt speed
 _RTOL: Final = 1e-4  # of the contacts: less than a line's width
 _STRANDS: Final[tuple[Strand, ...]] = ("carry", "return")
 
 
 @dataclass(frozen=True, eq=False)
 class AnalysisPlots:
-    """Figures of one analysis; `system` is SI or US, that of the spec's report without it.
+    """Figures of one analysis; `system` is SI or US, by default that of the spec's report.
 
     Examples
     --------
@@ -48,16 +48,16 @@ class AnalysisPlots:
     analysis: CalculatedConveyor
 
     def resistances(self, *, system: System | None = None) -> Figure:
-        """Every kind of resistance, the classical estimates beside their sums."""
+        """Every kind of resistance, with the classical estimates."""
         return analysis_plots.resistance_breakdown(self.analysis.balance, system=self._in(system))
 
     def tensions(self, *, system: System | None = None) -> Figure:
-        """Tension round the loop in every state, and the least that the sag allows."""
+        """Tension round the loop in every state, and the least allowed by sag."""
         result = self.analysis
         return analysis_plots.tension_diagram(result.balance, result.motions, system=self._in(system))
 
     def flap(self, *, system: System | None = None) -> Figure:
-        """Natural frequencies of the belt between the idler sets that the spec judges, and rotation of their rolls."""
+        """Natural frequencies of the belt between idler sets, and rotation frequencies of their rolls."""
         return analysis_plots.flap_diagram(self.analysis, system=self._in(system))
 
     def profile(self, *, system: System | None = None) -> Figure:
@@ -73,23 +73,23 @@ class AnalysisPlots:
         Raises
         ------
         InputError
-            The spec does not ask for it, or nothing arrives at the head.
+            The spec does not request it, or no bulk arrives at the head.
         """
         if self.analysis.trajectory is None:
             raise InputError("no trajectory: give route.discharge, and bulk that reaches the head")
         return transfer_tables.picture(self.analysis, system=self._in(system))
 
     def cross_section(self, *, system: System | None = None) -> Figure:
-        """A set of each strand with its belt and bulk, to scale."""
+        """Idler set of each strand with belt and bulk, to scale."""
         result = self.analysis
         return analysis_plots.cross_section(result.conveyor, result.line, system=self._in(system))
 
     def plan(self, *, system: System | None = None) -> Figure:
-        """The route from above, with its horizontal curves."""
+        """Plan view of the route with its horizontal curves."""
         return analysis_plots.plan(self.analysis.line, system=self._in(system))
 
     def drift(self, studies: CalculatedStudies | None = None, *, system: System | None = None) -> Figure:
-        """Drift of the belt in every horizontal curve, over all states of motion; of all cases with the studies.
+        """Drift of the belt in every horizontal curve over all states of motion, and all cases of the studies if given.
 
         Raises
         ------
@@ -107,7 +107,7 @@ class AnalysisPlots:
         return analysis_plots.pressure_under_rolls(self.analysis.contacts, system=self._in(system))
 
     def rubber(self, strand: Strand = "carry", *, system: System | None = None) -> Figure:
-        """Master curve of the rubber a strand's rolls run on, with the bands that all rolls on it excite."""
+        """Master curve of the rubber under a strand's rolls, with the bands excited by all rolls on it."""
         conveyor = self.analysis.conveyor
         compounds = {"carry": conveyor.carry_compound, "return": conveyor.return_compound}
         chosen_one = compounds[strand]
@@ -125,7 +125,7 @@ class AnalysisPlots:
         Parameters
         ----------
         temperatures : iterable of str or Quantity, optional
-            Of the belt ("-20 degC"); without them every 5 K up to 40 K about the spec's, where there is an answer.
+            Of the belt ("-20 degC"); by default every 5 K up to 40 K about the spec's, as far as there is an answer.
         system : {"SI", "US"}, optional
             Units of the axes.
 
@@ -149,7 +149,7 @@ class AnalysisPlots:
         Parameters
         ----------
         speeds : iterable of str or Quantity, optional
-            Of the belt ("5 m/s"); without them 0.6 to 1.4 of the spec's, where the bulk fits the belt.
+            Of the belt ("5 m/s"); by default 0.6 to 1.4 of the spec's, as far as the bulk fits the belt.
         system : {"SI", "US"}, optional
             Units of the axes.
 
@@ -167,7 +167,7 @@ class AnalysisPlots:
     def every(
         self, studies: CalculatedStudies | None = None, *, system: System | None = None
     ) -> dict[str, Figure]:
-        """All of these by name, and those of the studies where they are given."""
+        """All figures by name, and those of the studies if given."""
         result, conveyor = self.analysis, self.analysis.conveyor
         rubbers = _STRANDS[: 1 if conveyor.carry_compound.name == conveyor.return_compound.name else 2]
         drawn = [self.resistances, self.tensions, self.profile, self.cross_section]
@@ -189,7 +189,7 @@ class AnalysisPlots:
 
 @dataclass(frozen=True)
 class _Alone:
-    """A conveyor with its own rubber at several temperatures and speeds."""
+    """Results of a conveyor with its own rubber at several temperatures and speeds."""
 
     conveyor: Conveyor
     compounds: tuple[RubberCompound, ...]
@@ -221,24 +221,24 @@ def _of_studies(studies: CalculatedStudies, system: System) -> Iterator[tuple[st
 
 @dataclass(frozen=True, eq=False)
 class ComparisonPlots:
-    """Figures of a comparison; `system` is SI or US, that of the spec's report without it."""
+    """Figures of a comparison; `system` is SI or US, by default that of the spec's report."""
 
     comparison: CalculatedComparison
 
     def power_against_temperature(
         self, speed: float | None = None, *, system: System | None = None
     ) -> Figure:
-        """Motor power of every compound over temperature at one speed [m/s], that next to the spec's without."""
+        """Motor power of every compound over temperature at one speed [m/s], by default that next to the spec's."""
         return plots.power_over(self.comparison, "temperature", speed, system=self._in(system))
 
     def power_against_speed(
         self, temperature: float | None = None, *, system: System | None = None
     ) -> Figure:
-        """Motor power of every compound over speed at one temperature [K], that next to the spec's without."""
+        """Motor power of every compound over speed at one temperature [K], by default that next to the spec's."""
         return plots.power_over(self.comparison, "speed", temperature, system=self._in(system))
 
     def loss_tangents(self, temperature: float | None = None, *, system: System | None = None) -> Figure:
-        """Loss tangents at one temperature [K], the spec's without, and the band that the rolls excite."""
+        """Loss tangents at one temperature [K], by default the spec's, and the band excited by the rolls."""
         return plots.compared_loss_tangents(self.comparison, temperature, system=self._in(system))
 
     def _in(self, system: System | None) -> System:

@@ -1,4 +1,4 @@
-"""What can go wrong, as types: input that is refused, a calculation without an answer, data used at their limit."""
+"""Exceptions: refused input, a calculation without an answer, data used beyond their range."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ _LINE: Final = re.compile(r"(.{800}).{100,}(.{100})")
 
 @dataclass(frozen=True)
 class Amount:
-    """A figure of a message: as SI writes it, and its value in SI and kind for those who write it otherwise.
+    """Quantity in an error message: SI text, SI value and kind, so that it can be written in other units.
 
     Parameters
     ----------
     value : float
-        In SI units.
+        Value in SI units.
     kind : str
-        Of `conveyor.units.kinds`.
+        Kind of quantity, a key of `conveyor.units.kinds.KINDS`.
     written : str
-        With its SI unit.
+        Text with its SI unit.
     digits : int
         Significant digits in other units.
 
@@ -46,14 +46,14 @@ class Amount:
 class ConveyorError(Exception):
     """Base of every error this package raises on purpose; the message says what to change.
 
-    Whatever a message quotes of an input is cut to a length that a person reads.
+    Long quotations of input are cut.
 
     Parameters
     ----------
     message : object
-        What is said, with {} for each of the parts where there are any.
+        Text, with {} for each of the parts if there are any.
     parts : object
-        What stands in it: amounts, other errors, sentences, texts.
+        Amounts, other errors, sentences with figures, texts.
     """
 
     def __init__(self, message: object = "", *parts: object) -> None:
@@ -61,7 +61,7 @@ class ConveyorError(Exception):
         super().__init__(self._said(str))
 
     def told(self, write: Callable[[Any], object]) -> Self:
-        """The same, its parts and those of errors in it as `write` writes them."""
+        """Copy of the error, its parts and those of nested errors written by `write`."""
         twin = copy(self)
         twin.args = (
             self._said(lambda part: part.told(write) if isinstance(part, ConveyorError) else write(part)),
@@ -69,7 +69,7 @@ class ConveyorError(Exception):
         return twin
 
     def at(self, place: str) -> ConveyorError:
-        """The same error of a place, which stands before its message; its amounts keep their kinds.
+        """Error with a place before its message; its amounts keep their kinds.
 
         Examples
         --------
@@ -85,7 +85,7 @@ class ConveyorError(Exception):
 
 
 def shortened(quoted: str, longest: int = 80) -> str:
-    """Cut what a message quotes to a length that a person reads.
+    """Cut a quoted text to a readable length.
 
     Examples
     --------
@@ -96,16 +96,16 @@ def shortened(quoted: str, longest: int = 80) -> str:
 
 
 class InputError(ConveyorError, ValueError):
-    """An input is outside what is allowed; the message names it, its value and the allowed range."""
+    """Input outside its allowed range; the message names it, its value and the range."""
 
 
 class SpecError(InputError):
-    """Fields of a model are refused; the message has a line for each: its path, what was given, what is allowed.
+    """Refused fields of a model; the message has a line for each: path, given value, allowed range.
 
     Parameters
     ----------
     problems : iterable of (str, str)
-        Path of the field ("route.sections[2].lift"), empty where it is about the whole; what is wrong with it.
+        Path of the field ("route.sections[2].lift"), empty for the whole model; the problem.
 
     Attributes
     ----------
@@ -128,7 +128,7 @@ class SpecError(InputError):
 
 
 class PlacedError(InputError):
-    """What is wrong with a plan, all of it, each with its place as pydantic locates it."""
+    """All problems of a plan, each with its location as pydantic gives it."""
 
     def __init__(self, problems: Iterable[tuple[tuple[int | str, ...], str]]) -> None:
         self.problems = tuple(problems)
@@ -140,7 +140,7 @@ class PlacedError(InputError):
 
 
 class NoSolutionError(ConveyorError):
-    """The calculation has no answer for valid input; the message says why and what to change."""
+    """Valid input without a solution; the message says why and what to change."""
 
 
 class RangeError(ConveyorError):
@@ -148,4 +148,4 @@ class RangeError(ConveyorError):
 
 
 class ValidityWarning(UserWarning):
-    """A result is computed, but outside the range in which its law or data are known to hold."""
+    """Result outside the range in which its law or data are known to hold."""

@@ -1,4 +1,4 @@
-"""A model from a file; pydantic's errors as lines a designer can act on: field, what was given, what is allowed."""
+"""Read a model from a file; errors as lines with place, field, what was given, what is allowed."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def read_model(model: type[M], path: Path, context: Mapping[str, Any] | None = N
 
 
 def _findings(error: ValidationError, model: type[BaseModel], document: Document) -> list[Fault]:
-    """Return every error of a validation in the file's order, with its place; the first say what is wrong."""
+    """Errors of a validation in the order of the file, with their places; only the first have messages."""
     faults = list(document.findings)
     known = {finding.field for finding in faults}
     placed = []
@@ -53,7 +53,7 @@ def _findings(error: ValidationError, model: type[BaseModel], document: Document
 
 
 def _in_file(location: Location, data: Any) -> Location:
-    """Drop the tags of unions, which pydantic adds to a location and the file does not have."""
+    """Location without the tags of unions, which pydantic adds."""
     kept: list[int | str] = []
     for part in location:
         is_tag = isinstance(data, dict) and part not in data and part in data.values()

@@ -1,6 +1,7 @@
-"""Every resistance of a conveyor in one list; sums, tables, pictures and the loop of tensions iterate over it.
+"""Every resistance of a conveyor in one list, over which sums, tables, plots and the loop of tensions iterate.
 
-A new resistance is a law, the field of the spec it takes, and its line in `without_rubber` or `at_places`.
+A new resistance is a law, its field of the spec, and its line in `along_the_belt` (independent of the rubber: computed
+in `without_rubber`) or `at_places`.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ Array = NDArray[np.float64]
 ForceKind = Literal["main", "secondary", "special", "lift"]
 
 _TILT_STEEP = math.radians(37.5)  # trough angle midway between the two listed coefficients C_e
-_SLOPE_OVER = 1e6  # [N], tension over which a wrap's line is drawn; the law is linear, so any would do
+_SLOPE_OVER = 1e6  # [N], tension for the slope of a wrap; the law is linear, any would do
 _CONTACT = "viscoelastic contact of every roll (see Method)"
 _MISALIGNED = "friction across the belt x sine of the angle, derived"
 
@@ -56,23 +57,23 @@ class Force:
     Attributes
     ----------
     key, name : str
-        For figures in files and in Python; for people.
+        Key in files and in Python; name in reports.
     kind : {"main", "secondary", "special", "lift"}
-        What DIN 22101 counts it among.
+        Group of DIN 22101.
     newtons : ndarray or float
-        Along the belt: of every stretch of the line, shape (2n,). At one place: a number.
+        Force of every stretch, shape (2n,), or one number at a single place.
     source : str
-        The law it comes from.
+        Source of its law.
     certain : bool
-        Whether no friction makes it, so that no uncertainty of friction changes it.
+        True if not by friction, so that no uncertainty of friction changes it.
     spot, place : Spot or None, str
-        Where it acts, for the loop and in words; nowhere in particular for forces along the belt.
+        Position in the loop, and in words; None and empty for forces along the belt.
     short : str
         Name of its column in tables of sections; `name` without it.
     assumed : bool
-        Whether it is that of a usual part which the spec does not have.
+        True for a usual part that the spec does not give.
     bulk : int or None
-        Number of the section without whose bulk it is not there; None where it needs none, and along the belt.
+        Number of the section whose bulk causes it; None without bulk, and along the belt.
     """
 
     key: str
@@ -89,7 +90,7 @@ class Force:
 
     @property
     def total(self) -> float:
-        """All of it [N]."""
+        """Total force [N]."""
         return self.newtons if isinstance(self.newtons, float) else math.fsum(self.newtons.tolist())
 
     @property
@@ -98,7 +99,7 @@ class Force:
         return None if isinstance(self.newtons, float) else self.newtons
 
     def by_strand(self) -> dict[Strand, float]:
-        """Force on each strand [N]; nothing of a force at one place."""
+        """Force on each strand [N]; empty for a force at one place."""
         if isinstance(self.newtons, float):
             return {}
         halves = np.split(self.newtons, 2)
@@ -107,7 +108,7 @@ class Force:
 
 @dataclass(frozen=True)
 class ForceSums:
-    """Resistances of the whole conveyor by kind [N]: every main resistance by its key, the others together."""
+    """Resistances of the whole conveyor [N]: main resistances by key, the others by kind."""
 
     parts: Mapping[str, float]
 
@@ -122,12 +123,12 @@ class ForceSums:
 
     @property
     def indentation(self) -> float:
-        """Of the covers by the rolls [N]."""
+        """Indentation resistance of the covers [N]."""
         return self.parts["indentation"]
 
     @property
     def main(self) -> float:
-        """Main resistance F_H: indentation, idler rotation, flexure [N]."""
+        """Main resistance F_H: indentation, idler rotation, flexure, misalignment [N]."""
         return math.fsum(value for key, value in self.parts.items() if key not in _AFTER_MAIN)
 
     @property
@@ -156,11 +157,10 @@ _AFTER_MAIN = ("secondary", "special", "lift")
 
 @dataclass(frozen=True, eq=False)
 class WithoutRubber:
-    """Forces along a line that neither rubber nor air changes [N], shape (2n,).
+    """Forces along a line independent of rubber and air [N], shape (2n,).
 
-    `misalignment` is the drag of rolls that are not square to the belt; `guidance` is None without skewed sets in
-    horizontal curves, `flexure` where it is a share of the other main resistances; `unit_main` is the main resistance
-    that DIN 22101 gives for f = 1.
+    `guidance` is None without skewed sets in horizontal curves, `flexure` where it is a share of the other main
+    resistances; `unit_main` is the main resistance of DIN 22101 for f = 1.
     """
 
     misalignment: Array
@@ -171,7 +171,7 @@ class WithoutRubber:
     flexure: Array | None
 
     def joined(self, back: WithoutRubber) -> WithoutRubber:
-        """Those along the carry strand, and behind them those along the return strand."""
+        """Join these forces of the carry strand with those of the return strand."""
 
         def both(one: Array, other: Array) -> Array:
             return np.concatenate([one, other])
@@ -189,13 +189,13 @@ class WithoutRubber:
 
 
 def without_rubber(strands: Strands) -> WithoutRubber:
-    """Forces along the belt that depend on its load alone."""
+    """Forces along the belt independent of rubber and air."""
     carry, back = map(strand_without_rubber, strands.each)
     return carry.joined(back)
 
 
 def strand_without_rubber(strand: OneStrand) -> WithoutRubber:
-    """Those along one strand, shape (n,)."""
+    """Forces along one strand independent of rubber and air, shape (n,)."""
 
     def each(law: Callable[[Stretch, float], float]) -> Array:
         return np.array([law(stretch, strand.gravity) for stretch in strand.stretches])
@@ -226,13 +226,13 @@ def along_the_belt(
     line : Line
         The conveyor.
     fixed : WithoutRubber
-        Of `without_rubber`.
+        Forces of `without_rubber`.
     indentation : ndarray, shape (2n,)
         Indentation resistance of every stretch [N].
     roll_drag : float
-        Drag of all rolls over the computed one [-].
+        Factor on the drag of all rolls [-].
     calibration : Calibration, optional
-        Factors on indentation, rotation and flexure; 1 without.
+        Factors on indentation, rotation, flexure and misalignment; 1 without.
     """
     factors = calibration or Calibration()
     indentation = factors.indentation * indentation
@@ -267,7 +267,7 @@ def _misalignment(stretch: Stretch, _gravity: float) -> float:
 
 
 def _tilt(stretch: Stretch, gravity: float) -> float:
-    """Resistance of wings tilted forward [N]; zero where they are not."""
+    """Resistance of wings tilted forward [N]."""
     if stretch.tilt_angle == 0.0:
         return 0.0
     steep = stretch.trough_angle > _TILT_STEEP
@@ -284,7 +284,7 @@ def _tilt(stretch: Stretch, gravity: float) -> float:
 
 
 def _guidance(stretch: Stretch, _gravity: float) -> float:
-    """Resistance of sets that are skewed to steer the belt out of a horizontal curve [N]."""
+    """Resistance of sets skewed to steer the belt on a horizontal curve [N]."""
     return 0.0 if stretch.turn is None else stretch.sets * stretch.turn.guidance()
 
 
@@ -313,13 +313,13 @@ def _unit_main(stretch: Stretch, gravity: float) -> float:
 
 
 def at_places(line: Line) -> tuple[Force, ...]:
-    """Forces at single places that no tension changes: feeding points, cleaners and ploughs."""
+    """Forces at single places independent of tension: feeding points, cleaners, ploughs."""
     loaded = [force for point in line.loading for force in _loading(line, point)]
     return (*loaded, *_cleaners(line), *_ploughs(line))
 
 
 def by_length_coefficient(line: Line, spot: Spot, along: Iterable[Force]) -> Force:
-    """Secondary resistances as a whole, (C-1) F_H, where the bulk lands."""
+    """Secondary resistances as a whole, (C-1) F_H, at the loading point."""
     main = ForceSums.of(along).main
     force = secondary_resistance(main, length=line.length)
     return Force(
@@ -362,7 +362,7 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
         yield here("skirt_seals", f"seals of the skirts{name}", "special", drag, law)
     if point.flow_beyond == 0.0:
         return
-    # the bulk that lies there already rubs on the skirts of a later feeding point too
+    # bulk already on the belt rubs on the skirts of a later feeding point too
     beyond = skirt_resistance(
         volume_flow=point.flow_beyond / line.density,
         bulk_density=line.density,
@@ -381,7 +381,7 @@ def _law(source: str, assumed: bool) -> str:
 
 
 def _cleaners(line: Line) -> Iterator[Force]:
-    """Cleaners behind the head; the strand behind a head drive is that of its take-up."""
+    """Forces of the cleaners, behind the head and any head drive."""
     for i, scraper in enumerate(line.scrapers, start=1):
         one = cleaner_resistance(scraper.area, pressure=scraper.pressure, friction=scraper.friction)
         yield Force(
@@ -392,7 +392,7 @@ def _cleaners(line: Line) -> Iterator[Force]:
 
 
 def _ploughs(line: Line) -> Iterator[Force]:
-    """Ploughs, where there is bulk to sweep."""
+    """Forces of the ploughs; none on an empty belt."""
     if line.flow == 0.0:
         return
     for i, plough in enumerate(line.ploughs, start=1):
@@ -407,16 +407,16 @@ def _ploughs(line: Line) -> Iterator[Force]:
 
 @dataclass(frozen=True)
 class Bend:
-    """A pulley's resistances as lines over the tensions at it.
+    """Resistances of a pulley as linear functions of its tensions.
 
     Attributes
     ----------
     pulley : BendPulley
-        Which.
+        The pulley.
     wrap : tuple of float
-        Bending of the belt: at no tension [N], and per newton of mean tension [-].
+        Wrap resistance at no tension [N], and per newton of mean tension [-].
     bearings : float or None
-        Bearing resistance per newton of load [-]; None of a driven pulley, whose bearings the efficiency holds.
+        Bearing resistance per newton of load [-]; None for a driven pulley, included in the drive's efficiency.
     """
 
     pulley: BendPulley
@@ -424,7 +424,7 @@ class Bend:
     bearings: float | None
 
     def forces(self, wrap: float, bearings: float) -> Iterator[Force]:
-        """Bending and bearings [N] as forces with their names."""
+        """Wrap and bearing resistance [N] as named forces."""
         name, assumed = self.pulley.name, self.pulley.assumed
         here = partial(Force, spot=self.pulley.spot, place=self.pulley.place, assumed=assumed)
         law = _law("ISO 5048 / DIN 22101, belt wrap", assumed)
@@ -434,14 +434,14 @@ class Bend:
             yield here("pulley_bearings", f"bearings, {name}", "secondary", bearings, law)
 
     def times(self, factor: float) -> Bend:
-        """The same pulley with so much more resistance."""
+        """The pulley with its resistances times a factor."""
         base, slope = self.wrap
         turn = None if self.bearings is None else factor * self.bearings
         return Bend(self.pulley, (factor * base, factor * slope), turn)
 
 
 def bends(line: Line) -> tuple[Bend, ...]:
-    """Wraps, and bearings of every pulley but the driven ones; none beside the length coefficient C."""
+    """Wrap resistance of every pulley, bearings of those not driven; none with the length coefficient C."""
     return () if line.secondary == "C" else tuple(_bend(line, pulley) for pulley in line.pulleys)
 
 

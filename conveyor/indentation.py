@@ -1,4 +1,4 @@
-"""The bridge between a roll under a belt and the dimensionless contact, both directions side by side.
+"""Conversion between a roll under a belt in SI units and the dimensionless contact, in both directions.
 
 Scales (paper, section 3): k = 2π/λ with λ the idler spacing, E0 the rubbery modulus,
 
@@ -38,12 +38,12 @@ _SLACK = 1e-12  # of the ends of a curve, which rounding may pass [-]
 
 @dataclass(frozen=True)
 class Backing:
-    """What is behind the cover that rolls run on, in a belt that gives: carcass and other cover, per width.
+    """Carcass and other cover behind the cover that runs on the rolls, per width.
 
     Parameters
     ----------
     tension : float
-        T - m' V², that bends the moving belt less [N/m].
+        T - m' V², effective tension of the moving belt [N/m].
     bending : float
         D' of the carcass, flat [N m].
     bending_loss : float
@@ -83,9 +83,9 @@ class RollContact:
     poisson : float
         ν of the rubber [-].
     support : {"confined", "free", "half-space", "belt"}
-        What holds the cover: a stiff carcass, nothing (the paper's belt), endless rubber, or the belt behind it.
+        Backing of the cover: a stiff carcass, nothing (the paper's belt), endless rubber, or the flexible belt.
     backing : Backing, optional
-        The belt behind the cover; of support "belt" only.
+        Belt behind the cover; with support "belt" only.
     """
 
     radius: float
@@ -120,13 +120,12 @@ class RollContact:
 
 
 MEMORY = 4.0
-"""Of (h/λ)³: what the spacing changes of friction. Rubber on a stiff base forgets a roll within a few thicknesses, but
-for its slowest terms: at most 1.8 (h/λ)³ was seen on the shelf's rubbers (λ/h 25 to 800, 0.5 and 8 m/s, -27 to 77 °C).
-"""
+"""Factor of (h/λ)³, the relative influence of the spacing on friction: at most 1.8 (h/λ)³ was seen on the shelf's
+rubbers (λ/h 25 to 800, 0.5 and 8 m/s, -27 to 77 °C)."""
 
 
 def forgotten(contacts: Iterable[RollContact], rtol: float) -> dict[RollContact, RollContact]:
-    """For each contact the one to solve: those that differ in spacing only share the closest, where rtol allows.
+    """Contact to solve for each contact: those that differ in spacing only share the closest, where rtol allows.
 
     Parameters
     ----------
@@ -138,7 +137,7 @@ def forgotten(contacts: Iterable[RollContact], rtol: float) -> dict[RollContact,
     Returns
     -------
     dict
-        A representative for every contact: itself, or the one of the closest spacing.
+        Representative of every contact: itself, or the one of the closest spacing.
     """
     alike: dict[RollContact, list[RollContact]] = {}
     for contact in contacts:
@@ -152,18 +151,18 @@ def forgotten(contacts: Iterable[RollContact], rtol: float) -> dict[RollContact,
 
 
 def spacing_error(contact: RollContact) -> float:
-    """Relative change of a confined contact's friction if its rolls stood farther apart, an upper estimate [-]."""
+    """Relative change of a confined contact's friction at a larger roll spacing, an upper estimate [-]."""
     return MEMORY * (contact.cover_thickness / contact.spacing) ** 3
 
 
 FAST, SLOW = 2.0, 0.1
-"""Of (V τ/a)^1.5 and (h/(V τ))²: what merging all terms faster, all slower than τ changes of friction. At most 1.03 and
-0.044 were seen on four compounds of the shelf (-30 to 50 °C, 0.5 to 9 m/s, 0.1 to 10 N/mm, 2.5 to 16 mm, rolls of 60
-to 240 mm)."""
+"""Factors of (V τ/a)^1.5 and (h/(V τ))²: relative change of friction as all terms faster, all slower than τ are
+merged. At most 1.03 and 0.044 were seen on four compounds of the shelf (-30 to 50 °C, 0.5 to 9 m/s, 0.1 to 10 N/mm,
+2.5 to 16 mm, rolls of 60 to 240 mm)."""
 
 
 def felt(contact: RollContact, line_load: float, error: float) -> tuple[float, float]:
-    """Relaxation times between which a roll tells the terms of its rubber apart [s].
+    """Relaxation times between which a roll resolves the terms of its rubber [s].
 
     Parameters
     ----------
@@ -172,12 +171,12 @@ def felt(contact: RollContact, line_load: float, error: float) -> tuple[float, f
     line_load : float
         w, the least that occurs [N/m].
     error : float
-        Relative change of friction allowed [-]: merging the terms beyond either time makes at most so much.
+        Relative change of friction allowed [-] for merging the terms beyond either time.
 
     Returns
     -------
     tuple of float
-        Fastest, slowest; half the width a is Hertz' one at the modulus that the rubber has at V over the glassy one's.
+        Fastest, slowest; a is Hertz' half width at the storage modulus of ω = V/a∞, a∞ that at the glassy modulus.
     """
     rubber, speed = contact.rubber, contact.speed
     unit = 4.0 * (1.0 - contact.poisson**2) * line_load * contact.radius / math.pi
@@ -188,7 +187,7 @@ def felt(contact: RollContact, line_load: float, error: float) -> tuple[float, f
 
 
 def coarsened(contact: RollContact, line_load: float, error: float) -> RollContact:
-    """A contact whose rubber has no terms that its roll does not tell apart; itself where nothing is known of them.
+    """Merge the rubber terms that the roll does not resolve; only of a confined, incompressible cover.
 
     Parameters
     ----------
@@ -197,7 +196,7 @@ def coarsened(contact: RollContact, line_load: float, error: float) -> RollConta
     line_load : float
         w, the least that occurs [N/m].
     error : float
-        As of `felt`, for the fast and for the slow terms each [-].
+        As in `felt`, for the fast and for the slow terms each [-].
     """
     if contact.support != "confined" or contact.poisson != 0.5:
         return contact
@@ -207,7 +206,7 @@ def coarsened(contact: RollContact, line_load: float, error: float) -> RollConta
 
 @dataclass(frozen=True, eq=False)
 class Indentation:
-    """Rolling contact under line loads, physical; arrays of the shape of `line_load`.
+    """Rolling contact under line loads, in SI units; arrays of the shape of `line_load`.
 
     Attributes
     ----------
@@ -220,7 +219,7 @@ class Indentation:
     peak_pressure : ndarray
         Largest contact pressure [Pa].
     peak_error : ndarray
-        Estimated relative error of it [-].
+        Estimated relative error of the largest contact pressure [-].
     error : float
         Estimated relative error of the resistance [-].
     energy_error : float
@@ -239,7 +238,7 @@ class Indentation:
 
     @property
     def each(self) -> tuple[Indentation, ...]:
-        """Each of the line loads alone, in order of a flat array."""
+        """One Indentation per line load, in order of a flat array."""
         fields = (self.line_load, self.resistance, self.half_width, self.eccentricity, self.penetration,
                   self.peak_pressure, self.peak_error)  # fmt: skip
         columns = (np.asarray(figures).ravel() for figures in fields)
@@ -262,7 +261,7 @@ def to_problem(contact: RollContact, line_load: float) -> ContactProblem:
     Returns
     -------
     ContactProblem
-        With the creep spectrum of the rubber normalised by E0.
+        With the creep spectrum of the rubber, normalised by E0.
 
     Raises
     ------
@@ -273,14 +272,14 @@ def to_problem(contact: RollContact, line_load: float) -> ContactProblem:
 
 
 def to_problems(contacts: Sequence[RollContact], line_loads: Sequence[float]) -> list[ContactProblem]:
-    """Dimensionless problems of many rolls, each as `to_problem`; their spectra are inverted side by side.
+    """Dimensionless problems of many rolls, each as `to_problem`; their spectra are inverted in a batch.
 
     Parameters
     ----------
     contacts : sequence of RollContact
         Rolls, covers, speeds and rubbers.
     line_loads : sequence of float
-        w of each [N/m].
+        Line load w of each [N/m].
 
     Raises
     ------
@@ -319,7 +318,7 @@ def _normalised(creep: CreepSeries, rubbery: float, rate: float) -> CreepSpectru
 
 
 def _belt(contact: RollContact, behind: Backing, creep: CreepSeries) -> Belt:
-    """The dimensionless belt: tension T k/E0, bending D k³/E0, in-plane stiffness K k/E0."""
+    """Dimensionless belt: tension T k/E0, bending D k³/E0, in-plane stiffness K k/E0."""
     k, rubbery = 2.0 * math.pi / contact.spacing, contact.rubber.equilibrium
     bending = behind.bending * k**3 / rubbery
     return Belt(
@@ -335,7 +334,7 @@ def _belt(contact: RollContact, behind: Backing, creep: CreepSeries) -> Belt:
 
 @dataclass(frozen=True, eq=False)
 class IndentationCurve:
-    """Indentation of one `RollContact` between two line loads; sampled once, evaluated anywhere between."""
+    """Indentation of one `RollContact` between two line loads, interpolated."""
 
     contact: RollContact
     curve: LoadCurve
@@ -362,7 +361,7 @@ class IndentationCurve:
 
     @property
     def lossy(self) -> bool:
-        """Whether the rubber loses energy under any load."""
+        """True if the contact loses energy."""
         return self.curve.lossy
 
     @property
@@ -377,16 +376,16 @@ class IndentationCurve:
 
     @property
     def solved(self) -> tuple[IndentationCurve, ...]:
-        """What was solved for it: itself."""
+        """Curves solved for this one: itself."""
         return (self,)
 
     @property
     def stats(self) -> SolveStats:
-        """What the curve cost."""
+        """Cost of the curve."""
         return self.curve.stats
 
     def resistance(self, line_load: ArrayLike) -> Array:
-        """Indentation resistance per width f = μ w [N/m] at line loads w [N/m]; nothing else is formed.
+        """Indentation resistance per width f = μ w [N/m] at line loads w [N/m], without the other results.
 
         Raises
         ------
@@ -397,7 +396,7 @@ class IndentationCurve:
         return found
 
     def penetration(self, line_load: ArrayLike) -> Array:
-        """Penetration Δ [m] at line loads w [N/m], as `at`; the peak pressure is not formed.
+        """Penetration Δ [m] at line loads w [N/m], as `at`, without the peak pressure.
 
         Raises
         ------
@@ -424,7 +423,7 @@ class IndentationCurve:
         return np.asarray(w * (self.curve.problem.pressure / self.highest))
 
     def at(self, line_load: ArrayLike) -> Indentation:
-        """Back from dimensionless to physical.
+        """Results in SI units at line loads.
 
         Parameters
         ----------
@@ -480,7 +479,7 @@ def indentation_curve(
     lowest, highest : float
         Range of the line load w [N/m].
     rtol : float
-        Relative error asked for [-].
+        Relative error allowed [-].
 
     Raises
     ------
@@ -498,7 +497,7 @@ def indentation_curve(
 def indentation_curves(
     contacts: Sequence[RollContact], lowest: Sequence[float], highest: Sequence[float], rtol: float = 1e-6
 ) -> list[IndentationCurve | NoSolutionError]:
-    """Solve many rolls' contacts side by side, each for every line load between two; where there is none, why.
+    """Solve many rolls' contacts in a batch, each for every line load between two: curves, or the errors instead.
 
     Parameters
     ----------
@@ -507,7 +506,7 @@ def indentation_curves(
     lowest, highest : sequence of float
         Range of the line load w of each [N/m].
     rtol : float
-        Relative error asked for [-].
+        Relative error allowed [-].
 
     Raises
     ------
@@ -526,7 +525,7 @@ def indentation_curves(
 
 
 def no_answer(contact: RollContact, loads: tuple[float, ...], why: NoSolutionError) -> NoSolutionError:
-    """Why a roll's contact has no answer under a line load or between two [N/m], with the roll."""
+    """Error of a roll's contact under a line load or between two [N/m], which names roll, cover and load."""
     diameter, cover = 2.0 * contact.radius, contact.cover_thickness
     *least, most = loads
     low = (Amount(each, "line force", f"{each:.4g}") for each in least)
@@ -581,21 +580,21 @@ def indentation_resistance(contact: RollContact, line_load: float, rtol: float =
 def indentation_resistances(
     contacts: Sequence[RollContact], line_loads: Sequence[float], rtol: float = 1e-6
 ) -> list[float | NoSolutionError]:
-    """Indentation resistance per width of many rolls, each under its line load, side by side.
+    """Indentation resistance per width of many rolls, each under its line load, in a batch.
 
     Parameters
     ----------
     contacts : sequence of RollContact
         Rolls, covers, speeds and rubbers.
     line_loads : sequence of float
-        w of each [N/m].
+        Line load w of each [N/m].
     rtol : float
-        Relative error asked for [-].
+        Relative error allowed [-].
 
     Returns
     -------
     list
-        In their order f [N/m], or why there is none.
+        f [N/m] of each, or the error instead.
 
     Raises
     ------

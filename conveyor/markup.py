@@ -1,4 +1,4 @@
-"""Markup that is safe by construction: whatever is not markup already is escaped when it is put into an element."""
+"""HTML elements and tables; content that is not markup already is escaped."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ _STYLE = "text-align:left;vertical-align:top"
 
 
 class Html(str):
-    """Text that is markup already."""
+    """Text that is HTML already."""
 
     __slots__ = ()
 
 
 def escaped(value: object) -> Html:
-    r"""Return text as HTML can hold it; markup as it is.
+    r"""Escape text for HTML; markup stays as it is.
 
     Examples
     --------
@@ -50,7 +50,7 @@ def element(tag: str, *content: object, **attributes: object) -> Html:
 
 
 def joined(parts: Iterable[object]) -> Html:
-    """Return markup in a row."""
+    """Join parts, each escaped, to one piece of markup."""
     return Html("".join(map(escaped, parts)))
 
 
@@ -72,7 +72,7 @@ def listing(caption: str, rows: Iterable[tuple[str, object]]) -> Html:
 
 
 def grid(caption: str, rows: Sequence[Mapping[str, Any]]) -> Html:
-    """Return a table of records under the union of their keys, for notebooks; long ones are cut."""
+    """Return a table of records, a column for each key, for notebooks; long ones are cut."""
     names = list(dict.fromkeys(name for row in rows for name in row))
     head = element("tr", *(element("th", name, scope="col", style=_STYLE) for name in names))
     body = [
@@ -86,7 +86,7 @@ def grid(caption: str, rows: Sequence[Mapping[str, Any]]) -> Html:
 
 
 def _shown(value: object) -> Html:
-    """Plain data as markup: parts folded away, lists of records as tables, long lists cut."""
+    """Plain data as markup: mappings folded, lists of records as tables, long lists cut."""
     if isinstance(value, Mapping):
         return _folded(_counted(len(value), "field", "fields"), listing("", value.items()))
     if isinstance(value, list | tuple):

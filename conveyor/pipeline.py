@@ -1,10 +1,10 @@
-"""The whole calculation in one drawing.
+"""The whole calculation.
 
 spec -> line in SI, loads of the rolls -> contacts of all rolls -> forces along the belt -> loop of tensions -> result
 
-Many variants go through it side by side: their contacts are solved together; what several of them share (a line, a
-rubber at a temperature, a cover at its working strain) is made once. On curves, and under a belt that gives, the
-tensions act on the rolls again until both agree.
+Many variants are calculated in one batch: their contacts are solved together; shared parts (a line, a rubber at a
+temperature, a cover at its working strain) are built once. On curves, and with a yielding belt, the tensions change the
+roll loads: both are iterated to convergence.
 """
 
 from __future__ import annotations
@@ -65,27 +65,27 @@ Array = NDArray[np.float64]
 T = TypeVar("T")
 NoAnswer: TypeAlias = NoSolutionError | RangeError | InputError
 Progress: TypeAlias = Callable[[int, int], None]
-"""Called with what is done and the whole; what is done never falls."""
+"""Called with the amount done, which never falls, and the total."""
 Anchors: TypeAlias = list[tuple[RubberCompound, bool, Anchor | NoAnswer | None]]
-"""The very compounds, whether their rubber softens, and their levels or why there is none; begins empty."""
+"""Compounds by identity, whether softened by strain, and their test factors or errors; begins empty."""
 
 
 @dataclass(frozen=True, eq=False)
 class Variant:
-    """A conveyor, and what of it is not as its spec says.
+    """A conveyor with overrides.
 
     Attributes
     ----------
     conveyor : Conveyor
         The spec.
     temperature : float, optional
-        Of the covers, instead of the spec's; the air stays [K].
+        Temperature of the covers instead of the spec's [K]; the air stays.
     level : mapping of strand to float
-        Indentation of a strand over the computed one; 1 without [-].
+        Factor on a strand's indentation [-]; 1 if absent.
     roll_drag : float
-        Drag of all rolls over the computed one [-].
+        Factor on the drag of all rolls [-].
     take_up : TakeUpSetting, optional
-        Setting of the take-up that other loads ask for, instead of the spec's or the least [N], and its side.
+        Setting of the take-up by other loads, instead of the spec's or the least [N], and its side.
     """
 
     conveyor: Conveyor
@@ -102,18 +102,18 @@ class Variant:
 
 @dataclass(frozen=True, eq=False)
 class StretchResult:
-    """A section of one strand: its rolls on their cover, and every force along it [N].
+    """Results of a section of one strand: rolls on their cover, and every force along it [N].
 
     Attributes
     ----------
     stretch : Stretch
-        Geometry, masses, loads.
-    cover : Cover
-        What its rolls run on.
+        Geometry, masses and loads.
+    cover : RunningCover
+        Cover under its rolls.
     rolls : tuple of RollResult
-        Of one set, left to right.
+        Rolls of one set, left to right.
     forces : mapping
-        By their key, as in `Balance.along`.
+        Forces by key, as in `Balance.along`.
     main, unit_main : float
         Main resistance, and that which DIN 22101 gives for f = 1.
     """
@@ -138,22 +138,22 @@ class CalculatedConveyor:
     Attributes
     ----------
     conveyor : Conveyor
-        What was calculated.
+        The spec.
     temperature : float
-        Of its covers [K].
+        Temperature of its covers [K].
     contacts : Contacts
-        Every roll on its load curve.
+        Contacts of all rolls.
     balance : Balance
         Forces, tensions, power.
     fixed : WithoutRubber
-        Forces that no rubber changes.
+        Forces independent of the rubber.
     convergence : Convergence or None
-        How tensions and what they do to the rolls settled; None where they do nothing.
+        Convergence of tensions and roll loads; None without coupling.
     friction_band : tuple of float or None
-        Friction over the computed one to reckon with, low and high end [-]; drive.least_friction and 1 where None.
+        Low and high factor on the computed friction [-]; drive.least_friction and 1 where None.
     start_of_motors : float or None
-        Force at the belt that motors whose power is not given have at rest, sized for the load that needs most [N];
-        None where only this load is known, or every power.
+        Force at rest of motors of unknown power, sized for the load that needs most [N]; None where only this load is
+        known, or every power.
     """
 
     conveyor: Conveyor
@@ -167,14 +167,14 @@ class CalculatedConveyor:
 
     @cached_property
     def drive_forces(self) -> tuple[float, float]:
-        """Drive force with the friction at both ends of its band; lift and acceleration of bulk have none [N]."""
+        """Drive force at both ends of the friction band [N]."""
         settled = self.balance.settled
         low, high = map(settled.resistance, self.friction_band or (self.line.least_friction, 1.0))
         return low, high
 
     @property
     def motor_asked(self) -> float:
-        """Power that the motors give or hold with the friction at the less favourable end [W]; negative: held."""
+        """Motor power at the less favourable end of the friction band [W]; negative: generating."""
         least, most = map(self.balance.frame.motor, self.drive_forces)
         return least if abs(least) > abs(most) else most
 
@@ -185,7 +185,7 @@ class CalculatedConveyor:
 
     @cached_property
     def stretches(self) -> tuple[StretchResult, ...]:
-        """Every section of both strands: carry strand from the tail, return strand from the head."""
+        """Results of every section: carry strand from the tail, return strand from the head."""
         along = {force.key: force for force in self.balance.along}
         columns = [force.newtons.tolist() for force in along.values() if not isinstance(force.newtons, float)]
         main = [key for key, force in along.items() if force.kind == "main"]
@@ -201,7 +201,7 @@ class CalculatedConveyor:
 
     @cached_property
     def motions(self) -> Motions:
-        """Start, coasting, braking, holding; limits of the bulk."""
+        """Start, coasting, braking, holding; slip limits of the bulk."""
         return motions(self.balance)
 
     @property
@@ -211,7 +211,7 @@ class CalculatedConveyor:
 
     @cached_property
     def take_up(self) -> TakeUpDuty:
-        """Setting, mass and travel of the take-up for this load alone."""
+        """Setting, mass and travel of the take-up for this load."""
         return take_up_of([self])
 
     @cached_property
@@ -221,7 +221,7 @@ class CalculatedConveyor:
 
     @cached_property
     def horizontal(self) -> tuple[HorizontalCheck, ...]:
-        """Every horizontal curve on both strands: drift in every state, radii, tensions of the edges."""
+        """Horizontal curves on both strands: drift in every state, radii, tensions of the edges."""
         return horizontal_checks(self.balance, self.every_state)
 
     @cached_property
@@ -231,12 +231,12 @@ class CalculatedConveyor:
 
     @cached_property
     def drive_duty(self) -> tuple[DriveDuty, ...]:
-        """Gear, backstop, brake, starts and sharing of the drives whose spec asks for them."""
+        """Gear, backstop, brake, starts and sharing of the drives whose parts the spec gives."""
         return drive_duty(self.balance, self.motions)
 
     @cached_property
     def set_duty(self) -> tuple[SetDuty, ...]:
-        """Load, axles, life and flap of the idler sets whose spec asks for them."""
+        """Load, axles, life and flap of the idler sets whose limits the spec gives."""
         return set_duty(self.balance)
 
     @cached_property
@@ -246,17 +246,17 @@ class CalculatedConveyor:
 
     @cached_property
     def cleanings(self) -> tuple[Cleaning, ...]:
-        """What every cleaner leaves on the belt."""
+        """Carryback behind every cleaner."""
         return cleanings(self.line)
 
     @cached_property
     def trajectory(self) -> Trajectory | None:
-        """The stream over the head pulley, where the spec asks for it."""
+        """Trajectory of the bulk over the head pulley, where the spec gives `discharge`."""
         return trajectory(self.line)
 
     @cached_property
     def year(self) -> Year | None:
-        """Energy of a year at even load and its cost; None without hours, or where a duty has its own year."""
+        """Annual energy at constant load and its cost; None without hours or with a duty."""
         operation = self.conveyor.operation
         if operation is None or operation.duty:
             return None
@@ -269,9 +269,9 @@ class CalculatedConveyor:
 
 
 def take_up_of(loads: Sequence[CalculatedConveyor], temperatures: Iterable[float] = ()) -> TakeUpDuty:
-    """What several loads of one conveyor, calculated at one setting, ask of its take-up.
+    """Setting, mass and travel of the take-up for several loads calculated at one setting.
 
-    Its carriage follows the belt's length at further `temperatures` of the belt, too [K].
+    The travel covers further `temperatures` of the belt [K], too.
     """
     return take_up_duty(
         [load.balance for load in loads],
@@ -284,7 +284,7 @@ def calculate(conveyor: Conveyor) -> CalculatedConveyor:
     """Calculate one conveyor under its own load.
 
     The take-up is at its given setting, else at the least that serves this load; reports have the least that serves
-    every load, of `conveyor.studies`.
+    every load, from `conveyor.studies`.
 
     Parameters
     ----------
@@ -299,11 +299,11 @@ def calculate(conveyor: Conveyor) -> CalculatedConveyor:
     Raises
     ------
     NoSolutionError
-        A roll's contact has no answer, the tensions do not settle, or the belt lifts off with its bulk.
+        A contact has no solution, the tensions do not converge, or the belt lifts off with its bulk.
     RangeError
         A compound is not known at the belt's temperature.
     InputError
-        Something else than a Conveyor.
+        The argument is not a Conveyor.
     """
     if not isinstance(conveyor, Conveyor):
         raise InputError(
@@ -326,38 +326,38 @@ def calculate_many(
     kept: Kept | None = None,
     runs: Iterable[Iterable[int]] = (),
 ) -> list[CalculatedConveyor | NoAnswer]:
-    """Calculate many variants, the contacts of all of them side by side.
+    """Calculate many variants, all contacts in one batch.
 
     Parameters
     ----------
     variants : sequence of Variant
         Conveyors.
     rtol : float, optional
-        Relative tolerance of the contacts; that of each spec without it [-].
+        Relative tolerance of the contacts [-]; by default that of each spec.
     progress : callable, optional
         Called as variants are loaded, and when they are solved; a variant counts half for each.
     one_take_up : callable, optional
-        The take-up has one setting in all of them: the least that serves every state of those that this is true of.
-        Without it the least of each. A setting that the spec gives stands.
+        Give all variants one setting of the take-up, the least that serves the variants for which this is true. By
+        default the least of each. A setting of the spec is kept.
     known : CalculatedConveyor, optional
-        A variant that is calculated already: the anchors of its compounds are taken over.
+        A variant calculated before: the test factors of its compounds are reused.
     anchors : list, optional
-        Those of calls before with the same compounds, of `kept` without it; what is new is added.
+        Test factors of earlier calls with the same compounds, by default those of `kept`; new ones are added.
     kept : Kept, optional
-        What calls before made of the same parts of specs; what is new is added.
+        Cache of earlier calls; new parts are added.
     runs : iterable of iterable of int
-        Numbers of variants that differ in speed alone: the working strain of all is read among that of three, where
-        `rtol` leaves room for it (`READ_RTOL`).
+        Indices of variants that differ in speed alone: their working strain is interpolated among three, where `rtol`
+        allows it (`READ_RTOL`).
 
     Returns
     -------
     list
-        In their order the calculations, or why a variant has none.
+        Calculations in the order of the variants, or the error of each.
 
     Raises
     ------
     NoSolutionError
-        No one setting of the take-up serves all.
+        No setting of the take-up serves all.
     """
     shared = _Shared(known, anchors, rtol, Kept() if kept is None else kept)
     shared.read_among(runs)
@@ -404,7 +404,7 @@ def calculate_many(
 
 @dataclass(frozen=True, eq=False)
 class _Step:
-    """Where the iteration of a variant stands: what acts on its curves, what holds its belt, the result before."""
+    """Iteration state of a variant: loads on curves, pull of the belt, results of the step before."""
 
     acting: Acting = field(default_factory=Acting)
     pulls: Array | None = None
@@ -414,7 +414,7 @@ class _Step:
 
     @classmethod
     def after(cls, result: CalculatedConveyor) -> _Step:
-        """The next step; its tensions are those found."""
+        """State for the step after a result."""
         line, steady = result.line, result.balance.settled.steady
         held = pulls(line, steady, GAUSS[0]) if line.support == "belt" else None
         covers = result.contacts.covers
@@ -423,9 +423,9 @@ class _Step:
 
 @dataclass(frozen=True, eq=False)
 class _Loaded:
-    """A line with its loop, the forces that no rubber changes, the covers its rolls are to work; whether at a level.
+    """A line prepared for its contacts: loop, forces independent of rubber, loaded covers.
 
-    `acted`: tensions act on its curves, so that no other variant has it.
+    `acted`: with loads of tension on curves, so that no other variant shares it; `anchored`: test factors apply.
     """
 
     line: Line
@@ -437,7 +437,7 @@ class _Loaded:
 
 
 def anchors_of(conveyor: Conveyor, compounds: Iterable[RubberCompound]) -> Anchors:
-    """Levels of compounds as a conveyor's calculation takes them."""
+    """Test factors of compounds as a conveyor's calculation uses them."""
     levels: Anchors = []
     if _anchored(conveyor.calculation):
         softened = conveyor.calculation.strain != "off"
@@ -448,7 +448,7 @@ def anchors_of(conveyor: Conveyor, compounds: Iterable[RubberCompound]) -> Ancho
 
 
 def _theories(levels: Anchors, asked: Iterable[tuple[RubberCompound, bool]]) -> list[Theory]:
-    """The theory at the tests of compounds, softened or not, whose levels are not known."""
+    """Theory at the tests of compounds, softened or not, whose test factors are unknown."""
     new: list[tuple[RubberCompound, bool]] = []
     for one, soft in asked:
         if not any(one is other and soft == how for other, how, *_ in (*levels, *new)):
@@ -460,20 +460,20 @@ def _theories(levels: Anchors, asked: Iterable[tuple[RubberCompound, bool]]) -> 
 
 
 def _anchored(calculation: Calculation) -> bool:
-    """Whether tests of compounds set the level of their indentation."""
+    """True if rolling-resistance tests scale the indentation."""
     return calculation.anchor == "tests" and calculation.support in {"confined", "belt"}
 
 
 def _strand(
     conveyor: Conveyor, sections: tuple[RouteSection, ...], strand: Strand, on_curves: Acting
 ) -> tuple[OneStrand, WithoutRubber]:
-    """A strand of a conveyor and the forces that its load alone decides."""
+    """A strand of a conveyor and its forces independent of rubber."""
     made = OneStrand.of(conveyor, sections, strand, on_curves)
     return made, strand_without_rubber(made)
 
 
 def _loaded(line: Line, fixed: Sequence[WithoutRubber], acted: bool) -> _Loaded:
-    """A line, its rolls not at work yet; whether tensions act on its curves."""
+    """Prepare a line without roll drags and loaded covers."""
     carry, back = fixed
     return _Loaded(line, Frame(line), carry.joined(back), acted)
 
@@ -481,9 +481,9 @@ def _loaded(line: Line, fixed: Sequence[WithoutRubber], acted: bool) -> _Loaded:
 def _solved(
     shared: _Shared, loaded: Mapping[int, _Loaded], steps: Mapping[int, _Step], rtol: float | None
 ) -> dict[int, Contacts | NoAnswer]:
-    """The contacts of loaded lines, their covers at their working strain; all side by side.
+    """Solve the contacts of prepared lines, their covers at their working strain, in one batch.
 
-    A belt that gives is first held fast: its tensions are not known before.
+    A yielding belt is first calculated on a rigid carcass, as its tensions are unknown.
     """
     running = shared.softened(loaded, {i: steps[i].covers for i in loaded})
     covers = {i: one for i, one in running.items() if isinstance(one, Mapping)}
@@ -502,7 +502,7 @@ def _solved(
 def _closed(
     variants: Sequence[Variant], loaded: Mapping[int, _Loaded], contacts: Mapping[int, Contacts | NoAnswer]
 ) -> dict[int, CalculatedConveyor | NoAnswer]:
-    """Close the loops around the forces of the rolls, all side by side."""
+    """Close the loops around the forces of the rolls in one batch."""
     found: dict[int, CalculatedConveyor | NoAnswer] = {}
     open_loops: dict[int, tuple[Contacts, OpenLoop]] = {}
     for i, one in contacts.items():
@@ -525,7 +525,7 @@ def _closed(
 
 
 def _open(variant: Variant, loaded: _Loaded, contacts: Contacts) -> OpenLoop:
-    """The loop with the forces of the rolls along it."""
+    """Loop with the forces along the belt, to be closed."""
     level = np.repeat([variant.level.get(strand, 1.0) for strand in STRANDS], loaded.line.count)
     along = along_the_belt(
         loaded.line,
@@ -538,7 +538,7 @@ def _open(variant: Variant, loaded: _Loaded, contacts: Contacts) -> OpenLoop:
 
 
 def _convergence(result: CalculatedConveyor, step: _Step) -> Convergence | None:
-    """How the tensions that act on rolls changed since the step before; None without them or it."""
+    """Convergence of coupled tensions against the step before; None in the first step."""
     if step.before is None:
         return None
     before, now = step.before.settled.steady, result.balance.settled.steady
@@ -546,7 +546,7 @@ def _convergence(result: CalculatedConveyor, step: _Step) -> Convergence | None:
 
 
 def _settled(result: CalculatedConveyor) -> bool:
-    """Whether tensions and what they do to the rolls agree."""
+    """True if tensions and roll loads have converged."""
     return result.convergence is not None and result.convergence.settled(result.line.rtol)
 
 
@@ -555,7 +555,7 @@ _RUBBER: Final[Any] = {cover: {"compound"} for cover in ("top_cover", "bottom_co
 
 
 class _Same:
-    """A part of a spec as a key, equal to the very same part alone; held as long as the key is."""
+    """Dictionary key of a spec's part by identity; it keeps the part alive."""
 
     __slots__ = ("part",)
 
@@ -570,14 +570,14 @@ class _Same:
 
 
 class Kept:
-    """What calculations of one spec's variants have in common, made once: strands, lines, covers, load curves.
+    """Cache of parts shared by the variants of a spec: strands, lines, covers, load curves.
 
-    Parts of specs are compared by identity: variants are made by `replace`, which keeps what it does not change. Belts
-    that differ in their rubber alone have the same strands and lines.
+    Parts of specs are compared by identity: variants come from `replace`, which keeps unchanged parts. Belts that
+    differ in rubber alone share strands and lines.
     """
 
     MOST: Final = 2048
-    """Things of a sort kept from call to call, those used last; more than all of a study over speeds and spacings."""
+    """Entries of each kind kept between calls, the last used; more than a study over speeds and spacings needs."""
 
     def __init__(self) -> None:
         self._made: dict[object, Any] = {}
@@ -586,10 +586,10 @@ class Kept:
         self.curves: SolvedCurves = {}
         self.drags: dict[tuple[OneStrand, float | None], StrandDrags | InputError] = {}
         self.fields = KnownParts()
-        """For `with_fields`: specs of the same changes have the very same parts."""
+        """For `with_fields`: specs of equal changes share their parts."""
 
     def begin(self) -> None:
-        """Forget what was not used for long where it has become much."""
+        """Drop the least recently used entries beyond `MOST`."""
         every: tuple[dict[Any, Any], ...] = (self._made, self.covers, self.curves, self.drags)
         for known in every:
             for key in list(known)[: max(0, len(known) - self.MOST)]:
@@ -598,14 +598,14 @@ class Kept:
             self.fields = KnownParts()
 
     def forget_solved(self) -> None:
-        """Forget what was solved side by side: its last digits follow from what stood beside it."""
+        """Drop batch solutions, whose last digits depend on the batch."""
         self.covers.clear()
         self.curves.clear()
 
     def once(
         self, make: Callable[[], T], what: str, parts: Iterable[object], values: tuple[object, ...] = ()
     ) -> T:
-        """What was made of the very same parts and equal values, or what is made of them now."""
+        """Cached value for the same parts and equal values, made if absent."""
         key = (what, *map(_Same, parts), *values)
         made: T = self._made.pop(key, _NOTHING)
         if made is _NOTHING:
@@ -614,13 +614,13 @@ class Kept:
         return made
 
     def belt(self, belt: Belt) -> Belt:
-        """The first belt that differs from a belt in its rubber alone."""
+        """First belt that differs from `belt` in its rubber alone."""
         said = self.once(lambda: belt.model_dump_json(exclude=_RUBBER), "said", (belt,))
         return self.once(partial(_itself, belt), "belt", (), (said, belt.line_mass))
 
 
 class _Shared:
-    """What variants of one call have in common, made once: lines, rubbers at a temperature, covers at their strain."""
+    """Parts shared by the variants of one call: lines, rubbers at a temperature, covers at their strain."""
 
     def __init__(
         self, known: CalculatedConveyor | None, anchors: Anchors | None, rtol: float | None, kept: Kept
@@ -644,22 +644,22 @@ class _Shared:
                 self._running[first] = cover
 
     def read_among(self, runs: Iterable[Iterable[int]]) -> None:
-        """Read the strains of variants that differ in speed alone among three of them, where the tolerance allows."""
+        """Interpolate strains of variants that differ in speed alone, where the tolerance allows."""
         if self._rtol is not None and self._rtol >= READ_RTOL:
             self._runs = [list(run) for run in runs]
 
     def anchor(self, variants: Iterable[Variant]) -> None:
-        """Ask for the levels of all their compounds: they come with the covers of the strands."""
+        """Request the test factors of all compounds; they are solved with the covers of the strands."""
         anchored = [one.conveyor for one in variants if _anchored(one.conveyor.calculation)]
         compounds = ((one, compounds_by_strand(one).values()) for one in anchored)
         asked = [(compound, one.calculation.strain != "off") for one, each in compounds for compound in each]
         self._theories = _theories(self._anchors, asked)
 
     def loaded(self, asked: Mapping[int, tuple[Variant, Acting]]) -> Iterator[tuple[int, _Loaded | NoAnswer]]:
-        """The lines of variants under what acts on their curves, and their covers before the rolls work them.
+        """Lines of variants under the loads on their curves, with their covers at small strain.
 
-        There is none where the belt lifts off on a concave curve or runs off its rolls on a horizontal one, a compound
-        is not known at the belt's temperature, or a law of roll drag does not hold at a load.
+        An error where the belt lifts off on a concave curve or runs off its rolls on a horizontal one, a compound is
+        unknown at the belt's temperature, or a law of roll drag is out of range at a load.
         """
         still: dict[int, _Loaded | NoAnswer] = {}
         for i, (variant, on_curves) in asked.items():
@@ -675,13 +675,13 @@ class _Shared:
                 yield i, error
 
     def _drag(self, lines: Iterable[tuple[Conveyor, _Loaded]]) -> None:
-        """Drags of all rolls that are not known, side by side."""
+        """Calculate the unknown drags of all rolls in one batch."""
         asked = {(one, _air(given)): (given, one) for given, line in lines for one in line.line.strands.each}
         new = {key: pair for key, pair in asked.items() if key not in self._drags}
         self._drags.update(zip(new, roll_drags_many(list(new.values())), strict=True))
 
     def _in_air(self, variant: Variant, still: _Loaded) -> _Loaded:
-        """A line with the drags of its rolls, its covers before the rolls work them."""
+        """Line with the drags of its rolls and its covers at small strain."""
         given, at = variant.conveyor, variant.covers_at
         compounds = compounds_by_strand(given)
         rubber = rubbers(given, lambda one: self._kept.once(partial(one.series, at), "series", (one,), (at,)))
@@ -701,7 +701,7 @@ class _Shared:
         return replace(running, works=works, anchored=_anchored(given.calculation))
 
     def _dragged(self, still: _Loaded, air: float | None) -> _Loaded:
-        """A line with the drags of its rolls in air of a temperature [K]."""
+        """Line with the drags of its rolls in air of a temperature [K]."""
         drags: list[tuple[float, ...]] = []
         for strand in still.line.strands.each:
             one = self._drags[strand, air]
@@ -712,12 +712,12 @@ class _Shared:
         return replace(still, line=line, frame=still.frame.of(line))
 
     def _worked(self, work: StrandAtWork, rtol: float) -> StrandAtWork:
-        """The first strand that works its cover alike, whose rubber it has as far as its rolls tell terms apart."""
+        """First strand that loads its cover identically, with unresolved relaxation terms merged."""
         felt = self._felt(work, rtol)
         return self._kept.once(partial(_itself, felt), "alike", (work.compound,), felt.scene)
 
     def _felt(self, work: StrandAtWork, rtol: float) -> StrandAtWork:
-        """A strand whose cover has its rubber as far as its rolls tell terms apart."""
+        """Merge relaxation terms that the rolls of a strand cannot resolve."""
         times = told_apart(work, rtol)
         if times is None:
             return work
@@ -729,14 +729,14 @@ class _Shared:
         return replace(work, cover=replace(work.cover, rubber=less, merged=2.0 * FELT * rtol))
 
     def _still(self, given: Conveyor, on_curves: Acting) -> _Loaded:
-        """The line of a spec, its rolls without drag."""
+        """Line of a spec without roll drags."""
         acted = on_curves != Acting()
         kept, belt = self._own if acted else self._kept, self._kept.belt(given.belt)
         others = (belt, given.material, given.route, given.drive, given.calculation, given.report)
         scene = (*map(_in_order, vars(on_curves).values()), given.ambient.wind_speed, given.site)
 
         def made() -> _Loaded:
-            """Specs of one belt, load and idlers share a strand; of one strand all but their other idlers."""
+            """Build the line; specs of equal belt, load and idlers share strands."""
             sections = self._kept.once(lambda: route_sections(given), "sections", (given.route,))
             each = []
             for strand, own in zip(STRANDS, sets, strict=True):
@@ -754,9 +754,9 @@ class _Shared:
     def softened(
         self, loaded: Mapping[int, _Loaded], before: Mapping[int, Covers]
     ) -> dict[int, Covers | NoAnswer]:
-        """The covers of many lines at their working strain; alike ones are the very same, and share load curves.
+        """Covers of many lines at their working strain; identical ones are one object and share load curves.
 
-        A cover of the step before stays where its rolls work it as they did.
+        A cover of the step before is kept while its line load is unchanged.
         """
         for i, kept in before.items():
             for strand, cover in kept.items():
@@ -787,7 +787,7 @@ class _Shared:
         }
 
     def _at_level(self, loaded: _Loaded, strand: Strand) -> RunningCover | NoAnswer:
-        """A strand's cover at the level of its compound's tests; at the theory's without."""
+        """Cover of a strand with the test factor of its compound, if any."""
         work = loaded.works[strand]
         cover = self._running[work]
         known = self._anchors if loaded.anchored else ()
@@ -807,7 +807,7 @@ def _itself(one: T) -> T:
 
 
 def _air(conveyor: Conveyor) -> float | None:
-    """Temperature around the rolls [K], where their drag follows it."""
+    """Air temperature at the rolls [K], where their drag depends on it."""
     return conveyor.air_temperature if conveyor.idlers.drag_follows_air else None
 
 
@@ -816,7 +816,7 @@ def _in_order(figures: Mapping[tuple[str, Strand], float]) -> tuple[object, ...]
 
 
 def _together(covers: Mapping[Strand, RunningCover | NoAnswer]) -> Covers | NoAnswer:
-    """The covers of all strands, or why the first of those without has none."""
+    """Covers of all strands, or the first error."""
     for cover in covers.values():
         if not isinstance(cover, RunningCover):
             return cover
@@ -824,7 +824,7 @@ def _together(covers: Mapping[Strand, RunningCover | NoAnswer]) -> Covers | NoAn
 
 
 class _Told:
-    """Tells how far a batch is; a variant that must be loaded once more takes nothing back."""
+    """Reports the progress of a batch; repeated steps never lower it."""
 
     def __init__(self, variants: int, progress: Progress | None) -> None:
         self._whole, self._most, self._progress = 2 * variants, 0, progress

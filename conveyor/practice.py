@@ -1,8 +1,7 @@
-"""Conveyors whose resistance is printed or was measured, beside what is computed for them.
+"""Conveyors of published or measured resistance, compared with the computed one.
 
-The specs hold what is printed, and say what is assumed; nothing in them or in the defaults is fitted to a case. A
-printed design has the allowances of its method and stands against the upper end of the band, a measurement against the
-middle.
+The specs have the printed data and state what is assumed; nothing is fitted to a case. A printed design includes the
+allowances of its method and is compared with the upper end of the band, a measurement with the middle.
 """
 
 from __future__ import annotations
@@ -31,23 +30,23 @@ QUANTITIES: Final[dict[Resistance, tuple[str, str]]] = {
     "f": ("friction factor f", "-"),
     "carry set": ("main resistance of a carry set", "N"),
 }
-"""What is compared, in words, and its unit."""
+"""Compared quantities and their units."""
 
 
 @dataclass(frozen=True)
 class PracticeFigure:
-    """A resistance that is printed or was measured, and the same computed.
+    """A published or measured resistance, and the computed one.
 
     Attributes
     ----------
     spec, source, assumed : str
-        Name of the spec, where the figure is from, what of the spec is assumed.
+        Name of the spec, source of the figure, assumptions of the spec.
     evidence : {"printed", "measured"}
         A design, or a running conveyor.
     resistance : str
         Key of `QUANTITIES`.
     loading : {"full", "empty"}
-        Of the belt.
+        Loading of the belt.
     stated : float
         Printed or measured [N], f [-].
     expected, least, design : float
@@ -70,7 +69,7 @@ class PracticeFigure:
 
     @property
     def within(self) -> bool:
-        """Whether the stated figure lies in the band."""
+        """True if the stated figure lies in the band."""
         return self.least <= self.stated <= self.design
 
 
@@ -130,7 +129,7 @@ def _classical(result: CalculatedConveyor, what: Resistance) -> float | None:
 
 @dataclass(frozen=True)
 class PracticeSummary:
-    """How the figures of one kind of evidence compare.
+    """Comparison of the figures of one kind of evidence.
 
     Attributes
     ----------
@@ -147,7 +146,7 @@ class PracticeSummary:
 
 
 def summarise(figures: list[PracticeFigure]) -> PracticeSummary:
-    """Medians of the ratios of computed to stated, and how many figures lie in their band.
+    """Medians of computed over stated, and the number of figures within their band.
 
     Parameters
     ----------
@@ -157,7 +156,7 @@ def summarise(figures: list[PracticeFigure]) -> PracticeSummary:
     Returns
     -------
     PracticeSummary
-        Of all of them.
+        Summary of all figures.
     """
     return PracticeSummary(
         count=len(figures),

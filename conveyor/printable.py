@@ -1,4 +1,4 @@
-"""Text that may be shown: what would move a cursor, turn the reading direction or break a file becomes its code."""
+"""Escaping of control characters in text for people."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ _NOT_SHOWN: Final = re.compile(
 
 
 def printable(text: str) -> str:
-    r"""Write control characters out: a hostile name may not move the cursor, colour the terminal or break a file.
+    r"""Replace control characters by their codes, so that no name moves the cursor or breaks a file.
 
-    Whatever the package prints or writes for people goes through here: terminal, SVG, CSV, HTML, workbooks.
+    All text for people goes through here: terminal, SVG, CSV, HTML, workbooks.
 
     Examples
     --------
@@ -25,7 +25,7 @@ def printable(text: str) -> str:
 
 
 def in_json(written: str) -> str:
-    r"""Write control characters in JSON text as JSON does; it reads back to the same.
+    r"""Replace control characters in JSON text by JSON escapes; it reads back to the same.
 
     Examples
     --------

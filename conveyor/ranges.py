@@ -1,4 +1,4 @@
-"""Evenly spaced numbers as people write them: `from:to:step`."""
+"""Evenly spaced numbers from text: `from:to:step`."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ import math
 from typing import Final
 
 MOST: Final = 1000
-"""Values of one range."""
+"""Largest number of values of one range."""
 
 
 def spaced(given: str) -> list[float]:
-    """Values of `from:to:step`, the end included; none where the step leads nowhere or to more than `MOST`.
+    """Values of `from:to:step`, the end included; none for an invalid step or more than `MOST`.
 
     Raises
     ------
@@ -29,7 +29,7 @@ def spaced(given: str) -> list[float]:
 
 
 def why_not_spaced(given: str) -> str:
-    """Rule that `from:to:step` breaks; empty where it breaks none.
+    """Error of a range `from:to:step`; empty if it is valid.
 
     Raises
     ------

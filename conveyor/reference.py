@@ -1,4 +1,4 @@
-"""The file formats field by field, written from the models: what docs/spec.md and `conveyor schema --markdown` hold."""
+"""Reference of the file formats, written from the models: docs/spec.md and `conveyor schema --markdown`."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _FORMATS: Final[Mapping[type[BaseModel], str]] = {
     SizingDuty: "duty",
     RubberCompound: "compound",
 }
-"""What each is called."""
+"""Names of the formats."""
 _DEPTH: Final = 2  # of the headings of formats
 _NOTHING: Final[tuple[Any, ...]] = (None, "", [])
 _ALIKE: Final = (
@@ -65,7 +65,7 @@ def markdown() -> str:
 
 
 def fields(model: type[BaseModel]) -> dict[str, Leaf]:
-    """Return every field of a file format that holds a value, by its path; ``[]`` stands for an entry of a list.
+    """Return the value fields of a file format by path; ``[]`` is an entry of a list.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def _known(model: type[BaseModel]) -> dict[str, Leaf]:
 
 
 def example(model: type[BaseModel], path: str) -> Example | None:
-    """Return a value of a field as a file holds it; None where words say it better (names of other files).
+    """Return an example value of a field as in a file; None for names of other files.
 
     Examples
     --------
@@ -106,7 +106,7 @@ def example(model: type[BaseModel], path: str) -> Example | None:
 
 
 def _first_alike(path: str) -> str:
-    """Return the same field of the first block of its kind."""
+    """Path of the same field in the first block of its kind."""
     for other, first in _ALIKE:
         path = path.replace(other, first)
     return path
@@ -114,7 +114,7 @@ def _first_alike(path: str) -> str:
 
 @cache
 def _examples() -> dict[str, dict[str, Example]]:
-    """Read the values of fields that no starter spec shows."""
+    """Example values of fields that no starter spec has."""
     text = files("conveyor._reference").joinpath("examples.yaml").read_text(encoding="utf-8")
     read: dict[str, dict[str, Example]] = YAML(typ="safe", pure=True).load(text)
     return read
@@ -126,7 +126,7 @@ def _starter(kind: Any) -> dict[str, Any]:
 
 
 def _at(data: Any, path: str) -> Any:
-    """Find a value in plain data; of a list the first entry that has it."""
+    """Value at a path of plain data; in lists of the first entry that has it."""
     if not path:
         return data if not isinstance(data, Mapping) else None
     head, _, rest = path.partition(".")
@@ -151,7 +151,7 @@ def _joined(path: str, key: str) -> str:
 
 
 def anchor(heading: str) -> str:
-    """Return the anchor that a heading gets on the usual pages: lower case, hyphens, no other signs.
+    """Return the link target of a heading: lower case, hyphens, no other signs.
 
     Examples
     --------
@@ -162,13 +162,13 @@ def anchor(heading: str) -> str:
 
 
 def _intro(name: str) -> list[str]:
-    """Read what stands before the fields of a format."""
+    """Introduction of a format, as lines."""
     text = files("conveyor._reference").joinpath(f"{name}.md").read_text(encoding="utf-8")
     return [text.rstrip(), ""]
 
 
 def _units() -> Iterator[str]:
-    """List the kinds of quantity with their units."""
+    """Table of the kinds of quantity with their units."""
     yield "## Units"
     yield ""
     yield "`^2` may also be written `²` or `2`; `°C`, `°F` and `°` as well as `degC`, `degF` and `deg`."
@@ -185,18 +185,18 @@ def _units() -> Iterator[str]:
 
 
 class _Writer:
-    """Sections of a file format; blocks with fields that are `known`, with their headings, are not written again."""
+    """Sections of a file format; blocks with `known` fields link to their earlier section."""
 
     def __init__(self, model: type[BaseModel], known: _Known) -> None:
         self._model = model
         self._known = known
 
     def whole(self) -> Iterator[str]:
-        """Write all of the format."""
+        """Lines of the whole format."""
         yield from self.section(layout(self._model), "", f"The {_FORMATS[self._model]}")
 
     def section(self, part: FieldGroup | FieldTable, path: str, heading: str) -> Iterator[str]:
-        """Write a block, then the blocks in it."""
+        """Lines of a block, then of the blocks in it."""
         level = _DEPTH + min(2, path.count(".") + 1) if path else _DEPTH
         yield f"{'#' * level} {heading}"
         yield ""
@@ -287,7 +287,7 @@ def _without_block(part: FieldGroup | FieldTable) -> str:
 
 
 def _written(value: Any, leaf: Leaf) -> Any:
-    """Write a default as people do: shares in per cent, exponents without padding."""
+    """Default as people write it: shares in per cent."""
     if isinstance(value, float) and "%" in leaf.units:
         return f"{100.0 * value:g} %"
     return value

@@ -1,4 +1,4 @@
-"""What a reader of the results must know: the assumptions behind every figure, and warnings where one is strained."""
+"""Assumptions behind the results, and warnings where one is strained."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ LEAST_PUBLISHED_FRICTION: Final = 0.0075
 
 
 def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
-    """What every figure of an analysis rests on, in words."""
+    """Assumptions behind all results of an analysis, in words."""
     support = {
         "confined": "the cover is bonded to a carcass that does not give (a real belt differs by 1 to 8 %)",
         "belt": "the cover is bonded to a carcass that gives, held by its tension, the other cover above; all flat",
@@ -63,7 +63,7 @@ def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
 
 
 def _horizontal(conveyor: Conveyor) -> Iterator[str]:
-    """What the drift in horizontal curves rests on."""
+    """Assumptions on drift in horizontal curves."""
     if all(section.horizontal_curve is None for section in conveyor.route.sections):
         return
     slip, friction = math.degrees(FULL_SLIP_TILT.value), ROLL_ON_BELT_FRICTION.value
@@ -83,7 +83,7 @@ def _horizontal(conveyor: Conveyor) -> Iterator[str]:
 
 
 def _wind(conveyor: Conveyor) -> Iterator[str]:
-    """What the wind on a strand without bulk rests on."""
+    """Assumptions on wind on a strand without bulk."""
     if conveyor.ambient.wind_speed is not None:
         yield (
             f"Wind on a strand without bulk, no hood: it lifts by {WIND_LIFT.value:g} of its dynamic pressure on the "
@@ -95,7 +95,7 @@ def _wind(conveyor: Conveyor) -> Iterator[str]:
 
 
 def method(result: CalculatedConveyor) -> tuple[str, ...]:
-    """How the figures of an analysis are calculated, for readers who have the report alone."""
+    """Method of calculation, for readers of the report alone."""
     tested = any(level is not None for level in (cover.level for cover in result.contacts.covers.values()))
     scaled = ", scaled to the rolling-resistance tests of the compound" if tested else ""
     return (
@@ -139,7 +139,7 @@ def _energy(conveyor: Conveyor) -> Iterator[str]:
 
 
 def warnings(result: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Said, ...]:
-    """Where an assumption is strained, a default stands in, a criterion is not met, or a figure needs a second look."""
+    """Warnings: strained assumptions, defaults in use, failed checks, doubtful results."""
     conveyor = result.conveyor
     return tuple(
         dict.fromkeys(
@@ -185,7 +185,7 @@ def _rubber(conveyor: Conveyor) -> Iterator[Said]:
 
 
 def _strain(result: CalculatedConveyor) -> Iterator[Said]:
-    """At which strain the moduli were taken, where the compound knows what strain does to it."""
+    """Working strain and its factors on the moduli, for compounds with strain dependence."""
     for strand, compound in compounds_by_strand(result.conveyor).items():
         known, name = compound.strain_dependence, quoted(compound.name)
         if known is None:
@@ -221,7 +221,7 @@ def _strain(result: CalculatedConveyor) -> Iterator[Said]:
 
 
 def _level(result: CalculatedConveyor) -> Iterator[Said]:
-    """Whether rolling-resistance tests set the level of the indentation, and how far it is known."""
+    """Test factor on the indentation and its band, or that it is untested."""
     contacts, calculation = result.contacts, result.conveyor.calculation
     for strand, compound in compounds_by_strand(result.conveyor).items():
         level, name = contacts.covers[strand].level, quoted(compound.name)
@@ -383,7 +383,7 @@ def _drive(result: CalculatedConveyor) -> Iterator[Said]:
 
 
 def _slack_side(result: CalculatedConveyor) -> Iterator[Said]:
-    """Of a take-up that stands before the drive because the belt drives it."""
+    """A take-up before the drives, as the belt drives the motors."""
     if result.line.take_up.on_slack_side and result.balance.settled.force < 0.0:
         yield said(
             "the belt drives the motors: the slack side, where the take-up stands under every load, is before the "
@@ -397,7 +397,7 @@ COLD_OIL = (
 
 
 def roll_assumptions(conveyor: Conveyor) -> tuple[str, ...]:
-    """Shares, flexure, drag: what they rest on; entries of libraries with their sources."""
+    """Assumptions on load shares, flexure, drag and alignment; library entries with their sources."""
     return (
         _shares(conveyor), _flexure(conveyor), _drag(conveyor), _alignment(conveyor), *_entries(conveyor)
     )  # fmt: skip
@@ -482,7 +482,7 @@ def _law_in_words(roll: Roll, *, in_service: bool) -> str:
 
 
 def _rolls(idlers: IdlerSet) -> list[tuple[str, Roll]]:
-    """Rolls of a set by their field."""
+    """Rolls of a set with their field names."""
     rolls = [("roll", idlers.roll)]
     return rolls if idlers.middle_roll is None else [*rolls, ("middle_roll", idlers.middle_roll)]
 
@@ -504,7 +504,7 @@ def _entries(conveyor: Conveyor) -> Iterator[str]:
 
 
 def roll_warnings(result: CalculatedConveyor) -> tuple[Said, ...]:
-    """Where a default stands in or a law is strained."""
+    """Warnings on defaults in use and strained laws of rolls, sets and belt."""
     conveyor = result.conveyor
     return (
         *_mass_warnings(conveyor),
@@ -519,7 +519,7 @@ def roll_warnings(result: CalculatedConveyor) -> tuple[Said, ...]:
 
 
 def _alignment_warnings(conveyor: Conveyor) -> Iterator[Said]:
-    """Where the alignment of the sets is that of the site."""
+    """Sets whose misalignment is the site's default."""
     sets = (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_))
     without = [f"idlers.{strand}.misalignment" for strand, idlers in sets if idlers.misalignment is None]
     if without:
@@ -533,7 +533,7 @@ def _alignment_warnings(conveyor: Conveyor) -> Iterator[Said]:
 
 
 def _mass_warnings(conveyor: Conveyor) -> Iterator[Said]:
-    """Where the reduced mass of a set must stand for all of it."""
+    """Sets whose reduced mass is used as rotating mass."""
     for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
         if idlers.reduced_mass is not None and idlers.reduced_only:
             yield said(
@@ -574,7 +574,7 @@ def _drag_warnings(result: CalculatedConveyor) -> Iterator[Said]:
 
 
 def _drags_of(result: CalculatedConveyor, strand: str, idlers: IdlerSet, roll: Roll) -> list[float]:
-    """Drags of a roll in all sets of a strand [N]."""
+    """Drags of one roll in all sets of a strand [N]."""
     places = [place for place in range(idlers.rolls) if idlers.roll_at(place) is roll]
     pairs = zip(result.line.stretches, result.line.roll_drags, strict=True)
     return [drags[place] for stretch, drags in pairs if stretch.strand == strand for place in places]
@@ -636,7 +636,7 @@ def _library_warnings(conveyor: Conveyor) -> Iterator[Said]:
 
 
 def _cover_warnings(conveyor: Conveyor) -> Iterator[Said]:
-    """A listed mass is that of the listed covers."""
+    """Belt mass of a library entry with other cover thicknesses."""
     belt = conveyor.belt
     held = {} if belt.entry is None else belt.entry.fields
     if belt.mass is None or text(belt.mass) != held.get("mass"):

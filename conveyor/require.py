@@ -1,4 +1,4 @@
-"""Refusals of the laws: every message names the argument, its value and what is allowed."""
+"""Range checks of the laws: every message names the argument, its value and the allowed range."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from conveyor.errors import Amount, ConveyorError, InputError
 
 
 def require(ok: bool, name: str, value: object, allowed: str | ConveyorError) -> None:
-    """Refuse an argument unless `ok`; an amount is written as its reader has it."""
+    """Refuse an argument unless `ok`; an amount is written in the reader's units."""
     if not ok:
         shown = value if isinstance(value, Amount) else repr(value)
         raise InputError("{} = {} is not allowed: {}", name, shown, allowed)
 
 
 def require_number(**values: object) -> None:
-    """Refuse what is no number: a quantity in words, an array."""
+    """Refuse anything but a number: text, an array."""
     for name, value in values.items():
         require(isinstance(value, Real), name, value, "a number in SI units is needed")
 

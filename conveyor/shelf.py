@@ -1,4 +1,4 @@
-"""The shelf of rubber compounds: built in, beside it the user's own folders and files."""
+"""The shelf of rubber compounds: the built-in folder, and the user's own folders and files."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ def read_compound(path: Path) -> RubberCompound:
     """
     try:
         state = path.stat()
-    except (OSError, ValueError):  # the latter: a null byte in the name
+    except (OSError, ValueError):  # ValueError: a null byte in the name
         read_document(path)
         raise
     return _read_once(path, state.st_mtime_ns, state.st_size)
@@ -104,14 +104,14 @@ def read_compound(path: Path) -> RubberCompound:
 
 @lru_cache(maxsize=256)
 def _read_once(path: Path, _changed: int, _size: int) -> RubberCompound:
-    """Read a file, once for each state of it: models are frozen and may be shared."""
+    """Read a file, cached by its time and size: models are frozen and may be shared."""
     return read_model(RubberCompound, path)
 
 
 def resolver(
     *, extra: Iterable[str | Path] = (), base: Path | None = None
 ) -> Callable[[str], RubberCompound]:
-    """Return the function that models use to look compounds up while a spec is read.
+    """Return the function by which models look up compounds while a spec is read.
 
     Raises
     ------
@@ -134,7 +134,7 @@ def dump(compound: RubberCompound, heading: str = "") -> str:
     Parameters
     ----------
     compound : RubberCompound
-        What to write.
+        Compound to write.
     heading : str
         A comment for the first line, without ``#``.
     """
@@ -153,10 +153,10 @@ def dump(compound: RubberCompound, heading: str = "") -> str:
             return row
         return value
 
-    written = yaml_text(laid(compound.as_data()), width=100_000)  # one row of a table is one line
+    written = yaml_text(laid(compound.as_data()), width=100_000)  # no line breaks in rows
     return (f"# {heading}\n" if heading else "") + written
 
 
 def _short(items: list[Any]) -> bool:
-    """Quantities and numbers, no sentences."""
+    """True for a list of numbers and short texts."""
     return all(not isinstance(item, str) or len(item) < 24 for item in items)

@@ -100,7 +100,7 @@ def from_data(
 
 @contextmanager
 def placing(path: str | Path) -> Iterator[None]:
-    """Put the place in a spec before an error that a study finds later, in a field of it.
+    """Put the place in the spec before an error raised later about one of its fields.
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ def placing(path: str | Path) -> Iterator[None]:
     Raises
     ------
     InputError
-        What was raised inside, with ``file:line:column`` in front where it names a field of the file.
+        The error raised inside, after ``file:line:column`` where it names a field of the file.
     """
     try:
         yield
@@ -134,7 +134,7 @@ def _placed(path: Path, location: Location) -> str:
 
 @checked
 def dump(conveyor: Conveyor) -> str:
-    """Return a spec (YAML) that `load` reads back to an equal conveyor; compounds are written out."""
+    """Return a spec (YAML) that `load` reads back to an equal conveyor, compounds written out."""
     return yaml_text(conveyor.as_data(), width=110)
 
 
@@ -155,7 +155,7 @@ def schema(model: type[Model] = Conveyor) -> dict[str, Any]:
     Parameters
     ----------
     model : type of Model
-        Of the format.
+        Model of the format.
 
     Examples
     --------

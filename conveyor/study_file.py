@@ -32,7 +32,7 @@ from conveyor.models.wording import Location
 from conveyor.units import quantity
 
 LARGEST_FILE: Final = 10_000_000
-"""Bytes; a year of hourly values has a tenth."""
+"""Bytes; a year of hourly values takes a tenth."""
 _HEAD: Final = re.compile(r"\s*([^\s\[\]()]+)\s*(?:\[\s*(.*?)\s*\])?\s*")
 Given = TypeVar("Given", bound=VariedSpec)
 
@@ -49,7 +49,7 @@ def read_plan(path: str | Path) -> StudyPlan:
 
 
 def read_search(path: str | Path) -> SearchPlan:
-    """Read what `conveyor optimise` searches; as `read_plan`."""
+    """Read a search for `conveyor optimise`; as `read_plan`."""
     return _with_states(read_model(SearchPlan, Path(path)), Path(path))
 
 
@@ -67,7 +67,7 @@ def read_duty(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Sizing
 
 @contextmanager
 def named(path: str | Path) -> Iterator[None]:
-    """Name the file of a plan in what refuses it later: a field, a figure or a compound that its spec does not know.
+    """Name the plan file in later errors about its fields, figures or compounds.
 
     Raises
     ------
@@ -83,7 +83,7 @@ def named(path: str | Path) -> Iterator[None]:
 
 
 def _listed(document: Document, error: PlacedError) -> str:
-    """Problems of a plan with their lines: of its file, or of its table of states."""
+    """Text of the problems of a plan with their lines in its file or its table of states."""
     faults, of_states = [], []
     table = document.data.get("states")
     for place, said in error.problems:
@@ -108,19 +108,19 @@ def _listed(document: Document, error: PlacedError) -> str:
 
 
 def _without(place: Location, said: str) -> str:
-    """What is said of a place without its name, which stands before it."""
+    """Message without the parts of its location, which are written before it."""
     for part in place:
         said = said.removeprefix(f"{part}: ")
     return said
 
 
 def base_of(plan: VariedSpec, path: str | Path) -> Path:
-    """The spec of a plan, beside its file.
+    """Path of the base spec of a plan, relative to its file.
 
     Raises
     ------
     InputError
-        It is not there.
+        The spec does not exist.
     """
     base = Path(path).parent / plan.base
     with named(path):
@@ -130,7 +130,7 @@ def base_of(plan: VariedSpec, path: str | Path) -> Path:
 
 
 def _with_states(plan: Given, path: Path) -> Given:
-    """A plan with the table of its states, where it names one."""
+    """Plan with the states of its table, where it names one."""
     if not isinstance(plan.states, str) or plan.states == DUTY:
         return plan
     table = path.parent / plan.states
@@ -142,18 +142,18 @@ def _with_states(plan: Given, path: Path) -> Given:
 
 
 def read_states(path: Path) -> tuple[dict[str, Value], ...]:
-    """States of a table: a column a field, headed by its path and unit, and `hours`; alike rows become one.
+    """States of a table: one column a field, headed by path and unit, and `hours`; equal rows are merged.
 
     Raises
     ------
     InputError
-        It cannot be read, or a cell is empty or of another kind.
+        The table cannot be read, or a cell is empty or of another kind.
     """
     return alike_as_one(row for _, row in _rows(path))
 
 
 def _rows(path: Path) -> list[tuple[int, dict[str, Value]]]:
-    """Rows of a table of states with their numbers; all that is wrong in them is said at once."""
+    """Numbered rows of a table of states; all problems in one error."""
     text, _ = decoded(file_content(path, largest=LARGEST_FILE, expected="table of states"), path.name)
     head, *lines = [line for line in headed_lines(text) if not line.comment] or [
         TextLine(1, ("",), "", False)
@@ -190,7 +190,7 @@ def _rows(path: Path) -> list[tuple[int, dict[str, Value]]]:
 
 
 def _cell(cell: str, unit: str, *, timed: bool) -> Value:
-    """A value as specs write it; of a time its hours."""
+    """Value of a cell as in specs; hours of a time."""
     value = f"{cell} {unit}" if unit else _number(cell)
     if unit:
         quantity(value)
@@ -203,7 +203,7 @@ def _cell(cell: str, unit: str, *, timed: bool) -> Value:
 
 
 def _number(cell: str) -> Value:
-    """A number; else the text."""
+    """Number, else the text."""
     try:
         return float(cell)
     except ValueError:

@@ -1,4 +1,4 @@
-"""The largest and the least of several, whatever rounding makes of equals."""
+"""Maximum and minimum that ignore rounding: the first of equal items wins."""
 
 from __future__ import annotations
 
@@ -9,17 +9,16 @@ from typing import TypeVar
 T = TypeVar("T")
 
 ALIKE = 1e-9
-"""Relative difference that rounding along a loop of thousands of sections makes at most; another processor's kernels
-round otherwise, and of two loads that are one the first is to govern there too."""
+"""Largest relative rounding difference along a loop of thousands of sections, on any processor."""
 
 
 def largest(items: Iterable[T], value: Callable[[T], float]) -> T:
-    """Return the item of the largest value, of those that are as large but for rounding the first.
+    """Return the item of the largest value; of values equal but for rounding the first.
 
     Raises
     ------
     ValueError
-        There is none.
+        No items.
 
     Examples
     --------
@@ -32,11 +31,11 @@ def largest(items: Iterable[T], value: Callable[[T], float]) -> T:
 
 
 def least(items: Iterable[T], value: Callable[[T], float]) -> T:
-    """Return the item of the least value, of those that are as small but for rounding the first.
+    """Return the item of the smallest value; of values equal but for rounding the first.
 
     Raises
     ------
     ValueError
-        There is none.
+        No items.
     """
     return largest(items, lambda item: -value(item))

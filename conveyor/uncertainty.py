@@ -1,4 +1,4 @@
-"""Ranges of the inputs, and what each does to the power: `conveyor.uncertainty.study(line).table`."""
+"""Uncertainty of the power from ranges of the inputs: `conveyor.uncertainty.study(line).table`."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""The package checked against figures from elsewhere, in seconds: what `conveyor validate` shows.
+"""Checks of the package against independent figures, for `conveyor validate`.
 
-`run` returns one `Check` for each figure and prints nothing. The test suite checks the same sources in more depth.
+`run` returns one `ReferenceCheck` for each figure. The test suite checks the same sources in more depth.
 """
 
 from __future__ import annotations
@@ -71,10 +71,10 @@ _HARRISON = "Harrison (1983, 1985), measured"
 _LODEWIJKS = "Lodewijks (1996), finite elements"
 
 _RTOL = 1e-6
-_PLACE_TOLERANCE = 1e-5  # of a, e, Δ in units of R: they converge more slowly than friction
+_PLACE_TOLERANCE = 1e-5  # of a, e, Δ over R, which converge more slowly than friction
 _STRIP_TOLERANCE = 1e-8
-# free, kh 1, p̃_m 0.13, ζ 3, E∞/E0 10: R/λ, μ, Δ/R, edges; a derivation of its own, polished to 1e-12, which a separate
-# grid solver confirms to 1e-5
+# free, kh 1, p̃_m 0.13, ζ 3, E∞/E0 10: R/λ, μ, Δ/R, edges; independent derivation to 1e-12, confirmed by a grid solver
+# to 1e-5
 _TWO_STRIPS = (
     (0.4, 0.35799886592, 0.24626956256, (-0.57405087749, 0.11803574191, 0.32586797997, 0.74153527656)),
     (0.3, 0.56514163672, 0.40315679660, (-0.56623801936, -0.15624540858, 0.42031718971, 0.79156872681)),
@@ -88,20 +88,20 @@ _CURVE_TOLERANCE = 1e-9  # ten digits given
 
 @dataclass(frozen=True, slots=True)
 class ReferenceCheck:
-    """One figure of this package beside the same figure from elsewhere.
+    """A figure of this package compared with the same figure from elsewhere.
 
     Parameters
     ----------
     source : str
-        Where the expected figure comes from.
+        Source of the expected figure.
     quantity : str
-        What is compared, with its unit.
+        Name of the figure, with its unit.
     expected, got : float or str
-        The two figures; words where the answer is a status.
+        The two figures; text where the answer is a status.
     deviation, tolerance : float
-        |got/expected - 1| (|got - expected| of lengths over R) and what is allowed of it [-].
+        |got/expected - 1| (|got - expected| for lengths over R) and its allowed value [-].
     passed : bool
-        Whether the deviation is within the tolerance.
+        True if the deviation is within the tolerance.
     """
 
     source: str
@@ -118,9 +118,9 @@ class ReferenceCheck:
 
 @dataclass(frozen=True, slots=True)
 class ReferenceCase:
-    """A contact solved elsewhere; figures are those of `ContactSolution`, None for a contact that splits.
+    """A contact solved elsewhere; figures as in `ContactSolution`, None for a split contact.
 
-    `relative_change` is that of its friction with the last rise of the order: what the figure is good to.
+    `relative_change` is that of its friction with the last increase of the order: the accuracy of the figures.
     """
 
     name: str
@@ -134,13 +134,13 @@ class ReferenceCase:
 
     @property
     def split(self) -> bool:
-        """Whether one strip would need tension."""
+        """True if the contact splits into several strips."""
         return self.friction is None
 
 
 @lru_cache(maxsize=1)
 def reference_cases() -> tuple[ReferenceCase, ...]:
-    """Contacts of conveyor/_reference/contact_cases.json, whose `origin` says how they were computed.
+    """Contacts of conveyor/_reference/contact_cases.json; its `origin` states how they were computed.
 
     Returns
     -------
@@ -181,7 +181,7 @@ def run() -> list[ReferenceCheck]:
 
     Returns
     -------
-    list of Check
+    list of ReferenceCheck
         In the order: reference contacts, Hunter, CONTACT, ISO 5048, pulley shaft, roll, take-up, motor,
         transition, printed designs, transfer, horizontal curve, flat sets, five rolls, distances of the sets,
         compliance times modulus, starts and stops.
@@ -290,7 +290,7 @@ def _contact_program() -> Iterator[ReferenceCheck]:
     for length, figure in ((0.0, "60.32"), (9.0, "78.74"), (45.0, "84.72"), (2000.0, "85.31")):
         contact, scale = _isolated(1143.0 / 571.5, length / width)
         got = peak * contact.peak_pressure / scale
-        # one unit: the program's 85.31 lies above its own limit of infinite speed, 85.3028
+        # one unit: the program's 85.31 exceeds its own limit of infinite speed, 85.3028
         yield _printed(_CONTACT, f"p_max [N/mm²], Vτ = {length:g} mm", figure, got, units=1.0)
 
 
@@ -349,10 +349,10 @@ def _pulley_shaft() -> Iterator[ReferenceCheck]:
             )
         )
 
-    # the belt runs on at -2 deg: its pull is 92 deg from straight down
+    # the belt leaves at -2 deg: its tension is 92 deg from straight down
     whole = pulley.pulley_resultant(pull(*start), weight=weight, pull_angle=math.radians(92.0))
     moment = pulley.hub_moment(whole, bearing_centres=2.56, hub_centres=1.8)
-    # tensions printed to 0.01 kN: half a unit more
+    # tensions printed to 0.01 kN: half a unit added
     yield _printed(_HELIX, "half resultant, run [kN]", "121.45", pull(120.75e3, 122.14e3) / 2e3, units=1.0)
     yield _printed(_HELIX, "half resultant, start [kN]", "169.76", pull(*start) / 2e3)
     yield _printed(_HELIX, "bending moment at the hub [kN m]", "64.58", moment / 1e3)
@@ -363,7 +363,7 @@ def _idler_roll() -> Iterator[ReferenceCheck]:
     """2000 t/h at 3.8 m/s on rolls of 127 mm, both bearings of the middle roll alike."""
     bulk = loading.bulk_line_mass(2000.0 / 3.6, belt_speed=3.8)
     rotation = resistance.roll_rotation(3.8, roll_diameter=0.127)
-    # the load of a bearing that lives so long: L10 falls with its third power
+    # bearing load from its life: L10 ~ load^-3
     hours = roll_life.rating_life_hours(1e3, dynamic_rating=26e3, rotation=rotation)
     load = 2.0 * 1e3 * (hours / 40e3) ** (1.0 / roll_life.BALL_EXPONENT)
     yield _printed(_SHORTT, "bulk [kg/m]", "146.199", bulk)
@@ -411,7 +411,7 @@ def _transition() -> Iterator[ReferenceCheck]:
         expected = math.sqrt(0.5 * stiffness / induced) * math.hypot(
             wing * (1.0 - math.cos(lam)), depth * wing * math.sin(lam)
         )
-        # the middle rises to the pulley, too: its own way is counted from it
+        # the middle rises to the pulley, too: lifts are measured from it
         edge = zone.edge - zone.middle + 0.5 * raised**2
         got = math.sqrt(stiffness * edge / induced)
         name = f"length [m], 1.2 m, 35 deg, pulley at {depth:g} of the trough"
@@ -506,7 +506,7 @@ def _flat_sets() -> Iterator[ReferenceCheck]:
     """Return belt of 60 kN on flat sets of 918 N, 3 m apart, banked by 4.5 deg: 600 m of a curve of 2300 m.
 
     At each set the belt turns by what the set pushes outward, over the tension; the way back to the straight behind it
-    ends the curve, so that the course is found from there.
+    ends the curve, from which the course is calculated.
     """
     tension_, weight, apart, radius, length = 60e3, 918.0, 3.0, 2300.0, 600.0
     banking, friction, full = math.radians(4.5), 0.35, math.radians(3.0)
@@ -565,7 +565,7 @@ def _five_rolls() -> Iterator[ReferenceCheck]:
 
 
 def _distances_of_sets() -> Iterator[ReferenceCheck]:
-    """What a distance asks of the tension, against a chain that hangs; the cheapest distance of a section."""
+    """Tension for the sag at a set spacing, against a hanging chain; the cheapest spacing of a section."""
     load = 150.0 * 9.81
     for sag in (0.01, 0.02):
         low, high = 0.1, 100.0  # tension of the chain's lowest point over the weight between the sets
@@ -599,7 +599,7 @@ def _compliance_identity() -> Iterator[ReferenceCheck]:
 
 
 def _starts_and_stops() -> Iterator[ReferenceCheck]:
-    """Published waves; allowed is what their readings and what they do not print leave open."""
+    """Published waves; the tolerances are those of reading them and of unpublished data."""
     bulk = 600.0 / 3.6 / 2.5
     speed = waves.wave_speed(104e6, line_mass=27.0 + 11.25 + bulk)
     yield _printed(_SONG, "wave speed of the loaded strand [m/s]", "995.6", speed)

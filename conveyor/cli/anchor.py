@@ -1,4 +1,4 @@
-"""`conveyor anchor`: the level of a compound's indentation from rolling-resistance tests."""
+"""`conveyor anchor`: test factor of a compound's indentation from rolling-resistance tests."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def anchor(
 
 
 def _show(anchored: Anchored, system: System) -> None:
-    """What the tests say, row by row and in all."""
+    """Print measured over calculated of the tests, row by row and in all."""
     from conveyor import anchoring
     from conveyor.cli.terminal import console, grid, wrapped
 

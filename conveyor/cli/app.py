@@ -26,28 +26,28 @@ from conveyor.ranges import MOST, spaced
 if TYPE_CHECKING:
     from conveyor.models import Conveyor
 
-# matrices here are small: more BLAS threads than one cost time, and a lot of it on a busy machine
+# matrices are small: more than one BLAS thread costs time, most on a busy machine
 for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_threads, "1")
 
 
 def examples(*commands: str) -> str:
-    """Examples as the last lines of a command's help, one a line."""
+    """Examples for the end of a command's help, one a line."""
     return "\b\nExamples:\n" + "\n".join(f"  {command}" for command in commands)
 
 
 def option(words: str, metavar: str | None = None, *names: str, **more: Any) -> Any:
-    """An option: its help, what stands for its value, its names if not made of the parameter's."""
+    """Typer option: help, metavar, names if not those of the parameter."""
     return typer.Option(*names, metavar=metavar, help=words, case_sensitive=False, **more)
 
 
 def argument(words: str, metavar: str | None = None, **more: Any) -> Any:
-    """An argument, as `option`."""
+    """Typer argument: help, metavar."""
     return typer.Argument(metavar=metavar, help=words, **more)
 
 
 class _InOrder(typer.core.TyperGroup):
-    """Commands in the order a newcomer needs them."""
+    """Command group with a fixed order of commands."""
 
     def list_commands(self, ctx: Any) -> list[str]:
         return sorted(
@@ -66,7 +66,7 @@ app = typer.Typer(
     cls=_InOrder,
     add_completion=True,
     pretty_exceptions_enable=False,
-    rich_markup_mode=None,  # plain help: rich alone would take a third of its time
+    rich_markup_mode=None,  # plain help: importing rich would take a third of its time
     context_settings={"help_option_names": ["-h", "--help"]},
     epilog=examples(
         "conveyor new mine.yaml",
@@ -150,13 +150,13 @@ Quiet = Annotated[bool, option("Print nothing but errors.", None, "--quiet", "-q
 Drawing = "to this file (.png, .svg, .pdf)."
 
 Progress = Callable[..., None]
-"""Called with what is going on, what is done, the whole, and what else to say."""
+"""Callback with the name of a task, steps done, steps in all, and a note."""
 _ASSIGNED = re.compile(r"\s*([^=]+?)\s*=\s*(.*?)\s*", re.DOTALL)
 _PATIENCE = 1.0  # seconds before a bar appears
 
 
 def compound_names(context: typer.Context, incomplete: str) -> list[str]:
-    """Names on the shelf that begin with what was typed; the folders of --shelf are searched, too."""
+    """Completions of a shelf name, including the folders of --shelf."""
     given = context.params.get("shelf") or context.params.get("shelves") or ()
     try:
         known = files(given)
@@ -166,7 +166,7 @@ def compound_names(context: typer.Context, incomplete: str) -> list[str]:
 
 
 def read_spec(path: Path, shelves: list[Path] | None, changed: list[str] | None = None) -> Conveyor:
-    """The conveyor of a spec, with fields changed by `FIELD=VALUE`."""
+    """Read the conveyor of a spec and change fields by `FIELD=VALUE`."""
     import conveyor
     from conveyor import shelf
     from conveyor.models.fields import with_fields
@@ -192,7 +192,7 @@ def read_spec(path: Path, shelves: list[Path] | None, changed: list[str] | None 
 
 
 def _value(written: str) -> Any:
-    """A number, true, false or a list as JSON has them; else text."""
+    """JSON number, true, false or list; else text."""
     try:
         return json.loads(written)
     except ValueError:
@@ -216,8 +216,8 @@ def json_text(data: object) -> str:
 
 
 def print_text(text: str) -> None:
-    """Print text that programs read, in UTF-8 whatever the terminal's encoding."""
-    with suppress(AttributeError):  # a stream that a test put there
+    """Print text for programs, in UTF-8 whatever the terminal's encoding."""
+    with suppress(AttributeError):  # streams of tests cannot be reconfigured
         sys.stdout.reconfigure(encoding="utf-8")  # type: ignore[union-attr]
     print(text, end="")
 
@@ -229,9 +229,9 @@ def say(*lines: str) -> None:
 
 @contextmanager
 def progress(what: str = "", *, silent: bool) -> Iterator[Progress | None]:
-    """A bar with the time left on stderr, for what takes longer than a second; none where output is piped.
+    """Progress bar on stderr after one second; none where output is piped.
 
-    It is called with words, if not `what` says them, what is done, the whole, and what else to say.
+    Yields a callback with the name of the task (unless `what` is given), steps done, steps in all, and a note.
     """
     if silent or not sys.stderr.isatty():
         yield None
@@ -261,7 +261,7 @@ def _bar() -> Any:
 
 
 def values(given: str, option: str, *units: str) -> list[str]:
-    """``from:to:step`` or ``a,b,c``, with a unit at the end or in the first one, as texts with the unit."""
+    """Values of ``from:to:step`` or ``a,b,c`` as texts with a unit: the one at the end, else the first allowed."""
     unit = next((known for known in units if given.strip().endswith(known)), units[0])
     body = given.strip().removesuffix(unit).strip()
     try:
@@ -278,14 +278,14 @@ def values(given: str, option: str, *units: str) -> list[str]:
 
 
 def si_of(option: str, given: str | None, kind: str) -> float | None:
-    """Value of an option in SI; None where it is not given."""
+    """Option value in SI; None where it is not given."""
     from conveyor.units import in_si
 
     return None if given is None else in_si(given, kind, option)
 
 
 def one_of(option: str, given: str, allowed: tuple[str, ...]) -> Any:
-    """One of the words an option allows."""
+    """Option value, refused unless it is one of the allowed words."""
     if given not in allowed:
         raise InputError(f'{option}: got "{given}", allowed: {", ".join(allowed)}')
     return given

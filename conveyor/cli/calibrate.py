@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from conveyor.units import System
 
 _OF_RUNS = ("run", "flow", "speed", "temperature", "measured", "before", "after", "difference", "note")
-"""Columns that a terminal has room for."""
+"""Columns shown on a terminal."""
 
 
 @command(
@@ -75,7 +75,7 @@ def calibrate(
 
 
 def _show(calibration: CalibrationStudy, system: System) -> None:
-    """Factors, correlation, runs, and the part of the spec."""
+    """Print factors, correlation, runs, and the part of the spec."""
     from conveyor.cli.terminal import console, grid, wrapped
     from conveyor.report import calibration_tables
 

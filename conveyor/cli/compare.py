@@ -133,7 +133,7 @@ def compare(
 
 
 def _every(given: list[str] | None, option: str, *units: str) -> list[str] | None:
-    """The values of an option, however often it stands; None where it does not."""
+    """Values of a repeatable option; None where it is not given."""
     return [value for words in given for value in values(words, option, *units)] if given else None
 
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Sought(StrEnum):
-    """What can be sized."""
+    """Quantities that can be sized."""
 
     RAMP = "ramp"
     BRAKE = "brake"
@@ -92,7 +92,7 @@ def dynamics(
 
 
 def _chosen(line: Conveyor, names: list[str] | None) -> tuple[Scenario, ...]:
-    """The scenarios asked for."""
+    """Scenarios of the given names, else all."""
     from conveyor.dynamics.follow import standard_scenarios
 
     every = {one.name: one for one in line.scenarios or standard_scenarios(line)}
@@ -104,7 +104,7 @@ def _chosen(line: Conveyor, names: list[str] | None) -> tuple[Scenario, ...]:
 
 
 def _write(dynamics: CalculatedDynamics, contents: Contents, path: Path, to: Outputs) -> None:
-    """Make a file of the kind its name says; of several scenarios a figure each."""
+    """Add the report or figure of an output path, by its ending; one figure for each scenario."""
     from conveyor.report.columns import slug
     from conveyor.report.dynamics_tables import picture
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class StarterKind(StrEnum):
-    """What there is a starter of, three conveyors and a duty to size one from; and full examples as they stand."""
+    """Kinds of starter: three conveyors, a duty to size one from, and full examples."""
 
     OVERLAND = "overland"
     IN_PLANT = "in-plant"

@@ -1,6 +1,6 @@
-"""Files a command is asked to write: refused before time is spent on them, written all together or not at all.
+"""Output files of a command: checked before the calculation, then written all or none.
 
-An output that is also an input is always refused; an older file that is no such output of this program needs --force.
+An output that is also an input is always refused; replacing a file of another kind needs --force.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ _KINDS = {
     **dict.fromkeys(FIGURE, marks.FIGURE),
     **dict.fromkeys(SPEC, marks.TO_FILL_IN),
 }
-"""What an older file is that may be replaced, by its ending, if not said otherwise."""
+"""Kind of an older file that may be replaced, by its ending."""
 _LARGEST = 100_000_000
-"""Bytes of an older file that is looked at; no output of this program is larger."""
+"""Largest older file examined [bytes]; no output of this program is larger."""
 
 
 class Outputs:
-    """What a command reads, what it is asked to write, and then what goes into it."""
+    """Inputs of a command, its output files, and their contents."""
 
     def __init__(self, *inputs: str | Path | None, force: bool) -> None:
         self._inputs = [Path(path) for path in inputs if path is not None]
@@ -49,7 +49,7 @@ class Outputs:
         self._reports: list[Callable[[Contents], None]] = []
 
     def file(self, option: str, path: Path | None, *endings: str, kind: str | None = None) -> None:
-        """Refuse a file that cannot be written, has another ending, or would replace what is not of its kind."""
+        """Register an output file; refuse one that cannot be written, has another ending, or replaces another kind."""
         if path is None:
             return
         if path.suffix.lower() not in endings:
@@ -68,7 +68,7 @@ class Outputs:
         self._refuse_older(path, _KINDS.get(path.suffix.lower(), "") if kind is None else kind)
 
     def folder(self, option: str, path: Path | None) -> None:
-        """Refuse a folder that is none, or that neither exists nor can be made."""
+        """Register an output folder; refuse one that is a file or cannot be created."""
         if path is None:
             return
         if path.exists() and not path.is_dir():
@@ -81,7 +81,7 @@ class Outputs:
         self._folders.append(path)
 
     def tables(self, path: Path | None, *, parquet: bool) -> None:
-        """Refuse a folder for tables as `folder` does, and Parquet without one or the package that writes it."""
+        """Register the folder for tables; refuse Parquet without a folder or without pyarrow."""
         self.folder("--tables", path)
         if not parquet:
             return
@@ -99,7 +99,7 @@ class Outputs:
         parquet: bool = False,
         pdf: Path | None = None,
     ) -> None:
-        """Refuse the files of a report as `file` and `tables` do; `write` makes them."""
+        """Register the files of a report; `write` makes them."""
         self.file("--output", output, ".xlsx")
         paged = self.pages(html, pdf)
         self.tables(tables, parquet=parquet)
@@ -111,7 +111,7 @@ class Outputs:
             self._reports.append(partial(self.tabled, folder=tables, parquet=parquet))
 
     def pages(self, html: Path | None, pdf: Path | None) -> list[Path]:
-        """Refuse the files of a page as `file` does, and PDF without the package that sets it; the files asked for."""
+        """Register the files of a page and return them; refuse PDF without the package that sets it."""
         self.file("--html", html, *PAGE)
         self.file("--pdf", pdf, ".pdf", kind=marks.PAGE)
         if pdf is not None:
@@ -121,14 +121,14 @@ class Outputs:
         return [path for path in (html, pdf) if path is not None]
 
     def write(self, contents: Contents, told: Progress | None = None) -> None:
-        """Make the files of a report that were asked for."""
+        """Make the registered files of a report."""
         for done, make in enumerate(self._reports):
             if told is not None:
                 told("writing", done, len(self._reports))
             make(contents)
 
     def report(self, contents: Contents, path: Path) -> None:
-        """Make the workbook of a report, or its page, as the name ends."""
+        """Make the workbook or page of a report, by file ending."""
         if path.suffix.lower() == ".xlsx":
             from conveyor.report import excel
 
@@ -137,13 +137,13 @@ class Outputs:
             self._paged(contents, [path])
 
     def _paged(self, contents: Contents, paths: Iterable[Path]) -> None:
-        """Make the page of a report, in every file asked for."""
+        """Make the page of a report as HTML or PDF files."""
         from conveyor.report import html
 
         self.page(html.build(contents), paths)
 
     def page(self, page: Html, paths: Iterable[Path]) -> None:
-        """Make the files of a page: itself, or what is printed of it, as their names end."""
+        """Make a page as HTML or PDF, by file ending."""
         for path in paths:
             if path.suffix.lower() == ".pdf":
                 from conveyor.report import pdf
@@ -155,7 +155,7 @@ class Outputs:
                 self.add("page", path, {path: page.encode()})
 
     def tabled(self, contents: Contents, folder: Path, *, parquet: bool) -> None:
-        """Make a file of every table of a report."""
+        """Make a file for each table of a report."""
         from conveyor.report import files
 
         self.add("tables", folder, files.files(contents, folder, "parquet" if parquet else "csv"))
@@ -167,14 +167,14 @@ class Outputs:
         self.add("figure", path, {path: drawn(figure, path)})
 
     def figures(self, figures: Mapping[str, Figure], folder: Path, kind: str = "png") -> None:
-        """Make a file of every figure, by its name."""
+        """Make a file for each figure, by its name."""
         from conveyor.report.plots import drawn
 
         paths = {folder / f"{name}.{kind}": figure for name, figure in figures.items()}
         self.add("figures", folder, {path: drawn(figure, path) for path, figure in paths.items()})
 
     def add(self, what: str, where: Path, contents: Mapping[Path, bytes]) -> None:
-        """Take what goes into a file and those beside it, or into the files of a folder."""
+        """Add the contents of a file and its companions, or of the files of a folder."""
         for path, content in contents.items():
             if any(_same(path, other) for other in self._contents):
                 raise InputError(f"{path}: two outputs go to this file; choose another name or folder")
@@ -183,12 +183,12 @@ class Outputs:
         self._said.append(f"{what}: {where if where in contents else f'{len(contents)} in {where}'}")
 
     def save(self) -> list[str]:
-        """Write everything, or change nothing; a line on each."""
+        """Write all files or none; returns a line on each."""
         saving.save(self._contents, folders=self._folders)
         return self._said
 
     def _refuse_older(self, path: Path, kind: str) -> None:
-        """Refuse to replace an input, and unasked what is no output of the kind."""
+        """Refuse to replace an input or, without --force, a file of another kind."""
         if any(_same(path, read) for read in self._inputs):
             raise InputError(f"{path}: is an input of this command; choose another name for the output")
         if not kind or self._force or not path.exists():
@@ -205,7 +205,7 @@ class Outputs:
 
 
 def _same(path: Path, other: Path) -> bool:
-    """Whether two names are of one file, links followed; of files that are not there yet by their names."""
+    """True if two paths are the same file, links followed; missing files are compared by path."""
     try:
         if path.exists() and other.exists():
             return path.samefile(other)

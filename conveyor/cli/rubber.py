@@ -238,7 +238,7 @@ def _said(words: str) -> tuple[str, str]:
 
 
 def _column(words: str) -> tuple[str, str]:
-    """Name of a column and what it holds, from NAME=MEANING."""
+    """Column name and meaning from NAME=MEANING."""
     name, _, meant = words.rpartition("=")
     if not name.strip() or not meant.strip():
         raise InputError(f'--column: got "{words}", expected NAME=MEANING such as "Modul A=E\'"')
@@ -253,7 +253,7 @@ def _judged(
     paged: Sequence[Path],
     to: Outputs,
 ) -> list[str]:
-    """Lines of the verdict; add the page to sign and the workbook."""
+    """Add the page to sign and the workbook; returns the lines of the verdict."""
     from conveyor.fitting import page, tables, verdict
     from conveyor.fitting.compound import Tabulated
     from conveyor.spec import load
@@ -270,7 +270,7 @@ def _judged(
 
 @contextmanager
 def _placed(files: Sequence[Path]) -> Iterator[None]:
-    """Refusals with the path of the file they are about."""
+    """Put the path of the file before errors about it."""
     try:
         yield
     except InputError as error:
@@ -285,7 +285,7 @@ def _placed(files: Sequence[Path]) -> Iterator[None]:
 
 
 def _exported(compound: RubberCompound, paths: Sequence[Path] | None, to: Outputs) -> None:
-    """Add the input of other programs."""
+    """Add the input files of other programs."""
     from conveyor.fitting import programs
 
     for path in paths or ():
@@ -390,7 +390,7 @@ def shelf(
 def _show(
     console: Console, table: Table, to: Outputs, plot: Path | None, figure: Callable[[ModuleType], Figure]
 ) -> None:
-    """Draw what is asked for, then print the table: what fails says so alone."""
+    """Draw the figure, write the files, then print the table."""
     if plot is not None:
         from conveyor.report import plots
 

@@ -1,4 +1,4 @@
-"""What a run of the command line ends in: an exit code and, where something is wrong, one message on stderr."""
+"""Entry point: exit codes, and one message on stderr for an error."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ WRONG_INPUT: Final = 2
 INTERRUPTED: Final = 130
 """128 + SIGINT, as shells give it."""
 _GO_ON: Final = (["study"], ["optimise"])
-"""Commands that keep what they did when they are stopped."""
+"""Commands that can be resumed after a stop."""
 
 _UsageError: type[Exception] = next(t for t in typer.BadParameter.__mro__ if t.__name__ == "UsageError")
 _SPECS: Final = (".yaml", ".yml", ".json", ".xlsx")
@@ -33,7 +33,7 @@ _PARSERS: Final = {
     "Input should be a valid number.*": "expected a number",
     "Input should be a valid integer.*": "expected a whole number",
 }
-"""Words of typer's parsers, and plainer ones."""
+"""Messages of typer's parsers, and plainer ones."""
 
 
 def main() -> None:
@@ -66,20 +66,19 @@ def main() -> None:
 
 
 def _set_up_streams() -> None:
-    """A reader that goes away ends us silently, as any filter; what a terminal cannot show is written as its code.
+    """End silently where the reader of a pipe goes away; escape characters that a terminal cannot show.
 
-    A stream that was closed before we began is opened: what is printed then fails, or for errors is lost, and no other
-    file takes its number.
+    Streams that were closed at the start are opened on the null device, so that no other file takes their number.
     """
     sys.stdout = sys.stdout or _nowhere(os.O_RDONLY)
     sys.stderr = sys.stderr or _nowhere(os.O_WRONLY)
     if hasattr(signal, "SIGPIPE"):
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)
     for stream in (sys.stdout, sys.stderr):
-        with suppress(AttributeError):  # a stream that a test put there
+        with suppress(AttributeError):  # streams of tests cannot be reconfigured
             stream.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
     warnings.showwarning = _note
-    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it tells of caches it cannot keep
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # warnings about caches it cannot write
 
 
 def _nowhere(mode: int) -> TextIO:
@@ -103,16 +102,16 @@ def _leave(message: str, code: int) -> NoReturn:
 
 
 def _discard_output() -> None:
-    """Send what is still to be written nowhere: the interpreter would fail on it again as it ends."""
+    """Discard buffered output: the interpreter would fail on it again as it ends."""
     with (
         suppress(OSError, ValueError),
         Path(os.devnull).open("wb") as nowhere,
-    ):  # no file behind a test's stream
+    ):  # streams of tests have no file
         os.dup2(nowhere.fileno(), sys.stdout.fileno())
 
 
 def usage(error: Any) -> str:
-    """One line on a command line that was not understood: what, what was meant, where to read on."""
+    """One-line message for a usage error: the error, a suggestion, the help command."""
     context = error.ctx
     said = str(error.message if getattr(error, "possibilities", None) else error.format_message()).rstrip(".")
     said = said.replace("Value error, ", "")

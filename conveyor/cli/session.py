@@ -1,4 +1,4 @@
-"""What every command that calculates is told by the same options, and how it reads, writes and answers."""
+"""Options shared by the commands that calculate, and how these read, write and answer."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Session:
-    """Units asked for, whether older files are replaced, what is printed, folders of compounds, fields changed."""
+    """Values of the shared options."""
 
     units: UnitsOption = None
     force: Force = False
@@ -48,25 +48,25 @@ class Session:
     changed: Changed = None
 
     def outputs(self, *inputs: str | Path | None) -> Outputs:
-        """Files to write, none of them an input."""
+        """Output files of a command with these inputs."""
         return Outputs(*inputs, force=self.force)
 
     def read(self, spec: Path) -> Conveyor:
-        """The conveyor of a spec with the fields changed."""
+        """Read the conveyor of a spec and change its fields by --set."""
         return read_spec(spec, self.shelf, self.changed)
 
     def system(self, line: Conveyor | SizingDuty | None = None) -> System:
-        """Units of what is shown and written: as asked for, else those of a spec, else SI."""
+        """Units of the output: of --units, else of the spec, else SI."""
         if self.units is not None:
             return self.units.value
         return "SI" if line is None else line.report.units
 
     def progress(self, what: str = "") -> AbstractContextManager[Progress | None]:
-        """A bar on stderr of what goes on; none where nothing or JSON is printed."""
+        """Progress bar on stderr; none with --quiet or --json."""
         return progress(what, silent=self.quiet or self.as_json)
 
     def answer(self, figures: Callable[[], object], to: Outputs, show: Callable[[], None]) -> None:
-        """Write the files, then print the figures as JSON, or show them and name the files."""
+        """Write the files, then print the figures as JSON, or as tables with the names of the files."""
         text = json_text(figures()) if self.as_json else ""
         written = to.save()
         if self.as_json:
@@ -80,18 +80,18 @@ class Session:
 def command(
     name: str | None = None, *, short_help: str, examples_of: tuple[str, ...], without: tuple[str, ...] = ()
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Register a command whose first parameter is a session; its options follow the command's own.
+    """Register a command whose first parameter is a session; the shared options follow its own.
 
     Parameters
     ----------
     name : str, optional
-        Of the command; else the function's.
+        Command name; else that of the function.
     short_help : str
-        In the list of commands.
+        Help in the list of commands.
     examples_of : tuple of str
-        Its use, under its help.
+        Examples below its help.
     without : tuple of str
-        Fields of the session that it does not offer.
+        Shared options that it does not have.
     """
 
     def add(function: Callable[..., None]) -> Callable[..., None]:

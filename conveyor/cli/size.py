@@ -78,12 +78,12 @@ def size(
 
 
 def _ranked(path: Path, best: int) -> list[Path]:
-    """Names of the specs of the designs: that of the only one, else numbered."""
+    """Paths of the design specs, numbered by rank where there are several."""
     return [path] if best == 1 else [path.with_stem(f"{path.stem}-{rank}") for rank in range(1, best + 1)]
 
 
 def _write(sizing: CalculatedSizing, contents: Contents, path: Path, ending: str, to: Outputs) -> None:
-    """Make a file of the kind its name says."""
+    """Add the specs, report or figure of an output path, by its ending."""
     from conveyor.spec import dump
 
     if ending in SPEC:

@@ -1,4 +1,4 @@
-"""`conveyor study`: a spec with fields that vary, every point calculated, kept as it comes; the designs of them."""
+"""`conveyor study`: calculate all variants of a spec, stored as they come, and rank the designs."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from conveyor.units import System
 
 _SHOWN = 3
-"""Reasons without an answer that are printed."""
+"""Number of printed reasons of points without an answer."""
 
 
 @command(
@@ -128,7 +128,7 @@ def study(
 
 
 def _asked(to: Outputs, option: str, path: Path | None) -> None:
-    """Refuse the file of a table that cannot be written, or must not."""
+    """Register the output file of a table."""
     csv = path is not None and path.suffix == ".csv"
     to.file(option, path, ".csv", ".parquet", kind=marks.STUDY if csv else marks.TABLE)
 
@@ -142,7 +142,7 @@ def _made(
     plots: Path | None,
     specs: Path | None,
 ) -> None:
-    """Make the page, the figures and the specs that are asked for."""
+    """Make the page, figures and design specs."""
     to.write(contents)
     if plots is not None:
         to.figures({drawing.name: drawing.draw() for drawing in contents.drawings}, plots)
@@ -155,7 +155,7 @@ def _made(
 
 
 def show_best(contents: Contents, deciding: Set[str]) -> None:
-    """Print the best designs, of their figures those that decide: files have all."""
+    """Print the best designs with the deciding figures only."""
     from conveyor.cli.terminal import console, grid
 
     if "best" in contents:
@@ -166,7 +166,7 @@ def show_best(contents: Contents, deciding: Set[str]) -> None:
 
 
 def spec_of(campaign: Campaign, design: Design, figures: str) -> bytes:
-    """A design as a spec that `power` reads, its figures in its heading."""
+    """Design as a spec for `conveyor power`, with its figures in the heading."""
     from conveyor.models.fields import with_fields
     from conveyor.spec import dump
 
@@ -191,7 +191,7 @@ def said(design: Design, campaign: Campaign, system: System) -> str:
 
 
 def telling(told: Callable[..., None] | None) -> Callable[[int, int, int], None] | None:
-    """Tell a bar how far a run is: points a second since it began, points without an answer."""
+    """Progress callback with the rate of points and the number without an answer."""
     if told is None:
         return None
     begun: list[tuple[float, int]] = []

@@ -1,4 +1,4 @@
-"""How results look on a terminal: plain tables, no wider than it; of every command what a designer looks for."""
+"""Results on a terminal: plain tables with the main figures of every command."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
     from conveyor.report.columns import Contents, Figure, Table
     from conveyor.units import System
 
-_PIPED: Final = 120  # columns where nobody's terminal limits them
+_PIPED: Final = 120  # columns without a terminal
 _NARROWEST: Final = 40
 _SUMS: Final = ("main", "secondary", "special", "lift", "total")
 _DOCUMENT: Final = ("project", "number", "client", "engineer", "revision")
 _MATTERS: Final = 3
-"""Inputs that are said to matter first."""
+"""Number of most sensitive inputs printed."""
 _FIRST_ORDER: Final = 2  # rows of the band
 _SCENARIO: Final = (
     "scenario", "highest_tension", "at", "in", "lowest_tension", "lowest_at", "lowest_in", "comes_to_rest", "way",
@@ -38,7 +38,7 @@ _DESIGN: Final = (
 
 
 def console() -> Console:
-    """A console as wide as the terminal, or as `COLUMNS` says, or 120 where output is piped."""
+    """Console of the width of the terminal or of `COLUMNS`; 120 where output is piped."""
     from rich.console import Console
 
     own = sys.stdout.isatty() or os.environ.get("COLUMNS", "").strip("0").isdecimal()
@@ -46,16 +46,16 @@ def console() -> Console:
 
 
 def words(text: str, style: str = "") -> Text:
-    """Text for the terminal: not markup, and without control characters."""
+    """Text for the terminal, without markup and control characters."""
     from rich.text import Text
 
     return Text(printable(text), style=style)
 
 
 def table(title: str | None = None, heads: Iterable[str] = (), *, left: Collection[str] = ()) -> Grid:
-    """A table without a frame: a line below its head, nothing that a file of text does not hold.
+    """Table without a frame, with a line below its head.
 
-    Columns are numbers, but those whose heads are said to stand on the left.
+    Columns are aligned right, those of `left` left.
     """
     from rich import box
     from rich.table import Table
@@ -75,7 +75,7 @@ def table(title: str | None = None, heads: Iterable[str] = (), *, left: Collecti
 
 
 def grid(part: Table, system: System, title: str | None = None, *, large: bool = False) -> Grid:
-    """A table of the report, units below names; `large`: in kN where the report has N, decimals only where needed."""
+    """Table of the report, units below names; `large`: kN for N, and no decimals that are all zero."""
     made = table(part.heading if title is None else title)
     every = []
     for column in part.columns:
@@ -91,7 +91,7 @@ def grid(part: Table, system: System, title: str | None = None, *, large: bool =
             written = without_zeros(written)
         every.append([words(text) for text in written])
         made.add_column(words(heading), justify="left" if of_words else "right")
-        if not of_words:  # words break where there is no room, numbers do not
+        if not of_words:  # text wraps, numbers do not
             made.columns[-1].min_width = max((text.cell_len for text in every[-1]), default=None)
     for row in zip(*every, strict=True):
         made.add_row(*row)
@@ -99,7 +99,7 @@ def grid(part: Table, system: System, title: str | None = None, *, large: bool =
 
 
 def without_zeros(numbers: Sequence[str]) -> list[str]:
-    """Numbers of a column without the decimals that are zero in all of them.
+    """Numbers of a column without decimals that are zero in all of them.
 
     Examples
     --------
@@ -114,12 +114,12 @@ def without_zeros(numbers: Sequence[str]) -> list[str]:
 
 
 def wrapped(line: str, width: int, *, first: str = "", further: str = "") -> str:
-    """Break a line where the terminal ends, what follows indented."""
+    """Wrap a line to a width, further lines indented."""
     return textwrap.fill(line, width - 1, initial_indent=first, subsequent_indent=further)
 
 
 def show_notes(screen: Console, notes: Sequence[str]) -> None:
-    """Print notes as two short lists, their lines no wider than the terminal."""
+    """Print notes as two lists, wrapped to the terminal."""
     from conveyor.report.columns import HEADINGS, ordered
 
     for heading, colour, listed in zip(HEADINGS, ("bold yellow", "bold"), ordered(notes), strict=True):
@@ -130,7 +130,7 @@ def show_notes(screen: Console, notes: Sequence[str]) -> None:
 
 
 def show_power(contents: Contents) -> None:
-    """Print what a designer looks for, the most important first and what to doubt last."""
+    """Print the main results, the most important first and warnings last."""
     screen = console()
     _head(screen, contents)
     screen.print()
@@ -206,7 +206,7 @@ def _forces(contents: Contents) -> Grid:
     classical = f"classical, f = {sums['friction_factor'][1]:g}"
     made = table(None, ("force", "this calculation", "share", "f", classical), left=("force",))
     f, given = sums["friction_factor"][:2]
-    over = f / sums["main"][0]  # of each main resistance its part of f
+    over = f / sums["main"][0]  # part of f over main resistance
     for name, value, other in rows:
         share = percent(value / total, 1) if total else ""
         friction = "" if name in {*_SUMS[1:], whole} else f"{value * over:.4f}"
@@ -225,7 +225,7 @@ def _forces(contents: Contents) -> Grid:
 
 
 def _sums(contents: Contents) -> Grid:
-    """Tensions and energy: a name and what it is."""
+    """Tensions and energy as label/value pairs."""
     from rich.table import Table
 
     force = unit("force", contents.system, large=True)
@@ -250,7 +250,7 @@ def _sums(contents: Contents) -> Grid:
 
 
 def _cema(contents: Contents) -> Grid:
-    """The classic form of CEMA by cause, with its motor power."""
+    """Resistances by the classic form of CEMA, with motor power."""
     force, power = (unit(kind, contents.system) for kind in ("force", "power"))
     made, items = table("CEMA classic", ("resistance", "force"), left=("resistance",)), contents["cema"]
     for symbol, name, newtons in items.rows:
@@ -263,7 +263,7 @@ def _cema(contents: Contents) -> Grid:
 
 
 def _take_up(contents: Contents) -> str:
-    """Setting of the take-up, its mass and travel."""
+    """Take-up setting, mass and travel as text."""
     known = {row.key: row for row in contents["take_up"].rows if row.value is not None}
     force, mass, length = (unit(kind, contents.system, large=True) for kind in ("force", "mass", "length"))
     said = [force.said(known["take_up_setting"].value)]
@@ -355,7 +355,7 @@ def show_comparison(contents: Contents) -> None:
 
 
 def _of_ranking(ranked: Table, costs: Table | None, system: System) -> dict[str, Callable[[Any], str]]:
-    """Headings and what stands under them, of what the ranking knows."""
+    """Headings and cell functions of the ranking."""
     power, speed, warmth = (unit(kind, system, large=True) for kind in ("power", "speed", "temperature"))
 
     def band(row: Any) -> str:
@@ -403,7 +403,7 @@ def _number(written: Unit, given: float | None) -> str:
 
 
 def _flooded(table: Table, system: System) -> str:
-    """The flooded belt in a sentence, or why it has no answer."""
+    """Sentence on the flooded belt, or why it has no answer."""
     said = ", ".join(f"{row.called(system)} {row.unit(system).said(row.value)}" for row in table.rows)
     return f"flooded belt: {said}. {table.note}"
 
@@ -421,7 +421,7 @@ def show_dynamics(contents: Contents) -> None:
 
 
 def _sizes(screen: Console, contents: Contents) -> None:
-    """What was sought, how well it is known, and what decides."""
+    """Print the sized values, their errors and governing checks."""
     shown = contents["scenario_sizes"]
     by_key = {column.key: column for column in shown.columns}
     for row in shown.rows:
@@ -436,7 +436,7 @@ def _sizes(screen: Console, contents: Contents) -> None:
 
 
 def show_sizing(contents: Contents) -> None:
-    """Print the designs, what tells them apart, and remarks."""
+    """Print the designs, the reasons for their rank, and remarks."""
     from conveyor.report.columns import merged
 
     every = contents["designs"]

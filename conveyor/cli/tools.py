@@ -102,7 +102,7 @@ def template(
             "--units: with --from the spec says the units (report.units); leave one of the two out"
         )
     line = None if spec is None else conveyor.load(spec, shelves=shelf or ())
-    with naming(output):  # made by way of temporary files
+    with naming(output):  # openpyxl writes temporary files
         content = made(line, shelves=shelf or (), units="US" if units is Units.US else "SI")
     to.add("template", output, {output: content})
     lines = to.save()
@@ -146,7 +146,7 @@ def schema(
 
 
 def _compare_with_practice() -> None:
-    """Print conveyors whose resistance is printed or was measured beside what is computed for them."""
+    """Print computed against published and measured resistances of conveyors."""
     from conveyor.cli.terminal import console, table
     from conveyor.practice import QUANTITIES, practice_figures, summarise
 

@@ -1,4 +1,4 @@
-"""`conveyor verify-sheet`: the sheet that a designer sends to a belt maker."""
+"""`conveyor verify-sheet`: calculated rolling resistance for a belt maker to verify by tests."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _AXES = {
     "--speed": ("speeds", "m/s", "fpm"),
     "--cover": ("covers", "mm", "in"),
 }
-"""Options, what they are called in Python, and their units, the first without one."""
+"""Options, their Python names and units; the first unit is taken where none is given."""
 
 
 @command(

@@ -1,4 +1,4 @@
-"""Where the work of a command is done: here, in processes of this machine, or on a cluster."""
+"""Worker processes of a command: none, on this machine, or on a cluster."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from concurrent.futures import Executor
 
 LOCAL = "local"
-"""As address: a cluster of this machine alone."""
+"""Scheduler address of a cluster on this machine only."""
 Workers = Annotated[int, option("Processes, or workers of the cluster.", "N", min=1, max=1024)]
 Scheduler = Annotated[
     str | None,
@@ -27,7 +27,7 @@ Scheduler = Annotated[
 
 
 def begin(scheduler: str | None, workers: int) -> None:
-    """Let processes of this machine read the program while a command reads its files; they are copies of one then."""
+    """Start the fork server, which imports the program while the command reads its files."""
     if scheduler is None and workers > 1 and _method() == "forkserver":
         from multiprocessing import forkserver
 
@@ -36,14 +36,14 @@ def begin(scheduler: str | None, workers: int) -> None:
 
 
 def _method() -> str:
-    """How processes are started: safe beside threads, and where it can be had without reading the program again."""
+    """Start method of processes: safe with threads; fork server where available, which imports only once."""
     from multiprocessing import get_all_start_methods
 
     return "forkserver" if "forkserver" in get_all_start_methods() else "spawn"
 
 
 def _ends_with_its_parent() -> None:
-    """End this process when the one that started it ends, killed or not."""
+    """End this process when its parent ends."""
     from multiprocessing import parent_process
     from threading import Thread
 
@@ -59,7 +59,7 @@ def _ends_with_its_parent() -> None:
 
 @contextmanager
 def _pipes_may_break() -> Iterator[None]:
-    """Hear of a pipe to a worker that is gone as an error; else it would end this process without a word."""
+    """Get errors from pipes to lost workers; SIGPIPE would end this process silently."""
     if not hasattr(signal, "SIGPIPE"):
         yield
         return
@@ -72,7 +72,7 @@ def _pipes_may_break() -> Iterator[None]:
 
 @contextmanager
 def executor_of(scheduler: str | None, workers: int) -> Iterator[Executor | None]:
-    """Processes of this machine, or a cluster; this process alone where one is enough."""
+    """Executor of local processes or a cluster; None for one process."""
     if scheduler is None:
         from concurrent.futures import ProcessPoolExecutor
         from multiprocessing import get_context
@@ -91,7 +91,7 @@ def executor_of(scheduler: str | None, workers: int) -> Iterator[Executor | None
         from distributed import Client, KilledWorker, LocalCluster
     except ImportError:
         raise InputError('--scheduler: needs distributed (pip install "conveyor[cluster]")') from None
-    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # a lost scheduler is said once, below
+    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # a lost scheduler is reported below
     try:
         alone = scheduler == LOCAL
         cluster = (

@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 _THINNEST = 1e-12  # as of any layer
-_HARMONICS = 400  # looked at for buckling, the first one by one, then evenly in ln m
+_HARMONICS = 400  # checked for buckling, the first one by one, then evenly in ln m
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,7 @@ class BeltSupport:
 
     @property
     def reach(self) -> float:
-        """Wave number of the depth where the carcass is no longer felt."""
+        """Wave number beyond which the symbol equals j(m) to rounding [-]."""
         return HALF_SPACE_DEPTH / self.bottom
 
     def symbol(self, m: Array, creep: Creep) -> ComplexArray:
@@ -114,7 +114,7 @@ class BeltSupport:
         return _symbol(self._numbers, m, j, self.top_creep.compliance(m))
 
     def losses(self, m: Array, creep: Creep) -> tuple[Array, Array]:
-        """What of Im S_m the top cover and the carcass take, each of shape (k,).
+        """Shares of Im S_m lost in the top cover and in the carcass, each of shape (k,).
 
         The power into what lies above a face is κ Im(u · t̄) of its traction t.
         """
@@ -155,7 +155,7 @@ class BeltSupport:
 
 @dataclass(frozen=True, eq=False)
 class _Numbers:
-    """A belt's numbers, or those of several, each of shape () or (b, 1)."""
+    """Parameters of one belt or of several, each of shape () or (b, 1)."""
 
     bottom: Array
     top: Array
@@ -170,7 +170,7 @@ class _Numbers:
 
 @dataclass(frozen=True, eq=False)
 class Belts:
-    """Belts side by side (internal to the solver)."""
+    """Batch of belts (internal to the solver)."""
 
     numbers: _Numbers
     top_creeps: Creeps
@@ -210,7 +210,7 @@ def _cover(q: Array, modulus: ComplexArray, side: float) -> _Matrix:
 def _condensed(
     belt: _Numbers, m: Array, j: ComplexArray, j_top: ComplexArray
 ) -> tuple[tuple[Array, Array], _Matrix, _Matrix]:
-    """Share b of the pressure that reaches the carcass, impedance of all there, that of the top cover."""
+    """Share b of the pressure on the carcass, total impedance there, impedance of the top cover."""
     q = m * belt.bottom
     once, decay = np.exp(-q), np.exp(-2.0 * q)
     unit = once / (0.25 * (1.0 + decay) ** 2 + q * q * decay)
@@ -224,7 +224,7 @@ def _condensed(
 
 
 def _solved(z: _Matrix, b: tuple[Array, Array]) -> tuple[ComplexArray, ComplexArray]:
-    """Displacement of the carcass under b: elimination of the stiffer, in-plane direction."""
+    """Displacement of the carcass under b, by eliminating the stiffer, in-plane direction."""
     xx, xw, ww = z
     bent = xw / xx
     w = (b[1] - bent * b[0]) / (ww - bent * xw)
@@ -240,7 +240,7 @@ def _symbol(belt: _Numbers, m: Array, j: ComplexArray, j_top: ComplexArray) -> C
 
 
 def _number(name: str, value: object) -> float:
-    """The value, refused where it is not a real number."""
+    """The value as a float; InputError where it is not a real number."""
     if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
         raise InputError(f"{name} = {value!r}: a number is needed")
     return float(value)

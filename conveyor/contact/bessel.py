@@ -21,7 +21,7 @@ _NEGLIGIBLE = 1e-20  # of the diagonal, whose sum over terms is of the order of 
 _UPWARD = 0.25  # times order²: rounding grows e⁴ upward from there
 # sweeps, by differences and by the recurrence: 1e-15 from order 32 on, for every argument
 _SMOOTH, _PLAIN = 8, 4
-_SMOOTH_FROM = 32  # order from which on the ratios are found so, and order of a table that asks for it
+_SMOOTH_FROM = 32  # order from which the ratios are computed so; only tables beyond twice this order use it
 _DAMPED = 24.0  # exponent of the damping: 4e-11 of the start's error, itself below 1e-3
 
 
@@ -51,13 +51,13 @@ def bessel_j(order: int, x: Array) -> Array:
     [0.765197686558, 0.440050585745, 0.114903484932]
     """
     top = float(x.max(initial=0.0))
-    # f_start = 1 is forgotten where J_start falls below 1e-16 J_order or, for x < order, x²/4v below rounding
+    # f_start = 1 has no influence where J_start falls below 1e-16 J_order or, for x < order, x²/4v below rounding
     start = max(order + 6, int(top + 6.0 * top ** (1.0 / 3.0)) + 2)
     return _downward(order, start, x) if start <= _FAR_DOWN * order + 40 else _by_ratios(order, x)
 
 
 def enough_orders(x: Array, order: int) -> int:
-    """Orders of J_v(x) that are not zero to rounding: up to the turning point and some."""
+    """Number of orders of J_v(x) that are not zero to rounding, at most `order`."""
     top = float(x.max(initial=0.0))
     return min(order, int(top + 12.0 * math.cbrt(top)) + 24)
 
@@ -87,7 +87,7 @@ def _downward(order: int, start: int, x: Array) -> Array:
 
 @lru_cache(maxsize=256)
 def _over_products(start: int) -> list[float]:
-    """1/(v (v+1)) of v = start … 1."""
+    """Factors 1/(v (v+1)) for v = start … 1."""
     return [1.0 / (v * (v + 1.0)) for v in range(start, 0, -1)]
 
 

@@ -1,4 +1,4 @@
-"""What a contact must pass before it is an answer: order, energy, pressure inside, gap outside."""
+"""Acceptance checks of a contact: order, energy, pressure inside, gap outside."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _GAP_PLACES = np.arange(1.0, 25.0) / 25.0
 
 
 class OrderErrors(NamedTuple):
-    """Errors by order, shape (b,) each: of friction, relative; an upper bound of it; of the edges' places X."""
+    """Errors due to the order, shape (b,) each: friction, relative; its upper bound; places X of the edges."""
 
     friction: Array
     most: Array
@@ -42,7 +42,7 @@ class OrderErrors(NamedTuple):
 
 
 def order_errors(contact: Contact, lower: Contact, exponent: Array | None) -> OrderErrors:
-    """Errors of friction and edges by order, from contacts of order n/2 and 3n/4 of the same half width.
+    """Errors of friction and edges due to the order, from contacts of order n/2 and 3n/4 of the same half width.
 
     At one half width a lower order differs in friction and in load; at one load friction differs by
     δ = |δμ/μ - β δp/p| with β = d ln μ/d ln p (`exponent`), the two shifts added where β is not known. From δ(n/2)
@@ -77,18 +77,15 @@ def order_errors(contact: Contact, lower: Contact, exponent: Array | None) -> Or
 
 
 def by_energy(energy: Array, most: Array) -> Array:
-    """What the energy's error says of friction's: a tenth of it at least, twice it or the bound by order at most.
-
-    Both are upper bounds, so that the smaller one is; the tenth is what is usual.
-    """
+    """Error of friction from the energy error: at least a tenth of it, at most twice it or the bound by order."""
     error: Array = np.maximum(energy / ENERGY_OVER_ERROR, np.minimum(TWICE * energy, most))
     return error
 
 
 def layer_error(energy: Array, creep: Creeps | CreepSpectrum, alpha: Array, n: int) -> Array:
-    """What the energy's error says of friction's where order n does not resolve an edge layer, shape (b,).
+    """Error of friction from the energy error where order n does not resolve an edge layer, shape (b,).
 
-    t is the loss tangent of the rubber in the shortest lengths that the order follows at an edge. Where rubber flows
+    t is the loss tangent of the rubber at the shortest length that the order resolves at an edge. Where rubber flows
     there (t > 1) and its glassy layer lies deeper, orders agree with one another, and friction is off by up to 1.1 t of
     the energy's error; by up to 1.1 t³ of it below t = 1 (5,120 contacts of orders 16 to 192 with one to three times,
     E∞/E0 2 to 10,000). Rubber of many times has this tangent at every length: the error is less than a third of that
@@ -109,27 +106,27 @@ def energy_errors(
     most: Array,
     rtol: float,
 ) -> tuple[Array, Array]:
-    """Relative differences of friction by geometry and by loss compliance, and what they say of friction's error.
+    """Relative differences of friction by geometry and by loss compliance, and the errors of friction that follow.
 
     Parameters
     ----------
     tabled : Tabled
         The contacts' creep and half widths, batch of b.
     rule : ShortRule
-        Of the loss, apart from that of the solve.
+        Quadrature of the loss, other than that of the solve.
     orders : Contact, Contact
         The contacts, and those of half and of three quarters of their order, shapes (2, b).
     rho : ndarray, shape (b,)
         k R [-].
     most : ndarray, shape (b,)
-        The most by order, as `order_errors` has it.
+        Upper bound of the error by order, from `order_errors`.
     rtol : float
-        Whether a layer is resolved is looked at only where it decides: by the energy at half the order.
+        Tolerance of friction [-]; edge layers are checked, by the energy at half the order, only where it decides.
 
     Returns
     -------
     ndarray, ndarray, shapes (b,)
-        Error of the energy; of friction, by it.
+        Error of the energy; error of friction that follows.
     """
     contact, lower = orders
     energy = _energy(tabled, rule, contact, rho)
@@ -165,9 +162,9 @@ def relative_difference(value: Array, reference: Array) -> Array:
 
 
 def energy_error(scene: Scene, contact: Contact, beyond: float) -> Array:
-    """Relative difference of friction by geometry and by loss compliance, with a rule of its own; shape (b,).
+    """Relative difference of friction by geometry and by loss compliance, shape (b,); the loss has its own quadrature.
 
-    `beyond` is what orders above those of `contact` lose, as in `energy.loss`.
+    `beyond` is the loss of the orders above those of `contact`, as in `energy.loss`.
     """
     rule = build_rule(scene.problem.layer, scene.creep, float(contact.alpha.max()), CHECK)
     rho = scene.problem.rho
@@ -177,7 +174,7 @@ def energy_error(scene: Scene, contact: Contact, beyond: float) -> Array:
 
 
 class Sign(Enum):
-    """What the sampled pressure says of a single patch."""
+    """Sign of the sampled pressure of a single strip."""
 
     PRESSING = "not negative, or by less than the tolerance"
     PULLING = "negative by more than the order's ripple: the contact splits"
@@ -185,12 +182,12 @@ class Sign(Enum):
 
 
 def sign(contact: Contact, rtol: float) -> Sign:
-    """Worst sign in the batch of the single-patch pressure at 4n + 1 points, against the tail of its series."""
+    """Worst sign of a batch's pressure at 4n + 1 points, against the tail of its series."""
     return sign_and_tension(contact, rtol)[0]
 
 
 def sign_and_tension(contact: Contact, rtol: float) -> tuple[Sign, float]:
-    """That sign; where all press, the largest share of a load that tension carries all the same [-], else zero."""
+    """Worst sign of a batch, and the largest share of a load that tension carries [-]; zero unless all press."""
     pulling, pressing, tension = pulling_and_pressing(contact, rtol)
     if pressing.all():
         return Sign.PRESSING, float(tension.max())
@@ -198,7 +195,7 @@ def sign_and_tension(contact: Contact, rtol: float) -> tuple[Sign, float]:
 
 
 class Signs(NamedTuple):
-    """Which contacts are PULLING, which PRESSING, and the share of the load that the tension of each carries [-]."""
+    """Masks of PULLING and of PRESSING contacts, and the share of the load that tension carries in each [-]."""
 
     pulling: NDArray[np.bool_]
     pressing: NDArray[np.bool_]
@@ -206,12 +203,11 @@ class Signs(NamedTuple):
 
 
 def pulling_and_pressing(contact: Contact, rtol: Array | float) -> Signs:
-    """What the sampled pressure says of each contact, shape (b,).
+    """Sign of the sampled pressure of each contact, shape (b,).
 
-    A contact presses where its tension carries no more than `rtol` of the load; so much its friction may then be off,
-    which another strip would change. Beyond that it pulls if the tension
-    exceeds the ripple of the order, or lasts longer than a ripple of it does: a thin plate that follows the roll
-    presses with little more than the mean pressure between two high peaks, its lift-off is far below the peaks' tails.
+    A contact presses where its tension carries no more than `rtol` of the load: friction may be off by as much. Beyond
+    that it pulls if the tension exceeds the ripple of the order or lasts longer than a ripple: a thin plate that
+    follows the roll lifts off by far less than the tails of its two high peaks.
     """
     n = contact.c.shape[1]
     p = sampled_sines(contact.c, 4 * n + 2)[:, 1:-1]
@@ -237,20 +233,20 @@ def _longest_run(flags: NDArray[np.bool_]) -> NDArray[np.int_]:
 
 
 def may_touch_elsewhere(contact: Contact, rho: Array | float) -> NDArray[np.bool_]:
-    """Whether the gap outside a strip must be looked at, shape (b,): far round the roll, or beside its crown.
+    """True where the gap outside a strip must be checked, shape (b,): far round the roll, or off its crown.
 
-    Beside a strip that holds the crown and ends within half the radius the roll falls away from the layer. A strip
-    beyond the crown leaves it to the layer: a thin free one may touch there again (R/λ 0.4, kh 0.3, ζ 3, p̃_m 0.0012).
+    Next to a strip that covers the crown and ends within half the radius the roll falls away from the layer. With a
+    strip beyond the crown a thin free layer may touch there again (R/λ 0.4, kh 0.3, ζ 3, p̃_m 0.0012).
     """
     beside = np.abs(contact.eps) > contact.alpha
     return np.asarray(beside | (contact.alpha + np.abs(contact.eps) > WRAPPED * rho))
 
 
 def overlaps(scene: Scene, contact: Contact, depth: float | None = None) -> bool:
-    """Whether the layer's surface lies inside the roll outside the strips; one strip an entry of `contact`.
+    """True where the layer's surface enters the roll outside the strips; one strip an entry of `contact`.
 
-    Between strips, and out to the ends of the roll's half circle. Where Δ/R is not known the surface half way to
-    the first strip's edge tells it, to a tenth of the tolerance.
+    Checked between strips, and out to the ends of the roll's half circle. An unknown Δ/R is taken from the surface half
+    way to the first strip's edge, to a tenth of the tolerance.
     """
     rho = scene.problem.rho
     rank = np.argsort(contact.eps)

@@ -1,4 +1,4 @@
-"""Chebyshev coefficients of the true circular profile, seen from a contact that is off centre.
+"""Chebyshev coefficients of the true circular profile over an eccentric contact.
 
 With X = α s measured from the contact's centre and the roll's axis at X = -ε, t = (X + ε)/ρ: slope
 w' = -(1/ρ) t/sqrt(1-t²) (paper, Eq. 9, corrected: u = Δ - R + v(x+e), v = sqrt(R² - x²)).
@@ -17,13 +17,13 @@ Array = NDArray[np.float64]
 
 _NEGLIGIBLE = 39.2  # -ln 1e-17: coefficients beyond are rounding
 _SPARE = 4  # Chebyshev nodes beyond the coefficients, against aliasing
-_NEAR = 0.5  # of ρ: eccentricities within the rest are sought with few coefficients first
+_NEAR = 0.5  # of ρ: eccentricities up to the rest of it are solved with few coefficients first
 _NEWTON_STEPS, _LAST_STEP = 60, 1e-8
 
 
 @lru_cache(maxsize=256)
 def _cosines(count: int) -> tuple[Array, Array, Array]:
-    """Chebyshev nodes s > 0, shape (h,), and from `_parts` there to even and odd coefficients, (h, count/2) each."""
+    """Chebyshev nodes s > 0, shape (h,), and transforms to even and odd coefficients, (h, count/2) each."""
     half = (count + count % 2 + _SPARE) // 2
     angle = (np.arange(half) + 0.5) * (0.5 * np.pi / half)
     transform = np.cos(np.multiply.outer(angle, np.arange(count))) * (-1.0 / half)
@@ -32,7 +32,7 @@ def _cosines(count: int) -> tuple[Array, Array, Array]:
 
 
 def _shown(nearest: float, count: int) -> int:
-    """How many of `count` coefficients exceed rounding; the slope's branch points lie at |s| = `nearest` > 1.
+    """Number of `count` coefficients that exceed rounding; the slope's branch points lie at |s| = `nearest` > 1.
 
     Coefficients fall like (|s| + sqrt(s² - 1))^-i (Bernstein).
     """
@@ -89,14 +89,14 @@ def slope_expansion(alpha: Array, eps: Array, rho: Array | float, count: int) ->
 def eccentricity(
     row: Array, alpha: Array, rho: Array | float, start: Array
 ) -> tuple[Array, NDArray[np.bool_]]:
-    """Row 0 of the Galerkin equations, Σ_v row_v g_v(ε) = g_0(ε), as one scalar Newton equation per contact.
+    """Eccentricity from row 0 of the Galerkin equations, Σ_v row_v g_v(ε) = g_0(ε), by a scalar Newton per contact.
 
     Parameters
     ----------
     row : ndarray, shape (b, n)
         Row 0 times the inverse of rows 1 … n.
     alpha, start : ndarray, shape (b,)
-        Half widths and where to start [-].
+        Half widths and start values of ε [-].
     rho : float or ndarray, shape (b,)
         k R [-].
 
@@ -104,7 +104,7 @@ def eccentricity(
     -------
     eps : ndarray, shape (b,)
     inside : ndarray of bool, shape (b,)
-        False where no eccentricity with α + |ε| < ρ was found.
+        False where no eccentricity satisfies α + |ε| < ρ.
     """
     radius = np.zeros(alpha.shape) + rho
     room = radius - alpha
@@ -123,7 +123,7 @@ def eccentricity(
 def _newton(
     row: Array, place: tuple[Array, Array, Array], room: Array, few: int
 ) -> tuple[Array, NDArray[np.bool_]]:
-    """Newton on the first `few` coefficients; their sum is taken once, as weights of the transform's nodes."""
+    """Newton on the first `few` coefficients, summed once into weights of the transform's nodes."""
     alpha, eps, radius = place
     s, to_even, to_odd = _cosines(few)
     even_weights = row[:, 1 : few - 1 : 2] @ to_even[:, 1:].T - to_even[:, 0]

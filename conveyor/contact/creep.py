@@ -1,4 +1,4 @@
-"""Normalised creep of a rubber as the solver needs it: of one scene, or of several side by side."""
+"""Normalised creep compliance of rubber: one spectrum, or a batch of them."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ class CreepSpectrum:
 
 @dataclass(frozen=True, eq=False)
 class Creeps:
-    """Creep spectra of several scenes side by side (internal to the solver): terms of weight zero fill the gaps.
+    """Batch of creep spectra (internal to the solver); terms of weight zero fill the gaps.
 
     Shapes: `instantaneous` (b,), `weights` and `times` (b, t), every time positive.
     """
@@ -108,11 +108,11 @@ class Creeps:
 
     @cached_property
     def places(self) -> Array:
-        """Of 1/ζ on the grid of logarithms, shape (b, t)."""
+        """Places of 1/ζ on the logarithmic grid, shape (b, t)."""
         return log_places(1.0 / self.times)
 
     def compliance(self, m: Array) -> NDArray[np.complex128]:
-        """j(m) of each scene at its wave numbers m, shape (b, k), or at those of all, shape (1, k)."""
+        """j(m) of each spectrum at its wave numbers m, shape (b, k), or at common ones, shape (1, k)."""
         x = m[:, :, None] * self.times[:, None, :]
         real = x * x
         real += 1.0

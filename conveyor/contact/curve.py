@@ -1,7 +1,7 @@
-"""The contact of one scene as a function of load: contacts at Chebyshev points of its half width, interpolated.
+"""One contact as a function of load: contacts at Chebyshev points of the half width, interpolated.
 
-With ln α as the parameter nothing has to be searched for: load, friction and place are smooth functions of it, sampled
-at Chebyshev-Lobatto points (sampling.py) and inverted by Newton.
+Load, friction and place are smooth functions of ln α, sampled at Chebyshev-Lobatto points (sampling.py); the load is
+inverted by Newton.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ _PEAK_EXPONENT, _OTHERWISE = 0.5, 0.25  # d ln p̂/d ln p̃_m: 1/2 on a thick la
 
 @dataclass(frozen=True, eq=False)
 class LoadSolutions:
-    """Figures of many loads of one scene; arrays of the shape of `pressure`, meanings as in ContactSolution.
+    """Results of one problem under many loads; arrays of the shape of `pressure`, meanings as in ContactSolution.
 
-    Penetration, peak pressure and its error are formed when asked for.
+    Penetration, peak pressure and its error are computed on first access.
     """
 
     pressure: Array
@@ -69,12 +69,12 @@ class LoadSolutions:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class LoadCurve:
-    """Contact of one scene as a function of load, good between two mean pressures.
+    """One contact as a function of load, valid between two mean pressures.
 
     Attributes
     ----------
     problem : ContactProblem
-        The scene; its pressure is the largest of the curve.
+        What was solved; its pressure is the largest of the curve.
     lowest, highest : float
         Range of p̃_m [-].
     error : float
@@ -82,7 +82,7 @@ class LoadCurve:
     energy_error : float
         Largest relative difference of friction by geometry and by loss at the sampled points [-].
     stats : SolveStats
-        What the curve cost.
+        Cost of the curve.
     """
 
     problem: ContactProblem
@@ -96,7 +96,7 @@ class LoadCurve:
     _sampled: Sampled
 
     def _repr_html_(self) -> str:
-        """For notebooks: the range of load, and the contact at its ends."""
+        """Range of load and contact at its ends, for notebooks."""
         from conveyor.markup import listing
 
         ends = self.at([self.lowest, self.highest])
@@ -107,7 +107,7 @@ class LoadCurve:
         return listing("LoadCurve, lengths over R", rows)
 
     def at(self, pressure: ArrayLike) -> LoadSolutions:
-        """Figures at mean pressures p̃_m.
+        """Results at mean pressures p̃_m.
 
         Raises
         ------
@@ -131,7 +131,7 @@ class LoadCurve:
         )
 
     def friction(self, pressure: ArrayLike) -> Array:
-        """Friction μ at mean pressures p̃_m, as `at`; nothing else is formed.
+        """Friction μ at mean pressures p̃_m, as `at`, without the other results.
 
         Raises
         ------
@@ -149,7 +149,7 @@ class LoadCurve:
         return p, t, np.exp(self._centre + self._half * t) / self.problem.rho
 
     def _check(self, p: Array) -> None:
-        """Refuse pressures outside the curve."""
+        """Raise RangeError for pressures outside the curve."""
         if not p.size:
             return
         slack = 1e-12
@@ -162,7 +162,7 @@ class LoadCurve:
 
     @property
     def lossy(self) -> bool:
-        """Whether any load of the curve loses energy."""
+        """True if the contact loses energy."""
         return bool((self._sampled.contacts.friction > 0.0).all())
 
     def _figure(self, t: Array, width: Array, name: str) -> Array:
@@ -181,10 +181,10 @@ class LoadCurve:
 
     @cached_property
     def _peak_errors(self) -> Array:
-        """That of the largest pressure at the sampled half widths, shape (k,).
+        """Errors of the largest pressure at the sampled half widths, shape (k,).
 
-        By what half the order changes; where rubber flows at lengths that the order does not follow, by contacts that
-        do; and by interpolation: the largest pressure has kinks where it leaps from one hump to another.
+        Sum of the change from half the order, of the change by contacts that resolve flowing rubber where this order
+        does not, and of interpolation: the largest pressure has kinks where it jumps from one hump to another.
         """
         fine, lower = self._fine
         n = fine.c.shape[1]
@@ -207,7 +207,7 @@ class LoadCurve:
 
     @cached_property
     def excitation_narrowest(self) -> Array:
-        """The same under the lowest load."""
+        """Harmonics below which 5, 50 and 95 % of the loss under the lowest load lie; empty without loss."""
         return self._excitation(self.lowest)
 
     def _excitation(self, pressure: float) -> Array:
@@ -253,7 +253,7 @@ class LoadCurve:
 
     @cached_property
     def _fine(self) -> tuple[Contact, Contact]:
-        """Contacts at the sampled half widths, of the order that the largest pressure asks for; and of lower orders."""
+        """Contacts at the sampled half widths, of the order that the largest pressure needs; and of lower orders."""
         every, scene = self._every, Scene.of(self.problem)
         order = max(every.c.shape[1], _PEAK_ORDER)
         matrix = assemble(scene.rule(float(every.alpha[0])), scene.creep, every.alpha, order)
@@ -261,12 +261,12 @@ class LoadCurve:
 
     @cached_property
     def _sampled_peaks(self) -> Array:
-        """p̂ρ/α there, shape (k, 1)."""
+        """p̂ρ/α at the sampled half widths, shape (k, 1)."""
         fine, _ = self._fine
         return np.asarray(self._carried(fine.c, fine.pressure) * self.problem.rho / fine.alpha)[:, None]
 
     def _carried(self, c: Array, loads: Array) -> Array:
-        """Largest pressures of contacts there under loads of their own, carried to the curve's, shape (k,)."""
+        """Largest pressures of contacts of coefficients c, scaled from their `loads` to the curve's, shape (k,)."""
         carried: Array = peak(c) * (self._every.pressure / loads) ** _PEAK_EXPONENT
         return carried
 
@@ -277,12 +277,12 @@ class LoadCurve:
 
 
 def frictions(curves: Sequence[LoadCurve], pressures: Sequence[ArrayLike]) -> list[Array]:
-    """Friction μ on each of many curves at its own mean pressures p̃_m, as `LoadCurve.friction`; side by side.
+    """Friction μ on each of many curves at its own mean pressures p̃_m, as `LoadCurve.friction`, in one batch.
 
     Raises
     ------
     InputError
-        Pressures that are no numbers, or not those of as many curves.
+        Pressures that are not numbers, or not as many sets of them as curves.
     RangeError
         A pressure outside its curve.
     """
@@ -318,7 +318,7 @@ def _numbers(pressure: ArrayLike) -> Array:
 
 
 def _places(columns: Array, log_p: Sequence[Array]) -> Array:
-    """Places t in [-1, 1], one curve's after the other, with ln p(t) = log_p; coefficients of ln p have shape (k, b).
+    """Places t in [-1, 1] where ln p(t) = log_p, curve after curve; coefficients of ln p have shape (k, b).
 
     Newton from the chords, on monotone smooth functions.
     """

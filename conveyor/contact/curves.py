@@ -1,9 +1,9 @@
-"""Load curves of scenes side by side: what many loads, or a comparison of compounds, temperatures and speeds, ask for.
+"""Load curves of many contact problems in a batch.
 
-Half widths of the lightest and heaviest load are found first, then contacts at Chebyshev points between them, all
-curves of a batch together. How many points a curve needs is seen at a low order; the order that meets the tolerance is
-predicted from a few of its points, and formed at these only. Scenes that are not plainly narrow are sampled one by one,
-with the full rule, between contacts that the general solver found.
+Half widths of the lightest and heaviest load come first, then contacts at Chebyshev points between them, all curves of
+a batch together. The number of points follows at a low order; the order that meets the tolerance is predicted from a
+few of the points, and solved at these only. Contacts that are not plainly narrow are sampled one by one, with the full
+rule, between contacts of the general solver.
 """
 
 from __future__ import annotations
@@ -53,10 +53,10 @@ Index = NDArray[np.int_]
 _DEGREES = (8, 12, 16, 32, 64, 128)
 _LOW_DEGREE_FROM = 2e-5  # rtol that degree 8 may meet over a factor of 4 in load
 _FEW = 4  # degree that carries what a higher order changes
-_MARGIN = 1e-2  # the sampled range of ln α goes this far beyond the loads asked for
+_MARGIN = 1e-2  # the sampled range of ln α goes this far beyond the loads of the curve
 _SIGN_FLOOR = 1e-9
 _FARTHEST = 4.0  # times the order, in one step
-_BETWEEN = 1.25  # errors between the five points that are looked at over those there: 1.03 seen
+_BETWEEN = 1.25  # errors between the five checked points over errors at them: 1.03 seen
 _ENDS = 1e-3  # the ends need to be known only well enough to be enclosed
 _WRAPPED = 0.75  # (a + |e|)/R beyond which one half width may have two loads (docs/method.md)
 _OFF_ROLL = (
@@ -72,16 +72,16 @@ _SPLITS = (
 
 @checked
 def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: float = 1e-6) -> LoadCurve:
-    """Sample a scene between two loads until friction is known to `rtol` anywhere between.
+    """Sample a contact between two loads until friction is known to `rtol` anywhere between.
 
     Parameters
     ----------
     problem : ContactProblem
-        The scene; its own pressure is not used.
+        Layer, roll and rubber; its own pressure is not used.
     lowest, highest : float
         Range of p̃_m [-].
     rtol : float
-        Relative error of friction asked for [-].
+        Relative error of friction allowed [-].
 
     Raises
     ------
@@ -102,16 +102,16 @@ def load_curve(problem: ContactProblem, lowest: float, highest: float, rtol: flo
 def load_curves(
     problems: Sequence[ContactProblem], lowest: ArrayLike, highest: ArrayLike, rtol: float = 1e-6
 ) -> list[LoadCurve | NoSolutionError]:
-    """Load curves of many scenes, in their order; where there is none, the error that says why.
+    """Load curves of many problems, in their order, each a LoadCurve or the error that prevented it.
 
     Parameters
     ----------
     problems : sequence of ContactProblem
-        The scenes; their own pressures are not used.
+        Layers, rolls and rubbers; their own pressures are not used.
     lowest, highest : array_like, shape (b,)
         Range of p̃_m of each [-].
     rtol : float
-        Relative error of friction asked for [-].
+        Relative error of friction allowed [-].
 
     Raises
     ------
@@ -140,18 +140,18 @@ def load_curves(
 
 @checked
 def solve_loads(problem: ContactProblem, pressures: ArrayLike, rtol: float = 1e-6) -> LoadSolutions:
-    """Solve many loads of one scene with one shared set-up.
+    """Solve one problem under many loads with one shared set-up.
 
     Loads whose contact splits or wraps the roll are solved one by one.
 
     Parameters
     ----------
     problem : ContactProblem
-        The scene; its own pressure is not used.
+        Layer, roll and rubber; its own pressure is not used.
     pressures : array_like
         Mean pressures p̃_m [-], positive.
     rtol : float
-        Relative error of friction asked for [-].
+        Relative error of friction allowed [-].
 
     Returns
     -------
@@ -184,7 +184,7 @@ def solve_loads(problem: ContactProblem, pressures: ArrayLike, rtol: float = 1e-
 
 
 def wraps(solution: ContactSolution) -> bool:
-    """Whether a contact reaches so far round the roll that its half width no longer tells the load."""
+    """True where a contact reaches so far round the roll that one half width may carry two loads."""
     return solution.outer_edge > _WRAPPED
 
 
@@ -209,7 +209,7 @@ def _column(solved: list[ContactSolution], shape: tuple[int, ...], name: str) ->
 
 
 def _narrow(problems: list[ContactProblem], lowest: Array, rtol: float) -> dict[int, LoadCurve]:
-    """Curves of the plainly narrow scenes, by their place in the list."""
+    """Curves of the plainly narrow contacts, by their place in the list."""
     creeps = [instantly_relaxed(problem.creep) for problem in problems]
     grade = grades_for(rtol)[0]
     curves: dict[int, LoadCurve] = {}
@@ -232,7 +232,7 @@ def _narrow(problems: list[ContactProblem], lowest: Array, rtol: float) -> dict[
 
 
 def _narrow_sampler(group: Group, lowest: Array, guesses: tuple[Array, Array], rtol: float) -> _Sampler:
-    """Between the half widths guessed for the lightest and heaviest loads, with room to both sides."""
+    """Sampler between the half widths guessed for the lightest and heaviest loads, with room to both sides."""
     grades = grades_for(rtol)
     low, high = np.log(guesses[0]) - RANGE, np.log(guesses[1]) + RANGE
     rule, check = short_rules(group.layers, group.creeps, np.exp(high), grades)
@@ -251,7 +251,7 @@ def _narrow_sampler(group: Group, lowest: Array, guesses: tuple[Array, Array], r
 
 
 def _alone(problem: ContactProblem, lowest: float, rtol: float) -> LoadCurve | NoSolutionError:
-    """A scene that is not plainly narrow, between the general solver's half widths: it knows splits and wraps."""
+    """Curve of a contact that is not plainly narrow, between half widths of the general solver."""
     highest = problem.pressure
     try:
         ends = [solve(replace(problem, pressure=p), _ENDS) for p in (lowest, highest)]
@@ -286,7 +286,7 @@ def _alone(problem: ContactProblem, lowest: float, rtol: float) -> LoadCurve | N
 
 @dataclass(frozen=True, eq=False)
 class _Sampler:
-    """Scenes whose half widths at both ends are known; `rows` are their places in the chunk."""
+    """Sampling of problems whose half widths at both ends are known; `rows` are their places in the chunk."""
 
     group: Group
     lowest: Array
@@ -299,7 +299,7 @@ class _Sampler:
     narrow: bool  # a strip that may touch elsewhere is left to the general solver
 
     def curves(self, rtol: float) -> dict[int, LoadCurve | NoSolutionError]:
-        """Curves by row; why there is none, or nothing where another way may have one."""
+        """Curves or errors by row; rows without an entry are left to the general solver."""
         by_row: dict[int, LoadCurve | NoSolutionError] = {}
         n = lowest_order(rtol)
         waiting = np.arange(self.rows.size)
@@ -323,7 +323,7 @@ class _Sampler:
         return by_row
 
     def _sample(self, rows: Index, t: Array, n: int, rtol: float) -> _Batch:
-        """Contacts of order n of some rows at places t of their half width."""
+        """Contacts of order n of these rows at places t of their half width."""
         alpha = np.exp(self.centre[rows, None] + self.half[rows, None] * t).ravel()
         every = np.repeat(rows, t.size)
         tabled = Tabled.of(self.group.creeps[every], alpha)
@@ -333,7 +333,7 @@ class _Sampler:
         return _Batch(rows, t.size, contact, matrix, tabled, np.asarray(valid))
 
     def _enclosed(self, batch: _Batch) -> NDArray[np.bool_]:
-        """Whether the loads asked for lie within those sampled; where half widths were guessed they may not."""
+        """True where the sampled loads enclose those of the curve; guessed half widths may not."""
         pressure = batch.contact.pressure.reshape(-1, batch.count)
         highest = np.exp(self.group.target[batch.rows])
         return np.asarray((pressure[:, 0] >= highest) & (pressure[:, -1] <= self.lowest[batch.rows]))
@@ -341,7 +341,7 @@ class _Sampler:
     def _settle(
         self, first: _Batch, miss: Array, rtol: float, curves: dict[int, LoadCurve | NoSolutionError]
     ) -> None:
-        """Raise the order until each curve meets rtol, at a few of the points where all press plainly."""
+        """Raise the order until each curve meets rtol, at a few of the points where all contacts press."""
         exponent = _exponents(first)
         todo = {(first.order, False): list(range(first.rows.size))}
         while todo:
@@ -390,7 +390,7 @@ class _Sampler:
                     todo.setdefault((more, plain), []).append(place)
 
     def _errors(self, batch: _Batch, exponent: Array, rtol: float) -> tuple[Array, Array, Array]:
-        """Largest errors by order of each row, of the energy, and what that says of friction."""
+        """Largest error of each row by order, of the energy, and of friction by the energy."""
         rho = np.repeat(self.group.rho[batch.rows], batch.count)
         every = np.repeat(batch.rows, batch.count)
         _, lower = equilibrium_of_orders(batch.matrix, batch.contact.alpha, rho, batch.contact.eps, ROUGH)
@@ -424,7 +424,7 @@ class _Sampler:
 
 @dataclass(frozen=True, eq=False)
 class _Batch:
-    """Contacts of some rows, `count` of each one after the other; `valid` where all of a row are on the roll."""
+    """Contacts of several rows, `count` per row in sequence; `valid` where all of a row are on the roll."""
 
     rows: Index
     count: int
@@ -451,7 +451,7 @@ class _Batch:
         return self._part((rows[:, None] * self.count + np.arange(self.count)).ravel(), rows, self.count)
 
     def few(self) -> _Batch:
-        """At five of the points."""
+        """The batch at five of its points."""
         if self.count == _FEW + 1:
             return self
         rows, some = np.arange(self.rows.size), np.arange(0, self.count, (self.count - 1) // _FEW)

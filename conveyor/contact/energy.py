@@ -1,7 +1,7 @@
-"""Friction from the loss compliance: the first law, formed apart from the solve.
+"""Friction from the loss compliance by the first law, independent of the solve.
 
 τ̃_m = 2ρ Σ_{m≥1} Im S_m |p̃̂_m|², p̃̂_m = ½ Σ_v v c_v (-i)^{v-1} J_v(mα)/m. The sum uses its own window, its own Gauss
-panels and the same closed half-space products, so that a fault of window, quadrature, order or eccentricity shows.
+panels and the same closed half-space products, so that an error of window, quadrature, order or eccentricity shows.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ Strip = tuple[float, float, Array]
 
 
 def spectrum(m: Array, strips: Sequence[Strip]) -> ComplexArray:
-    """p̃̂_m of a contact's strips together, shape of m."""
+    """p̃̂_m of all strips of a contact, shape of m."""
     out = np.zeros(m.size, dtype=complex)
     for centre, alpha, c in strips:
         v = np.arange(1, enough_orders(m * alpha, c.size) + 1)
@@ -56,7 +56,7 @@ def width(strips: Sequence[Strip]) -> float:
 
 @dataclass(frozen=True)
 class _Losses:
-    """What a belt's top cover and carcass lose, as real and imaginary part of a symbol."""
+    """Losses of a belt's top cover and carcass as real and imaginary part of a symbol."""
 
     belt: BeltSupport
 
@@ -70,7 +70,7 @@ class _Losses:
 
 
 def belt_losses(belt: BeltSupport, creep: CreepSpectrum, strips: Sequence[Strip]) -> tuple[float, float]:
-    """What of Σ_{m≥1} Im S_m |p̃̂_m|² a belt's top cover and its carcass take."""
+    """Shares of Σ_{m≥1} Im S_m |p̃̂_m|² lost in a belt's top cover and in its carcass."""
     m, weights = series_rule(_Losses(belt), creep, span=width(strips), end=belt.reach)
     lost = complex(np.sum(weights * m * np.abs(spectrum(m, strips)) ** 2))
     return lost.real, lost.imag
@@ -79,7 +79,7 @@ def belt_losses(belt: BeltSupport, creep: CreepSpectrum, strips: Sequence[Strip]
 def loss(rule: Rule | ShortRule, creep: CreepSpectrum | Creeps, contact: Contact) -> Array:
     """Σ_{m≥1} Im S_m |p̃̂_m|², shape (b,).
 
-    Half-space share of one retardation term: ∫ Im j |p̃̂|² dm with
+    Half-space part of one retardation term: ∫ Im j |p̃̂|² dm with
     ζ ∫ J_v J_u/(m (1+m²ζ²)) dm = ζ (-1)^{(v-u)/2} [δ_vu/(2v) - I_max K_min].
     """
     n = contact.c.shape[1]

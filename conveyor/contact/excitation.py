@@ -1,7 +1,7 @@
-"""Which harmonics a contact loses its energy in: the band of frequency it asks of the rubber.
+"""Harmonics in which a contact loses its energy: the frequency band that rubber data must cover.
 
-A particle of the layer passes harmonic m of the rolls at the angular frequency m k V. Of the energy lost under a roll
-it takes Im S_m |p̃̂_m|² (energy.py); the band between two shares of the running sum is what a rubber's data must cover.
+A particle of the layer passes harmonic m of the rolls at the angular frequency m k V; harmonic m loses
+Im S_m |p̃̂_m|² (contact/energy.py). The band lies between two shares of the running sum.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _REACH = 40.0  # m α: |p̃̂_m|² falls like (mα)^-3, beyond lies less than a 
 
 
 def _many_harmonics(layer: Layer, creep: CreepSpectrum, end: float) -> tuple[Array, NDArray[np.complex128]]:
-    """Nodes and weights of the sum where so many harmonics share the loss that it is an integral over ln m."""
+    """Nodes and weights of the sum as an integral over ln m, where many harmonics share the loss."""
     logs, step = np.linspace(0.0, np.log(end), _POINTS, retstep=True)
     m = np.exp(logs)
     return m, step * layer.symbol(m, creep)
@@ -45,9 +45,9 @@ def excited_harmonics(
     layer : Layer
         Symbol of the layer.
     creep : CreepSpectrum
-        With at least one lasting term: without, nothing is lost.
+        With at least one term ζ > 0, else nothing is lost.
     strips : sequence of (centre, half width, coefficients)
-        Of one contact, lengths X [-].
+        Strips of one contact, lengths X [-].
     shares : sequence of float
         Ascending, in (0, 1) [-].
     """
@@ -63,6 +63,6 @@ def excited_harmonics(
     lost = weights.imag * m * (wave.real**2 + wave.imag**2)
     order = np.argsort(m)
     lost = lost[order]
-    middle = np.cumsum(lost) - 0.5 * lost  # a node stands for what lies to both sides of it
+    middle = np.cumsum(lost) - 0.5 * lost  # a node represents the interval about it
     harmonics: Array = np.exp(np.interp(np.asarray(shares) * lost.sum(), middle, np.log(m[order])))
     return harmonics

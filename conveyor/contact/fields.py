@@ -1,4 +1,4 @@
-"""Pressure and surface of a solved contact, anywhere, computed when asked for."""
+"""Pressure and surface of a solved contact at any place, computed on demand."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ _FAR = 64.0
 _PLAIN = 500.0  # wave numbers up to which the series is summed one by one: a window has as many nodes
 _CHUNK = 4_000_000
 RESOLVED: Final = 4.0
-"""n² times an edge layer's share of the half width, from where on errors fall exponentially."""
+"""n² times an edge layer's share of the half width from which errors fall exponentially."""
 
 
 class Fields(Protocol):
-    """What a contact looks like; X about the roll's axis."""
+    """Pressure and surface of a contact; X about the roll's axis."""
 
     def pressure(self, x: Array) -> Array:
         """p̃ at X, zero outside the strips; shape of x."""
@@ -44,14 +44,14 @@ class Fields(Protocol):
         """Largest p̃."""
 
     def errors(self, problem: ContactProblem) -> Errors:
-        """What resolution may do to the largest p̃ and to the edges under the problem's load."""
+        """Errors of the largest p̃ and of the edges under the problem's load, due to resolution."""
 
     def depth(self) -> float:
         """Δ/R."""
 
 
 def edge_layer(creep: CreepSpectrum, alpha: float) -> float:
-    """Share of a half width α that the edge layer takes; infinite of an elastic contact.
+    """Width of the edge layer over the half width α; infinite for an elastic contact.
 
     j(m) is j∞ + Σ d/(m ζ) for large m: the two are equal at the layer's 1/m.
     """
@@ -67,7 +67,7 @@ def edge_layer(creep: CreepSpectrum, alpha: float) -> float:
 class SpectralFields:
     """Fields of one or more strips from their Chebyshev coefficients; `contact.eps` holds the strips' centres.
 
-    `known_depth` is Δ/R where the solve had to know it.
+    `known_depth` is Δ/R where the solve has computed it.
     """
 
     layer: Layer
@@ -83,7 +83,7 @@ class SpectralFields:
         return list(zip(contact.eps.tolist(), contact.alpha.tolist(), contact.c, strict=True))
 
     def depth(self) -> float:
-        """Δ/R, formed now unless known."""
+        """Δ/R, computed unless known."""
         if self.known_depth is not None:
             return self.known_depth
         rule = build_rule(self.layer, self.creep, float(self.contact.alpha[0]))
@@ -112,9 +112,9 @@ class SpectralFields:
         return float(peak(self.contact.c).max())
 
     def errors(self, problem: ContactProblem) -> Errors:
-        """By a contact that follows the pressure further; of the edges α/n of the tail, too.
+        """Errors from a contact of higher order; for the edges α/n of the series' tail, too.
 
-        With the change by order two of 284 sharp scenes had edges that were off by more, 1.2 and 1.5 times.
+        Of 284 sharp contacts two had edges that were off by more, 1.2 and 1.5 times.
         """
         c, finer = self.contact.c, errors(problem, self.contact)
         worst = float((self.contact.alpha * tail(c)).max() / peak(c).max())
@@ -122,13 +122,13 @@ class SpectralFields:
 
     @cached_property
     def _settled(self) -> Array:
-        """Coefficients that the pressure is summed with, shape (l, n)."""
+        """Coefficients that the pressure is summed from, shape (l, n)."""
         return settled(self.contact.c)
 
 
 @dataclass(frozen=True, eq=False)
 class GridFields:
-    """Fields of a contact that is known on the grid only, between nodes by straight lines."""
+    """Fields of a contact known on the grid only, linear between nodes."""
 
     grid: GridContact
 
@@ -140,7 +140,7 @@ class GridFields:
         return out
 
     def outside(self, x: Array) -> Array:
-        """Displacement at the nodes, straight between them."""
+        """Displacement, linear between the nodes."""
         step = 2.0 * math.pi / self.grid.points
         place = np.arange(self.grid.points + 1) * step
         w = self.grid.surface
@@ -152,7 +152,7 @@ class GridFields:
         return float(self.grid.pressure.max())
 
     def errors(self, problem: ContactProblem) -> Errors:  # noqa: ARG002 as every field has it
-        """The step to the lower neighbour of the highest node; of the edges none beside the step of the grid."""
+        """Peak: step from the highest node to its lower neighbour; edges: none beyond the step of the grid."""
         p = np.concatenate([[0.0], self.grid.pressure, [0.0]])
         at = int(p.argmax())
         return Errors(float(1.0 - min(p[at - 1], p[at + 1]) / p[at]), 0.0)

@@ -1,7 +1,7 @@
-"""The largest pressure against that of a contact which follows it further into the edges, at the same half widths.
+"""Error of the largest pressure, from a contact of higher order at the same half widths.
 
-Formed where the error of the largest pressure is asked for: it takes a matrix, and where rubber flows at lengths that
-the matrix does not follow, a tail down to the shortest of them.
+Computed on demand: it takes a matrix, and where rubber flows at lengths that the matrix does not resolve, a tail of
+orders down to the shortest of them.
 """
 
 from __future__ import annotations
@@ -21,25 +21,25 @@ from conveyor.contact.tail import DENSE, longest_tail
 
 _STEP = 64  # orders that a core with a tail is a multiple of
 _LONG_CORE = 128
-_LOW, _APART = 16, 1e-3  # order and ln α of the contacts that tell what moves with the load
-_PER_DECADE = 24  # wave numbers at which the loss tangent is looked at
+_LOW, _APART = 16, 1e-3  # order and ln α of the contacts that give the change with the load
+_PER_DECADE = 24  # wave numbers at which the loss tangent is evaluated
 _MARGIN: Final = 3.0
-"""Errors over what the finer contact differs by: about one in the median of 1,100 covers and sharp scenes, 1.5 at most
-(docs/accuracy.md)."""
+"""Errors over the difference from the finer contact: about one in the median of 1,100 covers and sharp contacts,
+1.5 at most (docs/accuracy.md)."""
 
 
 class Errors(NamedTuple):
-    """How far the largest pressure is off, relative, and how far the edges are, X."""
+    """Relative error of the largest pressure and error of the edges, X."""
 
     peak: float
     edges: float
 
 
 def errors(problem: ContactProblem, contact: Contact) -> Errors:
-    """What a finer contact says of a contact's largest pressure and of its edges under the problem's load.
+    """Errors of a contact's largest pressure and edges under the problem's load, from a finer contact.
 
-    Of what the finer contact's load differs by, the largest pressure takes as much as the half width for that load has
-    another one. Where a thin plate gives, the load hardly rises with the half width: both feel it by a multiple.
+    A difference of load shifts the half width, and with it peak and edges. On a thin plate the load hardly rises with
+    the half width: both shift by a multiple of it.
     """
     scene = Scene.of(problem)
     shape, load, shift = _differences(scene, contact)
@@ -50,16 +50,16 @@ def errors(problem: ContactProblem, contact: Contact) -> Errors:
 
 
 def peak_error(problem: ContactProblem, contact: Contact) -> float:
-    """How far the largest pressure of a contact under the problem's load is off, relative; of a curve's contact."""
+    """Relative error of the largest pressure of a load curve's contact under the problem's load."""
     shape, load, _ = _differences(Scene.of(problem), contact)
     return shape + load
 
 
 def _differences(scene: Scene, contact: Contact) -> tuple[float, float, float]:
-    """Three times what the finer contact's largest pressure differs by at the same load; what load and centres do.
+    """Differences from the finer contact at the same half widths: three times that of the peak, of load, of centres.
 
-    All at the same half widths. With the load the largest pressure goes like its square root, by a power between -1/2
-    and 3/2. As much as itself where the finer order has no contact on the roll.
+    The peak is compared at the same load, by its square root (seen: powers from -1/2 to 3/2). Errors are 100 % where
+    the finer order has no contact on the roll.
     """
     n = contact.c.shape[1]
     if contact.alpha.size > 1:
@@ -76,7 +76,7 @@ def _differences(scene: Scene, contact: Contact) -> tuple[float, float, float]:
 
 
 def _with_the_load(scene: Scene, contact: Contact) -> tuple[float, float]:
-    """What ln of the largest pressure, and the edges, change by as ln p̃_m does, by low orders at two half widths."""
+    """Change of ln p̂ and of the edges with ln p̃_m, from contacts of low order at two half widths."""
     alpha = contact.alpha[0] * np.exp([-_APART, _APART])
     matrix = assemble(scene.rule(float(alpha[1])), scene.creep, alpha, _LOW)
     found = equilibrium(matrix, alpha, scene.problem.rho, np.repeat(contact.eps, 2))
@@ -89,11 +89,11 @@ def _with_the_load(scene: Scene, contact: Contact) -> tuple[float, float]:
 
 
 def flows_to(creep: CreepSpectrum, alpha: float, n: int) -> float:
-    """The order that follows the pressure to where it may be largest at the edges of a half width α; n at least.
+    """Order that resolves the pressure to where it may be largest at the edges of a half width α; at least n.
 
-    Beyond what order n follows it falls toward an edge like x^1/2 where rubber is elastic and may grow like x^-1/2
-    where it flows: where its loss tangent exceeds one, up to m = Σ d/ζ over j∞ at most. Flow that does not make up for
-    the fall before it is not followed.
+    Beyond what order n resolves the pressure falls toward an edge like x^1/2 where rubber is elastic and may grow like
+    x^-1/2 where it flows: where its loss tangent exceeds one, up to m = Σ d/ζ over j∞ at most. Flow that does not make
+    up for the fall before it is left out.
     """
     lasting = creep.times > 0.0
     first = FOLLOWED * n**2 / alpha
@@ -109,7 +109,7 @@ def flows_to(creep: CreepSpectrum, alpha: float, n: int) -> float:
 
 
 def _finer(scene: Scene, contact: Contact) -> tuple[Contact, float]:
-    """One strip at twice the order at least, and how many times more orders it asks for than the longest tail has."""
+    """One strip at twice the order or more, and the orders it needs over those of the longest tail, at least 1."""
     n, alpha = contact.c.shape[1], float(contact.alpha[0])
     dense = n <= DENSE or not scene.creep.weights.size
     core = last = _STEP * math.ceil(2 * n / _STEP) if dense else _LONG_CORE

@@ -1,8 +1,8 @@
-"""Any number of strips: found on the grid, polished spectrally.
+"""Contacts of any number of strips: located on a grid, refined spectrally.
 
-The grid is refined until two of them show the same strips, each wide enough to be seen; from these `strips.settle`
-converges to the spectral contact, which must press inside every strip and touch nowhere else. Strips too close for
-the spectral window keep the grid's answer with the grid's error.
+The grid is refined until two of them show the same strips, each resolved; from these `strips.settle` converges to the
+spectral contact, which must press inside every strip and touch nowhere else. Strips too close for the spectral window
+keep the grid's solution and error.
 """
 
 from __future__ import annotations
@@ -40,10 +40,10 @@ Array = NDArray[np.float64]
 _COARSEST = 64  # nodes on the roll of the first grid
 _FIRST_POLISH, _WRAP_LEVEL, _FINEST = 2, 6, 10  # doublings of it
 _MOST_POINTS = 1 << 20
-_LAST_TRY, _FAILURES = 64, 2  # orders that may have no contact near the grid's, where that shows the strips
-_POLISHES = 3  # grids whose strips are tried
+_LAST_TRY, _FAILURES = 64, 2  # low orders may have no contact near the grid's
+_POLISHES = 3  # grids whose strips are refined spectrally
 _NARROW, _FIT, _FITS = 1e-3, 10.0, 12  # first guess over the nodes' distance, largest step, steps
-_STRIP_NODES, _GAP_NODES = 3.0, 2.0  # that show a strip, and that two strips are apart
+_STRIP_NODES, _GAP_NODES = 3.0, 2.0  # nodes that resolve a strip, and a gap between strips
 _LIMIT = "the contact comes within a hundredth of the half circle's end at a mean pressure of {} {:.3g}"
 _FAR_BEYOND = 1.5  # times the limit of two coarse grids: no finer one will carry the load
 _LEFT = 3.0  # times what Newton leaves: 1.2 seen in friction, 2.2 in the edges, 1.0 in the largest pressure
@@ -52,7 +52,7 @@ _ON_GRID = "the strips are known on a grid of {} nodes only"
 
 
 class _Start(NamedTuple):
-    """Centres and half widths X of strips to begin with, and the orders that may have no contact near them."""
+    """Centres and half widths X of start strips, and the number of orders that may fail from them."""
 
     centre: Array
     alpha: Array
@@ -61,19 +61,19 @@ class _Start(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class FirstSight:
-    """What a coarse grid shows of the contact under a mean pressure p̃_m."""
+    """Contact on a coarse grid under a mean pressure p̃_m."""
 
     coarse: Grid
     load: float
 
     @classmethod
     def of(cls, scene: Scene, load: float) -> FirstSight:
-        """A scene's, under a load that is not its own where its depth is held."""
+        """Coarse contact of a problem under this load, which replaces a prescribed depth."""
         return cls(Grid(scene.problem, _coarsest(scene.problem.rho)), load)
 
     @cached_property
     def raised(self) -> Raised | None:
-        """The contact of 64 nodes on the roll; None where there is none."""
+        """Contact on 64 nodes on the roll; None where it does not converge."""
         try:
             return self.coarse.raised(self.load)
         except NoSolutionError:
@@ -81,12 +81,12 @@ class FirstSight:
 
     @property
     def several(self) -> bool:
-        """Whether it shows more than one strip."""
+        """True where the contact has more than one strip."""
         return self.raised is not None and len(self.raised.contact.strips) > 1
 
     @property
     def refusal(self) -> Outcome | None:
-        """That of a load of which this grid, and a finer one, carry no more than two thirds."""
+        """Refusal of a load of which this grid and a finer one carry no more than two thirds; else None."""
         if self.raised is None or _FAR_BEYOND * self.raised.limit >= self.load:
             return None
         beyond = self.limit is not None and _FAR_BEYOND * self.limit < self.load
@@ -94,9 +94,9 @@ class FirstSight:
 
     @cached_property
     def limit(self) -> float | None:
-        """The mean pressure from which on the contact touches the last of 256 nodes on the roll, the load at most.
+        """Mean pressure from which the contact touches the last of 256 nodes on the roll, at most the load.
 
-        None where a grid does not settle.
+        None where a grid does not converge.
         """
         coarse, raised, load = self.coarse, self.raised, self.load
         if raised is None:
@@ -111,7 +111,7 @@ class FirstSight:
 
 
 def by_strips(scene: Scene, rtol: float, seen: FirstSight | None = None) -> Outcome:
-    """The contact with as many strips as it has; `seen` is what the first grid shows, where that is known."""
+    """Solve for a contact of any number of strips; `seen` is the coarse contact, if known."""
     grids: list[GridContact] = []
     failure, polishes = "", 0
     for doubling in range(_FINEST + 1):
@@ -141,16 +141,16 @@ def by_strips(scene: Scene, rtol: float, seen: FirstSight | None = None) -> Outc
 
 
 def _contact(scene: Scene, points: int, start: GridContact | None, seen: FirstSight | None) -> GridContact:
-    """The contact on a grid; on the first one that was seen, without raising it from nothing again."""
+    """Contact on a grid, started from a coarser one, or that of `seen`."""
     if start is not None or seen is None:
         return solve_grid(scene.problem, points, start, depth=scene.depth)
     return seen.raised.contact if seen.raised else seen.coarse.exchanged(scene.problem.pressure)
 
 
 def _first_strips(scene: Scene, grid: GridContact) -> _Start | None:
-    """Centres and half widths X of the grid's strips; where it does not resolve one, the half width under its force.
+    """Start strips from the grid; a strip that it does not resolve gets the half width that carries its force.
 
-    None where that one touches its neighbours, or where strips or the roll's end are too near.
+    None where strips touch one another or come too near to the roll's end.
     """
     step, rho = 2.0 * math.pi / grid.points, scene.problem.rho
     if grid.at_roll_end or (grid.strips[1:, 0] - grid.strips[:-1, 1] <= _GAP_NODES * step).any():
@@ -173,7 +173,7 @@ def _first_strips(scene: Scene, grid: GridContact) -> _Start | None:
 
 
 def _polished(scene: Scene, grid: GridContact, start: _Start, rtol: float) -> Outcome | None:
-    """The grid's strips spectrally, the order raised until friction settles; None where they are not the contact."""
+    """Spectral solution from the grid's strips, the order raised until friction converges; None where they fail."""
     centre, alpha, allowed = start
     scene.rules.clear()  # made for wider strips, and longer
     tight = max(1e-3 * rtol, LOAD_FLOOR)
@@ -207,11 +207,11 @@ def _polished(scene: Scene, grid: GridContact, start: _Start, rtol: float) -> Ou
             by_loss = friction if cancelled else friction_by_loss(scene, strips)
             energy = abs(by_loss - strips.friction) / scale
             if not cancelled:
-                # what order, and what Newton leaves of forces that partly cancel, may do
+                # errors by order, and by Newton's remainder of forces that partly cancel
                 most = MOST * error + strips.left * (strips.gross_friction + _reach(strips, scene)) / scale
                 rounding = ROUNDING * strips.gross_friction / scale
                 resolved = resolution(scene, strips.contact, n) >= RESOLVED
-                most = most if resolved else math.inf  # orders agree before an edge layer is seen
+                most = most if resolved else math.inf  # orders agree before an edge layer is resolved
                 error = max(error, energy / ENERGY_OVER_ERROR, min(TWICE * energy, most), rounding)
             error = max(
                 error, LAYER_OVER_ENERGY * energy if hopeless else ROUNDING, _LEFT * strips.left, tension
@@ -237,12 +237,12 @@ def _polished(scene: Scene, grid: GridContact, start: _Start, rtol: float) -> Ou
 
 
 def _scale(scene: Scene, friction: float) -> float:
-    """What errors of friction are relative to; one where the layer is elastic and friction is zero."""
+    """Reference of relative errors of friction; one for an elastic layer, whose friction is zero."""
     return abs(friction) if scene.lossy and friction else 1.0
 
 
 def _reach(strips: Strips, scene: Scene) -> float:
-    """Half width over R: how much of itself a strip's force turns by where it moves by its half width."""
+    """Largest half width over R: turn of a strip's force as it moves by its half width."""
     return float(strips.contact.alpha.max()) / scene.problem.rho
 
 
@@ -276,7 +276,7 @@ def _found(
 
 
 def _on_grid(scene: Scene, grids: list[GridContact], rtol: float) -> Outcome:
-    """The finest grid's contact; its error from the change at the last two doublings and from the energy."""
+    """Outcome of the finest grid; error from the change at the last two doublings and from the energy."""
     grid = grids[-1]
     scale = _scale(scene, grid.friction)
     energy = abs(grid.friction_by_loss - grid.friction) / scale
@@ -303,11 +303,11 @@ def _on_grid(scene: Scene, grids: list[GridContact], rtol: float) -> Outcome:
 
 
 def _overloaded(grid: GridContact, limit: float | None) -> Outcome:
-    """The refusal of a load beyond `limit`; where that is unknown, what touches the roll's end is more than it."""
+    """Refusal of a load beyond `limit`; where that is unknown the grid's mean pressure bounds it."""
     named = _LIMIT.format("at most" if limit is None else "about", limit or grid.mean_pressure)
     return Outcome(Status.WRAP_LIMIT, grid=grid.points, way="grid", remarks=(named,))
 
 
 def _coarsest(rho: float) -> int:
-    """Points of the first grid: a power of two with at least 64 nodes on the roll."""
+    """Points of the first grid, a power of two with at least 64 nodes on the roll."""
     return max(_COARSEST, 1 << math.ceil(math.log2(_COARSEST * math.pi / rho)))

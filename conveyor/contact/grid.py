@@ -1,4 +1,4 @@
-"""The contact without any assumption on its strips: a real-space grid and nonsymmetric complementarity.
+"""Contact without any assumption on its strips: a real-space grid and nonsymmetric complementarity.
 
 Pressure is piecewise linear on a uniform grid over one period, displacement is collocated at its nodes. With the roll's
 drop s = 1 - sqrt(1 - (X/ρ)²) below its crown and the depth Δ of the crown, for every node on the roll
@@ -36,15 +36,15 @@ Array = NDArray[np.float64]
 
 _ALIASES = 6  # explicit ones; beyond, S varies by less than 1e-2 and the sum is a Hurwitz zeta function
 _ROLL = 1.0 - 1e-12  # nodes on the roll: |X| < ρ
-_DENSE = 400  # active nodes solved by LU; beyond it GMRES takes less
+_DENSE = 400  # active nodes solved by LU; beyond it GMRES is faster
 _PIVOTS, _COSTLY_PIVOTS = 300, 60  # of few and of many active nodes
-_FEW = 520  # nodes on the roll whose load is raised from nothing where block exchanges do not settle
-_EXCHANGES, _FEW_EXCHANGES = 25, 4  # a node, from nothing (1 to 19 seen) and from another load
+_FEW = 520  # nodes on the roll up to which the load is raised from zero where block exchanges fail
+_EXCHANGES, _FEW_EXCHANGES = 25, 4  # per node, from zero load (1 to 19 seen) and from another load
 _AT_ONCE = 100  # exchanges at one height (1 to 6 seen): more run in circles, by rounding
 _PATIENCE = 10  # block exchanges that may fail to lessen the infeasible nodes (Júdice and Pires)
 _ROUNDING = 1e-12  # of the depth; gaps smaller than it are closed
-_DENSE_RATHER = 1000  # LU takes less than two cycles of GMRES that do not settle
-_DENSE_AT_WORST = 2000  # where GMRES does not settle: lags near a right angle, E∞/E0 1000 and more
+_DENSE_RATHER = 1000  # LU is faster than two cycles of GMRES that do not converge
+_DENSE_AT_WORST = 2000  # where GMRES does not converge: lags near a right angle, E∞/E0 1000 and more
 _KRYLOV, _RESTART, _CYCLES, _FEW_CYCLES = 1e-12, 60, 8, 2
 _OCTAVE = 1 << 12  # wave numbers below are taken one by one
 
@@ -95,7 +95,7 @@ class GridContact:
 
     @property
     def at_roll_end(self) -> bool:
-        """Whether the contact reaches the last node on the roll: the load wraps its half circle."""
+        """True if the contact reaches the last node on the roll: the load wraps its half circle."""
         return bool(self.pressure[0] > 0.0 or self.pressure[-1] > 0.0)
 
 
@@ -113,14 +113,14 @@ def solve_grid(
     start : GridContact, optional
         Contact on another grid, whose strips are the first active set.
     depth : float, optional
-        Δ/R [-] to be held in place of the load.
+        Prescribed Δ/R [-] in place of the load.
 
     Raises
     ------
     InputError
         `points` odd, too small, or too few for the roll.
     NoSolutionError
-        The active set or GMRES did not settle within its steps.
+        The active set or GMRES did not converge within its steps.
 
     Examples
     --------
@@ -134,7 +134,7 @@ def solve_grid(
 
 
 class Raised(NamedTuple):
-    """A contact raised from nothing, the p̃_m from which on it touches the roll's end, infinite where it does not.
+    """Contact reached from zero load, and the p̃_m (`limit`) from which it touches the roll's end, else infinite.
 
     `half` are the nodes in contact under half of that.
     """
@@ -145,7 +145,7 @@ class Raised(NamedTuple):
 
 
 class Grid:
-    """A scene's surface on a grid, made once for any number of loads; parameters as in `solve_grid`."""
+    """Surface of a problem on a grid, set up once for any number of loads; parameters as in `solve_grid`."""
 
     def __init__(self, problem: ContactProblem, points: int) -> None:
         reach = math.floor(problem.rho * _ROLL * points / (2.0 * math.pi)) if points > 0 else 0
@@ -179,9 +179,9 @@ class Grid:
         return self._contact(active, pressure, depth)
 
     def raised(self, pressure: float, start: GridContact | None = None) -> Raised:
-        """Contact under a mean pressure p̃_m raised from nothing, and where on the way it touches the roll's end.
+        """Contact under a mean pressure p̃_m reached from zero load, and the load at which it touches the roll's end.
 
-        Raised from the load of `start`, a contact on another grid, where that leads to one here. For some hundred
+        Starts from the load of `start`, a contact on another grid, where that has a solution here. For some hundred
         nodes: each exchange of the active set costs their square.
         """
         if start is not None:
@@ -232,7 +232,7 @@ class Grid:
 
 @dataclass(frozen=True, eq=False)
 class _Surface:
-    """Displacement of the nodes on the roll per pressure at them.
+    """Operator from pressures to displacements of the nodes on the roll.
 
     The mean of the pressure lifts no Fourier component; a compliance of the mean is added all the same (`lift`), which
     makes every principal submatrix positive definite and shifts the depth by lift x mean pressure.
@@ -277,7 +277,7 @@ class _Surface:
         return self._product(p, self.window)
 
     def pressed(self, w: Array) -> Array:
-        """About the pressure of a displacement: the preconditioner."""
+        """Approximate pressure of a displacement, the preconditioner."""
         return self._product(w, self.inverse)
 
     def _product(self, values: Array, transform: NDArray[np.complex128]) -> Array:
@@ -330,9 +330,9 @@ def _transform(problem: ContactProblem, points: int) -> tuple[NDArray[np.complex
 
 
 def _aliases(layer: Layer, creep: CreepSpectrum, points: int) -> Array:
-    """What lies beyond m < N/2 in Re T, Im T and the loss, as Chebyshev coefficients over a half period, shape (21, 3).
+    """Aliases of Re T, Im T and the loss as Chebyshev coefficients over a half period, shape (21, 3).
 
-    The aliases are smooth in m/N: degree 20 carries them to 1e-13.
+    They are smooth in m/N: degree 20 carries them to 1e-13.
     """
     nodes = chebyshev.chebpts1(21)
     at = 0.25 * points * (nodes + 1.0)
@@ -349,7 +349,7 @@ def _aliases(layer: Layer, creep: CreepSpectrum, points: int) -> Array:
 
 
 def _over_octave(figures: Callable[[Array], Array], start: int) -> Array:
-    """Figures at the wave numbers `start` … 2 start - 1, from a few in each of sixteen equal parts, shape (3, start).
+    """`figures` at wave numbers `start` … 2 start - 1, interpolated in sixteen equal parts, shape (3, start).
 
     Their poles lie 45° and more off the real axis of m: degree 9 over a part is exact to 1e-15.
     """
@@ -366,7 +366,7 @@ def _over_octave(figures: Callable[[Array], Array], start: int) -> Array:
 def _pivot(
     surface: _Surface, drop: Array, active: NDArray[np.bool_], mean: float, depth: float | None
 ) -> tuple[Array, float, int]:
-    """Principal block pivoting; pressure at the nodes, depth, and the exchanges it took."""
+    """Principal block pivoting: pressure at the nodes, depth, number of exchanges."""
     active = active.copy()
     if not active.any():
         active[np.argmin(drop)] = True
@@ -402,10 +402,10 @@ def _pivot(
 
 
 class _Tableau:
-    """Pressures and gaps of all nodes by principal pivots: each exchange of a node is one on the diagonal.
+    """Pressures and gaps of all nodes by principal pivots: an exchange of a node pivots on the diagonal.
 
-    Of every node pressure or gap is zero; the other is constant + slope δ, with δ the roll's raised depth, `height`.
-    The matrix is positive definite: its diagonal stays positive, and as the roll is lowered there is one way on.
+    Pressure or gap of every node is zero; the other is constant + slope δ, with δ the roll's raised depth, `height`.
+    The matrix is positive definite: its diagonal stays positive, and the path as the roll is lowered is unique.
     """
 
     def __init__(self, matrix: Array, drop: Array, active: NDArray[np.bool_], height: float) -> None:
@@ -422,7 +422,7 @@ class _Tableau:
             self.table[np.ix_(b, a)], self.table[np.ix_(b, b)] = under, matrix[np.ix_(b, b)] - under @ over
 
     def lower(self, load: float, exchanges: int) -> float:
-        """Lower the roll until Σ p = `load`; the Σ p from which on an end node is in contact, infinite if none is."""
+        """Lower the roll until Σ p = `load`; returns the Σ p from which an end node is in contact, or infinity."""
         from scipy.linalg.blas import dger  # 10 ms that contacts without a grid do without
 
         limit = 0.0 if self._at_end() else math.inf
@@ -446,7 +446,7 @@ class _Tableau:
         raise NoSolutionError(f"the load on the grid did not rise within {len(self._way)} exchanges")
 
     def active_under(self, load: float) -> NDArray[np.bool_]:
-        """Nodes in contact under a smaller Σ p, on the way that was taken."""
+        """Nodes in contact under a smaller Σ p of the path taken."""
         active = self._before.copy()
         for carried, node in self._way:
             if carried > load:
@@ -458,7 +458,7 @@ class _Tableau:
         return bool(self.active[0] or self.active[-1])
 
     def _exchange(self, node: int, rank_one: Callable[..., Array]) -> None:
-        """A node's pressure for its gap, or the other way round."""
+        """Exchange a node's pressure and gap."""
         inverse = 1.0 / self.table[node, node]
         column, row, line = self.table[:, node].copy(), self.table[node].copy(), self.lines[:, node] * inverse
         self.lines -= line[:, None] * column
@@ -477,7 +477,7 @@ def _equations(
 ) -> tuple[Array, float, int]:
     """Pressure with w + s = Δ at the active nodes, the raised depth Δ + lift x mean pressure, and the next `dense`.
 
-    `held` are the mean pressure and, in its place, a depth.
+    `held` are the mean pressure and, in its place, a depth or None.
     """
     mean, depth = held
     right = np.stack([-drop[nodes], np.ones(nodes.size)], axis=1)
@@ -495,7 +495,7 @@ def _equations(
 
 
 def _solved(surface: _Surface, nodes: NDArray[np.int_], right: Array, dense: int) -> tuple[Array, int]:
-    """Solution of an active set's equations, and the size up to which the next is solved densely: now `dense`."""
+    """Solution of an active set's equations, and the size up to which the next one is solved densely."""
     if nodes.size <= dense:
         return _dense(surface, nodes, right), dense
     from scipy.sparse.linalg import LinearOperator, gmres  # 40 ms that small grids do without
@@ -535,7 +535,7 @@ def _inside(x: Array, strips: Array) -> NDArray[np.bool_]:
 
 
 def _edges(x: Array, p: Array) -> Array:
-    """Strips of positive pressure; the edge lies beyond its last node by h p1²/(p2² - p1²), at most one node."""
+    """Strips of positive pressure; an edge lies h p1²/(p2² - p1²), at most one step, beyond its last node."""
     step = x[1] - x[0]
     change = np.diff(np.concatenate([[0], (p > 0.0).astype(int), [0]]))
     out = []

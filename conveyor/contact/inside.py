@@ -1,7 +1,7 @@
-"""A solved contact's harmonics carried into the layer: sums of fields and of dissipation at any depth.
+"""Harmonics of a solved contact inside the layer: sums of fields and of dissipation at any depth.
 
-The sums are those of the surface (quadrature.series_rule), octave by octave of the distance from a strip, because far
-from it few wave numbers matter.
+The sums are those of the surface (quadrature.series_rule), octave by octave of the distance from a strip: far from it
+few wave numbers matter.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ _PLAIN = CreepSpectrum(1.0)
 
 
 class _Unity:
-    """A symbol equal to m, whose summation rule carries plain weights."""
+    """Symbol equal to m, whose summation rule has plain weights."""
 
     reach = 0.0
 
@@ -70,7 +70,7 @@ class _Strip:
 
 
 class Inside:
-    """A contact's strips and its layer; lengths X = k x, Z = k z."""
+    """Strips and layer of a contact; lengths X = k x, Z = k z."""
 
     def __init__(self, solution: ContactSolution, points: int) -> None:
         problem = solution.problem
@@ -159,7 +159,7 @@ class Inside:
     def _coefficients(
         self, strip: _Strip, m: Array, weights: Array, z: Array, *, strains_only: bool
     ) -> ComplexArray:
-        """The fields' weighted amplitudes at wave numbers m, shape (k,); (count · nz, k)."""
+        """Weighted amplitudes of the fields at wave numbers m of shape (k,); shape (count · nz, k)."""
         wave = weights * strip.amplitude(m)
         strained = self.scale * wave * self.problem.creep.compliance(m)
         D, T, H, U = self.shapes(m, z)
@@ -172,7 +172,7 @@ class Inside:
         return np.concatenate(parts)
 
     def dissipation(self, z: Array) -> tuple[Array, float]:
-        """D R/F_N = ρ²/((1-ν) p̃_m) Σ m Im j 2 (D² + T² + (1-2ν) H²) |p̂_m|², shape (nz,); and its mean m."""
+        """D R/F_N = ρ²/((1-ν) p̃_m) Σ m Im j 2 (D² + T² + (1-2ν) H²) |p̂_m|², shape (nz,); mean m of it."""
         low = min(s.centre - s.alpha for s in self.strips)
         high = max(s.centre + s.alpha for s in self.strips)
         end = HARMONICS * self.points / min(s.alpha for s in self.strips)
@@ -182,14 +182,14 @@ class Inside:
         D, T, H, _ = self.shapes(m, z)
         density = 2.0 * (D * D + T * T + (1.0 - 2.0 * self.nu) * H * H) @ (m * loss)
         density *= self.problem.rho**2 / ((1.0 - self.nu) * self.pressure)
-        # over the whole depth a harmonic loses Im S |p̂|² (energy.py)
+        # over the whole depth a harmonic loses Im S |p̂|² (contact/energy.py)
         lost = weights.real * np.abs(sum(waves)) ** 2 * self.layer.symbol(m, self.problem.creep).imag
         total = float(lost.sum())
         return density, math.exp(float(lost @ np.log(m)) / total) if total > 0.0 else 0.0
 
 
 def _strips(solution: ContactSolution) -> list[_Strip]:
-    """Sine coefficients of every strip's pressure: those it was solved by, of a contact on a grid those sampled."""
+    """Sine coefficients of every strip's pressure, from the solution or sampled from a grid."""
     if (known := solution.strips) is not None:
         return [_Strip(*strip) for strip in known]
     angle = np.arange(1, _GRID_TERMS + 1) * (math.pi / (_GRID_TERMS + 1))

@@ -1,4 +1,4 @@
-"""Stress, strain and dissipation inside the layer of a solved contact, computed only when asked for.
+"""Stress, strain and dissipation inside the layer of a solved contact.
 
 The harmonics p̂_m e^{imX} of the pressure travel with the roll: at a constant Poisson's ratio the stresses are the
 elastic ones of layer_shapes.py and the strains follow by the correspondence principle, ε̂_m = j(m) σ̂_m ρ/(2(1-ν))
@@ -50,14 +50,14 @@ class InteriorFields:
 
 @dataclass(frozen=True, eq=False)
 class Interior:
-    """What the particles of each depth undergo as the roll passes.
+    """Strain amplitude and dissipation of the particles at each depth as the roll passes.
 
     Attributes
     ----------
     depth : ndarray, shape (nz,)
         z/R [-] below the loaded surface: the surface, Gauss nodes, the far face (a half-space has none).
     weights : ndarray, shape (nz,)
-        Of the integral over z/R [-]; zero at the faces.
+        Quadrature weights over z/R [-]; zero at the faces.
     amplitude : ndarray, shape (nz,)
         Equivalent strain amplitude [-] of a particle's path: half the largest distance of two of its points in the
         norm sqrt(2/3 e:e) of the deviatoric strain e.
@@ -120,14 +120,14 @@ class Interior:
 
     @property
     def maximum(self) -> float:
-        """Largest amplitude of the depths, faces included [-]."""
+        """Largest strain amplitude of all depths, faces included [-]."""
         return float(self.amplitude.max())
 
     @cached_property
     def error_estimate(self) -> float:
         """Estimated relative error of the working strain, of the maximum where the layer is elastic [-].
 
-        What 0.6 of the depths, and apart from it 0.6 of the places and wave numbers, change, added up.
+        Sum of the changes by 0.6 of the depths, and by 0.6 of the places and wave numbers.
         """
         name = "working_strain" if self.dissipation.any() else "maximum"
         nodes = int(np.count_nonzero(self.weights))
@@ -159,13 +159,13 @@ def interior(solution: ContactSolution, *, depths: int = 16, points: int = 48) -
     Raises
     ------
     InputError
-        `depths` or `points` too small, or a Layer of the user's own: its symbol does not tell its interior.
+        `depths` or `points` too small, or a Layer of the user's own: its symbol does not define its interior.
     NoSolutionError
         The solution holds no contact.
 
     Notes
     -----
-    The amplitude is meant to be set beside the single strain amplitude of a dynamic test. A particle runs through a
+    The amplitude compares with the single strain amplitude of a dynamic test. A particle runs through a
     closed path in the space of deviatoric strains, not to and fro on a line: under a rolling contact the principal
     axes turn. Its size is half the path's diameter in the norm sqrt(2/3 e:e), the equivalent strain: a uniaxial
     incompressible test of amplitude ε gives ε, a shear test of amplitude γ gives γ/√3, a shear that turns without
@@ -207,7 +207,7 @@ def interior_fields(
     Returns
     -------
     InteriorFields
-        Without the means over a period, which the harmonics m ≥ 1 do not hold.
+        Without the means over a period: the harmonics start at m = 1.
 
     Raises
     ------
@@ -218,7 +218,7 @@ def interior_fields(
 
     Notes
     -----
-    The window blurs over R α/(ρ `points`): of use below that depth, and at the surface away from the edges.
+    The window blurs over R α/(ρ `points`): valid below that depth, and at the surface away from the edges.
     """
     _refuse_unsolved(solution)
     if isinstance(points, bool) or not isinstance(points, (int, np.integer)) or points < _FEWEST_POINTS:

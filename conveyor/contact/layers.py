@@ -22,14 +22,14 @@ _SERIES = [1.0 / math.factorial(2 * n + 1) for n in range(9, 0, -1)]  # of sinh 
 
 
 class Creep(Protocol):
-    """What a layer needs to know of its rubber."""
+    """Creep compliance of a layer's rubber."""
 
     def compliance(self, m: Array) -> ComplexArray:
         """j(m)."""
 
 
 class Layer(Protocol):
-    """What the solver needs to know of a layer; any symbol that approaches j(m) can be solved."""
+    """Symbol of a layer; any symbol that approaches j(m) can be solved."""
 
     @property
     def reach(self) -> float:
@@ -61,7 +61,7 @@ class Free:
 
     @property
     def reach(self) -> float:
-        """Wave number of the depth where the far face is no longer felt."""
+        """Wave number beyond which the symbol equals j(m) to rounding [-]."""
         return HALF_SPACE_DEPTH / self.thickness
 
     def symbol(self, m: Array, creep: Creep) -> ComplexArray:
@@ -78,7 +78,7 @@ class Confined:
 
     @property
     def reach(self) -> float:
-        """Wave number of the depth where the plane is no longer felt."""
+        """Wave number beyond which the symbol equals j(m) to rounding [-]."""
         return HALF_SPACE_DEPTH / self.thickness
 
     def symbol(self, m: Array, creep: Creep) -> ComplexArray:
@@ -88,7 +88,7 @@ class Confined:
 
 @dataclass(frozen=True, eq=False)
 class Layers:
-    """Layers of one kind side by side (internal to the solver); `thickness` k h and `poisson` of shape (b,)."""
+    """Batch of layers of one kind (internal to the solver); `thickness` k h and `poisson` of shape (b,)."""
 
     support: str
     thickness: Array
@@ -112,7 +112,7 @@ class Layers:
 def free_symbol(q: Array) -> Array:
     """L(q) = (sinh 2q + 2q)/(cosh 2q - 1 - 2q²); 6/q³ (Kirchhoff plate) for q → 0, 1 for q → ∞.
 
-    The denominator is 2 (sinh q - q)(sinh q + q): no cancellation is left but that of sinh q - q, done by series.
+    The denominator is 2 (sinh q - q)(sinh q + q): only sinh q - q cancels, and is summed as a series.
 
     Parameters
     ----------

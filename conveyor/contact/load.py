@@ -1,4 +1,4 @@
-"""Load control: the half width whose contact carries the load asked for."""
+"""Load control: the half width whose contact carries a given load."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 _LOAD_STEPS = 60
 _LOAD_ACCEPTED = 1e-9  # a load that stalls below it is kept and its miss reported in error_estimate
 _WIDEST = 1.0 - 1e-9
-_CLOSED = 1e-4  # of ln α between too light and off the roll: the general way takes what lies between
+_CLOSED = 1e-4  # of ln α between too light and off the roll: the general solver takes what lies between
 _GUESSES = 48
 _DISTINCT = 1e-9  # half widths closer than this carry no slope
 
@@ -35,10 +35,10 @@ class LoadSearch:
     exponent: Array | None = None
 
     def accept(self, contact: Contact, log_pressure: float) -> float:
-        """Take the load at the present half width, move to the next one; returns the mismatch ln p - target.
+        """Take the load at the present half width and move to the next one; returns the mismatch ln p - target.
 
-        Learns d ln p/d ln α (the next step) and d ln μ/d ln p (`exponent`, for the error at fixed load) on the way.
-        Where a depth is held, read Δ for p.
+        Updates d ln p/d ln α (the next step) and d ln μ/d ln p (`exponent`, for the error at fixed load).
+        With a prescribed depth Δ stands for p.
         """
         friction = float(contact.friction[0])
         miss = log_pressure - self.target
@@ -62,17 +62,17 @@ class LoadSearch:
         return miss
 
     def renew(self) -> None:
-        """Forget the bracket: at another order the load of a half width differs slightly."""
+        """Reset the bracket: at another order the load of a half width differs slightly."""
         self.low, self.high, self.last = -math.inf, math.inf, None
 
     def reject(self) -> None:
-        """Go back toward a narrower contact: the present half width has none on the roll."""
+        """Step back to a narrower contact: the present half width has none on the roll."""
         self.high = min(self.high, self.log_alpha)
         self.log_alpha = 0.5 * (self.low + self.high) if math.isfinite(self.low) else self.high - 0.7
 
 
 def carry(scene: Scene, search: LoadSearch, n: int, tolerance: float, last: int = 0) -> State | None:
-    """Find the contact of order n that carries the load; None where the roll is wrapped before it does.
+    """Contact of order n that carries the load; None where it wraps the roll before it does.
 
     With `last` above n the orders up to there are in its equations too.
     """

@@ -1,7 +1,7 @@
 """Weights of scattered places moved to a grid, so that sums over the places are products with tables on the grid.
 
-Σ_k w_k f(x_k) = Σ_g W_g f(x_g) where f is smooth: each place hands its weight to the 16 grid points about it by
-Lagrange interpolation. The table f(x_g) is made once, and many scenes need one product with it.
+Σ_k w_k f(x_k) = Σ_g W_g f(x_g) where f is smooth: the weight of each place is spread over the 16 grid points about it
+by Lagrange interpolation. The table f(x_g) is computed once for all problems.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ Stencils = tuple[NDArray[np.int_], Array]
 
 POINTS = 16
 BEFORE = POINTS // 2 - 1
-"""Grid points before place 0, which a stencil there reaches."""
+"""Grid points before place 0 that a stencil there reaches."""
 _ALONG = np.arange(POINTS)[:, None, None]
 # ln b = 2 + 5 sinh x in steps of 0.02: a tenth in the middle, where functions of ln b are analytic within π/2 of the
 # real axis only, more where they fall like b or 1/b (seen: 4e-13 of functions below one)
@@ -27,9 +27,9 @@ LOGS = 2 * _REACH + POINTS
 
 @lru_cache(maxsize=1)
 def _lagrange() -> Array:
-    """From powers of a place, counted from the stencil's middle, to the weights of its points.
+    """Coefficients of Π (x - x_j)/(x_i - x_j) in powers of x, counted from the stencil's middle.
 
-    Coefficients of Π (x - x_j)/(x_i - x_j), each to rounding: the inverse of a Vandermonde matrix is not.
+    Each is exact to rounding: the inverse of a Vandermonde matrix is not.
     """
     x = np.arange(POINTS) - 0.5 * (POINTS - 1)
     others = [np.delete(x, i) for i in range(POINTS)]
@@ -39,7 +39,7 @@ def _lagrange() -> Array:
 
 
 def stencils(place: Array) -> Stencils:
-    """Places of shape (b, k), in steps of the grid from its point `BEFORE`: first points, and weights (16, b, k)."""
+    """First points and weights (16, b, k) of places of shape (b, k), in grid steps from point `BEFORE`."""
     first = np.floor(place)
     powers = np.empty((POINTS, *place.shape))
     powers[0] = 1.0
@@ -51,7 +51,7 @@ def stencils(place: Array) -> Stencils:
 
 
 def moved(at: Stencils, size: int, *weights: Array) -> list[Array]:
-    """Each of some weights, shape (b, k), on a grid of `size` points, shape (b, size)."""
+    """Weights, each of shape (b, k), moved to a grid of `size` points, shape (b, size)."""
     first, shares = at
     rows = first.shape[0]
     index = (_ALONG + (first + size * np.arange(rows)[:, None])).ravel()
@@ -73,5 +73,5 @@ def log_places(b: Array) -> Array:
 
 
 def within(places: Array) -> NDArray[np.bool_]:
-    """Which of the scenes have all `log_places`, shape (b, k), on the grid."""
+    """True for rows whose `log_places`, shape (b, k), all lie on the grid."""
     return np.asarray((np.abs(places - _REACH) <= _REACH).all(axis=1))

@@ -1,8 +1,8 @@
-"""One strip by its half width, many scenes at once, without a Python loop over scenes.
+"""Contacts of one strip by their half width, many problems in a batch.
 
-Stacked linear algebra and the short rules: the half width is found at a low order and closed at the order that meets
-rtol. What is not found this way (loads near the roll's half circle, extremely thin layers) or is not one strip is left
-to the other ways.
+Stacked linear algebra and the short rules: the half width is solved at a low order and refined at the order that meets
+rtol. Loads near the roll's half circle, extremely thin layers and contacts of several strips are left to the other
+solvers.
 """
 
 from __future__ import annotations
@@ -56,15 +56,15 @@ ROUGH = 1e-6  # relative error of eccentricities on the way: a tenth of the cubi
 _SAMPLES, RANGE = 4, 0.25  # half widths sampled, to both sides of the guess in ln α
 _SPAN = 2.0 * math.cos(0.5 * math.pi / _SAMPLES)  # of the samples, over that range
 _OUTSIDE = 0.2  # of the samples' span of ln p: farther beyond them, the guess was wrong
-ROOM = 1.4  # the rule serves contacts wider than the guess by so much: exp(1.3 x 0.25)
+ROOM = 1.4  # the rule is valid for contacts wider than the guess by this factor: exp(1.3 x 0.25)
 _CLOSING_STEPS = 8
-_LOAD_SHARE = 0.1  # of rtol: what closing the load may leave of friction
-_LOAD_LOOSE = 0.5  # of rtol: order's error and what is left of the load, together
-PLACE_SHARE = 1e-4  # of rtol: what may be left of an eccentricity
-# times the mismatch of load, times what the search's order is off by: what carrying a contact to its load misses of
-# friction (seen: 0.2 to 1 in the median, 7 to 30 in 99 % of scenes), and of its edges over α (0.3; 0.2 to 70)
+_LOAD_SHARE = 0.1  # of rtol: error of friction that a mismatch of load may leave
+_LOAD_LOOSE = 0.5  # of rtol: error by order and by the load's mismatch, together
+PLACE_SHARE = 1e-4  # of rtol: error of an eccentricity
+# times the mismatch of load, times the error of the search's order: error of friction as a contact is carried to its
+# load (seen: 0.2 to 1 in the median, 7 to 30 in 99 % of contacts), and of its edges over α (0.3; 0.2 to 70)
 _CARRIED, _EDGES_CARRIED = 20.0, 100.0
-_CUT = 0.03  # of a cubic's last coefficient: what the cubic itself is off by between its points
+_CUT = 0.03  # of a cubic's last coefficient: its own error between its points
 _MOST_PANELS = 12
 _ROLL = 0.98  # of its radius: the widest half width
 _WIDE_CHUNK = 16  # wide ones have several times the nodes
@@ -73,13 +73,13 @@ _FARTHEST = 2.0  # times the order, in one step
 _GUESSES_TRIED = 4
 _FLATTEST, _FARTHEST_GUESS = 0.4, 1.5  # d ln p/d ln α; ln of half widths
 _CAPS = np.array(CAPS)
-CHUNK = 200  # scenes whose tables stay in the processor's cache
+CHUNK = 200  # problems whose tables stay in the processor's cache
 _GUESSES = np.linspace(0.0, 1.0, 14)
 
 
 @dataclass(eq=False)
 class Group:
-    """Scenes of one support side by side, and what is known of each."""
+    """Problems of one kind of layer in a batch."""
 
     problems: list[ContactProblem]
     given: list[CreepSpectrum]  # as the solver sees them: terms without time are instantaneous
@@ -90,7 +90,7 @@ class Group:
 
     @classmethod
     def of(cls, problems: list[ContactProblem], given: list[CreepSpectrum]) -> Group:
-        """Scenes of one support; creeps are filled up with terms of weight zero."""
+        """Batch of problems; creeps are padded with terms of weight zero."""
         return cls(
             problems,
             given,
@@ -114,16 +114,16 @@ class Group:
 
 
 class Left(Enum):
-    """What the batch leaves undone of a scene."""
+    """Reason why the batch leaves a problem unsolved."""
 
     ANY = "its half width was not found"
     STRIPS = "one strip is not the answer"
 
 
 def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcome | Near | Left | None]:
-    """Outcome of every scene whose single strip is found by its half width, what is left of the others.
+    """Outcome of every problem solved as one strip; a start value or a reason for the others.
 
-    None of all where the short rules do not serve so fine a tolerance.
+    All None where the short rules do not reach so fine a tolerance.
     """
     if rtol < FINE_FROM:
         return [None] * len(problems)
@@ -154,7 +154,7 @@ def solve_narrow(problems: Sequence[ContactProblem], rtol: float) -> list[Outcom
 
 
 def _chunks(group: Group, alpha: Array, rows: Index, grade: Grade) -> Iterator[Index]:
-    """Like with like, few enough for the cache; without those whose rules would be too long."""
+    """Chunks of similar problems that fit the cache, without those whose rules would be too long."""
     half_width = ROOM * alpha[rows]
     caps = np.searchsorted(_CAPS, half_width)
     panels = panels_beyond(group.layers.reach(grade.depth)[rows], half_width, grade)
@@ -168,7 +168,7 @@ def _chunks(group: Group, alpha: Array, rows: Index, grade: Grade) -> Iterator[I
 
 
 def alike(problems: Sequence[ContactProblem]) -> Iterable[list[int]]:
-    """Places of the scenes that can be solved side by side."""
+    """Places of the problems of each kind of layer, which can share a batch."""
     kinds: dict[type, list[int]] = {}
     for i, problem in enumerate(problems):
         kinds.setdefault(kind(problem.layer), []).append(i)
@@ -176,14 +176,14 @@ def alike(problems: Sequence[ContactProblem]) -> Iterable[list[int]]:
 
 
 def fits(group: Group, half_width: Array, grade: Grade) -> NDArray[np.bool_]:
-    """Whether contacts up to these half widths are narrow: for the window, for the roll, against the layer."""
+    """True where contacts up to these half widths are narrow against window, roll and layer."""
     panels = panels_beyond(group.layers.reach(grade.depth), half_width, grade)
     slim = (half_width < np.minimum(WIDEST, WRAPPED * group.rho)) & (panels <= _MOST_PANELS)
     return np.asarray(slim & within(group.creeps.places))
 
 
 def guess(group: Group) -> Array:
-    """Half width of each scene: Hertz, p̃_m = α²/(4ρ² C), with the compliance C = |S| at m = 1/α.
+    """Hertz half width of each problem, p̃_m = α²/(4ρ² C), with the compliance C = |S| at m = 1/α.
 
     The true half widths of conveyor covers, glassy to rubbery, are 0.80 to 1.21 of it.
     """
@@ -195,18 +195,18 @@ def guess(group: Group) -> Array:
     compliance = np.abs(group.layers.symbol(m, group.creeps.compliance(m)))
     log_load = 2.0 * (log_alpha - np.log(2.0 * group.rho)[:, None]) - np.log(compliance)
     log_load = np.maximum.accumulate(log_load, axis=1)
-    # a load beyond the table is no narrow contact: its place is the table's end and it is handed back
+    # a load beyond the table is no narrow contact: it gets the table's end
     return np.exp([np.interp(*each) for each in zip(group.target, log_load, log_alpha, strict=True)])
 
 
 @lru_cache(maxsize=1)
 def _points() -> tuple[float, ...]:
-    """Half widths over the guess, at Chebyshev points of the search's range, from the widest down."""
+    """Half widths over the guess at Chebyshev points of the search range, from the widest down."""
     return tuple(np.exp(RANGE * np.cos((np.arange(_SAMPLES) + 0.5) * (np.pi / _SAMPLES))).tolist())
 
 
 class Cubics:
-    """Cubics through four points y of b scenes, shape (b, 4), of f figures each, shape (f, b, 4): Newton's form."""
+    """Newton cubics through four points y, shape (b, 4), of f quantities of b problems, shape (f, b, 4)."""
 
     def __init__(self, y: Array, figures: Array) -> None:
         self.y = y
@@ -217,14 +217,14 @@ class Cubics:
             self.parts[step] = last[..., 0]
 
     def value(self, rows: Index, y: Array) -> Array:
-        """Figures of some rows at y."""
+        """Values of these rows at y."""
         first, second, third, fourth = self.parts[..., rows]
         away = y[:, None] - self.y[rows]
         value: Array = first + away[:, 0] * (second + away[:, 1] * (third + away[:, 2] * fourth))
         return value
 
     def slope(self, rows: Index, y: Array) -> Array:
-        """Their derivatives by y, of the first three figures."""
+        """Derivatives by y of the first three quantities."""
         _, second, third, fourth = self.parts[:, :3, rows]
         away = y[:, None] - self.y[rows]
         sum_, product = away[:, 0] + away[:, 1], away[:, 0] * away[:, 1]
@@ -233,7 +233,7 @@ class Cubics:
 
 
 class _Evaluated(NamedTuple):
-    """Contacts at their order, those of lower orders, ln p - target, tables; the cubics' y there and its figures."""
+    """Contacts at their order, those of lower orders, ln p - target, tables; y and values of the cubics there."""
 
     contact: Contact
     lower: Contact
@@ -243,7 +243,7 @@ class _Evaluated(NamedTuple):
     known: Array
 
     def of(self, at: Index | slice) -> _Evaluated:
-        """Some of them."""
+        """Selected rows."""
         return _Evaluated(
             chosen_rows(self.contact, at),
             chosen_rows(self.lower, at),
@@ -255,11 +255,11 @@ class _Evaluated(NamedTuple):
 
 
 class Search:
-    """Half widths on their way to the load, one scene a row.
+    """Search for the half widths that carry the loads, one problem a row.
 
     At a low order four half widths are sampled in one batch: ln α, ε/α, ln |μ| and the pressure's shape c_v/c_1 are
-    cubics of y = ln p̃_m, to 1e-5. At a higher order ln p̃_m differs by an offset that hardly depends on α, so that each
-    evaluation there gives the next place, and the contact there as soon as it is near.
+    cubics of y = ln p̃_m, to 1e-5. At a higher order ln p̃_m differs by an offset that hardly depends on α: each
+    evaluation gives the next place, and the contact there once it is near.
     """
 
     def __init__(self, group: Group, rules: Sequence[ShortRule], alpha: Array, rtol: float) -> None:
@@ -294,14 +294,14 @@ class Search:
 
     @property
     def extrapolated(self) -> Array:
-        """Half widths where a straight line through the middle meets the load: for those far outside."""
+        """Half widths where a straight line through the middle meets the load, for those far outside."""
         exponent = np.maximum(self.span / (_SPAN * RANGE), _FLATTEST)
         away = (self.group.target - self.cubics.y.mean(axis=1)) / exponent
         values: Array = np.exp(self.middle + np.clip(away, -_FARTHEST_GUESS, _FARTHEST_GUESS))
         return values
 
     def move(self, rows: Index) -> None:
-        """To the places where the load is met with the present offset; rows far outside are given up."""
+        """Move to the places that meet the load with the present offset; drop rows far outside."""
         self.place[rows] = y = self.group.target[rows] - self.offset[rows]
         ends = self.cubics.y[rows]
         beyond = np.maximum(y - ends[:, 0], ends[:, -1] - y)
@@ -318,7 +318,7 @@ class Search:
         return np.where(self.lossy[rows], self.cubics.slope(rows, y)[2], 0.0)
 
     def evaluate(self, rows: Index, n: int) -> _Evaluated:
-        """Contacts of some rows at order n; moves on to the next places."""
+        """Contacts of these rows at order n; moves on to the next places."""
         y = self.place[rows]
         known = self.cubics.value(rows, y)
         alpha = np.exp(known[0])
@@ -344,10 +344,7 @@ class Search:
         return _Evaluated(contact, lower, miss, tabled, y, known)
 
     def carried(self, rows: Index, found: _Evaluated) -> tuple[Contact, Array]:
-        """Contacts just evaluated, carried to their loads as those of the low order go.
-
-        With the friction that this may miss, relative: by what the low order is off, and by its other slope.
-        """
+        """Evaluated contacts carried to their loads by the low-order cubics, and the relative error of friction."""
         contact, miss, y_from, here = found.contact, found.miss, found.place, found.known
         y_to = y_from - miss
         change = self.cubics.value(rows, y_to) - here
@@ -358,7 +355,7 @@ class Search:
         eps = wider * contact.eps + alpha * shifted
         c = contact.c * (heavier / wider)[:, None]
         c[:, 1:_SEARCH] += c[:, :1] * change[3:].T
-        # what the cubics are off by: of friction, of the load
+        # errors of the cubics: of friction, of the load
         cut = _CUT * np.abs(self.cubics.parts[3][:, rows]) * (self.span[rows] / _SPAN) ** 3
         off = np.where(lossy, np.abs(_log(contact.friction, lossy) - here[2]) + cut[2], 0.0)
         off += np.abs(self.group.target[rows] + miss - y_from) + cut[0] * self.span[rows] / (_SPAN * RANGE)
@@ -375,18 +372,18 @@ class Search:
 
 
 def _some(rows: Index, size: int) -> Index | slice:
-    """Rows in their order, of `size` at most; where these are all, as a slice, which copies nothing."""
+    """Ascending rows as an index; as a slice, which copies nothing, where they are all of `size`."""
     return rows if rows.size < size else slice(None)
 
 
 def _log(values: Array, told: NDArray[np.bool_]) -> Array:
-    """Ln |values| where it means something, else zero."""
+    """Ln |values| where `told`, else zero."""
     logs: Array = np.log(np.abs(np.where(told, values, 1.0)))
     return logs
 
 
 class _Closing:
-    """Raises the order until each scene meets rtol, and checks what it finds."""
+    """Raises the order until each problem meets rtol, and checks the contacts."""
 
     def __init__(self, search: Search, rtol: float) -> None:
         self.search, self.rtol = search, rtol
@@ -396,7 +393,7 @@ class _Closing:
         self.done: dict[int, Outcome | Near | Left] = {}
 
     def outcomes(self) -> dict[int, Outcome | Near | Left]:
-        """By row; none of those that are left to other ways."""
+        """Outcomes by row; rows without an entry are left to the other solvers."""
         waiting = np.flatnonzero(self.search.alive)
         while waiting.size:
             wanted = self.wanted[waiting]
@@ -404,12 +401,12 @@ class _Closing:
             rows, step = waiting[wanted == n], max(1, _MOST_ENTRIES // (n * n))
             for start in range(0, rows.size, step):
                 self._close(rows[start : start + step], n)
-            # those that were neither closed nor are to be raised did not meet their load
+            # rows that are neither accepted nor raised to a higher order did not meet their load
             waiting = waiting[(self.wanted[waiting] > n) & self.search.alive[waiting]]
         return self.done
 
     def _close(self, rows: Index, n: int) -> None:
-        """Meet the load at order n."""
+        """Close the load at order n."""
         search, rtol = self.search, self.rtol
         for step in range(_CLOSING_STEPS):
             found = search.evaluate(rows, n)
@@ -442,7 +439,7 @@ class _Closing:
             self.done[row] = Near(*self.search.place_and_slope(row))
 
     def _accept(self, rows: Index, found: _Evaluated, closed: Contact, error: Array) -> None:
-        """Check energy, sign and place of contacts whose order suffices; accept them as they carry their loads."""
+        """Check energy, sign and gap of contacts whose order suffices, and accept or raise them."""
         search, rtol, contact = self.search, self.rtol, found.contact
         grade = grades_for(rtol)[1]
         rho = search.group.rho[rows]
@@ -469,7 +466,7 @@ class _Closing:
     def _found(
         self, row: int, contact: Contact, errors: tuple[float, float], *, outside: bool
     ) -> Outcome | Left:
-        """The contact as an outcome, where the layer does not touch the roll elsewhere."""
+        """Outcome of an accepted contact, unless the layer touches the roll elsewhere."""
         search, group = self.search, self.search.group
         problem, creep = group.problems[row], group.given[row]
         alpha, eps = float(contact.alpha[0]), float(contact.eps[0])

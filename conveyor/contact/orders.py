@@ -6,27 +6,26 @@ ORDERS = (16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512)
 LOW_ORDER_FROM = 1e-5
 """rtol that the first order may meet."""
 _FALLS = 3.3
-"""Exponent of the order that errors fall by: 3.4 by order and 3.2 to 3.5 by energy in the median of 96 covers under
+"""Power of the order that errors fall with: 3.4 by order and 3.2 to 3.5 by energy in the median of 96 covers under
 rolls, from 16 to 24 to 96; 2.9 and 2.7 to 3.0 in nine tenths, edge layers 2.4."""
 _FAR_OFF = 100.0  # of the tolerance: then a rung is left out
 
 
 def lowest_order(rtol: float) -> int:
-    """Where to begin: at 1e-6 half of a conveyor's contacts ask for order 32, and it costs hardly more than 24."""
+    """First order: at 1e-6 half of a conveyor's contacts need order 32, which costs hardly more than 24."""
     return ORDERS[0 if rtol >= LOW_ORDER_FROM else 2]
 
 
 def order_for(n: int, excess: float, excess_energy: float, farthest: float) -> int:
-    """The order to go on with, where error and energy exceed what is allowed by these factors.
+    """Next order where error and energy error exceed the tolerance by these factors, at most `farthest` times n.
 
-    Both are guessed to fall as they do in the median; where they fall less, one more order is asked for. At most
-    `farthest` times as high.
+    Both are assumed to fall as in the median.
     """
     enough = n * min(max(excess, excess_energy) ** (1.0 / _FALLS), farthest)
     return next((order for order in ORDERS if n < order and order >= 0.999 * enough), ORDERS[-1])
 
 
 def next_order(n: int, error: float, rtol: float) -> int:
-    """The next order, or the one after where the error is more than two decades off; the last one stays."""
+    """Next order, or the one after it where the error is more than two decades off; the last one stays."""
     place = ORDERS.index(n) + (2 if error > _FAR_OFF * rtol else 1)
     return ORDERS[min(place, len(ORDERS) - 1)]

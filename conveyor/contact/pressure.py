@@ -1,9 +1,9 @@
 """Pressure of a strip from its sine series, p̃ = Σ c_v sin(vθ), and its largest value.
 
-Where rubber has loss at every length no order follows the pressure into the edges: the last coefficients ripple over
-the whole strip, by far more than the mean over a wave of them is off. So the upper half of the series is summed with
-weights that fall to zero (those of de la Vallée-Poussin, rounded off). Where every layer is resolved, and the series
-falls exponentially, it is summed as it is.
+Where rubber has loss at every length no order resolves the pressure at the edges: the last coefficients ripple over
+the whole strip, by far more than the error of the mean over a wave of them. So the upper half of the series is summed
+with weights that fall to zero (those of de la Vallée-Poussin, rounded off). Where every layer is resolved, and the
+series falls exponentially, it is summed as it is.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 FOLLOWED: Final = 0.05
-"""Of n²/α: wave numbers that order n follows at an edge, where its nodes are 5 α/n² apart."""
+"""Factor of n²/α: wave number that order n resolves at an edge, where its nodes are 5 α/n² apart."""
 _PEAK_STEPS = 8
 _CHUNK = 4_000_000
 _TABLED = 1 << 16  # entries of a table of sines: a product with it costs no more than a transform
@@ -40,7 +40,7 @@ def sines(c: Array, angle: Array) -> Array:
 
 @lru_cache(maxsize=16)
 def _waves(n: int, count: int) -> Array:
-    """Sin(vθ) of v = 1 … n there, shape (n, count + 1)."""
+    """Sin(vθ) of v = 1 … n at θ = 0, π/count … π, shape (n, count + 1)."""
     turn = np.outer(np.arange(1, n + 1), np.arange(count + 1)) % (2 * count)
     waves: Array = np.sin(turn * (math.pi / count))
     return waves
@@ -57,7 +57,7 @@ def sampled_sines(c: Array, count: int) -> Array:
 
 
 def settled(c: Array) -> Array:
-    """Coefficients to sum the pressure with, shape (b, n) as those that the equations give."""
+    """Coefficients that the pressure is summed from, shape (b, n) like those of the equations."""
     return np.where(_plain(c)[:, None], c, c * _weights(c.shape[1]))
 
 
@@ -89,7 +89,7 @@ def tail(c: Array) -> Array:
 
 
 def _plain(c: Array) -> NDArray[np.bool_]:
-    """Whether a series is summed as it is: it falls faster over its last half than a power of the order does."""
+    """True where a series falls faster over its last half than a power of the order: it is summed as it is."""
     n = c.shape[1]
     before = np.abs(c[:, n // 2 : n - n // 4]).sum(axis=1)
     return np.asarray(_FALLS * tail(c) < before)

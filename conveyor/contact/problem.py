@@ -1,4 +1,4 @@
-"""The dimensionless contact problem and why a solve stopped.
+"""The dimensionless contact problem and the status of a solve.
 
 Scales (paper, section 3; E0 = rubbery modulus, k = 2π/λ, λ = roll spacing)
 
@@ -34,11 +34,11 @@ _SUPPORTS = ("free", "confined", "half-space")
 _THINNEST, _LIGHTEST = 1e-12, 1e-30  # squares and cubes of smaller numbers underflow
 _HEAVIEST = 1e30  # of pressure and thickness: squares and cubes of larger ones overflow
 _SMALLEST_ROLL = 1e-12
-_TRIED = 5  # wave numbers at which a layer of one's own is tried
+_TRIED = 5  # wave numbers at which a user's own layer is checked
 
 
 class Status(Enum):
-    """Why a solve stopped; the value says what to change."""
+    """Reason why a solve stopped; the value says what to change."""
 
     OK = "converged to the tolerance asked for"
     TOO_DEEP = (
@@ -60,7 +60,7 @@ class Status(Enum):
 
     @property
     def message(self) -> str:
-        """Why the solve stopped and what to change."""
+        """Reason why the solve stopped, and what to change."""
         return self.value
 
 
@@ -72,8 +72,8 @@ class ContactProblem:
     ----------
     support : "free", "confined", "half-space", Belt or Layer
         Far face of the layer: loaded but free to bend (the paper's belt), bonded to a rigid plane (a cover on a
-        stiff carcass), or infinitely far; or the belt itself, whose thicknesses are its own. Any object with the
-        methods of `Layer` brings its own symbol.
+        stiff carcass), or infinitely far; or the belt itself, with thicknesses of its own. Any object with the
+        methods of `Layer` has its own symbol.
     radius : float
         R/λ [-], in (0, 0.5].
     pressure : float
@@ -83,7 +83,7 @@ class ContactProblem:
     thickness : float
         k h [-], positive, infinity allowed.
     poisson : float
-        ν [-], in [0, 0.5]; enters the confined layer only, beside the scale of pressure.
+        ν [-], in [0, 0.5]; enters the scale of pressure and the confined layer only.
 
     Raises
     ------
@@ -148,7 +148,7 @@ class ContactProblem:
 
     @cached_property
     def layer(self) -> Layer:
-        """The layer whose symbol the solver uses."""
+        """Layer that the solver uses."""
         if not isinstance(self.support, str):
             return self.support
         if self.support == "half-space" or math.isinf(self.thickness):
@@ -159,7 +159,7 @@ class ContactProblem:
 
 
 def _check_symbol(layer: Layer, creep: CreepSpectrum) -> None:
-    """Refuse a layer of one's own whose symbol is no compliance at some waves, the longest among them."""
+    """Raise InputError for a user's own layer whose symbol is no compliance at some wave numbers."""
     m = np.geomspace(1.0, 1e4, _TRIED)
     symbol = np.asarray(layer.symbol(m, creep))
     if symbol.shape != m.shape or not (np.isfinite(symbol).all() and (symbol.real > 0.0).all()):
@@ -170,6 +170,6 @@ def _check_symbol(layer: Layer, creep: CreepSpectrum) -> None:
 
 
 def check_rtol(rtol: float) -> None:
-    """Refuse a tolerance that is none, or none that double precision reaches."""
+    """Raise InputError for a tolerance outside [1e-12, 1e-2]."""
     if not (isinstance(rtol, (int, float, np.floating)) and 1e-12 <= rtol <= 1e-2):
         raise InputError(f"rtol = {rtol!r}: the tolerance lies in [1e-12, 1e-2]")

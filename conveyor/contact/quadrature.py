@@ -1,4 +1,4 @@
-"""Nodes and weights that turn the sum over wave numbers into a closed half-space part and a short correction.
+"""Nodes and weights of the sum over wave numbers: a closed half-space part and a short correction.
 
 For any summand S(m) F(m)/m whose F oscillates no faster than the contact is wide,
 
@@ -39,7 +39,7 @@ class RuleTooLongError(NoSolutionError):
 
 @dataclass(frozen=True)
 class Panels:
-    """How a composite Gauss-Legendre rule is graded; each limit holds the panel error near 1e-13.
+    """Grading of a composite Gauss-Legendre rule; each limit keeps the panel error near 1e-13.
 
     `points` per panel; `stretch` is the largest ln(right/left): the poles ±i/ζ lie π/2 off the real axis of ln m;
     `phase` the largest change of phase in radians; `ramps` the largest width in units of the window's width;
@@ -64,8 +64,8 @@ _gauss = lru_cache(maxsize=8)(np.polynomial.legendre.leggauss)
 class Rule:
     """Nodes m, shape (k,), and complex weights of F/m; valid for contacts up to `half_width`.
 
-    `edge` ends the first panel [0, edge], `edge_sum` is what the rule makes of ∫ dm/m over it: the displacement's
-    summand has a logarithm there that is taken out and put back in closed form.
+    `edge` ends the first panel [0, edge], `edge_sum` is the rule's value of ∫ dm/m over it: the displacement's summand
+    has a logarithm there that is replaced by its closed form.
     """
 
     nodes: Array

@@ -1,4 +1,4 @@
-"""Contacts sampled at Chebyshev-Lobatto points of the half width, and what is interpolated between."""
+"""Contacts sampled at Chebyshev-Lobatto points of the half width, and their interpolation."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 
 
 def points(degree: int) -> Array:
-    """t_j = cos(jπ/N), from 1 to -1; those of half the degree are every other one."""
+    """Lobatto points t_j = cos(jπ/N), from 1 to -1; those of half the degree are every other one."""
     t: Array = np.cos(np.arange(degree + 1) * (np.pi / degree))
     return t
 
@@ -29,7 +29,7 @@ def coefficients(values: Array) -> Array:
 
 @lru_cache(maxsize=16)
 def _transform(degree: int) -> Array:
-    """From values at Lobatto points to Chebyshev coefficients: a_k = (2/N) Σ f_j cos(kjπ/N), ends halved."""
+    """Matrix from values at Lobatto points to Chebyshev coefficients, a_k = (2/N) Σ f_j cos(kjπ/N), ends halved."""
     index = np.arange(degree + 1)
     matrix = (2.0 / degree) * np.cos(np.multiply.outer(index, index) * (np.pi / degree))
     matrix[:, [0, -1]] *= 0.5
@@ -38,18 +38,18 @@ def _transform(degree: int) -> Array:
 
 
 def at_places(degree: int, t: Array) -> Array:
-    """Weights of the values at the points in the interpolant at places t, shape (*t.shape, degree + 1)."""
+    """Interpolation weights of the Lobatto values at places t, shape (*t.shape, degree + 1)."""
     weights: Array = chebyshev.chebvander(t, degree).reshape(*np.shape(t), -1) @ _transform(degree)
     return weights
 
 
 def left_between(values: Array) -> Array:
-    """What the interpolant through values at the points, shape (N + 1, f), may miss of each; as in `missed`."""
+    """Error of the interpolant through values at the Lobatto points, shape (N + 1, f), as in `missed`."""
     return _left(values, np.ptp(values, axis=0))
 
 
 def half_misses(values: Array) -> Array:
-    """What the interpolant through every other point misses of each at the points between: more than all do."""
+    """Error of the interpolant through every other point at the points between, an upper bound of the full one's."""
     miss: Array = np.abs(_between(values.shape[-2] - 1) @ values[..., ::2, :] - values[..., 1::2, :]).max(
         axis=-2
     )
@@ -73,7 +73,7 @@ def _derivative(degree: int) -> Array:
 
 @lru_cache(maxsize=16)
 def _between(degree: int) -> Array:
-    """From values at every other point to the interpolant's values at the points between."""
+    """Matrix from values at every other point to the interpolant's values at the points between."""
     half = degree // 2
     matrix: Array = chebyshev.chebvander(points(degree)[1::2], half) @ _transform(half)
     return matrix
@@ -88,12 +88,11 @@ def columns(rho: float, contact: Contact) -> Array:
 def missed(contact: Contact, rho: Array | float, degree: int) -> Array:
     """Relative error of friction at given load of the interpolants through all points, shape (b,).
 
-    `contact` holds the curves one after the other, each with its degree + 1 points. The points of half the degree are
-    every other one: what the interpolant through those misses at the points between, where the error of Chebyshev
-    interpolation peaks, squares with the degree. With m missed of a variation A, m²/A is left, four times that at most.
-    Where a part of it varies faster than the whole, the series falls more slowly in the end: with sums of absolute
-    coefficients E of its last half and e of its last quarter, e²/E is left by a fall that goes on. Four times that,
-    too; m at most.
+    `contact` holds the curves one after the other, each with its degree + 1 points. The interpolant through every other
+    point has an error m at the points between, where the error of Chebyshev interpolation peaks; doubling the degree
+    squares it: with a variation A, m²/A is left, at most four times that. Where a part varies faster than the whole the
+    series falls more slowly in the end: with sums of absolute coefficients E of its last half and e of its last
+    quarter, e²/E is left, times four, too; at most m.
     """
     shape = (-1, degree + 1)
     drag = (contact.friction * rho / contact.alpha).reshape(shape)
@@ -105,7 +104,7 @@ def missed(contact: Contact, rho: Array | float, degree: int) -> Array:
 
 
 def _left(values: Array, size: Array) -> Array:
-    """What the interpolant through values at the points, shape (…, N + 1, f), may miss of a variation of that size."""
+    """Error of the interpolant through values at the points, shape (…, N + 1, f), of a variation of that `size`."""
     miss, series = half_misses(values), np.abs(coefficients(values))
     count, tiny = series.shape[-2] - 1, np.finfo(float).tiny
     half, quarter = (series[..., -(count // part) :, :].sum(axis=-2) for part in (2, 4))
@@ -116,10 +115,10 @@ def _left(values: Array, size: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class Sampled:
-    """Contacts of one scene at Chebyshev-Lobatto points of ln α, from the widest to the narrowest.
+    """Contacts of one problem at Chebyshev-Lobatto points of ln α, from the widest to the narrowest.
 
-    Where a higher order was needed, `finer` holds it at every so many points only: what it changes is small and smooth,
-    and a polynomial of low degree carries it to the others.
+    Where a higher order was needed `finer` holds it at some of the points only: its change is small and smooth, and a
+    polynomial of low degree carries it to the others.
     """
 
     contacts: Contact
@@ -131,7 +130,7 @@ class Sampled:
         return self.contacts if self.finer is None else self.finer
 
     def interpolated(self, figures: Callable[[Contact], Array]) -> Array:
-        """Chebyshev coefficients of figures of the contacts, which have shape (k, f)."""
+        """Chebyshev coefficients of `figures`, which has shape (k, f) of k contacts."""
         series = coefficients(figures(self.contacts))
         if self.finer is not None:
             change = self._change(self.finer, figures)
@@ -139,14 +138,11 @@ class Sampled:
         return series
 
     def _change(self, finer: Contact, figures: Callable[[Contact], Array]) -> Array:
-        """By the higher order, at its points."""
+        """Change of `figures` by the higher order, at its points."""
         return figures(finer) - figures(self.contacts)[:: stride(self.contacts, finer)]
 
     def left(self, rho: float) -> float:
-        """What reading the higher order's change between its points may do to friction.
-
-        As in `missed`, of a change of size A.
-        """
+        """Relative error of friction by interpolating the higher order's change, as in `missed`."""
         if self.finer is None:
             return 0.0
         change = self._change(self.finer, partial(columns, rho))[:, :2]
@@ -156,5 +152,5 @@ class Sampled:
 
 
 def stride(all_points: Contact, some: Contact) -> int:
-    """Every so many of the points are the others."""
+    """Stride in `all_points` that gives the points of `some`."""
     return (all_points.alpha.size - 1) // (some.alpha.size - 1)

@@ -1,4 +1,4 @@
-"""A problem while it is being solved, and a contact on the way."""
+"""State of a solve: the problem with its quadrature, its equations, a contact at one order."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 
 def instantly_relaxed(creep: CreepSpectrum) -> CreepSpectrum:
-    """The same creep with the terms of ζ = 0 in the instantaneous compliance."""
+    """Merge the terms of ζ = 0 into the instantaneous compliance."""
     lasting = creep.times > 0.0
     if lasting.all():
         return creep
@@ -30,9 +30,9 @@ def instantly_relaxed(creep: CreepSpectrum) -> CreepSpectrum:
 
 @dataclass
 class Scene:
-    """A problem while it is solved: creep as the solver sees it, quadrature rules made once, counters.
+    """Problem under solution: creep without terms of ζ = 0, quadrature rules, counters.
 
-    `depth` is the Δ/R held in place of the problem's load.
+    `depth` is the Δ/R prescribed in place of the problem's load.
     """
 
     problem: ContactProblem
@@ -43,23 +43,23 @@ class Scene:
 
     @classmethod
     def of(cls, problem: ContactProblem, depth: float | None = None) -> Scene:
-        """Scene of a problem; terms with ζ = 0 are instantaneous."""
+        """State of a problem; terms with ζ = 0 are instantaneous."""
         return cls(problem, instantly_relaxed(problem.creep), depth)
 
     @property
     def lossy(self) -> bool:
-        """Whether anything may lose energy: an elastic scene has no friction but rounding."""
+        """True where rubber or layer may lose energy; else friction is zero but for rounding."""
         return bool(self.creep.weights.size) or not isinstance(
             self.problem.layer, (HalfSpace, Free, Confined)
         )
 
     @property
     def target(self) -> float:
-        """Ln of what is held: the load p̃_m, or the depth Δ/R."""
+        """Ln of the prescribed load p̃_m, or depth Δ/R."""
         return math.log(self.problem.pressure if self.depth is None else self.depth)
 
     def measure(self, system: Equations, contact: Contact) -> float:
-        """Ln of the same of a contact."""
+        """Ln of a contact's load, or of its depth."""
         return math.log(contact.pressure[0] if self.depth is None else self.depth_of(system, contact))
 
     def depth_of(self, system: Equations, contact: Contact) -> float:
@@ -67,7 +67,7 @@ class Scene:
         return system.depth(self.rule(float(contact.alpha[0])), self.creep, contact, self.problem.rho)
 
     def rule(self, alpha: float) -> Rule:
-        """Quadrature rule good for half width `alpha`; remade with room when a contact outgrows it."""
+        """Quadrature rule valid for half width `alpha`; rebuilt with room when a contact outgrows it."""
         rule = self.rules.get("solve")
         if rule is None or alpha > rule.half_width:
             widest = min(1.3 * alpha, 0.5 * (alpha + self.problem.rho))
@@ -75,7 +75,7 @@ class Scene:
         return rule
 
     def system(self, alpha: float, n: int, last: int) -> Equations:
-        """Galerkin equations of one contact: order n, with the orders up to `last` eliminated where that is more."""
+        """Galerkin equations of one contact of order n, with the orders from n up to `last` eliminated."""
         self.matrices += 1
         place = np.array([alpha])
         if last == n:
@@ -89,7 +89,7 @@ class Scene:
 
 @dataclass(frozen=True, eq=False)
 class Equations:
-    """Equations of one contact, shape (1, n+1, n), and pairs of lower orders of them, half and three quarters."""
+    """Equations of one contact, shape (1, n+1, n), and pairs of lower orders, half and three quarters."""
 
     matrix: Array
     lower: list[tuple[Array, Array]]
@@ -97,18 +97,18 @@ class Equations:
     ik: ProductIK | None = None
 
     def depth(self, rule: Rule, creep: CreepSpectrum, contact: Contact, rho: float) -> float:
-        """Δ/R of its contact."""
+        """Δ/R of a contact of these equations."""
         beyond = self.tail.level(self.ik, contact.c[0]) if self.tail and self.ik else 0.0
         return float(penetration(rule, creep, contact, rho)[0]) + beyond
 
     def whole(self, contact: Contact) -> Contact:
-        """Its contact with the coefficients of every order."""
+        """Contact with the coefficients of every order, the tail included."""
         if self.tail is None or self.ik is None:
             return contact
         return replace(contact, c=self.tail.coefficients(self.ik, contact.c[0])[None])
 
     def lost_beyond(self, whole: Contact) -> float:
-        """What of Σ Im S_m |p̃̂_m|² the orders beyond the core take."""
+        """Part of Σ Im S_m |p̃̂_m|² in the orders beyond the core."""
         if self.tail is None or self.ik is None:
             return 0.0
         return 0.25 * self.tail.quadratic(self.ik, whole.c[0])
@@ -116,7 +116,7 @@ class Equations:
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """A contact at one order, its equations, and how far its load is off (relative)."""
+    """Contact at one order, its equations, and the relative error of its load."""
 
     contact: Contact
     system: Equations

@@ -1,4 +1,4 @@
-"""The correction's quadrature, many scenes at once: as few nodes as the contacts can tell apart.
+"""Quadrature of the correction for many problems at once, with as few nodes as the contacts resolve.
 
 quadrature.py sums window and panels node by node. Where the contact is narrow, f = F/m turns by a few radians over the
 whole window [0, 2 m0] only, so the functional
@@ -8,7 +8,7 @@ whole window [0, 2 m0] only, so the functional
 is carried over to K Gauss nodes by interpolation: one weight a node, the symbol's integers, window, poles and decades
 of slow retardation terms all inside the weights. On [0, 1] a slow term is integrated exactly against Legendre
 polynomials, ∫ P_l/(1-imζ) dm = 2 Q_l(z)/(iζ), z = -1 - 2i/ζ (Neumann's integral, A&S 8.8.3). Beyond the window the
-layer's part S - j is left, on Gauss panels of each scene's own.
+layer's part S - j is left, on Gauss panels of each problem.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 CAPS = (0.5, 1.0, 1.5, 2.0, 2.4)
-"""Half widths α up to which windows are made: the alias exp(-(w(2π-2α))²/4) asks for wider ones."""
+"""Half widths α up to which windows are made: the alias exp(-(w(2π-2α))²/4) requires wider ones."""
 WIDEST = CAPS[0]  # where the width below meets it, 1e-17
 # Up to a cap: nodes on [0, 1], where f is a polynomial of one degree less to rounding; ζ beyond which Q_l is recurred
 # upward, where it loses r^(2·nodes) units of rounding, r = |z + sqrt(z² - 1)| = 1.7, 1.36, z = -1 - 2i/ζ; Gauss points
@@ -42,11 +42,11 @@ _UNITS = {True: (10, 7.4, 36), False: (18, 21.5, 64)}
 
 @dataclass(frozen=True)
 class Grade:
-    """How fine a rule is: window width w, Gauss points and coarse nodes beyond what the phase needs.
+    """Fineness of a rule: window width w, Gauss points and coarse nodes beyond what the phase needs.
 
     `stretch` and `phase` limit the panels beyond the window as in quadrature.Panels; `depth` is the q = m k h beyond
-    which L = 1 is taken, |L-1| < 4 q² exp(-2q). `error` is what all of it may do to friction (seen: a quarter of it),
-    `other` what it may do under belts and layers of the user's own, whose symbol is no product of j and a layer's own
+    which L = 1 is taken, |L-1| < 4 q² exp(-2q). `error` bounds the error of friction (seen: a quarter of it),
+    `other` that under belts and layers of the user's own, whose symbol is no product of j and a layer's own
     (seen: 2.4e-5 loose, 3.0e-8 coarse, of 800 belts).
     The window is one up to m = 1 and zero from its end 2 m0 on: m0 = `ramp` w.
     """
@@ -62,7 +62,7 @@ class Grade:
     ramp: float = 6.5  # as in quadrature.py
 
     def floor(self, layers: Stack) -> float:
-        """What the rule may do to friction over such layers."""
+        """Error of friction that the rule may leave over such layers."""
         return self.error if isinstance(layers, Layers) else self.other
 
 
@@ -73,11 +73,11 @@ LOOSE = (
     Grade(1.55, 9, 3, 1.7, 10.0, 10.5, 5e-6, 5e-5, 4.6),
     Grade(1.7, 10, 4, 1.8, 10.0, 11.0, 5e-6, 5e-5, 4.6),
 )
-LOOSE_FROM, COARSE_FROM, FINE_FROM = 1e-4, 1e-7, 1e-10  # rtol down to which the pairs serve
+LOOSE_FROM, COARSE_FROM, FINE_FROM = 1e-4, 1e-7, 1e-10  # rtol down to which the pairs are valid
 
 
 def grades_for(rtol: float) -> tuple[Grade, Grade]:
-    """The pair that solves and checks to a tolerance."""
+    """Grades of the rules that solve and check to a tolerance."""
     if rtol >= LOOSE_FROM:
         return LOOSE
     return COARSE if rtol >= COARSE_FROM else FINE
@@ -85,7 +85,7 @@ def grades_for(rtol: float) -> tuple[Grade, Grade]:
 
 @dataclass(frozen=True, eq=False)
 class ShortRule:
-    """Nodes m and complex weights of F/m for each scene, shape (b, k)."""
+    """Nodes m and complex weights of F/m for each problem, shape (b, k)."""
 
     nodes: Array
     weights: ComplexArray
@@ -95,13 +95,13 @@ class ShortRule:
 
 
 def full_rule(rule: Rule) -> ShortRule:
-    """One scene's full rule as a batch of one."""
+    """Full rule of one problem as a batch of one."""
     return ShortRule(rule.nodes[None], rule.weights[None])
 
 
 @dataclass(frozen=True, eq=False)
 class _Window:
-    """What does not depend on the scene: places in the window and their interpolation to K coarse nodes."""
+    """Places in the window and their interpolation to K coarse nodes, common to all problems."""
 
     inner: Array  # integers, then the panels' nodes
     ramp: Array  # χ at the integers
@@ -116,7 +116,7 @@ _gauss = lru_cache(maxsize=32)(np.polynomial.legendre.leggauss)
 
 
 def _width(grade: Grade, cap: float) -> float:
-    """Width w of the window that serves contacts up to a cap."""
+    """Width w of the window for contacts up to a cap."""
     return grade.width * (math.pi - WIDEST) / (math.pi - cap)
 
 
@@ -133,7 +133,7 @@ def _edges(grade: Grade, cap: float, end: float) -> Array:
 
 @lru_cache(maxsize=64)
 def _window(grade: Grade, count: int, cap: float) -> _Window:
-    """Window of a grade with `count` coarse nodes."""
+    """Window of a grade with `count` coarse nodes, for contacts up to `cap`."""
     width = _width(grade, cap)
     centre = grade.ramp * width
     end = float(math.ceil(2.0 * centre))
@@ -168,14 +168,14 @@ def _unit_table(unit: int, slow: float, plain: int) -> Array:
 
 
 def cap_of(half_width: float) -> float:
-    """The window's cap that serves contacts of this half width; infinite where none does."""
+    """Cap of the window for contacts of this half width; infinite beyond all caps."""
     return next((cap for cap in CAPS if half_width <= cap), math.inf)
 
 
 def short_rules(layers: Stack, creeps: Creeps, half_width: Array, grades: Sequence[Grade]) -> list[ShortRule]:
-    """Rules of b scenes in each grade, each valid for contacts up to its half width α [-], at most 2.4.
+    """Rules of b problems in each grade, each valid for contacts up to its half width α [-], at most 2.4.
 
-    All scenes take as many nodes as the one that needs most: hand over like with like. Times must lie `within`.
+    All problems get as many nodes as the one that needs most: pass similar ones. Times must lie `within`.
     """
     widest = float(half_width.max())
     cap = cap_of(widest)
@@ -208,7 +208,7 @@ def short_rules(layers: Stack, creeps: Creeps, half_width: Array, grades: Sequen
 
 
 def _beside(shared: Array, own: Array) -> Array:
-    """Nodes of every scene, shape (k,), beside those of each, shape (b, l)."""
+    """Common nodes, shape (k,), and those of each problem, shape (b, l), joined to shape (b, k + l)."""
     out = np.empty((own.shape[0], shared.size + own.shape[1]))
     out[:, : shared.size] = shared
     out[:, shared.size :] = own
@@ -216,7 +216,7 @@ def _beside(shared: Array, own: Array) -> Array:
 
 
 def _count(grade: Grade, cap: float, widest: float) -> int:
-    """Coarse nodes of a window: a function that turns ±c radians is a polynomial of degree c + O(c^(1/3))."""
+    """Number of coarse nodes: a function that turns ±c radians is a polynomial of degree c + O(c^(1/3))."""
     phase = widest * math.ceil(2.0 * grade.ramp * _width(grade, cap))
     steps = 4.0 if cap == WIDEST else 16.0
     return int(steps * math.ceil((phase + 4.0 * phase ** (1.0 / 3.0) + grade.spare) / steps))
@@ -225,7 +225,7 @@ def _count(grade: Grade, cap: float, widest: float) -> int:
 def _beyond(
     layers: Stack, half_width: Array, grades: Sequence[Grade], ends: Sequence[float]
 ) -> list[tuple[Array, Array]]:
-    """Panels from the windows' ends to the layer's reach; scenes with fewer panels get empty ones."""
+    """Panels from the windows' ends to the layer's reach; problems with fewer panels get empty ones."""
     reach = np.array([layers.reach(grade.depth) for grade in grades])
     longest = np.multiply.outer([0.5 * grade.phase for grade in grades], 1.0 / half_width)
     growth = np.array([[math.expm1(grade.stretch)] for grade in grades])
@@ -246,7 +246,7 @@ def _beyond(
 
 
 def panels_beyond(reach: Array, half_width: Array, grade: Grade) -> NDArray[np.int_]:
-    """About how many panels each scene needs beyond the window: for handing over like with like."""
+    """Approximate number of panels of each problem beyond the window, to group similar ones."""
     end = float(math.ceil(2.0 * grade.ramp * grade.width))
     by_phase = np.maximum(reach - end, 0.0) * 2.0 * half_width / grade.phase
     by_stretch = np.log(np.maximum(reach / end, 1.0)) / grade.stretch

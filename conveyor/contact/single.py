@@ -1,4 +1,4 @@
-"""One strip by its half width: load, order and error."""
+"""Contact of one strip by its half width: load, order and error."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ EDGE_LAYER = "a layer at the contact's edge is thinner than the order resolves: 
 
 @dataclass(frozen=True)
 class Near:
-    """Where a contact is found whose edge layers ask for orders beyond `DENSE`: ln α and d ln p̃_m/d ln α."""
+    """Start values ln α and d ln p̃_m/d ln α of a contact whose edge layers need orders beyond `DENSE`."""
 
     log_alpha: float
     slope: float
@@ -55,9 +55,9 @@ class Near:
 def by_half_width(
     scene: Scene, rtol: float, near: Near | None = None, *, doubtful: bool = False
 ) -> Outcome | None:
-    """The contact as one strip; None where it splits, overlaps the roll outside or is not single-valued in α.
+    """Solve a contact as one strip; None where it splits, overlaps the roll outside or is not single-valued in α.
 
-    `near` is where order `DENSE` did not suffice; where one strip is `doubtful` the gap outside is looked at.
+    `near` is the start where order `DENSE` did not suffice; with `doubtful` the gap outside is checked.
     """
     half_width = _converged(scene, rtol, near)
     if half_width is None:
@@ -94,14 +94,14 @@ def by_half_width(
 
 
 def remarks(pressing: Sign) -> tuple[str, ...]:
-    """What a reader of the solution must know of its pressure."""
+    """Remarks of the solution on its pressure."""
     return (EDGE_LAYER,) if pressing is Sign.UNDECIDED else ()
 
 
 def _converged(
     scene: Scene, rtol: float, near: Near | None
 ) -> tuple[State, Contact, float, float, float] | None:
-    """Raise the order until the estimate meets rtol, then close the load and check the energy."""
+    """Raise the order until the error meets rtol, then close the load and check the energy."""
     search = LoadSearch(scene.target, *(guess(scene) if near is None else (near.log_alpha, near.slope)))
     tight = max(1e-3 * rtol, LOAD_FLOOR)
     tolerance = _FIRST_LOAD_TOLERANCE
@@ -145,7 +145,7 @@ def _converged(
 
 
 def _by_order(scene: Scene, search: LoadSearch, state: State) -> list[OrderErrors]:
-    """Errors by each pair of lower orders: of the core, and of its tail."""
+    """Errors by each pair of lower orders, of the core and of its tail."""
     exponent = search.exponent if scene.depth is None else None
     return [
         order_errors(state.contact, of_orders(lower, state.contact, scene.problem.rho), exponent)
@@ -154,22 +154,21 @@ def _by_order(scene: Scene, search: LoadSearch, state: State) -> list[OrderError
 
 
 def _pulls(state: State, rtol: float) -> bool:
-    """Whether the contact, with the orders of its tail, is in tension somewhere: it splits."""
+    """True where the contact, with the orders of its tail, is in tension somewhere: it splits."""
     return sign(state.system.whole(state.contact), rtol) is Sign.PULLING
 
 
 def _by_load(search: LoadSearch, miss: float) -> float:
-    """What a mismatch of the load, or of the depth, does to friction; as much as itself where that is less."""
+    """Error of friction due to a mismatch of load or depth, at least twice that mismatch."""
     return _MISSED * miss * max(1.0, 0.0 if search.exponent is None else float(abs(search.exponent[0])))
 
 
 def _next(
     orders: tuple[int, int], pairs: list[OrderErrors], rtol: float, longest: int, *, bounds: bool = False
 ) -> tuple[int, int] | None:
-    """The core and the last order to go on with: longer is what is more at fault; None beyond the longest of both.
+    """Next core and last order: the one with the larger error is raised; None beyond the longest of both.
 
-    Without a tail the ladder of orders ends it. What is at fault is told by the errors of core and tail; where the
-    energy lets no more than their `bounds` stand, by these.
+    With `bounds` the upper bounds of the errors decide. Without a tail the next of the ladder of orders follows.
     """
     n, last = orders
     if last == n:
@@ -184,16 +183,17 @@ def _next(
 
 
 def _falls(before: tuple[int, float] | None, now: tuple[int, float]) -> bool:
-    """Whether the energy's error falls from one last order to the next as it does for layers of every width."""
+    """True where the energy error falls from one last order to the next as fast as for resolved layers."""
     return before is not None and now[1] * now[0] ** STEADY <= before[1] * before[0] ** STEADY
 
 
 def beyond_reach(
     scene: Scene, contact: Contact, orders: tuple[int, int], excess: float, falls: float = _UNRESOLVED
 ) -> bool:
-    """Whether the longest order does not reach the edge layer, nor falls an error that exceeds rtol so far below it.
+    """True where the longest order neither resolves the edge layer nor brings the error below rtol.
 
-    `orders` are the present and the longest one, `falls` is the power of them that the error is seen to fall with.
+    `orders` are the present and the longest one, `excess` is the error over rtol, `falls` the power of the order that
+    the error falls with.
     """
     now, longest = orders
     enough = excess * (now / longest) ** max(falls, _UNRESOLVED) <= 1.0
@@ -201,5 +201,5 @@ def beyond_reach(
 
 
 def resolution(scene: Scene, contact: Contact, last: int) -> float:
-    """Square of an order times the edge layer's share of the narrowest half width; infinite of an elastic contact."""
+    """Square of an order times the edge layer's share of the narrowest half width; infinite for an elastic contact."""
     return edge_layer(scene.creep, float(contact.alpha.min())) * last**2

@@ -1,4 +1,4 @@
-"""A solved contact: figures with their errors, and fields computed when asked for."""
+"""A solved contact: results with their errors, and fields computed on demand."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _DEEP = "the penetration is {:.2f} R, far outside small strain"
 
 @dataclass(frozen=True)
 class SolveStats:
-    """What a solve cost, and what it did without.
+    """Solver statistics.
 
     Attributes
     ----------
@@ -46,8 +46,8 @@ class SolveStats:
     grid : int
         Grid nodes in a period; zero where no grid was needed.
     way : str
-        "narrow": short rule, no look at the gap outside, no images beyond the window; "one strip"; "strips": found on
-        the grid, polished spectrally; "grid": no spectral answer; "curve": interpolated between contacts.
+        "narrow": short rule, gap outside not checked; "one strip"; "strips": located on the grid, refined
+        spectrally; "grid": no spectral solution; "curve": interpolated between contacts.
     """
 
     order: int
@@ -60,7 +60,7 @@ class SolveStats:
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """A contact that carries the load (internal to the solver); lengths X, `centre` of the outer edges."""
+    """Contact that carries the load (internal to the solver); lengths X, `centre` of the outer edges."""
 
     friction: float
     mean_pressure: float
@@ -71,12 +71,12 @@ class Found:
     error_estimate: float
     edge_error: float  # X
     fields: Fields
-    peak_error: float = 0.0  # of the largest pressure, relative: what its strips' places are off by
+    peak_error: float = 0.0  # of the largest pressure, relative, by the places of the strips
 
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """How a way of solving ended (internal to the solver)."""
+    """Status, result and cost of one solver (internal to the solver)."""
 
     status: Status
     found: Found | None = None
@@ -93,17 +93,17 @@ class Outcome:
 class ContactSolution:
     """Result of `solve`.
 
-    Figures exist where a contact was found (status OK, TOO_DEEP or NOT_CONVERGED, the last with its error); reading
-    one of a refused problem raises NoSolutionError with the status' advice.
+    Results exist with status OK, TOO_DEEP and, where there is a contact, NOT_CONVERGED; reading one of a refused
+    problem raises NoSolutionError with the status' advice.
 
     Attributes
     ----------
     problem : ContactProblem
         What was solved.
     status : Status
-        Why the solve stopped.
+        Reason why the solve stopped.
     stats : SolveStats
-        What it cost.
+        Cost of the solve.
     """
 
     problem: ContactProblem
@@ -119,13 +119,13 @@ class ContactSolution:
 
     @cached_property
     def status(self) -> Status:
-        """Why the solve stopped; of a converged contact whether it is within what the linear problem can mean."""
+        """Reason why the solve stopped; TOO_DEEP where a converged contact is deeper than the radius."""
         deep = self._ended is Status.OK and not self._plainly_shallow and self.penetration > 1.0
         return Status.TOO_DEEP if deep else self._ended
 
     @property
     def _plainly_shallow(self) -> bool:
-        """Whether |S| ≤ 1 and |p̂_m| ≤ p̃_m alone keep Δ far below R: W ≤ 2 p̃_m (ln 1/α + 2), and the roll's own drop."""
+        """True if |S| ≤ 1 and |p̂_m| ≤ p̃_m alone bound Δ far below R: W ≤ 2 p̃_m (ln 1/α + 2), and the drop."""
         solved = self._need()
         if not isinstance(self.problem.layer, (HalfSpace, Confined)):
             return False
@@ -141,11 +141,11 @@ class ContactSolution:
 
     @property
     def message(self) -> str:
-        """Why the solve stopped, what to change, and remarks on validity."""
+        """Reason why the solve stopped, what to change, and remarks on validity."""
         return "; ".join((self.status.message, *self.advice))
 
     def _repr_html_(self) -> str:
-        """For notebooks: the figures, or why there are none."""
+        """Results, or why there are none, for notebooks."""
         from conveyor.markup import listing
 
         rows: list[tuple[str, object]] = [("status", self.message)]
@@ -188,7 +188,7 @@ class ContactSolution:
         Raises
         ------
         NoSolutionError
-            A compressible half-space has no mean line, and a layer of the user's own none that is known here.
+            A compressible half-space, whose mean line sinks without bound, or a layer of the user's own.
         """
         nu, problem = self.problem.poisson, self.problem
         if nu == 0.5:
@@ -219,13 +219,13 @@ class ContactSolution:
 
     @property
     def edge_error(self) -> float:
-        """Estimated error of the edges' places over R [-]: of patches, half width and eccentricity; formed as below."""
+        """Estimated error of patches, half width and eccentricity over R [-], by a contact of higher order."""
         resolved = self._need().edge_error + self._errors.edges
         return resolved / self.problem.rho + self.outer_edge * self.error_estimate
 
     @property
     def peak_error(self) -> float:
-        """Estimated relative error of the largest pressure [-]; formed now, by a contact of higher order."""
+        """Estimated relative error of the largest pressure [-], by a contact of higher order."""
         return self._need().peak_error + self._errors.peak + self.error_estimate
 
     @cached_property
@@ -240,7 +240,7 @@ class ContactSolution:
 
     @property
     def strips(self) -> list[Strip] | None:
-        """Centre and half width X, and sine coefficients of p̃, of every strip; None of a contact known on a grid."""
+        """Centre and half width X, and sine coefficients of p̃, of every strip; None for a contact on a grid only."""
         fields = self._need().fields
         return fields.strips if isinstance(fields, SpectralFields) else None
 
@@ -250,7 +250,7 @@ class ContactSolution:
         return self._need().fields.peak()
 
     def excitation(self, shares: Sequence[float] = SHARES) -> Array:
-        """Harmonics m below which these shares of the loss lie, shape of `shares` [-].
+        """Harmonics m below which given shares of the loss lie, shape of `shares` [-].
 
         The layer's particles pass them at the frequency f = m V/λ: between the first and the last of the default
         shares nine tenths of the energy are lost.
@@ -314,7 +314,7 @@ class ContactSolution:
         return out
 
     def _beside_roll(self, x: ArrayLike) -> Array:
-        """x/R of the same place at the nearest roll: within half a period of the contact's centre."""
+        """x/R shifted by whole periods to within half a period of the contact's centre."""
         try:
             at = np.array(x, dtype=float)
         except (TypeError, ValueError):

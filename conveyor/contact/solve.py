@@ -1,4 +1,4 @@
-"""From a problem to a solution: one strip by its half width, any number of strips where that is not the answer."""
+"""Solve a contact problem: as one strip by its half width, else with any number of strips."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ def solve(problem: ContactProblem, rtol: float = 1e-6, *, throw: bool = True) ->
     problem : ContactProblem
         Layer, roll, load and rubber, dimensionless.
     rtol : float
-        Relative error of friction asked for [-], in [1e-12, 1e-2].
+        Relative error of friction allowed [-], in [1e-12, 1e-2].
     throw : bool
-        Raise where there is no contact to the tolerance; False returns the status, for batches.
+        Raise where the tolerance is not met; False returns the status, for batches.
 
     Returns
     -------
     ContactSolution
-        Every figure with `error_estimate` and `energy_error`.
+        Results with `error_estimate` and `energy_error`.
 
     Raises
     ------
@@ -65,12 +65,12 @@ def solve(problem: ContactProblem, rtol: float = 1e-6, *, throw: bool = True) ->
 def solve_penetration(
     problem: ContactProblem, penetration: float, rtol: float = 1e-6, *, throw: bool = True
 ) -> ContactSolution:
-    """Solve a steady rolling contact whose depth is held instead of its load.
+    """Solve a steady rolling contact at a given penetration instead of a load.
 
     Parameters
     ----------
     problem : ContactProblem
-        The scene; its own pressure is not used.
+        Layer, roll and rubber; its own pressure is not used.
     penetration : float
         Δ/R [-], positive: mean line of the deformed surface to the roll's crown.
     rtol, throw
@@ -79,7 +79,7 @@ def solve_penetration(
     Returns
     -------
     ContactSolution
-        Its `problem` carries the mean pressure that was found.
+        Its `problem` has the mean pressure that belongs to the penetration.
 
     Raises
     ------
@@ -108,16 +108,16 @@ def solve_penetration(
 def solve_many(
     problems: Sequence[ContactProblem], rtol: float = 1e-6, *, throw: bool = False
 ) -> list[ContactSolution]:
-    """Solve scenes of any kind, in their order; by default a refused one is returned with its status, not raised.
+    """Solve many problems, in their order; by default a refused one is returned with its status, not raised.
 
-    Scenes of one support share every step, as far as one strip is the answer.
+    Contacts of one strip on the same kind of layer are solved in a batch.
 
     Raises
     ------
     InputError
         rtol outside its range.
     NoSolutionError
-        As `solve`, of the first scene without an answer (throw=True).
+        As `solve`, for the first problem without a solution (throw=True).
     """
     return _all(problems, rtol, throw)
 
@@ -133,7 +133,7 @@ def _all(problems: Sequence[ContactProblem], rtol: float, throw: bool) -> list[C
 
 
 def _solved(scene: Scene, rtol: float, throw: bool, left: Left | Near | None = None) -> ContactSolution:
-    """One strip by its half width; any number of strips where that is not the answer, or where several are seen."""
+    """Solve one problem as one strip, or as several where a coarse grid shows them."""
     try:
         outcome = _found(scene, rtol, left)
     except RuleTooLongError:

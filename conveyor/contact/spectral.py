@@ -1,7 +1,7 @@
 """The Bessel-Galerkin method: one contact of given half width.
 
 p̃(X) = sqrt(1-s²) Σ_{v=1..n} c_v U_{v-1}(s), X = α s, vanishes at both edges, so both stress intensity factors are
-zero. Its slope, matched in Chebyshev coefficients g_i of T_i, i = 0 … n, is the matrix
+zero. Its slope in Chebyshev coefficients g_i of T_i, i = 0 … n, is the matrix
 
     g_i = (2-δ_i0) Σ_v v c_v Σ_{m≥1} Re[i^{q+2} S_m] J_v(mα) J_i(mα)/m,   q = i - v.
 
@@ -27,7 +27,7 @@ from conveyor.contact.short_rule import ShortRule
 Array = NDArray[np.float64]
 
 _SETTLED = 1e-14  # relative, of the eccentricity
-_NEAR = 0.95  # (a + |e|)/R up to which a step or two find it
+_NEAR = 0.95  # (a + |e|)/R up to which one or two steps suffice
 _STEPS = 2
 
 
@@ -35,7 +35,7 @@ _STEPS = 2
 class Contact:
     """Contacts of given half widths in equilibrium; arrays over the batch, shape (b,), c of shape (b, n).
 
-    `inside` is false where no eccentricity keeps both edges on the roll; the other entries then mean nothing.
+    `inside` is false where no eccentricity keeps both edges on the roll; other entries are then meaningless.
     """
 
     alpha: Array
@@ -47,7 +47,7 @@ class Contact:
 
 
 def chosen_rows(contact: Contact, at: NDArray[np.int_] | slice) -> Contact:
-    """Some contacts of a batch, of one order or of several."""
+    """Selected contacts of a batch, of one order or of several."""
     return Contact(
         contact.alpha[at],
         contact.eps[..., at],
@@ -80,7 +80,7 @@ def assemble(
     Parameters
     ----------
     rule : Rule or ShortRule
-        Nodes valid for the largest of `alpha`; one for all, or one for each.
+        Nodes valid for the largest of `alpha`; one rule for all, or one for each.
     creep : CreepSpectrum or Creeps
         Every ζ_t positive; one for all, or one for each.
     alpha : ndarray, shape (b,)
@@ -88,7 +88,7 @@ def assemble(
     n : int
         Order, at least 2.
     ik : ProductIK, optional
-        The Bessel products of these half widths, where known.
+        Bessel products of these half widths, if known.
     """
     real, imaginary, retarded = _signs(n)
     place = alpha[:, None] * rule.nodes
@@ -130,9 +130,9 @@ def equilibrium(
     rho : float or ndarray, shape (b,)
         k R [-].
     eps : ndarray, shape (b,), optional
-        About the eccentricity; the parabola's without it.
+        Start value of the eccentricity; default that of a parabola.
     tolerance : float
-        Relative error of the eccentricity that may be left [-].
+        Relative error of the eccentricity allowed [-].
 
     Returns
     -------
@@ -146,9 +146,9 @@ def equilibrium(
 def equilibrium_of_orders(
     matrix: Array, alpha: Array, rho: Array | float, eps: Array | None, tolerance: float
 ) -> tuple[Contact, Contact]:
-    """As `equilibrium`, and the contacts of half and of three quarters of the order as one of shape (2, b).
+    """`equilibrium` with the contacts of half and of three quarters of the order, these as one of shape (2, b).
 
-    These to second order in the shift of their eccentricity.
+    The lower orders are exact to second order in the shift of their eccentricity.
     """
     found = _in_balance(_nested, matrix, (alpha, eps), rho, tolerance)
     lower = slice(1, None)
@@ -157,12 +157,12 @@ def equilibrium_of_orders(
 
 
 def _order(found: Contact, at: int | slice, inside: NDArray[np.bool_]) -> Contact:
-    """Contacts of one of the solver's orders, or of some."""
+    """Contacts of the selected orders of the solver."""
     return Contact(found.alpha, found.eps[at], found.c[at], found.pressure[at], found.friction[at], inside)
 
 
 Solver = Callable[[Array, Array], Array]
-"""Answers x of rows (b, n, n) to right sides (b, n, r), shape (k, b, n, r): whole, then of lower orders."""
+"""Solutions x of rows (b, n, n) for right sides (b, n, r), shape (k, b, n, r): full order, then lower ones."""
 
 
 def _alone(rows: Array, right: Array) -> Array:
@@ -170,7 +170,7 @@ def _alone(rows: Array, right: Array) -> Array:
 
 
 def _nested(rows: Array, right: Array) -> Array:
-    """Of the whole, of half and of three quarters of it by one elimination, in blocks of n/2, n/4 and n/4."""
+    """Solutions at the full, half and three quarters of the order by one elimination, in blocks n/2, n/4 and n/4."""
     n = rows.shape[2]
     half, most = n // 2, (3 * n) // 4
     middle, rest = most - half, n - most
@@ -192,7 +192,7 @@ def _nested(rows: Array, right: Array) -> Array:
 def _in_balance(
     solver: Solver, matrix: Array, place: tuple[Array, Array | None], rho: Array | float, tolerance: float
 ) -> Contact:
-    """Contacts of the k orders that the solver knows: eps, c, pressure and friction have k rows of b."""
+    """Equilibrium of the k orders that the solver returns: eps, c, pressure and friction have k rows of b."""
     alpha, eps = place
     radius = np.zeros(alpha.shape) + rho
     if eps is None:
@@ -228,7 +228,7 @@ def _in_balance(
 def _balanced(
     solver: Solver, matrix: Array, alpha: Array, eps: Array, radius: Array
 ) -> tuple[Array, Array, Array]:
-    """Slope and pressure coefficients and the step from ε that satisfy every row, to second order in the step."""
+    """Slope and pressure coefficients and the step of ε that satisfy every row, to second order in the step."""
     n = matrix.shape[2]
     slopes = slope_expansion(alpha, eps, radius, n + 2)
     answers = solver(matrix[:, 1:], slopes[:, 1 : n + 1])
@@ -242,23 +242,23 @@ def _balanced(
 
 
 def _by_newton(matrix: Array, alpha: Array, radius: Array, eps: Array) -> tuple[Array, NDArray[np.bool_]]:
-    """Eccentricities far from where the search starts; zero where there is none."""
+    """Eccentricities by Newton where two steps do not converge; zero where there is none."""
     row = np.linalg.solve(matrix[:, 1:].swapaxes(1, 2), matrix[:, 0, :, None])[..., 0]
     eps, inside = eccentricity(np.asarray(row, dtype=np.float64), alpha, radius, eps)
     return np.where(inside, eps, 0.0), inside
 
 
 def nested(matrix: Array) -> tuple[Array, Array]:
-    """The matrices of half and of three quarters of the order, leading blocks of the whole one."""
+    """Matrices of half and of three quarters of the order, leading blocks of the full one."""
     n = matrix.shape[2]
     half, most = (matrix[:, : order + 1, :order] for order in (n // 2, (3 * n) // 4))
     return half, most
 
 
 def of_orders(lower: tuple[Array, Array], contact: Contact, rho: Array | float) -> Contact:
-    """Contacts by matrices of two lower orders, shapes (b, l+1, l), at the half widths of those of a higher one.
+    """Contacts of two lower orders, from matrices of shapes (b, l+1, l), at the half widths of a higher order.
 
-    As `equilibrium_of_orders` has them, for matrices that need not be parts of one another.
+    As in `equilibrium_of_orders`, for matrices that need not be blocks of one another.
     """
     radius = np.zeros(contact.alpha.shape) + rho
     found = []
@@ -271,14 +271,14 @@ def of_orders(lower: tuple[Array, Array], contact: Contact, rho: Array | float) 
 
 
 def pressed(c: Array, slope: Array, place: tuple[Array, Array], rho: Array | float) -> Contact:
-    """Contacts of known coefficients c, shape (b, n), slopes T_0 … T_{n+1}, and place (α, ε)."""
+    """Contacts from coefficients c, shape (b, n), slopes T_0 … T_{n+1}, and place (α, ε)."""
     alpha, eps = place
     load, friction = _load_and_friction(c, slope, alpha, rho)
     return Contact(alpha, eps, c, load, friction, np.ones(alpha.size, dtype=bool))
 
 
 def _load_and_friction(c: Array, slope: Array, alpha: Array, rho: Array | float) -> tuple[Array, Array]:
-    """p̃_m and μ of coefficients c, shape (..., n), and slopes T_0 … T_{n+1}."""
+    """p̃_m and μ from coefficients c, shape (..., n), and slopes T_0 … T_{n+1}."""
     n = c.shape[-1]
     # ∫ sqrt(1-s²) U_{v-1} T_i ds = (π/4) [(1 + δ_{v1}) δ_{i,v-1} - δ_{i,v+1}]
     first = c[..., 0]
@@ -297,7 +297,7 @@ def penetration(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: float) 
 def level(rule: Rule, creep: CreepSpectrum, alpha: Array, n: int, ik: ProductIK | None = None) -> Array:
     """T_0 coefficient W_0 of a contact's own displacement per coefficient c_1 … c_n, shape (b, n).
 
-    W_0 = Σ_v v c_v Σ_m Re[(-i)^{v-1} S_m] J_v J_0/m². The half-space's share: elastic, by the logarithmic potential,
+    W_0 = Σ_v v c_v Σ_m Re[(-i)^{v-1} S_m] J_v J_0/m². The half-space's part: elastic, by the logarithmic potential,
     ∫_δ^∞ J_1 J_0/x² dx = ½ (ln 2 - γ - ln δ); each retardation term from w_t - ζ w_t' = d w_el.
     """
     table = bessel_j(n, np.multiply.outer(alpha, rule.nodes)).swapaxes(0, 1)

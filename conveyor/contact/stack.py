@@ -1,4 +1,4 @@
-"""Layers of one kind side by side: what the batched solver needs to know of them."""
+"""Batches of layers of one kind."""
 
 from __future__ import annotations
 
@@ -19,27 +19,27 @@ Rows = NDArray[np.bool_] | NDArray[np.int_]
 
 
 class Stack(Protocol):
-    """Layers of b scenes."""
+    """Layers of b problems."""
 
     def reach(self, depth: float) -> Array:
         """Wave numbers beyond which |S - j| < 4 q² exp(-2q) of q = `depth`, shape (b,)."""
 
     def symbol(self, m: Array, j: ComplexArray) -> ComplexArray:
-        """S_m where the rubber that is touched has j(m), shape (b, k); m of shape (1, k) or (b, k)."""
+        """S_m of layers whose touched rubber has compliance j(m), shape (b, k); m of shape (1, k) or (b, k)."""
 
     def __getitem__(self, chosen: Rows) -> Stack:
-        """Some of them."""
+        """Selected layers."""
 
 
 @dataclass(frozen=True, eq=False)
 class Own:
-    """Layers of the user's own, asked one by one."""
+    """Layers of the user's own, evaluated one by one."""
 
     layers: Sequence[Layer]
     creeps: Sequence[CreepSpectrum]
 
     def reach(self, depth: float) -> Array:  # noqa: ARG002
-        """As each layer says."""
+        """Wave numbers of the layers themselves, shape (b,)."""
         return np.array([layer.reach for layer in self.layers])
 
     def symbol(self, m: Array, j: ComplexArray) -> ComplexArray:
@@ -54,12 +54,12 @@ class Own:
 
 
 def kind(layer: Layer) -> type:
-    """What a layer may be stacked with: its own type, and all layers of users' own together."""
+    """Kind of batch a layer belongs to: its own type, or that of all users' own layers."""
     return type(layer) if type(layer) in {HalfSpace, Free, Confined, BeltSupport} else Own
 
 
 def stacked(layers: Sequence[Layer], creeps: Sequence[CreepSpectrum]) -> Stack:
-    """Layers of one kind, and the rubbers that are touched, side by side."""
+    """Batch of layers of one kind; `creeps` are the rubbers that are touched."""
     belts = [layer for layer in layers if isinstance(layer, BeltSupport)]
     if len(belts) == len(layers):
         return Belts.of(belts)

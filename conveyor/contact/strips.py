@@ -6,8 +6,8 @@ test strip l and source strip r is
     g_i = (2-δ_i0) Σ_v v c_v Σ_{m≥1} Re[i^{q+2} S_m e^{im(X_l-X_r)}] J_v(mα_r) J_i(mα_l)/m,   q = i - v,
 
 whose kernel is smooth because the strips do not touch: the flat-topped window ½ erfc((m-m0)/w), m0 = 6.5 w, cuts the
-sum off at exp(-(w gap)²/4), and w = 12.5/gap leaves 1e-17 of it. Unknown are the places; row 0 of every strip, equal
-heights of the one rigid roll and the load (or its depth) determine them: Newton from the grid's strips.
+sum off at exp(-(w gap)²/4), and w = 12.5/gap leaves 1e-17 of it. The unknown places follow from row 0 of every strip,
+equal heights of the one rigid roll and the load (or depth), by Newton from the grid's strips.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ ComplexArray = NDArray[np.complex128]
 
 _ALIAS, _RAMP = 12.5, 6.5  # as in quadrature.py
 _LONGEST = 20_000  # nodes of the window: gaps below 0.008, or 0.008 of the contact's width, stay on the grid
-_FEW = 8  # orders that tell a strip's load
+_FEW = 8  # order for a strip's load
 _CHUNK = 4_000_000
 _NEWTON_STEPS = 24
 _SHRINKS = 0.25  # a step of the one before; else the Jacobian is formed anew
@@ -48,7 +48,7 @@ _LARGEST_STEP, _LARGEST_LOG, _ROOM = (
 class Strips:
     """Strips in equilibrium under one roll: `contact` holds one an entry, eps = X_l, `jacobian` is Newton's.
 
-    `left` is what Newton leaves of ln α_l, and of X_l in half widths.
+    `left` is Newton's last step of ln α_l, and of X_l in half widths.
     """
 
     contact: Contact
@@ -92,7 +92,7 @@ def _span(centre: Array, alpha: Array) -> float:
 
 
 def too_close(centre: Array, alpha: Array) -> bool:
-    """Whether strips touch, or their window would need more than some 20,000 nodes."""
+    """True where strips touch, or their window would need more than some 20,000 nodes."""
     reach = 2.0 * _RAMP * _ALIAS * min(_span(centre, alpha), 1.0)
     return _LONGEST * smallest_gap(centre, alpha) < reach
 
@@ -100,7 +100,7 @@ def too_close(centre: Array, alpha: Array) -> bool:
 def settle(
     scene: Scene, n: int, centre: Array, alpha: Array, tolerance: float, *, jacobian: Array | None = None
 ) -> Strips | None:
-    """Newton in (X_l, ln α_l) for the scene's load or depth; None where it does not settle.
+    """Balance strips by Newton in (X_l, ln α_l) for the load or depth; None where it does not converge.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ def settle(
     tolerance : float
         Change of ln α_l, and of X_l in half widths, at which Newton ends [-].
     jacobian : ndarray, shape (2l, 2l), optional
-        That of another order: used as long as each step is a quarter of the one before, formed anew then.
+        That of another order: used while each step is at most a quarter of the one before, else formed anew.
     """
     count, rho = alpha.size, scene.problem.rho
     place = np.concatenate([centre, np.log(alpha)])
@@ -144,7 +144,7 @@ def settle(
 
 
 def _room(centre: Array, alpha: Array, rho: float) -> Array:
-    """How far each strip may be moved at once: a share of its distance from its neighbours and from the roll's end."""
+    """Largest step of each strip: a share of its distance from its neighbours and from the roll's end."""
     ends = np.concatenate([centre - alpha, centre + alpha, [-rho, rho]])
     away = np.abs(np.subtract.outer(centre, ends))
     away[np.arange(alpha.size), np.arange(alpha.size)] = math.inf
@@ -154,18 +154,18 @@ def _room(centre: Array, alpha: Array, rho: float) -> Array:
 
 
 def loads(scene: Scene, centre: Array, alpha: Array) -> Array:
-    """Shares of p̃_m of strips that take the roll's shape at given places, shape (k, l) like these."""
+    """Parts of p̃_m carried by strips at given places, shape (k, l) like these."""
     carried: Array = 0.25 * alpha * _Places(scene, _FEW, centre, alpha).c[:, :, 0]
     return carried
 
 
 def at_places(scene: Scene, n: int, contact: Contact) -> Contact:
-    """Strips of order n at the places of others."""
+    """Strips of order n at the places of those of `contact`."""
     return _Places(scene, n, contact.eps[None], contact.alpha[None]).contact
 
 
 class _Places:
-    """Strips at several trial places at once: their coefficients and what is not yet in balance.
+    """Strips at several trial places at once: coefficients and residuals.
 
     Shapes: k places, l strips, order n.
     """
@@ -199,7 +199,7 @@ class _Places:
         self.depth = lifted + drop
 
     def residual(self) -> Array | None:
-        """Row 0 of each strip, differences of height, and what is held, shape (k, 2l); None under no load."""
+        """Residuals of row 0, height differences and load or depth, shape (k, 2l); None without load."""
         loads = 0.25 * self.alpha * self.c[:, :, 0]
         total = loads.sum(axis=1)
         if not (total > 0.0).all():
@@ -234,7 +234,7 @@ def _window(scene: Scene, gap: float, span: float, panels: Panels = SOLVE) -> tu
 def _couple(scene: Scene, n: int, centre: Array, alpha: Array) -> tuple[Array, Array]:
     """Slopes and heights of strip l per coefficient of strip r; shapes (k, l, n+1, l, n) and (k, l, l, n).
 
-    Blocks l = r are formed too and mean nothing: the slope's is replaced, the height's set to zero.
+    Blocks l = r are meaningless: the slope's is replaced by the caller, the height's set to zero.
     """
     k, count = alpha.shape
     gap = min(smallest_gap(centre[i], alpha[i]) for i in range(k))
@@ -264,7 +264,7 @@ def _couple(scene: Scene, n: int, centre: Array, alpha: Array) -> tuple[Array, A
 
 
 def friction_by_loss(scene: Scene, strips: Strips) -> float:
-    """μ from the loss compliance, with rule and window of its own."""
+    """μ from the loss compliance, with its own rule and window."""
     contact = strips.contact
     rule = build_rule(scene.problem.layer, scene.creep, float(contact.alpha.max()), CHECK)
     total = float(loss(rule, scene.creep, contact).sum())

@@ -1,10 +1,10 @@
-"""Galerkin matrices from tables: what does not depend on the scene is looked up, many scenes in one product.
+"""Galerkin matrices of many problems from common tables, in one product.
 
 A matrix (spectral.py) is a sum over nodes of J_i J_v(u), u = m α, and over retardation terms of I_max K_min(b),
 b = α/ζ. Both are smooth: J_i J_v in u (no wave shorter than π), I K in ln b (no singularity within π/2 of the real
-axis). So the weights of nodes and terms are moved to grids (moved.py), and matrices are products of the grids' weights
-with tables of J_i J_v and I_max K_min there; at a half width r times as
-large the tables are of r u and r b. A node's matrix is that of `spectral.assemble` to 2e-12 of its weight.
+axis). So the weights of nodes and terms are moved to grids (contact/moved.py), and matrices are products of the grids'
+weights with tables of J_i J_v and I_max K_min there; at a half width r times as large the tables are of r u and r b.
+A node's matrix agrees with `conveyor.contact.spectral.assemble` to 2e-12 of its weight.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ Index = NDArray[np.int_]
 _FELT = 1e-4  # Σ d min(b, 1/b) from which on friction is off by less than 1e-8 of itself: 1e-13 over it seen
 _STEP = 0.2  # of the grid of u
 _NARROWEST = (
-    1e-3  # half width below which J_0 J_1, and friction with it, is too small beside the table's rounding
+    1e-3  # half width below which J_0 J_1, and friction with it, is too small against the table's rounding
 )
 _HIGHEST, _LARGEST = (
     64,
@@ -38,7 +38,7 @@ _HIGHEST, _LARGEST = (
 
 
 class _Pairs(NamedTuple):
-    """Pairs i ≤ v of equal and of unequal parity, and the factors of equal ones in the loss."""
+    """Order pairs i ≤ v of equal and of unequal parity, and the factors of equal ones in the loss."""
 
     of_parity: tuple[tuple[Index, Index], tuple[Index, Index]]
     lost: Array
@@ -54,7 +54,7 @@ def _pairs(n: int) -> _Pairs:
 
 @lru_cache(maxsize=16)
 def _places(n: int, count: int) -> tuple[Index, Array]:
-    """Where `count` matrices of order n find their entries in the products with their tables, and their factors."""
+    """Places of the entries of `count` matrices of order n in the products with the tables, and their factors."""
     even, odd = _pairs(n).of_parity
     place = np.empty((count, n + 1, n + 1), dtype=int)
     for (i, v), start in ((even, 0), (odd, count * even[0].size)):
@@ -76,7 +76,7 @@ def _terms(n: int, ratio: float) -> list[Array]:
 
 
 def _grid(size: int) -> Array:
-    """Grid of u."""
+    """Grid of u, `size` points."""
     u = _STEP * (np.arange(float(size)) - BEFORE)
     u[BEFORE] = 1e-150  # for zero: J_1²/u² is ¼ there
     return u
@@ -84,7 +84,7 @@ def _grid(size: int) -> Array:
 
 @lru_cache(maxsize=32)
 def _tables(n: int, size: int, ratios: tuple[float, ...]) -> list[Array]:
-    """Rows I_max K_min(r b) of the grid of b, then J_i J_v(r u) of that of u; ratio by ratio, pairs of each parity."""
+    """Tables of each parity: rows I_max K_min(r b) on the grid of b, then J_i J_v(r u) on that of u; ratio by ratio."""
     table = [bessel_j(n, np.abs(ratio * _grid(size))) for ratio in ratios]
     for one in table:
         one[1::2] *= np.sign(_grid(size))
@@ -101,14 +101,14 @@ def _tables(n: int, size: int, ratios: tuple[float, ...]) -> list[Array]:
 
 @lru_cache(maxsize=32)
 def _loss_table(n: int, size: int) -> Array:
-    """The same of pairs of equal parity, J_i J_v over u²."""
+    """Table of pairs of equal parity for the loss, with J_i J_v over u²."""
     table: Array = _tables(n, size, (1.0,))[0].copy()
     table[LOGS:] /= (_grid(size) ** 2)[:, None]
     return table
 
 
 class _Rows(NamedTuple):
-    """Where terms and nodes hand their weights to: stencils, and which rows of the tables these are."""
+    """Stencils of the terms and nodes, and the rows of the tables that they reach."""
 
     at: Stencils
     chosen: slice
@@ -117,7 +117,7 @@ class _Rows(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Tabled:
-    """Contacts of given half widths: matrices of any order, and the loss.
+    """Matrices of any order, and the loss, of contacts of given half widths.
 
     Attributes
     ----------
@@ -126,7 +126,7 @@ class Tabled:
     alpha : ndarray, shape (b,)
         Half widths [-].
     places : ndarray, shape (b, t), optional
-        Of their terms; none where one lies beyond the tables.
+        Places of their terms on the grid of ln b; None where one lies beyond the tables.
     """
 
     creeps: Creeps
@@ -148,7 +148,7 @@ class Tabled:
         return Tabled(self.creeps[chosen], self.alpha[chosen], places)
 
     def _rows(self, rule: ShortRule, n: int) -> _Rows | None:
-        """Of terms, then nodes; none where tables do not serve."""
+        """Rows of terms, then nodes; None where the tables do not apply."""
         if self.places is None:
             return None
         u = (self.alpha / _STEP)[:, None] * rule.nodes
@@ -163,12 +163,12 @@ class Tabled:
         return _Rows((first, shares), slice(low, LOGS + size), 1 << (size - 1).bit_length())
 
     def _moved(self, rows: _Rows, terms: Array, *nodes: Array) -> list[Array]:
-        """Weights of the terms, with each of some weights of the nodes, on rows of the tables."""
+        """Weights of the terms, joined with each set of weights of the nodes, on rows of the tables."""
         both = (np.concatenate([terms, each], axis=1) for each in nodes)
         return moved(rows.at, rows.chosen.stop - rows.chosen.start, *both)
 
     def matrices(self, rule: ShortRule, n: int, ratios: tuple[float, ...] = (1.0,)) -> Array:
-        """`spectral.assemble` of order n at α times each ratio, one contact's after the other, (b · r, n+1, n)."""
+        """Galerkin matrices of order n at α times each ratio, contact after contact, shape (b · r, n+1, n)."""
         rows = self._rows(rule, n)
         if rows is None:
             every = np.repeat(np.arange(self.alpha.size), len(ratios))
@@ -185,7 +185,7 @@ class Tabled:
         return out.reshape(-1, n + 1, n)
 
     def friction_by_loss(self, rule: ShortRule, contact: Contact, rho: Array) -> Array:
-        """`energy.friction_by_loss` of the contacts, shape (b,)."""
+        """μ of the contacts from the loss compliance, shape (b,)."""
         if not (self.creeps.weights.any() or rule.weights.imag.any()):
             return np.zeros(self.alpha.size)
         n = contact.c.shape[1]

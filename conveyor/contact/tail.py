@@ -1,9 +1,9 @@
-"""The orders beyond those that layer and images reach: the isolated half-space alone couples them, and without end.
+"""Galerkin orders beyond the reach of layer and images, coupled by the isolated half-space alone.
 
-An edge layer of width ζ j∞ asks for orders n ~ 4 sqrt(α/(ζ j∞)), thousands of them, but J_v(mα) of such orders is zero
+An edge layer of width ζ j∞ needs orders n ~ 4 sqrt(α/(ζ j∞)), thousands of them, but J_v(mα) of such orders is zero
 wherever the correction of spectral.py is not. Beyond its core the matrix is diagonal and, for each retardation term,
-I_max K_min: what the orders above n know of those below is F_t = Σ_{v≤n} K_v x_v, x_v = v c_v, and what they give back
-is B_t = Σ_{v>n} (-1)^v I_v x_v = Z F. Orders are eliminated from the top, block by block (V = d K_n Z K_n, scaled so
+I_max K_min: the orders below n act on those above through F_t = Σ_{v≤n} K_v x_v, x_v = v c_v, and these react by
+B_t = Σ_{v>n} (-1)^v I_v x_v = Z F. Orders are eliminated from the top, block by block (V = d K_n Z K_n, scaled so
 that nothing overflows), and close the core exactly:
 
     g_i += (2-δ_i0) (-1)^i (K_i/K_n)ᵀ V F/K_n.
@@ -27,15 +27,15 @@ Array = NDArray[np.float64]
 DENSE: Final = 192
 """Order beyond which a core is closed by a tail."""
 FIRST_TAIL: Final = 1 << 10
-"""Last order of the first tail that is tried."""
+"""Last order of the first tail."""
 _LONGEST_TAIL = 1 << 18
 _LONGEST_TABLE = 1 << 20  # orders times terms
 _BLOCK = 32
-_SEGMENT = 4096  # orders whose tables are held together
+_SEGMENT = 4096  # orders whose tables are in memory at once
 
 
 def longest_tail(terms: int) -> int:
-    """The last order of the longest tail: its tables fit in memory and in half a second; none of an elastic contact."""
+    """Last order of the longest tail, limited by memory and half a second; zero for an elastic contact."""
     if not terms:
         return 0
     last = FIRST_TAIL
@@ -83,7 +83,7 @@ class _Segment:
 
 @dataclass(frozen=True, eq=False)
 class _Answers:
-    """What a segment answers to F/K_l of the orders below each of its blocks: x = X F/K_l."""
+    """Solutions x = X F/K_l of a segment's blocks for F/K_l of the orders below each."""
 
     answers: Array
     down: Array
@@ -92,7 +92,7 @@ class _Answers:
 
 @dataclass(frozen=True, eq=False)
 class Tail:
-    """The orders beyond a core of n, up to `last`, of one contact of given half width.
+    """Orders beyond a core of n, up to `last`, of one contact of given half width.
 
     Attributes
     ----------
@@ -134,7 +134,7 @@ class Tail:
         return cls(alpha, creep, core, last, given, half, most, kept[::-1])
 
     def closed(self, matrix: Array, ik: ProductIK) -> tuple[Array, list[tuple[Array, Array]]]:
-        """The core's matrix, shape (1, n+1, n), with every order up to `last`, and pairs of lower orders of it.
+        """Matrix of the core, shape (1, n+1, n), closed by every order up to `last`, and pairs of lower orders.
 
         The first pair has a core of half and three quarters of the order, the second a tail of half and three quarters.
         """
@@ -147,7 +147,7 @@ class Tail:
         return whole[None], [(cores[0], cores[1]), (shorter[None], longer[None])]
 
     def coefficients(self, ik: ProductIK, c: Array) -> Array:
-        """c_1 … c_last from those of the core, shape (n,)."""
+        """Coefficients c_1 … c_last from those of the core, shape (n,)."""
         orders = np.arange(1.0, self.last + 1.0)
         below = ik.falling(self.core)[1:, 0].T @ (orders[: self.core] * c)
         out = [c]
@@ -161,13 +161,13 @@ class Tail:
         return every
 
     def level(self, ik: ProductIK, c: Array) -> float:
-        """Its share of W_0, Σ_t d_t ζ_t K_0 B_t (spectral.level), from the core's coefficients, shape (n,)."""
+        """Tail's part Σ_t d_t ζ_t K_0 B_t of W_0 (`conveyor.contact.spectral.level`), from the core's c."""
         falling = ik.falling(self.core)[:, 0]
         below = falling[1:].T @ (np.arange(1.0, self.core + 1.0) * c)
         return float(self.creep.times * falling[0] @ (self.given[0] @ below))
 
     def quadratic(self, ik: ProductIK, c: Array) -> float:
-        """Its share of `ProductIK.quadratic` with weights d ζ, from all coefficients, shape (last,)."""
+        """Tail's part of `ProductIK.quadratic` with weights d ζ, from all coefficients, shape (last,)."""
         x = np.arange(1.0, self.last + 1.0) * c
         weights = self.creep.weights * self.creep.times
         falling = ik.falling(self.core)[1:, 0]
@@ -188,7 +188,7 @@ class Tail:
 
 
 def _closing(order: int, ik: ProductIK, v: Array) -> Array:
-    """What tails V, shape (s, t, t), add to the matrix of the order they begin at, shape (s, order+1, order)."""
+    """Matrix that tails V, shape (s, t, t), add to the core of `order`, shape (s, order+1, order)."""
     falling = ik.falling(order)[:, 0]
     i = np.arange(order + 1.0)
     sign = np.where(i % 2.0 == 0.0, 2.0, -2.0)
@@ -198,13 +198,13 @@ def _closing(order: int, ik: ProductIK, v: Array) -> Array:
 
 
 def _segments(core: int, last: int) -> Iterator[tuple[int, int]]:
-    """Ranges of orders, of whole blocks."""
+    """Ranges of orders between core and last, in whole blocks."""
     edges = [core, *range(_SEGMENT, last, _SEGMENT), last]
     yield from pairwise(edges)
 
 
 def _eliminated(segment: _Segment, k: int, v: Array) -> tuple[Array, Array]:
-    """V below block k from V above it, and the block's answers; shapes (s, t, t) and (s, m, t)."""
+    """V below block k from V above it, and the block's solutions; shapes (s, t, t) and (s, m, t)."""
     down, across, sign = segment.down[k], segment.across[k], segment.sign[k]
     given = sign * (down @ v)
     right = segment.up[k] + given * across

@@ -1,8 +1,8 @@
-"""Working strain of many contacts at once, as `interior` finds it, where the layer forgets a roll before the next.
+"""Working strain of many contacts at once, as by `interior`, where one roll does not influence the next.
 
 The sum over the harmonics of a period is then the integral over all wave numbers, and in units of the half width its
 nodes are the same for every contact: Bessel functions and turns are tables, and contacts differ in their layer, creep
-and pressure alone. Paths are followed as far as a particle moves.
+and pressure alone.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ Array = NDArray[np.float64]
 
 FORGETS: Final = 0.4
 """Thickness k h of an incompressible bonded layer up to which the next roll changes strains by less than 1e-3: four
-(h/λ)³, as of friction (`indentation.MEMORY`)."""
+(h/λ)³, as for friction (`conveyor.indentation.MEMORY`)."""
 _REACH: Final = 1.2
-"""Thicknesses from the roll's axis that a particle's path is followed: the rest changes it by 3e-4."""
+"""Thicknesses from the roll's axis to which a particle's path is sampled: the rest changes it by 3e-4."""
 _GRADED: Final = (0.0, 0.02, 0.1, 0.4, 1.2)
 """Edges of panels in m α, where the strain rises from nothing as (m h)²."""
 _LONGEST: Final = 0.64
@@ -49,7 +49,7 @@ _CHUNK: Final = 16  # contacts at once: few enough for the cache, many enough fo
 
 
 class _Waves(NamedTuple):
-    """Wave numbers u = m α, their weights, the window, and the turns u x/α of places."""
+    """Wave numbers u = m α, their weights, the window, cosines and sines of the turns u x/α."""
 
     u: Array
     weights: Array
@@ -59,7 +59,7 @@ class _Waves(NamedTuple):
 
 
 def _waves(x: Array, end: float, octaves: int) -> _Waves:
-    """The integral for places x/α, shape (nx,), of layers that reach so many octaves, windowed to end at u = `end`."""
+    """Quadrature for places x/α, shape (nx,), of layers that reach so many octaves, windowed to end at u = `end`."""
     span = float(np.abs(x).max())
     edges = np.concatenate([_graded(octaves, end), [end]])
     panels = np.ceil(np.diff(edges) * (1.0 + span) / _PHASE).astype(int)
@@ -77,7 +77,7 @@ def _waves(x: Array, end: float, octaves: int) -> _Waves:
 
 
 def _graded(octaves: int, end: float) -> Array:
-    """Edges of panels below `end`, from 0 on: the thicker the layer, the longer its waves."""
+    """Edges of panels from 0 to below `end`, finer near 0 for thicker layers."""
     edges = [*_GRADED]
     while edges[1] > _LONGEST * 0.5**octaves:
         edges[1:1] = [edges[1] / _STEP]
@@ -86,7 +86,7 @@ def _graded(octaves: int, end: float) -> Array:
 
 @lru_cache(maxsize=16)
 def _table(points: int, octaves: int) -> tuple[_Waves, ...]:
-    """Waves of the places within two half widths, and of each octave beyond on either side."""
+    """Waves for the places within two half widths, and for each octave beyond on either side."""
     end = HARMONICS * points
     tables = [_waves(np.linspace(-NEAR, NEAR, points + 1), end, octaves)]
     steps = max(2, points // OCTAVE)
@@ -108,7 +108,7 @@ def _bessel(order: int, points: int, octaves: int) -> tuple[Array, ...]:
 def working_strains(
     solutions: Sequence[ContactSolution], *, depths: int = 16, points: int = 48
 ) -> list[tuple[float, float]]:
-    """Working strain [-] and wave number m of the dissipation [-] of solved contacts, as `interior` has them.
+    """Working strain [-] and wave number m of the dissipation [-] of solved contacts, as by `interior`.
 
     Parameters
     ----------
@@ -120,7 +120,7 @@ def working_strains(
     Returns
     -------
     list of tuple of float
-        In their order; those whose layer does not forget a roll before the next are taken one by one.
+        In their order; contacts that are not isolated from the next roll are computed one by one.
 
     Raises
     ------
@@ -145,7 +145,7 @@ def working_strains(
 
 
 def _forgets(solution: ContactSolution) -> bool:
-    """Whether the contact stands alone under its period, of orders that a table holds."""
+    """True for a contact of one strip not influenced by the next roll, of orders within the tables."""
     layer, problem = solution.problem.layer, solution.problem
     return (
         isinstance(layer, Confined)
@@ -159,7 +159,7 @@ def _forgets(solution: ContactSolution) -> bool:
 
 
 def _octaves(solution: ContactSolution) -> int:
-    """How many octaves reach from two half widths to where a particle is at rest."""
+    """Octaves from two half widths to where a particle is at rest."""
     depth = solution.problem.thickness / (solution.half_width * solution.problem.rho)
     return max(math.ceil(math.log2(_REACH * depth / NEAR)), 1)
 

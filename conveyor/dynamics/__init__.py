@@ -1,1 +1,1 @@
-"""Starting and stopping: the belt as a wave guide, fed by the steady result of the pipeline."""
+"""Starting and stopping: waves in the belt, from the steady result of the pipeline."""

@@ -1,4 +1,4 @@
-"""What scenarios are checked for: one function a criterion, as in `conveyor.checks`."""
+"""Checks of scenarios: one function per criterion, as in `conveyor.checks`."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _BACKWARD: Final = 0.02
 
 @dataclass(frozen=True)
 class Peak:
-    """Extreme tensions of a stretch or at a pulley: N, s; the least for the sag in steady running [N], and sag [-]."""
+    """Extreme tensions of a stretch or at a pulley [N, s], the least for sag in steady running [N], and the sag [-]."""
 
     section: str
     strand: str
@@ -57,7 +57,7 @@ class Peak:
         strand: str = "",
         least: float = 0.0,
     ) -> Peak:
-        """Of some cells."""
+        """Extremes of some cells."""
         record = scenario.record
         high, low = int(record.highest[cells].argmax()), int(record.lowest[cells].argmin())
         return cls(
@@ -68,7 +68,7 @@ class Peak:
 
 
 def peaks(scenario: Followed) -> Iterator[Peak]:
-    """Extreme tensions of every stretch, as the belt meets them from the take-up."""
+    """Extreme tensions of every stretch, in belt order from the take-up."""
     shape = scenario.line.loop
     for k, cells in scenario.stretches():
         stretch = shape.stretches[k]
@@ -99,7 +99,7 @@ def _strength(scenario: Followed) -> Iterator[Check]:
 
 
 def _splice(scenario: Followed) -> Iterator[Check]:
-    """The belt is strong enough for a splice anywhere at its highest tension."""
+    """Belt strength for a splice at the highest tension."""
     belt = scenario.line.belt
     if belt.strength is None or belt.splice_strength is None:
         return
@@ -116,7 +116,7 @@ def _splice(scenario: Followed) -> Iterator[Check]:
 
 
 def _sag(scenario: Followed) -> Iterator[Check]:
-    """How far the belt sags between its idlers; from a tenth of the span on it is slack."""
+    """Sag between idlers; from a tenth of the span on the belt is slack."""
     i = int(scenario.sag.argmax())
     sag, at = float(scenario.sag[i]), f"{scenario.place(i)}, {scenario.record.lowest_at[i]:.1f} s"
     least = float(scenario.cells.slack[i])
@@ -166,7 +166,7 @@ def _grip(scenario: Followed) -> Iterator[Check]:
 
 
 def _torque(scenario: Followed) -> Iterator[Check]:
-    """Motors keep within their limits; a led one off its ramp at its limit is told how long."""
+    """Motors stay within their limits; time at the limit is reported."""
     for d, drive in enumerate(scenario.ride.drives):
         name, most = quoted(drive.name), float(scenario.ride.limits()[d].max() / scenario.ride.rated[d])
         size = np.abs(scenario.torque[:, d])
@@ -189,7 +189,7 @@ def _torque(scenario: Followed) -> Iterator[Check]:
 
 
 def _backward(scenario: Followed) -> Iterator[Check]:
-    """A belt does not roll back; what holds it does so by the spec's word."""
+    """The belt does not roll back; backstops hold it, given or assumed."""
     least = float(scenario.belt_speed.min())
     yield compared(
         "dynamic_backward", "belt does not roll back", max(0.0, -least), "at most", _BACKWARD * scenario.line.speed,
@@ -210,7 +210,7 @@ def _backward(scenario: Followed) -> Iterator[Check]:
 
 
 def _take_up(scenario: Followed) -> Iterator[Check]:
-    """The carriage moves no further than the take-up's travel for start, stop and reserve."""
+    """The carriage stays within the take-up's travel for start, stop and reserve."""
     duty = scenario.ride.given.steady.take_up.travel
     if duty is None or scenario.line.take_up.keeps_length:
         return
@@ -240,7 +240,7 @@ def _end(scenario: Followed) -> Iterator[Check]:
 
 
 def _bulk(scenario: Followed) -> Iterator[Check]:
-    """The bulk stays on the belt, by the mean acceleration between two samples, where it stays at even speed."""
+    """The bulk does not slip, by the mean acceleration between samples, on stretches where it rests at steady speed."""
     line, worst = scenario.line, []
     for k, cells in scenario.stretches():
         stretch = line.loop.stretches[k]
@@ -267,7 +267,7 @@ CRITERIA: Final[tuple[Callable[[Followed], Iterator[Check]], ...]] = (
 
 
 def checks_of(dynamics: CalculatedDynamics) -> tuple[Check, ...]:
-    """Every criterion of every scenario; of a backstop, which has no limit, the scenario that loads it most."""
+    """Every criterion of every scenario; for a backstop, which has no limit, the scenario that loads it most."""
     every = [*_unanswered(dynamics)] + [
         replace(check, case=scenario_case(followed))
         for followed in dynamics.followed

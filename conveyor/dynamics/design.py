@@ -1,4 +1,4 @@
-"""Sizes that keep every criterion of a start or stop: ramp, brake, delay between drives, tension of the take-up."""
+"""Sizing for starts and stops that keep every criterion: ramp, brake, delay between drives, take-up tension."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _RAMPS, _DELAYS = (5.0, 600.0), (0.0, 120.0)  # [s]
 _BRAKES = (0.02, 5.0)  # over the rated force of all motors
 _SETTINGS = (0.25, 8.0)  # over the setting as given
 _NOT_SIZED: Final = frozenset({"dynamic_travel"})
-"""Criteria that a size does not decide: the take-up is built for the travel it needs."""
+"""Criteria left out of sizing: the take-up is built for the travel it needs."""
 
 
 def size(
@@ -41,7 +41,7 @@ def size(
     *,
     between: tuple[float, float] | None = None,
 ) -> Size:
-    """Find the least ramp, brake force or tension of the take-up that keeps every criterion, or the best delay.
+    """Find the least ramp, brake force or take-up tension that keeps every criterion, or the best delay.
 
     Parameters
     ----------
@@ -50,24 +50,24 @@ def size(
     scenario : Scenario
         A start or a stop.
     sought : {"ramp", "brake", "delay", "take-up"}
-        Time of the ramps of all drives; force of all brakes together, shared as they are given, else as the drive
-        force; time from one drive to the next, that with the lowest peak; tension of the take-up, and its weight. A
-        stop must rest within the duration of its scenario.
+        Time of the ramps of all drives; total brake force, shared as given, else like the drive force; time from one
+        drive to the next, with the lowest peak; take-up tension, and its weight. A stop must come to rest within the
+        duration of its scenario.
     between : tuple of float, optional
-        Where to look: s, N at the belt, N; without it 5 to 600 s, 2 to 500 % of the motors' rated force, 0 to 120 s,
+        Range to search: s, N at the belt, N; by default 5 to 600 s, 2 to 500 % of the motors' rated force, 0 to 120 s,
         a quarter to eight times the setting.
 
     Returns
     -------
     Size
-        Of those tried the smallest from which on all serve, up to the largest that serves.
+        The smallest value tried from which on all keep the criteria, up to the largest that does.
 
     Raises
     ------
     InputError
         The scenario has nothing of the kind: no inverter, no brake, one drive.
     NoSolutionError
-        Nothing between the ends serves: the message says what fails with the one that fails least.
+        No value in the range keeps the criteria: the message gives the failures of the best one.
     """
     (ride,), _ = prepared_rides(conveyor, (scenario,))
     made, ends, kind = _MAKERS[sought](ride)
@@ -90,7 +90,7 @@ def size(
 def sized(
     conveyor: Conveyor, scenarios: Sequence[Scenario], sought: Sought, *, error: float = ERROR, **how: Any
 ) -> CalculatedDynamics:
-    """Size every scenario, and follow it with what was found; arguments and errors as of `size` and `follow`."""
+    """Size every scenario and simulate it at its size; arguments and errors as of `size` and `follow`."""
     sizes = tuple(size(conveyor, one, sought) for one in scenarios)
     _, given = prepared_rides(conveyor, scenarios)
     return CalculatedDynamics(conveyor, given, *refined([one.ride for one in sizes], error, **how), sizes)
@@ -151,7 +151,7 @@ _LABELS: Final = {
 
 
 def _followed(made: Callable[[float], Ride], values: list[float], k: int) -> list[Followed]:
-    """All tried side by side; cells half as long every round."""
+    """Simulate all trial values in one batch, with cells half as long every round."""
     rides = [made(value) for value in values]
     return side_by_side(rides, max(float(ride.loop.travel[-1]) for ride in rides) / (_CELLS * 2**k))
 
@@ -162,12 +162,12 @@ def _checks(scenario: Followed) -> list[Check]:
 
 
 def _failing(scenario: Followed) -> list[Check]:
-    """What of it fails."""
+    """Failed checks of a scenario."""
     return [check for check in _checks(scenario) if check.failed]
 
 
 def _reasons(failing: list[Check]) -> Said:
-    """What fails, in one sentence."""
+    """Reasons of failed checks in one sentence."""
     why = [check.why for check in failing if check.why is not None]
     return Said("; ".join(one.words for one in why), tuple(figure for one in why for figure in one.figures))
 
@@ -175,11 +175,11 @@ def _reasons(failing: list[Check]) -> Said:
 def _least(
     name: str, made: Callable[[float], Ride], between: tuple[float, float], kind: str
 ) -> tuple[float, float | None, float | None, list[Check]]:
-    """The least value of the last run of those that serve, its largest, the next smaller one and what fails there."""
+    """Least and largest value of the last passing run, the next smaller value and its failed checks."""
     most: float | None = None
     (low, high), shown = between, "time" if kind == "duration" else kind
     for k in range(_ROUNDS):
-        # what served on coarser cells may just fail on finer ones: one step further is looked at too
+        # what passed on coarser cells may just fail on finer ones: one step further is included
         values = np.geomspace(low, high if k == 0 else high * high / low, _TRIED).tolist()
         failing = [_failing(one) for one in _followed(made, values, k)]
         serve = [i for i, of in enumerate(failing) if not of]
@@ -203,7 +203,7 @@ def _least(
 
 
 def _best_delay(ride: Ride, made: Callable[[float], Ride], low: float, high: float) -> Size:
-    """The delay with the lowest peak of those that keep every criterion."""
+    """Delay with the lowest peak among those that keep every criterion."""
     best: tuple[float, float, Followed] | None = None
     for k in range(_ROUNDS):
         values = np.linspace(low, high, _TRIED).tolist()
@@ -219,7 +219,7 @@ def _best_delay(ride: Ride, made: Callable[[float], Ride], low: float, high: flo
         best = min([*serve, *([best] if best else [])], key=lambda one: one[0])
         step = (high - low) / (_TRIED - 1)
         low, high = max(low, best[1] - step), min(high, best[1] + step)
-    assert best is not None  # noqa: S101 a first round that finds nothing raises
+    assert best is not None  # noqa: S101 a first round without a result raises
     _, value, one = best
     margins = [check for check in _checks(one) if check.margin is not None]
     governs = min(margins, key=lambda check: check.margin or 0.0)
@@ -230,13 +230,13 @@ def _best_delay(ride: Ride, made: Callable[[float], Ride], low: float, high: flo
 
 
 def _named(ride: Ride, sought: str, value: float) -> Ride:
-    """The scenario under a name that says what was found."""
+    """Scenario with its size in the name."""
     figure = f"{value:.3g} s" if sought in {"ramp", "delay"} else f"{value / 1e3:.3g} kN"
     return replace(ride, scene=replace(ride.scene, name=f"{ride.scene.name}, {sought} {figure}"))
 
 
 def _of_take_up(conveyor: Conveyor, scenario: Scenario, size: Size) -> Size:
-    """The same calculated with the tension in the spec; of a weight its mass."""
+    """Size recalculated with the take-up tension in the spec; for a gravity take-up as its mass."""
     given = conveyor.route.take_up or TakeUp.from_data({"kind": "gravity"})
     unit = given.replace(tension=f"{size.value:.9g} N", mass=None)
     (ride,), _ = prepared_rides(conveyor.replace(route=conveyor.route.replace(take_up=unit)), (scenario,))

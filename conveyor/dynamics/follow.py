@@ -1,4 +1,4 @@
-"""Scenarios of a conveyor followed through time, side by side, until their peaks hold."""
+"""Simulation of scenarios through time, in batches, with cells refined until the peak tensions converge."""
 
 from __future__ import annotations
 
@@ -39,32 +39,32 @@ from conveyor.units.sentences import Said, percent, quoted, said, telling
 Array = NDArray[np.float64]
 
 ERROR: Final = 0.01
-"""Error of the peaks asked for without a word [-]."""
+"""Default error of the peaks [-]."""
 _CELLS = 25  # of the longest belt at first
-_REFINED = 6  # times at most
-_RETRIED = 2  # times for a scenario without an answer: cells may be too long for it
-_SIZES = 4  # of cells for an error
-_SAFETY = 1.25  # of three and more: P. J. Roache, grid convergence index, J. Fluids Eng. 116 (1994) 405
-_SLOWEST, _FASTEST = math.sqrt(2.0), 2.0  # change over the next one: at a jump of speed, and at first order
-_CLOSER = 0.75  # error over the one before up to which halving helps: a half at first order, 1/√2 at a jump of speed
-_REST = 1e-3  # of the steady speed, below which a belt away from the drives rests
-_COURANT = 0.95  # of the longest stable step: at that itself the swing from cell to cell is never damped
+_REFINED = 6  # refinements at most
+_RETRIED = 2  # refinements of a scenario without an answer: its cells may be too long
+_SIZES = 4  # cell sizes for an error estimate
+_SAFETY = 1.25  # for three sizes and more: P. J. Roache, J. Fluids Eng. 116 (1994) 405
+_SLOWEST, _FASTEST = math.sqrt(2.0), 2.0  # ratio of changes: at a jump of speed, at first order
+_CLOSER = 0.75  # ratio of errors up to which halving helps: 1/2 at first order, 1/√2 at a jump of speed
+_REST = 1e-3  # of the steady speed, below which a belt away from the drives is at rest
+_COURANT = 0.95  # of the longest stable step: at that step itself cell-to-cell oscillations are never damped
 
 
 @dataclass(frozen=True, eq=False)
 class Followed:
-    """A scenario and what happened.
+    """Result of a scenario.
 
     Attributes
     ----------
     ride : Ride
         The scenario on its belt.
     cells : Cells
-        How the belt was cut.
+        Cells of the belt.
     record : Record
-        Of it alone: without the axis of scenarios.
+        Its record, without the axis of scenarios.
     error : float or None
-        Estimate of the error of the highest and lowest tension over the highest [-]; None where the step was given.
+        Error estimate of the highest and lowest tension over the highest [-]; None if the step was given.
     """
 
     ride: Ride
@@ -74,7 +74,7 @@ class Followed:
 
     @property
     def name(self) -> str:
-        """Of the scenario."""
+        """Name of the scenario."""
         return self.ride.scene.name
 
     @property
@@ -84,7 +84,7 @@ class Followed:
 
     @cached_property
     def times(self) -> Array:
-        """Every step [s]."""
+        """Time of every step [s]."""
         return np.asarray(self.record.step * np.arange(len(self.record.take_up["tension"])), dtype=float)
 
     @cached_property
@@ -94,16 +94,16 @@ class Followed:
 
     @property
     def highest(self) -> float:
-        """Tension [N]."""
+        """Highest tension [N]."""
         return float(self.record.highest.max())
 
     @property
     def lowest(self) -> float:
-        """Tension [N]."""
+        """Lowest tension [N]."""
         return float(self.record.lowest.min())
 
     def place(self, i: int) -> str:
-        """Where a cell is, in words: section and strand."""
+        """Section and strand of a cell."""
         return self._words(float(self.middles[i]))
 
     def _words(self, distance: float) -> str:
@@ -115,7 +115,7 @@ class Followed:
 
     @cached_property
     def top_speed(self) -> tuple[float, str, float]:
-        """Highest speed anywhere on the belt, either way, its begin too [m/s]; where in words, and when [s]."""
+        """Highest speed anywhere on the belt in either direction, start included [m/s]; its location and time [s]."""
         record = self.record
         size = np.maximum(record.highest_speed, -record.lowest_speed)
         i = int(size.argmax())
@@ -124,21 +124,21 @@ class Followed:
 
     @cached_property
     def round_loop(self) -> tuple[NDArray[np.int_], Array]:
-        """Cells as the belt meets them from the head, return strand first, and their distance from it [m]."""
+        """Cells in belt order from the head, return strand first, and their distance from it [m]."""
         loop, ways = self.ride.loop, self.line.loop.way
         distance = (self.middles + ways[loop.order[0]]) % ways[-1]
         order = np.argsort(distance)
         return order, distance[order]
 
     def stretches(self) -> Iterator[tuple[int, slice]]:
-        """Every stretch of `line.loop` and its cells; at least one."""
+        """Every stretch of `line.loop` with its cells, at least one."""
         for i, k in enumerate(self.ride.loop.order.tolist()):
             low, high = np.searchsorted(self.middles, self.ride.loop.way[i : i + 2])
             low = min(int(low), self.middles.size - 1)
             yield k, slice(low, max(int(high), low + 1))
 
     def beside(self, pulley: int) -> NDArray[np.int_]:
-        """Cells on both sides of a pulley of the line; beyond the take-up where it stands beside that."""
+        """Cells on both sides of a pulley of the line, across the take-up if it is next to it."""
         at = self.cells.at
         i = int(np.argmin(np.abs(at - self.ride.loop.pulleys[pulley])))
         return np.array([i - 1, i]) % (at.size - 1)
@@ -150,28 +150,28 @@ class Followed:
 
     @cached_property
     def torque(self) -> Array:
-        """Of every motor over its rated one [-], shape (steps, d)."""
+        """Torque of every motor over its rated torque [-], shape (steps, d)."""
         return np.asarray(self.record.drives["motor"] / self.ride.rated)
 
     @cached_property
     def travel(self) -> Array:
-        """Of the take-up's carriage, away from the belt positive [m], every step."""
+        """Travel of the take-up's carriage at every step, away from the belt positive [m]."""
         return np.asarray(self.record.take_up["belt"] / self.line.take_up.strands)
 
     @cached_property
     def stops(self) -> bool:
-        """Whether the last thing every drive is told is to stop."""
+        """True if the last command to every drive is to stop."""
         told = {d: happening.do for happening in self.ride.scene.happenings for d in happening.drives}
         return len(told) == len(self.ride.drives) and "start" not in told.values()
 
     @cached_property
     def belt_speed(self) -> Array:
-        """At the first drive [m/s], every step."""
+        """Belt speed at the first drive at every step [m/s]."""
         return np.asarray(self.record.drives["belt"][:, 0])
 
     @cached_property
     def rests_at(self) -> float | None:
-        """When the belt has come to rest for good, drive pulleys and all along [s]; None where it has not."""
+        """Time at which drive pulleys and belt are finally at rest [s]; None if they are not."""
         turning = np.abs(self.record.drives["belt"]).max(axis=1) > 0.0
         creeping = np.abs(self.record.speeds).max(axis=1) > _REST * self.line.speed
         if turning[-1] or creeping[-1]:
@@ -185,12 +185,12 @@ class Followed:
 
     @cached_property
     def way(self) -> float:
-        """Of the belt at the first drive [m]."""
+        """Distance run by the belt at the first drive [m]."""
         return float(self.belt_speed.sum() * self.record.step)
 
     @property
     def missing_energy(self) -> float:
-        """What the sum of all energies lacks over the largest of them [-]."""
+        """Error of the energy balance over its largest term [-]."""
         work = {name: abs(float(value)) for name, value in self.record.work.items()}
         missing = work.pop("missing")
         return missing / max(work.values())
@@ -198,7 +198,7 @@ class Followed:
 
 @dataclass(frozen=True)
 class ScenarioRefusal:
-    """A scenario without an answer, and why."""
+    """A scenario without an answer, and the reason."""
 
     scenario: str
     reason: Said
@@ -208,7 +208,7 @@ _Answer: TypeAlias = Followed | ScenarioRefusal
 
 
 class _Peaks(NamedTuple):
-    """Of a scenario at a size of cells [N, s]."""
+    """Peak tensions of a scenario at a cell size [N, s]."""
 
     highest: float
     lowest: float
@@ -228,13 +228,13 @@ class CalculatedDynamics:
     conveyor : Conveyor
         The spec.
     given : CalculatedConveyor
-        Its steady result, the take-up at the one setting of every load of the spec.
+        Its steady result, at the one take-up setting of every load of the spec.
     followed : tuple of Followed
-        In order of the scenarios.
+        Results in order of the scenarios.
     refused : tuple of ScenarioRefusal
-        Those without an answer.
+        Scenarios without an answer.
     sized : tuple of Size
-        Figures that were sought for them, where any were.
+        Sizes determined for them, if any.
     """
 
     conveyor: Conveyor
@@ -245,12 +245,12 @@ class CalculatedDynamics:
 
     @cached_property
     def assumptions(self) -> tuple[str, ...]:
-        """What the figures rest on that the spec does not say."""
+        """Assumptions for values that the spec does not give."""
         return tuple(dict.fromkeys(_assumed(self)))
 
 
 def standard_scenarios(conveyor: Conveyor) -> tuple[Scenario, ...]:
-    """Starts full and empty, a stop by the drives, an emergency stop, power failures: what every conveyor meets."""
+    """Standard scenarios: starts full and empty, a stop by the drives, an emergency stop, power failures."""
     line = conveyor.drive
     led = all(pulley.starter is None or pulley.starter.kind == "inverter" for pulley in line.pulleys)
     direct = line.start_factor is None and (line.torque_curve or line.torque_factor is not None)
@@ -286,31 +286,31 @@ def follow(
     progress: Progress | None = None,
     loads: EveryLoad | None = None,
 ) -> CalculatedDynamics:
-    """Follow scenarios through time.
+    """Simulate scenarios through time.
 
     Parameters
     ----------
     conveyor : Conveyor
         The spec.
     scenarios : sequence of Scenario, optional
-        Those of the spec without it, or the standard ones where it has none.
+        By default those of the spec, or the standard ones if it has none.
     error : float
-        Of the highest and lowest tension over the highest, asked for [-].
+        Permitted error of the highest and lowest tension over the highest [-].
     step : float, optional
-        Travel time of a cell [s]; without it cells are halved until the peaks hold to `error`.
+        Travel time of a cell [s]; by default cells are halved until the peaks converge to `error`.
     executor : concurrent.futures.Executor, optional
-        Where groups of scenarios are followed, as in `conveyor.studies.campaign.run`; side by side here without one.
+        Executor of groups of scenarios, as in `conveyor.studies.campaign.run`; by default one batch in this process.
     workers : int
-        Of the executor: as many groups.
+        Workers of the executor, and number of groups.
     progress : callable, optional
-        Called with what is done and the whole.
+        Called with the items done and their total.
     loads : EveryLoad, optional
-        Every load of the spec, where they are calculated already.
+        Every load of the spec, if already calculated.
 
     Returns
     -------
     CalculatedDynamics
-        One result a scenario; those without an answer beside them.
+        One result per scenario, and the scenarios without an answer.
 
     Raises
     ------
@@ -341,13 +341,13 @@ def refined(
     workers: int = 1,
     progress: Progress | None = None,
 ) -> tuple[tuple[Followed, ...], tuple[ScenarioRefusal, ...]]:
-    """Follow scenarios, cells halved until the peaks hold to an error [-]; arguments and errors as of `follow`.
+    """Simulate scenarios, halving cells until the peaks converge to an error [-]; arguments and errors as of `follow`.
 
-    Those whose peaks do not hold at the finest cells are refused as those without an answer are.
+    Scenarios that do not converge at the finest cells count as without an answer.
     """
 
     def beside(some: list[Ride], step: float) -> list[_Answer]:
-        """A group for every worker; every scenario keeps its place."""
+        """Simulate one group per worker; results in the order of the scenarios."""
         if executor is None:
             return _each(some, step)
         groups = [some[k::workers] for k in range(min(workers, len(some)))]
@@ -378,15 +378,15 @@ def refined(
 
 
 def _open(one: _Answer, error: float) -> TypeGuard[Followed]:
-    """Whether its peaks do not hold yet."""
+    """True if the peaks have not converged."""
     return isinstance(one, Followed) and (one.error is None or one.error > error)
 
 
 def _error(peaks: Sequence[_Peaks]) -> float | None:
-    """Of the last peaks over the highest [-], by how they changed as cells were halved; None of fewer than four.
+    """Error of the last peaks over the highest [-], from their changes as cells were halved; None for fewer than four.
 
-    Grid convergence index with the order that the changes show, the first at most: a change may be small by chance, so
-    it counts half the one before at least. One that turns back shows no order and counts as that before it.
+    Grid convergence index with the observed order, at most the first: a change may be small by chance, so it counts at
+    least half the previous one. A change of opposite sign shows no order and counts like the previous one.
     """
     if len(peaks) < _SIZES:
         return None
@@ -404,7 +404,7 @@ def _error(peaks: Sequence[_Peaks]) -> float | None:
 
 
 def _unsettled(one: Followed, peaks: Sequence[_Peaks]) -> ScenarioRefusal:
-    """A scenario whose peaks hold to less than was asked for: the last figures, where, and what helps."""
+    """Refusal of a scenario that has not converged: the last figures, their location, and the remedy."""
     record, error = one.record, one.error or 0.0
     coarse, fine = peaks[-2:]
     high = abs(fine.highest - coarse.highest) > abs(fine.lowest - coarse.lowest)
@@ -424,12 +424,12 @@ def _unsettled(one: Followed, peaks: Sequence[_Peaks]) -> ScenarioRefusal:
 
 
 def _sorted(answers: Sequence[_Answer]) -> tuple[tuple[Followed, ...], tuple[ScenarioRefusal, ...]]:
-    """Scenarios with an answer, and those without.
+    """Separate scenarios with an answer from those without.
 
     Raises
     ------
     NoSolutionError
-        None has one.
+        None has an answer.
     """
     followed = tuple(one for one in answers if isinstance(one, Followed))
     refused = tuple(one for one in answers if isinstance(one, ScenarioRefusal))
@@ -445,7 +445,7 @@ def _sorted(answers: Sequence[_Answer]) -> tuple[tuple[Followed, ...], tuple[Sce
 
 
 def _each(rides: list[Ride], step: float) -> list[_Answer]:
-    """Scenarios side by side; each alone where one of them has no answer."""
+    """Simulate scenarios in one batch, or each alone if one of them has no answer."""
     try:
         return list(side_by_side(rides, step))
     except NoSolutionError as error:
@@ -455,12 +455,12 @@ def _each(rides: list[Ride], step: float) -> list[_Answer]:
 
 
 def side_by_side(rides: Sequence[Ride], step: float) -> list[Followed]:
-    """Follow scenarios of one conveyor side by side, their cells as long as a wave travels in a step [s].
+    """Simulate scenarios of one conveyor in one batch, with cells as long as a wave travels in a step [s].
 
     Raises
     ------
     NoSolutionError
-        The drives have no room, a drive cannot do what it is told, or a figure is not finite.
+        The drives have no room, a drive cannot execute its command, or a figure is not finite.
     """
     cells, chain, start = prepared(list(rides), step)
     step = _COURANT * min(step, chain.longest_step)
@@ -473,7 +473,7 @@ def side_by_side(rides: Sequence[Ride], step: float) -> list[Followed]:
 
 
 def _only(record: Record, i: int, size: int, duration: float) -> Record:
-    """One belt of a record, its own cells, for its own time."""
+    """Record of one belt, with its own cells and duration."""
     steps, kept = math.ceil(duration / record.step) + 1, record.times <= duration
     return Record(
         record.step, record.highest[i, : size - 1], record.lowest[i, : size - 1], record.highest_at[i, : size - 1],
@@ -489,7 +489,7 @@ def _only(record: Record, i: int, size: int, duration: float) -> Record:
 def prepared_rides(
     conveyor: Conveyor, scenarios: Sequence[Scenario], loads: EveryLoad | None = None
 ) -> tuple[list[Ride], CalculatedConveyor]:
-    """Every scenario on its load, the take-up at the setting of `every_load`; a load of several is calculated once."""
+    """Scenarios on their loads at the take-up setting of `every_load`; shared loads are calculated once."""
     loads = every_load(conveyor) if loads is None else loads
     loaded: dict[tuple[object, ...], Conveyor] = {}
     keys = []
@@ -521,7 +521,7 @@ def prepared_rides(
 
 
 def _case(states: CalculatedStates, scenario: Scenario) -> LoadCase:
-    """What a scenario loads."""
+    """Load case of a scenario."""
     loading, sections = scenario.loading, scenario.sections
     if loading == "worst":
         state = states.state("worst")

@@ -1,4 +1,4 @@
-"""The loop of a steady result, cut open at the take-up: what lies and acts along it, and its cells of equal travel."""
+"""Loop of a steady result, cut open at the take-up: masses and forces along it, and its cells of equal travel time."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from conveyor.pipeline import CalculatedConveyor
 Array = NDArray[np.float64]
 
 SPEEDS = (0.1, 0.5)
-"""Speeds over the steady one at which the resistances are computed beside it [-]."""
+"""Further speeds, over the steady one, at which the resistances are computed [-]."""
 _WITH_SPEED = frozenset({"acceleration", "loading_skirts"})
 """Forces of bulk that is fed in proportion to the belt's speed."""
 
 
 @dataclass(frozen=True)
 class _Lump:
-    """What stands at one place: distance [m] and order, mass [kg], friction f0, f2 [N, N s²/m²], weight [N]."""
+    """Lumped item: distance [m] and order, mass [kg], friction f0, f2 [N, N s²/m²], weight [N]."""
 
     at: float
     stand: Stand
@@ -41,7 +41,7 @@ class _Lump:
 
 @dataclass(frozen=True, eq=False)
 class CutLoop:
-    """A loaded belt from behind its take-up round to it again.
+    """Loaded belt from behind its take-up round to it again.
 
     Attributes
     ----------
@@ -50,19 +50,19 @@ class CutLoop:
     way : ndarray, shape (2n + 1,)
         Distance of every boundary of stretches [m].
     order : ndarray of int, shape (2n,)
-        Which stretch of `line.loop` lies between them.
+        Stretch of `line.loop` between them.
     mass, weight, stuck : ndarray, shape (2n,)
-        Of every stretch: mass [kg], slope resistance [N], what rolls resist more at rest [N].
+        Of every stretch: mass [kg], slope resistance [N], additional roll resistance at rest [N].
     friction : ndarray, shape (3, 2n)
-        Of every stretch f0, f1, f2 of f0 + f1 v + f2 v² [N].
+        Coefficients f0, f1, f2 of f0 + f1 v + f2 v² for every stretch [N].
     lumps : tuple
-        What stands at places.
+        Lumped items.
     drives, pulleys : ndarray
         Distance of the drives, and of every pulley of the line [m].
     stiffness : float
         EA [N].
     hanging : ndarray, shape (2n,)
-        Of every stretch what its sag takes in between the idlers, times T² over the length: (m' g a)²/24 [N²].
+        Belt length taken up by sag between the idlers of every stretch, times T² over the length: (m' g a)²/24 [N²].
     """
 
     steady: CalculatedConveyor
@@ -85,7 +85,7 @@ class CutLoop:
 
     @cached_property
     def travel(self) -> Array:
-        """Time in which a wave comes to every boundary [s]."""
+        """Travel time of a wave to every boundary [s]."""
         each = [
             length / wave_speed(self.stiffness, line_mass=mass / length)
             for length, mass in zip(np.diff(self.way).tolist(), self.mass.tolist(), strict=True)
@@ -101,12 +101,12 @@ class CutLoop:
         steady : CalculatedConveyor
             At full speed.
         slower : sequence of CalculatedConveyor
-            The same at `SPEEDS` of it; without them the resistances do not change with speed.
+            The same at `SPEEDS` of it; by default the resistances do not change with speed.
 
         Raises
         ------
         NoSolutionError
-            The belt's stiffness is not known, or how long a winch takes to its speed.
+            The belt's stiffness or the run-up time of a winch is not known.
         """
         line, settled = steady.line, steady.balance.settled
         stiffness = belt_stiffness(line.belt)
@@ -157,7 +157,7 @@ class CutLoop:
         )  # fmt: skip
 
     def cells(self, step: float) -> Cells:
-        """Cut into cells that a wave crosses in a step or little longer, drives at their ends.
+        """Cut into cells that a wave crosses in a step or little longer, with drives at cell ends.
 
         Parameters
         ----------
@@ -180,12 +180,12 @@ class CutLoop:
         at = np.interp(time, self.travel, self.way)
 
         def half(values: Array) -> Array:
-            """Of what lies along the cell before every mass."""
+            """Half of the distributed values along the cell before every mass."""
             cell = np.diff(np.interp(at, self.way, np.concatenate([np.zeros(1), np.cumsum(values)])))
             return np.asarray(0.5 * np.append(0.0, cell))
 
         def lumped(values: Array) -> Array:
-            """Half of what lies along each cell to each of its ends."""
+            """Distributed values lumped by halves at the ends of each cell."""
             before = half(values)
             return np.asarray(before + np.append(before[1:], 0.0))
 
@@ -214,7 +214,7 @@ class CutLoop:
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """A loop cut into cells: places of its masses [m], shape (n + 1,); the rest as in `wave.Chain`, of one belt."""
+    """Cells of a loop: positions of its masses [m], shape (n + 1,); the rest as in `wave.Chain`, for one belt."""
 
     at: Array
     mass: Array
@@ -229,7 +229,7 @@ class Cells:
 
     @cached_property
     def slack(self) -> Array:
-        """Tension of every cell at which it sags by a tenth of the span, from (m' g a)² = 24 b/Δs [N]."""
+        """Tension at which every cell sags by a tenth of the span, from (m' g a)² = 24 b/Δs [N]."""
         return np.asarray(np.sqrt(24.0 * self.sag / np.diff(self.at)) / (8.0 * SLACK_SAG.value))
 
     def resisting(self, speed: float, friction: float) -> Array:
@@ -239,12 +239,12 @@ class Cells:
         )
 
     def sticking(self, friction: float) -> Array:
-        """Force up to which every mass stays at rest, after standstill [N]: what grows with speed is not there yet."""
+        """Force up to which every mass stays at rest [N], without friction that grows with speed."""
         return self.resisting(0.0, friction) + friction * self.stuck
 
 
 def _cut(line: Line, *, behind: bool) -> tuple[Spot, bool]:
-    """Where the take-up stands, and whether behind what else stands at that spot: else the slack side of the drives."""
+    """Position of the take-up (else the slack side of the drives), and whether it is behind other items there."""
     if line.take_up.spot is not None:
         return line.take_up.spot, True
     spot = line.drives[0].spot
@@ -252,7 +252,7 @@ def _cut(line: Line, *, behind: bool) -> tuple[Spot, bool]:
 
 
 def _turned(values: Array, line: Line) -> Array:
-    """From carry strand, return strand to the order of the loop."""
+    """Reorder values from carry and return strand to the loop."""
     return np.roll(values, line.count)
 
 
@@ -268,7 +268,7 @@ def _along(result: CalculatedConveyor) -> tuple[Array, Array]:
 
 
 def _over_speed(speed: float, slower: Sequence[Array], full: Array, line: Line) -> Array:
-    """The parabola through the friction at three speeds, shape (3, 2n); constant where only one is known."""
+    """Parabola through the friction at three speeds, shape (3, 2n); constant if only one is known."""
     if not slower:
         return np.stack([_turned(full, line), np.zeros_like(full), np.zeros_like(full)])
     powers = np.vander(speed * np.array([*SPEEDS, 1.0]), 3, increasing=True)
@@ -278,7 +278,7 @@ def _over_speed(speed: float, slower: Sequence[Array], full: Array, line: Line) 
 
 
 def _lumps(result: CalculatedConveyor, distance: Callable[[Spot], float]) -> Iterator[_Lump]:
-    """Forces at places, and the pulleys that no drive turns."""
+    """Local forces, and the pulleys without a drive."""
     speed = result.line.speed
     for force in result.balance.singles:
         if force.spot is None:
@@ -296,7 +296,7 @@ def _lumps(result: CalculatedConveyor, distance: Callable[[Spot], float]) -> Ite
 
 
 def _apart(times: Array, whole: float, step: float) -> list[float]:
-    """Times of the drives, those at one place and those beside the take-up a step apart.
+    """Wave travel times of the drives, at least a step apart from each other and from the take-up.
 
     Raises
     ------

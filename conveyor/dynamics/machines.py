@@ -1,4 +1,4 @@
-"""Motors, brakes and take-up of scenarios over time, and how a belt begins."""
+"""Motors, brakes and take-up of scenarios over time, and the initial state of the belt."""
 
 from __future__ import annotations
 
@@ -19,26 +19,26 @@ from conveyor.line.scenes import ScenarioUnit, StarterUnit
 
 Array = NDArray[np.float64]
 
-_TOP = 1.2  # motors' limits are tabled to this over full speed, and held beyond
-_AFTER = 3.0  # round trips of a wave that a belt is followed after all has happened
+_TOP = 1.2  # of full speed, up to which motor limits are tabulated; constant beyond
+_AFTER = 3.0  # wave round trips simulated after the last event
 
 
 @dataclass(frozen=True, eq=False)
 class Ride:
-    """A scenario on a loaded belt, ready to be followed.
+    """A scenario on a loaded belt, ready for simulation.
 
     Attributes
     ----------
     scene : ScenarioUnit
-        What happens.
+        The scenario.
     loop : CutLoop
         The belt with its bulk.
     given : CutLoop
-        The belt as its spec loads it: settings of the starters are made for it.
+        The belt under the spec's own load, for which the starters are set.
     setting : float
-        What the take-up is set to [N].
+        Take-up setting [N].
     units, braking : tuple or None
-        Starters and forces of the brakes [N] of every drive, instead of those of scenario and line.
+        Starters and brake forces [N] of every drive, instead of those of scenario and line.
     """
 
     scene: ScenarioUnit
@@ -50,17 +50,17 @@ class Ride:
 
     @property
     def drives(self) -> tuple[DriveUnit, ...]:
-        """Of the conveyor."""
+        """Drives of the conveyor."""
         return self.loop.line.drives
 
     @cached_property
     def starters(self) -> tuple[StarterUnit, ...]:
-        """Of every drive, with a time where one is needed."""
+        """Starter of every drive, with a time if needed."""
         return self.units or tuple(self._starter(drive) for drive in self.drives)
 
     @property
     def brakes(self) -> tuple[float, ...]:
-        """Force of every drive's brake at the belt [N]."""
+        """Brake force of every drive at the belt [N]."""
         return self.braking or tuple(self.loop.line.brakes)
 
     def _starter(self, drive: DriveUnit) -> StarterUnit:
@@ -80,7 +80,7 @@ class Ride:
 
     @cached_property
     def rated(self) -> Array:
-        """Rated force of the motors at the belt [N]; where not given the largest steady one of loaded belt or spec."""
+        """Rated motor force at the belt [N]; if not given, the largest steady one of loaded belt or spec."""
         line, torques = self.loop.line, []
         for drive in self.drives:
             if drive.power is None:
@@ -95,7 +95,7 @@ class Ride:
 
     @cached_property
     def rims(self) -> Array:
-        """Rotating masses of the drives at the belt [kg]; typical of the rated force where nothing is given."""
+        """Rotating masses of the drives at the belt [kg]; if not given, typical of the rated force."""
         line = self.loop.line
         return np.array([
             drive.reduced_mass
@@ -105,7 +105,7 @@ class Ride:
 
     @cached_property
     def backstops(self) -> NDArray[np.bool_]:
-        """Which drives cannot turn backward; the first one where the spec names none and the belt would roll back."""
+        """True for drives with a backstop: the first if the spec says nothing and the belt would roll back."""
         if all(drive.backstop is None for drive in self.drives):
             rolls = self.loop.steady.motions.rolls_back and self.loop.steady.motions.brake_to_hold > 0.0
             return np.array([rolls and i == 0 for i in range(len(self.drives))])
@@ -113,12 +113,12 @@ class Ride:
 
     @property
     def assumed_backstop(self) -> bool:
-        """Whether a backstop is there that the spec does not name."""
+        """True if a backstop is assumed that the spec does not name."""
         return bool(self.backstops.any()) and all(drive.backstop is None for drive in self.drives)
 
     @cached_property
     def duration(self) -> float:
-        """As given, or until the last ramp is over or the rigid belt would rest, and some round trips more [s]."""
+        """Duration as given, or to the end of the last ramp or the rest of a rigid belt plus some round trips [s]."""
         if self.scene.duration is not None:
             return self.scene.duration
         settled = self.loop.steady.balance.settled
@@ -138,19 +138,19 @@ class Ride:
         return last + _AFTER * float(self.loop.travel[-1])
 
     def over_time(self, times: Array) -> tuple[Array, Array, Array]:
-        """Reference over no-load speed, share of the limit, brake force, each (steps, d).
+        """Reference over no-load speed, share of the torque limit, brake force, each (steps, d).
 
         Raises
         ------
         NoSolutionError
-            A drive without an inverter is told to ramp down.
+            A drive without an inverter has the command to ramp down.
         """
         columns = [self._of_drive(d, times) for d in range(len(self.drives))]
         reference, share, brake = (np.stack(parts, axis=1) for parts in zip(*columns, strict=True))
         return reference, share, brake
 
     def _of_drive(self, d: int, times: Array) -> tuple[Array, Array, Array]:
-        """The same of one drive; what it is told later stands."""
+        """The same for one drive; later commands override earlier ones."""
         unit, force = self.starters[d], self.brakes[d]
         reference = np.full(times.size, float(self.scene.running))
         share, brake = reference, force * (1.0 - reference)
@@ -168,7 +168,7 @@ class Ride:
                 led: Array = np.ones_like(times)
                 if (
                     unit.kind == "inverter" and unit.time
-                ):  # all follow one ramp, whenever they are switched on
+                ):  # all drives share one ramp, whenever they are switched on
                     led = ramp((times - told.at) / unit.time, shape=unit.ramp)
                 reference = np.where(now, led, reference)
                 share, brake = np.where(now, _gain(unit, since), share), np.where(now, 0.0, brake)
@@ -178,7 +178,7 @@ class Ride:
                     1.0 - ramp(since / time, shape=unit.ramp)
                 )
                 reference = np.where(now, led, reference)
-                over = since > time  # then the power is off and the brake, where there is one, on
+                over = since > time  # then power off and brake on
                 share, brake = np.where(over, 0.0, share), np.where(over, force, brake)
         return reference, share, brake
 
@@ -192,7 +192,7 @@ class Ride:
         return unit.stop_time
 
     def limits(self) -> Array:
-        """Largest force of every motor over speed [N], shape (d, points)."""
+        """Force limit of every motor over speed [N], shape (d, points)."""
         line = self.loop.line
         over = _TOP * np.linspace(0.0, 1.0, SPEED_POINTS)
         curve = line.torque_curve or ((0.0, TORQUE_LIMIT.value), (1.0, TORQUE_LIMIT.value))
@@ -208,24 +208,24 @@ class Ride:
 
 @dataclass(frozen=True, eq=False)
 class Size:
-    """A figure that was sought for a scenario.
+    """Size determined for a scenario.
 
     Attributes
     ----------
     scenario : str
         Its name.
     label, kind : str
-        What was sought, and its kind of quantity.
+        Label of the size, and its kind of quantity.
     value : float
         SI.
     error : float or None
-        Distance to the next smaller one tried, over it [-]; None where the smallest looked at serves already.
+        Relative distance to the next smaller value tried [-]; None if the smallest tried passes.
     most : float or None
-        The largest tried that serves too; None where every larger one does.
+        The largest value tried that passes; None if every larger one does.
     governs, why : str
-        What fails with the next smaller one; of a delay what has the least margin.
+        Check that fails at the next smaller value; for a delay the one with the least margin.
     ride : Ride
-        The scenario with it.
+        The scenario at this size.
     """
 
     scenario: str
@@ -240,7 +240,7 @@ class Size:
 
 
 def _gain(unit: StarterUnit, since: Array) -> Array:
-    """Share of the motor's torque that its starter lets through."""
+    """Share of the motor's torque passed by its starter."""
     if unit.fill:
         return np.asarray(np.interp(since, *np.transpose(unit.fill)))
     if unit.kind in {"direct", "inverter"} or unit.time is None:
@@ -255,7 +255,7 @@ def _gain(unit: StarterUnit, since: Array) -> Array:
 
 
 def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginning]:
-    """Belts of scenarios side by side, those of fewer cells filled up with idle ones; and how they begin."""
+    """Cells and chain of all scenarios, padded with idle cells, and their initial state."""
     cells = [ride.loop.cells(step) for ride in rides]
     most = max(one.at.size for one in cells)
 
@@ -312,7 +312,7 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
 
 
 def _even(cells: list[Cells]) -> NDArray[np.int_]:
-    """Lumps of every belt, filled up with its first drive, which has its friction already."""
+    """Lumps of every belt, padded with its first drive, whose friction is already included."""
     most = max(one.lumps.size for one in cells)
     return np.array([
         np.pad(one.lumps, (0, most - one.lumps.size), constant_values=one.nodes[0]) for one in cells
@@ -320,17 +320,17 @@ def _even(cells: list[Cells]) -> NDArray[np.int_]:
 
 
 def retardation(belt: BeltBody) -> float:
-    """τ of the belt [s]: as given, none beside a standard solid, else the default."""
+    """Retardation time τ of the belt [s]: as given, 0 with a standard solid, else the default."""
     if belt.retardation is not None:
         return belt.retardation
     return BELT_RETARDATION.value if belt.relaxing is None else 0.0
 
 
 def _begin(ride: Ride, cells: Cells) -> tuple[Array, Array, Array]:
-    """Friction, tensions (of the take-up, then of every cell) and forces of the drives in balance [N].
+    """Initial friction, tensions (take-up, then every cell) and drive forces in equilibrium [N].
 
-    At rest friction holds the belt as far as it can, everywhere by the same share of its own, but more where the belt
-    would be slack; the first drive holds what is left, by its brake or backstop.
+    At rest friction holds the belt as far as it can, by the same share everywhere but more where the belt would be
+    slack; the first drive holds the rest by its brake or backstop.
     """
     line, friction = ride.loop.line, ride.scene.friction
     shares = np.array([drive.share for drive in ride.drives])
@@ -351,12 +351,12 @@ def _begin(ride: Ride, cells: Cells) -> tuple[Array, Array, Array]:
     if line.take_up.keeps_length:  # it holds the mean of the loop
         length = np.diff(cells.at)
         tension = tension - float(along[1:] @ length) / float(length.sum())
-    tension[1:] = np.maximum(tension[1:], cells.slack)  # slack from the begin: as its check says
+    tension[1:] = np.maximum(tension[1:], cells.slack)  # slack from the start: its check reports it
     return resisting, tension, driving
 
 
 def _taut(setting: float, resisting: Array, most: Array, cells: Cells) -> Array:
-    """Friction at rest that keeps the belt from being slack, where it can [N]."""
+    """Friction at rest that keeps the belt taut as far as possible [N]."""
     weight = cells.weight
     tension = setting + np.cumsum(resisting + weight)[:-1]
     for i in range(1, tension.size):
@@ -368,7 +368,7 @@ def _taut(setting: float, resisting: Array, most: Array, cells: Cells) -> Array:
 
 
 def machines(rides: list[Ride], start: Beginning, step: float, steps: int) -> Machines:
-    """Motors and brakes of scenarios over time; a motor runs steadily where the drives begin to run."""
+    """Motors and brakes of scenarios over time; running drives start in their steady state."""
     line = rides[0].loop.line
     times = np.asarray(step * np.arange(steps), dtype=float)
     tables = [ride.over_time(times) for ride in rides]

@@ -1,4 +1,4 @@
-"""Starts and stops that others printed or measured, on the bare wave equation: what can be known of them.
+"""Published and measured starts and stops, recalculated with the bare wave equation.
 
 Sources: A. Harrison, Criteria for minimising transient stress in conveyor belts, Beltcon 2 (1983), and Reducing dynamic
 loads in belts powered by three wound-rotor motors, Beltcon 3 (1985); L. K. Nordell and Z. P. Ciozda, Transient belt
@@ -26,22 +26,22 @@ _STIFF: Final = 1e12  # of a drive that leads its speed [N s/m]
 
 @dataclass(frozen=True)
 class EvenLoop:
-    """A level loop of strands, each even, from behind its take-up round to the drive beside it.
+    """A level loop of uniform strands, from behind its take-up round to the drive next to it.
 
     Attributes
     ----------
     strands : tuple of (float, float, float)
-        Length [m], line mass [kg/m] and running resistance [N] of each, as the belt meets them.
+        Length [m], line mass [kg/m] and running resistance [N] of each, in belt order.
     stiffness : float
         EA [N].
     held, carriage : float
         Tension of the take-up [N]; its mass over the square of its strands [kg].
     speed : float
-        At which the resistances are those given [m/s].
+        Speed of the given resistances [m/s].
     rising : float
-        Share of them that rises in proportion to the speed; the rest is dry [-].
+        Share of them proportional to the speed; the rest is dry [-].
     drive : float or None
-        Distance of the drive [m]; right before the take-up without.
+        Distance of the drive [m]; by default right before the take-up.
     """
 
     strands: tuple[tuple[float, float, float], ...]
@@ -53,7 +53,7 @@ class EvenLoop:
     drive: float | None = None
 
     def followed(self, times: float, led: Array, step: float) -> tuple[Record, Array]:
-        """Follow it with the drive led to speeds over time; places of its masses beside [m]."""
+        """Simulate it with the drive speed prescribed over time; also returns the positions of its masses [m]."""
         at, lying = np.zeros(1), np.zeros((2, 1))
         for length, line_mass, newtons in self.strands:
             cells = max(1, round(length / wave_speed(self.stiffness, line_mass=line_mass) / step))
@@ -73,7 +73,7 @@ class EvenLoop:
                 np.zeros((1, n + 1)),
             ]),
             sticking=(1.0 - self.rising) * friction[None], end=np.array([n]), nodes=np.array([[node]]),
-            before=(1.0 if node == n else 0.5) * np.array([  # the belt is even where a drive stands
+            before=(1.0 if node == n else 0.5) * np.array([  # the belt is uniform at the drive
                 mass[node], 0.0, (1.0 - self.rising) * friction[node], self.rising / self.speed * friction[node], 0.0,
                 (1.0 - self.rising) * friction[node],
             ])[:, None, None],
@@ -100,7 +100,7 @@ class EvenLoop:
 def lodewijks(shape: str, rising: float = 0.5) -> float:
     """Peak strain of Lodewijks' loaded 1 km conveyor in a start of 30 s to 5.11 m/s (1996, table 8.7) [-].
 
-    How his resistances rise with speed is not at hand: all of them or none makes the peak 12 to 16 % smaller or larger.
+    How his resistances rise with speed is unknown: all or none rising makes the peak 12 to 16 % smaller or larger.
     """
     stiffness, speed, time = 340.917e6 * 0.01236, 5.11, 30.0
     loop = EvenLoop(
@@ -114,7 +114,7 @@ def lodewijks(shape: str, rising: float = 0.5) -> float:
 
 @dataclass(frozen=True)
 class HarrisonStart:
-    """Harrison's empty 5.1 km belt: return belt at rest until [s], way of the carriage at 7 s [m], slow period [s]."""
+    """Harrison's empty 5.1 km belt: return belt at rest until [s], carriage travel at 7 s [m], slow period [s]."""
 
     still: float
     carriage: float
@@ -142,7 +142,7 @@ def harrison() -> HarrisonStart:
 
 
 def nordell_ciozda() -> tuple[float, float]:
-    """Arrival of the front of a stop above the drive and behind the take-up (1984, case 1; their wave speeds) [s]."""
+    """Arrival of a stop's wave front above the drive and behind the take-up (1984, case 1; their wave speeds) [s]."""
     back, carry, stiffness, speed = 1450.0, 590.0, 1e8, 1.0
     light, heavy = stiffness / back**2, stiffness / carry**2
     feet = ((2700.0, light), (8150.0, heavy), (5150.0, light), (300.0, light))

@@ -1,13 +1,13 @@
-"""The wave equation of belts between two ends of a take-up, many side by side; numbers only.
+"""The wave equation of belts between both ends of a take-up, many in one batch; numbers only.
 
-A belt is cut into cells of equal travel time: springs between masses, friction on the masses. Tensions stand at whole
-steps, speeds between them (leapfrog), so at a step of one travel time of a cell an even belt without damping is solved
-exactly, and nothing is damped that the belt does not damp. The damping T = k (Δu + τ Δu̇) is taken at the mean of old
-and new speeds: one tridiagonal system a step, stable at any τ. Friction is a set-valued force: what a mass would need
-to stand still, limited to what there is; so nothing chatters where the motion turns. The same holds for the grip of a
-belt on its driven pulley, for brakes and for backstops. What lies along the belt is taken on every mass alone; what
-stands at one place on the answer of the whole belt: it stays as it is while the mass there gets as small as its cell.
-Between the idlers the belt hangs: as its tension falls the sag takes in belt, so that it softens and never pushes.
+A belt is cut into cells of equal travel time: springs between masses, friction on the masses. Tensions are taken at
+whole steps, speeds between them (leapfrog), so that at a step of one cell travel time a uniform belt without damping is
+solved exactly, without numerical damping. The damping T = k (Δu + τ Δu̇) is taken at the mean of old and new speeds:
+one tridiagonal system per step, stable at any τ. Friction is a set-valued force: that needed to keep a mass at rest, up
+to its limit, so that nothing chatters where the motion reverses. The same holds for the grip of a belt on its driven
+pulley, for brakes and for backstops. Distributed friction acts on every mass alone, local friction on the response of
+the whole belt: it is constant while the mass there shrinks with its cell. Between the idlers the belt hangs: as its
+tension falls the sag takes up belt, so that it softens and never pushes.
 
 Source: derived (Newton, Hooke, Kelvin and Voigt, Maxwell, the shallow parabola); leapfrog, its stability (Courant,
 Friedrichs, Lewy 1928) and the projection of friction are textbook numerics.
@@ -28,12 +28,12 @@ from conveyor.errors import NoSolutionError
 Array = NDArray[np.float64]
 Integers = NDArray[np.int_]
 
-_BLOCK = 32  # steps between two looks for extremes
+_BLOCK = 32  # steps between two searches for extremes
 _NEWTON, _NEAR = (
     60,
     1e-4,
-)  # steps for a tension at most, and a relative one after which the rest is its square
-_SHARE = 0.05  # of k by which the damping of the solver may be above that of a cell: half of it moves no peak by 1e-4
+)  # iterations for a tension at most, and the relative change after which the error is its square
+_SHARE = 0.05  # of k, by which solver damping may exceed that of a cell: half of it moves no peak by 1e-4
 _SIDES, _FROM = (
     np.array([1.0, -1.0])[:, None, None],
     np.array([0.0, 1.0])[:, None, None],
@@ -43,7 +43,7 @@ SPEED_POINTS = 65  # points of the motors' limits over speed
 
 @dataclass(frozen=True, eq=False)
 class Chain:
-    """Belts side by side, shape (s, n + 1) a mass, (s, n) a cell; cells behind a belt's own end stay idle.
+    """A batch of belts, shape (s, n + 1) for masses, (s, n) for cells; cells behind a belt's own end stay idle.
 
     Attributes
     ----------
@@ -54,38 +54,38 @@ class Chain:
     retardation : float
         τ of Kelvin and Voigt [s].
     sag : ndarray
-        b of a cell, which sag shortens by b/T² [m N²]: its length times (m' g a)²/24; 0 where nothing hangs.
+        b of a cell, which sag shortens by b/T² [m N²]: its length times (m' g a)²/24; 0 without sag.
     relaxing : tuple of float
-        Stiffness over k of Maxwell's branch beside the spring, and its relaxation time [-, s]; a standard solid.
+        Stiffness over k of Maxwell's branch parallel to the spring, and its relaxation time [-, s]; a standard solid.
     weight : ndarray
         Force of gravity against the running direction [N].
     friction : ndarray, shape (3, s, n + 1)
-        Force at a speed, f0 + f1 |v| + f2 v² [N], beyond `known` as there.
+        Force at a speed, f0 + f1 |v| + f2 v² [N], constant beyond `known`.
     sticking : ndarray
-        Force up to which a mass at rest stays there [N].
+        Force up to which a mass stays at rest [N].
     end : ndarray of int, shape (s,)
         Mass right before the take-up; mass 0 is right behind it.
     nodes : ndarray of int, shape (s, d)
         Masses on driven pulleys, all of them different.
     before : ndarray, shape (6, s, d)
-        Of each of those what lies before its pulley: mass [kg], weight, friction f0, f1, f2, and that at rest, as those
-        of the whole mass; the rest lies behind it.
+        Part of each of those before its pulley: mass [kg], weight, friction f0, f1, f2, and that at rest, as for the
+        whole mass; the rest lies behind it.
     lumps : ndarray of int, shape (s, l)
-        Masses on which friction stands that does not get less with the cell, and those beside the take-up; a driven
-        one has its friction with its pulley.
+        Masses with local friction, which does not shrink with the cell, and those next to the take-up; friction on a
+        driven mass belongs to its pulley.
     rim : ndarray, shape (s, d)
         Rotating mass of each drive reduced to the belt [kg].
     grip : ndarray, shape (s, d)
         e^(μ α) - 1 of each driven pulley [-].
     backstop : ndarray of bool, shape (s, d)
-        Whether a pulley cannot turn backward.
+        True if a pulley cannot turn backward.
     held : ndarray, shape (s,)
-        Tension that the take-up gives at rest [N].
+        Take-up tension at rest [N].
     carriage : ndarray, shape (s,)
-        Its mass over the square of its strands [kg]; infinite where it is fixed.
+        Its mass over the square of its strands [kg]; infinite if it is fixed.
     winch : ndarray, shape (3, s)
-        Speed at which a winch takes in belt [m/s], 0 without one; tension over `held` within which it rests [-]; time
-        in which it comes to its speed and to rest [s].
+        Speed at which a winch takes in belt [m/s], 0 without one; tension over `held` within which it rests [-];
+        run-up and stopping time [s].
     known : float
         Speed up to which friction is known [m/s].
     """
@@ -112,7 +112,7 @@ class Chain:
 
     @property
     def longest_step(self) -> float:
-        """Step up to which the leapfrog is stable, by Gershgorin: 2/ω of the fastest pair of cells [s]."""
+        """Longest stable step of the leapfrog, by Gershgorin: 2/ω of the fastest pair of cells [s]."""
         stiff = (1.0 + self.relaxing[0]) * self.stiffness
         pull = 2.0 * (np.pad(stiff, ((0, 0), (1, 0))) + np.pad(stiff, ((0, 0), (0, 1))))
         return float(2.0 / np.sqrt((pull / self.mass).max()))
@@ -132,19 +132,19 @@ class Machines:
     Attributes
     ----------
     slope : ndarray, shape (s, d)
-        Of the line on which a motor runs steadily [N s/m].
+        Slope of the motor's steady characteristic [N s/m].
     reference : ndarray, shape (steps, s, d)
-        Speed of the pulley's rim at no load [m/s].
+        Rim speed of the pulley at no load [m/s].
     share : ndarray, shape (steps, s, d)
-        Of the limit that is switched on [-]; 0 without power.
+        Share of the limit that is switched on [-]; 0 without power.
     brake : ndarray, shape (steps, s, d)
         Force of the brakes at the belt [N].
     limits : ndarray, shape (s, d, 65)
         Largest force over the speed from 0 to `top` [N].
     top : float
-        [m/s].
+        Highest speed of `limits` [m/s].
     drag : ndarray, shape (s, d)
-        What a drive without power takes of its own once its belt slips [N].
+        Own drag of a drive without power once its belt slips [N].
     """
 
     slope: Array
@@ -157,7 +157,7 @@ class Machines:
 
     @cached_property
     def even(self) -> Array | None:
-        """The limits where they do not change with the speed, shape (s, d)."""
+        """The limits if they do not change with speed, shape (s, d)."""
         first = self.limits[..., 0]
         return first if bool(np.all(self.limits == first[..., None])) else None
 
@@ -174,7 +174,7 @@ class Machines:
 
 @dataclass(frozen=True, eq=False)
 class Beginning:
-    """Where belts begin: speeds and tensions, friction that acts, forces of the drives on the belt [m/s, N]."""
+    """Initial state: speeds and tensions, friction, forces of the drives on the belt, rim speeds [m/s, N]."""
 
     speed: Array
     tension: Array
@@ -185,31 +185,31 @@ class Beginning:
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """What happened.
+    """Recorded motion.
 
     Attributes
     ----------
     step : float
-        Of the calculation [s].
+        Time step [s].
     highest, lowest, highest_at, lowest_at : ndarray, shape (s, n)
-        Extreme tensions in the middle of every cell, and at the driven pulley where one ends there [N]; when [s].
+        Extreme tensions in the middle of every cell, and at the driven pulley of cells ending there [N]; times [s].
     highest_speed, lowest_speed, highest_speed_at, lowest_speed_at : ndarray, shape (s, n + 1)
-        Extreme speeds of every mass, that at the begin too [m/s], and when [s].
+        Extreme speeds of every mass, initial ones included [m/s], and times [s].
     times, tensions : ndarray, shape (m,), (m, s, n)
         Samples of the tension [N].
     speeds : ndarray, shape (m, s, n + 1)
         Samples of the belt's speed [m/s].
     drives : dict of str to ndarray, shape (steps, s, d)
-        At every step: "force" on the belt, "motor", "rim", "belt" speeds, "arriving" and "leaving" tensions at the
-        pulley, "holding" force of brake and backstop.
+        At every step: "force" on the belt, "motor" force, "rim" and "belt" speeds, "arriving" and "leaving" tensions at
+        the pulley, "holding" force of brake and backstop.
     take_up : dict of str to ndarray, shape (steps, s)
         Its "tension" [N] and the "belt" it has taken in [m].
     slipped, heat : ndarray, shape (s, d)
-        Way of the rim over the belt [m], and what it heats [J].
+        Slip distance of the rim on the belt [m], and its heat [J].
     fastest, slowest : ndarray, shape (s, n + 1)
         Highest and lowest acceleration of every mass over a sample [m/s²].
     work : dict of str to ndarray, shape (s,)
-        Energy that motors gave and where it is, J; "missing" is what the sum lacks.
+        Energy given by the motors and its uses [J]; "missing" is the error of the balance.
     """
 
     step: float
@@ -235,12 +235,12 @@ class Record:
 
 @dataclass(eq=False)
 class _Extremes:
-    """Highest and lowest of what is told step by step, and at which step."""
+    """Highest and lowest of values recorded step by step, and their steps."""
 
     shape: tuple[int, ...]
     block: Array = field(init=False)
     count: int = 0
-    first: int = -1  # the state at the begin is told before the first step
+    first: int = -1  # the initial state is recorded before the first step
 
     def __post_init__(self) -> None:
         self.block = np.empty((_BLOCK, *self.shape))
@@ -269,7 +269,7 @@ class _Extremes:
         self.count = 0
 
     def look_at(self, *place: int, values: Array) -> None:
-        """Take in what else one of them was from the begin on."""
+        """Include a further series of one of them, from the initial state on."""
         for i, best, at, better in (
             (int(values.argmax()), self.high, self.high_at, np.greater),
             (int(values.argmin()), self.low, self.low_at, np.less),
@@ -279,7 +279,7 @@ class _Extremes:
 
 
 class _BeltLaw:
-    """Tension of every cell by how far its ends have moved apart, u = T/k - b/T², and a relaxing branch beside it."""
+    """Tension of every cell by its elongation, u = T/k - b/T², and a relaxing branch in parallel."""
 
     def __init__(self, chain: Chain, step: float, tension: Array) -> None:
         self.bears = chain.stiffness > 0.0
@@ -304,7 +304,7 @@ class _BeltLaw:
         self._ease()
 
     def _ease(self) -> None:
-        """Share of k that the cells have at their tension; without sag 1."""
+        """Tangent stiffness of the cells over k at their tension; 1 without sag."""
         self.eased = (
             1.0 / (1.0 + self.softens / (self.root * self.root * self.root))
             if self.hangs
@@ -312,7 +312,7 @@ class _BeltLaw:
         )
 
     def stretch(self, way: Array) -> Array:
-        """Move the ends of the cells apart [m]; the tension without damping [N]."""
+        """Elongate the cells [m] and return the tension without damping [N]."""
         if self.idle:
             way = np.where(self.bears, way, 0.0)
         self.apart = self.apart + way
@@ -338,7 +338,7 @@ class _BeltLaw:
         return self.tension
 
     def stored(self) -> tuple[Array, Array]:
-        """Work that springs and sag keep, and the relaxing branch, of every belt [J]."""
+        """Energy stored in springs and sag, and in the relaxing branch, of every belt [J]."""
         own = 0.5 * self.root**2 / self.k - (2.0 * self.sag / self.root if self.hangs else 0.0)
         held = np.divide(
             self.branch**2, 2.0 * self.branch_k, out=np.zeros_like(own), where=self.branch_k > 0.0
@@ -348,10 +348,10 @@ class _BeltLaw:
 
 @dataclass(frozen=True, eq=False)
 class _Answer:
-    """Of a belt to an impulse of 1 N s at each of some places.
+    """Response of a belt to an impulse of 1 N s at each of several places.
 
-    All speeds [m/s], shape (s, d, n + 1); what the take-up lacks [N s]; speeds of the places, shape (s, d, d), of each
-    by its own impulse, and of the masses before and behind it, shape (2, s, d).
+    All speeds [m/s], shape (s, d, n + 1); impulse lacking at the take-up [N s]; speeds of the places, shape (s, d, d),
+    of each by its own impulse, and of the masses before and behind it, shape (2, s, d).
     """
 
     columns: Array
@@ -362,11 +362,11 @@ class _Answer:
 
     @property
     def beside(self) -> Array:
-        """Of the speed of each place by its own impulse what the masses before and behind it do not share [-]."""
+        """Share of each place's speed by its own impulse that the masses before and behind do not follow [-]."""
         return np.asarray(1.0 - self.near / self.own)
 
     def turns(self) -> list[list[int]]:
-        """Places that move each other, to rounding, are not in one group."""
+        """Groups of places that do not move each other, to rounding."""
         coupled = np.any(np.abs(self.mutual) > np.finfo(float).eps * self.own[:, None], axis=0)
         groups: list[list[int]] = []
         for j in range(len(coupled)):
@@ -379,7 +379,7 @@ class _Answer:
         return groups
 
     def moved(self, impulse: Array, speed: Array, lacking: Array) -> tuple[Array, Array]:
-        """Speeds, and what the take-up lacks, after impulses at the places."""
+        """Speeds, and the impulse lacking at the take-up, after impulses at the places."""
         return (
             speed + np.einsum("sd,sdn->sn", impulse, self.columns),
             lacking + (self.of_take_up * impulse).sum(axis=1),
@@ -387,7 +387,7 @@ class _Answer:
 
 
 def _counted(places: Integers, masses: int, first: int, count: int) -> tuple[Integers, Integers, Integers]:
-    """Where speeds of places, by impulses at all, at themselves, and beside them stand in the columns of `count`."""
+    """Flat indices, in `count` columns, of speeds of places by all impulses, by their own, and of their neighbours."""
     s, d = places.shape
     rows = masses * (count * np.arange(s)[:, None] + first + np.arange(d))
     near = np.stack([np.maximum(places - 1, 0), np.minimum(places + 1, masses - 1)])
@@ -395,7 +395,7 @@ def _counted(places: Integers, masses: int, first: int, count: int) -> tuple[Int
 
 
 class _Solver:
-    """One step's linear system: masses, damping, the take-up between both ends; pulleys' responses beside it."""
+    """Linear system of a step: masses, damping, the take-up between both ends; and the responses of pulleys."""
 
     def __init__(self, chain: Chain, step: float) -> None:
         s, n = chain.stiffness.shape
@@ -416,11 +416,11 @@ class _Solver:
         ]
 
     def eases(self, shares: Array) -> bool:
-        """Make the system anew for belts some of whose shares of k have changed; whether it is made anew.
+        """Factorise the system again if shares of k have changed; return true if so.
 
-        A share below that of the cell would make the step unstable, one above it puts the difference off by a step.
+        A share below that of the cell would make the step unstable, one above it delays the difference by a step.
         """
-        if not self.damps:  # made once
+        if not self.damps:  # factorised once
             shares = np.zeros_like(shares)
         off = np.abs(shares - self.middle) > 0.5 * _SHARE
         if not off.any():
@@ -457,11 +457,11 @@ class _Solver:
         return np.asarray(solution).reshape(right.shape)
 
     def _apart(self, speed: Array) -> Array:
-        """How much faster the belt runs into the take-up than out of it."""
+        """Speed of the belt into the take-up less that out of it."""
         return np.asarray(speed[self.rows, self.end] - speed[:, 0])
 
     def change(self, impulse: Array, before: Array, wanted: Array) -> tuple[Array, Array]:
-        """Change of all speeds by impulses [m/s], and the impulse that the take-up's tension lacks [N s]."""
+        """Change of all speeds by impulses [m/s], and the impulse lacking in the take-up's tension [N s]."""
         change = self._banded(impulse)
         apart = self._apart(change)
         apart = np.where(self.stiff, apart + self._apart(before) - wanted, apart)
@@ -470,20 +470,20 @@ class _Solver:
 
 
 def run(chain: Chain, machines: Machines, start: Beginning, *, step: float, samples: int = 300) -> Record:
-    """Follow belts through time.
+    """Simulate belts through time.
 
     Parameters
     ----------
     chain : Chain
         The belts.
     machines : Machines
-        Motors and brakes; as many steps as they have.
+        Motors and brakes; they set the number of steps.
     start : Beginning
-        Speeds, tensions and forces at the begin.
+        Initial speeds, tensions and forces.
     step : float
-        Of time [s], at most `chain.longest_step`.
+        Time step [s], at most `chain.longest_step`.
     samples : int
-        Samples kept of all tensions, about so many.
+        Approximate number of samples of all tensions.
 
     Raises
     ------
@@ -496,7 +496,7 @@ def run(chain: Chain, machines: Machines, start: Beginning, *, step: float, samp
 
 
 class _Motion:
-    """Belts in motion: what changes from step to step, and what is kept of it."""
+    """Belts in motion: the state from step to step, and its record."""
 
     def __init__(self, chain: Chain, machines: Machines, start: Beginning, step: float, samples: int) -> None:
         self.chain, self.machines, self.dt = chain, machines, step
@@ -518,7 +518,7 @@ class _Motion:
         self.rubbing = start.resisting[self.rows, self.at]
         self.on_pulleys = start.speed[
             self.rows, self.at
-        ]  # at rest exactly 0, which the solver's rounding blurs
+        ]  # exactly 0 at rest, which rounding in the solver would blur
         self.lumps_rest = start.speed[self.rows, chain.lumps] == 0.0
         self.pulled, self.taken, self.winding = chain.held, np.zeros(s), np.zeros(s)
         self.extremes, self.speeds = _Extremes((s, n)), _Extremes((s, n + 1))
@@ -531,12 +531,12 @@ class _Motion:
         self.kept: list[tuple[float, Array, Array]] = []
 
     def _set_up(self) -> None:
-        """What stays the same: places, compliances, friction at rest."""
+        """Set constants: places, compliances, friction at rest."""
         chain, step, n = self.chain, self.dt, self.chain.stiffness.shape[1]
         self.one, self.rows = np.arange(chain.end.size), np.arange(chain.end.size)[:, None]
         self.at = at = chain.nodes
         self.loose = np.ones_like(chain.mass)
-        self.loose[self.rows, at] = 0.0  # friction there is taken with the pulley's
+        self.loose[self.rows, at] = 0.0  # friction there belongs to the pulley
         alone = self.loose.copy()
         alone[self.rows, chain.lumps] = 0.0
         self.over_mass, self.under_mass = alone * step / chain.mass, alone * chain.mass / step
@@ -549,7 +549,7 @@ class _Motion:
         self.turns = [_Turn.of(chain, self.machines, step, k) for k in self.solver.pulleys.turns()]
 
     def _answered(self) -> None:
-        """What the solver says of the pulleys: until it is made anew."""
+        """Update the responses of the pulleys after a factorisation."""
         self.half_k = 0.5 * self.tau_k * self.solver.shares
         self.replies = [_Reply.of(self.solver, turn, self.dt) for turn in self.turns]
 
@@ -587,11 +587,11 @@ class _Motion:
         )  # fmt: skip
 
     def _time(self, steps: Array) -> Array:
-        """Of a step; that of the begin is 0."""
+        """Time of a step; 0 for the initial state."""
         return np.asarray(self.dt * np.maximum(steps, 0.0))
 
     def _step(self, i: int) -> None:
-        """Speeds by forces, pulleys, friction; then tensions by speeds."""
+        """Advance speeds by forces, pulleys and friction, then tensions by speeds."""
         chain = self.chain
         if self.winds:
             speed, band, run_up = chain.winch
@@ -604,7 +604,7 @@ class _Motion:
         new, lacking, lumped = self._rubbed(new, lacking, rolling)
         if self.at.size:
             new, lacking = self._driven(i, new, lacking, rolling)
-        # what acts: of τ k the solver's share on half the new speeds, before masses rub alone, the rest on the old
+        # damping: the solver's share of τ k on half the new speeds, before single masses rub, the rest on the old
         damping = self.viscous + self.half_k * (new[:, 1:] - new[:, :-1] - self.stretching)
         free = new + self.resisting * self.over_mass
         allowed = np.where(self.speed == 0.0, self.still, rolling * self.over_mass)
@@ -624,17 +624,17 @@ class _Motion:
         self.viscous = self.tau_k * self.law.eased * self.stretching
 
     def _acting(self) -> Array:
-        """Force on every mass, friction and drives as they were."""
+        """Force on every mass, with the last friction and drive forces."""
         acting, strained = -self.chain.weight - self.resisting, self.tension + self.viscous
         acting[:, 1:] -= strained
         acting[:, :-1] += strained
-        acting[:, 0] -= self.chain.held  # what cancels at rest cancels exactly
+        acting[:, 0] -= self.chain.held  # cancels exactly at rest
         acting[self.one, self.chain.end] += self.chain.held
         acting[self.rows, self.at] += self.driving - self.rubbing
         return acting
 
     def _driven(self, i: int, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array]:
-        """Speeds with new forces of pulleys, in turn where they move each other, and what the take-up lacks then."""
+        """Speeds with new pulley forces, in turn for coupled pulleys, and the impulse lacking at the take-up."""
         record, impulse = self.drives, self.dt * (self.driving - self.rubbing)
         friction, beside = self.frictions[i], np.empty_like(self.beside)
         self.going[i] = self.speed.take(self.flat)
@@ -668,7 +668,7 @@ class _Motion:
         return new, lacking
 
     def _rubbed(self, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array, Array]:
-        """Speeds with the friction of the lumps, one after the other, what the take-up lacks with it, and itself."""
+        """Speeds with the lumps' friction, in turn, the impulse lacking at the take-up, and the friction."""
         at, answer = self.lumps, self.solver.lumps
         if not at.size:
             return new, lacking, np.zeros(at.shape)
@@ -684,7 +684,7 @@ class _Motion:
         return *answer.moved(impulse, new, lacking), earlier - impulse / self.dt
 
     def _keep(self, i: int) -> None:
-        """Note extremes, samples, and what the take-up does."""
+        """Record extremes, samples and the take-up."""
         self.extremes.tell(self.shown)
         self.speeds.tell(self.speed)
         self.taken = self.taken + self.dt * (self.speed[self.one, self.chain.end] - self.speed[:, 0])
@@ -700,7 +700,7 @@ class _Motion:
             self.sampled = self.speed
 
     def _at_pulleys(self, begin: Array) -> None:
-        """Extremes of cells that end on driven pulleys: what acts there at once jumps there first."""
+        """Extremes of cells that end on driven pulleys, where sudden forces act first."""
         for side, name in enumerate(("arriving", "leaving")):
             values = np.concatenate([begin[side][None], self.drives[name]])
             for row, d in np.argwhere(self.at != (self.chain.end[:, None] if side else 0)).tolist():
@@ -709,9 +709,9 @@ class _Motion:
 
 @dataclass(frozen=True, eq=False)
 class _Turn:
-    """Drives that are solved at once: what stays the same of them; shape (2, s, d) of both sides, behind it negative.
+    """Constants of drives that are solved together; shape (2, s, d) for both sides, negative behind.
 
-    Their places and the cells beside them are counted through all belts; where the take-up stands beside one `ends`.
+    Flat indices of their places and adjacent cells; `ends` is true next to the take-up.
     """
 
     drives: list[int] | slice
@@ -754,22 +754,22 @@ class _Turn:
         )  # fmt: skip
 
     def shares(self, on: Array, rolling: Array) -> Array:
-        """Of the friction on the driven masses what acts before the pulleys, and behind them negative [-]."""
+        """Share of the friction on driven masses before the pulleys, and behind them negative [-]."""
         parabola, size = self.chain.before[2:5], np.minimum(np.abs(on), self.chain.known)
         moving = _share(parabola[0] + size * (parabola[1] + size * parabola[2]), rolling)
         return np.asarray(np.where(on == 0.0, self.at_rest, moving) - _FROM)
 
 
 def _share(part: Array, whole: Array) -> Array:
-    """Of something what is part of it; nothing of nothing."""
+    """Part over whole; 0 if the whole is 0."""
     return np.divide(part, whole, out=np.zeros_like(whole), where=whole > 0.0)
 
 
 @dataclass(frozen=True, eq=False)
 class _Reply:
-    """What the belts answer to the drives of a turn: speeds by an impulse, damping and tensions beside them by a speed.
+    """Response of the belts to a group of drives: speeds by an impulse, damping and adjacent tensions by a speed.
 
-    `softer` is the damping at new speeds, `yields` what a speed adds before, and behind negative.
+    `softer` is the damping at new speeds, `yields` the tension added by a speed, before, and behind negative.
     """
 
     own: Array
@@ -780,7 +780,7 @@ class _Reply:
 
     @classmethod
     def of(cls, solver: _Solver, turn: _Turn, step: float) -> _Reply:
-        """Of the system as it is."""
+        """Response of the present system."""
         k, pulleys = turn.drives, solver.pulleys
         softer = 0.5 * turn.tau_k * solver.shares.take(turn.sides)
         own, of_take_up = pulleys.own[:, k], pulleys.of_take_up[:, k]
@@ -791,16 +791,13 @@ class _Reply:
 
 
 def _winding(over: Array, band: Array) -> Array:
-    """1 where a winch takes in, -1 where it pays out, 0 within its band."""
+    """1 for a winch that takes in, -1 for one that pays out, 0 within its band."""
     return np.asarray(np.where(over < -band, 1.0, np.where(over > band, -1.0, 0.0)))
 
 
 @dataclass(frozen=True, eq=False)
 class _Moved:
-    """A driven pulley after a step: forces on the belt, of motor, brake and friction of the belt there [N], speeds.
-
-    Of both `sides` the tensions [N].
-    """
+    """Driven pulleys after a step: forces on the belt, of motor, brake and friction, side tensions [N], speeds."""
 
     force: Array
     motor: Array
@@ -813,7 +810,7 @@ class _Moved:
 
 
 def _rest(free: Array, forward: Array, backward: Array) -> Array:
-    """Speed that friction leaves of a free one: it takes up to `forward` off, or adds up to `backward`."""
+    """Speed left by friction, which takes up to `forward` off a free speed or adds up to `backward`."""
     return free - np.minimum(np.maximum(free, -backward), forward)
 
 
@@ -821,14 +818,14 @@ def _pulleys(
     turn: _Turn, i: int, *, step: float, answer: Array, rim: Array, free: Array, sides: Array, yields: Array,
     friction: Array, shares: Array, last: tuple[Array, Array], gripped: NDArray[np.bool_],
 ) -> _Moved:  # fmt: skip
-    """Motors, brakes, rims and the belt on them, each at once; a motor on its line, beyond its limit at that.
+    """Solve motors, brakes, rims and the belt on them together; a motor on its characteristic, or at its limit.
 
-    `free` is the belt's speed without the pulley, `answer` what an impulse adds to it; `sides` are the tensions before
-    and behind at no speed there and without friction, `yields` what a speed adds to them, `shares` what the friction
-    there does. They are those between which the force stands, mass and damping of the half cells up to the pulley
-    taken in: a force that comes at once is split as the impedances of both sides, however long the cells. A belt that
-    `gripped` and slips now is taken to do so in the middle of the step: force and tensions are half the `last` ones,
-    half those told. At the begin of the step they would make the tension swing from cell to cell.
+    `free` is the belt's speed without the pulley, `answer` its change by an impulse; `sides` are the tensions before
+    and behind at zero speed there and without friction, `yields` their change by a speed, `shares` that by friction.
+    They include mass and damping of the half cells up to the pulley, so that a sudden force is split by the impedances
+    of both sides, however long the cells. A belt that `gripped` and now slips is taken to start slipping in the middle
+    of the step: force and tensions are the mean of the `last` and the new ones. At the start of the step they would
+    make the tension oscillate from cell to cell.
     """
     chain, machines = turn.chain, turn.machines
     most = machines.share[i] * machines.limit(rim)
@@ -837,7 +834,7 @@ def _pulleys(
     slope = np.where(on, machines.slope, 0.0)
     base = slope * machines.reference[i]
     for tried in range(2):
-        # the mean of both ends while a step resolves how a rim comes to its line, else later: no swing about it
+        # mean of both ends while a step resolves a rim's approach to the characteristic, else later: no oscillation
         gives = step * slope
         late = np.maximum(
             0.5, 1.0 - np.divide(chain.rim, gives, out=np.full_like(gives, 0.5), where=gives > 0.0)
@@ -884,7 +881,7 @@ def _pulleys(
 
 
 class _Ledger:
-    """Energy given and where it goes, at the mean of old and new speeds."""
+    """Energy balance, at the mean of old and new speeds."""
 
     def __init__(self, chain: Chain, step: float, start: Beginning, law: _BeltLaw) -> None:
         self.chain, self.dt = chain, step
@@ -895,7 +892,7 @@ class _Ledger:
         self.first = self._stored(start.speed, start.rims, law)
 
     def drives(self, begun: Array, drives: dict[str, Array], frictions: Array, going: Array) -> None:
-        """Add the work of all steps at the driven pulleys; rims' speeds at the begin, the belt's before each step."""
+        """Add the work of all steps at the driven pulleys, from initial rim speeds and belt speeds before each step."""
         rim = 0.5 * (drives["rim"] + np.concatenate([begun[None], drives["rim"][:-1]]))
         at = 0.5 * (drives["belt"] + going)
         for name, power in (
@@ -907,7 +904,7 @@ class _Ledger:
             self.sums[name] += self.dt * power.sum(axis=(0, 2))
 
     def belts(self, mean: Array, spread: Array, friction: Array, tight: Array, damping: Array) -> None:
-        """Add the work of a step all along the belts, at the mean of old and new speeds and of what they differ."""
+        """Add the work of a step along the belts, at mean speeds and speed differences."""
         apart = mean[self.rows, self.chain.end] - mean[:, 0]
         self.sums["lift"] += self.dt * np.einsum("sn,sn->s", self.chain.weight, mean)
         self.sums["friction"] += self.dt * np.einsum("sn,sn->s", friction, mean)
@@ -923,7 +920,7 @@ class _Ledger:
         return 0.5 * (moving + mass * apart**2), *law.stored()
 
     def closed(self, speed: Array, rims: Array, law: _BeltLaw) -> dict[str, Array]:
-        """Every sum, and what they lack; what the relaxing branch keeps is elastic, not damped."""
+        """All terms and the error of the balance; energy stored in the relaxing branch is elastic, not damped."""
         kinetic, elastic, held = (
             last - first for last, first in zip(self._stored(speed, rims, law), self.first, strict=True)
         )

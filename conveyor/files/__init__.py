@@ -1,1 +1,1 @@
-"""Files from outside: their bytes, their YAML or JSON with positions, the folders of compounds, the libraries."""
+"""Input files: bytes, YAML or JSON with positions, workbooks, compound folders, libraries; and safe writing."""

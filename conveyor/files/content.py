@@ -1,4 +1,4 @@
-"""The bytes of a file from outside: an ordinary file of a size it may have, or a sentence on why not."""
+"""Bytes of an input file; refused unless it is an ordinary file of an allowed size."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ def file_content(path: Path, *, largest: int, expected: str) -> bytes:
     path : Path
         The file.
     largest : int
-        Most bytes it may have.
+        Largest size [bytes].
     expected : str
-        What it should be, for the message on a larger one ("spec or compound file").
+        Expected kind of file, for the message on a larger one ("spec or compound file").
 
     Raises
     ------

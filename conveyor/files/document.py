@@ -1,4 +1,4 @@
-"""A YAML or JSON file read so that every value knows its line and column, and nothing hostile gets in."""
+"""YAML and JSON files with line and column of every value; duplicate keys, tags and huge files are refused."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _MARKS: Final = {codecs.BOM_UTF32_LE: "UTF-32", codecs.BOM_UTF32_BE: "UTF-32", c
 
 _TOO_DEEP: Final = f"nested deeper than {DEEPEST} levels"
 _HALF: Final = re.compile("[\ud800-\udfff]")
-_FIRST: Final = 1000  # bytes: text without a null there has none
+_FIRST: Final = 1000  # bytes searched for nulls
 
 Location = tuple[int | str, ...]
 T = TypeVar("T")
@@ -53,19 +53,19 @@ class Place(NamedTuple):
 
 @dataclass(frozen=True)
 class Fault:
-    """Something wrong at a place of a file: the field (or what it is about) and what to change."""
+    """An error at a place of a file: the field (or subject) and what to change."""
 
     place: Place
     field: str
     message: str
 
     def line(self, path: str) -> str:
-        """Write it as ``file:line:column field: message``."""
+        """Text ``file:line:column field: message``."""
         return f"{path}:{self.place.line}:{self.place.column} {self.field}: {self.message}"
 
 
 def first_lines(errors: Sequence[T], line: Callable[[T], str], path: str = "") -> str:
-    """Write errors one a line, the first hundred of them; the rest are counted."""
+    """Text of the first hundred errors, one a line; the rest are counted."""
     lines = [line(error) for error in errors[:MOST_LINES]]
     if len(errors) > MOST_LINES:
         lines.append(f"{path}{': ' if path else ''}and {len(errors) - MOST_LINES} more errors")
@@ -73,12 +73,12 @@ def first_lines(errors: Sequence[T], line: Callable[[T], str], path: str = "") -
 
 
 def listing(path: str, findings: Sequence[Fault]) -> str:
-    """Write findings one a line, the first hundred of them."""
+    """Text of the first hundred findings, one a line."""
     return first_lines(findings, lambda finding: finding.line(path), path)
 
 
 def yaml_text(data: Any, *, width: int) -> str:
-    """Write plain data as YAML, its lines at most so wide where they can be broken."""
+    """Write plain data as YAML, long lines broken at a width [characters]."""
     writer = YAML(typ="rt", pure=True)
     writer.width = width
     stream = StringIO()
@@ -88,7 +88,7 @@ def yaml_text(data: Any, *, width: int) -> str:
 
 @dataclass(frozen=True)
 class Document:
-    """Plain data of a file, the findings met on the way, and the nodes that know the places."""
+    """Plain data of a file, its findings, and the nodes that give the places."""
 
     path: str
     data: Any
@@ -96,7 +96,7 @@ class Document:
     findings: tuple[Fault, ...]
 
     def place(self, location: Location, *, of_key: bool = False) -> Place:
-        """Return where a field is, or its nearest parent that exists.
+        """Place of a field, or of its nearest existing parent.
 
         Parameters
         ----------
@@ -132,7 +132,7 @@ class Document:
 
 
 def _is_written(node: Node) -> bool:
-    """Whether one value stands behind a key; YAML marks nothing, and a block, where the next line begins."""
+    """True for a scalar with text; YAML places empty values and blocks at the start of the next line."""
     return isinstance(node, ScalarNode) and (node.value != "" or node.style is not None)
 
 
@@ -202,7 +202,7 @@ def _json(content: str, path: Path) -> Any:
 
 def _parsed(content: str, kind: str) -> Node | None:
     parser = YAML(typ=kind, pure=True)
-    parser.max_depth = DEEPEST + 1  # its effort grows with the square of the depth
+    parser.max_depth = DEEPEST + 1  # parsing time grows with the square of the depth
     with warnings.catch_warnings():
         warnings.simplefilter("error", ReusedAnchorWarning)
         node: Node | None = parser.compose(content)
@@ -210,7 +210,7 @@ def _parsed(content: str, kind: str) -> Node | None:
 
 
 def _composed(content: str, path: Path) -> Node | None:
-    """Nodes of a text; where it is refused, the slower parser, which keeps comments, knows better what is wrong."""
+    """YAML nodes of a text; errors come from the slower round-trip parser, whose messages are better."""
     with suppress(YAMLError, ReusedAnchorWarning, RecursionError):
         return _parsed(content, "safe")
     try:
@@ -238,7 +238,7 @@ def _composed(content: str, path: Path) -> Node | None:
 
 
 class _Reader:
-    """Turns nodes into plain data and notes what is not allowed."""
+    """Turns nodes into plain data and collects findings."""
 
     def __init__(self, path: str) -> None:
         self.path = path
@@ -292,7 +292,7 @@ class _Reader:
                 yield name, self.value(value, (*location, name))
 
     def _whole(self, node: ScalarNode) -> str:
-        """Text of a node, characters that were written as two codes put together."""
+        """Text of a node, surrogate pairs combined."""
         content = str(node.value)
         try:
             return (
@@ -320,7 +320,7 @@ class _Reader:
 
 
 def _number(content: str, kind: str) -> int | float | str:
-    """Read a plain number; what only looks like one (1_000), or is too long, stays text for the models to refuse."""
+    """Read a plain number; 1_000 and numbers that are too long stay text, which the models refuse."""
     try:
         if "_" in content:
             return content

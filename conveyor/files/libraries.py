@@ -30,22 +30,22 @@ _FOLDER = Path(__file__).parents[1] / "_library"
 
 @dataclass(frozen=True)
 class Entry:
-    """What a library knows of one thing.
+    """Entry of a library.
 
     Attributes
     ----------
     name : str
-        As specs name it.
+        Name in specs.
     fields : mapping
-        Values as a spec writes them, nested likewise.
+        Values as in a spec, nested likewise.
     source : str
-        Where they come from.
+        Source of the values.
     general_knowledge : bool
-        Common knowledge of the craft, not read in a source: an analysis that uses it says so.
+        Common knowledge of the trade without a source; an analysis that uses it remarks on it.
     range : mapping of str to str
-        What is met in practice, in words.
+        Usual ranges, as text.
     note : str
-        What else a user must know.
+        Further remarks.
     """
 
     name: str
@@ -80,7 +80,7 @@ def entry(library: Library, name: str) -> Entry:
     Raises
     ------
     InputError
-        No such name; with the names there are.
+        No such name; the message lists the known names.
 
     Examples
     --------
@@ -162,7 +162,7 @@ def _table(library: Library) -> pd.DataFrame:
 
 
 def flat(fields: Mapping[str, Any], above: str = "") -> dict[str, Any]:
-    """Fields under dotted names.
+    """Nested fields under dotted names.
 
     Examples
     --------

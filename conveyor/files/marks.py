@@ -1,4 +1,4 @@
-"""What a file is of this program's outputs, by the mark it was written with; nothing for everybody else's files."""
+"""Marks in output files, by which this program recognises them before it replaces one."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ STUDY: Final = "table: of a study"
 UNANSWERED: Final = "no answer because"
 """Heading of the last column of a table of a study."""
 TO_FILL_IN: Final = "file to fill in"
-"""A template or a starter: made to be edited, so without a mark, and no older one is replaced unasked."""
+"""A template or starter: made to be edited, so without a mark and never replaced without --force."""
 
 FITTED: Final = "Written by conveyor fit"
-"""First line of the compound files it writes."""
+"""First line of compound files."""
 CATEGORY: Final = "conveyor report"
-"""Property of a workbook of results."""
+"""Document property of result workbooks."""
 PARQUET: Final = "written by conveyor"
-"""Key among the attributes of a Parquet file."""
+"""Metadata key of Parquet files."""
 
 _BOM: Final = b"\xef\xbb\xbf"
 _UNIT: Final = re.compile(r" ?\[[^\]]*\]")
@@ -38,20 +38,20 @@ _HEAD: Final = 4_000
 
 @cache
 def version(package: str) -> str:
-    """Return the version of an installed package: its own word where it is loaded, else what was installed."""
-    from importlib import metadata  # a tenth of `conveyor --help`, which asks for no version
+    """Version of an installed package."""
+    from importlib import metadata  # its import takes a tenth of `conveyor --help`
 
     said = getattr(sys.modules.get(package), "__version__", None)
     return str(said) if said is not None else metadata.version(package)
 
 
 def maker() -> str:
-    """Return the name and version that outputs are marked with."""
+    """Program name and version that outputs are marked with."""
     return f"conveyor {version('conveyor')}"
 
 
 def mark(content: bytes) -> str | None:
-    r"""Tell what a file is of this program's outputs.
+    r"""Kind of output of this program, by the content of a file.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def mark(content: bytes) -> str | None:
     Returns
     -------
     str or None
-        Of a table with its headings, units apart, unless it is of a study; None of what this program did not write.
+        Kind, for tables with the headings without units (except of studies); None for other files.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Files written whole or not at all: temporary names beside their own first, then renamed; all of them or none."""
+"""Atomic writing of files: under temporary names first, then renamed, all or none."""
 
 from __future__ import annotations
 
@@ -13,13 +13,12 @@ from conveyor.errors import InputError
 
 
 def writable(path: Path) -> None:
-    """Refuse a path that cannot be written before any time is spent on what would be in it.
+    """Refuse a path that cannot be written.
 
     Raises
     ------
     InputError
-        A folder, a device, a read-only file, or in a folder that does not exist or is read-only; of a link what it
-        leads to.
+        A folder, a device, a read-only file, or in a missing or read-only folder; links are followed.
     """
     try:
         target = _target(path)
@@ -40,7 +39,7 @@ def writable(path: Path) -> None:
 
 
 def _target(path: Path) -> Path:
-    """What a path leads to through links, there or not."""
+    """Target of a path, links followed; it need not exist."""
     try:
         target = path.resolve()
     except (RuntimeError, ValueError) as error:  # links in a circle, before Python 3.13; a null byte
@@ -51,19 +50,19 @@ def _target(path: Path) -> Path:
 
 
 def save(contents: Mapping[Path, bytes | memoryview], *, folders: Iterable[Path] = ()) -> None:
-    """Write files: all under temporary names, then each under its own; all of them, or nothing is changed.
+    """Write files under temporary names and rename them: all of them, or nothing is changed.
 
     Parameters
     ----------
     contents : mapping of Path to bytes
-        What goes into each; of a link into what it leads to.
+        Content by path; links are followed.
     folders : iterable of Path
-        Made first where they are not there.
+        Created first where missing.
 
     Raises
     ------
     InputError
-        One cannot be written; none of them is half-written or new, older ones are untouched, nothing temporary is left.
+        One cannot be written; no file is changed and nothing temporary is left.
     """
     at = next(iter(contents), Path())
     with ExitStack() as undo:
@@ -91,12 +90,12 @@ def save(contents: Mapping[Path, bytes | memoryview], *, folders: Iterable[Path]
 
 @contextmanager
 def naming(path: Path) -> Iterator[None]:
-    """Name a file that cannot be written, also where that shows as its content is made: in files of the system's own.
+    """Name the output file in errors of writing it or the temporary files its content is made with.
 
     Raises
     ------
     InputError
-        The system refuses to write: no room, a file too large, no permission.
+        Disk full, file too large, no permission.
     """
     try:
         yield
@@ -106,12 +105,12 @@ def naming(path: Path) -> Iterator[None]:
 
 @contextmanager
 def growing(path: Path) -> Iterator[Path]:
-    """A temporary file beside a path, for what is written piece by piece; it takes the path's name when it is whole.
+    """Temporary file for content written piece by piece; renamed to the path when complete.
 
     Raises
     ------
     InputError
-        It cannot be written; an older file is untouched, nothing temporary is left.
+        The file cannot be written; an older file is untouched, nothing temporary is left.
     """
     writable(path)
     part = _beside(_target(path))
@@ -124,14 +123,14 @@ def growing(path: Path) -> Iterator[Path]:
 
 
 def _replaced(target: Path, part: Path, undo: ExitStack) -> Path:
-    """Rename a part to its target; the older file waits beside it, to come back if a later one fails."""
+    """Rename a temporary file to its target; returns the backup of the older file, restored on failure."""
     older = _beside(target)
     if target.exists():
         with suppress(OSError):
             os.link(target, older)
-        if not older.exists():  # a file system without a second name for a file
+        if not older.exists():  # no hard links on this file system
             target.rename(older)
-        undo.callback(_without, older.unlink)  # a rename onto a second name of the same file leaves both
+        undo.callback(_without, older.unlink)  # a rename onto a hard link of the same file leaves both
         undo.callback(_without, lambda: older.replace(target))
     else:
         undo.callback(_without, target.unlink)
@@ -144,6 +143,6 @@ def _beside(path: Path) -> Path:
 
 
 def _without(undone: Callable[[], object]) -> None:
-    """Undo a step that may not have been taken."""
+    """Undo a step; errors are ignored."""
     with suppress(OSError):
         undone()

@@ -1,4 +1,4 @@
-"""Which compound files there are: the folders searched, and the names in them; reads none of them."""
+"""Folders of compound files and the names in them; no file is read."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Final
 from conveyor.errors import InputError
 
 ENVIRONMENT: Final = "CONVEYOR_SHELF"
-"""Environment variable with further folders, separated as in PATH."""
+"""Environment variable of further folders, separated as in PATH."""
 SUFFIXES: Final = (".yaml", ".yml", ".json")
 
 
@@ -30,7 +30,7 @@ def built_in() -> Path:
 
 
 def folders(extra: Iterable[str | Path] = ()) -> list[Path]:
-    """Return the folders that are searched: `extra`, those of CONVEYOR_SHELF, the built-in one.
+    """Return the folders to search: `extra`, those of CONVEYOR_SHELF, the built-in one.
 
     Raises
     ------
@@ -49,7 +49,7 @@ def folders(extra: Iterable[str | Path] = ()) -> list[Path]:
 
 
 def files(extra: Iterable[str | Path]) -> dict[str, list[Path]]:
-    """Find the compound files by their name on the shelf: the file's name without its ending."""
+    """Compound files by shelf name, the file name without its ending."""
     by_name: dict[str, list[Path]] = {}
     unique = {folder.resolve(): folder for folder in folders(extra)}
     for folder in unique.values():

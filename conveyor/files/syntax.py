@@ -1,4 +1,4 @@
-"""What the parsers of YAML and JSON object to, in words for people who know neither."""
+"""Plain messages for syntax errors of YAML and JSON."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ _JSON: Final[tuple[tuple[str, str], ...]] = (
 
 
 def plain_yaml(said: str) -> str:
-    """Say what a YAML parser means; its own words where there are no better ones.
+    """Plain message for a YAML parser's; its own where none is known.
 
     Examples
     --------
@@ -83,7 +83,7 @@ def plain_yaml(said: str) -> str:
 
 
 def plain_json(said: str) -> str:
-    """Say what a JSON parser means; its own words where there are no better ones.
+    """Plain message for a JSON parser's; its own where none is known.
 
     Examples
     --------

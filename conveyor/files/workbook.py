@@ -1,4 +1,4 @@
-"""A workbook from outside: looked through as a stream before anything is built of it, then read cell by cell."""
+"""Cells of an input workbook; the archive is scanned as a stream before openpyxl reads it."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ MAGIC: Final = b"PK"
 """First bytes of a zip archive, which an .xlsx file is."""
 LAST_ROW: Final = 1_048_576
 LAST_COLUMN: Final = 16_384
-"""Of a sheet (ECMA-376)."""
+"""Limits of a sheet (ECMA-376)."""
 DEEPEST: Final = 100
 """Levels of XML; a chart has twenty."""
 
 _PIECE: Final = 1 << 16
 _LONGEST_TAG: Final = 4 * _PIECE
 _REFERENCE: Final = re.compile(r"\$?([A-Za-z]{1,4})\$?([0-9]{1,12})")
-# what zipfile, expat and openpyxl raise on archives that are cut, encrypted or no workbook
+# raised by zipfile, expat and openpyxl for archives that are truncated, encrypted or no workbook
 _DAMAGED: Final = (
     zipfile.BadZipFile, zlib.error, SyntaxError, EOFError, OSError, LookupError, ValueError, TypeError,
     AttributeError, ArithmeticError, NotImplementedError, RuntimeError,
@@ -33,18 +33,18 @@ _DAMAGED: Final = (
 
 @dataclass(frozen=True, kw_only=True)
 class Limits:
-    """What the parts of an archive may hold together.
+    """Size limits of an archive, all parts together.
 
     Attributes
     ----------
     content : int
-        Bytes, unpacked, as the archive states them (no more is ever unpacked).
+        Unpacked bytes as stated by the archive (no more is ever unpacked).
     parts : int
-        Files in it.
+        Number of files.
     elements : int
-        Elements of XML: cells, rows, comments, styles.
+        XML elements: cells, rows, comments, styles.
     expected : str
-        What it should be, for the message on a larger one ("input workbook").
+        Expected kind of file, for the message on a larger one ("input workbook").
     """
 
     content: int
@@ -55,16 +55,16 @@ class Limits:
 
 @dataclass(frozen=True)
 class SheetCell:
-    """A cell that is not empty: its value, of a formula the stored one, and what kind of value it is.
+    """A non-empty cell: its value (of a formula the stored one) and kind.
 
     Attributes
     ----------
     value : object
-        Text, number or switch; of other kinds what stands in the cell.
+        Text, number or boolean; for other kinds the raw content.
     kind : str
         A date or time, an error of a formula, a formula without a stored value, else a value.
     percent : bool
-        Whether it shows its number as a percentage.
+        True if the number is formatted as a percentage.
     """
 
     value: Any
@@ -74,7 +74,7 @@ class SheetCell:
 
 @dataclass(frozen=True)
 class Sheet:
-    """The cells of a sheet that are not empty, by row and column (both from 1), and its merged ranges."""
+    """Non-empty cells of a sheet by row and column (both from 1), and its merged ranges."""
 
     name: str
     cells: dict[tuple[int, int], SheetCell]
@@ -82,12 +82,12 @@ class Sheet:
     """First row, first column, last row, last column."""
 
     def text(self, row: int, column: int) -> str:
-        """Return the text of a cell, "" where it holds no value."""
+        """Text of a cell; "" where it has no value."""
         cell = self.cells.get((row, column))
         return str(cell.value).strip() if cell is not None and cell.kind == "value" else ""
 
     def rows(self) -> list[int]:
-        """Return the rows that hold anything."""
+        """Numbers of the rows with content."""
         return sorted({row for row, _ in self.cells})
 
 
@@ -99,9 +99,9 @@ def read_sheets(content: bytes, place: str, limits: Limits) -> tuple[Sheet, ...]
     content : bytes
         The file.
     place : str
-        What messages begin with.
+        Beginning of messages.
     limits : Limits
-        What it may hold.
+        Size limits.
 
     Raises
     ------
@@ -120,7 +120,7 @@ def read_sheets(content: bytes, place: str, limits: Limits) -> tuple[Sheet, ...]
         raise InputError(f"{place}: {problem}")
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # openpyxl names the parts it does not keep; none is read here
+            warnings.simplefilter("ignore")  # openpyxl warns about parts it does not keep; none is read here
             book = openpyxl.load_workbook(BytesIO(content), read_only=True, data_only=True, keep_links=False)
             try:
                 return tuple(_sheet(sheet, place) for sheet in book.worksheets)
@@ -151,7 +151,7 @@ def _problem(archive: zipfile.ZipFile, limits: Limits) -> str:
 
 
 class _Seen:
-    """Counts what the parts hold, and stops at the first thing that is not allowed."""
+    """Scan of an archive that stops at the first violation of its limits."""
 
     def __init__(self, limits: Limits) -> None:
         self.problem = ""
@@ -159,13 +159,13 @@ class _Seen:
         self._elements = self._depth = 0
 
     def part(self, stream: IO[bytes], name: str) -> None:
-        """Read a part to its end (its checksum with it), as XML until it is none."""
+        """Read a part to its end, including its checksum; parsed while it is valid XML."""
         self._depth = 0
         parser = expat.ParserCreate(namespace_separator="}")
         parser.StartDoctypeDeclHandler = self._doctype
         parser.StartElementHandler = self._start
         parser.EndElementHandler = self._end
-        # from expat 2.6 on a tag may wait for twice its length
+        # expat 2.6 and later may defer a tag until twice its length
         if hasattr(parser, "SetReparseDeferralEnabled"):
             parser.SetReparseDeferralEnabled(False)
         is_xml, read = True, 0
@@ -174,10 +174,10 @@ class _Seen:
             if is_xml:
                 try:
                     parser.Parse(piece)
-                    # each piece of a tag is parsed from its beginning
+                    # each piece of a tag is parsed again from its beginning
                     if read - parser.CurrentByteIndex > _LONGEST_TAG:
                         self._stop(f"has a tag of more than {_LONGEST_TAG:,} bytes")
-                except expat.ExpatError:  # a picture, or damage that the reader of the workbook will meet
+                except expat.ExpatError:  # a picture, or damage that openpyxl will report
                     is_xml = False
             if self.problem:
                 self.problem = f"{name} {self.problem}; this is no {self._limits.expected}"
@@ -205,7 +205,7 @@ class _Seen:
 
 
 def _on_sheet(reference: str) -> bool:
-    """Whether a row's number or a cell's name is one that a sheet has; what is neither is for the reader to refuse."""
+    """True for a row number or cell name within the limits of a sheet, and for other text."""
     if reference.isdecimal():
         return len(reference) < 9 and int(reference) <= LAST_ROW
     match = _REFERENCE.fullmatch(reference)
@@ -218,7 +218,7 @@ def _on_sheet(reference: str) -> bool:
 
 
 def _sheet(sheet: Any, place: str) -> Sheet:
-    """The rows that are in the file: openpyxl's own trust a stated size, and fill every gap and merged range."""
+    """Cells stored in the file: openpyxl's own reader trusts a stated size and fills gaps and merged ranges."""
     from openpyxl.cell.read_only import ReadOnlyCell
     from openpyxl.utils import get_column_letter
     from openpyxl.worksheet._reader import FORMULA_TAG, WorkSheetParser

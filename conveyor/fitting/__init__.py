@@ -1,1 +1,1 @@
-"""From files of a laboratory to a compound, the page that is signed, and the input of other programs."""
+"""Fit laboratory files to a compound; write its page to sign and the input of other programs."""

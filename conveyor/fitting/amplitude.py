@@ -1,4 +1,4 @@
-"""Strain amplitude of a master curve: what its files say, what a person says, and whether both agree."""
+"""Strain amplitude of a master curve, stated by its files or given; both must agree."""
 
 from __future__ import annotations
 
@@ -17,27 +17,27 @@ from conveyor.laboratory.names import meaning
 from conveyor.units import in_si
 
 SAME_STRAIN: Final = 1.1
-"""Amplitudes within this factor are one: E' of a filled rubber changes by 1 % over it, what a DMA repeats (some 7 % a
-doubling, general knowledge) [-]."""
+"""Amplitudes within this factor are equal: E' of a filled rubber changes by 1 % over it, the repeatability of a DMA
+(some 7 % a doubling, general knowledge) [-]."""
 UNLIKE_STRAINS: Final = 1.25
-"""Isotherms whose amplitudes lie further apart differ by their strain more than by scatter: 2 to 3 % of E' [-]."""
+"""Isotherms whose amplitudes differ by more differ by their strain beyond scatter: 2 to 3 % of E' [-]."""
 WORKING_STRAIN: Final = 0.022
-"""Amplitude that rolls work a cover at: 0.8 to 2.2 % of a 5 mm cover of S100 under a 159 mm roll and 1 to 4 N/mm
+"""Working strain of a cover under rolls: 0.8 to 2.2 % of a 5 mm cover of S100 under a 159 mm roll and 1 to 4 N/mm
 (docs/rubber.md, section 5) [-]."""
 _PERCENT: Final = re.compile(r"\s*(\d+(?:[.,]\d*)?(?:[eE][+-]?\d+)?)\s*%")
 FEWEST_STRAINS: Final = 4
-"""Of a run that can be interpolated; a stray row is a run of one."""
+"""Least strains of a run that can be interpolated; a stray row is a run of one."""
 _OF_SHEAR: Final = re.compile(r"\s+(shear|tensile|tension)\s*$", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
 class Amplitudes:
-    """Single strain amplitudes of the rows of one file, tensile or as such.
+    """Single strain amplitudes of the rows of one file, tensile or converted to tensile.
 
     Attributes
     ----------
     place : str
-        Where the file says so.
+        Place of the statement in the file.
     low, high, mean : float
         Smallest, largest, geometric mean [-].
     shear : bool
@@ -52,18 +52,18 @@ class Amplitudes:
 
     @property
     def text(self) -> str:
-        """As messages write it."""
+        """Amplitude or range, for messages."""
         same = self.high <= SAME_STRAIN * self.low
         return written(self.mean) if same else f"{written(self.low)} to {written(self.high)}"
 
 
 def written(strain: float) -> str:
-    """A strain as a person writes it."""
+    """Strain as a percentage, for messages."""
     return f"{100.0 * strain:.4g} %"
 
 
 def amplitudes_of(read: Sequence[DmaData], poisson_ratio: float) -> tuple[Amplitudes, ...]:
-    """Strain amplitudes that files of a master curve state, in a column or in a remark; those without are left out."""
+    """Strain amplitudes stated by files of a master curve, in a column or a remark; others are left out."""
     return tuple(found for each in read for found in _of_file(each, poisson_ratio))
 
 
@@ -89,7 +89,7 @@ def _of_file(read: DmaData, poisson_ratio: float) -> Iterator[Amplitudes]:
 
 
 def short_sweeps(sweeps: DmaData) -> str:
-    """What to say of strain sweeps that end below what rolls work a cover at; "" of others."""
+    """Message on strain sweeps that end below the working strain of covers, or ""."""
     ends = [float(run.strain[-1]) for run in sweeps.strain_sweeps() if run.strain.size >= FEWEST_STRAINS]
     if not ends or min(ends) >= WORKING_STRAIN:
         return ""
@@ -108,13 +108,13 @@ def apart(known: Sequence[Amplitudes]) -> float:
 def reference_strain(
     read: Sequence[DmaData], known: Sequence[Amplitudes], request: Request, *, needed: bool
 ) -> str | None:
-    """Single strain amplitude of the master curve, given or stated by its files, in tension; None if nobody says.
+    """Single tensile strain amplitude of the master curve, given or stated by its files; None if unknown.
 
     Raises
     ------
     InputError
-        What is given contradicts a file, or is not said to be of shear or tension where the files are of shear; the
-        files state amplitudes that differ, and one is `needed`.
+        The given amplitude contradicts a file, or does not state shear or tension where the files are of shear; the
+        files state different amplitudes, and one is `needed`.
     """
     given = request.reference_strain
     if given is None:
@@ -144,7 +144,7 @@ def _text(strain: float) -> str:
 
 
 def _given(given: str, read: Sequence[DmaData], poisson_ratio: float, *, stated: bool) -> float:
-    """A given amplitude in tension [-]: of shear, "0.15 % shear", that of equal energy."""
+    """Given amplitude in tension [-]; of shear, "0.15 % shear", that of equal energy."""
     way = _OF_SHEAR.search(given)
     strain = in_si(given[: way.start()] if way else given, "fraction", "--reference-strain")
     if way is None and not stated and any(each.shear for each in read):

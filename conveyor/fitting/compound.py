@@ -1,4 +1,4 @@
-"""From laboratory files to a compound: master curve, fit, band, shift, strain, provenance, and what is not known."""
+"""Laboratory files to a compound: master curve, fit, band, shift, strain, provenance and open points."""
 
 from __future__ import annotations
 
@@ -67,22 +67,22 @@ class Fitted:
     fit : PronyFit
         Series, errors, criterion.
     consistency : KramersKronig or None
-        Whether E' and E'' belong together.
+        Kramers-Kronig test of E' and E''.
     superposition : Superposition or None
-        Where isotherms were shifted.
+        Of isotherms only.
     laws : tuple of ShiftComparison
         Table, WLF and Arrhenius on the shifts, the best first; empty without shifts.
     understood : tuple of str
-        What was read from each file, one sentence a decision.
+        Notes on reading each file, one a decision.
     entropic_floor : float or None
-        What the best positive spectrum would leave if a master curve had the vertical shift of an entropic network,
-        where that is told from none [-].
+        Residual of the best positive spectrum with the vertical shift of an entropic network, where that differs
+        significantly from none [-].
     rows : MeasuredRows
         Every row as measured, with its shift.
     files : tuple of str
-        That the rows are numbered by.
+        Names of the files, by the file number of the rows.
     metadata : mapping of str to str
-        What the files state of themselves.
+        Remarks of the files by their keys.
     amplitudes : tuple of Amplitudes
         Strain of each file that states it.
     """
@@ -106,13 +106,13 @@ class Fitted:
 
     @property
     def disagreement(self) -> tuple[float, float] | None:
-        """What E' and E'' of isotherms differ by where they lie side by side, beyond their scatter [-]."""
+        """Difference of E' and E'' between overlapping isotherms, beyond their scatter [-]."""
         return disagreement_of(self.rows, self.fit)
 
 
 @dataclass(frozen=True, eq=False)
 class Tabulated:
-    """A compound of a Prony table, and what was read of it."""
+    """A compound of a Prony table, and notes on reading it."""
 
     compound: RubberCompound
     understood: tuple[str, ...]
@@ -120,14 +120,14 @@ class Tabulated:
 
 @checked
 def from_files(data: Path | Sequence[Path], request: Request) -> Fitted | Tabulated:
-    """Make a compound of what the files hold: a Prony table as it stands, anything else by `fit_file`.
+    """Make a compound from files: of a Prony table unchanged, of measurements by `fit_file`.
 
     Parameters
     ----------
     data : Path or sequence of Path
         A file alone, or the files of one rubber.
     request : Request
-        What they are to become; of a table name, reference, shift, strain, ν and equilibrium modulus.
+        Options of the compound; of a table name, reference, shift, strain, ν and equilibrium modulus.
 
     Raises
     ------
@@ -199,7 +199,7 @@ def fit_file(data: Path | Sequence[Path], request: Request) -> Fitted:
         number of files; files of shift factors and strain sweeps among them are taken as `shift` and `strain`. Of
         any layout `conveyor.laboratory.read_dma` understands.
     request : Request
-        What they are to become.
+        Options of the fit.
 
     Raises
     ------
@@ -263,7 +263,7 @@ def fit_file(data: Path | Sequence[Path], request: Request) -> Fitted:
 def _entropic_floor(
     read: Sequence[DmaData], shifts: DmaData | None, fit: PronyFit, reference: str, request: Request
 ) -> float | None:
-    """`Fitted.entropic_floor`, where AICc leaves none without support."""
+    """`Fitted.entropic_floor`, or None where AICc still supports no vertical shift."""
     curve = master_curve_of(read)
     if curve is None or shifts is None or shifts.log10_b_T is not None or request.vertical:
         return None
@@ -277,7 +277,7 @@ def _entropic_floor(
 def _read(
     paths: Sequence[Path], request: Request
 ) -> tuple[list[DmaData], DmaData | None, DmaData | None, tuple[str, ...]]:
-    """Files of curves, shift factors, strain sweeps; what was left out."""
+    """Read files as curves, shift factors and strain sweeps; with notes on excluded rows."""
     files, said = _read_all(paths, request)
     curves = [file for file in files if file.kind in CURVES or len(files) == 1]
     others: dict[str, list[DmaData]] = {"shift factors": [], "strain sweep": []}
@@ -300,7 +300,7 @@ def _read(
 
 
 def _read_all(paths: Sequence[Path], request: Request) -> tuple[list[DmaData], tuple[str, ...]]:
-    """Every file, of a workbook every sheet that is asked for; what was left out of them."""
+    """Read every file, of a workbook every matching sheet; with notes on excluded rows."""
     tables = [(path, sheet) for path in paths for sheet in sheets(path, request.reading.get("sheet"))]
     several = len(tables) > 1 or request.shift is not None or request.strain is not None
     rows = excluded(
@@ -326,7 +326,7 @@ def _check_columns(tables: Sequence[tuple[Path, str | None]], request: Request) 
 
 
 def _compound(described: dict[str, Any], shifted_by: Path) -> RubberCompound:
-    """The compound; what contradicts itself in its shift is a matter of the file the shift came from."""
+    """Build the compound; errors of its shift are located in the file of the shift."""
     try:
         return RubberCompound.from_data(described)
     except InputError as error:

@@ -1,4 +1,4 @@
-"""A fit as a compound file says it."""
+"""Describe a fit as data of a compound file."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from conveyor.units.sentences import ZERO_CELSIUS, percent
 Array = NDArray[np.float64]
 
 DIGITS = 12
-"""Of a series in a compound file: read back, it is the fit to 1e-11."""
+"""Digits of a series in a compound file: read back, it is the fit to 1e-11."""
 _BAND_DIGITS = 6  # the band is known to one or two
 _ERROR_DECIMALS = 8  # of a relative error: an exact fit leaves rounding, which is none
 _UNKNOWN = "not stated"
@@ -33,7 +33,7 @@ def as_fitted(
     fitted: tuple[str, PronyFit],
     made: tuple[ReplicaBand | None, MeasuredRows],
 ) -> dict[str, Any]:
-    """What a compound file says of a fit at its reference temperature, with its band; the strain beside the request."""
+    """Data of a compound file for a fit with its band; `asked` is the request and its strain."""
     (request, _), (band, rows) = asked, made
     reference, fit = fitted
     described = of_series(read, asked, reference, fit.series, fit.window)
@@ -57,7 +57,7 @@ def of_series(
     series: PronySeries,
     window: Sequence[float],
 ) -> dict[str, Any]:
-    """What a compound file says of a series at its reference temperature; asked for, and at which strain."""
+    """Data of a compound file for a series at its reference temperature; `asked` is the request and its strain."""
     request, strain = asked
     stated = {key: value for each in reversed(read) for key, value in each.metadata.items()}
     prony: dict[str, Any] = {
@@ -87,7 +87,7 @@ def of_series(
 
 
 def mega(modulus: float, digits: int = DIGITS) -> str:
-    """A modulus [Pa] as it is written."""
+    """Modulus [Pa] written in MPa."""
     return f"{modulus / 1e6:.{digits}g} MPa"
 
 
@@ -110,7 +110,7 @@ def _band(band: ReplicaBand) -> dict[str, Any]:
 
 
 def _law(law: ShiftLaw, digits: int) -> dict[str, Any]:
-    """A formula of a_T."""
+    """Data of a formula of a_T."""
     if isinstance(law, WLF):
         return {"law": "wlf", "c1": float(f"{law.c1:.{digits}g}"), "c2": f"{law.c2:.{digits}g} K"}
     if isinstance(law, Arrhenius):
@@ -148,7 +148,7 @@ def add_shift(
     shifts: DmaData | None,
     law: WLF | Arrhenius | None,
 ) -> None:
-    """Shift table and the range of temperature that it opens."""
+    """Add the shift, and the range of temperature that it gives."""
     known = shift_factors(superposition, shifts)
     if known is None:
         described["missing"].append("temperature shift: known at the reference temperature only")
@@ -173,7 +173,7 @@ def add_shift(
 
 
 def strain_of(reference: str | None, sweeps: DmaData) -> dict[str, Any]:
-    """Strain dependence: runs of four rows and more; shorter ones are strays."""
+    """Data of the strain dependence, from runs of four rows and more; shorter ones are stray rows."""
     if reference is None:
         raise InputError(
             f"{sweeps.source}: at which strain was the master curve measured? Give it, e.g. "

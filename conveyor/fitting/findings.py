@@ -1,4 +1,4 @@
-"""Master curves that can be fitted but hardly are what they say: what was seen, what to do, and how to insist."""
+"""Implausible master curves: refused with advice, unless accepted by name."""
 
 from __future__ import annotations
 
@@ -19,29 +19,29 @@ FINDINGS: Final = {
     "modulus": "an E' below 0.05 MPa or above 12 GPa, or none below 5 GPa",
     "contradiction": "E' and E'' that no rubber shows together",
 }
-"""What a fit refuses unless it is accepted by name."""
+"""Findings that a fit refuses unless accepted by name."""
 FEWEST_FREQUENCIES: Final = 5
 LEAST_DECADES: Final = 1.0
-"""A term spreads its loss over more than a decade: less shows no shape."""
+"""Least span: a term spreads its loss over more than a decade, less shows no shape [decades]."""
 RUBBER: Final = (5e4, 1.2e10)
 """E' of rubber, soft gel to glass with filler, with room on both sides (general knowledge) [Pa]."""
 GLASS: Final = 5e9
-"""A curve that lies above it as a whole is none of rubber (general knowledge) [Pa]."""
+"""Curves wholly above it are not of rubber (general knowledge) [Pa]."""
 DOUBTED: Final = 0.05
-"""What the best positive spectrum leaves before another reading of the columns is tried: measurements leave less, or
-no other reading does better [-]."""
+"""Residual of the best positive spectrum from which other readings of the columns are tried: measurements leave less,
+or no other reading does better [-]."""
 BETTER: Final = 0.25
-"""Share of it that the right reading leaves at most [-]."""
+"""Largest share of that residual left by the right reading [-]."""
 NEAR: Final = 0.4
-"""Share of it that such a one leaves at most: 0.05 to 0.3 of shelf rubbers through their glass transition with 1 % of
-noise; right curves, measured ones too, leave less than it does or as much (0.85 and more) [-]."""
+"""The same for a reading that differs little: 0.05 to 0.3 for shelf rubbers through their glass transition with 1 % of
+noise; such a reading of right curves, measured ones too, leaves 0.85 and more [-]."""
 FEWEST_NEAR: Final = 12
-"""Rows from which it is looked for: 8 of 628 right sweeps of 5 to 10 rows with noise were left 0.4 and less by chance,
-none of 1,123 of 11 to 16 rows less than 0.5."""
+"""Least rows for such a reading: of right sweeps with noise, 8 of 628 with 5 to 10 rows had 0.4 and less by chance,
+none of 1,123 with 11 to 16 rows less than 0.5."""
 LEAST_DEGREES: Final = 1.0
 """Phase angle that most rows of a cover exceed (general knowledge: a tan delta of 0.02) [degrees]."""
 CONTRADICTED: Final = 0.25
-"""What no measurement at hand leaves (S100: 13 %; a published polymer: 17 %) unless it scatters as much [-]."""
+"""Residual above that of any known measurement (S100: 13 %; a published polymer: 17 %) without equal scatter [-]."""
 OVER_SCATTER: Final = 1.5
 _UNITS: Final = (1.0, 1e3, 1e6, 1e9)
 _TANGENT: Final = (1e-4, 5.0)
@@ -50,7 +50,7 @@ _LOGARITHM: Final = (-3.0, 12.0)
 
 @dataclass(frozen=True)
 class Finding:
-    """One of `FINDINGS`: what was seen and what to do about it."""
+    """One of `FINDINGS`, with its observation and advice."""
 
     name: str
     text: str
@@ -127,7 +127,7 @@ def _contradiction(
 def _near_readings(
     frequency: FloatArray, storage: FloatArray, loss: FloatArray
 ) -> Iterator[tuple[tuple[FloatArray, FloatArray, FloatArray], str]]:
-    """What columns may hold that differs little from what they are named, as `_readings`."""
+    """Other readings of the columns that differ little from their names, as `_readings`."""
     whole = "if what is named E' is |E*|: name the column |E*|"
     tangent = loss / storage
     if (loss < storage).all():
@@ -142,7 +142,7 @@ def _near_readings(
 def _readings(
     frequency: FloatArray, storage: FloatArray, loss: FloatArray, shear: float
 ) -> Iterator[tuple[tuple[FloatArray, FloatArray, FloatArray], str]]:
-    """Other things the columns may hold, as frequency, E' and E'', and the words for it."""
+    """Other readings of the columns, as frequency, E' and E'', with advice."""
     tangent = loss / storage
     yield (frequency, loss, storage), "with E' and E'' exchanged: exchange the names of the two columns"
     for factor in (1e3, 1e-3):
@@ -178,7 +178,7 @@ def _within(values: FloatArray, limits: tuple[float, float]) -> bool:
 
 
 def _left(frequency: FloatArray, storage: FloatArray, loss: FloatArray) -> float:
-    """What the best positive spectrum leaves; infinite where none has a loss."""
+    """Residual of the best positive spectrum; infinite where none has a loss."""
     try:
         return consistency_floor(frequency, storage, loss)
     except NoSolutionError:

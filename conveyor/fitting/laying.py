@@ -1,4 +1,4 @@
-"""Which temperature, shift and law each file of one rubber is laid on the master curve by."""
+"""Choose temperature, shift and law by which each file of one rubber is shifted to the master curve."""
 
 from __future__ import annotations
 
@@ -56,15 +56,13 @@ _ENTROPIC = (
     "vertical shift of an entropic network, b_T = T/T_ref, each row at the temperature of its shift factor"
 )
 _NUMBER = re.compile(r"\s*([+-]?\d+(?:[.,]\d*)?)\s*(degC|degF|K|°C|°F)?(?![\w.,])")
-_SMALLEST_ERROR = (
-    1e-3  # of log10 a_T where laws are weighed: a measured reference has none of its own [decades]
-)
+_SMALLEST_ERROR = 1e-3  # of log10 a_T in comparing laws: a measured reference has none of its own [decades]
 
 
 def laid_out(
     read: Sequence[DmaData], shifts: DmaData | None, reference: str, request: Request
 ) -> tuple[MeasuredRows, Superposition | None, tuple[str, ...]]:
-    """Every row with its shift, the superposition of isotherms, and what was done."""
+    """Shift the rows of all files: rows with their shift, superposition of isotherms, and notes."""
     for each in read:
         if each.kind not in CURVES:
             raise InputError(
@@ -113,7 +111,7 @@ def laid_out(
 def _parts(
     read: Sequence[DmaData], stated: Mapping[int, float], request: Request
 ) -> tuple[list[Sweep], tuple[str, ...]]:
-    """Sweeps of all files, repeats averaged where that is asked for, and what was done."""
+    """Sweeps of all files, repeats averaged on request, and notes."""
     parts, said = sweeps(read, stated)
     if not request.repeats:
         return parts, said
@@ -123,7 +121,7 @@ def _parts(
 
 
 def master_curve_of(read: Sequence[DmaData]) -> DmaData | None:
-    """The file that is a master curve as it stands: the only one beside temperature sweeps."""
+    """The single master-curve file, if any: the only file that is no temperature sweep."""
     curves = [each for each in read if each.kind != "temperature sweep"]
     return curves[0] if len(curves) == 1 and curves[0].kind == "master curve" else None
 
@@ -131,7 +129,7 @@ def master_curve_of(read: Sequence[DmaData]) -> DmaData | None:
 def _law(
     superposition: Superposition | None, shifts: DmaData | None, reference: float, request: Request
 ) -> ShiftLaw | None:
-    """The law that rows are laid by: the one asked for, of the shifts found or given; None without shifts."""
+    """Law that shifts the rows: the requested one, from superposition or given shifts; None without shifts."""
     stored = stored_law(laws_of(superposition, shifts, reference), reference, request)
     if stored is not None:
         return stored
@@ -140,7 +138,7 @@ def _law(
 
 
 def stored_law(laws: Sequence[ShiftComparison], reference: float, request: Request) -> WLF | Arrhenius | None:
-    """The formula that a person chose in place of the table, at the reference [K]."""
+    """Formula requested in place of the table, at the reference [K]; None for the table."""
     if request.law == "table":
         return None
     if request.vertical:
@@ -158,7 +156,7 @@ def stored_law(laws: Sequence[ShiftComparison], reference: float, request: Reque
 
 
 def _moved(law: WLF | Arrhenius, reference: float) -> WLF | Arrhenius:
-    """The same law, with a_T = 1 at another temperature [K]."""
+    """Same law with a_T = 1 at another temperature [K]."""
     if isinstance(law, Arrhenius):
         return Arrhenius(law.activation_energy, reference)
     c2 = law.c2 + reference - law.reference
@@ -166,7 +164,7 @@ def _moved(law: WLF | Arrhenius, reference: float) -> WLF | Arrhenius:
 
 
 def law_maker(superposition: Superposition, law: WLF | Arrhenius) -> Callable[[Array], WLF | Arrhenius]:
-    """What makes a law of the same kind of other log10 a_T at the temperatures of the isotherms, as `laws_of` does."""
+    """Function that fits a law of the same kind to other log10 a_T of the isotherms, as `laws_of` does."""
     kelvin, fit = superposition.temperatures, fit_wlf if isinstance(law, WLF) else fit_arrhenius
     nearest = int(np.argmin(np.abs(kelvin - law.reference)))
     error = np.maximum(superposition.log10_a_T_error, _SMALLEST_ERROR)
@@ -180,7 +178,7 @@ def law_maker(superposition: Superposition, law: WLF | Arrhenius) -> Callable[[A
 
 
 def reference_of(read: Sequence[DmaData], request: Request) -> str:
-    """Reference temperature: given, or stated by a file; one that contradicts the other is refused."""
+    """Reference temperature, given or stated by a file; contradictions are refused."""
     given = request.reference_temperature
     if given is not None:
         kelvin_of(given)
@@ -213,7 +211,7 @@ def reference_of(read: Sequence[DmaData], request: Request) -> str:
 
 
 def kelvin_of(temperature: str, place: str = "--at") -> float:
-    """A written temperature [K], refused below absolute zero."""
+    """Parse a temperature with its unit [K]; refused below absolute zero."""
     kelvin = in_si(temperature, "temperature", place)
     if kelvin <= 0.0:
         raise InputError(f"{place}: got {temperature}, a temperature above absolute zero is needed")
@@ -221,7 +219,7 @@ def kelvin_of(temperature: str, place: str = "--at") -> float:
 
 
 def _stated(read: DmaData) -> Iterator[tuple[str, str]]:
-    """Where a file states the temperature of its curve, and which: a remark, a column that does not vary."""
+    """Temperatures stated by a file in a remark or a constant column: place and text."""
     data = read.source.partition("[")[0]
     for key, value in read.metadata.items():
         if re.sub(r"[\s_-]", "", key.lower()) not in _REFERENCE_NAMES or not re.search(r"\d", value):
@@ -242,7 +240,7 @@ def _stated(read: DmaData) -> Iterator[tuple[str, str]]:
 
 
 def _check_sweeps(read: Sequence[DmaData], chain: Sequence[Sweep]) -> None:
-    """Refuse, by its rows, the second isotherm at one temperature."""
+    """Refuse a second isotherm at one temperature."""
     in_files = sorted(chain, key=lambda part: (part.file, part.first_row))
     for first, second in combinations(in_files, 2):
         t = second.isotherm.temperature
@@ -257,7 +255,7 @@ def _check_sweeps(read: Sequence[DmaData], chain: Sequence[Sweep]) -> None:
 def _check_order(
     read: Sequence[DmaData], parts: Sequence[Sweep], superposition: Superposition, by: str
 ) -> None:
-    """Refuse shifts that do not fall with temperature, with the exchange of two temperatures that would mend them."""
+    """Refuse shifts that do not fall with temperature; advise an exchange of two temperatures if it helps."""
     shifts = superposition.log10_a_T
     rising = np.flatnonzero(np.diff(shifts) >= 0.0)
     if not rising.size:
@@ -293,7 +291,7 @@ def _check_order(
 def laws_of(
     superposition: Superposition | None, shifts: DmaData | None, reference: float
 ) -> tuple[ShiftComparison, ...]:
-    """How well each law follows the shifts; with too few of them none can be judged."""
+    """Compare the shift laws on the shifts; empty with too few shifts."""
     known = shift_factors(superposition, shifts)
     if known is None or known.temperatures.size < LEAST_TEMPERATURES:
         return ()

@@ -1,4 +1,4 @@
-"""The page that a laboratory signs: the verdict on one sheet, figures and glossary behind it."""
+"""Page of a fit for a laboratory to sign: verdict on one sheet, then figures and glossary."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ def build(
 
     Parameters
     ----------
-    found : Fitted
+    fitted : Fitted
         The fit.
     criteria : sequence of Criterion
         Of `conveyor.fitting.verdict.verdict`.
     document : mapping of str to str
-        Laboratory, number, specimen, instrument, method, measured, by; what is left out and what the files do not
-        state stays blank, to be written by hand.
+        Laboratory, number, specimen, instrument, method, measured, by; blank, to be written by hand, where neither
+        given nor stated by the files.
     paper : {"A4", "Letter"}
         To print on.
     """
@@ -53,7 +53,7 @@ def build(
 
 
 def _verdict(fitted: Fitted, criteria: Sequence[Criterion]) -> Html:
-    """The verdict, its criteria, what the compound is, and lines to sign on: the first sheet."""
+    """First sheet: verdict, facts, criteria and signature lines."""
     count = {word: sum(one.verdict == word for one in criteria) for word in ("pass", "FAIL", "not checked")}
     counted = joined(part for word, n in count.items() if n for part in (f"{n} ", mark(word), Html("&ensp;")))
     word = "pass" if passed(tuple(criteria)) else "FAIL"
@@ -65,7 +65,7 @@ def _verdict(fitted: Fitted, criteria: Sequence[Criterion]) -> Html:
 
 
 def _tables(fitted: Fitted) -> list[Html]:
-    """Tables behind the figures, with their headings as captions."""
+    """Tables after the figures, with their headings as captions."""
     every = (tables.shifts(fitted), tables.laws(fitted), tables.files(fitted))
     return [table(shown, shown.heading) for shown in every if shown.rows]
 

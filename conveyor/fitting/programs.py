@@ -17,20 +17,20 @@ from conveyor.units import text
 from conveyor.units.sentences import ZERO_CELSIUS, celsius
 
 INCOMPRESSIBLE: Final = 0.4999
-"""Poisson's ratio written for 0.5: elements with displacements alone have no answer there."""
+"""Poisson's ratio written for 0.5, at which elements with displacements alone have no solution."""
 FARTHEST: Final = 0.3
-"""A law that misses a shift by more, a factor of two in time, is not written for it (general knowledge) [decades]."""
+"""Largest miss of a law written in place of a table: a factor of two in time (general knowledge) [decades]."""
 _PER_LINE: Final = 3  # terms of a TBDATA command: it takes six constants
 
 
 def exported(compound: RubberCompound, ending: str) -> tuple[str, str]:
-    """Return a program's name and its input for a compound.
+    """Name of a program, and its input for a compound.
 
     Parameters
     ----------
     compound : RubberCompound
         At its reference temperature; its shift as the program's WLF or Arrhenius law, a table as the nearest WLF law
-        with what that misses, or none where it misses the table by more than 0.3 decades.
+        with its misfit, or none where it misses the table by more than 0.3 decades.
     ending : {".inp", ".mac", ".csv"}
         Abaqus, Ansys APDL or pyvisco.
 
@@ -61,7 +61,7 @@ def exported(compound: RubberCompound, ending: str) -> tuple[str, str]:
 
 
 def _about(compound: RubberCompound) -> list[str]:
-    """What stands at the head of a file."""
+    """Remarks at the head of a file."""
     lines = [
         f"{marks.maker()}: {compound.name}, series at {text(compound.reference_temperature)}; N, mm, s: moduli in MPa",
         f"data: {compound.source.data or 'not stated'}; {compound.source.origin}",
@@ -85,7 +85,7 @@ def _shares(compound: RubberCompound) -> tuple[float, list[tuple[float, float]]]
 
 
 def _shift(compound: RubberCompound) -> tuple[WLF | Arrhenius | None, str]:
-    """The law a program can take, and what it is."""
+    """Shift law for a program, and a remark on it."""
     law = compound.shift_law()
     if isinstance(law, ShiftTable):
         try:

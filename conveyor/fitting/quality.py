@@ -1,4 +1,4 @@
-"""Figures that a laboratory judges a master curve by, by name."""
+"""Figures to judge a master curve by."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 
 _HEIGHT: Final = 6.6  # of two plots on each other [in]
 _POINTS: Final = 200
-_LINE: Final = 0.13  # of a plot's height, between names beside it
+_LINE: Final = 0.13  # of a plot's height, between labels next to it
 _NAMED: Final = 6  # isotherms in a legend; of more every few are named
 
 
 def figures(fitted: Fitted) -> Iterator[tuple[str, str, Figure]]:
-    """Name, caption and figure of everything that the data allow to draw."""
+    """Name, caption and figure of all that the data allow."""
     sweeps = np.unique(fitted.rows.temperature).size > 1
     if sweeps:
         yield "isotherms", "Isotherms before and after shifting; E' filled, E'' open.", isotherms(fitted)
@@ -46,14 +46,14 @@ def figures(fitted: Fitted) -> Iterator[tuple[str, str, Figure]]:
 
 
 def _shades(values: np.ndarray) -> list[Any]:
-    """One colour a temperature, blue to red, and none too pale to print."""
+    """Colour of each temperature, blue to red, none too pale to print."""
     from matplotlib import colormaps
 
     return [colormaps["turbo"](0.08 + 0.84 * k / max(1, values.size - 1)) for k in range(values.size)]
 
 
 def _by_temperature(rows: MeasuredRows, draw: Callable[[np.ndarray, Any, str | None], None]) -> None:
-    """Draw the rows of each temperature in its colour; rows of temperature sweeps are grey."""
+    """Draw rows in the colour of their temperature; rows of temperature sweeps grey."""
     temperatures, counts = np.unique(rows.temperature, return_counts=True)
     swept = temperatures[counts > 2]
     every = max(1, round(swept.size / _NAMED))
@@ -75,7 +75,7 @@ def _marked(
 
 
 def _beside(axis: Axes) -> None:
-    """Names of the marks right of the data, in their colours."""
+    """Write the labels of marks right of the data."""
     for k, (mark, label) in enumerate(zip(*axis.get_legend_handles_labels(), strict=True)):
         for words, shade, x in (("●", mark.get_color(), 1.02), (label, "0.1", 1.05)):  # type: ignore[attr-defined]
             where = (x, 1.0 - _LINE * k)
@@ -111,7 +111,7 @@ def isotherms(fitted: Fitted) -> Figure:
 
 @own_settings()
 def shifts(fitted: Fitted) -> Figure:
-    """log10 a_T over temperature with the laws; below, what the laws miss."""
+    """log10 a_T over temperature with the laws above, residuals of the laws below."""
     made, (above, below) = stacked(2, _HEIGHT)
     shifted = fitted.superposition
     table = next(law.law for law in fitted.laws if isinstance(law.law, ShiftTable))

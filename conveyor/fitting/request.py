@@ -1,4 +1,4 @@
-"""What a person asks of a fit."""
+"""Options of a fit."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from pathlib import Path
 from typing import Any, Literal
 
 REPLICAS = 20
-"""Of the bootstrap in a compound file: nineteen of twenty leave nine tenths between the outermost ones."""
+"""Bootstrap replicas in a compound file: nine tenths lie between the outermost of nineteen."""
 
 
 @dataclass(frozen=True)
 class Request:
-    """What a laboratory file is to become.
+    """Options for turning laboratory files into a compound.
 
     Parameters
     ----------
     name : str
         Name of the compound.
     reference_temperature : str, optional
-        Of the master curve, with unit ("20 degC"); else the file's line ``# reference_temperature: …``.
+        Temperature of the master curve, with unit ("20 degC"); else the file's line ``# reference_temperature: …``.
     shift : Path, optional
         File of shift factors; without it, and without isotherms, the compound holds at its reference only.
     strain : Path, optional
@@ -39,7 +39,7 @@ class Request:
     by : {"both", "storage", "loss"}
         Modulus whose overlap places the isotherms.
     law : {"table", "wlf", "arrhenius"}
-        Shift law that the compound keeps, and that its master curve is laid by.
+        Shift law of the compound and its master curve.
     repeats : bool
         Whether sweeps at one temperature, specimens or runs, are averaged; else they are refused.
     exclude : tuple of str
@@ -47,11 +47,11 @@ class Request:
     storage_error, loss_error : float, optional
         Relative standard errors of E' and E'' that weigh them [-]; both or neither, equal without.
     replicas : int
-        Of the bootstrap band; 0 for none.
+        Number of bootstrap replicas of the band; 0 for none.
     accept : frozenset of str
-        Findings on which a person insists, names of `conveyor.fitting.findings.FINDINGS`; others are refused.
+        Findings to accept, names of `conveyor.fitting.findings.FINDINGS`; others are refused.
     reading : mapping
-        Answers to what a file leaves open: keywords of `conveyor.laboratory.read_dma`.
+        Answers to ambiguities of a file: keywords of `conveyor.laboratory.read_dma`.
     """
 
     name: str

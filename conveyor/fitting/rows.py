@@ -1,4 +1,4 @@
-"""Rows of laboratory files of several kinds, and where temperature shifts lay them on one master curve."""
+"""Rows of laboratory files of several kinds, shifted to one master curve."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 
 CURVES = frozenset({"master curve", "isotherms", "relaxation", "temperature sweep"})
-"""Kinds of file whose rows lie on a master curve."""
+"""Kinds of file that give rows of a master curve."""
 _ROWS = re.compile(r"(?:(?P<file>.+):)?(?P<rows>\d{1,9}(?:-\d{1,9})?(?:,\d{1,9}(?:-\d{1,9})?)*)")
 
 
@@ -47,9 +47,9 @@ class MeasuredRows:
     file : ndarray of int
         Number of the file of each row.
     temperature, frequency, storage, loss : ndarray, shape (n,)
-        As measured, of relaxation as converted [K, Hz, Pa, Pa].
+        As measured, or as converted from relaxation [K, Hz, Pa, Pa].
     log10_a_T, log10_b_T : ndarray, shape (n,)
-        Of each row [decades].
+        Shift of each row [decades].
     """
 
     file: Numbers
@@ -67,7 +67,7 @@ class MeasuredRows:
         return self.frequency * 10.0**self.log10_a_T, self.storage / b, self.loss / b
 
     def ordered(self) -> MeasuredRows:
-        """By ascending reduced frequency."""
+        """Rows by ascending reduced frequency."""
         order = np.argsort(self.curve[0], kind="stable")
         return MeasuredRows(**{name: getattr(self, name)[order] for name in self.__dataclass_fields__})
 
@@ -82,7 +82,7 @@ def scatter_of(rows: MeasuredRows, fit: PronyFit) -> tuple[float | None, float |
 
 
 def disagreement_of(rows: MeasuredRows, fit: PronyFit) -> tuple[float, float] | None:
-    """What E' and E'' of isotherms differ by on the master curve, beyond their own scatter [-]; None of one."""
+    """Difference of E' and E'' between isotherms on the master curve, beyond scatter [-]; None for one isotherm."""
     counts = np.unique(rows.temperature, return_counts=True)[1]
     pooled, within = (fit.storage_noise, fit.loss_noise), scatter_of(rows, fit)
     if np.count_nonzero(counts > 2) < 2 or None in pooled or None in within:
@@ -95,7 +95,7 @@ def disagreement_of(rows: MeasuredRows, fit: PronyFit) -> tuple[float, float] | 
 
 
 class ShiftFactors(NamedTuple):
-    """Temperatures [K], log10 a_T and its standard error, log10 b_T [decades], those of them that are known."""
+    """Temperatures [K], log10 a_T, its standard error and log10 b_T [decades], None if unknown."""
 
     temperatures: Array
     log10_a_T: Array  # noqa: N815
@@ -104,7 +104,7 @@ class ShiftFactors(NamedTuple):
 
 
 def shift_factors(superposition: Superposition | None, given: DmaData | None) -> ShiftFactors | None:
-    """Those of a superposition, else of a file."""
+    """Shift factors of a superposition, else of a file; None without."""
     if superposition is not None:
         vertical = superposition.log10_b_T if np.any(superposition.log10_b_T) else None
         return ShiftFactors(
@@ -118,9 +118,9 @@ def shift_factors(superposition: Superposition | None, given: DmaData | None) ->
 def excluded(
     tables: Sequence[tuple[Path, str | None]], exclude: Sequence[str], others: Sequence[Path] = ()
 ) -> dict[int, str]:
-    """Rows to leave out, 12-15,20, of tables (file and sheet) by their number; from FILE:ROWS, of one file ROWS.
+    """Rows to leave out, as 12-15,20, by table number (file and sheet); from FILE:ROWS, or ROWS for a single file.
 
-    What names one of the other files, `excluded_of` has.
+    Entries that name one of the other files are for `excluded_of`.
     """
     rows: dict[int, str] = {}
     for given in exclude:
@@ -144,14 +144,14 @@ def excluded(
 
 
 def excluded_of(path: Path, exclude: Sequence[str]) -> str | None:
-    """Rows to leave out of one file, of those that name it; None without any."""
+    """Rows to leave out of one file, from the entries that name it; None without any."""
     given = [match for match in map(_ROWS.fullmatch, exclude) if match and match["file"] is not None]
     rows = [match["rows"] for match in given if _is_named(match["file"], path, None)]
     return ",".join(rows) or None
 
 
 def _is_named(name: str | None, path: Path, sheet: str | None) -> bool:
-    """Whether a person means this table by file or file[sheet], with or without its folder."""
+    """True if a name, file or file[sheet] with or without folder, is of this table."""
     if name is None or name in {str(path), path.name}:
         return True
     file, _, of = name.partition("[")
@@ -159,7 +159,7 @@ def _is_named(name: str | None, path: Path, sheet: str | None) -> bool:
 
 
 def sweeps(reads: Sequence[DmaData], stated: Mapping[int, float]) -> tuple[list[Sweep], tuple[str, ...]]:
-    """Frequency sweeps of all files, those of relaxation converted; `stated` temperatures of files [K]."""
+    """Frequency sweeps of all files, relaxation converted; `stated` are temperatures by file [K]."""
     taken: list[Sweep] = []
     said = []
     for number, read in enumerate(reads):
@@ -182,7 +182,7 @@ def sweeps(reads: Sequence[DmaData], stated: Mapping[int, float]) -> tuple[list[
 
 
 def averaged(parts: Sequence[Sweep]) -> tuple[list[Sweep], tuple[str, ...]]:
-    """Sweeps at one temperature, specimens or runs, as one, and a sentence on each such temperature."""
+    """Average the sweeps at each temperature, specimens or runs, with notes."""
     ordered = sorted(parts, key=lambda part: part.isotherm.temperature)
     apart = np.flatnonzero(np.diff([part.isotherm.temperature for part in ordered]) > ISOTHERM_GAP) + 1
     made, said = [], []
@@ -194,7 +194,7 @@ def averaged(parts: Sequence[Sweep]) -> tuple[list[Sweep], tuple[str, ...]]:
 
 
 def _mean(sweeps: Sequence[Sweep]) -> tuple[Sweep, str]:
-    """Geometric means of sweeps at the frequencies that all of them have, and what they differ by."""
+    """Geometric mean of sweeps at their common frequencies, and a note on their spread."""
     ones = [sweep.isotherm for sweep in sweeps]
     at = float(np.mean([one.temperature for one in ones]))
     said = f"{len(ones)} sweeps at {celsius(at):.2f} degC"
@@ -223,7 +223,7 @@ def _mean(sweeps: Sequence[Sweep]) -> tuple[Sweep, str]:
 def _sweep(
     read: DmaData, number: int, temperature: float, moduli: tuple[Array, Array, Array], rows: Numbers
 ) -> Sweep:
-    """Frequency, E' and E'' of some rows of a file, refused by the first of them."""
+    """Sweep of some rows of a file; errors are located at the first of them."""
     try:
         return Sweep(number, Isotherm(temperature, *moduli), int(rows.min()))
     except InputError as error:
@@ -268,7 +268,7 @@ def _relaxed(read: DmaData, number: int, stated: Mapping[int, float]) -> Iterato
 
 
 def overridden(superposition: Superposition, given: DmaData) -> tuple[Superposition, tuple[str, ...]]:
-    """Put shift factors of a file in place of those found, each at the isotherm of its temperature."""
+    """Replace shift factors by those of a file, each at the isotherm of its temperature."""
     shift, vertical = superposition.log10_a_T.copy(), superposition.log10_b_T.copy()
     error, said = superposition.log10_a_T_error.copy(), []
     covariance = superposition.joint_covariance.copy()
@@ -296,13 +296,13 @@ def overridden(superposition: Superposition, given: DmaData) -> tuple[Superposit
 
 
 def entropic(read: DmaData, shifts: DmaData | None, reference: float) -> Array:
-    """log10 b_T of an entropic network, T/T_ref, for the rows of a master curve that was laid without it [decades].
+    """log10 b_T of an entropic network, T/T_ref, for the rows of a master curve shifted without it [decades].
 
     Notes
     -----
-    Derived: the ends of the window tell which frequencies were measured, f_max/a_T at the coldest and f_min/a_T at the
-    hottest isotherm; a row was measured where a_T brings it to their geometric mean. Rows of an isotherm of two decades
-    are some 8 K from there at most, 3 % of b_T.
+    Derived: the measured frequencies follow from the ends of the window, f_max/a_T at the coldest and f_min/a_T at the
+    hottest isotherm; a row is assumed measured where a_T brings it to their geometric mean. Rows of an isotherm of two
+    decades are some 8 K from there at most, 3 % of b_T.
     """
     frequency, _, _ = moduli_of(read)
     given = shift_factors(None, shifts)
@@ -329,7 +329,7 @@ def laid(
     superposition: Superposition | None,
     whole: tuple[int, float, DmaData, Array | float] | None,
 ) -> tuple[MeasuredRows, tuple[str, ...]]:
-    """Lay sweeps, temperature sweeps and a whole curve (file, reference [K], rows, log10 b_T) by a shift law."""
+    """Shift sweeps, temperature sweeps and a whole curve (file, reference [K], rows, log10 b_T) by a law."""
     columns: list[tuple[Any, ...]] = []
     vertical: dict[float, float] = {}
     if superposition is not None:
@@ -376,7 +376,7 @@ def laid(
 
 
 def moduli_of(read: DmaData) -> tuple[Array, Array, Array]:
-    """Frequency [Hz], E' and E'' [Pa]; refused where a file has them not."""
+    """Frequency [Hz], E' and E'' [Pa] of a file, refused where missing."""
     frequency, storage, loss = read.columns("rows of a master curve", "frequency", "storage", "loss")
     return frequency, storage, loss
 
@@ -387,6 +387,6 @@ def _column(
     moduli: tuple[Array, Array, Array],
     shift: tuple[float | Array, float | Array],
 ) -> tuple[Any, ...]:
-    """Rows of one sweep, as the fields of `MeasuredRows`."""
+    """Rows of one sweep as the fields of `MeasuredRows`."""
     one = np.ones(moduli[0].size)
     return (np.full(one.size, file), temperature * one, *moduli, shift[0] * one, shift[1] * one)

@@ -1,4 +1,4 @@
-"""What a fit understood, found and left open: lines for the terminal, and a figure."""
+"""Summary of a fit: lines for the terminal, and a figure."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _SHAPE_CORRELATION = 0.5  # of neighbouring residuals beyond which isotherms dif
 
 
 def lines(rubber: Fitted | Tabulated) -> list[str]:
-    """What was understood, the shift, the fit and its errors, and what to doubt."""
+    """Lines on reading, shift, fit, errors and doubts."""
     if isinstance(rubber, Tabulated):
         series = rubber.compound.series_at_reference
         return [
@@ -129,7 +129,7 @@ def _series(fitted: Fitted) -> Iterator[str]:
 
 
 def _outliers(fit: PronyFit) -> Iterator[str]:
-    """Rows that pull the fit no more."""
+    """Lines on rows with little weight in the fit."""
     f = fit.rows.frequency
     for name, kept, error in zip(("E'", "E''"), np.split(fit.rows.trust, 2), fit.errors, strict=True):
         stray = np.flatnonzero(kept < STRAY)
@@ -180,7 +180,7 @@ def _consistency(fitted: Fitted) -> Iterator[str]:
 
 
 def shift_table(rubber: Fitted | Tabulated) -> str:
-    """Shift factors of a fit as a file that `--shift` reads, after a person's hand or without."""
+    """Shift factors of a fit as text of a file for `--shift`, to edit by hand."""
     shifted = None if isinstance(rubber, Tabulated) else rubber.superposition
     if shifted is None:
         raise InputError("--write-shift: shift factors are found from isotherms at two temperatures and more")

@@ -1,4 +1,4 @@
-"""Every table of a fit, declared once: those of the page that is signed, and the rest of the workbook."""
+"""Tables of a fit, declared once: those of the page to sign, and the others of the workbook."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ from conveyor.report.columns import Column, Contents, ReportHead, Table
 from conveyor.units.sentences import celsius, percent
 
 DOCUMENT: Final = ("laboratory", "number", "specimen", "instrument", "method", "measured", "by")
-"""What is said of the document: given, or stated by the files under these names."""
+"""Fields of the document, given or stated by the files under these names."""
 
 
 def of_fit(
     fitted: Fitted, criteria: Sequence[Criterion], document: Mapping[str, str], *, paper: Paper = "A4"
 ) -> Contents:
-    """Return every table of a fit.
+    """Every table of a fit.
 
     Parameters
     ----------
-    found : Fitted
+    fitted : Fitted
         The fit.
     criteria : sequence of Criterion
         Of `conveyor.fitting.verdict.verdict`.
     document : mapping of str to str
-        Laboratory, number, specimen, instrument, method, measured, by; what is left out the files may state.
+        Laboratory, number, specimen, instrument, method, measured, by; others are taken from the files.
     paper : {"A4", "Letter"}
         To print on.
     """
@@ -52,13 +52,13 @@ def of_fit(
 
 
 def said(fitted: Fitted, document: Mapping[str, str]) -> dict[str, str]:
-    """What is said of the document, given or stated by the files."""
+    """Fields of the document, given or stated by the files."""
     stated = {key.lower(): value for key, value in fitted.metadata.items()}
     return {name: words for name in DOCUMENT if (words := document.get(name) or stated.get(name))}
 
 
 def judged(criteria: Sequence[Criterion]) -> Table:
-    """One row a criterion."""
+    """Criteria, one row each."""
     columns = (
         Column("criterion", "text", "name"),
         Column("calculated", "text", "calculated"),
@@ -70,7 +70,7 @@ def judged(criteria: Sequence[Criterion]) -> Table:
 
 
 def facts(fitted: Fitted) -> list[tuple[str, str]]:
-    """What a reader asks first, in words."""
+    """Main facts of a fit, label and text."""
     fit, compound = fitted.fit, fitted.compound
     low, high = fit.window
     law = kept(fitted).name if fitted.laws else "none"
@@ -88,7 +88,7 @@ def facts(fitted: Fitted) -> list[tuple[str, str]]:
 
 
 def shifts(fitted: Fitted) -> Table:
-    """Shift factors of isotherms; no rows without them."""
+    """Shift factors of isotherms; empty without."""
     shifted = fitted.superposition
     columns = ("temperature", "log10 a_T", "standard error", "log10 b_T")
     kinds = ("temperature", "decades", "decades", "decades")
@@ -100,7 +100,7 @@ def shifts(fitted: Fitted) -> Table:
 
 
 def laws(fitted: Fitted) -> Table:
-    """How well each law follows the shifts."""
+    """Misfit of each shift law."""
     columns = (
         Column("law", "text", "name"),
         Column("rms", "decades", "rms"),
@@ -131,7 +131,7 @@ def files(fitted: Fitted) -> Table:
 
 
 def master_curve(fitted: Fitted) -> Table:
-    """Every row as measured, where it was laid, and the series there."""
+    """Every row as measured and as shifted, and the series there."""
     rows, (f, storage, loss) = fitted.rows, fitted.rows.curve
     omega, made = 2.0 * np.pi * f, fitted.fit.series
     numbers = np.array([
@@ -154,7 +154,7 @@ def master_curve(fitted: Fitted) -> Table:
 
 
 def series(fitted: Fitted) -> Table:
-    """Terms of the series, the modulus at rest first."""
+    """Terms of the series, equilibrium modulus first."""
     made = fitted.fit.series
     rows = [("E_e", None, made.equilibrium)]
     rows += [
@@ -166,6 +166,6 @@ def series(fitted: Fitted) -> Table:
 
 
 def _numbered(names: Sequence[str], kinds: Sequence[str]) -> tuple[Column, ...]:
-    """Columns of rows that are tuples."""
+    """Columns for rows that are tuples."""
     pairs = enumerate(zip(names, kinds, strict=True))
     return tuple(Column(name, kind, itemgetter(k), key=f"column_{k}") for k, (name, kind) in pairs)

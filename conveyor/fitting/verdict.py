@@ -1,4 +1,4 @@
-"""What a laboratory head asks of a master curve before signing it: criteria, calculated and required, pass or fail."""
+"""Criteria for signing a master curve: calculated and required, pass or fail."""
 
 from __future__ import annotations
 
@@ -25,29 +25,29 @@ from conveyor.units.sentences import celsius, percent
 Word = Literal["pass", "FAIL", "not checked"]
 
 NOISE: Final = (0.03, 0.06)
-"""Scatter of E' and E'' from row to row (general knowledge: a DMA on rubber holds 1 and 3 %) [-]."""
+"""Largest scatter of E' and E'' from row to row (general knowledge: a DMA on rubber holds 1 and 3 %) [-]."""
 SHIFT: Final = 0.1
-"""Of log10 a_T: what 1 K is near the glass transition (`conveyor.rubber.superpose`) [decades]."""
+"""Largest uncertainty of log10 a_T: 1 K near the glass transition (`conveyor.rubber.superpose`) [decades]."""
 LEFT_OUT: Final = 0.2
-"""Of a shift predicted by its neighbours: E' of a rubber goes as f^0.15, 0.2 decades are 7 % (general knowledge)."""
+"""Largest error of a shift left out: E' of a rubber goes as f^0.15, 0.2 are 7 % (general knowledge) [decades]."""
 OVERLAP: Final = 0.5
-"""Of neighbouring isotherms (docs/rubber.md, what to measure) [decades]."""
+"""Least overlap of neighbouring isotherms (docs/rubber.md, what to measure) [decades]."""
 SHAPE: Final = 0.5
 """Correlation of neighbouring residuals beyond which isotherms differ in shape [-]."""
 ANGLE: Final = 0.3
-"""Of the phase angle of a DMA beside the scatter of its rows (general knowledge: 0.1 to 0.3 degrees) [degrees]."""
+"""Repeatability of the phase angle of a DMA (general knowledge: 0.1 to 0.3 degrees) [degrees]."""
 MODULUS: Final = 0.005
-"""Of |E*| at the least: what a DMA repeats (general knowledge) [-]."""
+"""Repeatability of |E*| of a DMA (general knowledge) [-]."""
 OF_SCATTER: Final = 2.0
-"""Differences beyond twice the scatter of the rows are none of it: 95 % of a normal distribution lie within [-]."""
+"""Largest difference over the scatter of the rows: 95 % of a normal distribution lie within twice [-]."""
 KRAMERS_KRONIG: Final = 0.1
-"""Of one modulus predicted from the other (general knowledge) [-]."""
+"""Largest rms error of one modulus predicted from the other (general knowledge) [-]."""
 BEYOND_BEST: Final = 0.01
-"""Left by the fit beyond what the best positive spectrum leaves: as much as a good instrument scatters [-]."""
+"""Residual above that of the best positive spectrum: the scatter of a good instrument [-]."""
 ENDS: Final = 0.05
-"""Of E' and E'' in the mean over the half decade at either end of the window [-]."""
+"""Largest mean error of E' and E'' over the half decade at either end of the window [-]."""
 END: Final = 0.5
-"""Rows of an end: so far from it, three at six to the decade (general knowledge) [decades]."""
+"""Length of an end of the window: three rows at six to the decade (general knowledge) [decades]."""
 
 GLOSSARY: Final = (
     ("E', E''", "storage and loss modulus, in tension: stress in phase and out of phase over strain"),
@@ -77,7 +77,7 @@ GLOSSARY: Final = (
 
 @dataclass(frozen=True)
 class Criterion:
-    """One criterion: what was calculated, what is required, the verdict, and what it means."""
+    """One criterion: calculated, required, verdict and reason."""
 
     name: str
     calculated: str
@@ -87,7 +87,7 @@ class Criterion:
 
     @property
     def line(self) -> str:
-        """In one line."""
+        """Criterion in one line."""
         why = f"; {self.why}" if self.verdict == "FAIL" else ""
         return f"{self.name}: " + (
             f"{self.calculated} ({self.required}){why}" if self.calculated else self.why
@@ -95,14 +95,14 @@ class Criterion:
 
 
 def verdict(fitted: Fitted, conveyor: Conveyor | None = None) -> tuple[Criterion, ...]:
-    """Return every criterion of a fit; those of a conveyor's rolls where one is given.
+    """Every criterion of a fit, with those of the rolls of a given conveyor.
 
     Parameters
     ----------
-    found : Fitted
+    fitted : Fitted
         The fit.
     conveyor : Conveyor, optional
-        Its rolls, speed and temperature tell which frequencies the rubber has to be known at.
+        Its rolls, speed and temperature set the frequencies that the window must cover.
     """
     made = (_noise, _strain, _shifts, _shape, _collapse, _consistent, _residual, _ends)
     return (
@@ -112,7 +112,7 @@ def verdict(fitted: Fitted, conveyor: Conveyor | None = None) -> tuple[Criterion
 
 
 def passed(criteria: tuple[Criterion, ...]) -> bool:
-    """Whether no criterion fails."""
+    """True if no criterion fails."""
     return all(one.verdict != "FAIL" for one in criteria)
 
 
@@ -187,7 +187,7 @@ def _shifts(fitted: Fitted) -> Iterator[Criterion]:
 
 
 def kept(fitted: Fitted) -> ShiftComparison:
-    """The comparison of the shift law that the compound keeps."""
+    """Comparison of the shift law of the compound."""
     shift = fitted.compound.shift
     name = "table" if shift is None else shift.law
     return next(law for law in fitted.laws if law.name.lower() == name)
@@ -202,7 +202,7 @@ def _shape(fitted: Fitted) -> Iterator[Criterion]:
 
 
 def collapse(rows: MeasuredRows, noise: tuple[float, float]) -> tuple[float, float, float] | None:
-    """The neighbouring isotherms whose phase angles differ most at one modulus, |E*|/b_T.
+    """Largest difference of phase angle between neighbouring isotherms at one modulus, |E*|/b_T.
 
     Parameters
     ----------
@@ -214,13 +214,13 @@ def collapse(rows: MeasuredRows, noise: tuple[float, float]) -> tuple[float, flo
     Returns
     -------
     tuple or None
-        Root mean square of the differences over what scatter makes of them [-], and both temperatures [K]; None where
-        no two isotherms have moduli in common.
+        Root mean square of the differences over their scatter [-], and both temperatures [K]; None where no two
+        isotherms have moduli in common.
 
     Notes
     -----
     The distance of each row to the other isotherm's line, in units of scatter along both axes: where the line is steep,
-    on a plateau, it is the modulus that tells. Rows beyond the ends of the line do not count.
+    on a plateau, the modulus decides. Rows beyond the ends of the line do not count.
     d(delta) = sin(2 delta)/2 d(ln tan delta).
     """
     _, storage, loss = rows.curve

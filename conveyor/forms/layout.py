@@ -1,4 +1,4 @@
-"""From models to what can be filled in: fields, groups of fields, tables of items."""
+"""Fields of the models to fill in: single fields, groups, tables."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ _PLAIN: Final[dict[Any, LeafKind]] = {bool: "switch", int: "count", float: "numb
 
 @dataclass(frozen=True, kw_only=True)
 class Leaf:
-    """One value to fill in, with its unit where it has one."""
+    """A value to fill in, with its unit where it has one."""
 
     key: str
     kind: LeafKind
     doc: str = ""
     required: bool = False
     default: Any = None
-    """Plain data, as a spec holds it; None without a default."""
+    """Plain data as in a spec; None without a default."""
     allowed: str = ""
     units: tuple[str, ...] = ()
     measure: str = ""
@@ -47,11 +47,11 @@ class Leaf:
     """Least plain number (not of quantities)."""
     high: float | None = None
     item: Leaf | None = None
-    """What a list holds."""
+    """Item of a list."""
     single: bool = False
-    """Whether a list may also be one item."""
+    """True if a list may be given as one item."""
     model: type[BaseModel] | None = None
-    """What a reference stands for."""
+    """Model of a reference."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,7 +85,7 @@ Part: TypeAlias = Leaf | FieldGroup | FieldTable
 
 @dataclass(frozen=True, kw_only=True)
 class _About:
-    """What a field says beside its type."""
+    """Key, docstring, requirement and default of a field."""
 
     key: str
     doc: str = ""
@@ -112,12 +112,12 @@ def layout(model: type[BaseModel]) -> FieldGroup:
 
 
 def first_line(text: str | None) -> str:
-    """Return the first paragraph of a docstring as one line."""
+    """First paragraph of a docstring as one line."""
     return " ".join((text or "").strip().split("\n\n")[0].split())
 
 
 def leaves(part: Part) -> Iterator[Leaf]:
-    """Give every leaf below a part, those of tables included."""
+    """All single fields of a part, including those of tables."""
     if isinstance(part, Leaf):
         yield part
     else:
@@ -151,7 +151,7 @@ def _default(info: FieldInfo) -> Any:
 
 
 def _unwrapped(annotation: Any, marks: tuple[Any, ...]) -> tuple[Any, tuple[Any, ...]]:
-    """Take None and markers off a type; the markers are returned beside it."""
+    """Split a type into the type without None and its annotations."""
     origin = get_origin(annotation)
     if origin is Annotated:
         inner, *more = get_args(annotation)
@@ -191,7 +191,7 @@ def _built(about: _About, base: Any, marks: tuple[Any, ...], seen: tuple[type[Ba
 def _group(
     about: _About, models: list[Any], marks: tuple[Any, ...], seen: tuple[type[BaseModel], ...]
 ) -> FieldGroup | None:
-    """Lay out one model, or the fields of all models that a tag chooses between."""
+    """Field group of one model, or of all models that a tag chooses between."""
     tag = next((mark.discriminator for mark in marks if isinstance(mark, FieldInfo)), None)
     if len(models) == 1:
         parts = _parts(models[0], seen)
@@ -205,7 +205,7 @@ def _group(
 
 
 def _variants(every: list[tuple[Part, ...]], tag: str) -> tuple[Part, ...]:
-    """Put the fields of tagged variants in one list, each with the tags it belongs to."""
+    """Merge the fields of tagged variants, each with its tags in the docstring."""
     tags = [next(part for part in parts if part.key == tag) for parts in every]
     choices = tuple(choice for leaf in tags if isinstance(leaf, Leaf) for choice in leaf.choices)
     merged: dict[str, Part] = {
@@ -223,7 +223,7 @@ def _variants(every: list[tuple[Part, ...]], tag: str) -> tuple[Part, ...]:
 
 
 def _joined(old: Part, new: Part) -> Part:
-    """Make one field of two variants' fields of the same name."""
+    """Merge two variants' fields of the same name."""
     doc = f"{old.doc}; {new.doc}"
     if replace(old, doc="") == replace(new, doc=""):
         return replace(old, doc=doc)
@@ -234,7 +234,7 @@ def _joined(old: Part, new: Part) -> Part:
 
 
 def _items(base: Any) -> Any:
-    """Return the type of the items of a list all of one type."""
+    """Item type of a homogeneous list; None for other types."""
     if get_origin(base) not in {tuple, list}:
         return None
     kept = [arm for arm in get_args(base) if arm is not Ellipsis]
@@ -270,7 +270,7 @@ def _scalar(about: _About, base: Any, marks: tuple[Any, ...], seen: tuple[type[B
 
 
 def _either(about: _About, base: Any, seen: tuple[type[BaseModel], ...]) -> Leaf | None:
-    """Lay out a quantity or one of some words, and a list or one item of it."""
+    """Field of a union: quantity or choice, list or single item; None for other unions."""
     if len(_arms(base)) != 2:
         return None
     arms = [_built(_About(key=about.key), *_unwrapped(arm, ()), seen) for arm in _arms(base)]
@@ -290,13 +290,13 @@ _SIGN: Final = {"gt": ">", "ge": "≥", "lt": "<", "le": "≤"}
 
 
 def _bounds(marks: tuple[Any, ...]) -> str:
-    """Write the ranges of a quantity."""
+    """Range of a quantity as text."""
     limits = [(name, getattr(m, name)) for m in marks if isinstance(m, Bounds) for name in _SIGN]
     return ", ".join(f"{_SIGN[name]} {limit}" for name, limit in limits if limit is not None)
 
 
 def _limits(marks: tuple[Any, ...]) -> str:
-    """Write the range of a plain number, or the lengths of a text."""
+    """Range of a plain number, or lengths of a text, as text."""
     said = [f"{_SIGN[_LIMIT[type(m)]]} {getattr(m, _LIMIT[type(m)]):g}" for m in marks if type(m) in _LIMIT]
     texts = (mark.max_length for mark in marks if isinstance(mark, StringConstraints))
     said += [f"at most {longest} characters" for longest in texts if longest is not None]
@@ -318,7 +318,7 @@ _DIGITS: Final = 3
 
 
 def limits_like(allowed: str, value: Any) -> str:
-    """Write ranges in the unit of a value as specs hold it, to three digits rounded inwards: what is said is allowed.
+    """Ranges in the unit of a given value, to three digits rounded inwards.
 
     Examples
     --------
@@ -335,7 +335,7 @@ def _limit(match: re.Match[str], value: Any) -> str:
     number, unit = limit
     digits = _DIGITS - 1 - (math.floor(math.log10(abs(number))) if number else 0)
     towards = math.ceil if match[1] in ">≥" else math.floor
-    near = round(number, digits)  # of 19999.999999999996 the 20000 that is meant
+    near = round(number, digits)  # 19999.999999999996 is 20000
     inward = (
         near if math.isclose(near, number, rel_tol=1e-9) else towards(number * 10.0**digits) / 10.0**digits
     )
@@ -343,7 +343,7 @@ def _limit(match: re.Match[str], value: Any) -> str:
 
 
 def like(given: str, value: Any) -> tuple[float, str] | None:
-    """Return the number and the unit of a quantity, in the unit of another where both are quantities."""
+    """Number and unit of a quantity in the unit of another; None where the other is no quantity."""
     value = value[0] if isinstance(value, list) and value else value
     if not isinstance(value, str) or len(value.split(" ")) != 2:
         return None
@@ -361,7 +361,7 @@ _MISREAD_IN_US: Final = "tph"
 
 
 def in_system(leaf: Leaf, system: System, units: Iterable[str | None] = ()) -> Leaf:
-    """Return a field with its range, its default and its units in a system; `units` are those filled in.
+    """Field with range, default and units in a system; `units` are those filled in.
 
     A unit that a US reader takes for another is left out, where it is not filled in.
     """
@@ -382,5 +382,5 @@ def in_system(leaf: Leaf, system: System, units: Iterable[str | None] = ()) -> L
 
 
 def _unit_in_us(leaf: Leaf) -> str:
-    """Unit of reports of the kind; of lengths of parts the inch."""
+    """US unit of the kind in reports; the inch for lengths."""
     return KINDS["thickness" if leaf.measure == "length" else leaf.measure].us

@@ -1,4 +1,4 @@
-"""Where fields stand: a sheet for each part of a model, a sheet for each list, under stable names."""
+"""Sheets of a model: one for each part and each list, under stable names."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ LISTS: Final = "Lists"
 
 @dataclass(frozen=True)
 class Row:
-    """A line of a form: a field, or the heading of a nested model."""
+    """Line of a form: a field, or the heading of a nested model."""
 
     path: Path
     depth: int
     part: Leaf | FieldGroup
     certain: bool
-    """Whether a required field is needed whatever else is filled in."""
+    """True if the field is required whatever else is filled in."""
 
 
 @dataclass(frozen=True)
 class Form:
-    """A sheet of fields, one a line."""
+    """Sheet of fields, one a line."""
 
     name: str
     doc: str
@@ -41,7 +41,7 @@ class Form:
 
 @dataclass(frozen=True)
 class FieldColumn:
-    """A column of a list: a field of its items."""
+    """Column of a list: a field of its items."""
 
     path: Path
     leaf: Leaf
@@ -50,7 +50,7 @@ class FieldColumn:
 
 @dataclass(frozen=True)
 class ListSheet:
-    """A sheet of a list, one row an item."""
+    """Sheet of a list, one row an item."""
 
     name: str
     table: FieldTable
@@ -72,7 +72,7 @@ class Plan:
 
 @dataclass
 class _Names:
-    """Gives every sheet its name: the last word of its path, longer where that is taken."""
+    """Unique sheet names: the last word of the path, longer where that is taken."""
 
     prefix: str = ""
     taken: set[str] = field(default_factory=lambda: {LISTS.casefold(), "history"})
@@ -90,7 +90,7 @@ class _Names:
 
 
 def label(key: str) -> str:
-    """Write a key for people.
+    """Key as a readable label.
 
     Examples
     --------
@@ -103,7 +103,7 @@ def label(key: str) -> str:
 
 @cache
 def whole(model: type[BaseModel]) -> Plan:
-    """Place a model: its own fields on a first sheet, each nested model and each list on its own.
+    """Sheets of a model: its own fields on a first sheet, each nested model and each list on its own.
 
     Examples
     --------
@@ -127,7 +127,7 @@ def whole(model: type[BaseModel]) -> Plan:
 
 @cache
 def written_out(model: type[BaseModel], name: str) -> Plan:
-    """Place a model that a reference stands for: one form under `name`, its lists after it.
+    """Sheets of a referenced model: one form under `name`, its lists after it.
 
     Examples
     --------
@@ -141,7 +141,7 @@ def written_out(model: type[BaseModel], name: str) -> Plan:
 
 
 def reference_stem(model: type[BaseModel]) -> str:
-    """Return what the sheets of written-out models are called, before their number.
+    """Name of the sheets of written-out models, without their number.
 
     Examples
     --------
@@ -154,7 +154,7 @@ def reference_stem(model: type[BaseModel]) -> str:
 
 
 def references(part: Part) -> dict[str, type[BaseModel]]:
-    """Return the models that leaves refer to, by the stem of their sheets' names."""
+    """Models that fields refer to, by the stem of their sheet names."""
     models = [leaf.model for leaf in leaves(part) if leaf.model is not None]
     return {reference_stem(model): model for model in models}
 
@@ -175,7 +175,7 @@ def _rows(group: FieldGroup, path: Path, depth: int, *, certain: bool) -> Iterat
 
 
 def _tables(group: FieldGroup, path: Path, parent: str | None, names: _Names) -> Iterator[ListSheet]:
-    """Place every list below a group, lists inside lists after the list that holds them."""
+    """Sheets of all lists of a group, nested lists after the list that holds them."""
     for part in group.parts:
         here = (*path, part.key)
         if isinstance(part, FieldTable):

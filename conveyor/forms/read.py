@@ -1,4 +1,4 @@
-"""From a filled-in template to plain data that knows its cells."""
+"""Read a filled-in template to plain data, with the cell of every field."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ from conveyor.models.base import field_path
 from conveyor.models.wording import Location
 
 KEY, VALUE, UNIT = "Key", "Value", "Unit"
-"""Headers by which the columns of a form are found."""
+"""Column headers of a form."""
 NUMBER, PARENT = "#", "^"
-"""Keys of the columns of a list that number its items and name the item of the list above."""
+"""Column keys of a list: number of the item, and of its item in the parent list."""
 NAMED: Final = "@"
-"""Key of the name that a written-out compound is referred to by."""
+"""Key of the name of a written-out compound."""
 UNIT_OF: Final = "[unit]"
 _HEADER_ROWS: Final = 60
-"""Rows in which the header of a form or list is looked for."""
+"""Rows searched for the header of a form or list."""
 
 
 def problem_of(cell: SheetCell) -> str:
-    """Why a cell cannot be taken for a value; "" where it can."""
+    """Reason why a cell is not a value; "" where it is one."""
     if cell.kind == "no result":
         return (
             "holds a formula without a result; open the workbook in a spreadsheet program, let it calculate "
@@ -54,7 +54,7 @@ def problem_of(cell: SheetCell) -> str:
 
 
 def address(sheet: str, row: int, column: int) -> str:
-    """Write the place of a cell as spreadsheets do.
+    """Cell address as in spreadsheets.
 
     Examples
     --------
@@ -77,7 +77,7 @@ class FieldEntry:
 
 @dataclass(frozen=True)
 class Item:
-    """A row of a list: where, its number, the number of the item it belongs to, its fields."""
+    """Row of a list: place, number, number of its parent item, fields."""
 
     place: str
     number: int | None
@@ -87,7 +87,7 @@ class Item:
 
 @dataclass
 class Content:
-    """The entries of all sheets of a plan, and where each sheet begins."""
+    """Entries of all sheets of a plan, and the first cell of each sheet."""
 
     plan: Plan
     entries: dict[Path, FieldEntry] = field(default_factory=dict)
@@ -96,14 +96,14 @@ class Content:
 
 
 class SheetReader:
-    """Reads the sheets of a plan and notes every problem it meets."""
+    """Reads the sheets of a plan and collects all problems."""
 
     def __init__(self, path: str, grids: dict[str, Sheet]) -> None:
         self.path, self.grids = path, grids
         self.problems: list[str] = []
 
     def refuse(self, place: str, message: str) -> None:
-        """Note a problem of a cell."""
+        """Record a problem of a cell."""
         self.problems.append(f"{self.path}:{place} {message}")
 
     def content(self, plan: Plan) -> Content:
@@ -129,7 +129,7 @@ class SheetReader:
         return content
 
     def _sheet(self, name: str, *, required: bool) -> Sheet | None:
-        """Return a sheet; one that may be empty may be missing too, unless another looks like it."""
+        """Return a sheet; an optional one may be missing, unless another has a similar name."""
         if name in self.grids:
             return self.grids[name]
         folded = {other.casefold().strip(): other for other in self.grids}
@@ -194,7 +194,7 @@ class SheetReader:
         return items
 
     def _header(self, grid: Sheet, needed: tuple[str, ...]) -> tuple[int, dict[str, int]]:
-        """Find the row that names the columns, and its names; no names where there is none."""
+        """Number of the header row and its columns by name; no columns where there is none."""
         for row in range(1, _HEADER_ROWS + 1):
             columns: dict[str, int] = {}
             twice = []
@@ -227,7 +227,7 @@ class SheetReader:
                 self.refuse(f"{begin}:{end}", "cells are merged; unmerge them, one cell holds one value")
 
     def _refuse_strays(self, grid: Sheet, row: int, columns: set[int], of: str) -> None:
-        """Refuse what stands beside the columns of a form or list in a row that gives no field or item."""
+        """Refuse values outside the columns of a form or list in a row without a field or item."""
         for (r, column), cell in grid.cells.items():
             if r == row and column not in columns and not problem_of(cell):
                 place = address(grid.name, row, column)
@@ -270,14 +270,14 @@ _ENCRYPTED: Final = "EncryptedPackage".encode("utf-16-le")
 
 @dataclass(frozen=True)
 class Filled:
-    """What a workbook holds: plain data as of a spec, and the cell of every field."""
+    """Content of a workbook: plain data as of a spec, and the cell of every field."""
 
     path: str
     data: dict[str, Any]
     cells: Mapping[Location, str]
 
     def where(self, location: Location) -> str:
-        """Return ``file:sheet!cell`` of a field, or of the nearest part above it that has a place."""
+        """Place ``file:sheet!cell`` of a field, or of its nearest parent with a place."""
         known: Location = ()
         for part in location:
             if (*known, part) in self.cells:
@@ -341,7 +341,7 @@ def _content(path: FilePath) -> bytes:
 
 
 def _written_out(plan: Plan, sheets: SheetReader) -> dict[str, Content]:
-    """Read what references may stand for, by the names they are referred to."""
+    """Read the written-out models by their names."""
     by_name: dict[str, Content] = {}
     for stem, model in references(plan.root).items():
         for name in sheets.grids:
@@ -361,7 +361,7 @@ def _written_out(plan: Plan, sheets: SheetReader) -> dict[str, Content]:
 
 @dataclass(frozen=True)
 class _At:
-    """Where reading stands: the sheets, the fields of a form or row, the path among them, the place in the data."""
+    """Reading position: sheets, entries of a form or row, path among them, location in the data."""
 
     content: Content
     entries: dict[Path, FieldEntry]
@@ -374,14 +374,14 @@ class _At:
 
 
 class _Reader:
-    """Puts entries together to data and remembers the cell of each."""
+    """Builds plain data from entries and records the cell of each."""
 
     def __init__(self, sheets: SheetReader, by_name: dict[str, Content]) -> None:
         self._sheets, self._by_name = sheets, by_name
         self.cells: dict[Location, str] = {}
 
     def group(self, group: FieldGroup, at: _At) -> tuple[dict[str, Any], bool]:
-        """Return the data of a nested model, and whether any of it was filled in."""
+        """Data of a nested model, and True if any of it was filled in."""
         data: dict[str, Any] = {}
         any_filled = False
         for part in group.parts:
@@ -402,7 +402,7 @@ class _Reader:
         return data, any_filled
 
     def _place(self, at: _At) -> None:
-        """Place a nested model on its own sheet, else where its first field stands."""
+        """Record the cell of a nested model: its own sheet, else its first field."""
         forms = at.content.plan.forms
         own = (at.content.places[form.name] for form in forms if form.path == at.path and at.item is None)
         first = (entry.place for path, entry in at.entries.items() if path[: len(at.path)] == at.path)
@@ -422,7 +422,7 @@ class _Reader:
         return data
 
     def _leaf(self, leaf: Leaf, at: _At, data: dict[str, Any]) -> bool:
-        """Put a field's value into the data; tells whether it was filled in."""
+        """Add a field's value to the data; True if it was filled in."""
         entry = at.entries.get(at.path)
         if entry is None:
             return False
@@ -449,7 +449,7 @@ class _Reader:
 
     @staticmethod
     def _refused(entry: FieldEntry) -> tuple[str, str] | None:
-        """Return the place and the reason why the cells of a field cannot be taken."""
+        """Place and reason where the cells of a field are refused, else None."""
         for value, place in ((entry.value, entry.place), (entry.unit, entry.unit_place)):
             problem = "" if value is None else problem_of(value)
             if problem:

@@ -1,4 +1,4 @@
-"""Between the data of a spec and cells: number and unit apart, both directions side by side."""
+"""Conversion between spec data and cells, number and unit apart."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Value: TypeAlias = str | int | float | bool | None
 YES: Final = "yes"
 NO: Final = "no"
 EMPTY: Final = '""'
-"""Stands for a text without characters: an empty cell means "not given"."""
+"""Cell text of an empty string: an empty cell means "not given"."""
 _SEPARATOR: Final = ";"
 _NUMBER: Final = re.compile(rf"\s*({NUMBER})\s*")
 _SWITCH: Final = {YES: True, "true": True, NO: False, "false": False}
@@ -56,7 +56,7 @@ def _value(leaf: Leaf, data: Any) -> Value:
 
 
 def _number_cell(number: float) -> Value:
-    """Give a number; as text where a workbook's 16 digits would change it."""
+    """Number for a cell; text where the 16 digits of a workbook would change it."""
     if isinstance(number, float) and number.is_integer() and abs(number) < 1e15 and number != 0.0:
         return int(number)
     if float(f"{number:.16g}") != number or str(number).startswith("-0"):
@@ -65,12 +65,12 @@ def _number_cell(number: float) -> Value:
 
 
 def _joined(leaf: Leaf, data: Any) -> str | None:
-    """Write a list in one cell, its items separated; items that hold a separator are quoted."""
+    """List as the text of one cell; items with a separator are quoted."""
     if not isinstance(data, list | tuple):
         return _quoted(_plain(data))
     if not data:
         return None
-    # one separator at the end is no item: it tells a list of one from one item, and keeps an empty last one
+    # a separator at the end distinguishes a list of one from a single item, and keeps an empty last item
     ended = (leaf.single and len(data) == 1) or (len(data) > 1 and data[-1] == "")
     return f"{_SEPARATOR} ".join(_quoted(_plain(item)) for item in data) + _SEPARATOR * ended
 
@@ -101,7 +101,7 @@ def _is_json(text: str) -> bool:
 def from_cells(leaf: Leaf, value: Value, unit: str | None = None) -> Any:
     """Return the plain data of a value cell and its unit cell.
 
-    What a model will refuse is passed on as it stands, so that the model says what it allows.
+    Values that the model will refuse are passed on unchanged, so that its message tells the allowed ones.
     """
     if isinstance(value, float) and not math.isfinite(value):
         raise InputError(f"got {value}, expected a finite number")

@@ -1,4 +1,4 @@
-"""Laboratory files of every shape to one frozen table in SI; what is doubtful is asked for."""
+"""Read laboratory files of any layout into one frozen table in SI; doubtful ones are refused with a question."""
 
 from conveyor.laboratory.read import KINDS, read_dma
 from conveyor.laboratory.table import DmaData, IsothermRows, StrainRows

@@ -1,4 +1,4 @@
-"""Rows in order: by temperature, run and swept quantity, duplicate runs apart; what runs the wrong way is refused."""
+"""Sort rows by temperature, run and swept quantity; separate duplicate runs; refuse wrong trends."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from conveyor.laboratory.layout import DataTable
 from conveyor.laboratory.table import FloatArray, IntArray
 
 SAME_TEMPERATURE: Final = 0.01
-"""Rows of a ramp closer than this are repeats [K]: the last digit printed."""
+"""Rows of a ramp this close are repeats [K]: the last digit printed."""
 SAME_REDUCED_FREQUENCY: Final = 1e-9
 """A master curve merges shifted isotherms: only equal frequencies, to rounding, are repeats [-]."""
 SCATTER: Final = 0.8
-"""A modulus that changes the wrong way by less than this factor may be flat with scatter [-]."""
+"""Ratio of end values above which a wrong trend may be the scatter of a flat modulus [-]."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Arrangement:
 
 
 def arrange(kind: str, columns: Mapping[str, FloatArray], labels: IntArray | None) -> Arrangement:
-    """Group, tell duplicate runs of one group and label apart, and sort.
+    """Group and sort rows, duplicate runs of one group and label apart.
 
     Examples
     --------
@@ -59,13 +59,13 @@ def arrange(kind: str, columns: Mapping[str, FloatArray], labels: IntArray | Non
 
 
 def _pairs(first: IntArray, second: IntArray) -> IntArray:
-    """Number the pairs of two labels."""
+    """Number the distinct pairs of two labels."""
     inverse = np.unique(np.stack([first, second]), axis=1, return_inverse=True)[1]
     return inverse.reshape(-1).astype(np.int64)
 
 
 def _group(kind: str, columns: Mapping[str, FloatArray], labels: IntArray | None) -> IntArray | None:
-    """Conditions under which one sweep was made; None for a ramp whose rows form none."""
+    """Group numbers of rows measured under one condition; None for a ramp."""
     temperature, frequency = columns.get("temperature"), columns.get("frequency")
     single = np.zeros(columns[NEEDS[kind][0]].size, dtype=np.int64)
     if kind in {"relaxation", "shift factors", "master curve", "Prony series"}:
@@ -80,7 +80,7 @@ def _group(kind: str, columns: Mapping[str, FloatArray], labels: IntArray | None
 def check_trend(
     table: DataTable, kind: str, columns: Mapping[str, FloatArray], arrangement: Arrangement
 ) -> None:
-    """Compare both ends of a sorted series, and refuse a temperature with two shift factors.
+    """Refuse a series that runs the wrong way, or two shift factors at one temperature.
 
     Notes
     -----

@@ -1,4 +1,4 @@
-"""Columns of a table to numbers in SI: which is used, in which unit, and what has to be asked."""
+"""Columns of a table to numbers in SI: selection, units, and questions to the user."""
 
 from __future__ import annotations
 
@@ -36,12 +36,12 @@ class Series:
 
     @property
     def name(self) -> str:
-        """How messages name its quantity."""
+        """Name of the quantity in messages."""
         return spoken(self.meaning)
 
 
 class Question(NamedTuple):
-    """Something only the user can decide: at the header of a column, or at one of its rows, counted from 0."""
+    """Question to the user about a column, or one of its rows, counted from 0."""
 
     column: DataColumn
     text: str
@@ -49,7 +49,7 @@ class Question(NamedTuple):
 
 
 class Read(NamedTuple):
-    """Series by quantity, the labels of a run column, what was decided, and what is open."""
+    """Series by quantity, the labels of a run column, notes on decisions, and open questions."""
 
     series: dict[str, Series]
     labels: IntArray | None
@@ -58,7 +58,7 @@ class Read(NamedTuple):
 
 
 def remedy(dimension: str, example: str = "") -> str:
-    """The option that answers a question of unit, for Python and for the command line; else the header is the place.
+    """Advice on stating a unit: the option in Python and on the command line, or the header.
 
     Examples
     --------
@@ -74,7 +74,7 @@ def remedy(dimension: str, example: str = "") -> str:
 
 
 def check_units(units: Mapping[str, str | None]) -> dict[str, ColumnUnit]:
-    """Units given as options, by dimension; one that is not known is refused."""
+    """Units given as options, by dimension; unknown ones are refused."""
     given = {}
     for dimension, text in units.items():
         unit = None if text is None else find_unit(dimension, text)
@@ -88,7 +88,7 @@ def check_units(units: Mapping[str, str | None]) -> dict[str, ColumnUnit]:
 
 
 def read_columns(table: DataTable, given: Mapping[str, ColumnUnit]) -> Read:
-    """Numbers of every known column; `given` units override those of the file."""
+    """Read every known column into SI; `given` units override those of the file."""
     _check_width(table)
     every = {
         column.index: [_cell(table, row, column) for row in range(len(table.rows))]
@@ -121,7 +121,7 @@ def read_columns(table: DataTable, given: Mapping[str, ColumnUnit]) -> Read:
 
 
 def spoken(meaning: Meaning) -> str:
-    """How messages name a quantity, as in `tan delta`."""
+    """Name of a quantity in messages, as in `tan delta`."""
     words = meaning.quantity if meaning.quantity in {"a_T", "b_T"} else meaning.quantity.replace("_", " ")
     return f"{words} (peak to peak)" if meaning.peak_to_peak else words
 
@@ -129,9 +129,9 @@ def spoken(meaning: Meaning) -> str:
 def _used(
     table: DataTable, cells: Mapping[int, list[str]], empty: Sequence[DataColumn]
 ) -> tuple[dict[str, list[DataColumn]], list[str]]:
-    """Columns by quantity, and why others are spare: empty, commanded beside measured, a repetition.
+    """Columns by quantity, and notes on unused ones: empty, commanded where measured, repeated.
 
-    Only frequency may come twice, once as an angular frequency, which is then the second.
+    Only frequency may come twice, the angular one second.
     """
     used: dict[str, list[DataColumn]] = {}
     said = [f"{table.label(column)} is empty in every row and not used" for column in empty]
@@ -164,7 +164,7 @@ def _used(
 
 
 def _sense(column: DataColumn, *, unit: bool = False) -> tuple[object, ...]:
-    """What two columns have in common that hold the same quantity in the same way."""
+    """Identity of a column's quantity: equal for two columns that hold the same in the same way."""
     sense = column.meaning
     assert sense is not None  # noqa: S101
     units = (sense.unit, column.unit) if unit else ()
@@ -172,7 +172,7 @@ def _sense(column: DataColumn, *, unit: bool = False) -> tuple[object, ...]:
 
 
 def _repeats(first: Sequence[str], second: Sequence[str]) -> bool:
-    """Whether two columns hold the same numbers, to their printed digits."""
+    """True if two columns hold the same numbers to their printed digits."""
     for a, b in zip(first, second, strict=True):
         if a == b:
             continue
@@ -185,12 +185,12 @@ def _repeats(first: Sequence[str], second: Sequence[str]) -> bool:
 
 
 def _digit(cell: str) -> float:
-    """What one more in the last digit is worth; of a whole number 1, all its digits count."""
+    """Value of one in the last digit; 1 for a whole number."""
     return 1.0 if cell.lstrip("+-").isdigit() else last_digit(cell)
 
 
 def _second(table: DataTable, first: DataColumn, column: DataColumn) -> InputError:
-    """What to say of a second column of a quantity, with other values than the first."""
+    """Error: a second column of a quantity, with other values than the first."""
     assert column.meaning is not None  # noqa: S101
     name = table.grid.column(column.index)
     what = (
@@ -202,7 +202,7 @@ def _second(table: DataTable, first: DataColumn, column: DataColumn) -> InputErr
 
 
 def _unneeded(used: dict[str, list[DataColumn]]) -> list[DataColumn]:
-    """Take out the clock of a dynamic test, and the complex modulus beside E' and E''."""
+    """Drop the time of a dynamic test, and the complex modulus where E' and E'' are given."""
     unneeded: list[DataColumn] = []
     if {"storage", "loss", "complex"} & set(used) and "relaxation" not in used:
         unneeded += used.pop("time", [])
@@ -275,7 +275,7 @@ def _numbers(cells: list[str], mark: str) -> FloatArray:
 
 
 def _labels(table: DataTable, column: DataColumn, cells: list[str]) -> IntArray:
-    """Whole numbers as they are, other labels numbered in the order of their appearance."""
+    """Run labels as numbers: whole numbers unchanged, others by order of appearance."""
     plain = [cell.removesuffix(".0") for cell in cells]
     if all(cell.lstrip("-").isdigit() for cell in plain):
         return np.array([int(cell) for cell in plain], dtype=np.int64)
@@ -289,7 +289,7 @@ def _labels(table: DataTable, column: DataColumn, cells: list[str]) -> IntArray:
 def _in_si(
     table: DataTable, column: DataColumn, numbers: FloatArray, given: Mapping[str, ColumnUnit], read: Read
 ) -> Series:
-    """One column in the unit that is given, or that the file states; what it says goes to the notes and questions."""
+    """Convert a column by the given or stated unit; adds to notes and questions of `read`."""
     meaning = column.meaning
     assert meaning is not None  # noqa: S101
     dimension = DIMENSIONS[meaning.quantity]
@@ -340,7 +340,7 @@ def _unit_problem(
 
 
 def _converted(meaning: Meaning, numbers: FloatArray, unit: ColumnUnit) -> tuple[FloatArray, list[str]]:
-    """SI values, of logarithms of shift factors their log10; and how they were converted."""
+    """SI values, log10 for logarithms of shift factors, and notes on the conversion."""
     base = meaning.log_base
     if meaning.quantity in {"a_T", "b_T"} and base is not None:
         if base == 10.0:
@@ -357,7 +357,7 @@ def _converted(meaning: Meaning, numbers: FloatArray, unit: ColumnUnit) -> tuple
 
 
 def _agreed(table: DataTable, cyclic: Series, angular: Series) -> Series:
-    """Frequency in Hz where the file has an angular frequency too; refused where they contradict."""
+    """Frequency in Hz, refused where an angular frequency of the file contradicts it."""
     apart = np.abs(angular.values - cyclic.values) - FREQUENCY_AGREEMENT * np.abs(cyclic.values)
     worst = int(np.argmax(apart))
     if apart[worst] > 0.0:

@@ -1,4 +1,4 @@
-"""Bytes of a text file to characters; what is not text is refused with what to export instead."""
+"""Decode a text file; other files are refused with advice on what to export."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from conveyor.laboratory.grid import refusal
 from conveyor.laboratory.names import known_names
 
 _LONGEST_HEAD: Final = 20_000
-"""Characters in which names of columns are looked for, to tell encodings apart."""
+"""Characters searched for column names, to choose the encoding."""
 _NOT_TEXT: Final = {
     b"\xd0\xcf\x11\xe0": "an old .xls workbook, or one with a password; save it as .xlsx or CSV",
     b"%PDF": "a PDF report; export the table as CSV or .xlsx",
@@ -38,7 +38,7 @@ _FOREIGN: Final = (
 
 
 def decoded(data: bytes, name: str) -> tuple[str, str]:
-    """Characters of a text file, and how it was decoded; an empty file, or one of something else, is refused.
+    """Decode a text file, and name its encoding; an empty file, or one that is not text, is refused.
 
     Notes
     -----
@@ -91,12 +91,12 @@ def _text(data: bytes, name: str) -> tuple[str, str]:
 
 
 def _head(text: str) -> str:
-    """The lines of a text before its numbers, so far as they are not ASCII."""
+    """Lines of the head of a text that are not ASCII."""
     return "\n".join(line for line in text[:_LONGEST_HEAD].splitlines() if not line.isascii())
 
 
 def _foreign(data: bytes, known: int) -> tuple[str, str] | None:
-    """The text in the encoding in which the most words are known, and its name; None if CP1252 knows as many."""
+    """Text in the encoding with the most known words, and its name; None if CP1252 has as many."""
     best: tuple[int, str, str] | None = None
     for codec, language, letters in _FOREIGN:
         text = _as(data, codec)
@@ -119,7 +119,7 @@ def _as(data: bytes, codec: str) -> str | None:
 
 
 def _is_korean(text: str, codec: str) -> bool:
-    """Whether all beyond ASCII is Korean, two syllables in a row among it: one lone syllable is "°C" of CP1252."""
+    """True if all beyond ASCII is Korean, with two syllables in a row: a single one is "°C" of CP1252."""
     foreign = re.findall(r"[^\x00-\x7f]+", text)
     certain = codec == "euc_kr" and any(sign in text for sign in "℃℉")
     return all(map(_KOREAN.fullmatch, foreign)) and (

@@ -1,4 +1,4 @@
-"""A laboratory file as a grid of text cells that know their place, and the refusal that names it."""
+"""A laboratory file as a grid of text cells, and errors located in it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _LONGEST_LABEL: Final = 60
 
 
 class AnswerableError(InputError):
-    """A fault of a file that an option settles without a doubt, so that the rest of the file can be read on.
+    """A fault of a file that an option settles with certainty, so that reading can go on.
 
     Attributes
     ----------
@@ -43,7 +43,7 @@ class TextGrid:
     Attributes
     ----------
     name : str
-        What messages begin with: the file, for a workbook with its sheet.
+        Start of messages: the file, for a workbook with its sheet.
     lines : tuple of TextLine
         In the order of the file.
     notes : tuple of str
@@ -62,7 +62,7 @@ class TextGrid:
         return refusal(self.name, row, column, message, header=header, lettered=bool(self.sheet))
 
     def column(self, index: int) -> str:
-        """How a person names a column, counted from 0: its number from 1, or its letter."""
+        """Label of a column, counted from 0: its number from 1, or its letter."""
         return _column(index, lettered=bool(self.sheet))
 
 

@@ -1,4 +1,4 @@
-"""Rows that belong together: one temperature, one frequency, one run."""
+"""Group rows by temperature, set point and run."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ISOTHERM_GAP: Final = 0.8
 """Temperatures further apart than this are different isotherms [K]: steps are 1 K or more, furnaces hold 0.5 K
 (general knowledge)."""
 SAME_SET_POINT: Final = 5e-3
-"""Frequencies or strains closer than this, relatively, are one set point; instruments set 10 a decade (26 % apart)."""
+"""Frequencies or strains this close, relatively, are one set point; instruments set 10 a decade (26 % apart)."""
 _SHORTEST_RUN: Final = 3
 _SHORTEST_OTHER_RUN: Final = 5
 """Rows in no order rarely fall into rising or falling stretches of five: ten rows in 4/(5! 5!) of all orders."""
@@ -75,7 +75,7 @@ def _clusters(values: FloatArray, gap: float) -> IntArray:
 def duplicate_runs(
     values: FloatArray, group: IntArray, *, tolerance: float, merged: bool = False
 ) -> IntArray | None:
-    """Tell repeated sweeps of one group apart: the run of each row within its group, None if nothing is repeated.
+    """Number the run of each row within its group; None without repeats.
 
     Notes
     -----
@@ -107,7 +107,7 @@ def duplicate_runs(
 
 
 def _swept_again(parts: Sequence[NDArray[Any]], shortest: int, *, exactly: bool) -> bool:
-    """Whether stretches are long enough, and each lies at least half on (or within) the one before."""
+    """True if stretches are long enough, and each lies at least half on (or within) the one before."""
     if len(parts) < 2 or min(part.size for part in parts) < shortest:
         return False
     return all(
@@ -117,7 +117,7 @@ def _swept_again(parts: Sequence[NDArray[Any]], shortest: int, *, exactly: bool)
 
 
 def restarts(frequency: FloatArray) -> bool:
-    """Whether a frequency sweep begins anew in the order of the file; not so where rows are in no order.
+    """True if the frequency sweep restarts in the order of the file; False for unordered rows.
 
     Examples
     --------
@@ -147,7 +147,7 @@ def _stretches(points: IntArray) -> IntArray:
 
 
 def _occurrence(points: IntArray) -> IntArray:
-    """How often the same point has come before."""
+    """Number of earlier occurrences of each point."""
     seen: dict[int, int] = {}
     counts = np.empty(points.size, dtype=np.int64)
     for i, point in enumerate(points.tolist()):

@@ -1,4 +1,4 @@
-"""Tables whose headers hold set points, a column for each frequency or temperature: a row for each of them."""
+"""Unpivot tables with a column for each frequency or temperature: a row for each set point of the headers."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ Groups: TypeAlias = Mapping[SetPoint, Sequence[DataColumn]]
 
 
 def row_each(table: DataTable) -> DataTable:
-    """The table with a row for each set point of its headers, `E'(1 Hz)`, `E'(10 Hz)`; without any as it is.
+    """Split rows so that each set point of the headers, `E'(1 Hz)`, `E'(10 Hz)`, has its own; others are unchanged.
 
-    Cells of a further set point come into the columns of the first one, its number into a column behind all others.
-    A set point that was not measured in a row, all its cells empty, makes none.
+    Cells of a further set point move to the columns of the first one, its number to a new last column. A set point
+    with empty cells only makes no row.
     """
     groups = _groups(table)
     if not groups:
@@ -43,7 +43,7 @@ def row_each(table: DataTable) -> DataTable:
 
 
 def _groups(table: DataTable) -> Groups:
-    """Columns of each set point; none where the table has a column of that quantity, too."""
+    """Columns of each set point; none if the table also has a column of that quantity."""
     groups: dict[SetPoint, list[DataColumn]] = {}
     for column in table.columns:
         if column.meaning is not None and column.meaning.at is not None:
@@ -62,7 +62,7 @@ def _groups(table: DataTable) -> Groups:
 
 
 def _rows(table: DataTable, line: TextLine, groups: Groups) -> Sequence[TextLine]:
-    """The rows of one line, of set points that were measured."""
+    """Rows of one line, one for each measured set point."""
     cells = (*line.cells, *[""] * (table.width - len(line.cells)))
     first = next(iter(groups.values()))
     rows = []
@@ -84,11 +84,11 @@ def _rows(table: DataTable, line: TextLine, groups: Groups) -> Sequence[TextLine
 
 
 def _bare(column: DataColumn) -> Meaning | None:
-    """What a column means without its set point."""
+    """Meaning of a column without its set point."""
     return column.meaning and column.meaning._replace(at=None)
 
 
 def _markless(number: str) -> str:
-    """A number without its decimal point, 3333e-3: a table with decimal commas may have points in its headers."""
+    """Number without decimal point, 3333e-3: a table with decimal commas may have points in its headers."""
     whole, _, decimals = number.partition(".")
     return f"{whole}{decimals}e-{len(decimals)}" if decimals else number

@@ -1,4 +1,4 @@
-"""Which measurement a table is: from its columns and from what varies in them."""
+"""Kind of measurement of a table, by its columns and what varies in them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from conveyor.laboratory.table import FloatArray, IntArray
 STRAIN_SPAN: Final = 2.0
 """A strain sweep spans more than this factor; a frequency sweep at constant force varies less [-]."""
 UNLIKE: Final = 1.5
-"""E' of repeats differs by less: specimens scatter by some 20 %, a drift of 1 K at the glass transition makes as much
+"""Largest ratio of E' between repeats: specimens scatter by some 20 %, as does a drift of 1 K at the glass transition
 (general knowledge) [-]."""
 NEEDS: Final = {
     "master curve": ("frequency", "storage", "loss"),
@@ -24,11 +24,11 @@ NEEDS: Final = {
     "shift factors": ("temperature", "log10_a_T"),
     "Prony series": ("tau", "term"),
 }
-"""Columns each kind cannot do without, the quantity that it sweeps first."""
+"""Columns required by each kind, the swept quantity first."""
 
 
 def possible_kinds(present: set[str]) -> list[str]:
-    """Kinds whose columns are there.
+    """Kinds whose required columns are present.
 
     Examples
     --------
@@ -39,7 +39,7 @@ def possible_kinds(present: set[str]) -> list[str]:
 
 
 def decide(columns: Mapping[str, FloatArray], run: IntArray | None, *, reduced: bool) -> tuple[str, str]:
-    """Kind of a table and the reason; "" and what leaves it open if several are possible.
+    """Kind of a table and the reason; if undecided "" and the ambiguity.
 
     Examples
     --------
@@ -79,7 +79,7 @@ def _dynamic(columns: Mapping[str, FloatArray], run: IntArray | None) -> tuple[s
 
 
 def _unlike_repeats(storage: FloatArray, group: IntArray, level: IntArray) -> str:
-    """What to say of rows at one temperature, run and frequency whose E' differ by more than specimens do."""
+    """Message on rows of one temperature, run and frequency whose E' differ by more than specimens do, or ""."""
     order = np.lexsort((np.log(storage), level, group))
     first = np.flatnonzero(np.diff(group[order], prepend=-1) | np.diff(level[order], prepend=-1))
     last = np.append(first[1:], storage.size) - 1
@@ -93,7 +93,7 @@ def _unlike_repeats(storage: FloatArray, group: IntArray, level: IntArray) -> st
 
 
 def _single(frequency: FloatArray | None, swept: int, *, unknown: bool) -> tuple[str, str]:
-    """One temperature, which may be unknown."""
+    """Kind and reason at one temperature, which may be unknown."""
     if unknown and frequency is not None and restarts(frequency):
         return "", (
             "the frequencies begin anew, as isotherms do, but there is no temperature; add a column temperature_degC,"
@@ -105,7 +105,7 @@ def _single(frequency: FloatArray | None, swept: int, *, unknown: bool) -> tuple
 
 
 def _temperatures(temperature: FloatArray | None, group: IntArray, run: IntArray | None) -> int:
-    """How many there are, without regard to runs; rows of a ramp count as one each."""
+    """Number of temperatures, regardless of runs; rows of a ramp count as one each."""
     if temperature is not None and run is not None:
         whole = temperature_groups(temperature, None)
         return temperature.size if whole is None else int(np.unique(whole).size)
@@ -113,7 +113,7 @@ def _temperatures(temperature: FloatArray | None, group: IntArray, run: IntArray
 
 
 def _stepped(swept: int) -> tuple[str, str]:
-    """Several temperatures, at `swept` of which the frequency varies."""
+    """Kind and reason at several temperatures, at `swept` of which the frequency varies."""
     if swept > 1:
         return "isotherms", f"the frequency varies at {swept} temperatures"
     if swept == 0:

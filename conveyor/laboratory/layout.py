@@ -1,4 +1,4 @@
-"""Where the table is in a grid: header, unit row, body; preamble, remarks and blocks around it."""
+"""Locate the table in a grid: header, unit row, body; preamble, remarks and blocks around it."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ _LISTED: Final = re.compile(r"[A-Za-z]+ ?(\d{1,2})")
 EXAMPLE: Final = "a header row such as 'frequency_Hz,E'_MPa,E''_MPa'"
 _SUPERPOSED: Final = re.compile(r"\btts\b|master\s*(?:curve|kurve)|masterkurve|superposition", re.IGNORECASE)
 _TITLE: Final = 3
-"""Lines above a header that may name its table."""
+"""Lines above a header that may hold a title."""
 _MOST_NAMED: Final = 6
-"""Rows of one fault that a message names one by one."""
+"""Most rows of one fault named one by one in a message."""
 
 
 @dataclass(frozen=True)
@@ -55,9 +55,9 @@ class DataTable:
         return self.grid.refusal(number, column.index, message, header=column.header)
 
     def refusal_of_rows(self, faults: Sequence[tuple[DataColumn, str, int]]) -> InputError:
-        """Error at rows, counted from 0, each with its column and what is wrong in it; says how to leave all out.
+        """Error at rows, counted from 0, each with column and message; advises how to leave all out.
 
-        Where more than every second row is at fault, it is not the rows: then the first of them alone is named.
+        If more than half of the rows are at fault, only the first is named, without that advice.
         """
         column, message, row = faults[0]
         rows = sorted({each for _, _, each in faults})
@@ -74,27 +74,27 @@ class DataTable:
         return AnswerableError(text, option="exclude", value=numbers)
 
     def label(self, column: DataColumn) -> str:
-        """How notes name a column, as in `column 2 "E' (Pa)"`."""
+        """Label of a column in notes, as in `column 2 "E' (Pa)"`."""
         return str(self.refusal(column, "")).split(": ", 1)[1].removesuffix(":")
 
     @property
     def width(self) -> int:
-        """Cells of a full row."""
+        """Number of cells of a full row."""
         return self.columns[-1].index + 1
 
     @property
     def row_numbers(self) -> IntArray:
-        """Of each row in the file."""
+        """Number of each row in the file."""
         return np.array([line.number for line in self.rows], dtype=np.int64)
 
 
 def left_out(rows: str) -> str:
-    """The option that leaves out rows, for Python and for the command line."""
+    """Advice on the option that leaves out rows, in Python and on the command line."""
     return f'leave {"it" if rows.isdigit() else "them"} out: exclude="{rows}" (--exclude {rows})'
 
 
 def spans(numbers: Sequence[int]) -> str:
-    """Row numbers, ascending, as --exclude takes them.
+    """Ascending row numbers as ranges for --exclude.
 
     Examples
     --------
@@ -109,13 +109,13 @@ def spans(numbers: Sequence[int]) -> str:
 
 
 def row_numbers(rows: str) -> set[int]:
-    """Every row of 12-15,20."""
+    """Set of row numbers in 12-15,20."""
     parts = (part.partition("-") for part in rows.split(","))
     return {row for low, _, high in parts for row in range(int(low), int(high or low) + 1)}
 
 
 def has_table(grid: TextGrid) -> bool:
-    """Whether some line names two or more known quantities, one of them measured, and rows of numbers follow."""
+    """True if a header names two or more known quantities, one of them measured, and rows of numbers follow."""
     return any(_measures(grid.lines[header]) for header in _with_rows(grid, _headers(grid)))
 
 
@@ -180,7 +180,7 @@ def find_table(grid: TextGrid) -> DataTable:
 
 
 def _check_left_aside(grid: TextGrid, start: int, end: int) -> None:
-    """Refuse to leave aside rows of more cells than the header above them: they are of another table."""
+    """Refuse unread rows with more cells than the header above them: they are of another table."""
     width = len(grid.lines[start].cells)
     for line in filter(_is_data, grid.lines[start + 1 : end]):
         if len(line.cells) > width:
@@ -191,7 +191,7 @@ def _check_left_aside(grid: TextGrid, start: int, end: int) -> None:
 
 
 def without_rows(grid: TextGrid, exclude: str) -> TextGrid:
-    """The grid without the rows that a person names by their number in the file, as 12-15,20."""
+    """Grid without rows given by their number in the file, as 12-15,20."""
     if not _EXCLUDED.fullmatch(exclude):
         raise InputError(f'exclude = "{exclude}" (--exclude): expected rows such as 12-15,20')
     ranges = [
@@ -209,7 +209,7 @@ def without_rows(grid: TextGrid, exclude: str) -> TextGrid:
 
 
 def without_columns(table: DataTable, ignore: Sequence[str]) -> DataTable:
-    """The table with columns left aside that a person names, by their header, number or letter."""
+    """Table without the meaning of columns given by header, number or letter."""
     columns = list(table.columns)
     for name in ignore:
         known = [
@@ -231,7 +231,7 @@ def without_columns(table: DataTable, ignore: Sequence[str]) -> DataTable:
 
 
 def with_names(grid: TextGrid, columns: Mapping[str, str]) -> TextGrid:
-    """The grid with names of columns put in the place of others: what a person says that a column holds."""
+    """Grid with column names replaced by the given ones."""
     lines, notes = list(grid.lines), []
     for name, given in columns.items():
         if meaning(given) is None:
@@ -262,7 +262,7 @@ def with_names(grid: TextGrid, columns: Mapping[str, str]) -> TextGrid:
 
 
 def names_column(grid: TextGrid, name: str) -> bool:
-    """Whether some line of names holds this one, or has a column of this number or letter."""
+    """True if a line of names holds this name, or a column of this number or letter."""
     for line in grid.lines:
         if len(line.cells) >= 2 and not _numbers(line):
             if any(_plain(name) in {_plain(cell), _plain(bare_name(cell))} for cell in line.cells if cell):
@@ -273,22 +273,22 @@ def names_column(grid: TextGrid, name: str) -> bool:
 
 
 def _plain(name: str) -> str:
-    """A name for comparison: capitals and blanks do not count."""
+    """Name for comparison, in lower case without blanks."""
     return re.sub(r"\s+", "", name).lower()
 
 
 def _with_unit_of(cell: str, given: str) -> str:
-    """A given name with the unit in brackets of the cell in whose place it stands, if it has none of its own."""
+    """Given name with the unit of the cell it replaces, if it has none."""
     sense, unit = meaning(given), cell.removeprefix(bare_name(cell)).strip()
     return f"{given} {unit}" if sense is not None and sense.unit is None and unit else given
 
 
 def _with_listed_names(grid: TextGrid) -> TextGrid:
-    """A grid with a header of the names that it lists above the numbers, a line each: "Sig2", "Temperature (°C)"."""
+    """Grid with a header made of names listed above the numbers, a line each: "Sig2", "Temperature (°C)"."""
     first = next((position for position, line in enumerate(grid.lines) if _is_data(line)), 0)
     listed = {}
     for line in grid.lines[:first]:
-        # blanks of a name may have been taken for the ends of cells, to come to as many as the rows have
+        # blanks of a name may have been split into cells, to match the width of the rows
         cells = line.cells if len(line.cells) == 2 else re.split(r"\s*[\t;,]\s*", line.text)
         if len(cells) == 2 and (match := _LISTED.fullmatch(cells[0])):
             listed[int(match[1])] = line.number, cells[1]
@@ -308,7 +308,7 @@ def _is_data(line: TextLine) -> bool:
 
 
 def _is_row(line: TextLine, columns: Sequence[DataColumn]) -> bool:
-    """Whether numbers stand in half of the known columns: titles and remarks between blocks may hold some, too."""
+    """True if half of the known columns hold numbers: titles and remarks between blocks may hold some, too."""
     known = [column.index for column in columns if column.meaning is not None]
     return 2 * sum(is_number(cell) for k, cell in enumerate(line.cells) if k in known) >= len(known)
 
@@ -325,19 +325,19 @@ def _headers(grid: TextGrid) -> list[int]:
 
 
 def _with_rows(grid: TextGrid, headers: Sequence[int]) -> list[int]:
-    """Those of the headers that rows of numbers follow, before the next."""
+    """Headers followed by rows of numbers before the next."""
     ends = [*headers[1:], len(grid.lines)]
     return [a for a, b in zip(headers, ends, strict=False) if any(map(_is_data, grid.lines[a + 1 : b]))]
 
 
 def _measures(header: TextLine) -> bool:
-    """Whether a header names more than what is set in a test, and its clock."""
+    """True if a header names a measured quantity: more than set points and time."""
     named = {sense.quantity for cell in header.cells if cell and (sense := meaning(cell)) is not None}
     return not named <= {"frequency", "temperature", "strain", "time", "run"}
 
 
 def _columns(grid: TextGrid, position: int) -> tuple[tuple[DataColumn, ...], int]:
-    """Columns of the header at `position`, and where its rows begin: below the unit row, if there is one."""
+    """Columns of the header at `position`, and the position of its first row, below any unit row."""
     header = grid.lines[position]
     below = grid.lines[position + 1] if position + 1 < len(grid.lines) else None
     units: tuple[str, ...] = ()
@@ -360,7 +360,7 @@ def _columns(grid: TextGrid, position: int) -> tuple[tuple[DataColumn, ...], int
 
 
 def _is_made_of_steps(grid: TextGrid, start: int, steps: Sequence[DataColumn]) -> bool:
-    """Whether a table behind isotherms holds their shift factors or their master curve, by its names and its title."""
+    """True if a table below isotherms holds their shift factors or master curve, by its names and title."""
     first = {column.meaning.quantity for column in steps if column.meaning is not None}
     here = {m.quantity for cell in grid.lines[start].cells if cell and (m := meaning(cell)) is not None}
     if not {"frequency", "temperature"} <= first or not first & {"storage", "loss", "complex"}:

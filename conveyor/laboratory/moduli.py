@@ -1,4 +1,4 @@
-"""E' and E'' from whatever a file states: shear moduli, |E*|, tan delta, phase angle."""
+"""E' and E'' from shear moduli, |E*|, tan delta or phase angle."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from conveyor.laboratory.vocabulary import deformations
 TAN_DELTA_AGREEMENT: Final = 0.05
 """Relative difference allowed between tan delta and E''/E' of one row: two printed digits."""
 TAN_DELTA_DIGIT: Final = 0.01
-"""Absolute difference allowed besides: tan delta printed with two decimals."""
+"""Additional absolute difference: tan delta printed with two decimals."""
 BETTER: Final = 0.25
-"""Share of what columns as they are named leave that the right reading of them leaves at most [-]."""
+"""Largest error of the right reading of columns over that of their names [-]."""
 FEWEST_TOLD: Final = 5
-"""Rows that tell one reading from another: of fewer, chance agrees with either."""
+"""Least rows that separate two readings: with fewer, chance agrees with either."""
 MOST_TOLD: Final = 0.75
-"""Share of them that has to say so: the rest may be misprints [-]."""
+"""Share of these rows that has to agree: the rest may be misprints [-]."""
 _NAMED_IN_TEXT: Final = re.compile(r"(?<!\w)([EG])(?=['′″’])|\bmodul(?:us|i|e)?\s*[:=]\s*([EG])\b")
 """A modulus in a remark: "E' and E''", "modulus: E"."""
 
@@ -88,7 +88,7 @@ def _beside(table: DataTable, whole: Series, loss: Series) -> FloatArray:
 
 
 def _with_angle(table: DataTable, moduli: Moduli, angle: Series | None) -> Moduli:
-    """Moduli beside which an angle stands, refused where it contradicts them by more than the digits allow."""
+    """Moduli, refused where a given angle contradicts them beyond the printed digits."""
     if angle is None:
         return moduli
     tangent, ratio = _tangent(angle)[0], moduli.loss / moduli.storage
@@ -110,7 +110,7 @@ def _with_angle(table: DataTable, moduli: Moduli, angle: Series | None) -> Modul
 
 
 def _refuse_another_reading(table: DataTable, moduli: Moduli, angle: Series, printed: FloatArray) -> None:
-    """Refuse what digits (see `_digits`) and scatter of the rows tell from columns that hold what they are named.
+    """Refuse columns that another reading fits better than their names, within digits (see `_digits`) and scatter.
 
     Only rows count in which the other reading differs by more than twice what their digits allow.
     """
@@ -135,7 +135,7 @@ def _refuse_another_reading(table: DataTable, moduli: Moduli, angle: Series, pri
 
 
 def _readings(moduli: Moduli, angle: Series) -> Iterator[tuple[DataColumn, FloatArray, str]]:
-    """Another thing that a column may hold, ln(E''/E' over tan delta) if it does, and the words for it."""
+    """Other readings of a column: its column, the change of ln(E''/E' over tan delta), and advice."""
     value = angle.values
     if moduli.storage_from.meaning.quantity == "storage":
         letter = moduli.storage_from.meaning.letter
@@ -150,7 +150,7 @@ def _readings(moduli: Moduli, angle: Series) -> Iterator[tuple[DataColumn, Float
 
 
 def _digits(table: DataTable, series: Series) -> FloatArray:
-    """Most that rounding to the printed digits changes each value by, a phase in its tangent [-]."""
+    """Largest relative rounding error of each value by its printed digits, of a phase in its tangent [-]."""
     base = series.meaning.log_base
     digit = 0.5 * np.array([last_digit(line.cells[series.column.index]) for line in table.rows])
     if base is not None:
@@ -161,7 +161,7 @@ def _digits(table: DataTable, series: Series) -> FloatArray:
 
 
 class Letter(NamedTuple):
-    """Whether moduli are tensile, E, or shear ones, G; the sentence that says why; the question where it is open."""
+    """Letter of moduli, tensile E or shear G; the reason; the question if undecided."""
 
     letter: str
     why: str
@@ -169,9 +169,9 @@ class Letter(NamedTuple):
 
 
 def letter_of(table: DataTable, used: Sequence[Series], strain: Series | None, answer: str | None) -> Letter:
-    """Which moduli a file holds, by the names of its columns, by what it says of its test, by an answer.
+    """Decide between tensile and shear moduli by column names, the file's description of its test, or an answer.
 
-    `answer` is "E" or "G", where the names have no letter or the test that the file speaks of is of the other one.
+    `answer` is "E" or "G", where the names have no letter or the described test contradicts them.
     """
     letters = {s.meaning.letter for s in used if s.meaning.letter}
     first = used[0].column
@@ -205,7 +205,7 @@ def letter_of(table: DataTable, used: Sequence[Series], strain: Series | None, a
 
 
 def _evidence(table: DataTable, strain: Series | None, *, beside: bool) -> Iterator[tuple[str, str]]:
-    """Letters that the file speaks for outside the names of its moduli, and where; `beside` names of columns, too."""
+    """Letters implied by text of the file, and where; with `beside` by other columns and modulus names in text, too."""
     for line in reversed(table.grid.lines):
         before = line.number < table.rows[0].number and line.number != table.header_row
         if not (line.comment or before):
@@ -225,7 +225,7 @@ def _evidence(table: DataTable, strain: Series | None, *, beside: bool) -> Itera
 
 
 def to_tensile(letter: Letter, poisson_ratio: float) -> tuple[float, str]:
-    """Factor from the moduli of the file to tensile ones, and the sentence that says why.
+    """Factor from the moduli of the file to tensile ones, and a note on it.
 
     Notes
     -----
@@ -240,12 +240,12 @@ def to_tensile(letter: Letter, poisson_ratio: float) -> tuple[float, str]:
 
 
 def equivalent_strain(shear: FloatArray, poisson_ratio: float) -> tuple[FloatArray, str]:
-    """Tensile strain that stores as much energy as a shear strain, and the sentence that says so.
+    """Tensile strain of equal energy to a shear strain, and a note on it.
 
     Notes
     -----
     E epsilon^2 = G gamma^2 with E = 2 (1 + nu) G. At nu = 0.5 it is gamma/sqrt(3), the equivalent strain
-    sqrt(2/3 e:e) of simple shear, in which `conveyor.contact.interior` counts the strain of a cover.
+    sqrt(2/3 e:e) of simple shear, the strain of a cover in `conveyor.contact.interior`.
     """
     factor = 1.0 / np.sqrt(2.0 * (1.0 + poisson_ratio))
     note = f"shear strain: the tensile one of equal energy is gamma/sqrt(2 (1 + nu)) = {factor:.4g} gamma"

@@ -1,4 +1,4 @@
-"""What a column header means: quantity, logarithm, shear, unit; names in the languages of `words/columns.txt`."""
+"""Meaning of a column header: quantity, logarithm, shear, unit; names in the languages of `words/columns.txt`."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class SetPoint(NamedTuple):
 
 
 class Meaning(NamedTuple):
-    """What the text of a header cell says."""
+    """Meaning of a header cell."""
 
     quantity: str
     unit: str | None = None
@@ -58,7 +58,7 @@ class Meaning(NamedTuple):
 
 
 def _meanings() -> tuple[dict[str, Meaning], tuple[str, ...], tuple[str, ...]]:
-    """Meanings by compact names, and the words for what was commanded and what was measured."""
+    """Meanings by compact names, and the words for commanded and for measured quantities."""
     made: dict[str, Meaning] = {}
     beside: dict[str, list[str]] = {"commanded": [], "measured": []}
     for head, words in word_lists("columns"):
@@ -87,7 +87,7 @@ _QUALIFIED: Final = (
     re.compile(r"(?P<word>\w+)[\s_\-]+(?P<name>.+)(?P<rest>)"),
     re.compile(r"(?P<name>.+?)[\s_,]+(?P<word>\w+)(?P<rest>(?:\s*[\[(].*)?)"),
 )
-"""Where a word such as "cmd" or "measured" stands: in brackets, before the name, behind it."""
+"""Places of a word such as "cmd" or "measured": in brackets, before the name, behind it."""
 _LONGEST_NAME = 80
 """Longer cells are sentences."""
 _OTHER_LETTERS = {"e", "g"}
@@ -108,14 +108,14 @@ _LOOSE: Final = (
     r"(?P<name>.+?)\s*(?P<unit>%)",
     r"(?P<name>.+)\s+(?P<unit>\S+)",
 )
-"""What stands behind is a unit only if it is known."""
+"""The last part is a unit only if it is known."""
 _WITH_LOGARITHMS: Final = frozenset({"frequency", "time", "storage", "loss", "relaxation", "a_T", "b_T"})
 _WITH_SYMBOL: Final = (
     r"(.+?)\s*[(\[]([^()\[\]]+)[)\]]",
     r"(.+)[\s,]+(\S+)",
     r"(.*[\u2e80-\uffef])([A-Za-z|]\S*)",
 )
-"""A symbol beside words, in Chinese, Japanese and Korean also without a blank."""
+"""A symbol next to words, in Chinese, Japanese and Korean also without a blank."""
 _AT: Final = re.compile(
     r"\s*(?:(?:@|\bat\b|\bbei\b)\s*|(?=[(\[]))(?P<open>[(\[])?\s*(?<![\w.,])(?P<number>-?\d+(?:[.,]\d+)?)\s*"
     r"(?P<unit>k?Hz|°C|ºC|℃|degC)(?(open)\s*[)\]])",
@@ -129,7 +129,7 @@ def meaning(header: str) -> Meaning | None:
 
     Notes
     -----
-    A unit stands in brackets, or after `_`, `/`, a comma, a blank or `in` if what follows is a known unit; a set point,
+    A unit is in brackets, or after `_`, `/`, a comma, a blank or `in` if what follows is a known unit; a set point,
     as in `E'(10 Hz)/MPa`, is taken apart first. A lone `t`, `T` or `Ts` is a time or a temperature by its unit, without
     one by its case.
 
@@ -160,7 +160,7 @@ def meaning(header: str) -> Meaning | None:
 
 
 def known_names(text: str) -> int:
-    """How many cells of a text, between any separators, are names of columns with letters beyond ASCII.
+    """Number of cells of a text, with any separator, that are column names with letters beyond ASCII.
 
     Examples
     --------
@@ -172,7 +172,7 @@ def known_names(text: str) -> int:
 
 
 def bare_name(header: str) -> str:
-    """A header without its unit in brackets.
+    """Header without its unit in brackets.
 
     Examples
     --------
@@ -187,7 +187,7 @@ def bare_name(header: str) -> str:
 
 
 def _qualified(text: str) -> Meaning | None:
-    """A name beside which stands that it was commanded or measured, as in "Strain (cmd) [%]"."""
+    """Meaning of a name with a word for commanded or measured, as in "Strain (cmd) [%]"."""
     for form in _QUALIFIED:
         if (match := form.fullmatch(text)) and (word := _BESIDE.fullmatch(match["word"].strip())):
             sense = _linear(f"{match['name']} {match['rest'].strip()}".strip())
@@ -197,7 +197,7 @@ def _qualified(text: str) -> Meaning | None:
 
 
 def _linear(text: str) -> Meaning | None:
-    """A name with its unit, if it has one."""
+    """Meaning of a name with its unit, if it has one."""
     bare = _named(text)
     if bare is not None:
         return bare
@@ -210,7 +210,7 @@ def _linear(text: str) -> Meaning | None:
 
 
 def _named(text: str, unit: str | None = None) -> Meaning | None:
-    """A name without its unit; a symbol may follow or precede the words, as in "Storage modulus E'"."""
+    """Meaning of a name without its unit, with or without a symbol, as in "Storage modulus E'"."""
     if text.strip() in {"t", "T", "Ts"}:
         return Meaning(_time_or_temperature(text.strip(), unit))
     sense = _word(text)
@@ -232,7 +232,7 @@ def _named(text: str, unit: str | None = None) -> Meaning | None:
 
 
 def _by_unit(name: str, meaning: Meaning, unit: str | None) -> Meaning | None:
-    """What a known name means beside its unit: F is a force without Hz, g_i in MPa a modulus and no share."""
+    """Meaning corrected by the unit: F without Hz is a force, g_i in MPa a modulus and no share."""
     if meaning.quantity == "share" and unit is not None and find_unit("modulus", unit):
         return Meaning("term", letter="G" if name[0] in "gG" else "")
     force = name == "F" and not (unit is not None and find_unit("frequency", unit))
@@ -247,5 +247,5 @@ def _time_or_temperature(letter: str, unit: str | None) -> str:
 
 
 def _word(text: str) -> Meaning | None:
-    """A name alone, with the letter of its modulus or strain."""
+    """Meaning of a single name, with the letter of its modulus or strain."""
     return _MEANINGS.get(compact(text))

@@ -1,4 +1,4 @@
-"""Number cells: what is a number, and the decimal mark of a table, decided only where it is certain."""
+"""Number cells: recognise numbers, and the decimal mark of a table where it is certain."""
 
 from __future__ import annotations
 
@@ -25,16 +25,16 @@ _REASONS: Final = (
 )
 _NO_NUMBER: Final = "is not a number; delete the row, or put # in front if it is a remark"
 _LONGEST_CELL: Final = 60
-"""Longer cells are no numbers; patterns with two stars would take their time over them."""
+"""Longer cells are no numbers; patterns with two stars would be slow on them."""
 _NOTHING: Final = frozenset({
     "nan", "n/a", "na", "n.a.", "k.a.", "#n/a", "inf", "-inf", "+inf", "none", "null", "ovl", "ovf", "o.l.", "ol",
     "overload", "over load", "overrange", "over range", "overflow", "over", "err", "error", "invalid", "-", "*",
 })  # fmt: skip
 _SIGNS: Final = re.compile(r"[-–—*#.?]{2,}")
 DATE_MARK: Final = "date "
-"""What a workbook cell holding a date begins with in the grid."""
+"""Prefix of a workbook cell that holds a date."""
 PERCENT_MARK: Final = "percent-format "
-"""What a workbook cell shown as a percentage begins with in the grid."""
+"""Prefix of a workbook cell shown as a percentage."""
 
 
 _HALF: Final = {code: code - 0xFEE0 for code in range(0xFF01, 0xFF5F)} | str.maketrans("−　【】", "- []")
@@ -42,7 +42,7 @@ _HALF: Final = {code: code - 0xFEE0 for code in range(0xFF01, 0xFF5F)} | str.mak
 
 
 def half_width(text: str) -> str:
-    """A text with signs of full width, as Chinese and Japanese programs write them, as ASCII.
+    """Text with full-width signs, as of Chinese and Japanese programs, as ASCII.
 
     Examples
     --------
@@ -53,7 +53,7 @@ def half_width(text: str) -> str:
 
 
 def is_number(cell: str) -> bool:
-    """Whether a cell is one plain number, with either decimal mark.
+    """True for one plain number, with either decimal mark.
 
     Examples
     --------
@@ -64,7 +64,7 @@ def is_number(cell: str) -> bool:
 
 
 def last_digit(cell: str) -> float:
-    """What one more in the last digit of a number is worth; zeros at the end of a whole number are no digits.
+    """Value of one in the last digit of a number; trailing zeros of a whole number do not count.
 
     Examples
     --------
@@ -78,7 +78,7 @@ def last_digit(cell: str) -> float:
 
 
 def looks_like_number(cell: str) -> bool:
-    """Whether a cell is a number, or would be without its thousands separators.
+    """True for a number, with or without thousands separators.
 
     Examples
     --------
@@ -89,7 +89,7 @@ def looks_like_number(cell: str) -> bool:
 
 
 def decimal_mark(cells: Iterable[str]) -> tuple[str, str | None]:
-    """The decimal mark of number cells and None; or "" and the first cell that leaves it open.
+    """Decimal mark of number cells and None; or "" and the first ambiguous cell.
 
     Notes
     -----
@@ -115,7 +115,7 @@ def decimal_mark(cells: Iterable[str]) -> tuple[str, str | None]:
 
 
 def why_not_a_number(cell: str) -> str:
-    """What a cell holds instead of a number, and the remedy.
+    """Message on a cell that is not a number, with the remedy.
 
     Examples
     --------

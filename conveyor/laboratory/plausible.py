@@ -1,4 +1,4 @@
-"""Numbers that cannot be, or that no rubber gives: refused with the option that would make them right."""
+"""Check values: refuse impossible or implausible ones, with the option that would correct them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ STORAGE_RANGE: Final = (1.0e4, 1.0e11)
 TEMPERATURE_RANGE: Final = (113.15, 523.15)
 """-160 to 250 degC [K]: below, no common furnace; above, rubber burns (general knowledge)."""
 KELVIN_AS_CELSIUS: Final = 473.15
-"""If every temperature is above 200 degC, kelvins were probably labelled degC [K]."""
+"""Temperatures all above 200 degC are probably kelvins labelled degC [K]."""
 HIGHEST_STRAIN: Final = 1.0
 """100 %: more is hardly dynamic, a percentage was probably labelled a fraction [-]."""
 HIGHEST_TAN_DELTA: Final = 10.0
@@ -25,8 +25,8 @@ HIGHEST_TAN_DELTA: Final = 10.0
 USUAL_TAN_DELTA: Final = 3.0
 """No rubber exceeds it in half of its rows [-]."""
 OVERLOAD: Final = 1e20
-"""No modulus, temperature, strain or angle reaches it in any unit: instruments write 9.9E+37 and the like for a reading
-that they have not (general knowledge) [-]."""
+"""No modulus, temperature, strain or angle reaches it in any unit: instruments write 9.9E+37 and the like for a missing
+reading (general knowledge) [-]."""
 MEASURABLE: Final = (1e-30, 1e30)
 """Frequencies [Hz] and times [s] of any master curve, with room: a shift of 30 decades is none."""
 _DELETE: Final = "repair or delete the row"
@@ -41,15 +41,15 @@ _POSITIVE: Final = {
 } | dict.fromkeys(
     ("strain", "complex", "tau", "term", "share", "instant", "tan_delta", "phase"), f"; {_DELETE}"
 )
-"""What must be > 0, and what to do where it is not."""
+"""Quantities that must be > 0, with advice."""
 
 
 _WITHOUT_END: Final = frozenset({"frequency", "time", "tau", "a_T", "b_T", "run"})
-"""Quantities that may be as large as a shift makes them."""
+"""Quantities without upper limit, as shifts may make them large."""
 
 
 def check_possible(table: DataTable, series: Mapping[str, Series]) -> None:
-    """Refuse what cannot be in any unit: not finite, not > 0, a phase angle of 90 degrees or more."""
+    """Refuse values impossible in any unit: not finite, not > 0, a phase angle of 90 degrees or more."""
     low, high = MEASURABLE
     for quantity, column in series.items():
         values = column.values
@@ -80,7 +80,7 @@ def _question(table: DataTable, series: Series, row: int, text: str) -> Question
 
 
 def doubts(table: DataTable, series: Mapping[str, Series], moduli: Moduli | None) -> Iterator[Question]:
-    """Values that are possible, but not in the unit the file states, each with the first row in doubt."""
+    """Questions on values implausible in the stated unit, each at its first row."""
     for quantity in ("storage", "complex", "relaxation"):
         if quantity in series:
             yield from _modulus_doubts(table, series[quantity])

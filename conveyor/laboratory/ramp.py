@@ -1,4 +1,4 @@
-"""A slow ramp with several frequencies at each temperature: isotherms, each brought to one temperature."""
+"""Isotherms from a slow ramp with several frequencies, interpolated to common temperatures."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from conveyor.laboratory.table import FloatArray, IntArray
 from conveyor.rubber.monotone import MonotoneCubic
 
 LEAST_FREQUENCIES: Final = 3
-"""Fewer make no isotherm that could be shifted."""
+"""Least frequencies of an isotherm that can be shifted."""
 FEWEST_TEMPERATURES: Final = 4
-"""Of each frequency, from which a cubic between them is worth its name."""
+"""Least temperatures of each frequency for a cubic interpolation."""
 LARGEST_STEP: Final = 5.0
-"""From one row of a frequency to its next [K]: over 5 K near the glass transition a cubic in ln E' is some per cent off
-(general knowledge)."""
+"""Largest step between rows of a frequency: over 5 K near the glass transition a cubic in ln E' is some per cent off
+(general knowledge) [K]."""
 _MOVED: Final = ("storage", "loss")
 
 
 class Ramp(NamedTuple):
-    """Isotherms made of a ramp: which rows stand for them, their columns and group, and how it was done."""
+    """Isotherms of a ramp: nearest rows, columns, group numbers and a note."""
 
     rows: IntArray
     columns: dict[str, FloatArray]
@@ -31,7 +31,7 @@ class Ramp(NamedTuple):
 
 
 def isotherms_of_ramp(columns: Mapping[str, FloatArray]) -> Ramp | None:
-    """Isotherms of a ramp at several frequencies; None if the rows are none.
+    """Isotherms of a ramp at several frequencies; None if the rows are no such ramp.
 
     Notes
     -----

@@ -1,4 +1,4 @@
-"""`read_dma`: one laboratory file, understood aloud or refused with the question that decides it."""
+"""Read one laboratory file, with notes on every decision; ambiguous files are refused with a question."""
 
 from __future__ import annotations
 
@@ -48,13 +48,13 @@ from conveyor.laboratory.workbook import workbook_grids
 _COMPLIANCE: Final = re.compile(r"^\W*[DJ]\W*['′″\"(12*]|compliance|nachgiebigkeit", re.IGNORECASE)
 """Names of compliances: D', J'', J(t), |D*|, storage compliance."""
 KINDS: Final = tuple(NEEDS)
-"""What a file can hold."""
+"""Kinds of measurement in a file."""
 LARGEST_FILE: Final = 50_000_000
 """Bytes; a table of a million rows has about as many."""
 _MOST_FINDINGS: Final = 8
-"""Rounds in which a file is read on without the rows and columns at fault; each tells all of one kind."""
+"""Most repeated readings without the rows and columns at fault; each reports all of one kind."""
 _OF_ONE_FILE: Final = frozenset({"sheet", "kind", "instantaneous", "exclude", "columns", "ignore"})
-"""Answers that hold for the file they were asked for."""
+"""Answers that hold for one file only."""
 T = TypeVar("T", bound=np.generic)
 
 
@@ -104,24 +104,23 @@ def read_dma(
     exclude : str or None
         Rows to leave out unread, by their number in the file: "12-15,20" [-].
     columns : mapping of str to str or None
-        What columns hold by a name that is read here: ``{"Modul A [MPa]": "E'"}`` [-].
+        New names of columns, as read here: ``{"Modul A [MPa]": "E'"}`` [-].
     ignore : sequence of str or None
         Columns to leave aside, by their name, number or letter [-].
 
     Returns
     -------
     DmaData
-        In SI, with `understood` saying how every column was read [-].
+        In SI, with `understood`, a note on how each column was read [-].
 
     Raises
     ------
     InputError
-        As `file:row: column n "name": what; remedy`, for anything doubtful; a line for each finding where several can
-        be told at once.
+        As `file:row: column n "name": what; remedy`, for anything doubtful; a line for each of several findings.
 
     Notes
     -----
-    Units given as options override the file; `understood` says so. Moduli must lie between 1e4 and 1e11 Pa,
+    Units given as options override the file, noted in `understood`. Moduli must lie between 1e4 and 1e11 Pa,
     temperatures between -160 and 250 degC and strains below 100 % unless their unit is given.
 
     Examples
@@ -168,7 +167,7 @@ def read_dma(
 
 
 class _Asked(NamedTuple):
-    """Answers to what a file may leave open."""
+    """Answers of the user to ambiguities of a file."""
 
     units: Mapping[str, ColumnUnit]
     temperature: float | None
@@ -179,7 +178,7 @@ class _Asked(NamedTuple):
 
 
 def _together(findings: Sequence[InputError]) -> InputError:
-    """One error of all findings, a line each; of several that options settle, the options together."""
+    """Join findings into one error, a line each, with the options that settle them in a last line."""
     if len(findings) == 1:
         return findings[0]
     lines = [str(finding) for finding in findings]
@@ -195,7 +194,7 @@ def _together(findings: Sequence[InputError]) -> InputError:
 def _read(
     grid: TextGrid, exclude: str | None, ignore: Sequence[str], asked: _Asked
 ) -> tuple[DmaData, DataTable]:
-    """The table of a grid with some rows and columns left out, without its source."""
+    """Read the table of a grid without some rows and columns; `source` is still empty."""
     if exclude is not None:
         grid = without_rows(grid, exclude)
     table = row_each(without_columns(find_table(grid), ignore))
@@ -224,13 +223,13 @@ def _read(
 def read_answered(path: Path, answers: Mapping[str, Any], *, poisson_ratio: float, several: bool) -> DmaData:
     """Read a file with the answers of a command, keywords of `read_dma`.
 
-    Of several files one may state units, or temperatures, that another leaves open: those that this file contradicts
-    are left to it, and so are the names of columns that it has not.
+    With several files, answers on units, temperatures and column names that this file contradicts or lacks are not
+    applied to it.
 
     Raises
     ------
     InputError
-        As `read_dma`, of the reading with all answers.
+        As `read_dma`, for the reading with all answers.
     """
     answers = own_answers(path, answers) if several else answers
     try:
@@ -245,7 +244,7 @@ def read_answered(path: Path, answers: Mapping[str, Any], *, poisson_ratio: floa
 
 
 def own_answers(path: Path, answers: Mapping[str, Any]) -> dict[str, Any]:
-    """Answers of a command to one of several files: of named columns those that it has."""
+    """Answers of a command for one of several files, reduced to the columns that it has."""
     own = dict(answers)
     if not answers.get("columns") and not answers.get("ignore"):
         return own
@@ -256,7 +255,7 @@ def own_answers(path: Path, answers: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def sheets(path: Path, pattern: str | None) -> list[str | None]:
-    """Sheets with a table whose names fit a pattern with * or ?; without one what is given, of a text file none."""
+    """Sheets with a table that match a pattern with * or ?; else the pattern itself, None for a text file."""
     if pattern is None or not {"*", "?"} & set(pattern):
         return [pattern]
     data = file_content(path, largest=LARGEST_FILE, expected="table of a laboratory")
@@ -288,7 +287,7 @@ def _check_options(
 
 
 def _grid(path: Path, sheet: str | None) -> TextGrid:
-    """The text, or the one sheet with a table."""
+    """Load a text file, or the one sheet with a table."""
     data = file_content(path, largest=LARGEST_FILE, expected="table of a laboratory")
     if not data.startswith(MAGIC):
         if sheet is not None:
@@ -322,7 +321,7 @@ def _grid(path: Path, sheet: str | None) -> TextGrid:
 
 
 def _quantities(table: DataTable, read: Read, asked: _Asked) -> tuple[dict[str, FloatArray], list[str], bool]:
-    """SI arrays by their names in `DmaData`, how they were derived, whether of shear; questions are raised here."""
+    """SI arrays by their names in `DmaData`, notes on derivation, True for shear; raises open questions."""
     series, temperature = read.series, asked.temperature
     check_possible(table, series)
     open_ = {question.column for question in read.questions}
@@ -374,18 +373,18 @@ def _quantities(table: DataTable, read: Read, asked: _Asked) -> tuple[dict[str, 
 
 
 def _letter(table: DataTable, series: Mapping[str, Series], answer: str | None) -> Letter | None:
-    """Whether the moduli of a table are tensile or shear ones; None without any."""
+    """Letter of the moduli of a table, tensile or shear; None without moduli."""
     used = [s for s in series.values() if DIMENSIONS[s.meaning.quantity] == "modulus"]
     return letter_of(table, used, series.get("strain"), answer) if used else None
 
 
 def _is_shear(strain: Series, shear: bool) -> bool:
-    """Whether a strain is one of shear, by its own name or else as the moduli are."""
+    """True for a shear strain, by its name or else by the letter of the moduli."""
     return strain.meaning.letter == "G" or (shear and strain.meaning.letter != "E")
 
 
 _MODULI: Final = {"modulus": "relaxation", "term": "term", "instant": "instant"}
-"""Moduli beside E' and E'', by their names in `DmaData`."""
+"""Moduli other than E' and E'', by their names in `DmaData`."""
 
 
 def _terms(
@@ -394,7 +393,7 @@ def _terms(
     columns: dict[str, FloatArray],
     instantaneous: float | None,
 ) -> list[str]:
-    """Put the moduli of a Prony series in the place of its shares; tells how."""
+    """Replace the shares of a Prony series by moduli; returns notes."""
     shares = columns.pop("share", None)
     if shares is not None and float(np.sum(shares)) >= 1.0:
         what = f"the shares add up to {np.sum(shares):.6g}; less than 1 is needed, the rest is the equilibrium modulus"
@@ -417,7 +416,7 @@ def _terms(
 
 
 def _ask(table: DataTable, questions: list[Question]) -> None:
-    """Raise the first question, and in its line the others; of one dimension one answer serves."""
+    """Raise all questions in one line, at the place of the first; one text for each dimension."""
     if not questions:
         return
     text, asked = "", set[str]()
@@ -439,7 +438,7 @@ def _kind(
     labels: NDArray[np.int64] | None,
     kind: str | None,
 ) -> tuple[str, str]:
-    """What the table is, given or decided, and why."""
+    """Kind of the table, given or decided, and the reason."""
     present = set(columns)
     choices = possible_kinds(present)
     if kind is not None:
@@ -477,7 +476,7 @@ def _missing(table: DataTable, present: set[str], what: str) -> InputError:
 
 
 def _order_notes(table: DataTable, kind: str, arrangement: Arrangement) -> list[str]:
-    """Sentences on sorting, duplicate runs and the number of sweeps."""
+    """Notes on sorting, duplicate runs and the number of sweeps."""
     notes = []
     rows = table.row_numbers
     moved = np.flatnonzero(np.diff(np.argsort(arrangement.order)) < 0)
@@ -501,7 +500,7 @@ def _source(path: str | Path, table: DataTable) -> str:
 def _assembled(
     table: DataTable, kind: str, columns: Mapping[str, FloatArray], arrangement: Arrangement
 ) -> DmaData:
-    """Sorted and frozen, without the notes."""
+    """Sort and freeze the columns; `understood` is still empty."""
 
     def ordered(values: NDArray[T]) -> NDArray[T]:
         made: NDArray[T] = values[arrangement.order]

@@ -1,4 +1,4 @@
-"""Separated text to a grid: comma, semicolon, tab or runs of blanks, found from the rows of numbers."""
+"""Delimited text to a grid; the separator follows from the rows of numbers."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _SEPARATORS: Final = {"\t": "tab", ";": "semicolon", ",": "comma", " ": "blanks"
 _COMMENT: Final = re.compile(r"\s*(?:#+|%+(?!\s*[;,\t])|//+|!+)\s?")
 """A lone % before a separator is a unit, not the sign of a remark."""
 _SAMPLE: Final = 400
-"""Lines looked at to find the separator; every other line is checked when it is read."""
+"""Lines sampled to find the separator; every line is checked when it is read."""
 
 
 def text_grid(text: str, name: str, note: str) -> TextGrid:
@@ -51,7 +51,7 @@ def text_grid(text: str, name: str, note: str) -> TextGrid:
 
 
 def headed_lines(text: str, is_header: Callable[[Sequence[str]], bool] | None = None) -> list[TextLine]:
-    """Lines of a table; its header, else its first line, tells the separator, those that begin with # are remarks."""
+    """Lines of a table, separated as its header or first line; # begins a remark."""
     written = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
     said = [line for _, line in written if not line.lstrip().startswith("#")]
     usual = max("\t;,", key=(said[0] if said else "").count)
@@ -70,7 +70,7 @@ def _quoted(line: str, separator: str) -> tuple[str, ...]:
 
 
 def _separator(lines: list[str]) -> tuple[str, int]:
-    """The separator, and how many cells most rows of numbers have."""
+    """Separator, and the usual number of cells of rows of numbers."""
     sample = lines[:: max(1, len(lines) // _SAMPLE)]
     best, best_score, best_width = ",", (0, 0), 0
     for separator in _SEPARATORS:
@@ -93,7 +93,7 @@ def _split(line: str, separator: str) -> tuple[str, ...]:
 
 
 def _split_words(line: str, separator: str, width: int) -> tuple[str, ...]:
-    """A line of words: blanks may be part of a name, so several ways are tried for the width of the rows."""
+    """Split a line of words by whichever separator gives the width of the rows: blanks may be part of a name."""
     ways = [_split(line, s) for s in (separator, "\t", ";", ",") if s != " "]
     ways.append(_trimmed(re.split(r"\s{2,}|\t", line.strip())))
     ways.append(_trimmed(re.split(r"\s+(?![\[(])", line.strip())))

@@ -1,4 +1,4 @@
-"""What a laboratory file holds, in SI: frozen arrays, and the sweeps they fall into."""
+"""Data of a laboratory file in SI: frozen arrays, split into sweeps."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 ISOTHERM_DRIFT: Final = 3.0
-"""Most that one isotherm may drift [K]; beyond it the temperature is a ramp."""
+"""Largest temperature drift of an isotherm [K]; beyond it the temperature is a ramp."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +50,7 @@ class StrainRows:
     Attributes
     ----------
     temperature, frequency : float or None
-        Means of its rows [K, Hz], None if the file does not state it.
+        Means of its rows [K, Hz], None if not stated.
     strain, storage, loss : numpy.ndarray
         Amplitude [-], E' and E'' [Pa], each of shape `(n,)`.
     run : int or None
@@ -87,19 +87,19 @@ class DmaData:
     log10_a_T, log10_b_T : numpy.ndarray or None
         Horizontal and vertical shift [decades].
     run : numpy.ndarray or None
-        Labels of a run column, or of duplicate runs found [-].
+        Labels of a run column, or of duplicate runs [-].
     group : numpy.ndarray or None
         Rows of one temperature (for a temperature sweep: of one frequency) share a number [-].
     row_numbers : numpy.ndarray
         Line or row of each row in the file [-].
     metadata, metadata_rows : mapping
-        `key: value` lines, and where they stand [-].
+        `key: value` lines, and their rows [-].
     understood : tuple of str
         One sentence for each decision [-].
     source : str
         The file, for a workbook with its sheet [-].
     instantaneous : float or None
-        E_e + sum of E_i of a Prony series, where the file states it [Pa].
+        E_e + sum of E_i of a Prony series, if stated [Pa].
     shear : bool
         Whether the file holds shear moduli, converted to these [-].
     """
@@ -125,7 +125,7 @@ class DmaData:
     shear: bool = False
 
     def columns(self, what: str, *names: str) -> tuple[FloatArray, ...]:
-        """Columns by their names, for what needs them all.
+        """Columns by name, all required for `what`.
 
         Raises
         ------

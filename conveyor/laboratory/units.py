@@ -92,14 +92,14 @@ _FOLDED: Final = MappingProxyType(
         for dimension, units in UNITS.items()
     }
 )
-"""Units by their spelling without capitals: several where these tell them apart, as mHz and MHz."""
+"""Units by lower-case spelling: several where capitals distinguish them, as mHz and MHz."""
 _LOOKS: Final = str.maketrans(
     {"°": "deg", "º": "deg", "˚": "deg", "µ": "u", "μ": "u", "²": "^2", "⋅": "·", "*": "·"}
 )
 
 
 def find_unit(dimension: str, text: str) -> ColumnUnit | None:
-    """The unit of a dimension behind a spelling, brackets allowed; None if it is none.
+    """Unit of a dimension by its spelling, brackets allowed; None if unknown.
 
     Examples
     --------
@@ -125,7 +125,7 @@ def find_unit(dimension: str, text: str) -> ColumnUnit | None:
 
 
 def is_any_unit(text: str) -> bool:
-    """Whether a text is a unit of some dimension."""
+    """True for a unit of any dimension."""
     return any(find_unit(dimension, text) for dimension in UNITS)
 
 

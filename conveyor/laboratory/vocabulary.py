@@ -14,14 +14,14 @@ _ALONE: Final = str.maketrans({"ı": "i", "ł": "l", "ß": "ss", "ø": "o", "đ"
 
 
 class Deformation(NamedTuple):
-    """What a text says of how a specimen was deformed: E or G, and the words that say so."""
+    """Deformation of a specimen by a text: E or G, and the words for it."""
 
     letter: str
     words: str
 
 
 def compact(name: str) -> str:
-    """A name without what does not count: capitals, accents, blanks, points, bars, hyphens, underscores.
+    """Name without capitals, accents, blanks, points, bars, hyphens and underscores.
 
     Examples
     --------
@@ -34,7 +34,7 @@ def compact(name: str) -> str:
 
 
 def word_lists(name: str) -> Iterator[tuple[str, list[str]]]:
-    """Each line of a list in `words/`: what it stands for, and its words."""
+    """Head and words of each line of a list in `words/`."""
     text = (files("conveyor.laboratory") / "words" / f"{name}.txt").read_text(encoding="utf-8")
     for line in text.splitlines():
         head, bar, words = line.partition(" | ")
@@ -43,7 +43,7 @@ def word_lists(name: str) -> Iterator[tuple[str, list[str]]]:
 
 
 def _pattern(words: list[str], *, as_written: bool) -> re.Pattern[str]:
-    """A pattern of whole words, of Chinese, Japanese and Korean ones anywhere."""
+    """Pattern of whole words; Chinese, Japanese and Korean ones match anywhere."""
     one = [
         re.escape(word).replace(r"\*", r"\w*").replace(r"\#", r"\d+").replace(r"\ ", r"\s+") for word in words
     ]
@@ -55,10 +55,7 @@ def _pattern(words: list[str], *, as_written: bool) -> re.Pattern[str]:
 
 
 def _deformations() -> dict[bool, list[tuple[str, re.Pattern[str]]]]:
-    """Patterns of shear and of tension, of names of columns alone and of texts.
-
-    Words with capitals count as they are written, the others in any case.
-    """
+    """Patterns of shear and tension, for column names (True) and texts; words with capitals match as written."""
     words: dict[tuple[bool, str, bool], list[str]] = {}
     for what, listed in word_lists("deformation"):
         way, _, beside = what.partition(" ")
@@ -75,7 +72,7 @@ _DEFORMATIONS: Final = _deformations()
 
 
 def deformations(text: str, *, column: bool = False) -> Iterator[Deformation]:
-    """Which moduli a text, or the name of a column, speaks of: E of tension, bending, compression; G of shear, torsion.
+    """Deformations that a text or column name states: E for tension, bending, compression; G for shear, torsion.
 
     Examples
     --------

@@ -19,8 +19,8 @@ def workbook_grids(data: bytes, name: str) -> tuple[TextGrid, ...]:
 
     Notes
     -----
-    Of a formula the value stored in the file is read; without one the cell is empty. Dates and numbers shown
-    as a percentage are marked, so that they are refused where a number is expected.
+    A formula is read as its stored value, else as an empty cell. Dates and numbers shown as a percentage are
+    marked, so that they are refused where a number is expected.
     """
     return tuple(
         TextGrid(

@@ -94,7 +94,7 @@ def least_cover(carcass_thickness: float, *, steel_cord: bool) -> float:
 
 
 def fall_severity(drop: float) -> Literal["low", "medium", "high"]:
-    """How hard bulk lands that falls from a height, for the cover's wear (general knowledge).
+    """Severity of the impact of bulk that falls from a height, for the cover's wear (general knowledge).
 
     Parameters
     ----------
@@ -271,12 +271,12 @@ def standard_pulley_diameter(drive_diameter: float, *, group: Group, utilisation
 
 
 def next_pulley_diameter(least_diameter: float, *, series: Sequence[float] = PULLEY_DIAMETERS) -> float:
-    """Smallest diameter of the series that is large enough (ISO 3684; CEMA B105.1).
+    """Next larger diameter of a standard series (ISO 3684; CEMA B105.1).
 
     Parameters
     ----------
     least_diameter : float
-        Asked for by the belt [m], positive.
+        Required by the belt [m], positive.
     series : sequence of float
         Diameters, the least first [m], shape (n,): those of ISO 3684, or `CEMA_PULLEYS`.
 

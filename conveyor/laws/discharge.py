@@ -1,4 +1,4 @@
-"""Discharge over the head pulley: the bulk on it, where it leaves the belt, how it falls.
+"""Discharge over the head pulley: bulk on the pulley, discharge angle, trajectory.
 
 Sources: Booth, Trajectories from conveyors, Engineering and Mining Journal 135 (1934); CEMA and Goodyear follow the
 centre of the bulk, as Hastie and Wypych (Conveyor trajectory discharge angles, Newcastle 2007) compare them; inclined
@@ -30,14 +30,14 @@ _FINE: Final = 1e-18  # of a root that may be as small as 1e-6 [rad]
 
 @dataclass(frozen=True, slots=True)
 class BulkOnPulley:
-    """The bulk where the belt lies flat.
+    """Bulk on the flat belt of a pulley.
 
     Parameters
     ----------
     height : float
-        Of its middle over the belt [m].
+        Height of its middle over the belt [m].
     centroid : float
-        Of its centre of area over the belt, a1 [m].
+        Height of its centre of area over the belt, a1 [m].
     """
 
     height: float
@@ -130,7 +130,7 @@ def _piece(half: float) -> float:
 
 
 def discharge_angle(speed: float, *, radius: float, inclination: float, gravity: float) -> float:
-    """Where bulk leaves a pulley without slipping: where the belt meets it, or beyond its top at v²/(g r) = cos θ.
+    """Discharge angle without slip: where the belt meets the pulley, or beyond its top at v²/(g r) = cos θ.
 
     Parameters
     ----------
@@ -179,7 +179,7 @@ class SlippingDischarge:
     Parameters
     ----------
     slip_angle, angle : float
-        Where it begins to slip and where it leaves, beyond the top of the pulley [rad].
+        Angles at which it begins to slip and leaves, beyond the top of the pulley [rad].
     speed : float
         At which it leaves [m/s].
     """
@@ -265,18 +265,18 @@ def slipping_discharge(
 
 @dataclass(frozen=True, eq=False)
 class Fall:
-    """A free fall from a pulley's axis, every array of shape (n,), one point every 1/20 s and the last at the end.
+    """Trajectory of a free fall, arrays of shape (n,): a point every 1/20 s, the last at the end.
 
     Parameters
     ----------
     time : ndarray
         Since the bulk left the belt [s].
     across, up : ndarray
-        Of the bulk from the axis of the pulley, forward and upward [m].
+        Distance from the axis of the pulley, forward and upward [m].
     speed : ndarray
         [m/s].
     steepness : ndarray
-        Of its way, downward from the level [rad].
+        Angle of the path below the horizontal [rad].
     """
 
     time: NDArray[np.float64]
@@ -286,12 +286,12 @@ class Fall:
     steepness: NDArray[np.float64]
 
     def beside(self, distance: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Points at right angles to the way, outward positive [m]: the edges of the stream, as CEMA draws them."""
+        """Points at a distance square to the path, outward positive [m]: edges of the stream, as CEMA draws them."""
         return self.across + distance * np.sin(self.steepness), self.up + distance * np.cos(self.steepness)
 
 
 def fall(angle: float, *, speed: float, radius: float, drop: float, gravity: float) -> Fall:
-    """Parabola of what leaves a pulley: x = r sin θ + v cos θ t, y = r cos θ - v sin θ t - g t²/2.
+    """Trajectory of bulk that leaves a pulley: x = r sin θ + v cos θ t, y = r cos θ - v sin θ t - g t²/2.
 
     Parameters
     ----------

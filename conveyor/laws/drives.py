@@ -1,4 +1,4 @@
-"""Parts of a drive: gear, backstops, brake discs, flywheel, starts of a motor an hour, sharing of unequal drives.
+"""Parts of a drive: gear, backstops, brake discs, flywheel, motor starts per hour, load sharing of unequal drives.
 
 Sources: NEMA MG 10 table 2-3 (starts), as the EASA handbook prints it; ISO 3 (preferred numbers); the rest is derived.
 """
@@ -43,7 +43,7 @@ _SLACK: Final = 1e-6  # of a power: 25 hp written in kW
 
 
 def allowed_starts(rated_power: float, *, poles: Poles, load_inertia: float) -> float:
-    """Starts an hour that a motor switched on directly bears, the lesser of A and B/Wk² (NEMA MG 10, table 2-3).
+    """Starts per hour allowed for a motor started direct on line, the lesser of A and B/Wk² (NEMA MG 10, table 2-3).
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ def allowed_starts(rated_power: float, *, poles: Poles, load_inertia: float) -> 
     poles : {2, 4, 6}
         Of the motor [-].
     load_inertia : float
-        Wk², of all it accelerates beside itself at its shaft [kg m²], positive.
+        Wk², of all it accelerates besides itself, at its shaft [kg m²], positive.
 
     Returns
     -------
@@ -91,7 +91,7 @@ def allowed_starts(rated_power: float, *, poles: Poles, load_inertia: float) -> 
 
 
 def backstop_torque(force: float, *, radius: float, count: int) -> float:
-    """Torque of each of several backstops on their pulleys, 1.4 F r/n, of a single one F r (general knowledge).
+    """Torque of one of n backstops at its pulley, 1.4 F r/n; of a single one F r (general knowledge).
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def backstop_torque(force: float, *, radius: float, count: int) -> float:
 
 
 def disc_rise(heat: float, *, mass: float) -> float:
-    """Rise of temperature of a brake disc in a stop, Q/(m c), nothing given off meanwhile (derived).
+    """Temperature rise of a brake disc in a stop, Q/(m c), without cooling (derived).
 
     Parameters
     ----------
@@ -201,7 +201,7 @@ def flywheel_inertia(
 
 
 def gear_torque(rated_power: float, *, rotation: float) -> float:
-    """Rated torque to ask of a gear at its slow shaft, 1.5 P/(2 π n), the factor general knowledge.
+    """Rated torque of a gear at its slow shaft, 1.5 P/(2 π n), the factor general knowledge.
 
     Parameters
     ----------
@@ -230,12 +230,12 @@ def gear_torque(rated_power: float, *, rotation: float) -> float:
 
 
 def next_preferred(value: float) -> float:
-    """First preferred number of the series R10 that is no less (ISO 3): sizes of gears, backstops and brakes.
+    """Next larger preferred number of the series R10 (ISO 3): sizes of gears, backstops and brakes.
 
     Parameters
     ----------
     value : float
-        In any unit of a base of ten [-], positive.
+        In any decimal unit [-], positive.
 
     Returns
     -------
@@ -284,7 +284,7 @@ def nearest_ratio(ratio: float) -> float:
 
 
 def _of_its_decade(value: float, series: Sequence[float]) -> tuple[float, ...]:
-    """Preferred numbers of the decade of a value, and the first of the next."""
+    """Preferred numbers of a value's decade, and the first of the next."""
     decade = 10.0 ** math.floor(math.log10(value))
     return (*(decade * step for step in series), 10.0 * decade)
 
@@ -297,7 +297,7 @@ def shared_forces(
     diameters: Sequence[float],
     strains: Sequence[float],
 ) -> tuple[float, ...]:
-    """Forces of drives that nothing but the belt couples, F_i = R_i (1 - v (1 + ε_i)/V_i)/s_i with Σ F_i = F.
+    """Forces of drives coupled by the belt alone, F_i = R_i (1 - v (1 + ε_i)/V_i)/s_i with Σ F_i = F.
 
     Parameters
     ----------

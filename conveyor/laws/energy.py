@@ -221,7 +221,7 @@ def duty_specific_energy(duty: Duty, *, length: float) -> float:
 
 
 def next_motor(shaft_power: float, *, reserve: float = 1.0, series: Sequence[float] = MOTOR_SERIES) -> float:
-    """Smallest motor of the series that gives the power with its reserve (IEC 60072-1, customary steps).
+    """Rated power of the next larger motor of a series, reserve included (IEC 60072-1, customary steps).
 
     Parameters
     ----------

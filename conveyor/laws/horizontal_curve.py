@@ -1,8 +1,8 @@
-"""Horizontal curves: what draws the belt inside, what holds it, how far it drifts on its rolls.
+"""Horizontal curves: inward and outward forces on the belt, and its drift on the rolls.
 
 Sources: Grimmer, Kessler, Spezielle Betrachtungen zur Gurtführung bei Gurtförderern mit Horizontalkurven (1987), Parts
 I and II, by the forms and figures that the open library eytelwein 0.1.9 gives for them; the paper itself was not read.
-What is derived here says so.
+Derived parts are marked.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ FULL_SLIP_TILT: Final = Default(
 LEAST_GUIDANCE: Final = 0.7
 """Guiding friction to count on over the full one, wet or dirty: Grimmer, Kessler, worked example [-]."""
 MOST_ROLLS: Final = 5
-"""Of a set [-]."""
+"""Largest number of rolls of a set [-]."""
 
 
 def guide_friction(tilt: float, *, friction: float, full_slip: float) -> float:
-    """Friction across the belt of a roll whose axis is turned, μ [1 - (1 - ε/ε_s)³], from ε_s on μ.
+    """Friction across the belt of a skewed roll, μ [1 - (1 - ε/ε_s)³], from ε_s on μ.
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ def guide_friction(tilt: float, *, friction: float, full_slip: float) -> float:
 def outward_pushes(
     frictions: Sequence[float], *, trough_angle: float, banking_angle: float, inner_angle: float = 0.0
 ) -> tuple[float, ...]:
-    """Force to the outside of the curve over the weight on each roll, from the inside roll outward.
+    """Outward force per weight of each roll of a set, from the inside roll outward.
 
     Inside sin(λ+β) + κ cos(λ+β), middle sin β + κ_m cos β, outside -sin(λ-β) + κ cos(λ-β); the belt that slides down
     the wings presses on the middle roll with sin(λ±β) sin λ, which κ_m adds to theirs.
@@ -140,7 +140,7 @@ def outward_pushes(
 
 
 def drifted_loads(loads: Sequence[RollLoad], drift: float, *, roll_length: float) -> tuple[RollLoad, ...]:
-    """Loads of a set's rolls whose belt has drifted inside by s, what lies on each strip of belt staying on it.
+    """Roll loads of a set whose belt has drifted inside by s, the load of each strip of belt unchanged.
 
     Parameters
     ----------
@@ -202,7 +202,7 @@ def _with(load: RollLoad, bulk: float, belt: float, length: float) -> RollLoad:
 
 
 def outward_force(loads: Sequence[RollLoad], pushes: Sequence[float]) -> float:
-    """Force of weight and guiding friction on a set to the outside of its curve, sum of W c over its rolls.
+    """Outward force of weight and guiding friction on a set, sum of W c over its rolls.
 
     Parameters
     ----------
@@ -232,7 +232,7 @@ def outward_force(loads: Sequence[RollLoad], pushes: Sequence[float]) -> float:
 
 @dataclass(frozen=True, slots=True)
 class DriftLaw:
-    """The outward force on a set by the belt's drift: one parabola inside of the centre, one outside.
+    """Outward force on a set over the belt's drift: one parabola inside of the centre, one outside.
 
     Parameters
     ----------
@@ -248,7 +248,7 @@ class DriftLaw:
 
     @classmethod
     def of(cls, loads: Sequence[RollLoad], pushes: Sequence[float]) -> DriftLaw:
-        """Return the law of a set.
+        """Return the drift law of a set.
 
         Parameters
         ----------
@@ -265,7 +265,7 @@ class DriftLaw:
         centred = outward_force(loads, pushes)
 
         def parabola(reach: float, side: float) -> tuple[float, float, float]:
-            """Through three points: the force is a parabola over the drift."""
+            """Slope, curvature and end of the parabola through three points."""
             half, whole = (
                 outward_force(drifted_loads(loads, side * s, roll_length=2.0 * reach), pushes)
                 for s in (0.5 * reach, reach)
@@ -277,7 +277,7 @@ class DriftLaw:
 
     @property
     def most(self) -> float:
-        """What the set holds with its outside wing bare [N]."""
+        """Largest outward force, the outside wing bare [N]."""
         return self.force(self.inward[-1])
 
     def force(self, drift: float) -> float:
@@ -288,7 +288,7 @@ class DriftLaw:
         return self.centred + size * (slope + curvature * size)
 
     def drift(self, pull: float) -> float:
-        """Drift to the inside at which the set balances an inward pull [m]: infinite where it runs off its rolls.
+        """Inward drift at which the set balances an inward pull [m]; infinite where the belt runs off.
 
         Parameters
         ----------
@@ -309,7 +309,7 @@ class DriftLaw:
 
 @dataclass(frozen=True, slots=True)
 class FlatDrift:
-    """The outward force on a flat set by the belt's drift at the end of a curve, W [sin β + κ(ε + s/L) cos β].
+    """Outward force on a flat set over the belt's drift at the end of a curve, W [sin β + κ(ε + s/L) cos β].
 
     Parameters
     ----------
@@ -328,10 +328,10 @@ class FlatDrift:
 
     Notes
     -----
-    Derived. No wing draws the belt back: what W sin β leaves of T a/R turns its course by s' from that of the sets,
+    Derived. No wing draws the belt back: the part of T a/R beyond W sin β turns its course by s' from that of the sets,
     until the guiding friction κ(ε + s') of the turned course holds it. The course settles within T a/(W dκ/dε), some
     spans, and then the belt drifts by s' of every metre: from the middle of the sets, where it comes in, to s = s' L
-    at the end. There is no such course where more than μ is asked for.
+    at the end. There is no such course where more than μ is needed.
 
     Examples
     --------
@@ -352,12 +352,12 @@ class FlatDrift:
 
     @property
     def centred(self) -> float:
-        """What it holds without drift [N]."""
+        """Outward force without drift [N]."""
         return self.force(0.0)
 
     @property
     def most(self) -> float:
-        """What it holds at all [N]."""
+        """Largest outward force [N]."""
         return self.weight * (math.sin(self.banking_angle) + self.friction * math.cos(self.banking_angle))
 
     def guiding(self, drift: float) -> float:
@@ -372,7 +372,7 @@ class FlatDrift:
         return self.weight * math.sin(self.banking_angle) + self.guiding(drift)
 
     def drift(self, pull: float) -> float:
-        """Drift to the inside at the end of the curve [m] under a pull on one set [N]: infinite off the roll."""
+        """Inward drift at the end of the curve [m] under a pull on one set [N]; infinite off the roll."""
         asked = (pull / self.weight - math.sin(self.banking_angle)) / math.cos(self.banking_angle)
         share = abs(asked) / self.friction
         if share >= 1.0:

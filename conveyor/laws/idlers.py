@@ -1,4 +1,4 @@
-"""Sets of rolls: load they are rated for by class, load of a set that stands high, flap of the belt between sets.
+"""Idler sets: rated load by class, load of a raised set, belt flap between sets.
 
 Sources: CEMA 502 (ratings of classes B, C and D as reproduced in "Calculating L10 Idler Life", scribd 483814341; E
 general knowledge); lumps by Sandvik, Selection and load rating of the idlers for belt conveyors (12/99, scribd
@@ -53,13 +53,13 @@ _LUMP_FACTORS: Final[Mapping[float, tuple[float, ...]]] = {
     0.400: (1.1, 1.1, 1.1, 1.2, 1.2, 1.3, 1.3), 0.500: (1.1, 1.1, 1.2, 1.2, 1.3, 1.3, 1.4),
 }  # fmt: skip
 _WIDTH_SLACK: Final = 0.06
-"""A width counts to the column it exceeds by this share at most: 1000 mm to 42 in, 1200 mm to 48 in; derived [-]."""
+"""Share by which a width may exceed that of its column: 1000 mm in 42 in, 1200 mm in 48 in; derived [-]."""
 FLAP_MODES: Final = 2
-"""Natural frequencies of a span that rolls out of round are taken to excite [-]; general knowledge."""
+"""Natural frequencies of a span excited by rolls out of round [-]; general knowledge."""
 
 
 def raised_set_load(tension: float, *, height: float, spacing: float) -> float:
-    """Load that the belt's tension lays on a set standing higher than its neighbours, 2 T h/a (CEMA: IML).
+    """Load of the belt's tension on a set raised above its neighbours, 2 T h/a (CEMA: IML).
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def raised_set_load(tension: float, *, height: float, spacing: float) -> float:
 
 
 def rated_set_load(cema_class: CemaClass, *, belt_width: float, trough_angle: float, rolls: int) -> float:
-    """Load that a set of a CEMA class is rated for (CEMA 502; class E general knowledge).
+    """Rated load of an idler set of a CEMA class (CEMA 502; class E general knowledge).
 
     Parameters
     ----------
@@ -163,7 +163,7 @@ def rated_set_load(cema_class: CemaClass, *, belt_width: float, trough_angle: fl
 
 
 def lump_load_factor(lump: float, *, density: float) -> float:
-    """Load of a set that bears lumps over the steady one, factor c (Sandvik 12/99, table 2).
+    """Factor c of a set's load under lumps over the steady one (Sandvik 12/99, table 2).
 
     Parameters
     ----------
@@ -256,7 +256,7 @@ def flap_frequency(
 
 
 def resonance_distance(roll_frequency: float, *, lowest: float, highest: float) -> float:
-    """How far a roll's rotation is from the first natural frequencies of the spans it excites, over it.
+    """Relative distance of the first natural frequencies of the spans from a roll's rotation.
 
     Parameters
     ----------
@@ -296,7 +296,7 @@ def resonance_distance(roll_frequency: float, *, lowest: float, highest: float) 
 
 
 def still_spacing(roll_frequency: float, *, lowest: float, spacing: float, margin: float) -> float:
-    """Widest spacing at which every natural frequency lies above the rolls' rotation by a margin, a f/(f_r (1 + m)).
+    """Widest spacing with every natural frequency above the rolls' rotation by a margin, a f/(f_r (1 + m)).
 
     Parameters
     ----------

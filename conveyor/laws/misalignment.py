@@ -1,6 +1,6 @@
 """Misaligned idler sets: drag of rolls whose axes are not square to the belt, averaged over a conveyor.
 
-No set stands exactly square. A roll turned by ε pushes the belt across its running direction; the part of that
+No set is exactly square. A roll turned by ε pushes the belt across its running direction; the part of that
 friction along the belt, μ(ε) sin ε, is lost at every set, whichever way it is turned.
 """
 
@@ -33,7 +33,7 @@ wide (general knowledge), these are 0.38, 0.50, 0.75 and 1.51 deg.
 """
 
 LARGEST_MISALIGNMENT: Final = math.radians(5.0)
-"""Above it a belt runs off; a figure this large is a slip [rad]."""
+"""Largest allowed input: beyond it a belt runs off [rad]."""
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(48)
 _TAIL: Final = 9.0  # standard deviations; beyond lies 1e-19 of a normal distribution
@@ -45,7 +45,7 @@ def misalignment_friction(
     friction: float = ROLL_ON_BELT_FRICTION.value,
     full_slip: float = FULL_SLIP_TILT.value,
 ) -> float:
-    """Mean drag over normal force of rolls whose axes are askew by a normal distribution, E[μ(ε) sin ε] (derived).
+    """Mean drag over normal force of rolls with normally distributed skew, E[μ(ε) sin ε] (derived).
 
     Parameters
     ----------

@@ -60,7 +60,7 @@ def reduced_mass(inertia: float, *, radius: float, ratio: float = 1.0) -> float:
 
 
 def typical_reduced_mass(rated_power: float, *, belt_speed: float) -> float:
-    """Reduced mass of a drive of which only the power is known, m = 2 τ P/v², τ = 0.25 s (general knowledge).
+    """Reduced mass of a drive by its power alone, m = 2 τ P/v², τ = 0.25 s (general knowledge).
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def typical_reduced_mass(rated_power: float, *, belt_speed: float) -> float:
 
 
 def run_up_time(speeds: Sequence[float], forces: Sequence[float], *, mass: float) -> float:
-    """Time of a start in which the accelerating force is linear between points, t = Σ m Δv ln(F2/F1)/(F2 - F1).
+    """Time of a start whose accelerating force is linear between points, t = Σ m Δv ln(F2/F1)/(F2 - F1).
 
     Parameters
     ----------
@@ -173,7 +173,7 @@ def start_force(
 
 
 def bulk_slip_limits(belt_friction: float, *, inclination: float, gravity: float) -> tuple[float, float]:
-    """Accelerations at which the bulk stays on the belt, |a + g sin δ| ≤ μ g cos δ.
+    """Limits of acceleration at which the bulk does not slip on the belt, |a + g sin δ| ≤ μ g cos δ.
 
     Parameters
     ----------
@@ -217,7 +217,7 @@ def bulk_slip_limits(belt_friction: float, *, inclination: float, gravity: float
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """How a conveyor comes to rest.
+    """Deceleration, time and distance of a stop.
 
     Parameters
     ----------

@@ -180,7 +180,7 @@ def shaft_safety(moment: float, *, torque: float, diameter: float, steel: Steel,
 
 
 def _equivalent(moment: float, torque: float, diameter: float, steel: Steel, keyway: Keyway) -> float:
-    """Moment over strength, bending and torsion together [m³]."""
+    """Bending and torsional moments over strength, combined [m³]."""
     require(steel in SHAFT_STEELS, "steel", steel, f"one of {', '.join(SHAFT_STEELS)} is needed")
     require(keyway in KEYWAY_FACTOR, "keyway", keyway, f"one of {', '.join(KEYWAY_FACTOR)} is needed")
     fatigue, yielding = SHAFT_STEELS[steel]

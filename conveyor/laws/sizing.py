@@ -1,7 +1,7 @@
 """First choices of a conveyor: width for lumps, edge distance, cover against wear, masses of parts, annuities.
 
 Sources: CEMA, Belt Conveyors for Bulk Materials, 5th ed., as commonly reproduced (lumps, edge distance, speeds);
-DIN 22101 (wear of the carrying cover). What is general knowledge says so.
+DIN 22101 (wear of the carrying cover). General knowledge is marked.
 """
 
 from __future__ import annotations
@@ -121,7 +121,7 @@ def recommended_speed(belt_width: float, *, abrasiveness: Severity) -> float:
 
 
 def standard_edge_distance(belt_width: float) -> float:
-    """Belt left free of bulk at each edge, 0.055 B + 0.9 in (CEMA).
+    """Width of belt left free of bulk at each edge, 0.055 B + 0.9 in (CEMA).
 
     Parameters
     ----------
@@ -150,7 +150,7 @@ def standard_edge_distance(belt_width: float) -> float:
 def wear_addition(
     *, lump: float, density: float, round_time: float, abrasiveness: Severity, loading: Severity
 ) -> float:
-    """Cover to be added to the least one against wear by the bulk (DIN 22101, by points; general knowledge).
+    """Cover thickness added against wear by the bulk (DIN 22101, by points; general knowledge).
 
     Parameters
     ----------
@@ -163,7 +163,7 @@ def wear_addition(
     abrasiveness : {"low", "medium", "high"}
         Of the bulk [-].
     loading : {"low", "medium", "high"}
-        How hard the bulk lands: height of fall and difference of speeds [-].
+        Severity of loading: height of fall and difference of speeds [-].
 
     Returns
     -------
@@ -205,7 +205,7 @@ def wear_addition(
 
 
 def carcass_mass(strength: float, *, thickness: float, steel_cord: bool) -> float:
-    """Mass per area of a carcass whose maker gives none (derived; fitted to listed belts).
+    """Usual mass per area of a carcass (derived; fitted to listed belts).
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
-"""The strain that rolls work a cover at, and its moduli at that strain: the equivalent-linear cover of a strand.
+"""Working strain of a cover under rolls and its moduli at that strain: the equivalent-linear cover of a strand.
 
-Strain is that of the rolls' own contact (conveyor.contact.worked), at the line load where the strand loses its
-energy; moduli are softened by the compound's strain sweeps (conveyor.rubber.equivalent) until both agree.
+The strain is that of the rolls' contact (conveyor.contact.worked) at the loss-weighted line load of the strand;
+moduli are softened by the compound's strain sweeps (conveyor.rubber.equivalent) until both agree.
 """
 
 from __future__ import annotations
@@ -32,31 +32,31 @@ from conveyor.rubber.equivalent import Worked
 Array = NDArray[np.float64]
 
 LOAD_EXPONENT = 4.0 / 3.0
-"""Of the indentation in the line load, Winkler: good enough to weigh the loads of a strand by what they lose."""
+"""Exponent of the indentation resistance in the line load (Winkler), to weight the loads of a strand by their loss."""
 STRAIN_RTOL: Final = 5e-3
-"""Of the working strain: sweeps are repeated to a few per cent [-]."""
+"""Relative tolerance of the working strain [-]; sweeps repeat to a few per cent."""
 _CONTACT_RTOL = 1e-3
 INSIDE: Final = (12, 32)
-"""Depths and points at which the strain inside a cover is taken: strain and frequency to 3e-3 of themselves, measured
+"""Depths and points at which the strain inside a cover is sampled: relative error of strain and frequency 3e-3,
 against 28 and 96."""
 COARSE: Final = (4, 16)
-"""The same where 2e-3 of the indentation do, at a third of the time: measured on three compounds, 0 to 40 °C."""
+"""Coarse sampling: 2e-3 of the indentation at a third of the time, seen on three compounds, 0 to 40 °C."""
 
 
 @dataclass(frozen=True)
 class WorkingStrain:
-    """What a strand's rolls do to its cover.
+    """Working strain of a strand's cover and its modulus factors.
 
     Attributes
     ----------
     line_load : float
-        At which the strain was taken: the mean over the strand's rolls, weighted by what each loses [N/m].
+        Line load of the strain: mean over the strand's rolls, weighted by their loss [N/m].
     strain : float
-        Single strain amplitude, weighted by dissipation over the cover's depth [-].
+        Single strain amplitude, weighted with the dissipation over the cover's depth [-].
     frequency : float
-        At which the factors were taken, weighted by dissipation [Hz].
+        Frequency of the factors, weighted with the dissipation [Hz].
     storage_factor, loss_factor : float
-        Of E' and E'' against those of the master curve [-].
+        E' and E'' over those of the master curve [-].
     """
 
     line_load: float
@@ -72,19 +72,19 @@ def losing_load(line_loads: Array, weights: Array) -> float:
     Parameters
     ----------
     line_loads : ndarray
-        Along all rolls, shape (n,), at least 0 [N/m].
+        Line loads along all rolls, shape (n,), at least 0 [N/m].
     weights : ndarray
-        Of the quadrature, times the number of such rolls, shape (n,), at least 0 [m].
+        Quadrature weights times the number of such rolls, shape (n,), at least 0 [m].
 
     Returns
     -------
     float
-        Line load at which a strand loses its power [N/m].
+        Loss-weighted line load of a strand [N/m].
 
     Raises
     ------
     InputError
-        No roll carries anything: there is no loss to weigh by.
+        All line loads are zero.
 
     Examples
     --------
@@ -99,7 +99,7 @@ def losing_load(line_loads: Array, weights: Array) -> float:
 
 @dataclass(frozen=True, eq=False)
 class WorkedCover:
-    """A cover whose moduli depend on the strain that rolls work it at.
+    """A cover whose moduli depend on its working strain under the rolls.
 
     Attributes
     ----------
@@ -108,13 +108,13 @@ class WorkedCover:
     line_load : float
         w [N/m].
     factors : AmplitudeFactors
-        Of the compound.
+        Amplitude factors of the compound.
     temperature : float
-        Of the cover [K].
+        Temperature of the cover [K].
     swept : PronySeries or None
-        Beyond the sweeps: the series at the nearest temperature they reach.
+        Series at the nearest temperature of the sweeps, where `temperature` lies beyond them.
     inside : tuple of int
-        Depths and points at which the strain is taken.
+        Depths and points at which the strain is sampled.
 
     Examples
     --------
@@ -144,7 +144,7 @@ SoftCover: TypeAlias = tuple[PronySeries, WorkingStrain]
 
 
 def softened_each(works: Sequence[WorkedCover]) -> list[SoftCover]:
-    """Series of covers at the strains of the rolls' own contacts, as `softened_many`; the first refusal is raised.
+    """Series of covers at their working strains, as `softened_many`; the first error is raised.
 
     Parameters
     ----------
@@ -159,7 +159,7 @@ def softened_each(works: Sequence[WorkedCover]) -> list[SoftCover]:
     Raises
     ------
     NoSolutionError
-        The contact has no answer, the strain does not settle, or the softened rubber would be a fluid.
+        The contact has no solution, the strain does not converge, or the softened rubber would be a fluid.
     RangeError
         The strain is outside the sweeps.
 
@@ -187,7 +187,7 @@ def softened_each(works: Sequence[WorkedCover]) -> list[SoftCover]:
 
 
 def softened_many(works: Sequence[WorkedCover]) -> list[SoftCover | NoSolutionError | RangeError]:
-    """Series of covers at the strains of the rolls' own contacts, solved side by side.
+    """Series of covers at their working strains, solved in a batch.
 
     Parameters
     ----------
@@ -197,12 +197,12 @@ def softened_many(works: Sequence[WorkedCover]) -> list[SoftCover | NoSolutionEr
     Returns
     -------
     list
-        In their order the covers, or why there is none.
+        Series and working strain of each cover, or the error instead.
 
     Raises
     ------
     InputError
-        The load of a contact is refused.
+        The load of a contact is out of range.
 
     Examples
     --------
@@ -235,7 +235,7 @@ def softened_many(works: Sequence[WorkedCover]) -> list[SoftCover | NoSolutionEr
 def softened_at(
     works: Sequence[WorkedCover], worked: Sequence[Worked]
 ) -> list[SoftCover | NoSolutionError | RangeError]:
-    """Series of covers at strains that are known; no contact is solved.
+    """Series of covers at given strains; no contact is solved.
 
     Parameters
     ----------
@@ -247,7 +247,7 @@ def softened_at(
     Returns
     -------
     list
-        In their order the covers, or why there is none.
+        Series and working strain of each cover, or the error instead.
 
     Raises
     ------
@@ -283,7 +283,7 @@ def _tasks(works: Sequence[WorkedCover]) -> list[StrainTask]:
 
 
 def _worked(contact: RollContact, strain: float, wave_number: float) -> Worked:
-    """Strain [-] and angular frequency [rad/s] of a contact whose loss is at a wave number [-]."""
+    """Strain [-] and angular frequency [rad/s] of a contact from its strain and wave number [-]."""
     return strain, wave_number * 2.0 * math.pi / contact.spacing * contact.speed
 
 

@@ -1,4 +1,4 @@
-"""What the take-up does to the tensions: gravity keeps them, a fixed one keeps the length of the belt.
+"""Take-ups: a gravity take-up keeps the tension, a fixed one the length of the belt.
 
 Sources: statics of the carriage; Hooke (a belt of given length). A winch held at a set tension acts like a gravity
 take-up, a locked one like a fixed one.
@@ -27,13 +27,13 @@ STEEL_EXPANSION: Final = Default(
 )  # [1/K]
 
 SCREW_LENGTH: Final = 90.0
-"""Longest conveyor that is kept taut by screws [m], about 300 ft; general knowledge."""
+"""Longest conveyor with a screw take-up [m], about 300 ft; general knowledge."""
 
 
 def follow_speed(
     change: float, *, time: float, stiffness: float, loop_length: float, strands: float = LOOP_STRANDS
 ) -> float:
-    """Speed of a carriage that keeps its tension through a start, ΔT L/(EA s) in half the time of the start.
+    """Carriage speed that keeps the tension through a start, ΔT L/(EA s) in half the time of the start.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def follow_speed(
 
     Notes
     -----
-    Derived (Hooke); waves along the belt ask for more, see `conveyor dynamics`.
+    Derived (Hooke); waves along the belt need more, see `conveyor dynamics`.
 
     Examples
     --------
@@ -113,7 +113,7 @@ def take_up_mass(tension: float, *, reeving: float, gravity: float, strands: flo
 
 
 def mean_tension(tensions: Sequence[float], *, lengths: Sequence[float]) -> float:
-    """Mean tension of the loop, Σ T_i l_i/Σ l_i: what a fixed take-up holds in every load case (Hooke).
+    """Mean tension of the loop, Σ T_i l_i/Σ l_i: constant with a fixed take-up (Hooke).
 
     Parameters
     ----------
@@ -149,12 +149,12 @@ def mean_tension(tensions: Sequence[float], *, lengths: Sequence[float]) -> floa
 
 @dataclass(frozen=True, slots=True)
 class Travel:
-    """Travel of a take-up's carriage by what it makes up for [m].
+    """Travel of a take-up's carriage by cause [m].
 
     Parameters
     ----------
     tensioning : float
-        From the slack belt to the lowest mean tension that occurs.
+        Elongation from the slack belt to the lowest mean tension that occurs.
     load : float
         Between the lowest and the highest mean tension in steady running.
     motion : float
@@ -176,7 +176,7 @@ class Travel:
 
     @property
     def whole(self) -> float:
-        """Their sum [m]."""
+        """Total travel [m]."""
         return math.fsum(
             (self.tensioning, self.load, self.motion, self.permanent, self.temperature, self.reserve)
         )
@@ -217,7 +217,7 @@ def take_up_travel(
     Returns
     -------
     Travel
-        By what it makes up for [m].
+        Travel by cause [m].
 
     Raises
     ------

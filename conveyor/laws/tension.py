@@ -1,4 +1,4 @@
-"""Belt tensions: grip at the drive, sag between idlers, what governs; pulley size and belt stiffness.
+"""Belt tensions: grip at the drive, sag between idlers, governing tension; pulley size and belt stiffness.
 
 Sources: Eytelwein; ISO 5048, DIN 22101.
 """
@@ -113,7 +113,7 @@ def governing_tension(minima: Mapping[str, float]) -> tuple[str, float]:
     Parameters
     ----------
     minima : mapping of str to float
-        Least tension each condition asks for at that point [N], each at least 0, for example
+        Least tension each condition requires at that point [N], each at least 0, for example
         {"grip": …, "sag carry": …, "sag return": …}.
 
     Returns
@@ -150,7 +150,7 @@ class DriveTensions:
     slack : float
         T2 [N].
     governed_by : str
-        "grip", or "sag" when the tension the sag asks for is larger.
+        "grip", or "sag" when the sag requires more tension.
     """
 
     tight: float
@@ -179,7 +179,7 @@ def drive_tensions(
     start_factor : float
         ξ, drive force at start over steady one [-], at least 1; 1 for steady operation.
     slack_for_sag : float
-        Tension the sag asks for, transferred to the slack side of the drive [N], at least 0.
+        Tension required by the sag, transferred to the slack side of the drive [N], at least 0.
 
     Returns
     -------
@@ -267,7 +267,7 @@ def steel_cord_stiffness(nominal_strength: float) -> float:
 def usual_stiffness(
     nominal_strength: float | None, *, rating: float | None = None, carcass: str
 ) -> float | None:
-    """Tensile stiffness of a belt per width where its maker gives none, a multiple of its strength or rated tension.
+    """Usual tensile stiffness of a belt per width, a multiple of its strength or rated tension.
 
     Parameters
     ----------

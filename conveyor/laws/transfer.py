@@ -1,4 +1,4 @@
-"""Loading points and cleaners: impact of the bulk, length and seals of skirtboards, what cleaners leave on the belt."""
+"""Loading points and cleaners: impact of the bulk, length and seals of skirtboards, carryback behind cleaners."""
 
 from __future__ import annotations
 
@@ -13,8 +13,7 @@ SKIRT_SECONDS: Final = Default(
 )  # [s]
 SKIRT_LEAST: Final = Default(0.9144, 0.9144, 0.9144, "CEMA: no less than 3 ft", True)  # [m]
 IMPACT_CLASSES: Final = ((271.2, "light"), (1355.8, "medium"), (2711.6, "heavy"))
-"""Energy of the heaviest lump up to which impact beds of CEMA 575 are meant: 200, 1000, 2000 lbf ft [J]; general
-knowledge."""
+"""Largest lump energy of the impact bed classes of CEMA 575: 200, 1000, 2000 lbf ft [J]; general knowledge."""
 CLEANER_EFFICIENCY: Final = Default(0.8, 0.6, 0.9, "a scraper in order", True)  # [-]
 
 
@@ -80,7 +79,7 @@ def lump_impact(mass: float, *, drop_height: float, stiffness: float, gravity: f
 
     Notes
     -----
-    CEMA and Rulmeca write W + sqrt(2 k W H), which leaves out the way of the spring itself. At H = 0 it is twice the
+    CEMA and Rulmeca write W + sqrt(2 k W H), which leaves out the travel of the spring itself. At H = 0 it is twice the
     weight. No loss, no mass of the rolls.
 
     Examples
@@ -122,7 +121,7 @@ def impact_class(energy: float) -> str:
 
 
 def usual_skirt_length(belt_speed: float) -> float:
-    """Length of skirtboards behind the place of loading, 2 ft for every 100 fpm, 3 ft at least (CEMA).
+    """Length of skirtboards behind the loading point, 2 ft for every 100 fpm, 3 ft at least (CEMA).
 
     Parameters
     ----------
@@ -182,7 +181,7 @@ def skirt_seal_resistance(length: float, *, drag_per_length: float) -> float:
 
 
 def carryback(on_belt: float, *, efficiency: float, count: int) -> float:
-    """What cleaners in a row leave on the belt, m (1 - η)^n (derived: each takes the same share of what comes).
+    """Bulk left on the belt behind cleaners in a row, m (1 - η)^n (derived: each takes the same share).
 
     Parameters
     ----------

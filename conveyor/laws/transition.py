@@ -1,4 +1,4 @@
-"""Transitions: what the strips of a belt are stretched by between a flat pulley and the first full trough.
+"""Transitions: stretch of the strips of a belt between a flat pulley and the first full trough.
 
 Sources: ISO 5293:2004, L = h/sin λ (M/ΔT (1 - cos λ))^0.5 with h = w sin λ (formula as commonly reproduced): the edge's
 straight way against that of the middle. Here it is taken on to every strip and to a raised pulley, and the mean of the
@@ -21,7 +21,7 @@ EDGE_OVER_RATED: Final = 1.3
 
 @dataclass(frozen=True, slots=True)
 class TransitionStretch:
-    """Elongation of strips over the mean one, times the length of the transition squared [m²].
+    """Elongation of strips over the mean, times the length of the transition squared [m²].
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ class TransitionStretch:
 
     @property
     def largest(self) -> float:
-        """Of the strip that is stretched most [m²]."""
+        """Value of the most stretched strip [m²]."""
         return max(self.edge, self.middle)
 
 
@@ -49,7 +49,7 @@ def transition_stretch(
     pulley_height: float,
     inner_wing: Wing = NO_WING,
 ) -> TransitionStretch:
-    """Strips of straight way from the pulley to the trough: ε L² = s² (1 - cos λ) - s H sin λ + H²/2, less its mean.
+    """Stretch of strips straight from pulley to trough: ε L² = s² (1 - cos λ) - s H sin λ + H²/2, less its mean.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def transition_stretch(
 def transition_length(
     tension_per_width: float, *, stretch: float, stiffness_per_width: float, limit_per_width: float
 ) -> float:
-    """Least length at which a strip keeps within its limit, L = sqrt(E ε L²/(k_lim - k)).
+    """Least length that keeps a strip within its limit, L = sqrt(E ε L²/(k_lim - k)).
 
     Parameters
     ----------

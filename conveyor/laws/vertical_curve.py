@@ -20,7 +20,7 @@ from conveyor.require import (
 
 @dataclass(frozen=True, slots=True)
 class TroughSection:
-    """Where the belt lies in its trough, against the height of its own centre.
+    """Heights of the troughed belt against its own centre.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def trough_section(
 def lift_off_radius(
     tension: float, *, belt_mass: float, inclination: float, gravity: float, uplift: float = 0.0
 ) -> float:
-    """Least radius of a concave curve on which the empty belt stays down, r = T/(m'_belt g cos δ - F'_wind).
+    """Least radius of a concave curve without lift-off of the empty belt, r = T/(m'_belt g cos δ - F'_wind).
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def lift_off_radius(
     gravity : float
         g [m/s²], positive.
     uplift : float
-        F'_wind that lifts it per length [N/m], at least 0, see `wind.wind_force`.
+        F'_wind, uplift per length [N/m], at least 0, see `wind.wind_force`.
 
     Returns
     -------
@@ -128,7 +128,7 @@ def lift_off_radius(
 def overstress_radius(
     tension_per_width: float, *, distance: float, stiffness_per_width: float, allowed_per_width: float
 ) -> float:
-    """Least radius at which the strip that is stretched stays below its limit, r = E d/(k_max - k).
+    """Least radius that keeps the stretched strip below its limit, r = E d/(k_max - k).
 
     Parameters
     ----------
@@ -176,7 +176,7 @@ def overstress_radius(
 def buckling_radius(
     tension_per_width: float, *, distance: float, stiffness_per_width: float, least_per_width: float
 ) -> float:
-    """Least radius at which the strip that is slackened stays taut, r = E d/(k - k_min).
+    """Least radius that keeps the slackened strip taut, r = E d/(k - k_min).
 
     Parameters
     ----------

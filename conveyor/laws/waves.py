@@ -1,4 +1,4 @@
-"""Waves along the belt: their speed, and the ramps that keep them small.
+"""Waves along the belt: wave speed and starting ramps.
 
 Sources: d'Alembert for a rod; the ramps as A. Harrison (1 - cos) and L. K. Nordell (two parabolas) are cited for in the
 trade; their papers were not read.
@@ -45,7 +45,7 @@ MOVING_SAG: Final = Default(
 
 
 def sag_factor(line_mass: float, *, spacing: float, inclination: float, gravity: float) -> float:
-    """Strain that the sag between idlers takes in, times T²: (m' g a cos δ)²/24.
+    """Strain taken up by the sag between idlers, times T²: (m' g a cos δ)²/24.
 
     Parameters
     ----------
@@ -118,7 +118,7 @@ def wave_speed(stiffness: float, *, line_mass: float) -> float:
 
 
 def ramp(share: ArrayLike, *, shape: str) -> NDArray[np.float64]:
-    """Speed over full speed of a led start: x, (1 - cos πx)/2, or 2x² and 1 - 2(1 - x)².
+    """Speed over full speed of a controlled start: x, (1 - cos πx)/2, or 2x² and 1 - 2(1 - x)².
 
     Parameters
     ----------

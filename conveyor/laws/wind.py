@@ -1,4 +1,4 @@
-"""Wind on an empty belt: force across it and up, speed that lifts it.
+"""Wind on an empty belt: force across the belt and upward, lifting speed.
 
 Source: EN 1991-1-4 for the dynamic pressure; the coefficients of a belt are general knowledge.
 """
@@ -26,7 +26,7 @@ AIR_DENSITY: Final = 1.25
 
 
 def wind_force(speed: float, *, height: float, length: float, drag: float, air_density: float) -> float:
-    """Force of the wind on a belt, c ρ v²/2 h a: across it, or up.
+    """Force of the wind across a belt or upward, c ρ v²/2 h a.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Anchor of a compound: its rolling-resistance tests over the theory on the rolls and covers of the tests."""
+"""Test factor of a compound: its rolling-resistance tests over the theory at the tests' own conditions."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ from conveyor.units.sentences import celsius
 Array = NDArray[np.float64]
 
 RTOL: Final = 1e-4
-"""Of the theory at the tests: far below their scatter [-]."""
+"""Relative tolerance of the theory at the tests, far below their scatter [-]."""
 SPACING: Final = 1.0
-"""Between the rolls of a test [m]; a cover on a stiff carcass forgets it (`conveyor.indentation.MEMORY`)."""
+"""Spacing of a test's rolls [m]; on a stiff carcass it has no influence (`conveyor.indentation.MEMORY`)."""
 SOFT_LOADS: Final = 3
-"""Loads at which a test's rubber is taken at its own strain; between them ln f is a parabola in ln w."""
+"""Number of loads at which the rubber is softened; between them ln f is a parabola in ln w."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,14 +51,14 @@ class RollingRow:
 
 
 def anchor_rows(compound: RubberCompound, *, softened: bool) -> tuple[RollingRow, ...]:
-    """Every row of a compound's tests beside the theory, on the test's own roll, cover, speed and temperature.
+    """Measured and calculated resistance of every row of a compound's tests, at the test's own conditions.
 
     Parameters
     ----------
     compound : RubberCompound
-        With tests.
+        Compound with rolling-resistance tests.
     softened : bool
-        Whether its rubber is taken at the strain of the test, where the compound knows it.
+        Take the rubber at the strain of the test, where the compound has strain sweeps.
 
     Raises
     ------
@@ -75,7 +75,7 @@ def anchor_rows(compound: RubberCompound, *, softened: bool) -> tuple[RollingRow
 
 
 def anchor(compound: RubberCompound, *, softened: bool) -> Anchor | None:
-    """The level of a compound's indentation, from its tests; None without any.
+    """Factor on a compound's indentation from its rolling-resistance tests; None without tests.
 
     Raises
     ------
@@ -91,7 +91,7 @@ def anchor(compound: RubberCompound, *, softened: bool) -> Anchor | None:
 def anchors(
     compounds: Sequence[RubberCompound], *, softened: bool
 ) -> list[Anchor | NoSolutionError | RangeError | InputError | None]:
-    """The levels of many compounds, each as `anchor` finds it, the theory at all their tests side by side.
+    """Test factors of many compounds, each as by `anchor`, all contacts solved in one batch.
 
     Parameters
     ----------
@@ -103,14 +103,14 @@ def anchors(
     Returns
     -------
     list
-        In their order the levels, None without tests, or why there is none.
+        Test factors in the order of the compounds, None without tests, or the error.
     """
     theory = Theory(compounds, softened=softened)
     return theory.levels(softened_many(theory.works))
 
 
 def anchor_of(compound: RubberCompound, rows: Sequence[RollingRow]) -> Anchor:
-    """The level of a compound from its tests beside the theory.
+    """Fit the test factor of a compound to its rows and check that it is plausible.
 
     Raises
     ------
@@ -148,7 +148,7 @@ def anchor_of(compound: RubberCompound, rows: Sequence[RollingRow]) -> Anchor:
 
 
 def load_exponents(rows: Sequence[RollingRow]) -> Iterator[tuple[int, float, tuple[float, float]]]:
-    """Number of each test whose loads tell it, exponent of the line load in its resistance, and what is usual [-]."""
+    """Test number, fitted exponent of the line load and its usual range, where the loads allow a fit [-]."""
     for number in dict.fromkeys(row.test for row in rows):
         mine = [row for row in rows if row.test == number]
         loads = [row.line_load for row in mine]
@@ -161,23 +161,23 @@ def load_exponents(rows: Sequence[RollingRow]) -> Iterator[tuple[int, float, tup
 def _tested(
     number: int, test: tuple[RollingPoints, Array | NoSolutionError | RangeError]
 ) -> Iterator[RollingRow]:
-    """Rows of a test."""
+    """Rows of one test."""
     points, calculated = test
     for load, measured, ours in zip(points.line_load, points.resistance, np.asarray(calculated), strict=True):
         yield RollingRow(number, float(load), points.temperature, float(measured), float(ours))
 
 
 class Theory:
-    """The theory at the tests of compounds, on its way: first the covers at the strain of each, then their contacts.
+    """Theory at the rolling-resistance tests of compounds, in two steps: softened covers, then contacts.
 
     Attributes
     ----------
     compounds : tuple of RubberCompound
-        Whose tests.
+        Compounds with their tests.
     softened : bool
-        Whether their rubber is taken at the strain of the test.
+        Take the rubber at the strain of the test.
     works : list of WorkedCover
-        Covers to be softened.
+        Contacts whose covers are to be softened.
     """
 
     def __init__(self, compounds: Sequence[RubberCompound], *, softened: bool) -> None:
@@ -202,7 +202,7 @@ class Theory:
     def levels(
         self, covers: Sequence[SoftCover | NoSolutionError | RangeError]
     ) -> list[Anchor | NoSolutionError | RangeError | InputError | None]:
-        """Levels of the compounds, as `anchors`, from the softened covers in the order of `works`."""
+        """Test factors of the compounds, as by `anchors`, from the softened covers in the order of `works`."""
         levels: list[Anchor | NoSolutionError | RangeError | InputError | None] = []
         for compound, rows in zip(self.compounds, self.rows(covers), strict=True):
             try:
@@ -216,7 +216,7 @@ class Theory:
     def rows(
         self, covers: Sequence[SoftCover | NoSolutionError | RangeError]
     ) -> list[tuple[RollingRow, ...] | NoSolutionError | RangeError]:
-        """Rows of the tests of each compound; or why there are none, as the first test without theory says."""
+        """Test rows of each compound, or the error of its first test without a solution."""
         theory = iter(self._resistances(covers))
         points = (points for _, points in self._tests)
         rows_of: list[tuple[RollingRow, ...] | NoSolutionError | RangeError] = []
@@ -229,7 +229,7 @@ class Theory:
     def _resistances(
         self, covers: Sequence[SoftCover | NoSolutionError | RangeError]
     ) -> list[Array | NoSolutionError | RangeError]:
-        """Calculated resistance per width of each test at its loads [N/m], all contacts side by side."""
+        """Calculated resistance per width of each test at its loads [N/m], solved in one batch."""
         refused, asked = dict(self._refused), dict(self._asked)
         for (i, w), soft in zip(self._worked, covers, strict=True):
             if isinstance(soft, tuple):
@@ -251,7 +251,7 @@ class Theory:
 
 
 def _contact(compound: RubberCompound, points: RollingPoints) -> RollContact:
-    """The roll of a test on its cover."""
+    """Contact of a test's roll on its cover."""
     contact = RollContact(
         radius=points.radius,
         spacing=max(SPACING, 4.0 * points.radius),
@@ -264,14 +264,14 @@ def _contact(compound: RubberCompound, points: RollingPoints) -> RollContact:
 
 
 def _nodes(loads: Array, *, few: bool) -> list[float]:
-    """Line loads at which a test is calculated [N/m]: a few of their range, or each of them."""
+    """Line loads at which a test is calculated [N/m]: a few over their range, or each one."""
     low, high = float(loads.min()), float(loads.max())
     nodes = np.geomspace(low, high, SOFT_LOADS) if few and high > low else loads
     return [float(w) for w in np.unique(nodes)]
 
 
 def _between(resistances: Mapping[float, float], loads: Array) -> Array:
-    """Resistance at line loads by that at some [N/m]: of three a parabola in their logarithms."""
+    """Resistance at line loads, interpolated by a polynomial in the logarithms [N/m]."""
     if set(resistances) >= set(loads.tolist()):
         return np.array([resistances[w] for w in loads.tolist()])
     nodes, values = np.log(list(resistances.items())).T

@@ -1,7 +1,7 @@
-"""The contact of every roll of a line on the belt itself, whose carcass gives the more the less its tension.
+"""Contacts of the rolls on a belt whose carcass yields, the more the lower its tension.
 
-A contact is solved at Chebyshev-Lobatto points of the logarithm of the tension, as many as the tolerance asks for, and
-its resistance is read at any tension between: sections differ in tension, not in their curves.
+Each contact is solved at Chebyshev-Lobatto points of ln tension, as many as the tolerance needs, and interpolated
+between.
 """
 
 from __future__ import annotations
@@ -28,17 +28,17 @@ from conveyor.units import si
 Array = NDArray[np.float64]
 
 GAUSS: Final = tuple(0.5 * column for column in np.polynomial.legendre.leggauss(3))
-"""Places along a stretch over half its length, and weights: tension rises evenly along it."""
-_ROOM = 1.1  # beyond the tensions asked for: the loop of tension and indentation moves them by less
+"""Gauss points along a stretch over half its length, and weights; tension is linear along it."""
+_ROOM = 1.1  # range of tension beyond the current one: the iteration moves it by less
 _DEGREES = (2, 4, 8, 16, 32)
-_LOADS = 9  # at which interpolation over the tension is judged
+_LOADS = 9  # loads at which interpolation over the tension is checked
 
 
 @dataclass(frozen=True, eq=False)
 class TensionedCurve(IndentationCurve):
-    """Indentation of a contact at one tension, read between those it was solved at.
+    """Indentation of a contact at one tension, interpolated between those solved.
 
-    Order, cost and excited frequencies are those of the nearest one.
+    Order, cost and excited frequencies are those of the nearest solved tension.
     """
 
     among: TensionedCurves
@@ -55,24 +55,24 @@ class TensionedCurve(IndentationCurve):
 
     @property
     def energy_error(self) -> float:
-        """Largest of the tensions it was solved at [-]."""
+        """Largest energy error of the solved tensions [-]."""
         return max(curve.energy_error for curve in self.solved)
 
     @property
     def solved(self) -> tuple[IndentationCurve, ...]:
-        """At the tensions it was solved at."""
+        """Curves at the solved tensions."""
         return self.among.curves
 
     def resistance(self, line_load: ArrayLike) -> Array:
-        """As of every curve."""
+        """Indentation resistance per width [N/m]."""
         return self._mixed([curve.resistance(line_load) for curve in self.solved])
 
     def penetration(self, line_load: ArrayLike) -> Array:
-        """As of every curve."""
+        """Penetration of the roll [m]."""
         return self._mixed([curve.penetration(line_load) for curve in self.solved])
 
     def at(self, line_load: ArrayLike) -> Indentation:
-        """As of every curve."""
+        """Interpolated contact at line loads [N/m]."""
         indentations = [curve.at(line_load) for curve in self.solved]
         peaks = np.array([one.peak_pressure for one in indentations])
         between = left_between(np.log(peaks.reshape(peaks.shape[0], -1))).max()
@@ -94,14 +94,14 @@ class TensionedCurve(IndentationCurve):
 
 @dataclass(frozen=True, eq=False)
 class TensionedCurves:
-    """Curves of one contact at the points of the logarithm of the tension, the highest first.
+    """Load curves of one contact at points of ln tension, the highest tension first.
 
     Attributes
     ----------
     curves : tuple of IndentationCurve
         At 2^k + 1 tensions.
     between : float
-        What interpolation between the tensions may miss of the resistance, measured at every other point [-].
+        Relative interpolation error of the resistance, measured at every other point [-].
     """
 
     curves: tuple[IndentationCurve, ...]
@@ -114,7 +114,7 @@ class TensionedCurves:
 
     @cached_property
     def tensions(self) -> Array:
-        """At which it was solved [N/m]."""
+        """Solved tensions per width [N/m]."""
         backings = [curve.contact.backing for curve in self.curves]
         return np.array([behind.tension for behind in backings if behind is not None])
 
@@ -125,7 +125,7 @@ class TensionedCurves:
         return at_places(len(self.curves) - 1, t)
 
     def reaches(self, loads: tuple[float, float], tensions: tuple[float, float]) -> bool:
-        """Whether line loads and tensions, lowest and highest of each, lie within [N/m]."""
+        """True if the ranges of line load and tension lie within the solved ones [N/m]."""
         first = self.curves[0]
         return (
             first.lowest <= loads[0]
@@ -143,14 +143,14 @@ class TensionedCurves:
 
 @dataclass(frozen=True, eq=False)
 class BeltContacts(Contacts):
-    """Every roll of a line on the belt itself; `curves` are those at the mean tension of each kind of roll.
+    """Contacts of a line's rolls on a yielding belt; `curves` are at the mean tension of each kind of roll.
 
     Attributes
     ----------
     pulls : ndarray, shape (2n, 3)
-        T - m' V² per width at three places along every stretch [N/m].
+        T - m' V² per width at three points along every stretch [N/m].
     confined : Contacts
-        The same rolls on a carcass that does not give.
+        The same rolls on a rigid carcass.
     """
 
     pulls: Array
@@ -169,20 +169,17 @@ class BeltContacts(Contacts):
         )
 
     def deepest(self, strand: Strand) -> float:
-        """Largest penetration of the cover alone over its thickness [-]: the carcass yields besides."""
+        """Largest penetration of the cover alone over its thickness, without the carcass's deflection [-]."""
         return self.confined.deepest(strand)
 
     @cached_property
     def gives(self) -> tuple[Give, ...]:
-        """What the belt's give changes, of each strand."""
+        """Effect of the yielding carcass on each strand."""
         return tuple(self._give(strand) for strand in ("carry", "return"))
 
     @cached_property
     def flexure_left_out(self) -> float:
-        """Flexure of the belt, without bulk, by the law of load and sag [N]: it stands on a stiff carcass.
-
-        The belt over the rolls holds it: bending and sag are part of its contacts, with the loss that its carcass has.
-        """
+        """Flexure of the empty belt by the law of load and sag [N]; here the contacts include it."""
         weight = self.line.gravity
         return math.fsum(
             stretch.sets
@@ -216,20 +213,20 @@ class BeltContacts(Contacts):
 
 @dataclass(frozen=True)
 class Give:
-    """What the give of a belt changes on a strand.
+    """Effect of the yielding carcass on the indentation of a strand.
 
     Attributes
     ----------
     strand : {"carry", "return"}
-        Which.
+        The strand.
     tensions : tuple of float
         T - m' V² per width: lowest, mean weighted by loss, highest [N/m].
     line_load : float
-        At which the shares are taken [N/m].
+        Line load of the loss shares [N/m].
     force, confined : float
-        Indentation on the belt, and on a carcass that does not give [N].
+        Indentation on the yielding belt and on a rigid carcass [N].
     shares : mapping of str to float
-        Of the loss: bottom_cover, the one the rolls run on, top_cover, the other one, carcass [-]; empty without loss.
+        Loss shares: bottom_cover (under the rolls), top_cover (the other), carcass [-]; empty without loss.
     """
 
     strand: Strand
@@ -241,35 +238,35 @@ class Give:
 
     @property
     def change(self) -> float:
-        """Of indentation by the give, over that on a carcass that does not [-]; 0 without loss."""
+        """Relative change of indentation against a rigid carcass [-]; 0 without loss."""
         return self.force / self.confined - 1.0 if self.confined > 0.0 else 0.0
 
 
 _Key: TypeAlias = tuple[RollContact, float]
 Tensioned: TypeAlias = dict[_Key, TensionedCurves]
-"""What is solved already, by contact at unit tension and tolerance."""
+"""Solved curves by contact at unit tension and tolerance."""
 
 
 def solve_belts(
     held: Sequence[Contacts], pulls: Sequence[Array], rtols: Sequence[float], known: Tensioned
 ) -> list[BeltContacts | NoSolutionError]:
-    """Solve the contacts of many lines on their belts, side by side.
+    """Solve the contacts of many lines on their yielding belts in one batch.
 
     Parameters
     ----------
     held : sequence of Contacts
-        The same on carcasses that do not give.
+        The same contacts on rigid carcasses.
     pulls : sequence of ndarray, shape (2n, 3)
         Of each line T - m' V² per width at the places of `GAUSS` along every stretch [N/m], positive.
     rtols : sequence of float
         Relative tolerance of each [-].
     known : dict
-        Curves solved already, taken where they reach and added to.
+        Curves solved before, reused where their ranges suffice; new ones are added.
 
     Returns
     -------
     list
-        In their order the contacts, or why there are none.
+        Contacts in the order of the lines, or the error.
     """
     keys = [
         [(_at_tension(contact, 1.0), rtol) for contact in _contacts(one)]
@@ -301,7 +298,7 @@ def _both(one: _Span, other: _Span) -> _Span:
 
 
 def _roomy(known: TensionedCurves | None, span: _Span) -> _Span:
-    """Room for tensions that move, and what was solved before."""
+    """Range with a margin on tension, extended to that solved before."""
     loads, (low, high) = span
     wide = (loads, (low / _ROOM, high * _ROOM))
     if known is None:
@@ -320,14 +317,14 @@ def _under(curve: IndentationCurve, tension: float) -> IndentationCurve:
 
 
 def _contacts(held: Contacts) -> list[RollContact]:
-    """The contact of every kind of roll on the belt, at unit tension."""
+    """Contact of every kind of roll on the yielding belt at unit tension."""
     line, covers = held.line, held.covers
     behind = {strand: backing(line, cover, 1.0) for strand, cover in covers.items()}
     return [roll_contact(line, kind, covers[kind.strand], behind[kind.strand]) for kind in line.kinds]
 
 
 def _solved(spans: Mapping[_Key, _Span]) -> dict[_Key, TensionedCurves | NoSolutionError]:
-    """Curves at ever more tensions, those of all contacts side by side, until interpolation meets the tolerance."""
+    """Solve at ever more tensions until interpolation meets the tolerance; all contacts in one batch."""
     curves_of: dict[_Key, TensionedCurves | NoSolutionError] = {}
     curves: dict[_Key, list[IndentationCurve]] = {key: [] for key in spans}
     for degree in _DEGREES:
@@ -354,7 +351,7 @@ def _solved(spans: Mapping[_Key, _Span]) -> dict[_Key, TensionedCurves | NoSolut
 def _judged(
     curves: Sequence[IndentationCurve], span: _Span, rtol: float, *, last: bool
 ) -> TensionedCurves | NoSolutionError | None:
-    """What interpolation between these tensions is good for; None where more are needed."""
+    """Curves with their interpolation error; None where more tensions are needed, an error after the last."""
     left = 0.0
     if _lossy(curves[0].contact):
         loads = np.geomspace(*span[0], _LOADS)
@@ -381,7 +378,7 @@ def _lossy(contact: RollContact) -> bool:
 
 
 def _read(held: Contacts, pulls: Array, families: Sequence[TensionedCurves]) -> BeltContacts:
-    """Every roll's resistance at the tensions of its stretch."""
+    """Resistance of every roll at the tensions of its stretch."""
     line, covers = held.line, held.covers
     curves, drags = [], []
     for kind, family in zip(line.kinds, families, strict=True):

@@ -1,4 +1,4 @@
-"""The contact of every roll of a line on its cover; those of many lines are solved side by side."""
+"""Contacts of the rolls on their covers; those of many lines are solved in one batch."""
 
 from __future__ import annotations
 
@@ -32,24 +32,24 @@ from conveyor.line.stretches import Strand
 from conveyor.rubber.anchor import ends
 
 Array = NDArray[np.float64]
-_REPLICA_RTOL = 1e-2  # of the contacts that a band is formed from: a tenth of the narrowest band
-_REPLICA_FELT = 1e-4  # what merging terms of a replica may take of them, far below it
+_REPLICA_RTOL = 1e-2  # contacts of a band: a tenth of the narrowest band
+_REPLICA_FELT = 1e-4  # error of merging a replica's terms, far below that
 Spans = Mapping[RollContact, tuple[float, float]]
-"""Range of line loads that occur on each contact [N/m]."""
+"""Range of line loads of each contact [N/m]."""
 SolvedCurves: TypeAlias = dict[tuple[RollContact, float, float, float], IndentationCurve | NoSolutionError]
-"""By contact, range of line loads [N/m] and relative tolerance [-]; those used last at the end."""
+"""Curves by contact, range of line loads [N/m] and relative tolerance [-], the last used at the end."""
 
 
 @dataclass(frozen=True, eq=False)
 class PeakContacts:
-    """Contacts of many rolls of one load curve at the highest line load of each [N/m], read side by side."""
+    """Contacts of all rolls of one load curve at the highest line load of each [N/m], computed together."""
 
     curve: IndentationCurve
     loads: Array
 
     @cached_property
     def every(self) -> tuple[Indentation, ...]:
-        """One a roll."""
+        """Contact of each roll."""
         return self.curve.at(self.loads).each
 
 
@@ -62,13 +62,13 @@ class RollResult:
     load : RollLoad
         Force and distribution.
     curve : IndentationCurve
-        The load curve it was read from.
+        Its load curve.
     resistance : float
         Indentation resistance of the roll, ∫ f(w(y)) dy along it [N].
     held : IndentationCurve, optional
-        Of the same cover on a carcass that does not give, where the one of `curve` does.
+        Load curve on a rigid carcass, where that of `curve` yields.
     beside : (PeakContacts, int), optional
-        Rolls read from the same curve, and the number of this one; read alone without.
+        Contacts of all rolls of the curve, and the number of this one.
     """
 
     load: RollLoad
@@ -79,7 +79,7 @@ class RollResult:
 
     @cached_property
     def peak(self) -> Indentation:
-        """Contact at the highest line load, for a wing that of its inner end."""
+        """Contact at the highest line load; on a wing roll at its inner end."""
         if self.beside is None:
             return self.curve.at(self.load.peak_line_load)
         contacts, i = self.beside
@@ -87,7 +87,7 @@ class RollResult:
 
     @property
     def pressed_in(self) -> float:
-        """Penetration of the cover alone at the highest line load, without what the carcass yields [m]."""
+        """Penetration of the cover alone at the highest line load, without the carcass's deflection [m]."""
         if self.held is None:
             return float(self.peak.penetration)
         return float(self.held.penetration(self.load.peak_line_load))
@@ -95,18 +95,18 @@ class RollResult:
 
 @dataclass(frozen=True, eq=False)
 class Contacts:
-    """Every roll of a line on its load curve.
+    """Contacts of all rolls of a line, by load curve.
 
     Attributes
     ----------
     line : Line
-        Whose rolls.
-    covers : mapping of strand to Cover
-        What they run on.
+        The conveyor.
+    covers : mapping of strand to RunningCover
+        Cover under each strand.
     curves : tuple of IndentationCurve
-        Of every kind of roll, `line.kinds`: the theory.
+        Theoretical load curve of every kind of roll, `line.kinds`.
     drags : tuple of ndarray
-        Indentation resistance of every roll of a kind [N], in the order of `kind.rolls`, at the level of the tests.
+        Indentation resistance of every roll of a kind [N], in the order of `kind.rolls`, with the test factor.
     """
 
     line: Line
@@ -136,58 +136,58 @@ class Contacts:
         return tuple(tuple(rolls[place] for place in sorted(rolls)) for rolls in by_position)
 
     def curves_of(self, strand: Strand) -> tuple[IndentationCurve, ...]:
-        """Load curves that the rolls of a strand are read from."""
+        """Load curves of a strand's rolls."""
         pairs = zip(self.line.kinds, self.curves, strict=True)
         return tuple(dict.fromkeys(curve for kind, curve in pairs if kind.strand == strand))
 
     def lossy(self, strand: Strand) -> bool:
-        """Whether any roll of a strand loses energy in its cover."""
+        """True if any roll of a strand loses energy in its cover."""
         return any(curve.lossy for curve in self.curves_of(strand))
 
     def excited_band(self, strand: Strand) -> tuple[float, float] | None:
-        """Frequencies between which every roll of a strand loses nine tenths of its energy [Hz]; None without loss."""
+        """Frequency band of nine tenths of the energy loss of every roll of a strand [Hz]; None without loss."""
         low, high = self.slowest_excited(strand), self.fastest_excited(strand)
         return None if low is None or high is None else (low, high)
 
     def slowest_excited(self, strand: Strand) -> float | None:
-        """Lower end of that band [Hz]."""
+        """Lower end of the excited band [Hz]."""
         return min(
             (f for one in self.curves_of(strand) if (f := one.slowest_excited) is not None), default=None
         )
 
     def fastest_excited(self, strand: Strand) -> float | None:
-        """Upper end of it [Hz]."""
+        """Upper end of the excited band [Hz]."""
         return max(
             (f for one in self.curves_of(strand) if (f := one.fastest_excited) is not None), default=None
         )
 
     def losing_load(self, strand: Strand) -> float:
-        """Mean line load of a strand's rolls, weighted by what each loses [N/m]."""
+        """Mean line load of a strand's rolls, weighted by energy loss [N/m]."""
         kinds = [kind for kind in self.line.kinds if kind.strand == strand]
         loads = np.concatenate([kind.line_loads for kind in kinds])
         return losing_load(loads, np.concatenate([kind.weights * kind.sets for kind in kinds]))
 
     def level_factor(self, strand: Strand) -> float:
-        """Factor of the tests on a strand's indentation at its mean line load [-]; 1 without tests."""
+        """Test factor on a strand's indentation at its mean line load [-]; 1 without tests."""
         level = self.covers[strand].level
         return 1.0 if level is None else float(level.factor(self.losing_load(strand)))
 
     def level_band(self, strand: Strand) -> float:
-        """Half-width of the logarithm of that factor, holding nine tenths [-]; 0 without tests."""
+        """Half-width of the 90 % band of the logarithm of the test factor [-]; 0 without tests."""
         level = self.covers[strand].level
         return 0.0 if level is None else level.anchor.band(self.losing_load(strand), level.temperature)
 
     def level_range(self, strand: Strand, *, own: bool = False) -> tuple[float, float]:
-        """Factors on a strand's indentation between which nine tenths lie [-]; 1 and 1 without tests.
+        """90 % range of the factor on a strand's indentation [-]; 1 and 1 without tests.
 
-        The band of its tests and, beyond the tested temperatures, that of the replicas of its compound.
+        It combines the band of the tests with, beyond the tested temperatures, that of the compound's replicas.
 
         Parameters
         ----------
         strand : {"carry", "return"}
-            Whose rolls.
+            The strand.
         own : bool
-            Leave out what belts tested alike have in common: what counts where two are compared.
+            Leave out the error that tests of one series share, as for comparing two compounds.
 
         Raises
         ------
@@ -203,10 +203,10 @@ class Contacts:
 
     @cached_property
     def _replicated(self) -> dict[Strand, tuple[float, float]]:
-        """How far below and above its series the replicas of each strand's compound carry its level, in ln factor.
+        """Band below and above the series by extrapolation from the nearest tested temperature, in ln factor.
 
-        Their friction over that of the series, at this temperature over the same at the nearest tested one; by the
-        heaviest roll, all at the strain of the master curve: softening changes all alike.
+        Friction of each replica over that of the series, at this temperature over the same at the nearest tested one;
+        for the heaviest roll at the strain of the master curve: softening changes all alike.
         """
         asked: dict[Strand, list[RollContact]] = {}
         for strand, cover in self.covers.items():
@@ -238,7 +238,7 @@ class Contacts:
         return widths
 
     def deepest(self, strand: Strand) -> float:
-        """Largest penetration of a strand's rolls over the thickness of their cover [-]: at the highest loads."""
+        """Largest penetration of a strand's rolls over the thickness of their cover [-]."""
         highest: dict[IndentationCurve, float] = {}
         for kind, curve in zip(self.line.kinds, self.curves, strict=True):
             if kind.strand == strand:
@@ -264,23 +264,23 @@ def solve_contacts(
     rtol: float | None = None,
     known: SolvedCurves | None = None,
 ) -> list[Contacts | NoSolutionError]:
-    """Solve the contacts of many lines, or of many rubbers under one, side by side.
+    """Solve the contacts of many lines, or of many rubbers under one, in one batch.
 
     Parameters
     ----------
     lines : sequence of Line
-        One for each scene; scenes that differ in rubber and temperature only share theirs.
+        One for each case; cases that differ in rubber and temperature only share their line.
     covers : sequence of mapping
-        What the rolls of each strand run on, for each scene.
+        Cover under each strand, for each case.
     rtol : float, optional
         Relative tolerance of the contacts [-]; that of each line without it.
     known : dict, optional
-        Curves of calls before; what is new is added.
+        Curves of earlier calls; new ones are added.
 
     Returns
     -------
     list
-        In their order the contacts, or why a scene has none.
+        Contacts in the order of the cases, or the error.
     """
     tolerances = [
         (line.rtol if rtol is None else rtol) - max(cover.unsure for cover in own.values())
@@ -303,7 +303,7 @@ def solve_contacts(
 
 
 def _contacts(line: Line, covers: Covers, rtol: float) -> list[RollContact]:
-    """The contact of every kind of roll; those that differ in a spacing the rubber forgets are one."""
+    """Contact of every kind of roll; those that differ in a spacing without influence are one."""
     contacts = [roll_contact(line, kind, covers[kind.strand]) for kind in line.kinds]
     shared = forgotten(contacts, rtol)
     return [shared[contact] for contact in contacts]
@@ -312,7 +312,7 @@ def _contacts(line: Line, covers: Covers, rtol: float) -> list[RollContact]:
 def _solved(
     spans: Spans, rtol: float, known: SolvedCurves
 ) -> dict[RollContact, IndentationCurve | NoSolutionError]:
-    """Curves of all contacts: what is known of exactly such, the others solved side by side."""
+    """Curves of all contacts: known ones reused, the others solved in one batch."""
     keys = {contact: (contact, *span, rtol) for contact, span in spans.items()}
     solved = {contact: one for contact, key in keys.items() if (one := known.pop(key, None)) is not None}
     if new := [contact for contact in spans if contact not in solved]:
@@ -325,7 +325,7 @@ def _solved(
 def _curves(
     solved: Sequence[IndentationCurve | NoSolutionError],
 ) -> tuple[IndentationCurve, ...] | NoSolutionError:
-    """The curves of a line's rolls, or why the first without has none."""
+    """Curves of a line's rolls, or the first error."""
     refused = next((one for one in solved if isinstance(one, NoSolutionError)), None)
     return refused or tuple(one for one in solved if isinstance(one, IndentationCurve))
 
@@ -335,7 +335,7 @@ def _read(
     covers: Sequence[Covers],
     curves: Sequence[tuple[IndentationCurve, ...] | NoSolutionError],
 ) -> list[Contacts | NoSolutionError]:
-    """Every roll's resistance from the load curves, those of all lines side by side."""
+    """Resistance of every roll from the load curves of all lines."""
     asked: dict[IndentationCurve, list[tuple[int, int]]] = {}
     for i, own in enumerate(curves):
         for k, curve in enumerate(own if isinstance(own, tuple) else ()):

@@ -1,4 +1,4 @@
-"""What the rolls of each strand run on: the cover's thickness and its rubber at the temperature and strain of work."""
+"""Covers under the rolls of each strand: thickness, and rubber at its temperature and working strain."""
 
 from __future__ import annotations
 
@@ -34,25 +34,24 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Level:
-    """The anchor of a cover's rubber at its temperature [K]; its compound."""
+    """Test factor of a cover's rubber at its temperature [K]."""
 
     anchor: Anchor
     temperature: float
     compound: RubberCompound = field(compare=False, repr=False)
 
     def factor(self, line_load: ArrayLike) -> Array:
-        """Measured over calculated indentation at line loads w [N/m]."""
+        """Measured over calculated indentation at line loads w [N/m]; dimensionless."""
         return self.anchor.factor(line_load, self.temperature)
 
 
 @dataclass(frozen=True, eq=False)
 class RunningCover:
-    """A cover that rolls run on: thickness [m], rubber at its temperature, Poisson's ratio.
+    """A cover under rolls: thickness [m], rubber at its temperature, Poisson's ratio.
 
-    `strain` is what the rubber was softened for; None where it is that of the master curve. `level` is the factor that
-    the compound's rolling-resistance tests put on its indentation; None where the theory stands alone. `other` is the
-    belt's other cover: its thickness [m], and its rubber at small strain. `merged` is what merging terms that the rolls
-    do not tell apart may change of indentation [-], `read` what reading the strain between speeds may.
+    `strain` is the working strain; None for that of the master curve. `level` is the test factor on indentation; None
+    without one. `other` is the belt's other cover: thickness [m], rubber at small strain. `merged` and `read` are the
+    relative errors of indentation by merged relaxation terms and by a strain interpolated between speeds [-].
     """
 
     thickness: float
@@ -66,25 +65,25 @@ class RunningCover:
 
     @property
     def unsure(self) -> float:
-        """What of indentation its rubber may miss [-]."""
+        """Relative error of indentation by the approximated rubber [-]."""
         return self.merged + self.read
 
 
 CoverName: TypeAlias = Strand | Literal["top"]
-"""The rolls of a strand run on it; or whatever lies on top."""
+"""Cover under the rolls of a strand, or the top cover."""
 Covers = Mapping[Strand, RunningCover]
-"""The cover under each strand."""
+"""Cover under each strand."""
 
 
 def compounds_by_strand(conveyor: Conveyor) -> dict[Strand, RubberCompound]:
-    """Rubber that the rolls of each strand run on."""
+    """Compound under the rolls of each strand."""
     return {"carry": conveyor.carry_compound, "return": conveyor.return_compound}
 
 
 def rubbers(
     conveyor: Conveyor, series: Callable[[RubberCompound], PronySeries]
 ) -> dict[CoverName, PronySeries]:
-    """Series of each strand's rubber and of the top cover's; one series a compound.
+    """Prony series of each strand's rubber and of the top cover's; one for each compound.
 
     Raises
     ------
@@ -102,7 +101,7 @@ def rubbers(
 
 
 def covers_of(conveyor: Conveyor, rubber: Mapping[CoverName, PronySeries]) -> dict[Strand, RunningCover]:
-    """The cover under each strand, of given rubber."""
+    """Cover under each strand, of given rubber."""
     bottom = (si(conveyor.belt.bottom_cover.thickness), rubber["carry"])
     top = (si(conveyor.belt.top_cover.thickness), rubber["top"])
     pairs = {"carry": (bottom, top), "return": (bottom, top) if conveyor.route.turned_over else (top, bottom)}
@@ -116,7 +115,7 @@ def covers_of(conveyor: Conveyor, rubber: Mapping[CoverName, PronySeries]) -> di
 
 @dataclass(frozen=True, eq=False)
 class StrandAtWork:
-    """The rolls of a strand of a line on their cover, whose rubber is at the strain of its master curve."""
+    """Rolls of a strand on their cover, its rubber at the strain of the master curve."""
 
     line: Line
     strand: Strand
@@ -126,12 +125,12 @@ class StrandAtWork:
 
     @property
     def kinds(self) -> tuple[RollKind, ...]:
-        """Its rolls."""
+        """Kinds of roll of the strand."""
         return self.line.strands.each[STRANDS.index(self.strand)].kinds
 
     @property
     def scene(self) -> tuple[object, ...]:
-        """What must be equal where two strands work their covers exactly alike, besides the compound."""
+        """Key equal for strands that load their covers identically, besides the compound."""
         line, cover = self.line, self.cover
         return (
             self.strand,
@@ -146,7 +145,7 @@ class StrandAtWork:
         )
 
     def worked(self) -> WorkedCover | None:
-        """The contact whose strain softens the cover; None where nothing does."""
+        """Contact that determines the working strain; None without strain dependence."""
         factors = self.compound.amplitude_factors() if self.line.softened else None
         if factors is None:
             return None
@@ -156,22 +155,22 @@ class StrandAtWork:
 
     @property
     def line_load(self) -> float:
-        """At which its rolls lose their energy [N/m]."""
+        """Mean line load weighted by energy loss [N/m]."""
         loads = np.concatenate([kind.line_loads for kind in self.kinds])
         return losing_load(loads, np.concatenate([kind.weights * kind.sets for kind in self.kinds]))
 
     def still_at(self, cover: RunningCover) -> bool:
-        """Whether its rolls work a cover at the strain that it was softened for: strain goes as a root of the load."""
+        """True if a cover's working strain still fits the line load; strain goes as a root of the load."""
         was = cover.strain
         return was is not None and abs(self.line_load - was.line_load) <= self.line.rtol * was.line_load
 
 
 FELT: Final = 0.02
-"""Of the tolerance of the contacts, what merging the fast and what merging the slow terms of a rubber may take [-]."""
+"""Share of the contacts' tolerance for merging the fast, and for merging the slow, relaxation terms [-]."""
 
 
 def told_apart(work: StrandAtWork, rtol: float) -> tuple[float, float] | None:
-    """Relaxation times between which the rolls of a strand tell terms apart [s]; None off a stiff carcass."""
+    """Range of relaxation times that a strand's rolls resolve [s]; None unless on a rigid carcass."""
     if work.line.support != "confined" or work.cover.poisson != 0.5:
         return None
     lightest = min(work.kinds, key=lambda kind: kind.lowest * kind.radius)
@@ -179,17 +178,17 @@ def told_apart(work: StrandAtWork, rtol: float) -> tuple[float, float] | None:
 
 
 READ_FROM: Final = 5
-"""Speeds from which on the working strain is found at three of them, and read between."""
+"""Number of speeds from which the working strain is calculated at three and interpolated between."""
 READ_SPAN: Final = 1.65
-"""Fastest over slowest of the speeds that a strain is read among: ln strain is a parabola of ln speed to 5e-4 (three
-covers of the shelf, -30 to 40 °C); more nodes gain nothing, the strain found at each speed scatters as much."""
+"""Largest ratio of speeds for interpolation: ln strain is a parabola of ln speed to 5e-4 (three covers of the shelf,
+-30 to 40 °C); more nodes gain nothing, the calculated strain scatters as much."""
 READ_STRAIN: Final = 5e-4
-"""Of the strain, what reading it may miss by what a straight line misses [-]: about its scatter."""
+"""Relative interpolation error allowed of the strain, about its scatter [-]."""
 READ_ERROR: Final = 7e-5
-"""Of indentation, what that changes [-]: with the error of the curves 6e-5 at most, 8e-6 in the median was seen of 204
-scenes against contacts of 1e-7 with a strain of their own (benchmarks/compare_error.py)."""
+"""Resulting relative error of indentation [-]: with the error of the curves at most 6e-5, in the median 8e-6, in 204
+cases against contacts of 1e-7 without interpolation (benchmarks/compare_error.py)."""
 READ_RTOL: Final = 1e-4
-"""Finest tolerance of contacts that leaves room for it [-]."""
+"""Finest tolerance of contacts that allows interpolation [-]."""
 
 
 def softened_covers(
@@ -197,22 +196,22 @@ def softened_covers(
     tests: Sequence[WorkedCover] = (),
     runs: Sequence[Sequence[StrandAtWork]] = (),
 ) -> tuple[list[RunningCover | NoSolutionError | RangeError], list[SoftCover | NoSolutionError | RangeError]]:
-    """The covers at the strain their rolls work them at, where the compounds have sweeps, solved side by side.
+    """Covers at their working strain, where the compounds have strain sweeps, solved in one batch.
 
     Parameters
     ----------
     works : sequence of StrandAtWork
-        Strands.
+        Loaded strands.
     tests : sequence of WorkedCover
-        Covers of rolling-resistance tests, that go with them.
+        Covers of rolling-resistance tests, solved in the same batch.
     runs : sequence of sequence of StrandAtWork
-        Of `works`, strands that differ in speed and what follows from it alone.
+        Strands of `works` that differ in speed alone.
 
     Returns
     -------
     tuple of list
-        In their order the covers, of strands and of tests; or why there is none: it has no answer at its working
-        strain, or the sweeps of its compound do not reach the strain.
+        Covers of the strands and of the tests in their order, or the error: no solution at the working strain, or
+        sweeps that do not reach it.
     """
     asked = {work: worked for work in works if (worked := work.worked()) is not None}
     threes = {three: part for run in runs for part in _parts(run) for three in [_three(part)]}
@@ -232,7 +231,7 @@ def softened_covers(
 
 
 def _parts(run: Sequence[StrandAtWork]) -> Iterator[list[StrandAtWork]]:
-    """Strands of speeds that a strain is read among, the slowest first."""
+    """Groups of strands within the speed ratio of interpolation, the slowest first."""
     left = sorted(dict.fromkeys(run), key=lambda work: work.line.speed)
     while len(left) >= READ_FROM:
         part = [work for work in left if work.line.speed <= READ_SPAN * left[0].line.speed]
@@ -242,7 +241,7 @@ def _parts(run: Sequence[StrandAtWork]) -> Iterator[list[StrandAtWork]]:
 
 
 def _three(part: Sequence[StrandAtWork]) -> tuple[StrandAtWork, StrandAtWork, StrandAtWork]:
-    """The slowest, the middle one and the fastest."""
+    """Slowest, middle and fastest strand."""
     slowest, fastest = part[0], part[-1]
     middle = math.sqrt(slowest.line.speed * fastest.line.speed)
     return slowest, min(part[1:-1], key=lambda work: abs(math.log(work.line.speed / middle))), fastest
@@ -251,9 +250,9 @@ def _three(part: Sequence[StrandAtWork]) -> tuple[StrandAtWork, StrandAtWork, St
 def _read(
     three: Sequence[StrandAtWork], strains: Sequence[WorkingStrain], between: Sequence[StrandAtWork]
 ) -> dict[StrandAtWork, Worked]:
-    """Strains and angular frequencies by a parabola in ln speed; none where that may miss more than they are found to.
+    """Strains and angular frequencies by a parabola in ln speed; none where its error exceeds the tolerance.
 
-    What a straight line misses squares with the degree, as of Chebyshev points (contact.sampling).
+    The error of a straight line squares with the degree, as for Chebyshev points (contact.sampling).
     """
     known = np.log([(one.strain, 2.0 * math.pi * one.frequency) for one in strains])
     slow, middle, fast = np.log([work.line.speed for work in three])
@@ -279,7 +278,7 @@ def _running(
 
 
 def backing(line: Line, cover: RunningCover, tension: float) -> Backing:
-    """The belt behind a cover at a tension T - m' V² per width [N/m]."""
+    """Backing of a cover by the belt at a tension T - m' V² per width [N/m]."""
     thickness, rubber = cover.other
     body = line.belt
     return Backing(tension, body.bending, body.bending_loss, body.tensile_stiffness or 0.0, thickness, rubber)
@@ -288,7 +287,7 @@ def backing(line: Line, cover: RunningCover, tension: float) -> Backing:
 def roll_contact(
     line: Line, kind: RollKind, cover: RunningCover, behind: Backing | None = None
 ) -> RollContact:
-    """The contact of a kind of roll under a cover; without the belt behind it, on a carcass that does not give."""
+    """Contact of a kind of roll with a cover; on a rigid carcass without `behind`."""
     support: Support = "confined" if line.support == "belt" else line.support
     return RollContact(
         radius=kind.radius,

@@ -1,8 +1,8 @@
-"""What stands at every conveyor, where the spec does not say it: a loading point, cleaners, end pulleys.
+"""Usual parts where the spec gives none: a loading point, cleaners, end pulleys.
 
 Figures are those of the worked example of ISO 5048 (skirts as long as the belt runs in a second and 0.625 of its width
 apart, blades of the belt's width and 8 mm, half-turn wraps), bulk that lands without speed, seals of the skirts as CEMA
-has them, which rub on the empty belt too, and general knowledge (two cleaners, shafts of a fifth of the pulley).
+has them (they rub on the empty belt too), and general knowledge (two cleaners, shafts of a fifth of the pulley).
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ SHAFT: Final = 0.2  # [-], general knowledge: over the pulley's diameter
 
 
 def feeding_points(conveyor: Conveyor) -> tuple[tuple[Feeding, ...], bool]:
-    """Loading points, and whether they are assumed."""
+    """Loading points of the route, or a usual one; True if assumed."""
     given = conveyor.route.feeding_points
     if given or not _assumes(conveyor):
         return given, False
@@ -42,7 +42,7 @@ def feeding_points(conveyor: Conveyor) -> tuple[tuple[Feeding, ...], bool]:
 
 
 def cleaners(conveyor: Conveyor) -> tuple[tuple[Cleaner, ...], bool]:
-    """Cleaners, and whether they are assumed."""
+    """Cleaners of the route, or usual ones; True if assumed."""
     given = conveyor.route.cleaners
     if given or not _assumes(conveyor):
         return given, False
@@ -53,7 +53,7 @@ def cleaners(conveyor: Conveyor) -> tuple[tuple[Cleaner, ...], bool]:
 
 
 def pulleys(conveyor: Conveyor) -> tuple[tuple[Pulley, ...], bool]:
-    """Pulleys, and whether they are assumed: the least that the carcass bears (others like EP), without weight."""
+    """Pulleys of the route, or massless end pulleys of least diameter (other carcasses as EP); True if assumed."""
     given = conveyor.route.pulleys
     if given or not _assumes(conveyor):
         return given, False
@@ -61,7 +61,7 @@ def pulleys(conveyor: Conveyor) -> tuple[tuple[Pulley, ...], bool]:
     factor = next((c for kind, c in PULLEY_FACTOR.items() if kind == carcass.kind), PULLEY_FACTOR["EP"])
     diameter = factor * si(carcass.thickness)
     usual = tuple(
-        Pulley.model_construct(  # a carcass of 50 mm would ask for more than any pulley is
+        Pulley.model_construct(  # unvalidated: a 50 mm carcass needs more than the largest pulley
             name=end,
             position=end,
             diameter=from_si(diameter, "length"),
@@ -79,7 +79,7 @@ def _assumes(conveyor: Conveyor) -> bool:
 
 
 def usual_lump_factor(lump: float | None, density: float) -> float | None:
-    """Of lumps [m], 1 where their size is not known; None where none is printed for them."""
+    """Load factor of lumps of a size [m], 1 for unknown size; None outside the printed table."""
     try:
         return 1.0 if lump is None else lump_load_factor(lump, density=density)
     except RangeError:

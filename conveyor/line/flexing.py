@@ -1,4 +1,4 @@
-"""Flexure of belt and bulk of a stretch: over load and sag, or by the laws its spec names."""
+"""Flexure of belt and bulk of a stretch, by load and sag or by the laws the spec selects."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ from conveyor.units import si
 
 
 class FlexureLaw:
-    """Flexure of one span, SI; prepared once a strand.
+    """Flexure of one span, SI; prepared once for each strand.
 
     Parameters
     ----------
     conveyor : Conveyor
-        Its `calculation.flexure`, or none.
+        The spec, with `calculation.flexure` or without.
     loads : SetLoads
-        Of the strand: sag, width of the wings under the bulk.
+        Sets of the strand: sag, width of the wings under the bulk.
 
     Notes
     -----
-    A belt as support of its covers (`calculation.support`) holds its own flexure: what is left is the bulk's, by the
-    law of load and sag that of the bulk's load.
+    With a yielding belt (`calculation.support`) the contacts include the belt's flexure; only the bulk's is left, by
+    the law of load and sag that of the bulk's load.
     """
 
     def __init__(self, conveyor: Conveyor, loads: SetLoads) -> None:
@@ -53,12 +53,12 @@ class FlexureLaw:
     def span(
         self, *, belt_mass: float, bulk_mass: float, spacing: float, inclination: float, least_tension: float
     ) -> float:
-        """Force of one span [N], from masses [kg/m], spacing [m], slope [rad] and the least tension for the sag [N].
+        """Flexure of one span [N] from masses [kg/m], spacing [m], slope [rad] and the least tension for the sag [N].
 
         Raises
         ------
         NoSolutionError
-            The belt would fly: the tension is below m' v².
+            The tension is below m' v²: the belt would lift.
         """
         mass = belt_mass + bulk_mass
         weight = self._gravity * math.cos(inclination)

@@ -1,4 +1,4 @@
-"""A conveyor as the calculation sees it: SI numbers, frozen; beyond this floor no quantity has a unit."""
+"""A conveyor in SI numbers, frozen; above this layer no quantity carries a unit."""
 
 from __future__ import annotations
 
@@ -39,14 +39,14 @@ from conveyor.units import Quantity, si
 Array = NDArray[np.float64]
 
 _LEAST_DRIVEN_WRAP = math.radians(90.0)
-"""Nobody drives a pulley that the belt lies on for less; general knowledge."""
+"""Least wrap of a driven pulley [rad]; general knowledge."""
 _MOST_DRIVEN_WRAP = math.radians(270.0)
-"""On one pulley; a drive of more stands for several, general knowledge."""
+"""Largest wrap of one driven pulley [rad], a larger one counts as several pulleys; general knowledge."""
 
 
 @dataclass(frozen=True)
 class CoverNeed:
-    """Thickness of a cover and the least one [m]: what protects the carcass, what wears off."""
+    """Thickness of a cover and its requirement [m]: `least` over the carcass, `wear` in addition."""
 
     cover: str
     thickness: float
@@ -56,10 +56,10 @@ class CoverNeed:
 
 @dataclass(frozen=True)
 class BeltBody:
-    """The belt itself: width, thickness of all, carcass and covers (top, bottom) [m].
+    """The belt: width, total thickness, carcass and covers (top, bottom) [m].
 
-    Strength, rating and stiffness are per width [N/m], None not given; `relaxing` is the stiffness that fades over the
-    lasting one, and in which time [-, s].
+    Strength, rating and stiffness are per width [N/m], None not given; `relaxing` is the relaxing stiffness over the
+    lasting one and its relaxation time [-, s].
     """
 
     width: float
@@ -83,7 +83,7 @@ class BeltBody:
     bears: tuple[float | None, float | None] = (None, None)
     """Lowest and highest temperature [K]; None not given."""
     covers: tuple[CoverNeed, ...] = ()
-    """Empty where nothing is said of the bulk's wear."""
+    """Empty where the spec gives no wear."""
 
     @property
     def tensile_stiffness(self) -> float | None:
@@ -94,19 +94,19 @@ class BeltBody:
 
     @property
     def steel_cord(self) -> bool:
-        """Whether its carcass is of steel cords."""
+        """True for a steel-cord carcass."""
         return self.carcass == "steel cord"
 
 
 @dataclass(frozen=True)
 class LoadingPoint:
-    """Where bulk lands: its place, the flow that does, all flow that lies there from then on [kg/s, m/s, m].
+    """A loading point: position, flow that lands, all flow beyond it [kg/s, m/s, m].
 
-    `section` is the number of the section that is fed, `comes_with` of that whose bulk lands: the same of fresh bulk,
-    the one before of a tripper, whose `lift` is how high it raises the bulk [m], before the drives at `before`.
-    `skirtboards` are as long as they stand, their seals drag with `seal_drag` [m, N/m]; the bulk falls `drop_height`
-    on sets `idler_spacing` apart, lumps of `lump_mass` on springs [m, kg, N/m]; `idler_rating` is what a set bears [N];
-    None not given. `assumed`: a usual one stands in, here and in `Scraper` and `BendPulley`.
+    `section` is the number of the section fed, `comes_with` that of the section whose bulk lands: the same for fresh
+    bulk, the one before for a tripper, which lifts the bulk by `lift` [m] before the drives at `before`. `skirtboards`
+    is their length, `seal_drag` the drag of their seals [m, N/m]; the bulk falls `drop_height` on sets `idler_spacing`
+    apart, lumps of `lump_mass` on springs [m, kg, N/m]; `idler_rating` is the rated load of a set [N]; None not given.
+    `assumed`: a usual part instead of the spec's, here and in `Scraper` and `BendPulley`.
     """
 
     name: str
@@ -133,19 +133,19 @@ class LoadingPoint:
     assumed: bool = False
 
     def acceleration_length(self, belt_speed: float, gravity: float) -> float:
-        """Way on which the bulk comes to the belt's speed [m]."""
+        """Length in which the bulk reaches the belt's speed [m]."""
         return acceleration_length(
             belt_speed=belt_speed, initial_speed=self.speed, belt_friction=self.belt_friction, gravity=gravity
         )
 
     def boards(self, belt_speed: float, gravity: float) -> float:
-        """Length of the skirtboards: as they stand, else over the zone of acceleration and beyond it [m]."""
+        """Length of the skirtboards [m]: as given, else the zone of acceleration and beyond it."""
         return self.skirtboards or self.acceleration_length(belt_speed, gravity) + self.skirt_length
 
 
 @dataclass(frozen=True)
 class Scraper:
-    """A cleaner or several alike: width [m], touching area [m²], pressure [Pa], friction and share taken off [-]."""
+    """One or more equal cleaners: width [m], contact area [m²], pressure [Pa], friction and efficiency [-]."""
 
     kind: str | None
     count: int
@@ -159,7 +159,7 @@ class Scraper:
 
 @dataclass(frozen=True)
 class HeadDischarge:
-    """Where the bulk leaves: slope of the belt [rad], diameter of the pulley, depth of the fall [m], frictions [-]."""
+    """Discharge at the head: pulley diameter and fall [m], slope of the belt [rad], frictions [-]."""
 
     diameter: float
     slope: float
@@ -170,7 +170,7 @@ class HeadDischarge:
 
 @dataclass(frozen=True)
 class PloughBlade:
-    """A plough or several alike: width [m], scraping factor [N/m], and where."""
+    """One or more equal ploughs: width [m], scraping factor [N/m], position."""
 
     count: int
     spot: Spot
@@ -183,8 +183,8 @@ class PloughBlade:
 class BendPulley:
     """A pulley that bends the belt: diameters, distances of bearings and hubs [m], mass [kg], wrap [rad], rating [N].
 
-    `pull_angle` is between the belt's pull and straight down [rad], `bearing_life` asked for [s], `allowed_pressure` of
-    its lagging [Pa]; None not given. `driven`: whether a drive stands on it.
+    `pull_angle` is between the belt's pull and straight down [rad], `bearing_life` the required one [s],
+    `allowed_pressure` that of its lagging [Pa]; None not given. `driven`: it has a drive.
     """
 
     name: str
@@ -210,7 +210,7 @@ class BendPulley:
 
 @dataclass(frozen=True)
 class TransitionZone:
-    """Between trough and flat pulley: length [m], None not given; height of the pulley over the trough's depth [-]."""
+    """Transition between trough and pulley: length [m], None not given; pulley height over trough depth [-]."""
 
     end: str
     length: float | None
@@ -219,10 +219,10 @@ class TransitionZone:
 
 @dataclass(frozen=True)
 class DriveParts:
-    """What the spec says of a drive's parts; None not given.
+    """Parts of a drive; None not given.
 
-    `motors` and their rated `rotation` [1/s], `ratio` of the gear, torque that the `backstop` bears [N m], `starts`
-    asked for [1/h], `loss` of the pulley's diameter [m], mass of the brake's `disc` [kg], `heat` it bears [J].
+    Number of `motors` and their rated `rotation` [1/s], gear `ratio`, rated torque of the `backstop` [N m], required
+    `starts` [1/h], `loss` of pulley diameter [m], mass of the brake's `disc` [kg] and the `heat` it may take [J].
     """
 
     motors: int
@@ -239,8 +239,8 @@ class DriveParts:
 class DriveUnit:
     """A drive pulley with its motors and its brake: share of the force [-], wrap [rad], W, N, kg, radius [m].
 
-    `mass_given` says whether its rotating masses are the spec's, not typical of its power; `starter` and `backstop` are
-    None where the spec says nothing, `parts` where it asks for those of no drive.
+    `mass_given`: rotating masses are the spec's, not typical of its power; `starter` and `backstop` are None where not
+    given, `parts` where the spec gives those of no drive.
     """
 
     name: str
@@ -260,12 +260,11 @@ class DriveUnit:
 
 @dataclass(frozen=True)
 class TakeUpUnit:
-    """The take-up; `spot` is None on the slack side of the drives at the first one's place.
+    """The take-up; `spot` is None on the slack side of the drives at the first one's position.
 
-    `behind` them or before them is then that side under the spec's own load, None where that is not calculated yet.
-    `tension` is what it is set to [N], None where the least needed is looked for; `reserve` of its travel [-]; mass of
-    its `carriage` [kg]; speed of the `winch` [m/s], the band of tension in which it
-    rests [-] and its run-up [s], None where that is not known; `travel` it has [m].
+    `behind` then tells that side, behind or before the drives, under the spec's own load; None if not yet calculated.
+    `tension` is its setting [N], None for the least needed; `reserve` of its travel [-]; mass of its `carriage` [kg];
+    `winch`: speed [m/s], dead band of tension [-] and run-up [s] or None; available `travel` [m].
     """
 
     kind: str
@@ -281,22 +280,22 @@ class TakeUpUnit:
 
     @property
     def keeps_length(self) -> bool:
-        """Whether it keeps the belt's length, and so the mean tension of the loop, instead of the tension there."""
+        """True if it fixes the belt's length, and so the mean tension of the loop, not the local tension."""
         return self.kind in {"fixed", "screw", "locked winch"}
 
     @property
     def on_slack_side(self) -> bool:
-        """Whether it keeps the tension on the slack side of the drives, whichever that is."""
+        """True if it fixes the tension on the slack side of the drives, whichever side that is."""
         return self.spot is None and not self.keeps_length
 
     def pulls(self, pulley: BendPulley) -> bool:
-        """Whether the belt of a pulley has the tension it keeps: of one on its carriage."""
+        """True for a pulley on its carriage, with the take-up's tension on both sides."""
         return pulley.position == "take-up" and not self.keeps_length
 
 
 @dataclass(frozen=True)
 class CemaFactors:
-    """What the classic form of CEMA takes: Ky, Kt, Cs [-], Ai, Tp (None by its table), accessories [N], hs [m], N/m."""
+    """Factors of the classic CEMA form: Ky, Kt, Cs [-], Ai, Tp (None: by table), accessories [N], hs [m], N/m."""
 
     flexure: float
     temperature: float
@@ -334,15 +333,15 @@ class Line:
     secondary : {"itemised", "C"}
         Secondary resistances one by one, or by the length coefficient.
     support, rtol, softened, flexure_share
-        How the contacts are calculated; whether rubber is softened by its strain; share of flexure where it is one [-].
+        Support and tolerance of the contacts; True if strain softens the rubber; share of flexure or None [-].
     carryback : tuple of float or None
-        Bulk that clings to the belt before the cleaners, and the most that may be left behind them [kg/m²].
+        Carryback before the cleaners, and the most allowed behind them [kg/m²].
     flexure_source : str
-        What the flexure rests on, in words.
+        Source of the flexure for reports.
     us_sizes : bool
-        Whether motors and pulleys are suggested of the US series, as of a spec with US units.
+        True if motors and pulleys are suggested from the US series.
     wind_speed : float or None
-        Of the gust that the empty belt must bear [m/s].
+        Gust that the empty belt must withstand [m/s].
     """
 
     strands: Strands
@@ -393,9 +392,9 @@ class Line:
         conveyor : Conveyor
             The spec.
         strands : Strands, optional
-            Its strands, where they are made already.
+            Its strands, if known.
         drags : sequence, optional
-            Drags of the rolls of each strand, where they are known already.
+            Drags of the rolls of each strand, if known.
 
         Raises
         ------
@@ -449,7 +448,7 @@ class Line:
 
     @property
     def uplift(self) -> float:
-        """Of the wind on the empty belt [N/m]."""
+        """Lift of the wind on the empty belt [N/m]."""
         return wind_force(
             self.wind_speed or 0.0,
             height=self.belt.width,
@@ -475,17 +474,17 @@ class Line:
 
     @property
     def tension_acts(self) -> bool:
-        """Whether tension changes what the rolls feel: on a curve, or by a belt that gives."""
+        """True if tension changes the loads of rolls: on curves, or with a yielding belt."""
         return self.support == "belt" or any(section.curved for section in self.sections)
 
     @property
     def length(self) -> float:
-        """Along the belt, of one strand [m]."""
+        """Length of one strand along the belt [m]."""
         return math.fsum(section.length for section in self.sections)
 
     @property
     def sections(self) -> tuple[RouteSection, ...]:
-        """From the tail."""
+        """Sections from the tail."""
         return self.strands.sections
 
     @property
@@ -495,7 +494,7 @@ class Line:
 
     @property
     def kinds(self) -> tuple[RollKind, ...]:
-        """Rolls by the contact they share."""
+        """Groups of rolls that share a contact."""
         return self.strands.kinds
 
     @cached_property
@@ -561,7 +560,7 @@ def _belt(conveyor: Conveyor) -> BeltBody:
 
 
 def _cover_needs(conveyor: Conveyor) -> tuple[CoverNeed, ...]:
-    """Least covers where the spec says how the bulk wears them."""
+    """Required covers where the spec gives the wear."""
     belt = conveyor.belt
     if belt.wear is None:
         return ()
@@ -623,7 +622,7 @@ def _loading(conveyor: Conveyor, point: Feeding, places: Places, *, assumed: boo
 
 
 def _discharge(conveyor: Conveyor) -> HeadDischarge | None:
-    """Over the first pulley at the head, where its diameter is not given."""
+    """Head discharge, by default over the first head pulley."""
     given, last = conveyor.route.discharge, conveyor.route.sections[-1]
     if given is None:
         return None
@@ -682,10 +681,7 @@ def _pulleys(conveyor: Conveyor, places: Places) -> tuple[BendPulley, ...]:
 
 
 def _driven(conveyor: Conveyor, pulleys: Sequence[Pulley]) -> frozenset[int]:
-    """Which of the pulleys the drives turn: at each drive's place as many as stand there, those most wrapped.
-
-    What else stands there bends the belt or is a snub, and is not driven.
-    """
+    """Numbers of the driven pulleys: at each drive's position the most wrapped, as many as its wrap needs."""
     driven: set[int] = set()
     for place in {(drive.position, drive.section) for drive in conveyor.drive.pulleys}:
         wraps = [si(d.wrap_angle) for d in conveyor.drive.pulleys if (d.position, d.section) == place]
@@ -723,7 +719,7 @@ def _pulley(conveyor: Conveyor, pulley: Pulley, places: Places, *, driven: bool)
 
 
 def _transitions(conveyor: Conveyor) -> tuple[TransitionZone, ...]:
-    """Of both ends that the spec gives."""
+    """Transitions at tail and head that the spec gives."""
     given = {"tail": conveyor.route.tail_transition, "head": conveyor.route.head_transition}
     return tuple(
         TransitionZone(end, _known(zone.length), _given(zone.pulley_height, 0.0))
@@ -733,7 +729,7 @@ def _transitions(conveyor: Conveyor) -> tuple[TransitionZone, ...]:
 
 
 def _pulley_spot(conveyor: Conveyor, pulley: Pulley, places: Places, *, driven: bool) -> Spot:
-    """Where the belt meets a pulley; one beside a driven one on the return strand, on a strand before the drive."""
+    """Position of a pulley; one next to a driven one is behind the drive at the head, before it elsewhere."""
     if pulley.position == "take-up":
         return places.take_up(conveyor.route.take_up)
     at = {(drive.position, drive.section): places.drive(drive) for drive in conveyor.drive.pulleys}
@@ -799,7 +795,7 @@ def _reduced_mass(conveyor: Conveyor, pulley: DrivePulley) -> float:
 
 
 def _torque_curve(drive: Drive) -> tuple[tuple[float, float], ...]:
-    """Torque over the rated one at speeds over the rated one, to full speed; empty where the spec says nothing."""
+    """Torque over the rated one against speed over the rated one, to full speed; empty if not given."""
     if drive.torque_factor is not None:
         return ((0.0, drive.torque_factor), (1.0, drive.torque_factor))
     points = [(si(point.speed), point.torque) for point in drive.torque_curve]
@@ -807,7 +803,7 @@ def _torque_curve(drive: Drive) -> tuple[tuple[float, float], ...]:
 
 
 def _shares(pulleys: tuple[DrivePulley, ...]) -> list[float]:
-    """Share of each drive in the whole force: as given, else by installed power, which all of several then have."""
+    """Share of each drive in the whole force: as given, else by installed power."""
     if any(pulley.share is not None for pulley in pulleys):
         return [_given(pulley.share, 0.0) for pulley in pulleys]
     if len(pulleys) == 1:
@@ -822,7 +818,7 @@ def _take_up(conveyor: Conveyor, places: Places) -> TakeUpUnit:
         return TakeUpUnit("slack side", None, None, 1.0, LOOP_STRANDS, TRAVEL_RESERVE.value)
     tension = _known(given.tension)
     if given.mass is not None:
-        # the law of take_up.take_up_mass, solved for the tension
+        # take_up_mass solved for the tension
         tension = si(given.mass) * given.reeving * si(conveyor.calculation.gravity) / given.strands
     spot = None if given.position == "drive" else places.take_up(given)
     winch = None

@@ -1,4 +1,4 @@
-"""Drag of every roll of a set at its rim, by the law its spec names; SI, prepared once a strand."""
+"""Drag of every roll of a set at its rim, by the law of its spec; SI, prepared once for each strand."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ from conveyor.units import si
 
 Array = NDArray[np.float64]
 DragLaw = Callable[[Array], Array]
-"""From loads of a roll [N] to its drag at the rim under each [N]."""
+"""Drag of a roll at its rim [N] as a function of its loads [N]."""
 StrandDrags: TypeAlias = tuple[tuple[float, ...], ...]
-"""Of each stretch the drag of each roll of one set [N]."""
+"""Drag of each roll of one set, for each stretch [N]."""
 RollDrags: TypeAlias = Sequence[StrandDrags]
-"""Of each strand and stretch the drag of each roll of one set [N]."""
+"""Drag of each roll of one set, for each strand and stretch [N]."""
 
 
 def roll_drags(conveyor: Conveyor, strand: OneStrand) -> StrandDrags:
@@ -52,7 +52,7 @@ def roll_drags(conveyor: Conveyor, strand: OneStrand) -> StrandDrags:
 
 
 def roll_drags_many(asked: Sequence[tuple[Conveyor, OneStrand]]) -> list[StrandDrags | InputError]:
-    """Drags of the rolls of many strands, each as `roll_drags`; those in service are computed together."""
+    """Drags of the rolls of many strands, each as by `roll_drags`; rolls in service in one batch."""
     drags = [np.empty(np.shape(strand.distinct_sets[0])) for _, strand in asked]
     refused: dict[int, InputError] = {}
     served: dict[tuple[float, float], list[tuple[int, list[int], _InService]]] = {}
@@ -79,13 +79,13 @@ def roll_drags_many(asked: Sequence[tuple[Conveyor, OneStrand]]) -> list[StrandD
 
 
 def _of_stretches(strand: OneStrand, sets: Array) -> StrandDrags:
-    """Drags of every stretch from those of the sets that occur."""
+    """Drags of every stretch from those of its distinct sets."""
     rows = [tuple(row) for row in sets.tolist()]
     return tuple(rows[i] for i in strand.distinct_sets[1])
 
 
 def _laws(conveyor: Conveyor, strand: Strand) -> Iterator[tuple[list[int], DragLaw | _InService]]:
-    """Laws of drag of a set, with the places of the rolls that each is of."""
+    """Drag laws of a set, each with the places of its rolls."""
     idlers = conveyor.idlers.carry if strand == "carry" else conveyor.idlers.return_
     if idlers.drag is not None:
         yield list(range(idlers.rolls)), _evenly(si(idlers.drag) / idlers.rolls)
@@ -99,7 +99,7 @@ def _laws(conveyor: Conveyor, strand: Strand) -> Iterator[tuple[list[int], DragL
 
 @dataclass(frozen=True)
 class _InService:
-    """A roll in service: its size [m], the belt's speed [m/s], the air around it [K], its condition [-], its field."""
+    """A roll in service: size [m], belt speed [m/s], air temperature [K], condition factor [-], spec field."""
 
     diameter: float
     length: float
@@ -110,7 +110,7 @@ class _InService:
 
 
 def _in_service(laws: Sequence[_InService], loads: Sequence[Array]) -> list[Array | InputError]:
-    """Drags of rolls of one size under their loads [N]; where one is refused, each by itself."""
+    """Drags of rolls of one size under their loads [N]; after an error each law by itself."""
     sizes = [one.size for one in loads]
     speed, air = (
         np.repeat(each, sizes) for each in zip(*((law.speed, law.air) for law in laws), strict=True)
@@ -152,12 +152,12 @@ def _law(roll: Roll, conveyor: Conveyor, field: str) -> DragLaw | _InService:
 
 
 def _evenly(drag: float) -> DragLaw:
-    """The same drag under any load."""
+    """Drag independent of the load."""
     return lambda loads: np.full(loads.shape, drag)
 
 
 def _each(law: Callable[[float], float]) -> DragLaw:
-    """A law of one load, for many; equal ones are computed once."""
+    """Vectorise a law of one load; equal loads are computed once."""
 
     def drags(loads: Array) -> Array:
         distinct, which = np.unique(loads, return_inverse=True)
@@ -167,7 +167,7 @@ def _each(law: Callable[[float], float]) -> DragLaw:
 
 
 def assumed_share(conveyor: Conveyor, idlers: IdlerSet, drags: Sequence[float]) -> float:
-    """Share of the rolls that are taken to be in service in the drag of a set [-], from the drags of its rolls [N]."""
+    """Share of assumed drags in the drag of a set [-], from the drags of its rolls [N]."""
     if conveyor.calculation.roll_drag != "in service" or idlers.drag is not None:
         return 0.0
     rolls = [idlers.roll_at(place) for place in range(idlers.rolls)]
@@ -177,12 +177,12 @@ def assumed_share(conveyor: Conveyor, idlers: IdlerSet, drags: Sequence[float]) 
 
 
 def assumed_bearing(roll: Roll) -> str:
-    """Name of the bearing that a roll in service is taken to have."""
+    """Name of the bearing assumed for a roll in service."""
     return usual_bearing(si(roll.diameter)).name
 
 
 def acceptance_limit(roll: Roll) -> Default:
-    """Limit of a new roll's test, by its diameter [N]."""
+    """Acceptance limit of a new roll's drag, by its diameter [N]."""
     return default_roll_drag(si(roll.diameter))
 
 
@@ -232,7 +232,7 @@ def bearing_viscosity(law: BearingDrag, air: float) -> float:
     Raises
     ------
     InputError
-        The oil is solid there.
+        The oil is solid at that temperature.
     """
     return oil_viscosity(
         air + si(law.warming),
@@ -244,7 +244,7 @@ def bearing_viscosity(law: BearingDrag, air: float) -> float:
 
 
 def _named(law: DragLaw, field: str) -> DragLaw:
-    """Name the field in a refusal of the law."""
+    """Prefix errors of the law with the field."""
 
     def drag(loads: Array) -> Array:
         try:

@@ -1,4 +1,4 @@
-"""Rolls that share a contact: those of one radius and spacing on one strand, with all line loads that occur on them."""
+"""Groups of rolls that share a contact: one radius and spacing on one strand, with all their line loads."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from conveyor.line.stretches import Strand, Stretch
 
 Array = NDArray[np.float64]
 
-_CURVE_DOWN_TO = 0.25  # of the highest load: a curve to be looked at, also where all rolls bear the same
+_CURVE_DOWN_TO = 0.25  # of the highest load: a curve worth plotting where all rolls bear the same
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,11 +23,11 @@ class RollKind:
     Attributes
     ----------
     rolls : tuple of (int, int)
-        Stretch and place in the set of each.
+        Stretch and place in the set, for each roll.
     starts : ndarray of int
-        Where each roll's loads begin in `line_loads`, which is `distinct[which]`, for sections that bear alike.
+        Index of each roll's first load in `line_loads`, which equals `distinct[which]`.
     weights, sets : ndarray
-        Of the quadrature along the roll [m]; how many such sets there are [-].
+        Weights of the quadrature along the roll [m]; number of such sets [-].
     lowest, highest : float
         Range of the load curve [N/m].
     """
@@ -47,13 +47,13 @@ class RollKind:
 
     @cached_property
     def bearing(self) -> tuple[object, ...]:
-        """What must be equal where rolls work a cover exactly alike."""
+        """Key equal for rolls that load a cover identically."""
         arrays = (self.line_loads, self.weights, self.sets)
         return self.strand, self.radius, self.spacing, *(one.tobytes() for one in arrays)
 
 
 def roll_kinds(stretches: tuple[Stretch, ...], points: int, first: int) -> tuple[RollKind, ...]:
-    """Sort the rolls of a strand by the contact they share; `points` of the quadrature along a roll.
+    """Group the rolls of a strand by contact; `points` of the quadrature along a roll.
 
     Their stretches are numbered from `first` on.
     """

@@ -1,4 +1,4 @@
-"""Rating life of the rolls of a stretch, where their bearings are given: an indicator, not a forecast."""
+"""Rating life of the rolls of a stretch with known bearings: an indicator, not a forecast."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _SLOPES = {"ball": WEIBULL_SLOPE_BALL, "roller": WEIBULL_SLOPE_ROLLER}
 
 
 ASKED_LIFE = 30e3
-"""[h]; CEMA's load ratings of series B and C are for 30,000 h L10 at 500 rpm, as commonly reproduced."""
+"""L10 of CEMA's load ratings of series B and C at 500 rpm [h], as commonly reproduced."""
 
 
 @dataclass(frozen=True)
@@ -39,9 +39,9 @@ class RollLife:
     hours : float
         L10 of the heavier one [h].
     both : float
-        L10 of the two together: of the roll [h].
+        L10 of the roll, both bearings together [h].
     weibull_slope : float
-        Of its bearings' lives [-].
+        Weibull slope of the bearings' lives [-].
     """
 
     heavier: float
@@ -52,7 +52,7 @@ class RollLife:
 
 
 def roll_life(stretch: Stretch, place: int, belt_speed: float) -> RollLife | None:
-    """Life of the roll at a place of the set, at a belt speed [m/s]; None without its bearings or without load.
+    """Life of the roll at a place of the set, at a belt speed [m/s]; None without bearings or load.
 
     Notes
     -----
@@ -77,7 +77,7 @@ def roll_life(stretch: Stretch, place: int, belt_speed: float) -> RollLife | Non
 
 
 def _heavier(roll: Roll, load: RollLoad, distance: float, *, alone: bool) -> float:
-    """Load of the bearing nearer to the middle of the belt; a single roll is loaded in its middle [N]."""
+    """Load of the bearing nearer to the middle of the belt, half the load on a single roll [N]."""
     if alone:
         return 0.5 * load.force
     return heavier_bearing_load(
@@ -92,20 +92,20 @@ def _heavier(roll: Roll, load: RollLoad, distance: float, *, alone: bool) -> flo
 
 @dataclass(frozen=True)
 class SetLife:
-    """L10 of all bearings of a set together, as far as they are given.
+    """L10 of all known bearings of a set together.
 
     Attributes
     ----------
     section : str
-        Where the set stands.
+        Section of the set.
     hours : float
-        Of them together [h].
+        L10 of the set [h].
     weakest : str
         The roll of the shortest life.
     weakest_hours : float
         L10 of that roll [h].
     whole : bool
-        Whether the bearings of every roll are given; else the set lives shorter.
+        True if the bearings of every roll are known; else the life is shorter.
     """
 
     section: str
@@ -116,12 +116,12 @@ class SetLife:
 
     @property
     def too_short(self) -> bool:
-        """Whether it falls short of what light series are rated for."""
+        """True if below the rated life of light series."""
         return self.hours < ASKED_LIFE
 
 
 def set_life(stretch: Stretch, belt_speed: float) -> SetLife | None:
-    """Life of a set of a stretch; None without any bearing."""
+    """Life of a set of a stretch; None without known bearings."""
     lives = [(roll_life(stretch, place, belt_speed), load) for place, load in enumerate(stretch.loads)]
     known = [(life.both, load.name, life.weibull_slope) for life, load in lives if life is not None]
     if not known:
@@ -132,7 +132,7 @@ def set_life(stretch: Stretch, belt_speed: float) -> SetLife | None:
 
 
 def shortest_life(stretches: Sequence[Stretch], strand: Strand, belt_speed: float) -> SetLife | None:
-    """Life of the set of a strand that lives shortest, at a belt speed [m/s]; None without any bearing."""
+    """Shortest life of a strand's sets at a belt speed [m/s]; None without known bearings."""
     alike = {stretch.loads: stretch for stretch in reversed(stretches) if stretch.strand == strand}
     lives = [set_life(stretch, belt_speed) for stretch in alike.values()]
     return min((life for life in lives if life is not None), key=lambda life: life.hours, default=None)

@@ -13,7 +13,7 @@ from conveyor.units import si
 class StarterUnit:
     """A starter: times [s], torques over the rated or the largest one [-], slip [-]; None not given.
 
-    `fill` are times and shares of a coupling's largest torque [s, -], empty without.
+    `fill` holds times and shares of a coupling's largest torque [s, -].
     """
 
     kind: str
@@ -52,7 +52,7 @@ class StarterUnit:
 
 @dataclass(frozen=True)
 class Happening:
-    """What drives, by their number, are told at a time [s]; of brakes the time of growing [s] and the share there."""
+    """A command to drives, by number, at a time [s]; for brakes the ramp [s] and the final share [-]."""
 
     at: float
     do: str

@@ -1,4 +1,4 @@
-"""What a set of rolls bears, as far as its spec says: load, slope of its axles, distance from resonance; SI."""
+"""Limits of idler sets that the spec gives: load, slope of axles, distance from resonance; SI."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from conveyor.units import si
 
 @dataclass(frozen=True)
 class AxleSlope:
-    """Slope of a roll's axle at its bearings, and what these bear [-]."""
+    """Slope of a roll's axle at its bearings, and the allowed one [-]."""
 
     roll: str
     slope: float
@@ -31,25 +31,25 @@ class AxleSlope:
 
 @dataclass(frozen=True)
 class SetLimits:
-    """What the spec says of a stretch's sets.
+    """Limits and rated load of a stretch's sets.
 
     Attributes
     ----------
     cema_class : str or None
-        Their class.
+        CEMA class of the sets.
     rating : float or None
         Load that a whole set is rated for [N].
     least_class : str or None
-        First CEMA class rated for `load`; None without one, or where the spec asks for no rating.
+        First CEMA class rated for `load`; None without one, or where the spec gives no rating.
     lump_factor : float or None
-        Of the bulk's load, as given or by the size of its lumps, 1 where nothing is said of them; None where no factor
-        is printed for such lumps: the load is without one.
+        Factor on the bulk's load, as given or by lump size, 1 for unknown size; None outside the printed table, where
+        `load` is without it.
     load : float
-        Of a set as rated: lumps and the highest set's share of the tension in it [N].
+        Load of a set to compare with its rating [N]: with lumps, and the belt's pull on a set raised too high.
     flap_margin : float or None
-        Distance wanted of the rolls' rotation from the belt's natural frequencies [-].
+        Required distance of the rolls' rotation from the belt's natural frequencies [-].
     axle : AxleSlope or None
-        Of the roll whose axle is nearest to its limit, or farthest beyond; None where none is given.
+        Axle closest to its limit or farthest beyond; None where none is given.
     """
 
     cema_class: CemaClass | None
@@ -86,12 +86,12 @@ class SetLimits:
 
 
 def raised(stretch: Stretch) -> float:
-    """Height by which one of its sets may stand over its neighbours [m]."""
+    """Height by which a set of the stretch may be raised over its neighbours [m]."""
     return si(stretch.idlers.raised)
 
 
 def _rating(name: CemaClass, stretch: Stretch, belt_width: float) -> float | None:
-    """Of a class [N]; None where it has no such set."""
+    """Rating of a class [N]; None where it has no such set."""
     try:
         return rated_set_load(
             name, belt_width=belt_width, trough_angle=stretch.trough_angle, rolls=len(stretch.loads)
@@ -101,7 +101,7 @@ def _rating(name: CemaClass, stretch: Stretch, belt_width: float) -> float | Non
 
 
 def _axle(stretch: Stretch, belt_speed: float) -> AxleSlope | None:
-    """Both bearings are taken to bear what the heavier does: on the safe side."""
+    """Axle closest to its limit; both bearings take the heavier load, on the safe side."""
     slopes = []
     for place, load in enumerate(stretch.loads):
         life, bearing = roll_life(stretch, place, belt_speed), stretch.idlers.roll_at(place).bearing

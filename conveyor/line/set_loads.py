@@ -1,4 +1,4 @@
-"""Loads of the rolls of a strand's sets, in SI: what all its stretches share is made once."""
+"""Loads of the rolls of a strand's sets, SI; prepared once for all stretches."""
 
 from __future__ import annotations
 
@@ -54,9 +54,9 @@ class SetLoads:
         inclination : float
             Slope angle [rad].
         belt_mass, bulk_mass : float
-            As they press on the rolls [kg/m].
+            Masses as they press on the rolls [kg/m].
         flow_mass : float
-            Bulk that lies on the belt [kg/m]: decides the cross-section.
+            Bulk on the belt [kg/m], which decides the cross-section.
         """
         key = (spacing, inclination, belt_mass, bulk_mass, flow_mass)
         known = self._found.get(key)
@@ -85,7 +85,7 @@ class SetLoads:
         return self._known_shares[flow_mass]
 
     def _shares_by_area(self, flow_mass: float) -> tuple[float, ...]:
-        """By the area above each roll at the filling of this stretch; a narrow heap lies on the inner rolls alone."""
+        """Load shares by the area above each roll; a narrow heap lies on the inner rolls alone."""
         rolls, (across, surcharge) = self.idlers.rolls, self.spread(flow_mass)
         if across <= self._middle:
             return tuple(float(place == rolls // 2) for place in range(rolls))

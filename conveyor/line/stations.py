@@ -1,4 +1,4 @@
-"""Places of the loop. What stands at one boundary the belt meets in the order of `Stand`.
+"""Positions in the loop of the belt; at one boundary the belt meets items in the order of `Stand`.
 
 Boundaries between stretches are counted in running direction from the head: the n stretches of the return strand first,
 the tail is boundary n, then the n of the carry strand; boundary 2n is the head again.
@@ -15,7 +15,7 @@ _TURNS = frozenset({"head", "tail"})
 
 
 class Stand(IntEnum):
-    """In which order the belt meets what stands at one boundary: the strand's end, head or tail, the next strand."""
+    """Order of items at one boundary: end of the strand, head or tail, start of the next strand."""
 
     END = 0
     """Pulleys and ploughs behind a section."""
@@ -33,14 +33,14 @@ class Stand(IntEnum):
 
 @dataclass(frozen=True, order=True)
 class Spot:
-    """A place of the loop: a boundary, and where among what stands there; sorted as the belt meets them."""
+    """A position in the loop: boundary and order there; sorts in the direction of running."""
 
     boundary: int
     stand: Stand
 
 
 class Places:
-    """Spots of the loop by the names a spec gives them."""
+    """Positions in the loop by the names of the spec."""
 
     def __init__(self, conveyor: Conveyor) -> None:
         self.count = len(conveyor.route.sections)
@@ -58,33 +58,33 @@ class Places:
         return self.count + index + 1 if position == "carry" else self.count - index
 
     def landing(self, section: str | None) -> Spot:
-        """Where bulk lands on a section, behind all else that stands at its tail end."""
+        """Position where bulk lands on a section, behind all other items at its tail end."""
         return Spot(self.count + (0 if section is None else self._index[section]), Stand.LANDING)
 
     def name(self, landing: Spot) -> str:
-        """Where bulk lands, in words."""
+        """Name of a landing position for reports."""
         section = landing.boundary - self.count
         return "tail" if section == 0 else f"tail end of {self._names[section]}"
 
     def before(self, position: str, section: str | None) -> Spot:
-        """Place before the drives of a position."""
+        """Position before the drives at a place."""
         stand = Stand.TURN if position in _TURNS else Stand.END
         return Spot(self.boundary(position, section), stand)
 
     def drive(self, pulley: DrivePulley) -> Spot:
-        """Place of a drive."""
+        """Position of a drive."""
         stand = Stand.TURN_DRIVE if pulley.position in _TURNS else Stand.END_DRIVE
         return Spot(self.boundary(pulley.position, pulley.section), stand)
 
     def behind(self, position: str, section: str | None) -> Spot:
-        """Place behind the drives of a position; behind the head the loop begins."""
+        """Position behind the drives at a place; behind the head the loop begins."""
         if position == "head":
             return Spot(0, Stand.TURN_BEHIND)
         stand = Stand.TURN_BEHIND if position == "tail" else Stand.END_BEHIND
         return Spot(self.boundary(position, section), stand)
 
     def take_up(self, take_up: TakeUp | None) -> Spot:
-        """Place of the take-up's pulleys: behind the first drive without one."""
+        """Position of the take-up's pulleys, by default behind the first drive."""
         if take_up is None or take_up.position == "drive":
             return self.behind(self._drive.position, self._drive.section)
         return self.behind(take_up.position, take_up.section)

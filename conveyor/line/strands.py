@@ -1,4 +1,4 @@
-"""Both strands of a line under their load: what lines share that differ in air, rubber or drives alone."""
+"""Both strands of a line under load; shared by lines that differ in air, rubber or drives alone."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ Array = NDArray[np.float64]
 class LoopShape:
     """The stretches in the order the belt meets them from the head: return strand, then carry strand.
 
-    Arrays of shape (2n,), but `way`: distance from the head to each boundary [m], shape (2n + 1,). `mass` is that of
-    belt, bulk and rolls [kg], the rolls' as reduced to their rims where given, else all of it, on the safe
-    side; `least` the least tension for the sag [N].
+    Arrays of shape (2n,), except `way`: distance from the head to each boundary [m], shape (2n + 1,). `mass` is that
+    of belt, bulk and rolls [kg], the rolls' reduced to their rims if given, else whole, on the safe side; `least` the
+    least tension for the sag [N].
     """
 
     stretches: tuple[Stretch, ...]
@@ -39,15 +39,15 @@ class OneStrand:
     Attributes
     ----------
     strand : {"carry", "return"}
-        Which.
+        The strand.
     stretches : tuple of Stretch
-        In its running direction.
+        Stretches in running direction.
     first : int
         Number of its first stretch among those of both strands.
     gravity : float
-        Of the site [m/s²].
+        Gravity at the site [m/s²].
     gauss_points : int
-        Of the quadrature along a roll.
+        Points of the quadrature along a roll.
     """
 
     strand: Strand
@@ -60,7 +60,7 @@ class OneStrand:
     def of(
         cls, conveyor: Conveyor, sections: tuple[RouteSection, ...], strand: Strand, acting: Acting
     ) -> OneStrand:
-        """Return a strand of a conveyor, of its own idlers, under what tension does on curves.
+        """Return one strand of a conveyor under the loads of tension on curves.
 
         Raises
         ------
@@ -73,12 +73,12 @@ class OneStrand:
 
     @property
     def flexes(self) -> bool:
-        """Whether the flexure over every span is known, not a share of the main resistance."""
+        """True if the flexure of every span is computed, not a share of the main resistance."""
         return self.stretches[0].span_flexure is not None
 
     @cached_property
     def distinct_sets(self) -> tuple[list[tuple[float, ...]], list[int]]:
-        """Loads of the rolls of one set that occur [N]; and of every stretch which they are."""
+        """Distinct loads of the rolls of one set [N], and the index of every stretch's among them."""
         borne = [tuple(load.force for load in s.loads) for s in self.stretches]
         numbers = {each: i for i, each in enumerate(dict.fromkeys(borne))}
         return list(numbers), [numbers[each] for each in borne]
@@ -91,12 +91,12 @@ class OneStrand:
 
 @dataclass(frozen=True, eq=False)
 class Strands:
-    """All stretches of a line, SI.
+    """Both strands of a line, SI.
 
     Attributes
     ----------
     sections : tuple of RouteSection
-        From the tail.
+        Sections from the tail.
     each : tuple of OneStrand
         Carry strand from the tail, return strand from the head.
     """
@@ -113,7 +113,7 @@ class Strands:
         conveyor : Conveyor
             Its belt, idlers, material, route and calculation.
         acting : Acting, optional
-            What tension does on curves.
+            Loads of tension on curves.
 
         Raises
         ------
@@ -152,6 +152,6 @@ class Strands:
 
 
 def loop_order(along: tuple[Stretch, ...]) -> tuple[Stretch, ...]:
-    """Put carry strand, return strand in the order the belt meets them from the head: return, carry."""
+    """Reorder carry and return strand as the belt meets them from the head: return, carry."""
     half = len(along) // 2
     return (*along[half:], *along[:half])

@@ -20,12 +20,12 @@ from conveyor.units import si
 Strand = Literal["carry", "return"]
 STRANDS: tuple[Strand, Strand] = ("carry", "return")
 OnCurves = Mapping[tuple[str, Strand], float]
-"""A figure of each section and strand on a curve."""
+"""Values by section and strand on curves."""
 
 
 @dataclass(frozen=True)
 class Acting:
-    """What tension does on curves: mass with which it presses on the rolls [kg/m], drift of the belt inside [m].
+    """Effect of tension on curves: mass pressing on the rolls [kg/m], inward drift of the belt [m].
 
     A negative mass lifts, a negative drift is outward.
     """
@@ -38,8 +38,8 @@ class Acting:
 class RouteSection:
     """A section of the route: length and rise in running direction of the carry strand [m], its curves.
 
-    `radius` is positive on a convex curve, negative on a concave one, infinite on the straight [m]; `spacing` that of
-    each strand's sets where the section has its own [m].
+    `radius` is positive on a convex curve, negative on a concave one, infinite on the straight [m]; `spacing` is the
+    section's own of each strand's sets [m], or None.
     """
 
     name: str
@@ -53,7 +53,7 @@ class RouteSection:
 
     @property
     def curved(self) -> bool:
-        """Whether tension acts on its rolls by a curve."""
+        """True on a vertical or horizontal curve."""
         return self.curve is not None or self.horizontal is not None
 
     @property
@@ -63,7 +63,7 @@ class RouteSection:
 
 
 def route_sections(conveyor: Conveyor) -> tuple[RouteSection, ...]:
-    """The sections of a route, from the tail; SI."""
+    """Sections of a route from the tail, SI."""
     return tuple(map(_route_section, conveyor.route.sections))
 
 
@@ -108,15 +108,15 @@ class Stretch:
     loads : tuple of RollLoad
         Load of each roll of one set.
     least_tension : float
-        That keeps the sag between the sets as small as asked for [N].
+        Tension that limits the sag between the sets as specified [N].
     set_mass, rim_mass : float
-        Rotating mass of one set, and what of it resists acceleration at the rim [kg].
+        Rotating mass of one set, and its mass reduced to the rim [kg].
     misalignment : tuple of float
         Drag of each roll of a set by misalignment over its load [-].
     span_flexure : float or None
-        Flexure of belt and bulk over one span [N]; None where the spec asks for a share of the main resistance.
+        Flexure of belt and bulk over one span [N]; None where it is a share of the main resistance.
     turn : Turn or None
-        On a horizontal curve.
+        Sets on a horizontal curve.
     """
 
     section: str
@@ -158,21 +158,21 @@ class Stretch:
 def stretches(
     conveyor: Conveyor, sections: Sequence[RouteSection], strand: Strand, acting: Acting
 ) -> tuple[Stretch, ...]:
-    """Every section of a strand in its running direction, SI, under what tension does on curves."""
+    """Stretches of a strand in running direction, SI, under the loads of tension on curves."""
     made = _Strand(conveyor, strand, acting)
     along = sections if strand == "carry" else reversed(sections)
     return tuple(made.stretch(section) for section in along)
 
 
 def roll_masses(belt_mass: float, bulk_mass: float, pressing: float, *, where: str) -> tuple[float, float]:
-    """Belt and bulk as they press on the rolls of a vertical curve [kg/m].
+    """Masses of belt and bulk as they press on the rolls of a vertical curve [kg/m].
 
     A concave curve's negative mass relieves the belt first, then the bulk; the sum is kept.
 
     Raises
     ------
     NoSolutionError
-        The belt lifts off with all that lies on it.
+        The belt lifts off with its bulk.
     """
     belt = belt_mass + pressing
     if bulk_mass + belt <= 0.0:
@@ -192,7 +192,7 @@ def misalignment_angle(conveyor: Conveyor, idlers: IdlerSet) -> float:
 
 
 def _misalignment(conveyor: Conveyor, idlers: IdlerSet) -> tuple[float, ...]:
-    """Drag of each roll of a set over its load [-]: the axis of a wing roll turns by cos λ of the set's angle."""
+    """Drag of each roll of a set by misalignment over its load [-]: a wing roll turns by cos λ of the set's angle."""
     angle = misalignment_angle(conveyor, idlers)
     slopes = roll_angles(
         idlers.rolls, trough_angle=si(idlers.trough_angle), inner_angle=idlers.inner_wing.angle
@@ -202,7 +202,7 @@ def _misalignment(conveyor: Conveyor, idlers: IdlerSet) -> tuple[float, ...]:
 
 
 class _Strand:
-    """What all stretches of a strand share."""
+    """Builds the stretches of a strand from the data they share."""
 
     def __init__(self, conveyor: Conveyor, strand: Strand, acting: Acting) -> None:
         self.strand, self.acting, self.conveyor = strand, acting, conveyor
@@ -223,7 +223,7 @@ class _Strand:
         self.flexure = FlexureLaw(conveyor, self.set_loads) if share is None else None
 
     def stretch(self, section: RouteSection) -> Stretch:
-        """One section."""
+        """Stretch of one section."""
         own = section.spacing[self.strand]
         spacing = self.spacing if own is None else own
         flow = self.full if self.carrying and section.loaded else 0.0
@@ -271,7 +271,7 @@ class _Strand:
         )
 
     def _turn(self, section: RouteSection, spacing: float, inclination: float, flow: float) -> Turn | None:
-        """The sets on a horizontal curve."""
+        """Sets of a section on a horizontal curve; None on the straight."""
         if section.horizontal is None:
             return None
         weights = self.set_loads.of(

@@ -1,4 +1,4 @@
-"""What a conveyor is sized from, in SI, and the spec of a choice of its parts, in the units of its series."""
+"""Sizing duty in SI, and the spec of a candidate in the units of its series."""
 
 from __future__ import annotations
 
@@ -54,13 +54,13 @@ from conveyor.units import Quantity, from_si, in_si, si, text
 from conveyor.units.sentences import figure, percent
 
 _BEARING_INSET: Final = 0.02  # [m], middle of a bearing inside the tube's end; general knowledge
-_OVERLAND: Final = 1000.0  # [m], from which sets stand as far apart as overland; general knowledge
+_OVERLAND: Final = 1000.0  # [m], length from which spacings are those of overland belts; general knowledge
 _V_ANGLE: Final = math.radians(10.0)
 
 
 @dataclass(frozen=True)
 class CarcassClass:
-    """A class of belts: kind, strength [N/m], thickness [m]; where listed mass [kg/m²] and rated tension [N/m]."""
+    """A carcass class: kind, strength [N/m], thickness [m]; if listed mass [kg/m²] and rated tension [N/m]."""
 
     kind: str
     strength: float
@@ -70,19 +70,19 @@ class CarcassClass:
 
     @property
     def steel_cord(self) -> bool:
-        """Whether it is of steel cords."""
+        """True for steel cords."""
         return self.kind == "steel cord"
 
     @property
     def mass(self) -> float:
-        """Per area [kg/m²]."""
+        """Mass per area [kg/m²]."""
         if self.listed_mass is not None:
             return self.listed_mass
         return carcass_mass(self.strength, thickness=self.thickness, steel_cord=self.steel_cord)
 
     @property
     def safety(self) -> float:
-        """Strength over the tension it is used for in steady running [-]."""
+        """Strength over the allowed tension in steady running [-]."""
         if self.rating is not None:
             return self.strength / self.rating
         return CLASSIC_SAFETY["steel cord" if self.steel_cord else "textile"]
@@ -98,7 +98,7 @@ class CarcassClass:
 
     @property
     def name(self) -> str:
-        """As makers call it."""
+        """Trade name, such as ST1000."""
         if self.rating is not None:
             return f"{from_si(self.rating, 'line force', 'PIW').magnitude:.0f} PIW"
         return f"{'ST' if self.steel_cord else 'EP'}{self.strength / 1e3:.0f}"
@@ -116,7 +116,7 @@ class CarcassClass:
 
 @dataclass(frozen=True)
 class RollSize:
-    """Rolls of a diameter [m]: wall [m], ends [kg], rating C of a bearing [N], class of their sets."""
+    """Rolls of one diameter [m]: wall [m], mass of the ends [kg], bearing rating C [N], CEMA class of their sets."""
 
     diameter: float
     wall: float
@@ -125,13 +125,13 @@ class RollSize:
     cema_class: CemaClass | None = None
 
     def mass(self, length: float) -> float:
-        """What turns [kg]."""
+        """Rotating mass of a roll of a length [kg]."""
         return roll_shell_mass(self.diameter, wall=self.wall, length=length) + self.ends
 
 
 @dataclass(frozen=True)
 class WidthSize:
-    """A belt width and lengths of its rolls [m]; whether its return sets are Vs of two."""
+    """A belt width and its roll lengths for sets of one, two and three [m]; `vee`: return sets are Vs of two."""
 
     belt: float
     one: float
@@ -141,13 +141,13 @@ class WidthSize:
 
     @property
     def return_rolls(self) -> tuple[int, float, float]:
-        """Number, length [m] and angle [rad] of the rolls of a return set."""
+        """Number, length [m] and trough angle [rad] of the rolls of a return set."""
         return (2, self.two, _V_ANGLE) if self.vee else (1, self.one, 0.0)
 
 
 @dataclass(frozen=True)
 class Trough:
-    """A belt width with a trough angle [rad]: largest cross-section of the bulk on the steepest section [m²]."""
+    """A belt width with a trough angle [rad] and its largest bulk cross-section on the steepest section [m²]."""
 
     width: WidthSize
     angle: float
@@ -156,28 +156,28 @@ class Trough:
 
 @dataclass(frozen=True)
 class Choice:
-    """What a candidate is made of; SI.
+    """Parts of a candidate design, SI.
 
     Attributes
     ----------
     trough : Trough
         Width of the belt, and angle of the outer rolls.
     speed, filling : float
-        Of the belt [m/s], and of its cross-section [-].
+        Belt speed [m/s] and filling of the cross-section [-].
     roll : RollSize
-        Of both strands.
+        Rolls of both strands.
     carry, back : float
-        Distances of the sets of carry and return strand [m].
+        Spacing of carry and return sets [m].
     cover : int
-        Number of the compound of the bottom cover.
+        Index of the compound of the bottom cover.
     kind : str
-        Of the carcass.
+        Kind of carcass.
     drives : str
-        Where they stand.
+        Drive layout.
     graduated : tuple of float
-        Distance of carry sets of each section [m]; empty where it is `carry`.
+        Spacing of the carry sets of each section [m]; empty where it is `carry`.
     thicker : float
-        Bottom cover beyond the least one [m].
+        Addition to the least bottom cover [m].
     """
 
     trough: Trough
@@ -195,10 +195,10 @@ class Choice:
 
 @dataclass(frozen=True)
 class Chosen:
-    """What follows from a candidate's tensions: class, covers [m], motors of each drive [W], brakes at the belt [N].
+    """Parts selected from a candidate's tensions: carcass, covers [m], motors of each drive [W], brake force [N].
 
-    `backstop`: torque of that on the first pulley [N m]; `take_up`: tension that it is set to [N], 0 where grip and sag
-    alone set it; `settling`: whether it follows from exact ones already.
+    `backstop`: torque of that on the first pulley [N m]; `take_up`: its tension [N], 0 where grip and sag decide;
+    `settling`: selected from exact tensions already.
     """
 
     carcass: CarcassClass
@@ -219,27 +219,27 @@ class SizingTask:
 
     @property
     def rules(self) -> SiteRules:
-        """Of the site."""
+        """Rules of the site."""
         return self.duty.rules
 
     @property
     def flow(self) -> float:
-        """[kg/s]."""
+        """Mass flow [kg/s]."""
         return si(self.duty.material.flow)
 
     @property
     def density(self) -> float:
-        """[kg/m³]."""
+        """Bulk density [kg/m³]."""
         return si(self.duty.material.density)
 
     @property
     def gravity(self) -> float:
-        """[m/s²]."""
+        """Gravity [m/s²]."""
         return si(self.duty.calculation.gravity)
 
     @cached_property
     def sections(self) -> tuple[tuple[float, float], ...]:
-        """Length and rise of each [m]."""
+        """Length and rise of every section [m]."""
         return tuple((si(section.length), section.rise) for section in self.duty.sized_route.sections)
 
     @property
@@ -249,29 +249,29 @@ class SizingTask:
 
     @property
     def length(self) -> float:
-        """[m]."""
+        """Length of the route [m]."""
         return math.fsum(length for length, _ in self.sections)
 
     @property
     def seconds(self) -> float:
-        """Of running in a year [s]."""
+        """Running time in a year [s]."""
         return self.duty.operation.seconds_per_year
 
     @property
     def energy_price(self) -> float:
-        """[currency/kWh]."""
+        """Price of energy [currency/kWh]; 0 without one."""
         price = self.duty.operation.price
         return 0.0 if price is None else price.amount
 
     @property
     def feed_in_price(self) -> float:
-        """Of energy fed back [currency/kWh]; 0 without one."""
+        """Price of energy fed back [currency/kWh]; 0 without one."""
         credit = self.duty.operation.feed_in_price
         return 0.0 if credit is None else credit.amount
 
     @property
     def roll_life(self) -> float:
-        """L10 asked of a set [s]."""
+        """Required L10 of a set [s]."""
         return si(self.rules.roll_life)
 
     @property
@@ -281,7 +281,7 @@ class SizingTask:
 
     @property
     def sags(self) -> tuple[float, float]:
-        """Of carry and return strand, over the distance of the sets [-]."""
+        """Sag of carry and return strand over the spacing of sets [-]."""
         return si(self.rules.carry_sag), si(self.rules.return_sag)
 
     @property
@@ -291,7 +291,7 @@ class SizingTask:
 
     @property
     def efficiency(self) -> float:
-        """[-]."""
+        """Efficiency of the drives [-]."""
         return si(self.rules.efficiency)
 
     @cached_property
@@ -301,70 +301,70 @@ class SizingTask:
 
     @property
     def _motors(self) -> tuple[float, ...]:
-        """[W]."""
+        """Rated motor powers of the series [W]."""
         return NEMA_MOTORS if self.duty.series == "US" else MOTOR_SERIES
 
     @property
     def _largest_motor(self) -> float:
-        """That the rules allow and the series has [W]; the rule itself where the series has none so small."""
+        """Largest motor of the series allowed by the rules [W]; the limit itself if below the series."""
         most = si(self.rules.largest_motor)
         return max((each for each in self._motors if within(each, most)), default=most)
 
     @property
     def largest_drive(self) -> float:
-        """All motors of a pulley, the largest of them [W]."""
+        """Largest power of all motors of a pulley [W]."""
         return self.rules.motors_per_pulley * self._largest_motor
 
     def motors(self, power: float) -> float:
-        """The fewest and smallest equal ones of a pulley with the reserve of the rules, together [W]."""
+        """Total power of the fewest, smallest equal motors of a pulley, with the reserve of the rules [W]."""
         count = self.motor_count(power * self.rules.motor_reserve)
         return count * next_motor(power / count, reserve=self.rules.motor_reserve, series=self._motors)
 
     def motor_count(self, rated: float) -> int:
-        """Equal motors of a pulley for a rated power [W]."""
+        """Number of equal motors of a pulley for a rated power [W]."""
         return max(1, math.ceil(round(rated / self._largest_motor, 9)))
 
     @property
     def take_up_travel(self) -> float:
-        """Longest of a take-up [m]."""
+        """Longest travel of a take-up [m]."""
         return si(self.rules.take_up_travel)
 
     @property
     def take_up_strain(self) -> float:
-        """Strain of the loop that the take-up's travel holds beside the reserve [-]."""
+        """Strain of the loop that the take-up's travel allows after its reserve [-]."""
         return self.take_up_travel / (self.length * (1.0 + TRAVEL_RESERVE.value))
 
     def lasting_strain(self, kind: str) -> float:
-        """Permanent stretch of a kind of carcass, and what it grows between the temperatures of the duty [-]."""
+        """Permanent and thermal strain of a kind of carcass over the temperatures of the duty [-]."""
         if kind != "steel cord":
             return PERMANENT_STRETCH_TEXTILE.value
         return PERMANENT_STRETCH_STEEL_CORD.value + STEEL_EXPANSION.value * self.warmth
 
     @property
     def warmth(self) -> float:
-        """Between the coldest covers and those of the duty's temperature [K]."""
+        """Temperature difference from the coldest covers to those of the duty [K]."""
         coldest = self.duty.coldest
         return si(self.duty.ambient.belt) - si(coldest) if coldest is not None and self.cold else 0.0
 
     @property
     def kinds(self) -> tuple[str, ...]:
-        """Of carcasses to choose from."""
+        """Kinds of carcass to choose from."""
         return self.rules.carcasses
 
     @property
     def cold(self) -> bool:
-        """Whether motors and strength are for colder covers than the energy."""
+        """True if motors and strength are for colder covers than the energy."""
         coldest = self.duty.coldest
         return coldest is not None and si(coldest) < si(self.duty.ambient.belt)
 
     @cached_property
     def speeds(self) -> tuple[float, ...]:
-        """To choose from [m/s]."""
+        """Belt speeds to choose from [m/s]."""
         return tuple(map(si, self.rules.speeds or self.sizes.speeds))
 
     @cached_property
     def spacings(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        """To choose from, of carry and return sets [m]."""
+        """Spacings of carry and return sets to choose from [m]."""
         rules, wide = self.rules, ", US" if self.duty.series == "US" else ""
         if self.length >= _OVERLAND:
             wide = ", overland"
@@ -388,12 +388,12 @@ class SizingTask:
 
     @property
     def _trough_angles(self) -> Sequence[Quantity]:
-        """Those to choose from."""
+        """Trough angles to choose from."""
         return self.rules.trough_angles or self.sizes.trough_angles
 
     @cached_property
     def troughs(self) -> tuple[Trough, ...]:
-        """Widths that take the lumps, with every trough angle."""
+        """Belt widths that take the lumps, with every trough angle."""
         rules, surcharge = self.rules, self.duty.material.surcharge
         asked = [si(width) for width in rules.widths]
         lumps = least_width_for_lumps(si(self.duty.lump), surcharge_angle=surcharge, share=self.duty.lumps)
@@ -419,13 +419,13 @@ class SizingTask:
         return tuple(shapes)
 
     def refuse(self) -> NoReturn:
-        """Refuse what no belt, speed and rolls of the series take, with the rule that the last of them do not keep.
+        """Raise the error of a duty that no belt, speed and rolls satisfy, naming the rule that fails.
 
         Raises
         ------
         NoSolutionError
-            Lumps ask for a wider belt than the widest, or the flow for a faster or fuller one; the speeds are too fast,
-            the belts too wide for so little, their edges too narrow, or their rolls turn too fast.
+            No belt is wide enough for the lumps or fast and full enough for the flow; or speeds are too fast, belts too
+            wide, free edges too narrow, rolls too fast.
         """
         duty, rules, system = self.duty, self.rules, self.duty.report.units
         lumps = least_width_for_lumps(
@@ -493,12 +493,12 @@ class SizingTask:
         return self.flow / (self.density * speed) / trough.area
 
     def _full_enough(self, trough: Trough, speed: float) -> bool:
-        """Whether the rule of the least filling is kept, which the narrowest belt need not."""
+        """True if filled to the least filling of the rules; the narrowest belt is exempt."""
         narrowest = trough.width.belt == self.troughs[0].width.belt
         return narrowest or self._filled(trough, speed) >= si(self.rules.least_filling)
 
     def _edge(self, trough: Trough, speed: float) -> float:
-        """Belt free of bulk at either edge [m]."""
+        """Free edge of the belt on either side [m]."""
         under = filled_width(
             self.flow / (self.density * speed),
             middle_roll_length=trough.width.three,
@@ -508,7 +508,7 @@ class SizingTask:
         return 0.5 * (trough.width.belt - under)
 
     def allows(self, trough: Trough, speed: float) -> bool:
-        """Whether the rules allow a belt to be so fast."""
+        """True if the rules allow the belt speed [m/s]."""
         given = self.rules.fastest
         fastest = (
             si(given) if given else recommended_speed(trough.width.belt, abrasiveness=self.duty.abrasiveness)
@@ -516,7 +516,7 @@ class SizingTask:
         return within(speed, fastest)
 
     def filling(self, trough: Trough, speed: float) -> float | None:
-        """Share of the cross-section under bulk [-]; None where rules of speed, filling or edges are not kept."""
+        """Filling of the cross-section [-]; None where it breaks the rules of speed, filling or edges."""
         if not self.allows(trough, speed):
             return None
         filling = self._filled(trough, speed)
@@ -526,14 +526,14 @@ class SizingTask:
 
     @cached_property
     def rolls(self) -> tuple[RollSize, ...]:
-        """Of the library."""
+        """Roll sizes of the library."""
         return tuple(
             RollSize(si(row.diameter), si(row.wall), si(row.ends), si(row.dynamic_rating), row.cema_class)
             for row in self.sizes.rolls
         )
 
     def set_ratings(self, roll: RollSize, trough: Trough) -> tuple[float, float]:
-        """What carry and return sets of a roll's class bear [N]; infinite without a class, 0 where it has none."""
+        """Ratings of carry and return sets of a roll's class [N]; infinite without a class, 0 if it has no such set."""
         if roll.cema_class is None:
             return math.inf, math.inf
         count, _, vee = trough.width.return_rolls
@@ -545,21 +545,21 @@ class SizingTask:
 
     @cached_property
     def lump_factor(self) -> float:
-        """Load of the bulk on a rated set over the steady one [-]; 1 where none is printed for such lumps."""
+        """Lump factor on the bulk's load for set ratings [-]; 1 outside the printed table."""
         return usual_lump_factor(si(self.duty.lump), self.density) or 1.0
 
     def turns_slowly(self, roll: RollSize, speed: float) -> bool:
-        """Whether a roll keeps the rule of rotation."""
+        """True if a roll keeps the limit of rotation."""
         return speed / (math.pi * roll.diameter) <= si(self.rules.roll_rotation)
 
     @cached_property
     def carcasses(self) -> Mapping[str, tuple[CarcassClass, ...]]:
-        """Classes of each kind, the weakest first."""
+        """Carcass classes of each kind, the weakest first."""
         rows = {"EP": self.sizes.textile, "steel cord": self.sizes.steel_cord}
         return {kind: tuple(_carcass(kind, row) for row in rows[kind]) for kind in self.rules.carcasses}
 
     def wear(self, speed: float) -> float:
-        """Cover to be added against wear at a belt speed [m]."""
+        """Wear addition of the cover at a belt speed [m]."""
         duty = self.duty
         return wear_addition(
             lump=si(duty.lump),
@@ -576,21 +576,21 @@ class SizingTask:
 
     @property
     def cover_step(self) -> float:
-        """Of the thickness of covers [m]."""
+        """Step of cover thickness [m]."""
         return si(self.sizes.cover_step)
 
     def worn_covers(self, carcass: CarcassClass, addition: float) -> tuple[float, float]:
-        """Top and bottom cover with an addition against wear, on steps of the series; at most 3 to 1 [m]."""
+        """Top and bottom cover with a wear addition, on steps of the series; at most 3 to 1 [m]."""
         step, least = self.cover_step, carcass.least_cover
         top = _stepped(least + addition, step)
         return top, _stepped(max(least, top / 3.0), step)
 
     def drive_diameter(self, carcass: CarcassClass) -> float:
-        """Least diameter of a drive pulley of the series [m]; beyond the series what the carcass asks for."""
+        """Diameter of a drive pulley [m]: the next of the series; beyond it the carcass's least."""
         return self._pulley_diameter(carcass.least_pulley)
 
     def bend_diameter(self, carcass: CarcassClass) -> float:
-        """The same of tail and take-up."""
+        """Diameter of tail and take-up pulleys [m], likewise."""
         return self._pulley_diameter(pulley_group_diameter(carcass.least_pulley, group="B"))
 
     def _pulley_diameter(self, least: float) -> float:
@@ -603,7 +603,7 @@ class SizingTask:
         Raises
         ------
         InputError
-            The spec is refused: what the duty gives does not fit the choice.
+            The spec is invalid: the duty does not fit the choice.
         """
         duty, carcass, written = self.duty, chosen.carcass, self._written
         drive_diameter, bend_diameter = self.drive_diameter(carcass), self.bend_diameter(carcass)
@@ -654,16 +654,16 @@ class SizingTask:
         })  # fmt: skip
 
     def colder(self, conveyor: Conveyor) -> Conveyor:
-        """The same conveyor with its covers as cold as they get."""
+        """The conveyor with its covers at the coldest temperature."""
         return conveyor.replace(ambient=conveyor.ambient.replace(belt_temperature=self.duty.coldest))
 
     def pulley_mass(self, carcass: CarcassClass, width: float) -> float:
-        """Of head, take-up and tail pulley together [kg]."""
+        """Mass of head, take-up and tail pulley together [kg]."""
         bend = self.bend_diameter(carcass)
         return math.fsum(PULLEY_MASS * size**2 * width for size in (self.drive_diameter(carcass), bend, bend))
 
     def _written(self, value: float, unit: str, digits: int = 6) -> str:
-        """Number and unit as specs have them, the unit that of the series for a metric one."""
+        """Value and unit as spec text, in the unit of the series."""
         own = _US_UNITS.get(unit, unit) if self.duty.series == "US" else unit
         return f"{float(from_si(value, _KINDS[unit], own).magnitude):.{digits}g} {own}"
 
@@ -721,7 +721,7 @@ class SizingTask:
         return {**first, "further_drives": further} if further else first
 
     def _motored(self, rated: float) -> dict[str, Any]:
-        """Motors of a pulley with so much together [W]."""
+        """Spec fields of a pulley's motors of a total power [W]."""
         count = self.motor_count(rated)
         return {"installed_power": self._written(rated, "kW")} | ({"motors": count} if count > 1 else {})
 
@@ -749,7 +749,7 @@ _US_UNITS: Final = {
     "kg": "lb",
     "kg/m^2": "lb/ft^2",
 }
-"""ST classes are named by their strength in N/mm in the US, too."""
+"""ST classes keep N/mm in the US."""
 
 
 def _carcass(kind: str, row: CarcassRow) -> CarcassClass:
@@ -758,7 +758,7 @@ def _carcass(kind: str, row: CarcassRow) -> CarcassClass:
 
 
 def _class_load(cema_class: CemaClass, width: float, angle: float, rolls: int) -> float:
-    """What a set of a class bears [N]; 0 where the class has no such set."""
+    """Rating of a set of a class [N]; 0 where the class has no such set."""
     try:
         return rated_set_load(cema_class, belt_width=width, trough_angle=angle, rolls=rolls)
     except RangeError:
@@ -770,6 +770,6 @@ def _stepped(thickness: float, step: float) -> float:
 
 
 def spread(power: float, layout: DriveLayout) -> Sequence[float]:
-    """Power of each drive: one pulley, or several alike."""
+    """Power of each drive of a layout, equal shares [W]."""
     count = {"head": 1, "tail": 1, "head, two pulleys, and tail": 3}.get(layout, 2)
     return (power / count,) * count

@@ -1,4 +1,4 @@
-"""Idler sets on horizontal curves: what lies on them, what holds the belt there, how far it has drifted; SI."""
+"""Idler sets on horizontal curves: loads, guiding forces and drift of the belt; SI."""
 
 from __future__ import annotations
 
@@ -59,17 +59,17 @@ class Turn:
     Attributes
     ----------
     side : {"left", "right"}
-        Where the inside of the curve is, in running direction of the carry strand.
+        Inside of the curve, in running direction of the carry strand.
     radius, vertical, length : float
-        Of the curve; of a vertical curve in the same place, as of `RouteSection`; of the section [m].
+        Radius of the curve; that of a vertical curve in the same section, as in `RouteSection`; section length [m].
     banking, skew, trough_angle, inner_angle, tilt_angle, roll_length : float
-        Of the sets; of the inner wing rolls of four and five [rad, rad, rad, rad, rad, m].
+        Geometry of the sets; `inner_angle` of the inner wing rolls of four and five [rad, rad, rad, rad, rad, m].
     weights : tuple of RollLoad
         Weight on each roll of one set with the belt centred, inside roll first.
     drift : float
-        Of the belt to the inside in steady running [m].
+        Inward drift of the belt in steady running [m].
     wind : float
-        Of the wind across the belt on one set [N]; none under bulk.
+        Force of the wind across the belt on one set [N]; none under bulk.
     """
 
     side: str
@@ -88,17 +88,17 @@ class Turn:
 
     @property
     def flat(self) -> bool:
-        """Whether one roll bears the belt: nothing draws it back to the middle."""
+        """True for sets of one roll, without restoring force to the middle."""
         return len(self.weights) == 1
 
     @property
     def guided(self) -> bool:
-        """Whether friction across the rolls steers the belt."""
+        """True if friction across the rolls steers the belt."""
         return self.flat or self.skew != 0.0
 
     @property
     def room(self) -> float:
-        """Drift at which an edge of the belt comes to the end of its roll, or the other wing is bare [m]."""
+        """Drift at which an edge of the belt reaches the end of its roll, or the other wing is bare [m]."""
         on_roll = self.weights[0].length
         if self.flat:
             return 0.5 * (self.roll_length - on_roll)
@@ -111,7 +111,7 @@ class Turn:
 
     @property
     def slopes(self) -> tuple[float, ...]:
-        """Sine of each roll's slope, falling outward [-]: what pushes without friction."""
+        """Sine of each roll's slope, falling outward [-]: the push without friction."""
         if self.flat:
             return (math.sin(self.banking),)
         return self._pushed((0.0,) * len(self.weights))
@@ -126,11 +126,11 @@ class Turn:
 
     @cached_property
     def _laws(self) -> tuple[DriftLaw | FlatDrift, DriftLaw | FlatDrift]:
-        """How the set holds the belt by weight alone, at the full and the least friction."""
+        """Drift laws under weight alone, at the full and the least friction."""
         return self._law(self.weights, 1.0), self._law(self.weights, LEAST_GUIDANCE)
 
     def law(self, pressing: float, *, least: bool) -> DriftLaw | FlatDrift:
-        """How the set holds the belt, a vertical curve pressing on it [N], at the least or the full friction."""
+        """Drift law under weight and the force of a vertical curve [N], at the least or the full friction."""
         if pressing == 0.0:
             return self._laws[least]
         belt = math.fsum(load.belt_force for load in self.weights)
@@ -151,7 +151,7 @@ class Turn:
         return DriftLaw.of(loads, self._pushes(share))
 
     def _pushes(self, share: float) -> tuple[float, ...]:
-        """The outer rolls' tilt pushes to the middle, the set's skew outward; a wing's axis turns by cos λ of it."""
+        """Outward pushes from tilt of the outer rolls (inward) and skew of the set, by cos λ on wings."""
         angles = roll_angles(len(self.weights), trough_angle=self.trough_angle, inner_angle=self.inner_angle)
         tilts = [self.skew * math.cos(angle) for angle in angles]
         tilts[0] += self.tilt_angle
@@ -161,7 +161,7 @@ class Turn:
         return self._pushed(frictions)
 
     def guidance(self) -> float:
-        """Resistance of one set's skew: what its friction pushes outward, over the angle of set and belt [N]."""
+        """Resistance of one set's skew: outward guiding force times the sine of the angle of set and belt [N]."""
         law = self._laws[0]
         if isinstance(law, FlatDrift):
             return law.guiding(self.drift) * math.sin(self.skew + self.drift / self.length)
@@ -172,9 +172,9 @@ class Turn:
         return outward_force(loads, guided) * math.sin(self.skew)
 
     def drifted(self, loads: Loads) -> Loads:
-        """Loads of the rolls, left to right, once the belt has drifted.
+        """Loads of the rolls of a drifted belt, left to right.
 
-        The pull that the set balances there presses the belt into the inside wing and lifts it from the other.
+        The balanced pull presses the belt into the inside wing and lifts it from the other.
         """
         if self.flat:
             pull = self._laws[0].force(self.drift)
@@ -202,7 +202,7 @@ def turn(
     spacing: float,
     thickness: float,
 ) -> Turn:
-    """The sets of a strand on a curve under the weights of a centred belt, left to right."""
+    """Sets of a strand on a curve from the loads of a centred belt, left to right."""
     trough, inner = si(idlers.trough_angle), idlers.inner_wing.angle
     bare = all(load.bulk_force == 0.0 for load in loads)
     wind = 0.0

@@ -23,7 +23,7 @@ from conveyor.units.sentences import figure
 
 @dataclass(frozen=True)
 class TensionPoint:
-    """Tension at a place of the loop in steady running [N], and the least that the sag there allows [N]."""
+    """Tension at a place of the loop in steady running [N], and the least for the sag there [N]."""
 
     place: str
     distance: float
@@ -33,7 +33,7 @@ class TensionPoint:
 
 @dataclass(frozen=True)
 class Tensions:
-    """Tensions at the drive pulley [N]: steady, at start, and why the slack side is as it is."""
+    """Tensions at the drive pulleys, steady and at start, and extremes of the loop [N]; `governed_by` grip or sag."""
 
     tight: float
     slack: float
@@ -64,7 +64,7 @@ class Balance:
     unit_main : float
         Main resistance that DIN 22101 gives for f = 1 [N].
     settled : Settled
-        The loop itself: every drive, the take-up, the states that decide its setting.
+        Solved loop: every drive, the take-up, the states that decide its setting.
 
     Examples
     --------
@@ -92,7 +92,7 @@ class Balance:
 
     @property
     def frame(self) -> Frame:
-        """What stands where in the loop."""
+        """Layout of the loop."""
         return self.settled.frame
 
     @property
@@ -102,7 +102,7 @@ class Balance:
 
     @property
     def every(self) -> tuple[Force, ...]:
-        """All resistances, one list."""
+        """All resistances in one list."""
         return (*self.along, *self.singles)
 
     @cached_property
@@ -117,7 +117,7 @@ class Balance:
 
     @cached_property
     def tensions(self) -> Tensions:
-        """At the drives and the extremes of the loop."""
+        """Tensions at the drives and extremes of the loop."""
         steady, unsteady = self.settled.steady, self.settled.unsteady
         return Tensions(
             tight=max(drive.tight for drive in steady.drives),
@@ -130,7 +130,7 @@ class Balance:
 
     @cached_property
     def power(self) -> Power:
-        """In steady running."""
+        """Power in steady running."""
         line, force = self.line, self.settled.force
         mains = self.frame.mains(force)
         return Power(
@@ -149,7 +149,7 @@ class Balance:
 
     @cached_property
     def cema(self) -> CemaEstimate | None:
-        """Classic form of CEMA, where the spec gives its factors; its f is the one DIN 22101 would need."""
+        """Classic CEMA estimate, where the spec gives its factors; its f is the one DIN 22101 would need."""
         return cema(self.line, self.unit_main)
 
     @cached_property
@@ -158,7 +158,7 @@ class Balance:
         return tuple(_points(self.settled, self.settled.steady))
 
     def held(self, setting: float) -> Balance:
-        """The same forces along the belt with the take-up at a setting [N]."""
+        """The loop with the take-up at a setting [N]."""
         (found,) = held([self], self.settled.take_up._replace(tension=setting))
         return found
 
@@ -171,30 +171,30 @@ def balance(
     Parameters
     ----------
     frame : Frame
-        What stands where in the loop.
+        Layout of the loop.
     along : tuple of Force
         Forces along the belt.
     unit_main : float
         Main resistance for f = 1 [N].
     setting : float, optional
-        Of the take-up [N]; without it that of the spec, else the least that every state asks for.
+        Tension of the take-up [N]; by default that of the spec, else the least that serves every state.
 
     Raises
     ------
     NoSolutionError
-        The tensions do not settle (wraps that grow faster than the tension they need).
+        The tensions do not converge (wraps that grow faster than the tension they need).
     """
     (found,) = answers(balances([OpenLoop(frame, along, unit_main, setting)]))
     return found
 
 
 def held(loops: Iterable[Balance], kept: TakeUpSetting) -> list[Balance]:
-    """Loops under the same forces along their belts with the take-up at a setting."""
+    """Close the loops anew with the take-up at a setting."""
     return answers(balances([OpenLoop.of(one.frame, one.along, one.unit_main, kept) for one in loops]))
 
 
 def answers(found: Sequence[Balance | NoSolutionError]) -> list[Balance]:
-    """The loops that were closed; the first refusal is raised."""
+    """Raise the first error among results, else return them."""
     for one in found:
         if isinstance(one, NoSolutionError):
             raise one
@@ -213,14 +213,14 @@ class OpenLoop(NamedTuple):
     def of(
         cls, frame: Frame, along: tuple[Force, ...], unit_main: float, kept: TakeUpSetting | None
     ) -> OpenLoop:
-        """With the take-up at a setting, on its side of the drives."""
+        """Loop with the take-up at a setting, on its side of the drives."""
         if kept is None:
             return cls(frame, along, unit_main)
         return cls(frame.standing_on(behind=kept.behind), along, unit_main, kept.tension)
 
 
 def balances(asked: Sequence[OpenLoop]) -> list[Balance | NoSolutionError]:
-    """Close many loops, those that meet the same side by side; no answer depends on the others."""
+    """Close many loops, those of one plan in one batch; no result depends on the others."""
     alike: dict[tuple[object, ...], list[int]] = {}
     given = [one.frame.line.take_up.tension if one.setting is None else one.setting for one in asked]
     for i, (one, setting) in enumerate(zip(asked, given, strict=True)):
@@ -239,7 +239,7 @@ def balances(asked: Sequence[OpenLoop]) -> list[Balance | NoSolutionError]:
 
 
 def _further(one: OpenLoop) -> tuple[Force, ...]:
-    """Secondary resistances as a whole, where they are not itemised."""
+    """Secondary resistance by the length coefficient, where it is not itemised."""
     frame = one.frame
     return (
         (by_length_coefficient(frame.line, frame.landing, one.along),) if frame.line.secondary == "C" else ()

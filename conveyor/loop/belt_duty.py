@@ -1,4 +1,4 @@
-"""What the tensions ask of the belt: strength, pulley diameters, radii of vertical curves, lengths of transitions."""
+"""Requirements of the tensions on the belt: strength, pulley diameters, vertical curve radii, transition lengths."""
 
 from __future__ import annotations
 
@@ -38,14 +38,14 @@ from conveyor.loop.tensions import MotionState
 SNUB_WRAP = math.radians(30.0)
 """Wrap below which a pulley is of group C, DIN 22101 [rad]; general knowledge."""
 LEAST_EDGE_TENSION = 4.5e3
-"""Tension per width left in a strip that a curve slackens [N/m]; general knowledge."""
+"""Least tension per width of a strip slackened by a curve [N/m]; general knowledge."""
 
 
 @dataclass(frozen=True)
 class PulleyCheck:
-    """A pulley beside the least diameter its belt asks for [m]; `next_size` of the series, None beyond it.
+    """Diameter of a pulley and the least for its belt [m]; `next_size` of the series, None beyond it.
 
-    `utilisation`: tension there in steady running over the allowed one [-]; None where that is not known: 1 is taken.
+    `utilisation`: tension there in steady running over the allowed one [-]; None if unknown, then 1 is assumed.
     """
 
     name: str
@@ -58,28 +58,28 @@ class PulleyCheck:
 
     @property
     def large_enough(self) -> bool:
-        """Whether the belt bears it."""
+        """True if at least the least diameter."""
         return self.diameter >= self.least
 
 
 @dataclass(frozen=True)
 class CurveCheck:
-    """A vertical curve on one strand: its radius beside the least ones [m]; None where a figure for it is missing.
+    """Radius of a vertical curve on one strand and the least ones [m]; None where data are missing.
 
     Attributes
     ----------
     section, strand : str
-        Where.
+        Section and strand.
     kind : {"convex", "concave"}
         Hill or valley.
     radius : float
-        As given.
+        Radius of the spec.
     lowest, highest : float
         Tensions that occur in it [N].
     lift_off : float or None
-        At which the empty belt stays down, in the wind given; of concave curves.
+        Least radius at which the empty belt stays down in the given wind; concave curves only.
     overstress, buckling : float or None
-        At which no strip of the belt is overstressed or slack; infinite where no radius helps.
+        Least radii at which no strip of the belt is overstressed or slack; infinite where no radius helps.
     most, least : float or None
         Highest and lowest tension of a strip that occur on it [N/m].
     """
@@ -99,12 +99,12 @@ class CurveCheck:
 
 @dataclass(frozen=True)
 class TransitionCheck:
-    """A transition: its length beside the least ones [m]; None where a figure for it is missing.
+    """Length of a transition and the least ones [m]; None where data are missing.
 
     Attributes
     ----------
     zone : TransitionZone
-        As given.
+        Transition of the spec.
     lowest, highest : float
         Mean tensions of the belt that occur in it [N/m].
     allowed : float or None
@@ -114,7 +114,7 @@ class TransitionCheck:
     most, least : float or None
         Highest and lowest tension of a strip that occur over the given length [N/m].
     missing : str
-        What is not known, where something is.
+        Missing data, in words.
     """
 
     zone: TransitionZone
@@ -143,8 +143,8 @@ class BeltDuty:
     per_width_steady, per_width, rating : float
         Highest tension per width in steady running and in all states, and the belt's rated one [N/m]; None without.
     strength_needed : mapping of str to float
-        Strength class by the endurance of the splice, DIN 22101:2002, by what asks for it [N/m]: mean tension and
-        strips of transitions and curves in steady running, mean tension of all states; empty without the splice's.
+        Strength class by the endurance of the splice, DIN 22101:2002, by load [N/m]: mean tension and strips of
+        transitions and curves in steady running, mean tension of all states; empty without the splice's.
     pulleys : tuple of PulleyCheck
         Empty for carcasses without a rule.
     drive_diameter : float or None
@@ -152,7 +152,7 @@ class BeltDuty:
     curves : tuple of CurveCheck
         Every vertical curve on both strands.
     transitions : tuple of TransitionCheck
-        Those that the spec gives.
+        Transitions of the spec.
     """
 
     largest_steady: float
@@ -175,10 +175,10 @@ def belt_duty(balance: Balance, states: Sequence[MotionState] = ()) -> BeltDuty:
 
     Parameters
     ----------
-    found : Balance
+    balance : Balance
         The conveyor.
     states : sequence of MotionState, optional
-        For curves and transitions; without it those that decide the setting of the take-up.
+        States for curves and transitions; by default those that decide the setting of the take-up.
     """
     states = states or tuple(balance.settled.states.values())
     belt = balance.line.belt
@@ -207,7 +207,7 @@ def belt_duty(balance: Balance, states: Sequence[MotionState] = ()) -> BeltDuty:
 
 
 def _splice(balance: Balance, endurance: float) -> dict[str, float]:
-    """Strength class that the splice asks for [N/m], by what asks for it; a start may load it `RATED_START` times."""
+    """Strength class needed for the splice [N/m], by load; a start may load it `RATED_START` times."""
     belt, steady = balance.line.belt, [balance.settled.steady]
     zones = [_transition(balance.line, zone, steady).most for zone in balance.line.transitions]
     curves = [curve.most for curve in _curves(balance, steady)]
@@ -302,9 +302,9 @@ def _curves(balance: Balance, states: Sequence[MotionState]) -> Iterator[CurveCh
 def _strips(
     line: Line, stretch: Stretch, section: RouteSection, lowest: float, highest: float
 ) -> tuple[float | None, float | None, float | None, float | None]:
-    """Radii at which edges and middle of the belt bear the curve, and tensions that occur in them.
+    """Least radii against overstress and slack, and highest and lowest strip tension of a vertical curve.
 
-    None where stiffness or strength are not known.
+    None where stiffness or strength are unknown.
     """
     width, allowed, stiffness = line.belt.width, allowed_tension(line), line.belt.tensile_stiffness
     if allowed is None or stiffness is None:
@@ -334,13 +334,13 @@ def _strips(
 
 
 def allowed_tension(line: Line) -> float | None:
-    """Tension per width that the belt is rated for [N/m]; None without strength and rating."""
+    """Rated tension per width [N/m]; None without strength and rating."""
     belt = line.belt
     return belt.rating if belt.strength is None else belt.strength / _classic_safety(line)
 
 
 def lying(stretch: Stretch, width: float) -> TroughSection:
-    """Heights of a belt of a width in the trough of a stretch."""
+    """Cross-section of a belt of a width in the trough of a stretch."""
     return trough_section(
         width,
         middle_roll_length=stretch.idlers.middle_belt(width),
@@ -350,7 +350,7 @@ def lying(stretch: Stretch, width: float) -> TroughSection:
 
 
 def _transition(line: Line, zone: TransitionZone, states: Sequence[MotionState]) -> TransitionCheck:
-    """Least lengths of a transition of the carry strand for the tensions there in every state."""
+    """Check a transition of the carry strand for the tensions there in every state."""
     width, half = line.belt.width, line.count
     if zone.end == "head":
         stretch, tensions = line.loop.stretches[-1], [float(state.ends[-1]) for state in states]

@@ -1,7 +1,6 @@
-"""Where tension acts on the rolls and their resistance adds to the tension, until both agree.
+"""Coupling of tension and roll loads: tension loads the rolls, their resistance adds to the tension.
 
-On vertical curves it presses on them, on horizontal ones it draws the belt across; everywhere it holds a belt that
-gives.
+Tension presses on the rolls of vertical curves, draws the belt across on horizontal ones and holds a yielding belt.
 """
 
 from __future__ import annotations
@@ -27,18 +26,18 @@ MOST_STEPS = 40
 
 @dataclass(frozen=True)
 class Convergence:
-    """How the tensions and the rolls' loads settled.
+    """Convergence of tensions and roll loads.
 
     Attributes
     ----------
     steps : int
-        Times the rolls were loaded anew.
+        Number of iterations.
     change : float
-        Largest change of the tension where it acts in the last step, over the largest tension [-].
+        Largest change of tension on coupled stretches in the last step, over the largest tension [-].
     ratio : float
         Change of the last step over that of the step before [-]; below 1 it converges.
     bound : float
-        How far the tensions may still be off, change · ratio/(1 - ratio), over the largest tension [-].
+        Remaining error, change · ratio/(1 - ratio), over the largest tension [-].
     """
 
     steps: int
@@ -47,21 +46,21 @@ class Convergence:
     bound: float
 
     def settled(self, rtol: float) -> bool:
-        """Whether the tensions are known to a tolerance [-]; one step alone shows no ratio."""
+        """True if converged to a tolerance [-]; one step alone gives no ratio."""
         return self.steps > 1 and self.ratio < 1.0 and max(self.change, self.bound) <= rtol
 
 
 def converged(
     last: Convergence | None, before: MotionState, now: MotionState, line: Line, largest: float
 ) -> Convergence:
-    """Judge one more step of the iteration.
+    """Convergence after one more step of the iteration.
 
     Parameters
     ----------
     last : Convergence or None
-        Of the step before.
-    before, now : State
-        Steady running before the rolls were loaded anew, and after.
+        Convergence after the step before.
+    before, now : MotionState
+        Steady running before the step and after it.
     line : Line
         The conveyor.
     largest : float
@@ -86,7 +85,7 @@ def converged(
 
 
 def _acting(line: Line) -> NDArray[np.bool_]:
-    """Stretches whose rolls feel the tension, in loop order, shape (2n,)."""
+    """Mask of stretches whose roll loads depend on tension, in loop order, shape (2n,)."""
     curved = {section.name for section in line.sections if section.curved}
     return np.array([line.support == "belt" or stretch.section in curved for stretch in line.loop.stretches])
 
@@ -101,12 +100,12 @@ def pulls(line: Line, steady: MotionState, places: Array) -> Array:
     steady : MotionState
         Steady running.
     places : ndarray, shape (k,)
-        From a stretch's middle, over its length [-].
+        Distance from a stretch's middle over its length [-].
 
     Raises
     ------
     NoSolutionError
-        The belt would fly, or is slack.
+        The belt is slack, or its tension below m' v².
     """
     middle, rise = 0.5 * (steady.starts + steady.ends), steady.ends - steady.starts
     mass = np.array([stretch.line_mass for stretch in line.loop.stretches])
@@ -134,23 +133,23 @@ def _curve_tensions(line: Line, steady: MotionState) -> Iterator[tuple[Stretch, 
 
 
 def pull_inside(line: Line, stretch: Stretch, tension: float) -> float:
-    """What the tension draws one set's belt to the inside of a horizontal curve [N]; none on the straight."""
+    """Inward pull of the tension on one set of a horizontal curve [N]; 0 on the straight."""
     return 0.0 if stretch.turn is None else _on_set(line, stretch, tension, stretch.turn.radius)
 
 
 def pushed_down(line: Line, stretch: Stretch, tension: float) -> float:
-    """What it presses on one set of a horizontal curve that is vertical too [N]; negative where it lifts."""
+    """Downward push of the tension on one set of a horizontal curve that is vertical too [N]; negative: lift."""
     return 0.0 if stretch.turn is None else _on_set(line, stretch, tension, stretch.turn.vertical)
 
 
 def _on_set(line: Line, stretch: Stretch, tension: float, radius: float) -> float:
-    """Force of a curve on one set [N]; a belt bears no pressure, a slack one acts as one without tension."""
+    """Force of the tension on one set of a curve [N]; a slack belt counts as one without tension."""
     pull = effective_tension(max(0.0, tension), line_mass=stretch.line_mass, belt_speed=line.speed)
     return math.copysign(curve_set_force(abs(pull), radius=radius, spacing=stretch.spacing), pull * radius)
 
 
 def acting(line: Line, steady: MotionState) -> Acting:
-    """What the tensions of steady running do on curves."""
+    """Loads of the steady tensions on curves."""
     return Acting(pressing_masses(line, steady), drifts(line, steady))
 
 
@@ -176,7 +175,7 @@ def drifts(line: Line, steady: MotionState) -> dict[tuple[str, Strand], float]:
 
 
 def _runs_off(stretch: Stretch, radius: float, pull: float, law: DriftLaw | FlatDrift) -> NoSolutionError:
-    """What to say of a belt that nothing holds in its curve; the radius named would just hold it."""
+    """Error of a belt that runs off its rolls; the radius named would just hold it."""
     most = law.most
     way, cure, radii = "outside", "less banking or skew", list[Amount]()
     if pull > law.centred:
@@ -197,7 +196,7 @@ def _runs_off(stretch: Stretch, radius: float, pull: float, law: DriftLaw | Flat
 
 
 def pressing_masses(line: Line, steady: MotionState) -> dict[tuple[str, Strand], float]:
-    """Mass per length like which tension presses on the rolls of every curve [kg/m]; negative where it lifts."""
+    """Mass per length equivalent to the tension's push on the rolls of every curve [kg/m]; negative: lift."""
     pressing = {}
     for stretch, radius, tension in _curve_tensions(line, steady):
         pressing[stretch.section, stretch.strand] = curve_belt_mass(

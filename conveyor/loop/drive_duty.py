@@ -1,4 +1,4 @@
-"""What a load asks of the parts of every drive: gear, backstop, brake, starts an hour, sharing without control."""
+"""Loads on the parts of every drive: gear, backstop, brake, starts an hour, sharing without control."""
 
 from __future__ import annotations
 
@@ -36,17 +36,17 @@ class DriveDuty:
     Attributes
     ----------
     line : Line
-        What it drives.
+        The conveyor.
     drive : DriveUnit
-        Which.
+        The drive.
     parts : DriveParts
-        What the spec says of them.
+        Its parts in the spec.
     moving : Motions
         Start and stop of the conveyor.
     backstops : int
-        How many drives have one.
+        Number of drives with a backstop.
     shared : float or None
-        Its force in steady running where nothing but the belt couples the drives [N]; None without a diameter's loss.
+        Its steady force where only the belt couples the drives [N]; None without a diameter loss.
     """
 
     line: Line
@@ -58,32 +58,32 @@ class DriveDuty:
 
     @property
     def rotation(self) -> float | None:
-        """Of the pulley [1/s]; None without its diameter."""
+        """Rotation of the pulley [1/s]; None without its diameter."""
         radius = self.drive.radius
         return None if radius is None else self.line.speed / (2.0 * math.pi * radius)
 
     @property
     def ratio(self) -> float | None:
-        """Speed of the motor over that of the pulley [-], as given, else as the motors' speed asks for."""
+        """Speed of the motor over that of the pulley [-]: as given, else from the motor speed."""
         if self.parts.ratio is not None or self.parts.rotation is None or self.rotation is None:
             return self.parts.ratio
         return self.parts.rotation / self.rotation
 
     @property
     def standard_ratio(self) -> float | None:
-        """Preferred one nearest to it [-]."""
+        """Nearest preferred gear ratio [-]."""
         return None if self.ratio is None else nearest_ratio(self.ratio)
 
     @cached_property
     def gear(self) -> float | None:
-        """Size of a gear for one motor by its rated torque, of the preferred numbers [N m]; None without power."""
+        """Gear size for one motor by its rated torque, of the preferred numbers [N m]; None without power."""
         if self.drive.power is None or self.rotation is None:
             return None
         return next_preferred(gear_torque(self.drive.power / self.parts.motors, rotation=self.rotation))
 
     @cached_property
     def holding(self) -> float | None:
-        """Torque of its backstop that holds the loaded belt [N m]; None where it has none or nothing rolls back."""
+        """Backstop torque that holds the loaded belt [N m]; None without a backstop or roll-back."""
         radius, has = self.drive.radius, self.parts.backstop is not None or self.drive.backstop is True
         if radius is None or not has or not self.moving.rolls_back:
             return None
@@ -91,7 +91,7 @@ class DriveDuty:
 
     @cached_property
     def stalled(self) -> float | None:
-        """Torque at the pulley when its motors fail at their largest, the belt blocked [N m]; None where not known."""
+        """Torque at the pulley when motors trip at largest torque, the belt blocked [N m]; None if unknown."""
         if self.drive.power is None or self.drive.radius is None or not self.line.torque_curve:
             return None
         force = start_force(
@@ -104,12 +104,12 @@ class DriveDuty:
 
     @property
     def backstop(self) -> float | None:
-        """Torque to ask of its backstop [N m]."""
+        """Required backstop torque [N m]."""
         return None if self.holding is None else max(self.holding, self.stalled or 0.0)
 
     @cached_property
     def load_inertia(self) -> float | None:
-        """What one of its motors accelerates beside the drive, at its shaft [kg m²]; None without their speed."""
+        """Load inertia at the shaft of one motor [kg m²]; None without motor speed."""
         if self.parts.rotation is None:
             return None
         mass = self.moving.moving_mass * self.drive.share / self.parts.motors
@@ -117,7 +117,7 @@ class DriveDuty:
 
     @cached_property
     def allowed_starts(self) -> float | str | None:
-        """Starts an hour by NEMA [1/h], or why its table does not say; None where nothing is asked."""
+        """Starts an hour allowed by NEMA [1/h], or why unknown; None where none are required."""
         power, inertia, rotation = self.drive.power, self.load_inertia, self.parts.rotation
         if self.parts.starts is None or power is None or inertia is None or rotation is None:
             return None
@@ -131,21 +131,21 @@ class DriveDuty:
 
     @property
     def heat(self) -> float | None:
-        """Of its brake in a stop at the least certain friction [J]; None without a brake, or where it does not stop."""
+        """Brake heat of a stop at the least certain friction [J]; None without a brake or a stop."""
         if self.drive.brake is None or self.moving.braking_heat is None:
             return None
         return self.moving.braking_heat * self.drive.brake / math.fsum(self.line.brakes)
 
     @property
     def disc_rise(self) -> float | None:
-        """Of its brake's disc in such a stop [K]."""
+        """Temperature rise of the brake disc in that stop [K]."""
         if self.heat is None or self.parts.disc is None:
             return None
         return disc_rise(self.heat, mass=self.parts.disc)
 
 
 def drive_duty(balance: Balance, moving: Motions) -> tuple[DriveDuty, ...]:
-    """Of every drive; of none where the spec asks for no more than force and power."""
+    """Duties of every drive whose parts the spec gives."""
     line = balance.line
     backstops = sum(_has_backstop(drive) for drive in line.drives)
     shared = _shared(balance)
@@ -161,7 +161,7 @@ def _has_backstop(drive: DriveUnit) -> bool:
 
 
 def _shared(balance: Balance) -> tuple[float, ...] | None:
-    """Forces of several drives that only the belt couples [N]; None where no pulley is smaller than nominal."""
+    """Forces of several drives coupled by the belt alone [N]; None where no pulley is below nominal."""
     line, steady, stiffness = balance.line, balance.settled.steady, belt_stiffness(balance.line.belt)
     powers = [drive.power for drive in line.drives if drive.power is not None]
     smaller = any(drive.parts is not None and drive.parts.loss is not None for drive in line.drives)
@@ -184,10 +184,9 @@ def _over_nominal(drive: DriveUnit) -> float:
 
 
 def coasting_flywheel(line: Line, moving: Motions) -> float | None:
-    """Moment of inertia at the motors' shafts that lengthens coasting to the time wanted [kg m²].
+    """Flywheel inertia at the motor shafts for the required coasting time [kg m²].
 
-    None where no time is wanted, the belt does not stop by itself, or ratio and diameter of the first drive are not
-    known.
+    None where none is required, the belt does not stop by itself, or ratio or diameter of the first drive are unknown.
     """
     first, stopped = line.drives[0], moving.coasting
     ratio = None if first.parts is None else first.parts.ratio

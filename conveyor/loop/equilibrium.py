@@ -1,4 +1,4 @@
-"""Settles loops: wraps and pulley bearings depend on the tensions they add to, and one setting serves all states."""
+"""Equilibrium of loops: pulley resistances depend on the tensions, and one take-up setting serves all states."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ Array = NDArray[np.float64]
 
 _LOOP_STEPS = 200
 _LOOP_CLOSED = 1e-13  # relative change of the drive force; wraps add about 1e-3 of it per step
-_SHRINKS = 1.0 / 3.0  # q/(1 - q) of two changes of ratio q, half or less or turned: they lead somewhere
-_HELD = 1.0 - 1e-9  # of what is needed; a setting typed to the computed figure is not short of it
+_SHRINKS = 1.0 / 3.0  # |q|/(1 + |q|) at a ratio of two steps q = -1/2: within ±1/2 they converge
+_HELD = 1.0 - 1e-9  # of the tension needed; a setting typed with rounded digits still passes
 
 START, BRAKING, LEAST, LEAST_BRAKING, BRAKES = (
     "start",
@@ -34,22 +34,22 @@ COASTING = "drives off"
 
 
 def holds(setting: float, needed: float) -> bool:
-    """Whether a setting of the take-up is as much as is needed [N]; typed digits apart."""
+    """True if a tension is at least the one needed [N], within 1e-9."""
     return setting >= needed * (_HELD if needed > 0.0 else 1.0)
 
 
 @dataclass(frozen=True, eq=False)
 class Settled:
-    """A loop at rest with itself, one of those that were closed side by side.
+    """Equilibrium of one loop of a batch.
 
     Attributes
     ----------
     closed : Closed
-        All of them.
+        The batch.
     row : int
-        Which of them.
+        Index of the loop in the batch.
     points : tuple of Force
-        Forces at single places that no tension changes.
+        Forces at single places independent of tension.
     """
 
     closed: Closed
@@ -58,7 +58,7 @@ class Settled:
 
     @property
     def frame(self) -> Frame:
-        """What stands where."""
+        """Layout of the loop."""
         return self.closed.loops.frames[self.row]
 
     @property
@@ -68,11 +68,11 @@ class Settled:
 
     @property
     def mass(self) -> float:
-        """Of belt, bulk and rolls [kg]."""
+        """Moving mass of belt, bulk and rolls [kg]."""
         return float(self.closed.loops.mass[self.row])
 
     def resistance(self, friction: float) -> float:
-        """Drive force in steady running with a friction over the computed one; lift and the like alone at 0 [N]."""
+        """Steady drive force at a friction over the computed one [N]; at 0 lift and other certain forces alone."""
         return float(self.closed.loops.lift[self.row] + friction * self.closed.now.rubbing[self.row])
 
     @property
@@ -82,38 +82,38 @@ class Settled:
 
     @property
     def least_force(self) -> float:
-        """The same with the least certain friction [N]."""
+        """Drive force with the least certain friction [N]."""
         return self.resistance(self.line.least_friction)
 
     @property
     def setting(self) -> float:
-        """Tension the take-up holds [N]."""
+        """Setting of the take-up [N]."""
         return float(self.closed.setting[self.row])
 
     @property
     def take_up(self) -> TakeUpSetting:
-        """What the take-up keeps, and on which side of the drives where it stands on their slack side."""
+        """Setting of the take-up, and its side of the drives."""
         given = self.line.take_up.behind
         return TakeUpSetting(self.setting, self.force >= 0.0 if given is None else given)
 
     @property
     def needed(self) -> float:
-        """The least it should hold [N]."""
+        """Least setting that every state needs [N]."""
         return float(self.closed.needed[self.row])
 
     @property
     def given(self) -> bool:
-        """Whether the setting was given, by the spec or by other loads of the conveyor, and not looked for."""
+        """True if the setting was given by the spec or other loads, not solved for."""
         return self.closed.given
 
     @cached_property
     def bends(self) -> tuple[float, ...]:
-        """Wrap and bearings of every pulley together [N]."""
+        """Wrap and bearing resistance of every pulley together [N]."""
         return tuple(self.closed.pulleys[self.row].sum(axis=-1).tolist())
 
     @cached_property
     def singles(self) -> tuple[Force, ...]:
-        """Every force at a single place."""
+        """All forces at single places."""
         pairs = zip(self.frame.bends, self.closed.pulleys[self.row].tolist(), strict=True)
         return (*self.points, *(force for bend, newtons in pairs for force in bend.forces(*newtons)))
 
@@ -124,7 +124,7 @@ class Settled:
 
     @cached_property
     def _names(self) -> dict[str, int]:
-        """Numbers of the states that occur."""
+        """Indices of the states that occur, by name."""
         start = START if self.force >= 0.0 else BRAKING
         occurs = zip(self.closed.now.names, self.closed.now.occurs[self.row].tolist(), strict=True)
         return {start if kind == START else kind: k for k, (kind, here) in enumerate(occurs) if here}
@@ -141,7 +141,7 @@ class Settled:
 
     @cached_property
     def coasting(self) -> MotionState | None:
-        """Drives off, no brakes; None where the belt does not slow down."""
+        """State with drives off and no brakes; None where the belt does not slow down."""
         occurs, states = self.closed.off
         return states.state(self.row, 0, COASTING) if occurs[self.row] else None
 
@@ -152,14 +152,14 @@ class Settled:
 
     @cached_property
     def _governing(self) -> tuple[int, int]:
-        """State and condition that asks for the least setting."""
+        """Indices of the state and condition that govern the least setting."""
         asked = self.closed.asked[self.row]
         k, c = divmod(int(asked.argmax()), asked.shape[-1])
         return k, c
 
     @property
     def governed_by(self) -> str:
-        """What asks for the least setting: "grip" or "sag"."""
+        """Criterion that governs the least setting: "grip" or "sag"."""
         return "grip" if self._governing[1] < len(self.line.drives) else "sag"
 
     @property
@@ -169,7 +169,7 @@ class Settled:
         return self._condition(next(name for name, at in self._names.items() if at == k), c)
 
     def _condition(self, state: str, c: int) -> str:
-        """Condition c of a state for people: grip of the drives, then sag of the runs, where it is the slackest."""
+        """Name of condition c of a state: grip of a drive, or sag where a run is the slackest."""
         drives, k = self.line.drives, self._names[state]
         if c < len(drives):
             return f"grip, {drives[c].name}, {state}"
@@ -181,7 +181,7 @@ class Settled:
 
     @cached_property
     def conditions(self) -> dict[str, float]:
-        """Setting of the take-up that each condition asks for [N], by its name."""
+        """Least setting of the take-up for each condition [N], by its name."""
         return {
             self._condition(state, c): setting
             for state, k in self._names.items()
@@ -191,21 +191,21 @@ class Settled:
 
     @property
     def running(self) -> tuple[MotionState, ...]:
-        """States of even motion: in these the sag is looked at."""
+        """States of constant speed, in which the sag is checked."""
         return tuple(state for state in self.states.values() if state.acceleration == 0.0)
 
     @property
     def short(self) -> dict[str, float]:
-        """Conditions that ask for more than the take-up's setting, and for what [N]."""
+        """Conditions that need more than the take-up's setting, and what they need [N]."""
         return {name: needed for name, needed in self.conditions.items() if not holds(self.setting, needed)}
 
 
 @dataclass(frozen=True, eq=False)
 class Now:
-    """States of loops at given resistances of the pulleys; `START` is the braking of a belt that drives.
+    """States of loops at given pulley resistances; `START` is the braking of a belt that drives.
 
-    `resistance` is what the drives give in even motion at the friction of each, shape (b, m), and `rubbing` what of the
-    steady one friction makes, shape (b,) [N]; `occurs` says which of the states of those names there are, shape (b, m).
+    `resistance` is the drive force at constant speed at the friction of each state, shape (b, m), `rubbing` the
+    friction part of the steady one, shape (b,) [N]; `occurs` marks the states that exist, shape (b, m).
     """
 
     names: tuple[str, ...]
@@ -217,22 +217,22 @@ class Now:
 
 @dataclass(frozen=True, eq=False)
 class Closed:
-    """Loops at rest with themselves; the conveyors on the first axis, shape (b, ...).
+    """Equilibrium of a batch of loops; conveyors on the first axis, shape (b, ...).
 
     Attributes
     ----------
     loops, now : Loops, Now
-        What was closed, and the states that decide the settings.
+        The loops, and the states that decide the settings.
     asked : ndarray, shape (b, m, d + runs)
-        Setting that each condition asks for [N]; -inf of one that there is not.
+        Setting needed for each condition [N]; -inf for conditions that do not exist.
     setting, needed : ndarray, shape (b,)
-        Of the take-up, and the least it should be [N].
+        Setting of the take-up, and the least needed [N].
     bends : ndarray, shape (b, pulleys)
-        Resistances of the pulleys under which they are closed [N].
+        Resistance of every pulley at equilibrium [N].
     pulleys : ndarray, shape (b, pulleys, 2)
-        Wrap and bearings of every pulley [N].
+        Wrap and bearing resistance of every pulley [N].
     given : bool
-        Whether the settings were given.
+        True if the settings were given.
     """
 
     loops: Loops
@@ -246,7 +246,7 @@ class Closed:
 
     @cached_property
     def states(self) -> States:
-        """Their tensions."""
+        """Tensions of all states."""
         return States(self.now.moving, self.setting)
 
     @cached_property
@@ -256,7 +256,7 @@ class Closed:
 
     @cached_property
     def off(self) -> tuple[NDArray[np.bool_], States]:
-        """Whether they come to rest without drives and brakes, shape (b,), and that state."""
+        """Mask of loops that slow down without drives and brakes, shape (b,), and that state."""
         loops, now = self.loops, self.now
         drive = now.resistance[:, 0]
         occurs, acceleration, forces = _coasting(loops, drive, np.zeros_like(loops.standing.brakes))
@@ -267,25 +267,25 @@ class Closed:
 
 @np.errstate(over="ignore", invalid="ignore")  # of a row that grows until it is refused
 def settle(loops: Loops, given: Array | None = None) -> tuple[Closed, dict[int, NoSolutionError]]:
-    """Close loops of tensions around the forces along their belts, each as if it were alone.
+    """Solve the equilibrium of loops under the forces along their belts, each independently.
 
     Parameters
     ----------
     loops : Loops
         Loops of one plan under their forces.
     given : ndarray, shape (b,), optional
-        Settings of the take-ups [N]; without them the least that every state asks for.
+        Settings of the take-ups [N]; by default the least that serves every state.
 
     Returns
     -------
     tuple
-        The loops at rest, and why a row has no answer: its tensions do not settle (wraps that grow faster than the
-        tension they need).
+        The solved loops, and the error of each row that does not converge (wraps that grow faster than the tension
+        they need).
 
     Notes
     -----
-    A belt bears no pressure: where its tension comes out negative it bends round a pulley and loads its bearings as at
-    none. The tensions stay as they come out, below zero by what the take-up lacks.
+    Where the tension comes out negative the belt bends round pulleys and loads bearings as at zero tension. Tensions
+    are reported as they come out, below zero by what the take-up lacks.
     """
     kinds, b, whole = _Kinds(loops), len(loops.frames), np.abs(loops.along[:, :2, -1].sum(axis=-1))
     bends, drive = np.zeros((b, len(loops.plan.bends))), np.full(b, np.inf)
@@ -319,9 +319,9 @@ def _unsettled() -> NoSolutionError:
 
 
 def _further(last: tuple[Array, Array], step: tuple[Array, Array]) -> Array:
-    """Where two steps lead to: the secant along them (Anderson's mixing of depth one); the last where none shrink.
+    """Secant step (Anderson mixing of depth one), or the plain last step where steps do not shrink.
 
-    A step is what the pulleys' resistances become, and by how much they change.
+    A step is the new resistances of the pulleys and their change.
     """
     (before, was), (here, short) = last, step
     turned = short - was
@@ -334,9 +334,9 @@ def _further(last: tuple[Array, Array], step: tuple[Array, Array]) -> Array:
 def _pulleys(
     loops: Loops, moving: Moving, setting: Array, refused: dict[int, NoSolutionError]
 ) -> tuple[Array, Array]:
-    """Wrap and bearings of every pulley in steady running [N], shape (b, pulleys); refused are rows without end.
+    """Wrap and bearing resistance of every pulley in steady running [N], shape (b, pulleys).
 
-    Slack belt bends and loads as belt without tension.
+    Slack belt counts as belt without tension; rows that diverge are added to `refused`.
     """
     standing = loops.standing
     sides = (setting - moving.anchor[:, 0])[:, None, None] + moving.offsets[:, 0, loops.plan.sides]
@@ -358,7 +358,7 @@ def _pulleys(
 
 
 class _Kinds:
-    """The states that the grip of the drives has to hold in: the friction in each, and how it moves."""
+    """States in which the drives must grip: friction and motion of each."""
 
     def __init__(self, loops: Loops) -> None:
         self.loops, standing, pull = loops, loops.standing, loops.standing.pull
@@ -374,7 +374,7 @@ class _Kinds:
         self.shares, self.pushes = over[..., None] * pull.share[:, None], (over - 1.0) / loops.mass[:, None]
 
     def at(self, bends: Array) -> Now:
-        """The states at resistances of the pulleys [N], shape (b, pulleys)."""
+        """States at given pulley resistances [N], shape (b, pulleys)."""
         loops, standing = self.loops, self.loops.standing
         rubbing = loops.rubbing + bends.sum(axis=-1)
         resistance = loops.lift[:, None] + self.friction * rubbing[:, None]
@@ -395,7 +395,7 @@ class _Kinds:
 
 
 def _coasting(loops: Loops, resistance: Array, brakes: Array) -> tuple[NDArray[np.bool_], Array, Array]:
-    """Drives off, brakes on [N]: whether the belts slow down, their acceleration [m/s²], forces of the drives [N]."""
+    """With drives off and brakes on [N]: mask of belts that slow down, acceleration [m/s²], drive forces [N]."""
     own = loops.standing.pull.own
     retarding = resistance + brakes.sum(axis=-1)
     slowing = retarding / (loops.mass + own.sum(axis=-1))

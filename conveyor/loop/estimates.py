@@ -1,7 +1,7 @@
 """Classical estimates for the same spec: ISO 5048 / DIN 22101 with a given f, CEMA with a given Ky.
 
 CEMA: Kx computed, Ky, Kt, Ai, Cs from the user's copy of Belt Conveyors for Bulk Materials, 5th ed. 1997, chapter 6, as
-commonly reproduced; skirts, cleaners, ploughs and pulleys by its figures. Nothing of this calculation is in it.
+commonly reproduced; skirts, cleaners, ploughs and pulleys by its figures. Independent of the contact calculation.
 """
 
 from __future__ import annotations
@@ -51,14 +51,14 @@ class Classical:
 
 
 def classical(line: Line, forces: ForceSums, unit_main: float) -> Classical:
-    """F_U = C F_H + F_S + F_St; beyond the table of C the itemised secondary resistances stand in.
+    """F_U = C F_H + F_S + F_St; beyond the table of C with the itemised secondary resistances.
 
     Parameters
     ----------
     line : Line
-        With its f.
+        The conveyor, with its f.
     forces : ForceSums
-        Of this calculation: special, lift, itemised secondary resistances.
+        Special, lift and itemised secondary resistances of the calculation.
     unit_main : float
         Main resistance for f = 1 [N].
     """
@@ -80,8 +80,8 @@ def classical(line: Line, forces: ForceSums, unit_main: float) -> Classical:
 class CemaEstimate(Classical):
     """The classic form of CEMA, by cause [N].
 
-    `items` are symbol, words and force of everything in Te; `drive_pulleys` is what their bearings take of the motors
-    beside Te.
+    `items` are symbol, name and force of every part of Te; `drive_pulleys` is the bearing friction of drive pulleys, in
+    addition to Te.
     """
 
     items: tuple[tuple[str, str, float], ...]
@@ -94,16 +94,15 @@ def cema(line: Line, unit_main: float) -> CemaEstimate | None:
     Parameters
     ----------
     line : Line
-        With Ky, Kt, Ai and the figures of accessories; its loading points, cleaners, ploughs and pulleys.
+        The conveyor, with its CEMA factors, loading points, cleaners, ploughs and pulleys.
     unit_main : float
         Main resistance for f = 1 [N].
 
     Notes
     -----
-    Ky is one figure for the whole conveyor, though the book's table has one for each length, slope and load. Pulleys
-    are 200, 150 or 100 lbf by place unless given; of pulleys that are not listed there is nothing. Skirts are
-    the whole skirtboards, Lb of the book, the zone of acceleration too. Lengths are along the belt; the tilt of idlers
-    is in Kx.
+    Ky is one value for the whole conveyor, though the book's table has one for each length, slope and load. Pulleys
+    are 200, 150 or 100 lbf by position unless given; unlisted pulleys count nothing. Skirts are the whole skirtboards,
+    Lb of the book, with the zone of acceleration. Lengths are along the belt; Kx includes the tilt of idlers.
     """
     given = line.cema
     if given is None:
@@ -145,7 +144,7 @@ def cema(line: Line, unit_main: float) -> CemaEstimate | None:
 
 
 def _skirts(line: Line, given: CemaFactors) -> float:
-    """Skirts of every loading point; nothing lies on them of an empty belt, their seals rub all the same."""
+    """Skirt friction of all loading points; on an empty belt of the seals alone."""
     return math.fsum(
         cema_skirts(
             point.boards(line.speed, line.gravity),
@@ -183,7 +182,7 @@ def _acceleration(line: Line) -> float:
 
 
 def _place(pulley: BendPulley) -> Place:
-    """Tight side: head and carry strand; slack side: the rest."""
+    """CEMA place of a pulley; tight side: head and carry strand, slack side: the rest."""
     if pulley.wrap_angle < _LEAST_WRAP:
         return "other"
     return "tight" if pulley.position in {"head", "carry"} else "slack"

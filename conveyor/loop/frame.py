@@ -1,4 +1,4 @@
-"""What the loop of tensions has before the forces along the belt are known: spots, point forces, pulleys, drives."""
+"""Layout of the loop independent of the forces along the belt: positions, point forces, pulleys, drives."""
 
 from __future__ import annotations
 
@@ -23,32 +23,32 @@ Places = NDArray[np.intp]
 
 @dataclass(frozen=True, eq=False)
 class LoopPlan:
-    """What the belt meets round the loop from the head, numbered: runs of stretches, and what stands between them.
+    """Numbered sequence of runs, point forces, pulleys and drives round the loop from the head.
 
     Attributes
     ----------
     key : tuple
-        Equal for loops that meet the same in the same order: they are closed side by side.
+        Equal for loops of the same sequence, which are solved in one batch.
     count : int
-        How much it meets; place k is behind so much of it.
+        Number of items; place k is behind k items.
     boundaries : ndarray
-        Between the stretches, where anything stands.
+        Boundaries between stretches that have items.
     runs, spots, bends, drives : ndarray
-        Numbers of the runs between two boundaries, of the forces at each spot, of the pulleys that bend it, of drives.
+        Item numbers of the runs between boundaries, of the forces at each spot, of the pulleys, of the drives.
     driven : ndarray, shape (d, 2)
         Places before and behind every drive.
     sides : ndarray, shape (pulleys, k)
         Places whose tensions act on each pulley: of a driven one both sides of its drives.
     carried : ndarray of bool, shape (pulleys,)
-        Whether it has the take-up's tension instead.
+        True for pulleys with the take-up's tension instead.
     held : int or None
-        Place that the take-up holds; None on the slack side of the drives.
+        Place of the take-up; None on the slack side of the drives.
     station : tuple of int
-        Places before and behind the drives where the first one stands.
+        Places before and behind the drives at the first one's spot.
     head : int
-        Place before all that stands at the head.
+        Place before all items at the head.
     keeps_length : bool
-        Whether the take-up keeps the belt's length.
+        True if the take-up fixes the belt's length.
     """
 
     key: tuple[object, ...]
@@ -69,12 +69,12 @@ class LoopPlan:
 
 @dataclass(frozen=True, eq=False)
 class Standing:
-    """What does not change with the forces along the belt: of one loop; of loops of one plan with a leading axis.
+    """Constants of a loop independent of the forces along the belt; for loops of one plan with a leading axis.
 
     Attributes
     ----------
     met : ndarray, shape (3, count)
-        Forces at single places that no friction makes, those that it makes [N], and masses of the runs [kg].
+        Forces at single places without and with friction [N], and masses of the runs [kg].
     mass : ndarray, shape (2n + 1,)
         Running sum of the moving masses [kg].
     least, lengths : ndarray, shape (2n,)
@@ -84,9 +84,9 @@ class Standing:
     wrap, slope, bearings, pulley_mass, wrap_angle : ndarray, shape (pulleys,)
         Wrap without tension [N] and per newton of mean tension [-], bearings per newton of load [-], kg, rad.
     least_friction, gravity : ndarray, shape ()
-        Of the line.
+        Least friction over the computed one [-], gravity [m/s²].
     pull : Pull
-        What the drives can give at a start.
+        Forces of the drives at a start.
     """
 
     met: Array
@@ -106,12 +106,12 @@ class Standing:
 
     @classmethod
     def side_by_side(cls, several: Sequence[Self]) -> Self:
-        """Those of loops of one plan, one in a row."""
+        """Stack the constants of loops of one plan, one in each row."""
         unlike = {one: k for k, one in enumerate(dict.fromkeys(several))}
         rows = [unlike[one] for one in several]
 
         def stacked(parts: Sequence[Standing | Pull]) -> dict[str, Any]:
-            """Arrays of each in rows; what is no array is alike in all."""
+            """Stack arrays in rows; other values are equal in all."""
             columns = {name: [getattr(part, name) for part in parts] for name in vars(parts[0])}
             return {
                 name: _rows(column, rows) if isinstance(column[0], np.ndarray) else column[0]
@@ -122,30 +122,30 @@ class Standing:
 
 
 def _rows(column: Sequence[Array], rows: Sequence[int]) -> Array:
-    """Arrays in rows, some of them in several."""
+    """Stack arrays in the order of `rows`."""
     return column[0][None] if len(rows) == 1 else np.array(column)[rows]
 
 
 class TakeUpSetting(NamedTuple):
-    """What a take-up keeps [N]; of one on the slack side of the drives whether that is behind or before them."""
+    """Setting of a take-up [N]; on the slack side of the drives, True if that is behind them."""
 
     tension: float
     behind: bool
 
 
 class Frame:
-    """The loop of a line, ready for the forces along the belt; scenes that differ in rubber share it.
+    """Layout of a line's loop; shared by cases that differ in rubber.
 
     Attributes
     ----------
     line : Line
         The conveyor.
     points : tuple of Force
-        At single places, that no tension changes.
+        Forces at single places independent of tension.
     bends : tuple of Bend
         Pulleys that bend the belt.
     spots, boundaries : list
-        Where anything stands, as the belt meets it from the head.
+        Occupied positions and boundaries in running direction from the head.
     """
 
     def __init__(self, line: Line) -> None:
@@ -173,7 +173,7 @@ class Frame:
         self.standing = _standing(self)
 
     def standing_on(self, *, behind: bool) -> Frame:
-        """The same loop, its take-up behind the drives or before them if it stands on their slack side."""
+        """The loop with a slack-side take-up behind or before the drives."""
         unit = self.line.take_up
         if not unit.on_slack_side or unit.behind is behind:
             return self
@@ -182,13 +182,13 @@ class Frame:
         return made
 
     def of(self, line: Line) -> Frame:
-        """The same loop of a line whose rolls drag otherwise."""
+        """The loop of a line with other roll drags."""
         made = copy(self)
         made.line = line
         return made
 
     def scaled(self, change: Callable[[Force], Force]) -> Frame:
-        """The same loop with its forces at single places changed; a pulley's wrap and bearings alike."""
+        """The loop with its forces at single places changed; a pulley's wrap and bearings by one factor."""
         made = copy(self)
         made.points = tuple(map(change, self.points))
         units = (next(bend.forces(1.0, 1.0)) for bend in self.bends)
@@ -209,7 +209,7 @@ class Frame:
 
 
 def _plan(frame: Frame) -> LoopPlan:
-    """What the belt meets round a loop, place by place."""
+    """Number the items of a loop, place by place."""
     line, met = frame.line, 0
     runs, spots, drives = [], [], [0] * len(frame.line.drives)
     pulleys, sides = [0] * len(frame.bends), [[0]] * len(frame.bends)
@@ -259,7 +259,7 @@ def _plan(frame: Frame) -> LoopPlan:
 
 
 def _standing(frame: Frame) -> Standing:
-    """What stands round a loop, in the order of its plan."""
+    """Constants of a loop in the order of its plan."""
     line, plan = frame.line, frame.plan
     shape, pulleys = line.loop, [bend.pulley for bend in frame.bends]
     met = np.zeros((3, plan.count))

@@ -1,4 +1,4 @@
-"""Horizontal curves in every state of motion: how far the belt drifts, which radii hold it, what its edges bear."""
+"""Horizontal curves in every state of motion: drift of the belt, radii that hold it, tension of its edges."""
 
 from __future__ import annotations
 
@@ -24,17 +24,16 @@ class DriftState:
     Attributes
     ----------
     state : str
-        Of motion.
+        State of motion.
     lowest, highest : float
         Tensions in the curve [N].
     inside, outside : float
-        Drift to the inside at the highest tension with the least guiding friction, at the lowest with the full one (of
-        flat sets with the worse of both, at the end of the curve); with the wind the same way [m]. Negative outward,
-        infinite where the belt runs off its rolls.
+        Drift at the highest tension with the least guiding friction, and at the lowest with the full one (on flat sets
+        with the worse of both, at the end of the curve), the wind to the same side [m]. Negative outward, infinite
+        where the belt runs off its rolls.
     least, most : float
-        Radii at which the belt stays on its rolls [m]: below the least it drifts too far in, above the most too far
-        out.
-        Infinite where no radius is large enough, and where any is.
+        Range of radii at which the belt stays on its rolls [m]; `least` infinite where none is large enough, `most`
+        where none is too large.
     """
 
     state: str
@@ -53,14 +52,14 @@ class HorizontalCheck:
     Attributes
     ----------
     section, strand : str
-        Where.
+        Section and strand.
     turn : Turn
-        The curve and its sets.
+        Curve and its sets.
     states : tuple of DriftState
-        Every state of motion.
+        Drift in every state of motion.
     overstress, buckling : float or None
         Least radii at which the outer edge is not overstressed, the inner one not slack [m]; infinite where none helps,
-        None where stiffness or strength are not known.
+        None where stiffness or strength are unknown.
     most, least : float or None
         Highest tension of the outer edge, lowest of the inner one, over all states [N/m].
     """
@@ -76,34 +75,34 @@ class HorizontalCheck:
 
     @property
     def kind(self) -> str:
-        """What curve it is."""
+        """Kind of curve for reports."""
         return "horizontal"
 
     @property
     def radius(self) -> float:
-        """As given [m]."""
+        """Radius of the spec [m]."""
         return self.turn.radius
 
     @property
     def farthest_in(self) -> DriftState:
-        """The state that drifts farthest to the inside."""
+        """State of the largest inward drift."""
         return max(self.states, key=lambda state: (state.inside, state.least))
 
     @property
     def farthest_out(self) -> DriftState:
-        """The state that drifts farthest to the outside."""
+        """State of the largest outward drift."""
         return min(self.states, key=lambda state: (state.outside, state.most))
 
 
 def horizontal_checks(balance: Balance, states: Sequence[MotionState]) -> tuple[HorizontalCheck, ...]:
-    """Every horizontal curve on both strands in every state, carry strand first.
+    """Check every horizontal curve on both strands in every state, carry strand first.
 
     Parameters
     ----------
-    found : Balance
+    balance : Balance
         The conveyor.
     states : sequence of MotionState
-        Of it.
+        Its states of motion.
     """
     line, half, made = balance.line, balance.line.count, []
     for strand in (range(half, 2 * half), range(half)):
@@ -130,7 +129,7 @@ def _bend(
 
 
 def _entries(turn: Turn, before: HorizontalCheck | None, states: int) -> Sequence[tuple[float, float]]:
-    """How far inside and outside the belt comes into a curve: on flat sets as it left the curve right before."""
+    """Inward and outward drift at the start of a curve: on flat sets that at the end of the curve just before."""
     if before is None or not turn.flat:
         return [(0.0, 0.0)] * states
     if before.turn.side == turn.side:
@@ -166,14 +165,14 @@ def _state(
 
 
 def _radius(radius: float, pull: float, held: float) -> float:
-    """Radius at which a pull, which goes with 1/R, is what holds it: infinite where nothing does."""
+    """Radius at which a pull, proportional to 1/R, equals the holding force; infinite without one."""
     return math.inf if held <= 0.0 else radius * max(0.0, pull) / held
 
 
 def _edges(
     line: Line, stretch: Stretch, turn: Turn, lowest: float, highest: float
 ) -> tuple[float | None, float | None, float | None, float | None]:
-    """Radii that outer and inner edge bear, and their tensions; a vertical curve stretches or slackens both before."""
+    """Least radii for outer and inner edge, and their tensions, with the strain of a vertical curve."""
     width, allowed, stiffness = line.belt.width, allowed_tension(line), line.belt.tensile_stiffness
     if allowed is None or stiffness is None:
         return None, None, None, None

@@ -1,4 +1,4 @@
-"""What the belt asks of the pulleys: their loads in every state, shaft, bearings, lagging."""
+"""Loads of the pulleys in every state; their shafts, bearings and lagging."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ from conveyor.ties import largest, least
 
 @dataclass(frozen=True)
 class PulleyLoad:
-    """A pulley in a state: tensions before and behind it, resultant of belt and weight [N], torque of its shaft [N m].
+    """Load of a pulley in a state: tensions before and behind it, resultant with its weight [N], shaft torque [N m].
 
-    The resistance of bending belt and bearings is not in the difference of the tensions.
+    The difference of the tensions excludes the resistance of wrap and bearings.
     """
 
     state: str
@@ -44,11 +44,11 @@ class PulleyDuty:
     Attributes
     ----------
     pulley : BendPulley
-        Which.
+        The pulley.
     belt_width, belt_speed : float
-        [m, m/s].
+        Width [m] and speed [m/s] of the belt.
     loads : tuple of PulleyLoad
-        One a state of motion.
+        Load in each state of motion.
     """
 
     pulley: BendPulley
@@ -58,12 +58,12 @@ class PulleyDuty:
 
     @cached_property
     def steady(self) -> PulleyLoad:
-        """In steady running."""
+        """Load in steady running."""
         return next(load for load in self.loads if load.state == STEADY)
 
     @cached_property
     def largest(self) -> PulleyLoad:
-        """The state of the largest resultant."""
+        """Load of the largest resultant."""
         return largest(self.loads, lambda load: load.resultant)
 
     @property
@@ -73,7 +73,7 @@ class PulleyDuty:
 
     @property
     def rotation(self) -> float:
-        """Revolutions [1/s]."""
+        """Rotation [1/s]."""
         return self.belt_speed / (math.pi * self.pulley.diameter)
 
     @cached_property
@@ -103,7 +103,7 @@ class PulleyDuty:
 
     @cached_property
     def safety(self) -> tuple[float, str] | None:
-        """Least safety of the shaft [-] and its state; None without distances and steel."""
+        """Least safety of the shaft [-] and its state; None without distances or steel."""
         p = self.pulley
         if self.moment is None or p.shaft_steel is None:
             return None
@@ -148,7 +148,7 @@ class PulleyDuty:
 
     @property
     def bearing_seconds(self) -> float | None:
-        """The same [s]."""
+        """L10 of each bearing in steady running [s]; None likewise."""
         return None if self.bearing_hours is None else SECONDS_PER_HOUR * self.bearing_hours
 
 
@@ -168,7 +168,7 @@ def pulley_duty(balance: Balance, states: Sequence[MotionState]) -> tuple[Pulley
 
 
 def _load(line: Line, pulley: BendPulley, state: str, arriving: float, leaving: float) -> PulleyLoad:
-    """Of slack belt nothing but the weight is borne."""
+    """Load of a pulley in a state; slack belt adds nothing to its weight."""
     pull = pulley_load(
         tight_tension=max(arriving, leaving, 0.0),
         slack_tension=max(min(arriving, leaving), 0.0),
@@ -181,10 +181,10 @@ def _load(line: Line, pulley: BendPulley, state: str, arriving: float, leaving: 
 
 
 def sides(balance: Balance, i: int, state: MotionState) -> tuple[float, float]:
-    """Tensions before and behind the pulley of a number [N].
+    """Tensions before and behind pulley i [N].
 
-    Driven pulleys at one place are passed in the order listed: each by the drive of its number; where a drive stands on
-    several they share its force alike.
+    Driven pulleys at one place follow in the order listed, each with the drive of its number; where a drive has several
+    they share its force equally.
     """
     line, pulley = balance.line, balance.line.pulleys[i]
     if line.take_up.pulls(pulley):
@@ -198,7 +198,7 @@ def sides(balance: Balance, i: int, state: MotionState) -> tuple[float, float]:
 
 
 def _steps(balance: Balance, pulley: BendPulley, state: MotionState, count: int) -> Iterator[float]:
-    """Tension before the first of the driven pulleys at a place, and behind each."""
+    """Tension before the first of the driven pulleys at a place, then behind each."""
     sides = [
         side
         for drive, side in zip(balance.line.drives, state.drives, strict=True)

@@ -1,4 +1,4 @@
-"""Force of the drives on the belt at the start: asked for by a controlled start, or all that the motors give."""
+"""Drive forces at the start: those of a controlled start, or all that the motors give."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Pull:
-    """What the drives can give at a start; drives on the last axis, before it one of several loops.
+    """Force limits of the drives at a start; drives on the last axis, loops before it.
 
     Attributes
     ----------
     share, own : ndarray, shape (d,)
         Share of each drive in the whole force [-], its rotating masses at the belt [kg].
     least, most : ndarray, shape (d,)
-        Force of its motors at the belt at their least and largest torque [N]; infinite where not known.
+        Force of its motors at the belt at their least and largest torque [N]; infinite if unknown.
     factor : ndarray, shape ()
         Force of a controlled start over the steady one [-].
     kind : {"uncontrolled", "limited", "asked"}
-        Whether all that the motors give reaches the belt, what they can give is known, or is not.
+        Full motor force on the belt; controlled start with known motors; controlled start with unknown motors.
     """
 
     share: Array
@@ -39,7 +39,7 @@ class Pull:
 
     @classmethod
     def of(cls, line: Line) -> Pull:
-        """Those of a line."""
+        """Limits of a line's drives."""
         rated, torques = _rated(line), [torque for _, torque in line.torque_curve]
         least = most = unknown = np.full(len(line.drives), np.inf)
         if rated is not None and torques:
@@ -56,21 +56,21 @@ class Pull:
 
 @dataclass(frozen=True)
 class RunUp:
-    """A start, all drives together rigidly coupled by the belt.
+    """A start with all drives rigidly coupled by the belt.
 
     Attributes
     ----------
     forces : tuple of float
-        Of every drive on the belt at its largest [N], its own rotating masses accelerated too.
+        Largest force of every drive on the belt [N], net of its own rotating masses.
     acceleration : float
-        Of belt and bulk with them [m/s²].
+        Acceleration of belt and bulk under them [m/s²].
     factor : float
         Their sum over the steady force [-].
     asked : float or None
-        Force that a controlled start asks of the motors, referred to the belt [N]; None of an uncontrolled one.
+        Motor force needed for a controlled start, referred to the belt [N]; None for an uncontrolled one.
     rated, standstill, least, largest : float or None
-        Force of the motors at the belt [N]: rated, at rest, least and largest of the run-up; None where not known. Of
-        a controlled start the least is what they give while each keeps its share.
+        Force of the motors at the belt [N]: rated, at rest, least and largest of the run-up; None if unknown. In a
+        controlled start the least is that with each drive at its share.
     """
 
     forces: tuple[float, ...]
@@ -84,12 +84,12 @@ class RunUp:
 
     @property
     def force(self) -> float:
-        """Of all drives on the belt [N]."""
+        """Force of all drives on the belt [N]."""
         return math.fsum(self.forces)
 
 
 def run_up(line: Line, steady: float, mass: float) -> RunUp:
-    """How the conveyor starts under a load.
+    """Start of the conveyor under a load.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def run_up(line: Line, steady: float, mass: float) -> RunUp:
     steady : float
         Drive force in steady running [N], positive.
     mass : float
-        Of belt, bulk and rolls [kg].
+        Moving mass of belt, bulk and rolls [kg].
 
     Notes
     -----
@@ -130,7 +130,7 @@ def run_up(line: Line, steady: float, mass: float) -> RunUp:
 
 
 def uncontrolled(line: Line) -> bool:
-    """Whether a start takes all that the motors give, and not a multiple of the steady force."""
+    """True if a start takes the full motor force, not a multiple of the steady force."""
     return line.start_factor is None and _rated(line) is not None and bool(line.torque_curve)
 
 
@@ -147,19 +147,19 @@ def started(pull: Pull, steady: Array, mass: Array) -> tuple[Array, Array]:
 
 
 def rated_force(line: Line) -> float | None:
-    """Rated force of all motors at the belt [N]; None where a power is not known."""
+    """Rated force of all motors at the belt [N]; None if a power is unknown."""
     rated = _rated(line)
     return None if rated is None else math.fsum(rated)
 
 
 def asked_over_given(pull: Pull, steady: Array, mass: Array) -> Array:
-    """What a controlled start asks of the motors over what the weakest of them lets all give [-]; of kind "limited"."""
+    """Needed over available motor force of a controlled start of kind "limited" [-]; the weakest motor limits."""
     own, possible = pull.own.sum() / mass, _possible(pull, steady, mass)
     return np.asarray((pull.factor + (pull.factor - 1.0) * own) / (possible + (possible - 1.0) * own))
 
 
 def _possible(pull: Pull, steady: Array, mass: Array) -> Array:
-    """The same at which the weakest motor, at its least torque, still keeps its share; infinite where not known."""
+    """Largest start factor at which the weakest motor at its least torque keeps its share; infinite if unknown."""
     own = pull.own / mass[..., None]
     asked, given = pull.share + own, pull.least / steady[..., None] + own
     factors = np.divide(given, asked, out=np.full(given.shape, np.inf), where=asked > 0.0)
@@ -167,7 +167,7 @@ def _possible(pull: Pull, steady: Array, mass: Array) -> Array:
 
 
 def _rated(line: Line) -> list[float] | None:
-    """Rated force of every drive's motors at the belt [N]; None where a power is not known."""
+    """Rated force of every drive's motors at the belt [N]; None if a power is unknown."""
     powers = [drive.power for drive in line.drives if drive.power is not None]
     if len(powers) < len(line.drives):
         return None

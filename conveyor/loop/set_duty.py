@@ -1,4 +1,4 @@
-"""What load, speed and tensions ask of the idler sets: rating, axles, life, the belt's distance from resonance."""
+"""Duty of the idler sets: rated load, axles, life, the belt's distance from resonance."""
 
 from __future__ import annotations
 
@@ -15,21 +15,20 @@ from conveyor.loop.balance import Balance
 
 @dataclass(frozen=True, eq=False)
 class SetDuty:
-    """The sets of a stretch in steady running of one load.
+    """Duty of a stretch's sets in steady running under one load.
 
     Attributes
     ----------
     stretch : Stretch
-        Where.
+        The stretch.
     limits : SetLimits
-        What they bear, and their load as rated.
+        Limits of the sets, and their load as rated.
     life : SetLife or None
         L10 of all bearings of a set together; None without any.
     belt_speed : float
-        [m/s].
+        Speed of the belt [m/s].
     swings : tuple of float
-        First natural frequency of the belt between two sets where it enters and leaves the stretch [Hz]; 0 where its
-        tension is at most m' v², so that no wave stands.
+        First natural frequency of the belt between two sets at both ends of the stretch [Hz]; 0 at tensions to m' v².
     """
 
     stretch: Stretch
@@ -45,19 +44,19 @@ class SetDuty:
 
     @cached_property
     def rotations(self) -> tuple[float, float]:
-        """Slowest and fastest rolls [1/s]."""
+        """Rotation of the slowest and the fastest rolls [1/s]."""
         each = [self.belt_speed / (2.0 * math.pi * radius) for radius in self.stretch.radii]
         return min(each), max(each)
 
     @cached_property
     def distance(self) -> float:
-        """Of the rolls' rotation from resonance [-]; 0 where a span of the stretch resonates."""
+        """Distance of the rolls' rotation from resonance [-]; 0 where a span of the stretch resonates."""
         low, high = self.frequencies
         return min(resonance_distance(each, lowest=low, highest=high) for each in self.rotations)
 
     @cached_property
     def still_spacing(self) -> float | None:
-        """Widest spacing that is still by the distance wanted [m]; None where none is, or no distance is wanted."""
+        """Widest spacing with the required distance from resonance [m]; None without one or if none is required."""
         margin = self.limits.flap_margin
         if margin is None or self.frequencies[0] == 0.0:
             return None
@@ -67,14 +66,14 @@ class SetDuty:
 
     @property
     def still_diameter(self) -> float | None:
-        """Least diameter of all rolls that is still at the present spacing [m]; None likewise."""
+        """Least roll diameter with that distance at the present spacing [m]; None likewise."""
         if self.still_spacing is None:
             return None
         return 2.0 * min(self.stretch.radii) * self.stretch.spacing / self.still_spacing
 
 
 def set_duty(balance: Balance) -> tuple[SetDuty, ...]:
-    """Of every stretch whose spec asks for more of its sets than loads and drag, in loop order."""
+    """Set duties of every stretch whose spec gives set limits, in loop order."""
     line, steady = balance.line, balance.settled.steady
     return tuple(
         _duty(balance, stretch, float(start), float(end))
@@ -91,7 +90,7 @@ def _duty(balance: Balance, stretch: Stretch, start: float, end: float) -> SetDu
 
 
 def _swing(stretch: Stretch, tension: float, belt_speed: float) -> float:
-    """First natural frequency between two sets at a tension [Hz]; 0 where no wave stands."""
+    """First natural frequency between two sets at a tension [Hz]; 0 at tensions up to m' v²."""
     if tension <= stretch.line_mass * belt_speed**2:
         return 0.0
     return flap_frequency(

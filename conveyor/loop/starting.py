@@ -1,4 +1,4 @@
-"""Starting and stopping: accelerations, what motors and brakes have to give, and whether the bulk stays on the belt."""
+"""Starting and stopping: accelerations, forces of motors and brakes, slip of the bulk."""
 
 from __future__ import annotations
 
@@ -17,27 +17,27 @@ from conveyor.loop.tensions import MotionState
 
 @dataclass(frozen=True)
 class Start:
-    """The start [N, m/s², s]; of a regenerative conveyor its braking at the start factor.
+    """The start [N, m/s², s]; for a regenerative conveyor its braking at the start factor.
 
     Attributes
     ----------
     force : float
-        Of all drives on the belt at its largest.
+        Largest force of all drives on the belt.
     acceleration, time : float
-        Of belt and bulk with it; until full speed, None where the motors do not reach it.
+        Acceleration of belt and bulk under it; time to full speed, None if not reached.
     factor : float
-        That force over the one in steady running.
+        That force over the steady one.
     torque_factor : float or None
-        Motor torque over the rated one for it, rotating masses of the drives included; None without installed power.
+        Motor torque needed over the rated one, rotating masses included; None without installed power.
     asked : float or None
-        Force a controlled start asks of the motors, those masses included; None of an uncontrolled one.
+        Motor force needed for a controlled start, rotating masses included; None for an uncontrolled one.
     available, least : float or None
-        Force of the motors at the belt by their torque: largest and least of the run-up, the least of a controlled
-        start while each keeps its share.
+        Force of the motors at the belt by their torque: largest and least of the run-up; the least of a controlled
+        start with each drive at its share.
     standstill : float
-        Force on the belt at rest; of a controlled start with known motors at least their rated one.
+        Force on the belt at rest; in a controlled start with known motors at least their rated force.
     breakaway : float
-        Resistance with the rolls after standstill, at most.
+        Highest resistance after standstill.
     """
 
     force: float
@@ -71,14 +71,13 @@ class Motions:
     Attributes
     ----------
     moving_mass, rotating_mass : float
-        Of belt, bulk and rolls; of the drives, reduced to the belt [kg].
+        Mass of belt, bulk and rolls; that of the drives, reduced to the belt [kg].
     start : Start
-        With the spec's start factor.
+        Start at the spec's start factor.
     coasting, coasting_least : Stop or None
-        Without brakes, with the computed and the least certain friction; None where the belt does not stop by itself.
+        Stop without brakes, at computed and least certain friction; None where the belt does not stop by itself.
     braked : Stop or None
-        With the brakes of the spec and the least certain friction, after their delay; None without brakes or where they
-        do not stop it.
+        Stop with the brakes of the spec after their delay, at least certain friction; None without brakes or a stop.
     runaway : float or None
         Acceleration without power and brakes at the least certain friction [m/s²]; None where it does not run away.
     gripping_speed : float
@@ -86,16 +85,16 @@ class Motions:
     braking_heat : float or None
         Work of all brakes in the braked stop [J].
     brake_to_stop : float or None
-        Brake force at the belt for the deceleration wanted [N], at least certain friction; 0 where none is needed.
+        Brake force at the belt for the required deceleration [N], at least certain friction; 0 where none is needed.
     brake_to_hold : float
-        Force that holds the loaded belt at rest [N], at least certain friction; 0 where it stays by itself. Of a
-        brake on a downhill conveyor, of a backstop on an uphill one.
+        Force that holds the loaded belt at rest [N], at least certain friction, by a brake downhill or a backstop
+        uphill; 0 where it stays by itself.
     rolls_back : bool
-        Whether it is a backstop.
+        True if a backstop must hold it.
     slip : SlipLimits or None
-        None where nothing lies on the belt.
-    states : dict of str to State
-        Tensions without drives and brakes, beside the states of the balance.
+        Limits of bulk slip; None on an empty belt.
+    states : dict of str to MotionState
+        State without drives and brakes, in addition to those of the balance.
     """
 
     moving_mass: float
@@ -128,8 +127,8 @@ def motions(balance: Balance) -> Motions:
 
     Parameters
     ----------
-    found : Balance
-        Its forces, and the loop of its tensions.
+    balance : Balance
+        The conveyor.
     """
     settled, line = balance.settled, balance.line
     mass, rotating = settled.mass, math.fsum(drive.reduced_mass for drive in line.drives)
@@ -165,12 +164,12 @@ def motions(balance: Balance) -> Motions:
 
 
 def every_state(balance: Balance, moving: Motions) -> tuple[MotionState, ...]:
-    """Tensions in every state of motion: those that decide the take-up's setting, and those of stopping."""
+    """All states of motion: those that decide the take-up's setting, and coasting."""
     return (*balance.settled.states.values(), *moving.states.values())
 
 
 def _holding(lift: float, friction: float) -> tuple[float, bool]:
-    """Force that keeps the belt at rest, and whether it would roll back; friction acts against what gravity wants."""
+    """Force that keeps the belt at rest against gravity net of friction [N]; True if it would roll back."""
     return max(0.0, abs(lift) - friction), lift > 0.0
 
 
@@ -181,7 +180,7 @@ def _stop(speed: float, force: float, mass: float) -> Stop | None:
 def _braked(
     line: Line, least: float, brakes: float, mass: float, gripping: float
 ) -> tuple[Stop | None, float | None]:
-    """A stop with brakes that grip after a delay, from the speed the belt has by then, and their work [J]."""
+    """Stop with brakes that grip after a delay, and their work [J]."""
     if gripping == 0.0:  # the belt rests before they grip
         return _stop(line.speed, least, mass), 0.0
     made = _stop(gripping, least + brakes, mass)
@@ -228,7 +227,7 @@ def _start(balance: Balance, mass: float, rotating: float) -> Start:
 
 
 def _time(line: Line, rated: float, steady: float, mass: float) -> float | None:
-    """Run-up time by the torque curve [s]; None where the motors get stuck."""
+    """Run-up time by the torque curve [s]; None where the motors stall."""
     speeds = [line.speed * over for over, _ in line.torque_curve]
     forces = [torque * rated - steady for _, torque in line.torque_curve]
     try:

@@ -1,13 +1,12 @@
-"""The worst loading by superposition: forces add by section, so signs say which sections a figure wants loaded.
+"""Worst loading by superposition: forces add by section, so signs of coefficients tell which sections to load.
 
-Between the empty and the full belt every force along the belt, every mass and every feeding point belongs to a section
-that is loaded or not. In a state of motion a tension is then
+Every force along the belt, every mass and every feeding point belongs to a section that is loaded or not. In a state
+of motion a tension is then
 
     T = c + Σ xᵢ qᵢ + a (μ + Σ xᵢ μᵢ) + Σ ω_d F_d,    a = (ξ - 1) R/M  or  -(R + B)/(M + M_r),
 
-with xᵢ 0 or 1, and R, M and the drives' F of the same kind; of an uncontrolled start F_d and a are what the motors give
-at R and M. With a = 0 the signs of the coefficients are the answer; with it they are the beginning of an ascent by
-whole sections.
+with xᵢ 0 or 1, and R, M and the drives' F linear likewise; in an uncontrolled start F_d and a follow from the motors
+at R and M. With a = 0 the signs of the coefficients are the answer, else the start of an ascent by whole sections.
 """
 
 from __future__ import annotations
@@ -32,7 +31,7 @@ from conveyor.ties import largest
 
 Array = NDArray[np.float64]
 Loading = NDArray[np.bool_]
-"""Whether each section bears bulk, shape (n,)."""
+"""Mask of loaded sections, shape (n,)."""
 
 DRIVE_FORCE: Final = "drive force"
 LEAST_FORCE: Final = "least drive force"
@@ -40,17 +39,17 @@ TENSION: Final = "largest tension"
 TAKE_UP: Final = "tension of the take-up"
 HOLDING_BACK: Final = "holding force of a backstop"
 HOLDING_DOWN: Final = "holding force of a brake"
-_IF_ANY: Final = (LEAST_FORCE, HOLDING_BACK, HOLDING_DOWN)  # looked for where they are above 0
-_TRIED = 3  # places of the loop that the first estimate puts first
+_IF_ANY: Final = (LEAST_FORCE, HOLDING_BACK, HOLDING_DOWN)  # only where above 0
+_TRIED = 3  # highest places of the loop by the first estimate
 
 
 @dataclass(frozen=True, eq=False)
 class _Events:
-    """All that the belt meets round the loop from the head, in order; shape (e,).
+    """Runs, point forces, pulleys and drives round the loop from the head, in order; shape (e,).
 
-    Forces, their certain parts [N] and masses [kg] with the section empty, and what its bulk adds; `section` is -1
-    where it is none. `stretches` is where every stretch stands, shape (2n,), `drives` where every drive
-    does, `held` the place behind the take-up, `spots` the place before what stands at every spot.
+    Forces, their certain parts [N] and masses [kg] with the section empty, and the addition of its bulk; `section` is
+    -1 for none. `stretches` and `drives` are indices of every stretch, shape (2n,), and drive; `held` the place behind
+    the take-up, `spots` the place before every spot.
     """
 
     force: Array
@@ -66,17 +65,14 @@ class _Events:
     spots: tuple[int, ...]
 
     def by_section(self, values: Array, count: int) -> Array:
-        """Sum what belongs to each section, shape (n,)."""
+        """Sum values by section, shape (n,)."""
         held = self.section >= 0
         return np.bincount(self.section[held], weights=values[held], minlength=count).astype(float)
 
 
 @dataclass(frozen=True)
 class _State:
-    """A state of motion: friction over the computed one, drive force over the steady one; None with brakes alone.
-
-    A start of a belt that has to be pulled is that of `run_up`.
-    """
+    """A state of motion: friction over the computed one, drive force over the resistance; None with brakes alone."""
 
     name: str
     friction: float
@@ -85,7 +81,7 @@ class _State:
 
 @dataclass(frozen=True, eq=False)
 class _Sought:
-    """A figure in a state as a function of the loading: c + q·x + a (μ0 + μ·x) + Σ ω F + κ |F of a drive|."""
+    """A quantity in a state as a function of the loading: c + q·x + a (μ0 + μ·x) + Σ ω F + κ |F of a drive|."""
 
     state: _State
     base: float
@@ -97,12 +93,12 @@ class _Sought:
 
 
 class Loadings:
-    """The loads of one conveyor between empty and full.
+    """Loadings of one conveyor by section, between empty and full.
 
     Parameters
     ----------
     full, empty : Balance
-        Under bulk on every section and on none, the take-up at one setting.
+        Conveyor with bulk on every section and on none, the take-up at one setting.
     """
 
     def __init__(self, full: Balance, empty: Balance) -> None:
@@ -119,10 +115,10 @@ class Loadings:
         self.least, self.more_least = least[0], least[1] - least[0]
 
     def worst(self) -> dict[str, Loading]:
-        """Loading that is worst for each figure, by its name; none is beaten as far as single sections go.
+        """Worst loading for each figure, by its name; no change of a single section makes it worse.
 
-        The largest drive force, the least one where it is negative, the tension anywhere, the tension of the take-up,
-        what the grip of each of several drives asks of it, and the force that holds a belt which would roll off.
+        Figures are the largest drive force, the least one if negative, the largest tension, the tension of the take-up,
+        that needed for the grip of each of several drives, and the force that holds a belt at rest.
         """
         steady = self.resistance(1.0)[1]
         least = self.resistance(self.line.least_friction)[1]
@@ -150,12 +146,12 @@ class Loadings:
         return loadings
 
     def loaded(self, loading: Loading) -> Balance:
-        """The loop under one loading: forces of the full belt where it bears bulk, of the empty one elsewhere."""
+        """Balance under one loading: forces of the full belt on loaded sections, of the empty one elsewhere."""
         (made,) = answers(balances([self.open_loop(loading)]))
         return made
 
     def open_loop(self, loading: Loading) -> OpenLoop:
-        """The same, to be closed beside others at the setting of the take-up."""
+        """Loop under one loading, to be closed at the setting of the take-up."""
         line, count = self.line, self.count
         on = np.append(loading, np.ones(count, bool))
         pairs = zip(line.stretches, self.empty.line.stretches, on.tolist(), strict=True)
@@ -182,7 +178,7 @@ class Loadings:
         return OpenLoop(Frame(mixed), along, unit_main, self.setting)
 
     def figures(self, loading: Loading) -> dict[str, float]:
-        """What `worst` looks for under one loading [N]; the least drive force with its sign turned."""
+        """Figures of `worst` under one loading [N]; the least drive force with reversed sign."""
         asked: list[float] = []
         grips = [-math.inf] * len(self.line.drives)
         largest = -math.inf
@@ -216,7 +212,7 @@ class Loadings:
         return named
 
     def resistance(self, friction: float) -> tuple[float, Array]:
-        """Resistance of the empty belt [N], and what the bulk of each section adds, shape (n,)."""
+        """Resistance of the empty belt [N], and the addition of each section's bulk, shape (n,)."""
         known = self._resistances.get(friction)
         if known is None:
             known = self._resistances[friction] = self._resistance(friction)
@@ -230,7 +226,7 @@ class Loadings:
 
     @cached_property
     def at_rest(self) -> tuple[tuple[float, Array], tuple[float, Array]]:
-        """Lift, and what friction certainly holds [N]: of the empty belt, and what the bulk of each section adds."""
+        """Lift and least friction at rest [N]: of the empty belt, and the addition of each section's bulk."""
         (base, more), (certain, more_certain) = (
             self.resistance(self.line.least_friction),
             self.resistance(0.0),
@@ -243,7 +239,7 @@ class Loadings:
 
     @cached_property
     def standard(self) -> list[Loading]:
-        """All, none, those that rise, those that fall."""
+        """Standard loadings: all sections, none, inclines, declines."""
         rises = np.array([section.rise for section in self.line.sections])
         return [np.ones(self.count, bool), np.zeros(self.count, bool), rises > 0.0, rises < 0.0]
 
@@ -254,7 +250,7 @@ class Loadings:
 
     @cached_property
     def _states(self) -> tuple[_State, ...]:
-        """Every state of motion that may decide something; which occur depends on the loading."""
+        """States of motion that may govern; the loading decides which occur."""
         factor, certain = self.line.start_over_steady, self.line.least_friction
         states = [_State(STEADY, 1.0, 1.0), _State(START, 1.0, factor)]
         if certain < 1.0:
@@ -262,7 +258,7 @@ class Loadings:
         return (*states, _State(BRAKES, certain, None)) if self.brakes.any() else tuple(states)
 
     def _occurring(self, loading: Loading) -> Iterator[_State]:
-        """The states that decide the take-up's setting under a loading, as `settle` has them."""
+        """States that decide the take-up's setting under a loading, as in `settle`."""
         least = self._total(self.line.least_friction, loading)
         for state in self._states:
             if state.over is None:
@@ -282,7 +278,7 @@ class Loadings:
         return float(acceleration), np.asarray(forces)
 
     def _motion(self, state: _State, resistance: Array | float, mass: Array | float) -> tuple[Array, Array]:
-        """Acceleration and drives' forces, shape (d,) or (d, m), at one or many resistances and masses."""
+        """Acceleration and drive forces, shape (d,) or (d, m), at one or many resistances and masses."""
         resistance, mass = np.asarray(resistance), np.asarray(mass)
         if state.over is None:
             brakes = self.brakes if state.name == BRAKES else np.zeros_like(self.brakes)
@@ -309,7 +305,7 @@ class Loadings:
 
     @cached_property
     def _anchor(self) -> Array:
-        """Weights of the offsets whose sum the take-up holds, shape (e + 1,)."""
+        """Weights of the offsets whose sum the take-up fixes, shape (e + 1,)."""
         weights, line = np.zeros(self.events.force.size + 1), self.line
         if line.take_up.keeps_length:
             shares = line.loop.length / (2.0 * float(line.loop.way[-1]))
@@ -320,7 +316,7 @@ class Loadings:
         return weights
 
     def _candidates(self, state: _State) -> Iterator[_Sought]:
-        """Figures of a state that may be the worst somewhere: grips, and the places that come first by estimate."""
+        """Candidate figures of a state: grips, and the highest places by estimate."""
         for d, drive in enumerate(self.line.drives):
             grip = (grip_tension(1.0, friction=drive.friction, wrap_angle=drive.wrap_angle), d)
             for at in (self.drive_at[d], self.drive_at[d] + 1):
@@ -334,7 +330,7 @@ class Loadings:
                     yield self._sought(state, int(at), -1.0, stretch=k)
 
     def _estimates(self, state: _State) -> tuple[Array, Array]:
-        """Highest tension, and highest lack of it, at every place by sign at the full belt's acceleration [N]."""
+        """Estimates at every place by signs, at the full belt's acceleration: highest tension and shortfall [N]."""
         loading, events, anchor = self.standard[0], self.events, self._anchor
         acceleration, forces = self._moved(state, loading)
         total, more = self.resistance(state.friction)
@@ -375,7 +371,7 @@ class Loadings:
         grip: tuple[float, int] | None = None,
         stretch: int | None = None,
     ) -> _Sought:
-        """Tension at a place over what the take-up holds, or with sign -1 what it lacks there."""
+        """Tension at a place over the take-up's, or its shortfall there with sign -1."""
         events, weights = self.events, sign * self._weights(at)
         base = events.certain + state.friction * (events.force - events.certain)
         more = events.more_certain + state.friction * (events.more_force - events.more_certain)
@@ -396,14 +392,11 @@ class Loadings:
         )
 
     def _weights(self, at: int) -> Array:
-        """Of every event in the tension at a place over what the take-up holds, shape (e,).
-
-        The offset at a place is the sum of the events before it; so is every offset the take-up holds.
-        """
+        """Weight of every event in the tension at a place over the take-up's, shape (e,)."""
         return np.asarray((np.arange(self.events.force.size) < at) - _behind(self._anchor))
 
     def _ascent(self, sought: _Sought, loading: Loading) -> Loading:
-        """Change sections, all that gain together while that gains, then the one that gains most, until none does."""
+        """Ascent: change all sections that gain while that gains together, then the best one, until none gains."""
         here, together = self._values(sought, loading, self._unchanged)[0], True
         while True:
             values = self._values(sought, loading)
@@ -425,7 +418,7 @@ class Loadings:
         return np.zeros((1, self.count), bool)
 
     def _values(self, sought: _Sought, loading: Loading, changes: Loading | None = None) -> Array:
-        """The figure with each of several changes of a loading, without them with that of each section, shape (m,)."""
+        """Values of a figure with each change of a loading, by default of each single section, shape (m,)."""
         turn = None if changes is None else changes * np.where(loading, -1.0, 1.0)
 
         def changed(linear: tuple[float, Array]) -> Array:
@@ -446,31 +439,31 @@ class Loadings:
 
 
 def _behind(anchor: Array) -> Array:
-    """What the take-up holds of all places behind each event, shape (e,)."""
+    """Sum of the take-up's weights behind each event, shape (e,)."""
     return np.asarray(np.cumsum(anchor[::-1])[::-1][1:])
 
 
 def _column(values: Array, like: Array) -> Array:
-    """Values of the drives beside one or many of a state."""
+    """Values of the drives as a column where `like` is an array."""
     return values if like.ndim == 0 else values[:, None]
 
 
 def _may_not_sag(state: _State) -> bool:
-    """Whether the sag is looked at: not while starting or stopping."""
+    """True at constant speed, where the sag is limited."""
     return state.over == 1.0
 
 
 def _first(values: Array) -> list[int]:
-    """Places of the largest values."""
+    """Indices of the largest values."""
     return [int(k) for k in np.argsort(values)[::-1][:_TRIED]]
 
 
 _Row = tuple[float, float, float, float, float, float, int]
-"""Force, its certain part and mass of the empty belt, what the bulk adds to each, and the section it lies on."""
+"""Force, its certain part and mass of the empty belt, the bulk's addition to each, and its section."""
 
 
 def _events(full: Balance, empty: Balance) -> _Events:
-    """What the belt meets round the loop, in the order of `Loop.motion`."""
+    """Events round the loop from the head, in running direction."""
     line, frame, count = full.line, full.frame, full.line.count
     rows: list[_Row] = []
     stretches: list[int] = []
@@ -512,7 +505,7 @@ def _events(full: Balance, empty: Balance) -> _Events:
 
 
 def _along(balance: Balance) -> list[tuple[float, float, float] | None]:
-    """Force, its certain part and mass of every stretch in loop order."""
+    """Force, its certain part and mass of every stretch, in loop order."""
     count = balance.line.count
     force, certain = np.zeros(2 * count), np.zeros(2 * count)
     for each in balance.along:
@@ -524,7 +517,7 @@ def _along(balance: Balance) -> list[tuple[float, float, float] | None]:
 
 
 def _singles(full: Balance, empty: Balance, j: int) -> Iterator[_Row]:
-    """Forces at a spot: feeding points with the section they feed, the length coefficient by section, the rest."""
+    """Forces at a spot: of bulk with its section, of the length coefficient by section, and the rest."""
     frame = full.frame
     spot = frame.spots[j]
     always = math.fsum(
@@ -544,7 +537,7 @@ def _singles(full: Balance, empty: Balance, j: int) -> Iterator[_Row]:
 
 
 def _by_length(full: Balance, empty: Balance, total: float) -> Iterator[_Row]:
-    """Secondary resistance in proportion to the main one, by section."""
+    """Secondary resistance by section, in proportion to the main one."""
     laden, bare = (
         np.array([force.newtons for force in balance.along if force.kind == "main"]).sum(axis=0)
         for balance in (full, empty)

@@ -1,4 +1,4 @@
-"""One take-up for every load of a conveyor: its setting, its mass, its travel."""
+"""One take-up for all loads of a conveyor: setting, mass, travel."""
 
 from __future__ import annotations
 
@@ -21,39 +21,37 @@ from conveyor.loop.balance import Balance, held
 from conveyor.loop.tensions import MotionState
 from conveyor.ties import largest
 
-_STEPS = 50  # wraps add about 1e-3 of what they are bent by: a few are enough
-_SETTLED = (
-    1e-12  # of the setting: no check of a tension that is a small part of it, to 1e-9, fails by what is left
-)
+_STEPS = 50  # wraps add about 1e-3 of the tension: a few are enough
+_SETTLED = 1e-12  # of the setting: checks to 1e-9 pass also for tensions that are a small part of it
 
 
 @dataclass(frozen=True, eq=False)
 class TakeUpDuty:
-    """What the loads of a conveyor ask of its one take-up.
+    """Requirements of a conveyor's loads on its take-up.
 
     Attributes
     ----------
     unit : TakeUpUnit
         Kind, place, strands.
     setting, needed : float
-        Tension at its place, of one that keeps the belt's length the mean of the loop; the least it should be [N].
+        Tension there, or mean of the loop where it fixes the belt's length; the least needed [N].
     governing : int
-        Which load asks for it.
+        Index of the load that needs it.
     governed_by : str
-        The condition there.
+        Governing condition of that load.
     steady_means : tuple of float
         Lowest and highest mean tension of the loop in steady running [N].
     mass : float or None
-        Of a gravity take-up's weight [kg]; None where the belt's length is kept.
+        Mass of a gravity take-up's weight [kg]; None where the belt's length is fixed.
     warmth : float
-        Between the coldest and the warmest belt [K].
+        Temperature difference of the coldest and the warmest belt [K].
     travel : Travel or None
-        Of its carriage; None where the belt's stiffness is not known.
+        Travel of its carriage; None if the belt's stiffness is unknown.
     mean_change : float or None
-        Change of the mean tension that `warmth` makes where the belt's length is kept [N].
+        Change of the mean tension by `warmth` where the belt's length is fixed [N].
     speed : float or None
-        Of the carriage, to keep its tension through the hardest start [m/s]; None where the belt's length is kept or
-        its stiffness is not known.
+        Speed of the carriage that keeps the tension in the hardest start [m/s]; None where the belt's length is fixed
+        or its stiffness unknown.
     """
 
     unit: TakeUpUnit
@@ -70,7 +68,7 @@ class TakeUpDuty:
 
 
 def on_one_side(loops: Sequence[Balance]) -> list[Balance]:
-    """Loops at one setting, with a take-up on the slack side of the drives where that is under the first of them."""
+    """Put a slack-side take-up of all loops on the side of the drives it has in the first."""
     kept = loops[0].settled.take_up
     stand = all(one.frame.standing_on(behind=kept.behind) is one.frame for one in loops)
     return list(loops) if stand else held(loops, kept)
@@ -79,19 +77,19 @@ def on_one_side(loops: Sequence[Balance]) -> list[Balance]:
 def at_one_setting(loops: Sequence[Balance], asking: Sequence[bool] = ()) -> list[Balance]:
     """Close loops of one conveyor under several loads at the least setting of its take-up that serves them.
 
-    On the slack side of the drives it stands for all of them where that is under the first.
+    A take-up on the slack side of the drives has the side of the first load in all of them.
 
     Parameters
     ----------
     loops : sequence of Balance
-        Closed at whatever setting. Where the spec gives one they all have it already.
+        Loops closed at any setting; a setting of the spec they all have already.
     asking : sequence of bool
-        Which of them the setting must serve; the others are closed at it. All, where none is.
+        True for loads that the setting must serve; the others are closed at it. All loads if none is.
 
     Raises
     ------
     NoSolutionError
-        Every setting makes a load ask for more.
+        At every setting some load needs more.
     """
     if not loops:
         return []
@@ -114,16 +112,16 @@ def at_one_setting(loops: Sequence[Balance], asking: Sequence[bool] = ()) -> lis
 def take_up_duty(
     loops: Sequence[Balance], states: Sequence[Iterable[MotionState]], temperatures: Iterable[float]
 ) -> TakeUpDuty:
-    """What several loads ask of the take-up.
+    """Setting, mass and travel of the take-up for several loads.
 
     Parameters
     ----------
     loops : sequence of Balance
-        Of every load, at one setting.
+        Loop of every load, at one setting.
     states : sequence of iterable of MotionState
         Every state of motion under each load.
     temperatures : iterable of float
-        Of the belt [K].
+        Temperatures of the belt [K].
     """
     line = loops[0].line
     governing = largest(range(len(loops)), lambda i: loops[i].settled.needed)
@@ -165,7 +163,7 @@ def take_up_duty(
 
 
 def _speed(loops: Sequence[Balance], stiffness: float) -> float:
-    """Of the carriage in the start that asks for most [m/s]; 0 where nothing is accelerated."""
+    """Highest speed of the carriage in a start [m/s]; 0 without acceleration."""
     line, speeds = loops[0].line, [0.0]
     for loop in loops:
         start, lengths = loop.settled.unsteady, loop.line.loop.length
@@ -183,24 +181,24 @@ def _speed(loops: Sequence[Balance], stiffness: float) -> float:
 
 
 def weight_mass(line: Line, setting: float) -> float:
-    """Mass of a gravity take-up's weight at a setting [N] [kg]; none pulls where nothing is asked for."""
+    """Mass of a gravity take-up's weight [kg] at a setting [N]; 0 at a negative setting."""
     unit = line.take_up
     return take_up_mass(max(setting, 0.0), reeving=unit.reeving, gravity=line.gravity, strands=unit.strands)
 
 
 def belt_stiffness(belt: BeltBody) -> float | None:
-    """EA of the whole belt [N], as given or as is usual."""
+    """Tensile stiffness EA of the whole belt [N], given or usual."""
     per_width = belt.tensile_stiffness
     return None if per_width is None else per_width * belt.width
 
 
 def _permanent(belt: BeltBody) -> float:
-    """Lasting elongation [-], as given or as is usual."""
+    """Permanent elongation [-], given or usual."""
     if belt.permanent_stretch is not None:
         return belt.permanent_stretch
     return (PERMANENT_STRETCH_STEEL_CORD if belt.steel_cord else PERMANENT_STRETCH_TEXTILE).value
 
 
 def _expansion(belt: BeltBody) -> float:
-    """Of temperature [1/K]; textiles shrink as often as they grow, nothing usual is known."""
+    """Thermal expansion [1/K]; 0 for textiles, which shrink as often as they grow."""
     return STEEL_EXPANSION.value if belt.steel_cord else 0.0

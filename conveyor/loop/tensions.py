@@ -1,8 +1,8 @@
-"""Tensions round belts: offsets from resistances, masses and drives, and the level the take-up gives them.
+"""Tensions round belts: offsets by resistances, masses and drives, shifted to the setting of the take-up.
 
 The tension at a place in a state of motion is T = H + o - a: o the offset over the strand that leaves the head, a the
-offset of what the take-up holds (tension at its place, or the mean of the loop), H the setting, one for all states.
-Loops of one plan are worked out side by side, b of them in m states: no figure of one depends on the others.
+offset of the tension that the take-up fixes (at its place, or the mean of the loop), H its setting, one for all states.
+Loops of one plan are computed in one batch, b of them in m states: no result depends on the others.
 """
 
 from __future__ import annotations
@@ -49,11 +49,11 @@ class MotionState:
     Attributes
     ----------
     name : str
-        What moves how.
+        Name of the state.
     force : float
         Sum of the forces of all drives and brakes on the belt [N].
     acceleration : float
-        Of belt and bulk [m/s²].
+        Acceleration of belt and bulk [m/s²].
     friction : float
         Friction over the computed one [-].
     drives : tuple of DriveSide
@@ -61,11 +61,11 @@ class MotionState:
     starts, ends : Array
         Tension at both ends of every stretch, in loop order [N], shape (2n,).
     leaving, arriving : float
-        At the head, behind and before all that stands there [N].
+        Tension behind and before all items at the head [N].
     held : float
         Tension at the take-up [N].
     spots : tuple of float
-        Tension before what stands at every spot of the frame [N].
+        Tension before every spot of the frame [N].
     largest, smallest : float
         Highest and lowest tension round the loop [N].
     """
@@ -90,7 +90,7 @@ class MotionState:
 
     @property
     def slack(self) -> bool:
-        """Whether the belt is slack anywhere."""
+        """True if the belt is slack anywhere."""
         return self.smallest < 0.0
 
 
@@ -100,11 +100,11 @@ class Loops:
     Parameters
     ----------
     frames : sequence of Frame
-        What stands where.
+        Layout of each loop.
     along : sequence of sequence of Force
         Forces along each belt.
     further : sequence of sequence of Force
-        Forces at single places beside those of each frame.
+        Forces at single places in addition to those of each frame.
     """
 
     def __init__(
@@ -114,11 +114,11 @@ class Loops:
         self.standing = Standing.side_by_side([frame.standing for frame in frames])
         forces = np.roll([_summed(each, count) for each in along], count, axis=-1)
         self.along = np.zeros((len(frames), 3, 2 * count + 1))
-        """Running sums of the forces along the belt that no friction makes, of the others [N], and of the mass [kg]."""
+        """Running sums of the forces along the belt without and with friction [N], and of the mass [kg]."""
         np.cumsum(forces, axis=-1, out=self.along[:, :2, 1:])
         self.along[:, 2] = self.standing.mass
         self.met = self.standing.met.copy()
-        """Of these what the belt meets between two places of the plan, shape (b, 3, count)."""
+        """The same sums between two places of the plan, shape (b, 3, count)."""
         self.met[:, :2, self.plan.runs] = np.diff(self.along[:, :2, self.plan.boundaries])
         for met, frame, forces_there in zip(self.met, frames, further, strict=True):
             for force in forces_there:
@@ -147,18 +147,18 @@ class Loops:
     def moving(
         self, friction: Array, acceleration: Array, forces: Array, bends: Array, driving: NDArray[np.bool_]
     ) -> Moving:
-        """States in which every drive gives its force; they and the masses balance the resistances.
+        """Tension offsets of states with given drive forces, which balance resistances and inertia.
 
         Parameters
         ----------
         friction, acceleration : ndarray, shape (b, m)
-            Over the computed one [-]; of belt and bulk [m/s²].
+            Friction over the computed one [-]; acceleration of belt and bulk [m/s²].
         forces : ndarray, shape (b, m, d)
-            Of the drives [N].
+            Forces of the drives [N].
         bends : ndarray, shape (b, pulleys)
             Resistances of the pulleys [N].
         driving : ndarray, shape (b,)
-            Whether the drives pull in steady running: a take-up on their slack side stands there always.
+            True if the drives pull in steady running, which sets the side of a slack-side take-up.
         """
         plan = self.plan
         steps = _in_state(self.met, friction, acceleration)
@@ -177,7 +177,7 @@ class Loops:
         return Moving(self, friction, acceleration, forces, offsets, anchor)
 
     def sagging(self, friction: Array) -> Array:
-        """What the sag of each run asks for over the tension where it begins, in even motion [N], (b, m, runs)."""
+        """Tension needed for the sag of each run at its start, at constant speed [N], shape (b, m, runs)."""
         along, begins = _in_state(self.along, friction, np.zeros_like(friction)), self.plan.boundaries[:-1]
         needed = self.standing.least[:, None] - np.minimum(along[..., :-1], along[..., 1:])
         return np.maximum.reduceat(needed, begins, axis=-1) + along[..., begins]
@@ -185,9 +185,9 @@ class Loops:
 
 @dataclass(frozen=True, eq=False)
 class Moving:
-    """States of motion before the level of their tensions is known, as `Loops.moving` takes them.
+    """Tension offsets of states of motion, before the take-up's setting is known.
 
-    `offsets` are those of every place [N], shape (b, m, count + 1), `anchor` that of what the take-up holds.
+    `offsets` are those of every place [N], shape (b, m, count + 1), `anchor` that of the tension the take-up fixes.
     """
 
     loops: Loops
@@ -203,10 +203,7 @@ class Moving:
         return self.offsets[..., self.loops.plan.driven]
 
     def asked(self, sagging: Array) -> Array:
-        """Settings that states ask for: every drive grips, no run sags too much while even motion lasts [N].
-
-        Shape (b, m, d + runs).
-        """
+        """Settings needed for grip of every drive and sag of every run at constant speed [N], (b, m, d + runs)."""
         begun = self.offsets[..., self.loops.plan.runs]
         grip = np.abs(self.forces) * self.loops.standing.grip[:, None] - self.sides.min(axis=-1)
         sag = np.where(self.acceleration[..., None] == 0.0, sagging - begun, -np.inf)
@@ -214,7 +211,7 @@ class Moving:
 
     @cached_property
     def along(self) -> Array:
-        """Offsets along the belt [N], shape (b, m, 2n + 1), over the single forces before."""
+        """Offsets along the belt without point forces [N], shape (b, m, 2n + 1)."""
         return _in_state(self.loops.along, self.friction, self.acceleration)
 
 
@@ -275,7 +272,7 @@ class States:
 
 
 def _summed(along: Sequence[Force], count: int) -> Array:
-    """Forces along a belt of n sections that no friction makes, and the others, shape (2, 2n)."""
+    """Sums of the forces along a belt of n sections without and with friction, shape (2, 2n)."""
     sums = np.zeros((2, 2 * count))
     for force in along:
         sums[0 if force.certain else 1] += force.newtons
@@ -283,6 +280,6 @@ def _summed(along: Sequence[Force], count: int) -> Array:
 
 
 def _in_state(parts: Array, friction: Array, acceleration: Array) -> Array:
-    """Certain forces, those of friction and of masses in states, from shape (b, 3, n) to (b, m, n)."""
+    """Sum of certain, friction and inertia forces in states, from shape (b, 3, n) to (b, m, n)."""
     certain, uncertain, mass = (parts[:, None, k] for k in range(3))
     return certain + friction[..., None] * uncertain + acceleration[..., None] * mass

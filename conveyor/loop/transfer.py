@@ -1,4 +1,4 @@
-"""What happens where bulk lands and leaves: impact and skirts, what cleaners leave, the trajectory over the head."""
+"""Loading and discharge: impact and skirts, carryback behind cleaners, the trajectory over the head."""
 
 from __future__ import annotations
 
@@ -27,18 +27,18 @@ from conveyor.line.line import HeadDischarge, Line, LoadingPoint, Scraper
 
 @dataclass(frozen=True)
 class Landing:
-    """A loading point.
+    """Impact and skirts of a loading point.
 
     Attributes
     ----------
     point : LoadingPoint
-        Which.
+        The loading point.
     acceleration, usual_skirts : float
-        Length in which the bulk reaches the belt's speed, and of skirtboards by CEMA [m].
+        Length in which the bulk reaches the belt's speed, and length of skirtboards by CEMA [m].
     resting : float
         Weight of belt and bulk on a set there [N].
     stream, lump, energy : float or None
-        Force of the stream, of the heaviest lump [N], its energy [J]; None where the spec does not say what is needed.
+        Force of the stream, of the heaviest lump [N], its energy [J]; None where data are missing.
     """
 
     point: LoadingPoint
@@ -51,7 +51,7 @@ class Landing:
 
     @property
     def load(self) -> float | None:
-        """Highest of a set: what rests on it, with the stream or the lump, whichever is more [N]."""
+        """Highest load of a set [N]: resting weight plus the larger of stream and lump impact."""
         return None if self.stream is None else self.resting + max(self.stream, self.lump or 0.0)
 
     @property
@@ -61,7 +61,7 @@ class Landing:
 
 
 def landings(line: Line) -> tuple[Landing, ...]:
-    """Every loading point of a line."""
+    """Impact and skirts of every loading point."""
     return tuple(_landing(line, point) for point in line.loading)
 
 
@@ -90,7 +90,7 @@ def _landing(line: Line, point: LoadingPoint) -> Landing:
 
 @dataclass(frozen=True)
 class Cleaning:
-    """A cleaner or several alike: drag of one [N]; left on the belt behind the last [kg/m², kg/s], None not known."""
+    """One or more equal cleaners: drag of one [N]; carryback behind the last [kg/m², kg/s], None if unknown."""
 
     scraper: Scraper
     drag: float
@@ -99,7 +99,7 @@ class Cleaning:
 
 
 def cleanings(line: Line) -> tuple[Cleaning, ...]:
-    """Cleaners in the order in which the belt meets them."""
+    """Cleaners in running direction, with the carryback behind each."""
     left, made = line.carryback[0], []
     for scraper in line.scrapers:
         drag = cleaner_resistance(scraper.area, pressure=scraper.pressure, friction=scraper.friction)
@@ -113,24 +113,24 @@ def cleanings(line: Line) -> tuple[Cleaning, ...]:
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """The stream over the head pulley.
+    """Trajectory of the bulk over the head pulley.
 
     Attributes
     ----------
     head : HeadDischarge
-        Its pulley.
+        Discharge pulley.
     bulk : BulkOnPulley
-        As it lies on the belt there [m].
+        Cross-section of the bulk on the belt there [m].
     belt_radius, radius : float
-        Of the belt's outside, and of the centre of the bulk [m].
+        Radius of the belt's outside, and of the centre of the bulk [m].
     ratio : float
         V²/(g r) of that centre [-].
     angle, speed : float
-        Where it leaves, beyond the top of the pulley [rad], and how fast [m/s].
+        Angle at which it leaves, beyond the top of the pulley [rad], and its speed [m/s].
     fall, lower : Fall
-        Of the centre (CEMA), and of the lower edge with slip on the belt (Booth).
+        Path of the centre (CEMA), and of the lower edge with slip on the belt (Booth).
     slip : SlippingDischarge
-        Of that lower edge.
+        Slip of that lower edge.
     """
 
     head: HeadDischarge
@@ -146,12 +146,12 @@ class Trajectory:
 
     @property
     def wraps(self) -> bool:
-        """Whether the bulk is carried round part of the pulley."""
+        """True if the bulk is carried round part of the pulley."""
         return self.angle != -self.head.slope
 
 
 def trajectory(line: Line) -> Trajectory | None:
-    """Trajectory of what reaches the head; None where the spec does not ask for it, or nothing arrives.
+    """Trajectory of the bulk that reaches the head; None without `discharge` in the spec, or without bulk.
 
     Notes
     -----

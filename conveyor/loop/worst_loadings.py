@@ -1,9 +1,9 @@
-"""Loadings that a criterion may be worst under, the take-up at its setting.
+"""Worst loading of each criterion, the take-up at its setting.
 
-Every loading of a short route is looked at. Of a longer one those that signs say: a tension in even motion and the
-force that holds the belt are sums over the sections, what resistance and mass decide is worst at a corner of all their
-sums; then sections are changed one by one until no change makes a figure worse. Figures here are those of the criteria
-or rise with them; what a criterion says under a loading is its own to say.
+On a short route every loading is tried. On a longer one those by signs: a tension at constant speed and the holding
+force are sums over the sections, quantities of resistance and mass are worst at a corner of all their sums; then
+sections are changed one by one until no change makes a figure worse. Figures here equal those of the criteria or rise
+with them.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ from conveyor.loop.superposition import Array, Loading, Loadings
 from conveyor.loop.tensions import STEADY
 
 EVERY: Final = 10
-"""Sections up to which every loading is looked at."""
+"""Number of sections up to which every loading is tried."""
 ONE_BY_ONE: Final = 40
-"""Sections up to which they are changed one by one, and every curve and raised set is looked at."""
+"""Number of sections up to which they are changed one by one and every curve and raised set is evaluated."""
 _TRIED: Final = 3  # sections whose bulk slips first
 _ROUNDS: Final = 20  # of changes; every one makes a figure worse, and few take more than five
 _CORNERS: Final = (
@@ -43,14 +43,14 @@ _ALIKE: Final = 1e-9  # of a figure: rounding
 Flags = NDArray[np.bool_]
 """Loadings, one in a row, shape (m, n)."""
 Figures = dict[str, Array]
-"""What loadings make of each figure, shape (m,): the higher the worse, -inf where there is none."""
+"""Values of each figure under loadings, shape (m,): the higher the worse, -inf for none."""
 
 
 class CriterionLoadings(Loadings):
-    """The loadings of one conveyor between empty and full, and under which of them its criteria are worst."""
+    """Loadings of one conveyor between empty and full, and the worst of each criterion."""
 
     def worst_of_each(self) -> dict[str, tuple[float, Loading]]:
-        """The highest value of every figure and the first loading that has it, by the figure's name; SI."""
+        """Highest value of every figure and the first loading with it, by the figure's name; SI."""
         best: dict[str, tuple[float, Loading]] = {}
         known: set[bytes] = set()
         flags = self._first_tried()
@@ -72,7 +72,7 @@ class CriterionLoadings(Loadings):
         return best
 
     def _first_tried(self) -> Flags:
-        """All loadings of a short route, the standard ones first; of a long one those that signs say."""
+        """All loadings of a short route, the standard ones first; on a long one those by signs."""
         standard = np.array(self.standard)
         if self.count <= EVERY:
             every = np.array(list(itertools.product([True, False], repeat=self.count)))
@@ -83,7 +83,7 @@ class CriterionLoadings(Loadings):
         )
 
     def _corners(self) -> Flags:
-        """Loadings at the corners of all sums of resistance and mass, with what slips first and without what slides."""
+        """Loadings at corners of the sums of resistance and mass, with sections that slip first."""
         mass, rows = self._masses[1], list[Flags]()
         steady, least = (self.resistance(friction)[1] for friction in (1.0, self.line.least_friction))
         for more in (steady, least, steady + self._sticking[1]):
@@ -99,7 +99,7 @@ class CriterionLoadings(Loadings):
         return np.concatenate([corners, *((corners | one) & ~slides for one in first)])
 
     def _by_signs(self) -> Iterator[Loading]:
-        """Loadings with the highest and the lowest tension of even motion at every place that is looked at."""
+        """Loadings with the highest and the lowest tension at constant speed, at every place evaluated."""
         events = self.events
         everywhere = range(events.force.size + 1)
         places = everywhere if self.count <= ONE_BY_ONE else sorted(self._places)
@@ -115,7 +115,7 @@ class CriterionLoadings(Loadings):
 
     @cached_property
     def _places(self) -> set[int]:
-        """Places whose tension a criterion looks at."""
+        """Places whose tension a criterion uses."""
         places = {at for d in self.drive_at.tolist() for at in (d, d + 1)}
         places |= {at for several in self._pulleys.values() for at in several}
         for k in (*self._stretches, self.count, 2 * self.count - 1):
@@ -124,7 +124,7 @@ class CriterionLoadings(Loadings):
 
     @cached_property
     def _pulleys(self) -> dict[int, list[int]]:
-        """Places on both sides of every pulley that the belt's own tension acts on, by the pulley's number."""
+        """Places on both sides of every pulley without the take-up's tension, by the pulley's number."""
         line, places = self.line, {}
         for i, pulley in enumerate(line.pulleys):
             if line.take_up.pulls(pulley) or pulley.assumed:
@@ -137,7 +137,7 @@ class CriterionLoadings(Loadings):
 
     @cached_property
     def _stretches(self) -> tuple[int, ...]:
-        """Stretches, in loop order, on whose tension curves or raised sets depend."""
+        """Stretches with curves or raised sets, in loop order."""
         line = self.line
         if self.count > ONE_BY_ONE:
             return ()
@@ -150,7 +150,7 @@ class CriterionLoadings(Loadings):
 
     @cached_property
     def _sticking(self) -> tuple[float, Array]:
-        """What the drag of the rolls after standstill is over that in running [N], at most; as `at_rest`."""
+        """Addition to the drag of the rolls after standstill [N], at most; as in `at_rest`."""
         drags = []
         for one in (self.empty, self.full):
             (drag,) = (force.newtons for force in one.along if force.key == "idler_rotation")
@@ -161,7 +161,7 @@ class CriterionLoadings(Loadings):
 
     @cached_property
     def _slip_limits(self) -> tuple[Array, Array, Loading]:
-        """How hard each section may be slowed and accelerated until its bulk slips [m/s²]; which slip at any speed."""
+        """Deceleration and acceleration at which each section's bulk slips [m/s²]; mask of those that always slip."""
         slowing, starting = np.full((2, self.count), np.inf)
         slides = np.zeros(self.count, dtype=bool)
         for i, stretch in enumerate(self.full.line.stretches[: self.count]):
@@ -183,12 +183,12 @@ class CriterionLoadings(Loadings):
         Parameters
         ----------
         flags : ndarray of bool, shape (m, n)
-            Which sections bear bulk.
+            Masks of loaded sections.
 
         Returns
         -------
         dict of str to ndarray, shape (m,)
-            By their names; SI, the higher the worse, -inf where there is none.
+            Values by figure name; SI, the higher the worse, -inf for none.
         """
         return self._of_motion(flags) | self._of_tension(flags)
 
@@ -197,7 +197,7 @@ class CriterionLoadings(Loadings):
         return np.asarray(linear[0] + flags @ linear[1])
 
     def _of_motion(self, flags: Flags) -> Figures:
-        """Figures that resistance and mass alone decide."""
+        """Figures that depend on resistance and mass alone."""
         line, figures = self.line, Figures()
         steady, least = (self._sums(self.resistance(f), flags) for f in (1.0, line.least_friction))
         mass = self._sums(self._masses, flags)
@@ -236,7 +236,7 @@ class CriterionLoadings(Loadings):
         return figures
 
     def _of_tension(self, flags: Flags) -> Figures:
-        """Figures that tensions decide, in every state of motion that there is under each loading."""
+        """Figures that depend on tensions, in every state of motion that occurs under each loading."""
         line, figures = self.line, Figures()
         steady, least = (self._sums(self.resistance(f), flags) for f in (1.0, line.least_friction))
         mass, brakes = self._sums(self._masses, flags), float(self.brakes.sum())
@@ -283,7 +283,7 @@ class CriterionLoadings(Loadings):
         return figures
 
     def _over_the_take_up(self, friction: float, flags: Flags, acceleration: Array, forces: Array) -> Array:
-        """Tension before and behind every event over what the take-up holds [N], shape (m, e + 1)."""
+        """Tension before and behind every event over the take-up's [N], shape (m, e + 1)."""
         events = self.events
         step = events.certain + friction * (events.force - events.certain)
         more = events.more_certain + friction * (events.more_force - events.more_certain)
@@ -294,7 +294,7 @@ class CriterionLoadings(Loadings):
         return np.asarray(offsets - (offsets @ self._anchor)[:, None])
 
     def _of_places(self, tensions: Array, flags: Flags) -> Iterator[tuple[str, Array]]:
-        """Tensions of one state where criteria look at them; the lowest with their sign turned."""
+        """Tensions of one state that criteria use; the lowest with reversed sign."""
         yield "tension", tensions.max(axis=-1)
         yield "slack", -tensions.min(axis=-1)
         for i, places in self._pulleys.items():
@@ -317,7 +317,7 @@ class CriterionLoadings(Loadings):
                 yield f"least of transition, {end}", -there
 
     def _of_sag(self, low: Array, flags: Flags) -> Iterator[tuple[str, Array]]:
-        """Lowest tension over what the sag asks for, each strand, with its sign turned."""
+        """Lowest tension of each strand over that needed for the sag, with reversed sign."""
         on = np.column_stack([np.ones_like(flags), flags])
         over = low / (self.least + on * self.more_least)
         strands = [stretch.strand for stretch in self.line.loop.stretches]
@@ -329,7 +329,7 @@ class CriterionLoadings(Loadings):
 
 
 def _called(state: str, here: NDArray[np.bool_], steady: Array) -> Iterator[tuple[str, NDArray[np.bool_]]]:
-    """A state by its names, and where it has them: the start of a belt that drives is its braking."""
+    """Names of a state and masks of the loadings that have them: a belt that drives brakes instead of starting."""
     if state != START:
         yield state, here
     else:
@@ -338,10 +338,10 @@ def _called(state: str, here: NDArray[np.bool_], steady: Array) -> Iterator[tupl
 
 
 def _where(there: NDArray[np.bool_], values: Array) -> Array:
-    """Values where they are, else -inf."""
+    """Values where the mask is true, else -inf."""
     return np.where(there, values, -np.inf)
 
 
 def _distinct(flags: Flags) -> Flags:
-    """Loadings once each, in their order."""
+    """Distinct loadings in their order."""
     return np.array(list({row.tobytes(): row for row in flags}.values()))

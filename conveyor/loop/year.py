@@ -1,4 +1,4 @@
-"""What a year's energy costs: one rule for even hours, for a duty, and for comparisons of either."""
+"""Annual energy and its cost, for constant load or a duty."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ class Year:
 
 
 def year(operation: Operation, mains: float, flow: float) -> Year:
-    """A year of even hours at one power from the mains [W] and one mass flow [kg/s]."""
+    """Annual energy at one power from the mains [W] and one mass flow [kg/s]."""
     sums = duty_sums([DutyStep(time=operation.seconds_per_year, power=mains, mass_flow=flow)])
     currency = None if operation.price is None else operation.price.currency
     return Year(sums.net_kwh, year_cost(operation, sums), currency)
 
 
 def year_cost(operation: Operation, year: Duty) -> float | None:
-    """Cost of a year's energy; what is fed back earns the feed-in price, and nothing where the spec has none.
+    """Cost of a year's energy; energy fed back earns the feed-in price, or nothing without one.
 
     Parameters
     ----------
     operation : Operation
-        With the prices.
+        Operation, with the prices.
     year : Duty
         Energy drawn and fed back [kWh/a].
 
@@ -46,5 +46,5 @@ def year_cost(operation: Operation, year: Duty) -> float | None:
 
 
 def earns_nothing(operation: Operation | None) -> bool:
-    """Whether energy drawn has a price and energy fed back has none."""
+    """True if energy drawn has a price and energy fed back has none."""
     return operation is not None and operation.price is not None and operation.feed_in_price is None

@@ -1,1 +1,1 @@
-"""Tables of what was measured on conveyors and belts: power, rolling resistance."""
+"""Tables of measurements on conveyors and belts: power, rolling resistance."""

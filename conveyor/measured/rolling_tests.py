@@ -1,4 +1,4 @@
-"""Campaigns of rolling-resistance tests, .csv or .xlsx: units in the headers, one row a test point."""
+"""Tables of rolling-resistance tests, .csv or .xlsx: units in the headers, one row a test point."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _TESTS: Final = TableKind(
     'temperature [degC]"',
 )  # fmt: skip
 FORM: Final = "N per width"
-"""Sheet of the form that asks a belt maker for tests (`conveyor verify-sheet`)."""
+"""Sheet name of the test form for belt makers (`conveyor verify-sheet`)."""
 _ASKED: Final = re.compile(r"at (\S+) (\S+), ours \[.+\]")
 _OF_FORM: Final = {
     "cover": "cover thickness",
@@ -44,7 +44,7 @@ _OF_FORM: Final = {
     "belt speed": "speed",
     "temperature": "temperature",
 }
-"""Columns of the form, and what a table of tests calls them."""
+"""Columns of the form and their names in a table of tests."""
 _ONE_TEST: Final = (
     "roll_diameter", "cover_thickness", "speed", "temperature", "uncertainty", "shared_uncertainty", "specimen",
     "source", "note",
@@ -52,7 +52,7 @@ _ONE_TEST: Final = (
 
 
 def read_rolling_tests(path: str | Path, source: str | None = None) -> tuple[RollingTest, ...]:
-    """Read a campaign of rolling-resistance tests, as DIN 22123, AS 1334.13 or CEMA-7 laboratories deliver them.
+    """Read a table of rolling-resistance tests, as DIN 22123, AS 1334.13 or CEMA-7 laboratories deliver them.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def read_rolling_tests(path: str | Path, source: str | None = None) -> tuple[Rol
         Table with a header: ``line load``, ``resistance``, ``roll diameter``, ``cover thickness``, ``speed``,
         ``temperature``; further ``uncertainty`` (half-width that holds nine tenths of repeated tests), ``shared
         uncertainty`` (its part that all belts tested alike have in common), ``specimen`` (belt or rubber), ``source``,
-        ``note``. Units stand in the headers, as in ``line load [N/mm]``. Or the workbook
+        ``note``. Units are in the headers, as in ``line load [N/mm]``. Or the workbook
         of `conveyor.verify_sheet`, filled in by the maker.
     source : str, optional
         Of rows without one; the name of the file without it.
@@ -83,7 +83,7 @@ def read_rolling_tests(path: str | Path, source: str | None = None) -> tuple[Rol
 
 
 def _rows(path: str | Path) -> Iterator[MeasuredRow]:
-    """Rows of a table, or of a form filled in: at every line load those with a figure of the maker."""
+    """Rows of a table, or of a filled-in form: at every line load those with a figure of the maker."""
     grid = grid_of(path, _TESTS, form=FORM)
     start = next((k for k, line in enumerate(grid.lines) if line.cells[0] == "compound"), None)
     if grid.sheet != FORM or start is None:
@@ -115,7 +115,7 @@ def _rows(path: str | Path) -> Iterator[MeasuredRow]:
 
 
 def _pairs(grid: TextGrid, head: TextLine) -> dict[int, tuple[int, re.Match[str]]]:
-    """Columns of the maker, each with the one of ours before it, which says its line load."""
+    """Columns of the maker, each with our column before it, which gives its line load."""
     pairs: dict[int, tuple[int, re.Match[str]]] = {}
     ours: tuple[int, re.Match[str]] | None = None
     for at, name in enumerate(head.cells):
@@ -130,7 +130,7 @@ def _pairs(grid: TextGrid, head: TextLine) -> dict[int, tuple[int, re.Match[str]
 
 
 def _plausible(row: MeasuredRow) -> None:
-    """One row as a test of its own: a wrong unit is told at its row."""
+    """Check one row as a test of its own, so that a wrong unit is reported at its row."""
     try:
         _test([row], "row")
     except InputError as error:

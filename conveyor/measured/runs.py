@@ -33,7 +33,7 @@ def read_runs(path: str | Path) -> tuple[MeasuredRun, ...]:
     ----------
     path : str or Path
         Table with a header: ``motor power`` or ``mains power`` (or both, one of them filled in each row) and ``flow``;
-        further ``speed``, ``temperature``, ``air temperature``, ``standard deviation``, ``note``. Units stand in the
+        further ``speed``, ``temperature``, ``air temperature``, ``standard deviation``, ``note``. Units are in the
         headers, as in ``flow [t/h]``; the standard deviation is a power or a percentage of the row's.
 
     Returns

@@ -1,4 +1,4 @@
-"""Tables of measurements, .csv or .xlsx: units in the headers, one row a measurement; what is doubtful is refused."""
+"""Tables of measurements, .csv or .xlsx: units in the headers, one row a measurement; doubtful cells are refused."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _HEADER: Final = re.compile(r"\s*([^\[\]()]*?)\s*(?:[\[(]\s*(.*?)\s*[\])])?\s*")
 
 
 class Meant(NamedTuple):
-    """What a header means: a field, its kind of quantity ("" of text), and the kind that "%" is of, if it may be."""
+    """Meaning of a header: field, kind of quantity ("" for text), and the kind of "%", if allowed."""
 
     field: str
     kind: str
@@ -34,22 +34,22 @@ class Meant(NamedTuple):
 
 @dataclass(frozen=True)
 class TableKind:
-    """What a table of measurements holds.
+    """Description of a kind of table of measurements.
 
     Attributes
     ----------
     what : str
         "table of measured runs".
     one : str
-        What a row is: "run".
+        Noun of a row: "run".
     columns : mapping of str to Meant
         Headers without their unit, in small letters; several may mean one field.
     needed : mapping of str to str
-        Fields that a table and each of its rows must have, and what to call them.
+        Fields required in every row, and their names in messages.
     example : str
         A header.
     most_rows : int
-        More are refused.
+        Largest number of rows.
     """
 
     what: str
@@ -62,7 +62,7 @@ class TableKind:
 
 @dataclass(frozen=True)
 class MeasuredRow:
-    """A row: its quantities and texts by field, and where each stands."""
+    """A row: quantities and texts by field, and the column of each."""
 
     number: int
     given: Mapping[str, Any]
@@ -70,7 +70,7 @@ class MeasuredRow:
     grid: TextGrid
 
     def header(self, field: str) -> str:
-        """The name of a field's column, without its unit."""
+        """Name of a field's column, without its unit."""
         return self.heads[field].name
 
     def refusal(self, message: str, field: str | None = None) -> InputError:
@@ -82,7 +82,7 @@ class MeasuredRow:
 
 
 class _Head:
-    """A column: its index, its name, what it means, its unit."""
+    """A column: index, name, meaning, unit."""
 
     def __init__(self, index: int, header: str, kind: TableKind) -> None:
         match = _HEADER.fullmatch(header)
@@ -99,12 +99,12 @@ class _Head:
 
 
 def read_rows(path: str | Path, kind: TableKind) -> tuple[MeasuredRow, ...]:
-    """Read a table of measurements: text, or a workbook with one sheet of cells; a line names columns."""
+    """Read a table of measurements from text or from a workbook with one filled sheet."""
     return rows_of(grid_of(path, kind), kind)
 
 
 def rows_of(grid: TextGrid, kind: TableKind) -> tuple[MeasuredRow, ...]:
-    """Rows of a grid, below the first line that names two columns; what stands above is its title."""
+    """Rows of a grid below its header, the first line that names two columns."""
     lines = [line for line in grid.lines if not line.comment]
     lines = lines[next((k for k, line in enumerate(lines) if _is_header(line.cells, kind)), 0) :]
     if len(lines) < 2:
@@ -123,7 +123,7 @@ def rows_of(grid: TextGrid, kind: TableKind) -> tuple[MeasuredRow, ...]:
 
 
 def grid_of(path: str | Path, kind: TableKind, *, form: str = "") -> TextGrid:
-    """The lines of a text, or of the one sheet that holds cells; of a form the sheet of its name."""
+    """Grid of a text or of the one filled sheet of a workbook; of a form the sheet of that name."""
     path = Path(path)
     data = file_content(path, largest=LARGEST_FILE, expected=kind.what)
     if data.startswith(MAGIC):
@@ -139,12 +139,12 @@ def grid_of(path: str | Path, kind: TableKind, *, form: str = "") -> TextGrid:
 
 
 def _is_header(cells: Sequence[str], kind: TableKind) -> bool:
-    """Whether a line names two columns or more."""
+    """True if a line names two columns or more."""
     return sum(bool(_Head(*cell, kind).field) for cell in enumerate(cells)) >= 2
 
 
 def _columns(grid: TextGrid, head: TextLine, kind: TableKind) -> list[_Head]:
-    """The named columns, each known and there once."""
+    """Named columns; unknown and repeated ones are refused."""
     heads: dict[str, _Head] = {}
     named = [_Head(index, header, kind) for index, header in enumerate(head.cells) if header]
     unknown = [column for column in named if not column.field]
@@ -220,7 +220,7 @@ def _row(
 
 
 def _value(column: _Head, cell: str, mark: str) -> Any:
-    """A cell in the unit of its header, or in its own; text as it stands."""
+    """Value of a cell in the unit of its header or its own; text unchanged."""
     meant = column.meant
     if meant is None or not meant.kind:
         return cell

@@ -1,4 +1,4 @@
-"""What a conveyor is made of: frozen models of quantities, data and checks only."""
+"""Input models of a conveyor: frozen pydantic models of quantities, with their checks; nothing is computed."""
 
 from conveyor.models.base import Model
 from conveyor.models.belt import Belt, Carcass, Cover, TopCover

@@ -1,4 +1,4 @@
-"""What every model shares: frozen, no unknown keys, no NaN, `replace` that checks again."""
+"""Base class of the models: frozen, no unknown keys, no NaN, `replace` that checks again."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ from conveyor.units import System, is_quantity, written
 from conveyor.units.sentences import told
 
 _SMALLEST, _LARGEST = 1e-30, 1e30
-"""Size of a plain number, beside zero: products of a few stay figures."""
+"""Smallest and largest size of a plain number other than zero: products of a few stay finite."""
 
 
 def _sized(value: float) -> float:
-    """Refuse a number that is too small or large to be computed with."""
+    """Refuse a number too small or too large to compute with."""
     if value == 0.0 or _SMALLEST <= abs(value) <= _LARGEST:
         return value
     raise PydanticCustomError(
@@ -42,14 +42,14 @@ Name = Annotated[str, StringConstraints(min_length=1, max_length=100, pattern=r"
 
 
 class Problem(NamedTuple):
-    """A refusal: the field it is about, as pydantic locates it, and what to change; with amounts in it an error."""
+    """A refusal: pydantic location of the field, and what to change; an error where the message has amounts."""
 
     location: Location
     message: str | InputError
 
 
 def refuse(title: str, problems: Iterable[Problem], system: System = "SI") -> None:
-    """Raise one pydantic error with every problem, each at its own field, in a system of units; none, no error.
+    """Raise one pydantic error with all problems, each at its own field; return where there are none.
 
     Raises
     ------
@@ -73,7 +73,7 @@ def _told(message: str | InputError, system: System) -> str:
 
 
 def real_errors(error: ValidationError) -> list[dict[str, Any]]:
-    """Return the errors of a validation without those that only follow from others.
+    """Errors of a validation without those that only follow from others.
 
     Pydantic counts the entries of a list that passed, and calls a list of refused entries too short.
     """
@@ -102,7 +102,7 @@ def field_path(location: Location) -> str:
 
 
 def field_docs(model: type[BaseModel]) -> dict[str, str]:
-    """Docstrings below the fields of a model: read from its source when they are asked for, not at every start."""
+    """Docstrings of the fields of a model, by name; read from its source only when needed."""
     docs: dict[str, str] = {}
     for owner in reversed(model.__mro__):
         if issubclass(owner, BaseModel) and owner is not BaseModel:
@@ -112,7 +112,7 @@ def field_docs(model: type[BaseModel]) -> dict[str, str]:
 
 
 def _docs_below(statements: list[ast.stmt]) -> dict[str, str]:
-    """Name of a field and the string on its own that follows it."""
+    """String literals that follow annotated assignments, by field name."""
     docs = {}
     for field, after in pairwise(statements):
         match field, after:
@@ -122,7 +122,7 @@ def _docs_below(statements: list[ast.stmt]) -> dict[str, str]:
 
 
 class _SchemaWriter(GenerateJsonSchema):
-    """Writes fields with their docstrings, default quantities as specs write them."""
+    """JSON schema with the docstrings of fields, default quantities as in specs."""
 
     def model_schema(self, schema: ModelSchema) -> JsonSchemaValue:
         written_down = super().model_schema(schema)
@@ -140,7 +140,7 @@ class _SchemaWriter(GenerateJsonSchema):
 
 
 class Model(BaseModel):
-    """Base of all models; whichever way one is made, what is refused is a `SpecError`."""
+    """Base of all models; input refused in any way of making one raises `SpecError`."""
 
     model_config = ConfigDict(
         frozen=True,
@@ -155,10 +155,10 @@ class Model(BaseModel):
         with self._refusals():
             super().__init__(**fields)
 
-    # Parts inside a model are validated by pydantic without a call of `__init__`: their errors keep their places.
+    # Pydantic validates nested models without calling `__init__`: their errors keep their locations.
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
 
-    if not TYPE_CHECKING:  # a type checker knows from `frozen` that nothing can be set
+    if not TYPE_CHECKING:  # type checkers know it from `frozen`
 
         def __setattr__(self, name: str, value: object) -> None:
             try:
@@ -175,7 +175,7 @@ class Model(BaseModel):
 
     @classmethod
     def model_validate(cls, obj: Any, **options: Any) -> Self:
-        """As pydantic's, of data or a model.
+        """As pydantic's, from data or a model.
 
         Raises
         ------
@@ -187,7 +187,7 @@ class Model(BaseModel):
 
     @classmethod
     def model_validate_json(cls, json_data: str | bytes | bytearray, **options: Any) -> Self:
-        """As pydantic's, of JSON text.
+        """As pydantic's, from JSON text.
 
         Raises
         ------
@@ -199,7 +199,7 @@ class Model(BaseModel):
 
     @classmethod
     def model_validate_strings(cls, obj: Any, **options: Any) -> Self:
-        """As pydantic's, of texts.
+        """As pydantic's, from strings.
 
         Raises
         ------
@@ -212,7 +212,7 @@ class Model(BaseModel):
     @classmethod
     @contextmanager
     def _refusals(cls) -> Iterator[None]:
-        """Raise what pydantic refuses as an error of this package."""
+        """Turn pydantic's validation errors into errors of this package."""
         try:
             yield
         except ValidationError as error:
@@ -244,7 +244,7 @@ class Model(BaseModel):
 
     @classmethod
     def refusal(cls, error: ValidationError) -> SpecError:
-        """What a validation found wrong, every refusal on its own line."""
+        """Error of a failed validation, every refusal on its own line."""
         return SpecError((field_path(item["loc"]), message(item, cls)) for item in real_errors(error))
 
     @classmethod
@@ -257,13 +257,13 @@ class Model(BaseModel):
         return self.model_dump(mode="json", by_alias=True, exclude_none=True)
 
     def _repr_html_(self) -> str:
-        """For notebooks: every field that was given or has a default, as entered."""
+        """Field list for notebooks, as entered."""
         from conveyor.markup import listing
 
         return listing(type(self).__name__, self.as_data().items())
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle what was given as plain data: pint quantities do not survive another process's registry."""
+        """Pickle the given fields as plain data: pint quantities do not survive another process's registry."""
         given = self.model_dump(mode="json", by_alias=True, exclude_unset=True)
         return type(self).model_validate, (given,)
 
@@ -272,16 +272,16 @@ M = TypeVar("M", bound=BaseModel)
 
 
 def validate(model: type[M], data: object, context: dict[str, Any] | None = None) -> M:
-    """Make a model of plain data; its errors know their places, for those who look them up in a file.
+    """Make a model from plain data; errors keep their pydantic locations, to be looked up in a file.
 
     Parameters
     ----------
     model : type of BaseModel
-        What to make.
+        Class of the result.
     data : object
         Plain data.
     context : dict, optional
-        What validators look names up in.
+        Validation context: resolvers of names.
 
     Raises
     ------

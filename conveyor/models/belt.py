@@ -33,7 +33,7 @@ from conveyor.units import (
 RUBBER_DENSITY: Final = 1150.0
 """Density of cover rubber where the compound states none [kg/m³]: about 1.15 kg/m² per mm of cover."""
 LISTED_TO: Final = 0.5e-3
-"""Belt thicknesses are listed to about half a millimetre [m]: a larger mismatch is a slip."""
+"""Precision of listed belt thicknesses [m]: a larger mismatch is a slip."""
 
 CoverThickness = Annotated[Thickness, Bounds(gt="0 mm", le="50 mm")]
 
@@ -213,7 +213,7 @@ class Belt(Listed):
         return self._in_words(self.line_mass) if given is None else text(given)
 
     def _in_words(self, line_mass: float) -> str:
-        """A mass per length, per area where the belt's is given so; in the system that the width has."""
+        """Mass per length as text; per area where the belt's mass is given so; units of the width."""
         system = system_of(self.width)
         if self.mass is None or is_kind(self.mass, "line mass"):
             return display(line_mass, "line mass", system)
@@ -225,7 +225,7 @@ class Belt(Listed):
 
     @property
     def line_mass(self) -> float:
-        """Mass per length m'_belt [kg/m]: as given, else covers and carcass."""
+        """Mass per length m'_belt [kg/m]: as given, else of covers and carcass."""
         if self.mass is not None:
             return si(self.mass) * (1.0 if is_kind(self.mass, "line mass") else si(self.width))
         carcass = 0.0 if self.carcass.mass is None else si(self.carcass.mass)

@@ -14,7 +14,7 @@ from conveyor.units import Bounds, Fraction, Quantity, text
 Loading = Literal["as given", "full", "empty", "inclines only", "declines only", "part load", "sections"]
 
 STANDARD_LOADINGS: Final[tuple[Loading, ...]] = ("full", "empty", "inclines only", "declines only")
-"""What a conveyor with its own ups and downs is checked for at least."""
+"""Loadings that every conveyor with inclines and declines is checked for."""
 
 
 class LoadCase(Model):
@@ -62,7 +62,7 @@ def standard_cases(
     Parameters
     ----------
     temperatures, speeds : sequence of str or Quantity
-        Of the belt ("-20 degC", "5 m/s"); those of the spec without.
+        Temperatures and speeds of the belt ("-20 degC", "5 m/s"); those of the spec without.
 
     Raises
     ------
@@ -83,7 +83,7 @@ def standard_cases(
 
 
 def named_once(cases: Iterable[LoadCase]) -> Iterator[Problem]:
-    """Refuse a second case of one name."""
+    """Refuse load cases that share a name."""
     first: dict[str, int] = {}
     for i, case in enumerate(cases):
         if case.name in first:

@@ -21,9 +21,9 @@ from conveyor.models.wording import Location
 from conveyor.units import Quantity, display, from_si, si, system_of, text
 
 OVERFULL: Final = 1.5
-"""Of the cross-section that a belt holds the share up to which it is calculated [-], further where its edges reach."""
+"""Largest calculated bulk over the cross-section that the belt holds [-]; more where edge to edge holds more."""
 _ROUNDING: Final = 1e-9
-"""Of a flow that is made from a cross-section [-]."""
+"""Relative rounding of a flow derived from a cross-section [-]."""
 
 
 def _sets(conveyor: ConveyorParts) -> tuple[tuple[str, IdlerSet], tuple[str, IdlerSet]]:
@@ -31,7 +31,7 @@ def _sets(conveyor: ConveyorParts) -> tuple[tuple[str, IdlerSet], tuple[str, Idl
 
 
 def _rolls_span(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """Rolls side by side are as wide as the belt, and the inner ones leave belt for the outer ones."""
+    """Refuse rolls that together are narrower than the belt, or inner rolls as wide as the belt."""
     width = conveyor.belt.width
     for strand, idlers in _sets(conveyor):
         each = si(idlers.roll.length)
@@ -57,17 +57,17 @@ def _like(length: float, idlers: IdlerSet) -> str:
 
 
 def largest_section(conveyor: ConveyorParts) -> CrossSection:
-    """Largest cross-section of the bulk that the belt holds on the level (ISO 5048)."""
+    """Largest bulk cross-section on a horizontal belt (ISO 5048)."""
     return _section(conveyor, usable_width(si(conveyor.belt.width)))
 
 
 def flooded_section(conveyor: ConveyorParts) -> CrossSection:
-    """Cross-section of the bulk that lies on the whole width of the belt, heaped from edge to edge, on the level."""
+    """Bulk cross-section heaped from edge to edge of a horizontal belt."""
     return _section(conveyor, si(conveyor.belt.width))
 
 
 def _section(conveyor: ConveyorParts, across: float) -> CrossSection:
-    """Of bulk on a width of the belt [m]."""
+    """Bulk cross-section on a width of the belt [m]."""
     carry = conveyor.idlers.carry
     return cross_section(
         across,
@@ -79,7 +79,7 @@ def _section(conveyor: ConveyorParts, across: float) -> CrossSection:
 
 
 def _flow_fits(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """The bulk stays on the belt: what is more than the trough holds (ISO 5048) is calculated and fails its check."""
+    """Refuse a flow beyond the calculated range; up to it an overfull trough (ISO 5048) only fails its check."""
     belt, material = conveyor.belt, conveyor.material
     if si(material.flow) == 0.0:
         return
@@ -109,7 +109,7 @@ def _flow_fits(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _rounded(value: Quantity, *, down: bool) -> str:
-    """Write a limit to three digits, rounded to its safe side."""
+    """Limit as text of three digits, rounded to the safe side."""
     number, unit = float(value.magnitude), text(value).split()[1]
     step = 10.0 ** (math.floor(math.log10(number)) - 2)
     whole = math.floor(number / step) if down else math.ceil(number / step)
@@ -117,7 +117,7 @@ def _rounded(value: Quantity, *, down: bool) -> str:
 
 
 def _classes_exist(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """A class has ratings for the belt's width, the rolls of the set and their trough."""
+    """Refuse an idler class without a rating for the belt width, number of rolls and trough."""
     for strand, idlers in _sets(conveyor):
         if idlers.cema_class is None:
             continue
@@ -134,7 +134,7 @@ def _classes_exist(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _wear_known(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """How hard the bulk lands is said, or the height it falls from."""
+    """Require the severity of loading or the drop height for belt wear."""
     wear, feeding = conveyor.belt.wear, conveyor.route.feeding
     if wear is not None and wear.loading is None and (feeding is None or feeding.drop_height is None):
         message = "missing: give it, or the height of fall as route.feeding.drop_height"
@@ -142,7 +142,7 @@ def _wear_known(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _sets_apart(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """Also where a section has its own spacing, rolls of neighbouring sets do not overlap."""
+    """Refuse section spacings at which rolls of neighbouring sets overlap."""
     for i, section in enumerate(conveyor.route.sections):
         for strand, idlers in _sets(conveyor):
             spacing = section.carry_spacing if strand == "carry" else section.return_spacing
@@ -151,7 +151,7 @@ def _sets_apart(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _covers_thin(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """A cover is a layer on the roll, not a block: thinner than the radius of every roll on it."""
+    """Refuse a cover as thick as the radius of a roll that runs on it."""
     belt, idlers = conveyor.belt, conveyor.idlers
     bottom_on_both = conveyor.route.turned_over
     under: dict[str, tuple[Cover | TopCover, list[IdlerSet]]] = {
@@ -170,7 +170,7 @@ def _covers_thin(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _warm_enough(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """The compounds are known at the belt's temperature."""
+    """Refuse a belt temperature at which a compound is not known."""
     ambient = conveyor.ambient
     field = "temperature" if ambient.belt_temperature is None else "belt_temperature"
     compounds = {"belt.bottom_cover.compound": conveyor.carry_compound}
@@ -185,7 +185,7 @@ def _warm_enough(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _feeding_fits(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """Feeding, cleaners and ploughs are no faster and no wider than the belt."""
+    """Refuse feeding faster than the belt, and skirts, cleaners or ploughs wider than it."""
     belt, route = conveyor.belt, conveyor.route
     points: dict[Location, Feeding] = {} if route.feeding is None else {("feeding",): route.feeding}
     points |= {("further_feeding", i): point for i, point in enumerate(route.further_feeding)}
@@ -210,7 +210,7 @@ def _feeding_fits(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _discharges(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """A trajectory leaves over a pulley of known diameter."""
+    """Require the diameter of the discharge pulley."""
     route = conveyor.route
     if route.discharge is None or route.discharge.pulley_diameter is not None:
         return
@@ -221,7 +221,7 @@ def _discharges(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _drives_placed(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """Every section that a drive stands at exists."""
+    """Refuse drives at sections that the route does not have."""
     drive = conveyor.drive
     named: dict[Location, str | None] = {("drive", "section"): drive.section}
     named |= {
@@ -233,7 +233,7 @@ def _drives_placed(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def drive_diameter(conveyor: ConveyorParts, drive: DrivePulley) -> Quantity | None:
-    """Diameter of a drive's pulley: as given, else of the most wrapped pulley at its place; None without one."""
+    """Drive pulley diameter: as given, else of the pulley there with the largest wrap; None without one."""
     if drive.pulley_diameter is not None:
         return drive.pulley_diameter
     place = (drive.position, drive.section)
@@ -242,7 +242,7 @@ def drive_diameter(conveyor: ConveyorParts, drive: DrivePulley) -> Quantity | No
 
 
 def _inertia_reduced(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """A moment of inertia acts over the radius of the pulley."""
+    """Require the pulley diameter of a drive with a moment of inertia."""
     places: list[Location] = [("drive",)]
     places += [("drive", "further_drives", i) for i in range(len(conveyor.drive.further_drives))]
     for place, drive in zip(places, conveyor.drive.pulleys, strict=True):
@@ -254,7 +254,7 @@ def _inertia_reduced(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _flexure_applies(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """The law of the bulk's flexure knows troughs of up to 3 rolls only."""
+    """Refuse bulk flexure with four or five rolls."""
     flexure, rolls = conveyor.calculation.flexure, conveyor.idlers.carry.rolls
     if flexure is not None and flexure.bulk is not None and rolls in {4, 5}:
         yield Problem(
@@ -264,7 +264,7 @@ def _flexure_applies(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _belt_gives(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """A belt as support needs covers that keep their volume, and the stiffness of its carcass."""
+    """Require incompressible covers and the carcass stiffness for the support "belt"."""
     if conveyor.calculation.support != "belt":
         return
     carcass = conveyor.belt.carcass
@@ -286,7 +286,7 @@ def _belt_gives(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _curves_hold(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """In a horizontal curve a trough holds the belt, or one flat roll its course."""
+    """Refuse flat sets of several rolls in a horizontal curve."""
     curved = next((s.name for s in conveyor.route.sections if s.horizontal_curve is not None), None)
     if curved is None:
         return
@@ -301,7 +301,7 @@ def _curves_hold(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _coefficient_holds(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """The length coefficient stands for the secondary resistances of long conveyors only."""
+    """Refuse the length coefficient C for short conveyors."""
     if conveyor.calculation.secondary == "C" and (length := conveyor.route.length) <= SHORTEST_FOR_FACTOR:
         yield Problem(
             ("calculation", "secondary"),
@@ -330,4 +330,4 @@ CONFLICTS: Final[Mapping[Callable[[ConveyorParts], Iterator[Problem]], tuple[str
     _belt_gives: ("belt", "calculation"),
     _curves_hold: ("idlers", "route"),
 }
-"""Checks between the parts, and the parts that each of them reads."""
+"""Checks between the parts, and the parts that each check reads."""

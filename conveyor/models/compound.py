@@ -89,7 +89,7 @@ class RubberCompound(Model):
 
     @model_validator(mode="after")
     def _lawful(self) -> Self:
-        """Let the rubber laws refuse what they cannot take."""
+        """Validate against the rubber laws."""
         checks: dict[str, Callable[[], object]] = {
             "prony": lambda: self.series_at_reference,
             "shift": self.shift_law,
@@ -139,14 +139,14 @@ class RubberCompound(Model):
         source: Mapping[str, str] | None = None,
         description: str = "",
     ) -> Self:
-        """Make a compound of arrays: what `conveyor.rubber` holds in SI, as specs and `conveyor.analyse` take it.
+        """Make a compound from arrays in SI.
 
         Parameters
         ----------
         series : PronySeries
             Relaxation spectrum at the reference temperature [Pa, s].
         name : str
-            Of the compound in reports.
+            Name of the compound in reports.
         reference_temperature : float, str or Quantity
             Temperature at which the series holds [K], or with its unit ("20 degC").
         shift : WLF, Arrhenius or ShiftTable, optional
@@ -169,12 +169,12 @@ class RubberCompound(Model):
         source : mapping of str to str, optional
             `origin` and `licence` of the data, as in a compound file.
         description : str
-            What it is, in a sentence.
+            Description in a sentence.
 
         Returns
         -------
         RubberCompound
-            Also for `conveyor.shelf.dump`; what is not known of it stands in `missing`.
+            Also for `conveyor.shelf.dump`; unknown data are listed in `missing`.
 
         Raises
         ------
@@ -263,7 +263,7 @@ class RubberCompound(Model):
         return None if self.strain_dependence is None else self.strain_dependence.factors()
 
     def swept_series(self, temperature: float) -> PronySeries | None:
-        """Return the series at the temperature of the sweeps nearest to one [K]; None where they reach it.
+        """Return the series at the sweep temperature nearest to a temperature [K]; None within the sweeps.
 
         Raises
         ------
@@ -275,7 +275,7 @@ class RubberCompound(Model):
         return None if nearest == temperature else self.series(nearest)
 
     def frequencies(self, temperature: float) -> tuple[float, float] | None:
-        """Return the measured band of frequency, carried to a temperature [K] by the shift [Hz]; None if not stated.
+        """Return the measured frequency band [Hz], shifted to a temperature [K]; None if not stated.
 
         Raises
         ------
@@ -346,7 +346,7 @@ class RubberCompound(Model):
         return self._at(temperature, self._reference_replicas(), self._replica_shifts())
 
     def _replica_shifts(self) -> tuple[Shift | None, ...]:
-        """The shift that each replica goes with; that of the compound where the band has none."""
+        """Shift of each replica; that of the compound where the band has none."""
         band = self.prony.band
         if band is None:
             return ()
@@ -367,7 +367,7 @@ class RubberCompound(Model):
         return () if band is None else band.series([si(term.time) for term in terms])
 
     def alternatives(self) -> tuple[Self, ...]:
-        """Return the compound with each replica of its fit, and its shift; everything else of it stays."""
+        """Return the compound with each replica of its fit and the replica's shift."""
         return tuple(
             self.replace(
                 shift=shift,
@@ -400,7 +400,7 @@ class RubberCompound(Model):
     def _at(
         self, temperature: float, reference: tuple[PronySeries, ...], shifts: tuple[Shift | None, ...]
     ) -> tuple[PronySeries, ...]:
-        """Shift series of the reference temperature to another [K], each by its shift."""
+        """Shift series of the reference temperature to another temperature [K], each by its own law."""
         self.check_temperature(temperature)
         if self.shift is None:
             return reference
@@ -408,7 +408,7 @@ class RubberCompound(Model):
         return tuple(self._shifted(series, shift, temperature) for series, shift in pairs)
 
     def _shifted(self, series: PronySeries, shift: Shift | None, temperature: float) -> PronySeries:
-        """One series by one shift, at a temperature [K]."""
+        """One series shifted to a temperature [K]."""
         from conveyor.rubber import shifted
 
         if shift is None:
@@ -418,7 +418,7 @@ class RubberCompound(Model):
 
 
 def _temperature(given: float | str | Quantity) -> Quantity:
-    """A temperature: a number is in kelvin."""
+    """Temperature as a quantity; a plain number is in kelvin."""
     return (
         from_si(given, "temperature", "K")
         if isinstance(given, int | float)
@@ -427,7 +427,7 @@ def _temperature(given: float | str | Quantity) -> Quantity:
 
 
 def _prony(series: PronySeries) -> dict[str, Any]:
-    """A series as a compound holds it."""
+    """Compound-file data of a series."""
     return {
         "equilibrium": from_si(series.equilibrium, "pressure", "Pa"),
         "terms": [
@@ -440,7 +440,7 @@ def _prony(series: PronySeries) -> dict[str, Any]:
 def _shift(
     law: WLF | Arrhenius | ShiftTable | None, log10_b_T: Sequence[float] | NDArray[np.float64] | None
 ) -> dict[str, Any] | None:
-    """A shift law as a compound holds it."""
+    """Compound-file data of a shift law."""
     from conveyor.rubber import WLF, ShiftTable
 
     if isinstance(law, ShiftTable):
@@ -464,7 +464,7 @@ def _shift(
 
 
 def _strain_dependence(factors: AmplitudeFactors) -> dict[str, Any]:
-    """Factors of strain as a compound holds them."""
+    """Compound-file data of strain factors."""
     return {
         "reference_strain": from_si(factors.reference_strain, "fraction"),
         "sweeps": [
@@ -482,17 +482,17 @@ def _strain_dependence(factors: AmplitudeFactors) -> dict[str, Any]:
 
 
 def _asked(temperature: float) -> Amount:
-    """A temperature [K] of a message."""
+    """Temperature [K] for a message."""
     return Amount(temperature, "temperature", display(temperature, "temperature", digits=6), digits=6)
 
 
 def _given(temperature: Quantity) -> Amount:
-    """One of the compound's file, as written there."""
+    """Temperature for a message, as written in the compound file."""
     return Amount(si(temperature), "temperature", text(temperature), digits=6)
 
 
 def _resolved(value: Any, info: ValidationInfo) -> Any:
-    """Turn the name or path of a compound into the compound, by the context's resolver."""
+    """Look up a compound given by name or path with the resolver of the context."""
     if not isinstance(value, str):
         return value
     resolver = (info.context or {}).get("compound")
@@ -506,7 +506,7 @@ def _resolved(value: Any, info: ValidationInfo) -> Any:
 
 
 class _Resolved:
-    """Marker of a compound that may be given by name or path."""
+    """Annotation of a compound that may be given by name or path."""
 
     wanted = "a compound by its name or path"
 
@@ -520,4 +520,4 @@ class _Resolved:
 
 
 CompoundReference = Annotated[RubberCompound, _Resolved()]
-"""A compound in place, or its shelf name or path where a resolver is in the validation context."""
+"""A compound, or its shelf name or path where the validation context has a resolver."""

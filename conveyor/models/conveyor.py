@@ -1,4 +1,4 @@
-"""The whole conveyor: its parts, checked against each other, and what is asked of it."""
+"""The conveyor: its parts checked against each other, load cases, scenarios and report options."""
 
 from __future__ import annotations
 
@@ -56,17 +56,16 @@ class Conveyor(ConveyorParts):
     def with_parts(
         self, parts: Mapping[str, Model], numbers: Mapping[str, int], fit: set[tuple[object, ...]]
     ) -> Conveyor:
-        """The conveyor with other parts of the same kinds, each of them checked on its own.
+        """Copy with other parts of the same kinds, each already checked on its own.
 
         Parameters
         ----------
         parts : mapping of str to Model
             By the name of their field.
         numbers : mapping of str to int
-            What tells them from other parts of the field that are compared with the same `fit`, from 1.
+            Identity of each part among those used with the same `fit`, from 1.
         fit : set
-            Of earlier calls on the same conveyor: checks with the numbers of what they read, which need not be made
-            again. New ones are added.
+            Checks passed in earlier calls on this conveyor, with the numbers of the parts read; new ones are added.
 
         Raises
         ------
@@ -89,11 +88,11 @@ class Conveyor(ConveyorParts):
         return made
 
     def _case_names(self) -> Iterator[Problem]:
-        """No two cases have one name."""
+        """Refuse load cases that share a name."""
         yield from named_once(self.cases)
 
     def _case_problems(self) -> Iterator[Problem]:
-        """Every section that a case or a scenario loads exists, and every drive that a scenario names."""
+        """Refuse cases and scenarios that name sections or drives the conveyor does not have."""
         named = [("cases", i, case.sections) for i, case in enumerate(self.cases)]
         named += [("scenarios", i, scenario.sections) for i, scenario in enumerate(self.scenarios)]
         for field, i, sections in named:
@@ -102,13 +101,13 @@ class Conveyor(ConveyorParts):
         yield from scenario_problems(self.scenarios, self.drive.names)
 
     def section_on_slope(self, inclination: float) -> float:
-        """Largest cross-section of the bulk that the belt holds at an inclination [rad] (ISO 5048) [m²]."""
+        """Largest bulk cross-section [m²] at an inclination [rad] (ISO 5048)."""
         angle = si(self.material.surcharge_angle)
         return largest_section(self).on_slope(inclination, surcharge_angle=angle)
 
     @property
     def flooded_section(self) -> float:
-        """Cross-section of the bulk heaped from edge to edge of the belt on the level [m²]."""
+        """Bulk cross-section heaped from edge to edge of a horizontal belt [m²]."""
         return flooded_section(self).area
 
 
@@ -117,4 +116,4 @@ CHECKS: Final[Mapping[Callable[[Any], Iterator[Problem]], tuple[str, ...]]] = {
     Conveyor._case_names: ("cases",),  # noqa: SLF001 of this module
     Conveyor._case_problems: ("cases", "drive", "route", "scenarios"),  # noqa: SLF001
 }
-"""All that fields do not say of themselves, and the fields that each check reads."""
+"""Checks across fields, and the fields that each check reads."""

@@ -34,7 +34,7 @@ from conveyor.units import (
 )
 
 LEAST_FRICTION: Final = FRICTION_FACTOR_DOWNHILL.value / FRICTION_FACTOR.value
-"""Friction taken for certain when it brakes, over the computed one: f downhill over f, general knowledge."""
+"""Friction relied on for braking over the computed one [-]: f downhill over f, general knowledge."""
 
 
 class DrivePulley(Model):
@@ -113,7 +113,7 @@ class DrivePulley(Model):
 
     @property
     def judged(self) -> bool:
-        """Whether the spec asks for more of its parts than force and power."""
+        """True if the spec has data to check the parts of the drive, beyond force and power."""
         given = (
             self.backstop_torque, self.motor_speed, self.starts_per_hour, self.diameter_loss, self.brake_disc,
             self.brake_heat,
@@ -138,7 +138,7 @@ class FurtherDrive(DrivePulley):
 
 
 def _train_instead(schema: dict[str, Any]) -> None:
-    """Let editors know that the train's parts may stand for the efficiency."""
+    """JSON schema: either the efficiency or the parts of the drive train."""
     schema["required"] = [name for name in schema["required"] if name != "efficiency"]
     schema["anyOf"] = [{"required": ["efficiency"]}, {"required": ["train"]}]
 
@@ -184,22 +184,22 @@ class Drive(DrivePulley):
 
     @property
     def knows_mains(self) -> bool:
-        """Whether the train has a part between mains and motor shaft."""
+        """True if the drive train has a part between mains and motor shaft."""
         return any(part.side == "mains" for part in self.train)
 
     @property
     def names(self) -> tuple[str, ...]:
-        """What the drives are called, the first one first."""
+        """Names of the drives, the first one first."""
         return ("drive", *(pulley.name for pulley in self.further_drives))
 
     @property
     def certain_friction(self) -> float:
-        """Friction that is certain where it helps to brake, over the computed one [-]."""
+        """Friction relied on for braking over the computed one [-]."""
         return si(self.least_friction)
 
     @property
     def mains_efficiency(self) -> float:
-        """From the mains to the motor's shaft [-]; 1 where the train has no part there."""
+        """Efficiency from mains to motor shaft [-]; 1 where the drive train has no part there."""
         return product(self.train, "mains")
 
     def _torque_problems(self) -> Iterator[Problem]:

@@ -1,4 +1,4 @@
-"""Fields of a conveyor by their paths, as specs and messages write them: `belt.speed`, `route.sections[2].lift`."""
+"""Read and change fields of a conveyor by path: `belt.speed`, `route.sections[2].lift`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from conveyor.models.conveyor import Conveyor
 from conveyor.units import is_quantity
 
 Resolve: TypeAlias = Callable[[str], RubberCompound]
-"""A compound by its name or path."""
+"""Function that looks up a compound by name or path."""
 Change = TypeVar("Change")
 Made = TypeVar("Made")
 _PART: Final = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
@@ -24,24 +24,24 @@ _WHOLE: Final = re.compile(r"[^.\[\]]+(?:\.[^.\[\]]+|\[\d+\])*")
 
 
 class KnownParts:
-    """Parts of one conveyor's variants, each made and checked once; which of them are known to fit each other."""
+    """Cache of the parts of one conveyor's variants, and of the checks between parts that they passed."""
 
     MOST: Final = 2048
-    """Parts kept, and combinations of them 32 times as many."""
+    """Most parts cached, and a 32nd of the most combinations."""
 
     def __init__(self) -> None:
         self._made: dict[object, tuple[int, Any]] = {}
         self._numbers = count(1)
         self.fit: set[tuple[object, ...]] = set()
-        """Of `Conveyor.with_parts`."""
+        """Checks passed, for `Conveyor.with_parts`."""
 
     @property
     def full(self) -> bool:
-        """Whether it has become much."""
+        """True if the cache should be replaced by a new one."""
         return len(self._made) > self.MOST or len(self.fit) > 32 * self.MOST
 
     def once(self, change: object, make: Callable[[], Any]) -> tuple[int, Any]:
-        """Number and part of a change, made where it is new."""
+        """Number and part of a change, made on first use."""
         if change not in self._made:
             self._made.setdefault(change, (next(self._numbers), make()))
         return self._made[change]
@@ -54,7 +54,7 @@ def with_fields(
     resolve: Resolve | None = None,
     known: KnownParts | None = None,
 ) -> Conveyor:
-    """The conveyor with some fields changed, checked like a new spec.
+    """Copy of a conveyor with changed fields, checked like a new spec.
 
     Parameters
     ----------
@@ -64,10 +64,9 @@ def with_fields(
         New values as specs write them, by path: names of fields joined by points; items of a list by number from 0 in
         brackets, or by their `name` (`route.sections.incline.lift`).
     resolve : callable, optional
-        Looks compounds up that are given by name or path.
+        Looks up compounds given by name or path.
     known : KnownParts, optional
-        Parts that were made of the same changes, kept from call to call with one conveyor: what two variants share is
-        then the very same object, and what was checked is not checked again.
+        Cache kept from call to call with one conveyor: parts shared by variants are one object, checked once.
 
     Raises
     ------
@@ -129,19 +128,19 @@ def field(conveyor: Conveyor, path: str) -> Any:
 
 
 class _Leaf:
-    """A value at the end of a path."""
+    """New value at the end of a path."""
 
     def __init__(self, value: Any) -> None:
         self.value = value
 
 
 def check_path(path: str) -> None:
-    """Refuse what is no path of a field, whether the field is there or not.
+    """Refuse text that is not the path of a field; the field need not exist.
 
     Raises
     ------
     InputError
-        It is none.
+        The text is no path.
     """
     _parts(path)
 
@@ -154,7 +153,7 @@ def _parts(path: str) -> tuple[str, ...]:
 
 
 def _plant(tree: dict[str, Any], path: str, value: Any) -> None:
-    """Put a value at the end of its path."""
+    """Insert a value at its path into the tree of changes."""
     *way, last = _parts(path)
     for part in way:
         tree = tree.setdefault(part, {})
@@ -187,7 +186,7 @@ def _changed(old: Any, below: Any, path: str, resolve: Resolve | None) -> Any:
 
 
 def _with_changed(old: Model, below: Mapping[str, Any], path: str, resolve: Resolve | None) -> Any:
-    """A part with fields changed; every refusal of them at once."""
+    """Part with changed fields; all refusals in one error."""
     made, refused, wrong = {}, [], {}
     for key, lower in below.items():
         name = key
@@ -200,7 +199,7 @@ def _with_changed(old: Model, below: Mapping[str, Any], path: str, resolve: Reso
     if not wrong:
         return _replaced(old, made, path)
     try:
-        # of a part with a field that is none only the fields are checked, not how they fit each other
+        # the placeholders fail field validation, so checks between fields do not run
         old.replace(**made, **wrong)
     except InputError as error:
         known = {*wrong, *(alias for alias, name in _aliases(type(old)).items() if name in wrong)}
@@ -214,7 +213,7 @@ def _with_changed(old: Model, below: Mapping[str, Any], path: str, resolve: Reso
 def _gathered(
     changes: Iterable[Change], make: Callable[[Change], Made], refused: Sequence[str] = ()
 ) -> list[Made]:
-    """What is made of changes; every refusal at once where there are any, after those known already."""
+    """Results of all changes; one error with all refusals, after those known already."""
     made, every = [], [*refused]
     for change in changes:
         try:
@@ -227,7 +226,7 @@ def _gathered(
 
 
 def _name(old: Model, key: str, path: str) -> str:
-    """Name in Python of a field that specs call so."""
+    """Python name of a field by its name in specs."""
     aliases = _aliases(type(old))
     if key not in aliases:
         near = difflib.get_close_matches(key, aliases, n=1)
@@ -238,12 +237,12 @@ def _name(old: Model, key: str, path: str) -> str:
 
 @lru_cache(maxsize=128)
 def _aliases(model: type[Model]) -> dict[str, str]:
-    """Names of a model's fields in Python by those that specs use."""
+    """Python names of a model's fields by their names in specs."""
     return {info.alias or name: name for name, info in model.model_fields.items()}
 
 
 def _item(items: tuple[Any, ...], part: str, path: str) -> int:
-    """Number of an item given by its number or name."""
+    """Index of an item given by index or name."""
     names = [getattr(item, "name", None) for item in items]
     if part in names:
         return names.index(part)
@@ -266,7 +265,7 @@ def _plain(below: Any) -> Any:
 
 
 def _frozen(below: Any) -> object:
-    """What tells changes apart."""
+    """Hashable key of a tree of changes."""
     if isinstance(below, _Leaf):
         value = below.value
         told = (value.magnitude, value.units) if is_quantity(value) else repr(value)

@@ -1,4 +1,4 @@
-"""The sets that rolls stand in."""
+"""Idler sets of the carry and return strand."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from conveyor.units import (
 )
 
 SHARE_SUM_TOLERANCE: Final = 1e-9
-"""Shares are typed as decimals; anything coarser is a slip (the loading laws use the same figure)."""
+"""Tolerance of a sum of shares typed as decimals (the loading laws use the same figure)."""
 
 Spacing = Annotated[Distance, Bounds(gt="0 m", le="20 m")]
 Share = Annotated[Fraction, Bounds(ge="0 %", le="100 %")]
@@ -83,23 +83,23 @@ class IdlerSet(Model):
 
     @property
     def judged(self) -> bool:
-        """Whether the spec asks for more of a set than loads and drag: bearings, a rating, a distance to resonance."""
+        """True if the spec has data to check the set: bearings, a rating, a margin to belt flap."""
         bearings = (self.roll.bearing, self.middle.bearing)
         return any(given is not None for given in (self.cema_class, self.rating, self.flap_margin, *bearings))
 
     @property
     def middle(self) -> Roll:
-        """The middle roll, be it different or not."""
+        """Middle roll of the set."""
         return self.roll if self.middle_roll is None else self.middle_roll
 
     @property
     def set_mass(self) -> float:
-        """Mass of the parts of one set that turn; the reduced one where no other is given [kg]."""
+        """Rotating mass of one set [kg]; the reduced mass where no other is given."""
         return self._turning or self.rim_mass
 
     @property
     def _turning(self) -> float:
-        """Mass of the parts of one set that turn, without the reduced one [kg]."""
+        """Rotating mass of one set [kg]; 0 where only the reduced mass is given."""
         if self.rotating_mass is not None:
             return self._of_set(self.rotating_mass)
         masses = [self.roll_at(place).rotating_mass for place in range(self.rolls)]
@@ -107,12 +107,12 @@ class IdlerSet(Model):
 
     @property
     def reduced_only(self) -> bool:
-        """Whether the reduced mass must stand for all that turns."""
+        """True if only the reduced mass is given."""
         return not self._turning
 
     @property
     def rim_mass(self) -> float:
-        """Mass of one set as it resists acceleration at the rim [kg]."""
+        """Mass of one set reduced to the roll surface, for acceleration [kg]."""
         return self._turning if self.reduced_mass is None else self._of_set(self.reduced_mass)
 
     def _of_set(self, mass: Quantity) -> float:
@@ -120,20 +120,20 @@ class IdlerSet(Model):
 
     @property
     def inner_wing(self) -> Wing:
-        """Length [m] and angle [rad] of the inner wing rolls; none of up to three rolls."""
+        """Length [m] and angle [rad] of the inner wing rolls; none on sets of up to three rolls."""
         if self.rolls not in {4, 5}:
             return NO_WING
         angle = self.inner_trough_angle
         return Wing(si(self.roll.length), 0.0 if angle is None else si(angle))
 
     def middle_belt(self, width: float) -> float:
-        """Belt of a width on the middle roll [m]: all of it on one roll, none without a middle one."""
+        """Width of belt on the middle roll [m]: all of it on one roll, 0 without a middle roll."""
         if self.rolls == 1:
             return width
         return min(si(self.roll.length), width) if self.rolls in {3, 5} else 0.0
 
     def roll_at(self, place: int) -> Roll:
-        """Roll at a place of the set, left to right."""
+        """Roll at a position of the set, left to right."""
         return self.middle if self.rolls in {3, 5} and place == self.rolls // 2 else self.roll
 
     @model_validator(mode="after")
@@ -179,7 +179,7 @@ class IdlerSet(Model):
         return problems
 
     def _inner_problems(self) -> Iterator[Problem]:
-        """Four and five rolls have inner wings, no steeper than the outer ones."""
+        """Require inner wings no steeper than the outer ones on four and five rolls, and refuse them on others."""
         angle, inner = self.inner_trough_angle, self.rolls in {4, 5}
         if angle is None and inner and si(self.trough_angle) > 0.0:
             message = f"missing: the inner wings of {self.rolls} rolls have an angle of their own, as 25 deg beside 55"
@@ -195,7 +195,7 @@ class IdlerSet(Model):
         yield Problem(("inner_trough_angle",), message)
 
     def _whole_problems(self) -> Iterator[Problem]:
-        """Masses and drag are given for each roll or for the whole set, never both."""
+        """Require masses and drag for each roll or for the whole set, never both."""
         for name in ("rotating_mass", "reduced_mass"):
             mass: Quantity | None = getattr(self, name)
             if mass is not None and si(mass) <= 0.0:
@@ -277,6 +277,6 @@ class Idlers(Model):
 
     @property
     def drag_follows_air(self) -> bool:
-        """Whether a roll's drag comes from a law, which may depend on the temperature of the air."""
+        """True if the drag of a roll comes from a law, which may depend on the air temperature."""
         rolls = [roll for each in (self.carry, self.return_) for roll in (each.roll, each.middle)]
         return any(roll.drag is None for roll in rolls)

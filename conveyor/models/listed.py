@@ -1,4 +1,4 @@
-"""Models that may name an entry of a library: what the entry knows stands in for what is not given."""
+"""Models that may name a library entry, which supplies the fields not given."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Listed(Model):
     def __get_pydantic_json_schema__(
         cls, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        """Ask for what an entry may give only where none is named."""
+        """JSON schema: fields that an entry may supply are required only where none is named."""
         described = handler.resolve_ref_schema(handler(schema))
         known = {name for entry in libraries.entries(cls.library).values() for name in entry.fields}
         needed: list[str] = described.get("required", [])
@@ -51,12 +51,12 @@ class Listed(Model):
 
     @property
     def entry(self) -> libraries.Entry | None:
-        """The library's entry, if one is named."""
+        """Library entry, if one is named."""
         name: str | None = getattr(self, "listed", None)
         return None if name is None else libraries.entry(self.library, name)
 
     def replace(self, **changes: Any) -> Self:
-        """Return a copy with changed fields; with another `listed` what came from the old entry goes.
+        """Return a copy with changed fields; another `listed` drops the values of the old entry.
 
         `listed=None` keeps all values and forgets where they came from.
         """
@@ -68,7 +68,7 @@ class Listed(Model):
 
 
 def merged(entry: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
-    """Fields of an entry under those given; nested mappings likewise.
+    """Fields of an entry, overridden by those given; nested mappings likewise.
 
     Examples
     --------
@@ -86,7 +86,7 @@ def merged(entry: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]
 
 
 def without(data: Mapping[str, Any], entry: Mapping[str, Any]) -> dict[str, Any]:
-    """Take off what equals an entry's."""
+    """Data without the values equal to those of an entry."""
     kept = {}
     for name, value in data.items():
         known = entry.get(name)

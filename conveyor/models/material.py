@@ -30,6 +30,6 @@ class BulkMaterial(Listed):
 
     @property
     def surcharge(self) -> float:
-        """Surcharge angle θ of the parabolic heap, whatever the convention it is given in [rad]."""
+        """Surcharge angle θ of the parabolic heap [rad], from either convention."""
         given = si(self.surcharge_angle)
         return given if self.surcharge_convention == "ISO 5048" else surcharge_from_slope(given)

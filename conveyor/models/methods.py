@@ -1,4 +1,4 @@
-"""Laws that a calculation may use instead of its defaults, or beside them."""
+"""Optional laws of a calculation: flexure, CEMA, calibration factors."""
 
 from __future__ import annotations
 
@@ -111,5 +111,5 @@ class Calibration(Model):
 
     @property
     def factors(self) -> dict[str, float]:
-        """Every factor by the key of its force."""
+        """Factors by force key."""
         return {name: getattr(self, name) for name in CALIBRATED}

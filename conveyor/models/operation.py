@@ -1,4 +1,4 @@
-"""How a conveyor is used in a year, and what its energy costs and emits."""
+"""Operation in a year: hours and duty, energy price, emissions."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ BeltSpeed = Annotated[Speed, Bounds(gt="0 m/s", le="20 m/s")]
 Hours = Annotated[Duration, Bounds(ge="0 h", le="8784 h")]
 
 YEAR_HOURS: Final = 8784.0
-"""Of a leap year: no duty is longer."""
+"""Hours of a leap year, the longest duty."""
 HOURS_TOLERANCE: Final = 1e-9
-"""Hours are typed as decimals; a sum that differs by more is another year's."""
+"""Relative tolerance of a sum of hours typed as decimals."""
 _LONGEST: Final = 80
 PRICE: Final = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?)\s*([A-Z]{3})\s*/\s*kWh\s*")
-"""Of energy, as specs write it: amount and currency."""
+"""Energy price in specs: amount and currency."""
 _EMISSION = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?)\s*(kg|g|t)\s*/\s*(kWh|MWh)\s*")
 _KILOGRAMS: Final = {"g": 1e-3, "kg": 1.0, "t": 1e3}
 _KILOWATT_HOURS: Final = {"kWh": 1.0, "MWh": 1e3}
@@ -139,7 +139,7 @@ class Operation(Model):
     @model_validator(mode="before")
     @classmethod
     def _hours_of_duty(cls, data: Any) -> Any:
-        """Sum up the duty where the hours are left out; a duty that is refused is so at its own place."""
+        """Sum up the duty where the hours are left out; a wrong duty is refused at its own field."""
         if not isinstance(data, dict) or data.get("hours_per_year") is not None or not data.get("duty"):
             return data
         try:

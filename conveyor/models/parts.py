@@ -1,4 +1,4 @@
-"""The parts of a conveyor, and what follows from several of them."""
+"""Parts of a conveyor, and quantities that depend on several of them."""
 
 from __future__ import annotations
 
@@ -104,37 +104,37 @@ class ConveyorParts(Model):
 
     @property
     def temperature(self) -> float:
-        """Of the covers [K]."""
+        """Temperature of the covers [K]."""
         return si(self.ambient.belt)
 
     @property
     def belt_width(self) -> float:
-        """Of the belt [m]."""
+        """Belt width [m]."""
         return si(self.belt.width)
 
     @property
     def mass_flow(self) -> float:
-        """Of the bulk where the belt is fully fed [kg/s]."""
+        """Mass flow of the bulk where the belt is fully fed [kg/s]."""
         return si(self.material.flow)
 
     @property
     def belt_speed(self) -> float:
-        """Of the belt [m/s]."""
+        """Belt speed [m/s]."""
         return si(self.belt.speed)
 
     @property
     def air_temperature(self) -> float:
-        """Of the air [K]."""
+        """Air temperature [K]."""
         return si(self.ambient.temperature)
 
     @property
     def carry_compound(self) -> RubberCompound:
-        """Rubber that the carry rolls run on: the bottom cover's."""
+        """Compound under the carry rolls: the bottom cover's."""
         return self.belt.bottom_cover.compound
 
     @property
     def return_compound(self) -> RubberCompound:
-        """Rubber that the return rolls run on: the top cover's, unless turned over or not stated."""
+        """Compound under the return rolls: the top cover's, unless turned over or not stated."""
         top = self.belt.top_cover.compound
         return self.carry_compound if self.route.turned_over or top is None else top
 

@@ -1,4 +1,4 @@
-"""Prices and lives of what conveyors are built of."""
+"""Prices and lives of conveyor parts."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ _SCALES: Final = {
     "kW": 1e-3, "kN": 1e-3, "MN*m": 1e-6, "hp": 1.0 / HORSEPOWER, "lbf": 1.0 / POUND_FORCE, "lb": 1.0 / POUND,
     "ft": 1.0 / FOOT, "ft^2": FOOT**-2, "ft^3": FOOT**-3,
 }  # fmt: skip
-"""Of a price per unit to that per SI unit."""
+"""Factors from a price per unit to a price per SI unit."""
 _US: Final = {"kg": "lb", "m": "ft", "m^2": "ft^2", "m^3": "ft^3", "kW": "hp", "kN": "lbf"}
-"""In which a price may be given, too."""
+"""US units in which a price may be given, too."""
 
 
 @dataclass(frozen=True)
 class UnitPrice:
-    """An amount of money in a currency named by its three-letter code, for a unit of something."""
+    """Price per unit, in a currency named by its three-letter code."""
 
     number: float
     currency: str
@@ -37,7 +37,7 @@ class UnitPrice:
 
     @property
     def amount(self) -> float:
-        """For an SI unit: of mass, length, area, volume, power, force, strength times area [currency/…]."""
+        """Price per SI unit of mass, length, area, volume, power, force, strength times area [currency/…]."""
         return self.number * _SCALES.get(self.unit, 1.0)
 
     def __str__(self) -> str:
@@ -46,7 +46,7 @@ class UnitPrice:
 
 
 def _per(unit: str) -> tuple[Any, ...]:
-    """What reads and writes a price for a unit."""
+    """Validator, serializer and schema of a price per unit."""
     example = str(UnitPrice(12.0, "EUR", unit))
 
     def read(value: Any) -> UnitPrice:
@@ -154,12 +154,12 @@ class Prices(Model):
 
     @property
     def currency(self) -> str:
-        """Of all prices."""
+        """Currency of all prices."""
         return self.drive.currency
 
     @cached_property
     def amounts(self) -> dict[str, float]:
-        """Every figure by its field: prices for SI units, lives in years, seconds or metres."""
+        """Figures by field: prices per SI unit, lives in years, seconds or metres."""
         return {
             name: value.amount
             if isinstance(value, UnitPrice)
@@ -172,14 +172,14 @@ class Prices(Model):
 
 
 def library_prices() -> dict[str, Any]:
-    """Prices of the library, as specs write them."""
+    """Library prices, as in specs."""
     return {
         name: value for entry in libraries.entries("prices").values() for name, value in entry.fields.items()
     }
 
 
 def _exchanged(written: Any, euro: re.Match[str] | None) -> Any:
-    """A field of the library, a price in the currency of what a euro costs where that is given."""
+    """Library field; a price is converted where an exchange rate of the euro is given."""
     price = _WRITTEN.fullmatch(str(written))
     if euro is None or price is None:
         return written

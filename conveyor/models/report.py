@@ -1,4 +1,4 @@
-"""How reports of a conveyor are headed and written; no effect on figures."""
+"""Cover data, units and paper of reports; no effect on figures."""
 
 from __future__ import annotations
 
@@ -33,5 +33,5 @@ class Report(Model):
     """Paper that workbooks are set up for."""
 
     def sheet(self, system: System) -> Paper:
-        """Paper to print on: Letter with US units, else A4, unless stated."""
+        """Paper size: as stated, else Letter with US units and A4 with SI."""
         return self.paper or ("Letter" if system == "US" else "A4")

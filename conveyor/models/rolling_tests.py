@@ -1,4 +1,4 @@
-"""Rolling-resistance tests of a cover, as laboratories deliver them: rows, or a law fitted to them."""
+"""Rolling-resistance tests of a cover from a laboratory: rows, or a law fitted to them."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ RolledLoad = Annotated[LineForce, Bounds(ge="0.01 N/mm", le="100 N/mm")]
 RolledForce = Annotated[LineForce, Bounds(gt="0 N/m")]
 
 LAW_POINTS: Final = 5
-"""Loads at which a law is read, evenly in their logarithm."""
+"""Number of loads at which a law is evaluated, evenly spaced in the logarithm."""
 LEAST_FRICTION, LARGEST_FRICTION = 1e-4, 0.3
-"""Resistance over load of rubber on a roll; published tests lie near 0.01 [-]. Outside, a unit is wrong."""
+"""Plausible range of resistance over load [-]; published tests lie near 0.01."""
 TEST_UNCERTAINTY: Final = 0.1
-"""Half-width of nine tenths of repeated tests where it is not given (general knowledge) [-]."""
+"""Half width of the 90 % interval of repeated tests where it is not given (general knowledge) [-]."""
 
 
 class RollingLaw(Model):
@@ -132,17 +132,17 @@ class RollingTest(Model):
 
     @property
     def relative_uncertainty(self) -> float:
-        """Half-width of nine tenths of repeated tests [-]."""
+        """Half width of the 90 % interval of repeated tests [-]."""
         return TEST_UNCERTAINTY if self.uncertainty is None else si(self.uncertainty)
 
     @property
     def shared(self) -> float:
-        """Part of it that all belts tested alike have in common [-]."""
+        """Part of the uncertainty common to all belts tested alike [-]."""
         return 0.0 if self.shared_uncertainty is None else si(self.shared_uncertainty)
 
     @property
     def conditions(self) -> tuple[float, float, float, float]:
-        """Diameter of the roll, thickness of the cover [m], speed [m/s], temperature [K]: equal where tested alike."""
+        """Test conditions: roll diameter, cover thickness [m], speed [m/s], temperature [K]."""
         fields = self.roll_diameter, self.cover_thickness, self.speed, self.temperature
         diameter, thickness, speed, temperature = map(si, fields)
         return diameter, thickness, speed, temperature

@@ -1,4 +1,4 @@
-"""A roll: its size, what drags it, its bearings."""
+"""Rolls: size, drag, bearings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The route from tail to head, and what brakes the belt at single places."""
+"""The route from tail to head, and the equipment at single places of it."""
 
 from __future__ import annotations
 
@@ -50,14 +50,14 @@ Friction = Annotated[Number, Field(gt=0, le=2)]
 Position = Literal["head", "tail", "carry", "return"]
 Banking = Annotated[Angle, Bounds(ge="0 deg", le="20 deg")]
 Skew = Annotated[Angle, Bounds(ge="0 deg", le="5 deg")]
-_MOST_TURN = math.pi  # [rad], a section that turns by more comes back beside itself
-_TURNED = math.radians(90.0)  # wrap from which bulk cannot stay on a belt that lies round a pulley
+_MOST_TURN = math.pi  # [rad] of horizontal turn in a section
+_TURNED = math.radians(90.0)  # wrap angle above which bulk falls off the carry strand [rad]
 SHARE_SUM_TOLERANCE = 1e-9
-"""Shares are typed as decimals; anything coarser is a slip."""
+"""Tolerance of a sum of shares typed as decimals."""
 
 
 def position_problem(position: str, section: str | None) -> list[Problem]:
-    """Refuse a place along a strand without its section, and a section where the place needs none."""
+    """Refuse a position along a strand without a section, and a section at head or tail."""
     along = position in {"carry", "return"}
     if along and section is None:
         message = f'missing: position "{position}" stands behind a section of that strand; give its name'
@@ -438,7 +438,7 @@ class Route(Model):
         return self
 
     def _place_problems(self) -> Iterator[Problem]:
-        """Every section that something stands at exists."""
+        """Refuse equipment at sections that the route does not have."""
         named: list[tuple[Location, str | None]] = [
             (("pulleys", i, "section"), pulley.section) for i, pulley in enumerate(self.pulleys)
         ]
@@ -454,18 +454,18 @@ class Route(Model):
 
     @cached_property
     def _names(self) -> frozenset[str]:
-        """Of the sections."""
+        """Names of the sections."""
         return frozenset(section.name for section in self.sections)
 
     def section_problem(self, location: Location, name: str) -> Iterator[Problem]:
-        """Refuse the name of a section that the route has not."""
+        """Refuse a name that is not a section of the route."""
         if name not in self._names:
             names = [section.name for section in self.sections[:10]]
             shown = ", ".join(names) + (", …" if len(self.sections) > 10 else "")
             yield Problem(location, f'got "{name}", which is none of the sections: {shown}')
 
     def _tripper_problems(self) -> Iterator[Problem]:
-        """A tripper stands behind a section with bulk on it, and feeds back all of it."""
+        """Refuse a tripper as first loading point, at the first section, or with a share of the flow."""
         if self.feeding is not None and self.feeding.tripper_lift is not None:
             message = "given at the first loading point; a tripper is one of further_feeding"
             yield Problem(("feeding", "tripper_lift"), message)
@@ -480,9 +480,9 @@ class Route(Model):
                 yield Problem(("further_feeding", i, "section"), message)
 
     def feeds_back(self, point: Feeding) -> bool:
-        """Whether a further feeding point is a tripper: by its lift, or where all bulk lands on a belt that turns.
+        """True if a further feeding point is a tripper: by its lift, or where all bulk lands on a belt that turns.
 
-        Where the carry strand lies round a pulley its bulk has left it, so that all of the flow behind it is the same.
+        Where the carry strand wraps a pulley its bulk has left it, so the whole flow behind it is the same bulk.
         """
         if point.tripper_lift is not None:
             return True
@@ -533,7 +533,7 @@ class Route(Model):
 
     @cached_property
     def flow_shares(self) -> dict[str, float]:
-        """Share of the mass flow that has landed before or at each section's tail end [-]; 1 without feeding points."""
+        """Share of the mass flow carried by each section [-]; 1 without feeding points."""
         if self.feeding is None:
             return {section.name: 1.0 for section in self.sections}
         fed: dict[str, list[float]] = {}

@@ -1,4 +1,4 @@
-"""What a compound file holds: source, series and its replicas, shift, strain sweeps, ranges, fit."""
+"""Data of a compound file: source, series and its replicas, shift, strain sweeps, ranges, fit."""
 
 from __future__ import annotations
 

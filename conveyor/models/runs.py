@@ -1,4 +1,4 @@
-"""Runs of a conveyor whose power was measured."""
+"""Measured runs of a conveyor."""
 
 from __future__ import annotations
 
@@ -40,17 +40,17 @@ class MeasuredRun(Model):
 
     @property
     def mass_flow(self) -> float:
-        """Of the bulk [kg/s]."""
+        """Mass flow of the bulk [kg/s]."""
         return si(self.flow)
 
     @property
     def belt_speed(self) -> float | None:
-        """Of the belt [m/s]; None where it is the spec's."""
+        """Belt speed [m/s]; None for that of the spec."""
         return None if self.speed is None else si(self.speed)
 
     @property
     def belt_temperature(self) -> float | None:
-        """Of the covers [K]; None where it is the spec's."""
+        """Temperature of the covers [K]; None for that of the spec."""
         return None if self.temperature is None else si(self.temperature)
 
     @property
@@ -60,7 +60,7 @@ class MeasuredRun(Model):
 
     @property
     def state(self) -> tuple[float | None, ...]:
-        """Flow, speed and temperatures [kg/s, m/s, K]: runs of one state are calculated once."""
+        """Flow, speed and temperatures [kg/s, m/s, K]; runs of equal state are calculated once."""
         given = (self.flow, self.speed, self.temperature, self.air_temperature)
         return tuple(None if value is None else si(value) for value in given)
 

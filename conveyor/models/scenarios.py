@@ -1,4 +1,4 @@
-"""Scenarios of starting and stopping: how the belt is loaded, where it begins, what happens when."""
+"""Scenarios of starting and stopping: loading, initial state, drive commands."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ class Scenario(Model):
 
 
 def scenario_problems(scenarios: Iterable[Scenario], drives: Iterable[str]) -> Iterator[Problem]:
-    """Refuse names that stand twice, and drives that the conveyor does not have."""
+    """Refuse duplicate names, and drives that the conveyor does not have."""
     names, known = set(), tuple(drives)
     for i, scenario in enumerate(scenarios):
         if scenario.name in names:

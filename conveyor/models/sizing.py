@@ -1,4 +1,4 @@
-"""What a conveyor is sized from: its duty, rules of the site, series of parts, prices."""
+"""Input of sizing: duty, site rules, series of parts, prices."""
 
 from __future__ import annotations
 
@@ -52,16 +52,16 @@ Apart = Annotated[Distance, Bounds(gt="0.2 m", le="20 m")]
 
 
 _SAME_SIZE: Final = 1e-9
-"""Sizes are typed as decimals, in any unit: a larger difference is another size."""
+"""Relative tolerance of sizes typed as decimals in any unit."""
 
 
 def same_width(one: float, other: float) -> bool:
-    """Whether two widths are one [m]."""
+    """True if two widths are equal but for rounding [m]."""
     return math.isclose(one, other, rel_tol=_SAME_SIZE)
 
 
 def within(size: float, most: float) -> bool:
-    """Whether a size of a series is at most that of a rule: 300 hp are within "300 hp", however each came to SI."""
+    """True if a size is at most a limit, but for the rounding of unit conversion."""
     return size <= most * (1.0 + _SAME_SIZE)
 
 
@@ -125,7 +125,7 @@ class Sizes(Model):
 
 @cache
 def sizes(series: Series) -> Sizes:
-    """The series of a library."""
+    """Series of sizes from the library."""
     entries = libraries.entries("sizes_us" if series == "US" else "sizes").values()
     return Sizes.from_data({name: value for entry in entries for name, value in entry.fields.items()})
 
@@ -252,7 +252,7 @@ class SizingDuty(Model):
 
     @staticmethod
     def _sized_problems(route: Route) -> Iterator[Problem]:
-        """Refuse what the sizing is to find."""
+        """Refuse fields that the sizing determines."""
         given: dict[Location, object] = {
             ("route", "pulleys"): route.pulleys,
             ("route", "take_up"): route.take_up,
@@ -282,12 +282,12 @@ class SizingDuty(Model):
 
     @property
     def series(self) -> Series:
-        """Library of sizes that parts are chosen from."""
+        """Series of sizes that parts are chosen from."""
         return self.rules.series or ("US" if self.report.units == "US" else "metric")
 
     @property
     def sized_route(self) -> Route:
-        """Its sections, be they given or one slope."""
+        """Route as given, else one section of the length and lift."""
         if self.route is not None:
             return self.route
         section: dict[str, Any] = {"name": "conveyor", "length": self.length, "lift": self.lift}

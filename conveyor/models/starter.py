@@ -1,4 +1,4 @@
-"""How a motor is started: what stands between mains and belt, and how it lets the motor pull over time."""
+"""Motor starters: device between mains and belt, and the torque it allows over time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A study: a spec, the fields that vary, and the figures that are asked for."""
+"""Studies and searches: a spec, the fields that vary, the figures wanted."""
 
 from __future__ import annotations
 
@@ -25,25 +25,25 @@ from conveyor.units import between, quantity, si, text
 from conveyor.units.presentation import MONEY, unit
 
 Value: TypeAlias = str | float | int | bool
-"""Of a field, as specs write it."""
+"""Value of a field, as in specs."""
 Changes: TypeAlias = Mapping[str, Value]
-"""New values of fields, by path."""
+"""New field values by path."""
 MOST_SAMPLES = 2**20
 MOST_POINTS = 10_000_000
-"""Of a study: more take weeks on a hundred cores."""
+"""Most points of a study: more take weeks on a hundred cores."""
 STEPS = 1000
-"""Of a range that is searched."""
+"""Steps of a searched range."""
 HOURS = "hours"
-"""Of a state: its key beside paths of fields."""
+"""Key of the hours among the field paths of a state."""
 DUTY = "duty"
-"""As states: those of the spec."""
+"""Value of `states` that takes those of the spec's duty."""
 
 
 _LIKE = 'from:to:step with a unit, such as "-20:40:5 degC"'
 
 
 def _listed(given: Any) -> Any:
-    """Values of `from:to:step unit`; lists as they are, of what a field may be."""
+    """Values of `from:to:step unit`; lists unchanged."""
     if isinstance(given, list | tuple):
         for value in given:
             if not isinstance(value, Value) or (isinstance(value, float) and not math.isfinite(value)):
@@ -70,7 +70,7 @@ Axis = Annotated[tuple[Value, ...], BeforeValidator(_listed), Field(min_length=1
 
 
 def hours_of(given: Value) -> float | None:
-    """Hours of a number or a time; None of anything else."""
+    """Hours of a number or a time; None for other values."""
     try:
         time = float(given) if isinstance(given, int | float) else si(quantity(given, "duration")) / 3600.0
     except InputError:
@@ -82,12 +82,12 @@ Listed = TypeVar("Listed")
 
 
 def _again(given: Sequence[Listed]) -> list[Listed]:
-    """What is listed more than once."""
+    """Items listed more than once."""
     return [one for one, times in Counter(given).items() if times > 1]
 
 
 def alike_as_one(rows: Iterable[Mapping[str, Value]]) -> tuple[dict[str, Value], ...]:
-    """States of the same fields and hours, or none; those that are alike are one, for the hours of all."""
+    """Merge states of equal field values; their hours add up."""
     hours: dict[tuple[tuple[str, Value], ...], float | None] = {}
     for row in rows:
         alike = tuple((path, value) for path, value in row.items() if path != HOURS)
@@ -118,7 +118,7 @@ class SampledRange(Model):
 
     @property
     def falls(self) -> bool:
-        """Whether low is above high."""
+        """True if low is above high."""
         if isinstance(self.low, float) and isinstance(self.high, float):
             return self.low > self.high
         low, high, _ = _ends(*self._written)
@@ -130,7 +130,7 @@ class SampledRange(Model):
         return low, high
 
     def at(self, share: float) -> Value:
-        """Value a share of the way from low to high.
+        """Value between low and high, by its share of the range.
 
         Raises
         ------
@@ -145,7 +145,7 @@ class SampledRange(Model):
 
 @cache
 def _ends(low: str, high: str) -> tuple[float, float, str]:
-    """Both ends in the unit of the lower, and that unit."""
+    """Both ends in the unit of the lower one, and that unit."""
     least, most = PRICE.fullmatch(low), PRICE.fullmatch(high)
     if least and most and least[2] == most[2]:
         return float(least[1]), float(most[1]), f"{least[2]}/kWh"
@@ -173,7 +173,7 @@ class Samples(Model):
         drawn = kinds[self.method](d=len(self.fields), rng=self.seed)
         ranges = list(self.fields.items())
         if self.method == "sobol":
-            # powers of two: the sequence is balanced, and SciPy says nothing
+            # powers of two: a balanced sequence, and no warning of SciPy
             shares = drawn.random_base2(math.ceil(math.log2(self.count)))[: self.count]
         else:
             shares = drawn.random(self.count)
@@ -199,12 +199,12 @@ class Limit(Model):
         return self
 
     def ends(self, name: str, kind: str) -> tuple[float | None, float | None]:
-        """Least and most, of a figure of that name and kind [SI].
+        """Least and most allowed of a figure, by its name and kind [SI].
 
         Raises
         ------
         InputError
-            They are of another kind.
+            The limits are of another kind.
         """
         least, most = _limit(self.least, name, kind), _limit(self.most, name, kind)
         if least is not None and most is not None and least > most:
@@ -253,12 +253,12 @@ class VariedSpec(Model):
 
     @property
     def drawn(self) -> Mapping[str, SampledRange]:
-        """Ranges of fields that are drawn or searched."""
+        """Ranges of fields, sampled or searched."""
         return {}
 
     @property
     def placed(self) -> Iterator[tuple[Location, str, Value]]:
-        """Every value that is listed, and the ends of ranges: its place in the plan, its path, itself."""
+        """Listed values and ends of ranges: location in the plan, path of the field, value."""
         for path, values in self.axes.items():
             yield from ((("axes", path, i), path, value) for i, value in enumerate(values))
         for path, span in self.drawn.items():
@@ -270,7 +270,7 @@ class VariedSpec(Model):
 
     @property
     def _ranged(self) -> Location:
-        """Where ranges are."""
+        """Location of the ranges in the plan."""
         return ("ranges",)
 
     @model_validator(mode="after")
@@ -309,7 +309,7 @@ class VariedSpec(Model):
         return self
 
     def _repeated(self) -> Iterator[Problem]:
-        """Values and rows that are listed twice: their points would be one."""
+        """Refuse values and rows listed twice."""
         for path, values in self.axes.items():
             for value in _again(values):
                 yield Problem(("axes", path), f'"{value}" is given twice; leave one of both')
@@ -326,29 +326,29 @@ class VariedSpec(Model):
 
     @property
     def rows(self) -> tuple[dict[str, Value], ...]:
-        """States that are read."""
+        """States as rows; empty where they are named by text."""
         return () if isinstance(self.states, str) else self.states
 
     @property
     def hours(self) -> tuple[float, ...] | None:
-        """Of each state in a year [h]; None where the states have none."""
+        """Hours of each state in a year [h]; None where the states have none."""
         if not self.rows or HOURS not in self.rows[0]:
             return None
         return tuple(hours_of(row[HOURS]) or 0.0 for row in self.rows)
 
     def currency(self, base: Conveyor) -> str:
-        """Of all costs: that of the spec's energy, else that of the parts."""
+        """Currency of all costs: of the energy price in the spec, else of the prices."""
         energy = None if base.operation is None else base.operation.price
         return self.prices.currency if energy is None else energy.currency
 
     @property
     def designed(self) -> tuple[str, ...]:
-        """Fields that tell designs apart, the slowest first."""
+        """Fields that distinguish designs, the slowest varying first."""
         return (*(self.together[0] if self.together else ()), *self.drawn, *self.axes)
 
     @property
     def paths(self) -> tuple[str, ...]:
-        """Every field that varies, the slowest first: of designs, then of states."""
+        """All varying fields, the slowest first: of designs, then of states."""
         return (*self.designed, *self.met)
 
     @property
@@ -357,7 +357,7 @@ class VariedSpec(Model):
         return tuple(path for path in (self.rows[0] if self.rows else ()) if path != HOURS)
 
     def points_of(self, design: Changes) -> Iterator[dict[str, Value]]:
-        """A design in each of its states."""
+        """Points of a design, one for each state."""
         for row in self.rows or ({},):
             yield {**design, **{path: value for path, value in row.items() if path != HOURS}}
 
@@ -373,7 +373,7 @@ class StudyPlan(VariedSpec):
 
     @property
     def count(self) -> int:
-        """Points."""
+        """Number of points."""
         samples = 1 if self.samples is None else self.samples.count
         designs = (
             math.prod(len(values) for values in self.axes.values()) * max(len(self.together), 1) * samples
@@ -381,20 +381,20 @@ class StudyPlan(VariedSpec):
         return designs * max(len(self.rows), 1)
 
     def designs(self) -> Iterator[dict[str, Value]]:
-        """Every design, in order; the last axis changes fastest."""
+        """All designs in order; the last axis changes fastest."""
         for row in self.together or ({},):
             for sample in ({},) if self.samples is None else self.samples.points():
                 for values in itertools.product(*self.axes.values()):
                     yield {**row, **sample, **dict(zip(self.axes, values, strict=True))}
 
     def points(self) -> Iterator[dict[str, Value]]:
-        """Every design in every state; the last state changes fastest."""
+        """All designs in all states; the state changes fastest."""
         for design in self.designs():
             yield from self.points_of(design)
 
     @property
     def drawn(self) -> Mapping[str, SampledRange]:
-        """Ranges of fields that are drawn."""
+        """Ranges of sampled fields."""
         return {} if self.samples is None else self.samples.fields
 
     @property
@@ -427,7 +427,7 @@ class SearchPlan(VariedSpec):
 
     @property
     def drawn(self) -> Mapping[str, SampledRange]:
-        """Ranges of fields that are searched."""
+        """Ranges of searched fields."""
         return self.ranges
 
     @property
@@ -450,12 +450,12 @@ class SearchPlan(VariedSpec):
 
     @property
     def choices(self) -> tuple[tuple[Mapping[str, Value], ...], ...]:
-        """What is listed: the rows, and every axis."""
+        """Lists to choose from: the rows, and each axis."""
         listed = tuple(tuple({path: value} for value in values) for path, values in self.axes.items())
         return (*((self.together,) if self.together else ()), *listed)
 
     def design(self, shares: Sequence[float]) -> dict[str, Value]:
-        """A design: of each range the share of the way, of each list the number."""
+        """Design from the share of each range and the index in each list."""
         values: dict[str, Value] = {}
         for (path, span), share in zip(self.ranges.items(), shares, strict=False):
             values[path] = span.at(round(share * STEPS) / STEPS)
@@ -465,7 +465,7 @@ class SearchPlan(VariedSpec):
 
 
 def with_states(plan: Given, base: Conveyor) -> Given:
-    """The plan with the spec's duty as its states, where it asks for that.
+    """Plan with the spec's duty as its states, where `states` is "duty".
 
     Raises
     ------

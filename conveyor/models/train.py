@@ -1,4 +1,4 @@
-"""The drive train between mains and belt: named efficiencies that multiply to one."""
+"""Drive train between mains and belt: efficiencies of its parts."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from conveyor.models.base import Model, Name
 from conveyor.units import Bounds, Fraction, quantity, si
 
 PRODUCT_TOLERANCE: Final = 1e-9
-"""Efficiencies are typed as decimals; a product that differs by more is another train's."""
-_DIGITS: Final = 12  # of a product of decimals; beyond is rounding
+"""Tolerance of a product of efficiencies typed as decimals."""
+_DIGITS: Final = 12  # of a product of decimals
 
 
 class DrivePart(Model):
@@ -27,7 +27,7 @@ class DrivePart(Model):
 
 
 def product(parts: Iterable[DrivePart], side: str) -> float:
-    """Efficiency of all parts of a side [-]; 1 without any."""
+    """Efficiency of all parts of a side, "mains" or "belt" [-]; 1 without any."""
     return math.prod(si(part.efficiency) for part in parts if part.side == side)
 
 
@@ -39,5 +39,5 @@ def with_efficiency(data: Mapping[str, Any]) -> Mapping[str, Any]:
     try:
         parts = [DrivePart.model_validate(part) for part in given]
     except SpecError:
-        return data  # refused by the field itself, at its own place
+        return data  # refused at the field itself
     return {**data, "efficiency": quantity(round(product(parts, "belt"), _DIGITS), "fraction")}

@@ -1,4 +1,4 @@
-"""What a designer does not know exactly, as ranges."""
+"""Ranges of uncertain inputs, and correlations between them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from conveyor.units import Bounds, Fraction, Quantity, TemperatureDifference, si
 HalfWidth = Annotated[Fraction, Bounds(gt="0 %", lt="100 %")]
 Share = Annotated[Fraction, Bounds(ge="0 %", lt="100 %")]
 FEWEST: Final = 64
-"""Draws: of fewer the outermost do not bound the 5 % and 95 % percentiles with 90 %."""
+"""Fewest draws whose extremes bound the 5 % and 95 % percentiles with 90 % confidence."""
 
 
 Drawn = Literal[
@@ -63,7 +63,7 @@ class Uncertainty(Model):
     """Inputs that the draws take as correlated."""
 
     def half_width(self, name: str) -> float | None:
-        """Half width of a range, as a share or in kelvin [-, K]; None where it is not given."""
+        """Half width of a range, relative or in kelvin [-, K]; None where it is not given."""
         given: Quantity | None = getattr(self, name)
         return None if given is None else si(given)
 

@@ -1,4 +1,4 @@
-"""Inputs that are possible and hardly meant: a figure of another unit, a slipped decimal point, a set of a wider belt.
+"""Implausible inputs: a figure in another unit, a slipped decimal point, a set of a wider belt.
 
 Bounds lie well outside what is in use; where no source is named they are general knowledge.
 """
@@ -28,7 +28,7 @@ CARCASS: Final = (0.5, 1.4)
 
 
 def unlikely(conveyor: Conveyor) -> Iterator[Said]:
-    """What of a spec to look at twice, and what may be meant."""
+    """Notes on implausible inputs of a spec, and what may be meant."""
     yield from _flow(conveyor)
     yield from _density(conveyor)
     yield from _carcass(conveyor)
@@ -62,7 +62,7 @@ def _density(conveyor: Conveyor) -> Iterator[Said]:
 
 
 def _carcass(conveyor: Conveyor) -> Iterator[Said]:
-    """A mass per length that is meant per area, or the other way round, leaves a carcass that none is."""
+    """Carcass mass that suggests a mixup of mass per length and per area."""
     belt, carcass = conveyor.belt, conveyor.belt.carcass
     steel = carcass.kind == "steel cord"
     if steel and carcass.strength is None:

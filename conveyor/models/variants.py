@@ -1,4 +1,4 @@
-"""Variants of a conveyor: loaded as a case says, at another speed or temperature, with another compound."""
+"""Variants of a conveyor: load case, speed, temperature, compound, measured run."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from conveyor.models.runs import MeasuredRun
 from conveyor.units import Quantity, from_si, si
 
 CoverChoice = Literal["bottom", "top", "both"]
-"""Which cover is made of another compound."""
+"""Cover made of another compound."""
 
 
 @dataclass(frozen=True, eq=False)
 class Setting:
-    """A variant at a temperature of the covers [K] and a belt speed [m/s]; its conveyor, or why there is none."""
+    """Variant at a cover temperature [K] and belt speed [m/s]; its conveyor, or the error."""
 
     temperature: float
     speed: float
@@ -29,13 +29,13 @@ class Setting:
 
 
 def scaled(value: Quantity, factor: float) -> Quantity:
-    """A quantity times a factor, in its own unit."""
+    """Quantity times a factor, in its own unit."""
     changed: Quantity = value * factor
     return changed
 
 
 def with_case(conveyor: Conveyor, case: LoadCase, *, speed: Quantity | None = None) -> Conveyor:
-    """The conveyor loaded as a case says, at a belt speed.
+    """Conveyor with the loading of a case, at a belt speed.
 
     A loading point resists only where bulk lies on the section it feeds; a tripper lifts and speeds up what the section
     before it brings.
@@ -45,9 +45,9 @@ def with_case(conveyor: Conveyor, case: LoadCase, *, speed: Quantity | None = No
     conveyor : Conveyor
         The spec.
     case : LoadCase
-        What is loaded.
+        Load case.
     speed : Quantity, optional
-        Of the belt; that of the spec without it.
+        Belt speed; that of the spec without it.
 
     Raises
     ------
@@ -72,7 +72,7 @@ def with_case(conveyor: Conveyor, case: LoadCase, *, speed: Quantity | None = No
 
 
 def slowed(conveyor: Conveyor, share: float) -> Conveyor:
-    """The conveyor at a share of its belt speed with the bulk that lies on it at full speed [-]."""
+    """Conveyor at a share of its belt speed [-], with the bulk line mass of full speed."""
     speed = scaled(conveyor.belt.speed, share)
     points = [
         point if si(point.speed) <= si(speed) else point.replace(speed=speed)
@@ -99,7 +99,7 @@ def _loaded(section: Section, case: LoadCase, named: Collection[str]) -> Section
 
 
 def _fed(conveyor: Conveyor, sections: Sequence[Section], speed: Quantity) -> Route:
-    """The route with those sections; above unloaded ones loading points do not resist, but what a tripper brings."""
+    """Route with new sections; loading points at empty sections have no resistance, except trippers."""
     route = conveyor.route
     bearing = {section.name: section.loaded for section in sections}
     points = []
@@ -116,7 +116,7 @@ def _fed(conveyor: Conveyor, sections: Sequence[Section], speed: Quantity) -> Ro
 
 
 def with_temperature(conveyor: Conveyor, temperature: Quantity) -> Conveyor:
-    """The conveyor with its covers at a temperature; the air keeps its distance to them.
+    """Conveyor with its covers at a temperature; the air changes by the same difference.
 
     Raises
     ------
@@ -128,7 +128,7 @@ def with_temperature(conveyor: Conveyor, temperature: Quantity) -> Conveyor:
 
 
 def _warmth(conveyor: Conveyor, temperature: Quantity) -> dict[str, Quantity]:
-    """Fields of the air and the covers that change where the covers are at a temperature."""
+    """Changed ambient fields for a temperature of the covers."""
     ambient = conveyor.ambient
     change = si(temperature) - si(ambient.belt)
     if change == 0.0:
@@ -140,12 +140,12 @@ def _warmth(conveyor: Conveyor, temperature: Quantity) -> dict[str, Quantity]:
 
 
 def distinct(values: Iterable[Quantity]) -> list[Quantity]:
-    """Values without those that say the same in another unit."""
+    """Values without duplicates in another unit."""
     return list({si(value): value for value in values}.values())
 
 
 def case_settings(conveyor: Conveyor, case: LoadCase) -> Iterator[Setting]:
-    """A conveyor loaded as a case says, at each of its speeds and temperatures."""
+    """Variants of a load case, at each of its speeds and temperatures."""
     for speed in case.speeds or (conveyor.belt.speed,):
         loaded: Conveyor | ConveyorError
         try:
@@ -159,7 +159,7 @@ def case_settings(conveyor: Conveyor, case: LoadCase) -> Iterator[Setting]:
 def crossed_settings(
     conveyor: Conveyor, temperatures: Iterable[Quantity], speeds: Iterable[Quantity]
 ) -> Iterator[Setting]:
-    """A conveyor at every speed and temperature; where roll drag follows the air, it keeps its distance to the belt.
+    """Variants at every speed and temperature; the air follows the belt where roll drag depends on it.
 
     Otherwise nothing but the rubber changes with the temperature, and the conveyors of one speed are one.
     """
@@ -198,10 +198,10 @@ def _setting(loaded: Conveyor | ConveyorError, temperature: Quantity, speed: Qua
 
 
 def with_compound(conveyor: Conveyor, compound: RubberCompound, cover: CoverChoice) -> Conveyor:
-    """The conveyor with a cover, or both, of another compound.
+    """Conveyor with one cover or both of another compound.
 
-    A top cover without a compound of its own follows the bottom cover, as the spec says of it: where only the bottom
-    cover changes, it is given the old one first.
+    A top cover without a compound has that of the bottom cover; it keeps the old one where only the bottom cover
+    changes.
 
     Raises
     ------
@@ -218,7 +218,7 @@ def with_compound(conveyor: Conveyor, compound: RubberCompound, cover: CoverChoi
 
 
 def with_alternative(conveyor: Conveyor, compound: RubberCompound, other: RubberCompound) -> Conveyor:
-    """The conveyor with another compound wherever it has that one."""
+    """Conveyor with one compound replaced by another in all covers."""
     belt = conveyor.belt
     covers = {
         name: cover.replace(compound=other)
@@ -229,7 +229,7 @@ def with_alternative(conveyor: Conveyor, compound: RubberCompound, other: Rubber
 
 
 def with_belt_temperature_changed(conveyor: Conveyor, change: float) -> Conveyor:
-    """The conveyor with its covers warmer or colder [K].
+    """Conveyor with its covers warmer or colder by a difference [K].
 
     Raises
     ------
@@ -241,7 +241,7 @@ def with_belt_temperature_changed(conveyor: Conveyor, change: float) -> Conveyor
 
 
 def with_runs(conveyor: Conveyor, runs: Sequence[MeasuredRun]) -> list[Conveyor]:
-    """The conveyor as it ran in each of the runs; runs of one state are one conveyor.
+    """Conveyor as measured in each run; runs of equal state share one object.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Pydantic's errors in the words of this program: what was given, what is allowed."""
+"""Messages for pydantic's errors: what was given, what is allowed."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _EXPECTED = {
 
 
 def message(item: dict[str, Any], model: type[BaseModel]) -> str:
-    """Say what was given and what is allowed, for one of pydantic's errors."""
+    """Message of one pydantic error: what was given, what is allowed."""
     kind, context, given = item["type"], item.get("ctx", {}), item.get("input")
     location: Location = tuple(item["loc"])
     writers: dict[str, Callable[[], str]] = {
@@ -71,7 +71,7 @@ def message(item: dict[str, Any], model: type[BaseModel]) -> str:
 
 
 def _near(given: Any, expected: str) -> str:
-    """Guess the word that was meant, by its letters in any case."""
+    """Suggest the allowed word closest to the given one, in any case."""
     words = {word.casefold(): word for word in re.findall(r"'([^']+)'", expected)}
     near = difflib.get_close_matches(given.casefold(), words, n=1) if isinstance(given, str) else []
     return f'; did you mean "{words[near[0]]}"?' if near else ""
@@ -82,7 +82,7 @@ def _bare(name: str) -> str:
 
 
 def shown(value: Any) -> str:
-    """Write a given value for a message, shortened."""
+    """Given value as shortened text for a message."""
     if isinstance(value, dict | BaseModel):
         return "several fields"
     if isinstance(value, list | tuple):
@@ -111,7 +111,7 @@ def _unknown_key(model: type[BaseModel], location: Location) -> str:
 
 
 def _expected(model: type[BaseModel], location: Location) -> str:
-    """Describe the value that a missing field wants."""
+    """Describe the value expected for a missing field."""
     field = next(
         (field for owner in _models_at(model, location[:-1]) if (field := _field(owner, location[-1]))), None
     )
@@ -167,7 +167,7 @@ def _models_at(model: type[BaseModel], location: Location) -> list[type[BaseMode
 
 
 def _tags_of(owner: type[BaseModel]) -> tuple[Any, ...]:
-    """Return the values of literal fields: what a discriminated union chooses by."""
+    """Values of literal fields, by which a discriminated union chooses."""
     literals = [f.annotation for f in owner.model_fields.values() if get_origin(f.annotation) is Literal]
     return tuple(value for literal in literals for value in get_args(literal))
 

@@ -56,7 +56,7 @@ _TORNADO = 12  # inputs drawn, those that matter most
 
 @own_settings()
 def resistance_breakdown(balance: Balance, *, system: System = "SI") -> Figure:
-    """Every kind of resistance [kN, lbf], the classical estimates beside their sums; numbers at the bars."""
+    """Bars of every resistance [kN, lbf], and the classical estimates of their sums; numbers at the bars."""
     force = unit("force", system, large=True)
     figure, (axis,) = stacked(1, 4.4)
     estimates: list[tuple[str, Classical]] = [
@@ -92,7 +92,7 @@ def resistance_breakdown(balance: Balance, *, system: System = "SI") -> Figure:
 
 
 def _bar_look(k: int) -> dict[str, Any]:
-    """Of the bars of the k-th column: the first ones full, the others hatched."""
+    """Style of the bars of the k-th calculation: the first filled, the others hatched."""
     return {"color": colour(0) if k == 0 else "white", "edgecolor": colour(k), "hatch": _HATCH[k]}
 
 
@@ -102,7 +102,7 @@ def _worded(name: str) -> str:
 
 
 def governing_roll(contacts: Contacts, strand: Strand) -> RollResult:
-    """Roll of the highest line load on a strand."""
+    """Roll with the highest line load on a strand."""
     pairs = zip(contacts.line.stretches, contacts.rolls, strict=True)
     of_strand = [roll for stretch, rolls in pairs if stretch.strand == strand for roll in rolls]
     return max(of_strand, key=lambda roll: roll.load.peak_line_load)
@@ -112,10 +112,8 @@ def governing_roll(contacts: Contacts, strand: Strand) -> RollResult:
 def pressure_under_rolls(contacts: Contacts, *, system: System = "SI") -> Figure:
     """Contact pressure under the highest line load of each strand, over the distance from the roll's axis.
 
-    In MPa over mm, or psi over inches.
-
-    Positive distances are on the side the belt comes from. The load is that of the contact at the inner end of a wing,
-    or along a middle roll.
+    In MPa over mm, or psi over inches; positive on the side the belt comes from. The load is that at the inner end of
+    a wing roll, or along a middle roll.
 
     Raises
     ------
@@ -187,7 +185,7 @@ def case_power(
 ) -> Figure:
     """Motor power [kW, hp] of every load case over temperature at one speed [m/s], or over speed at a temperature [K].
 
-    Without one the one that most cases have.
+    By default the speed or temperature that most cases have.
 
     Raises
     ------
@@ -233,7 +231,7 @@ def _power_lines(cases: list[CaseResult], over: str, system: System) -> Figure:
 
 @own_settings()
 def tornado(study: CalculatedRanges, *, system: System = "SI") -> Figure:
-    """Change of the motor power [kW, hp] at both ends of every input's range, the one that matters most on top."""
+    """Change of the motor power [kW, hp] at both ends of every input's range, the most influential input on top."""
     effects, power = study.effects[:_TORNADO], unit("power", system, large=True)
     figure, (axis,) = stacked(1, 1.2 + 0.32 * len(effects))
     rows = range(len(effects))
@@ -252,7 +250,7 @@ def tornado(study: CalculatedRanges, *, system: System = "SI") -> Figure:
 
 @own_settings()
 def settling(exact: MonteCarlo, first_order: tuple[float, float], *, system: System = "SI") -> Figure:
-    """Ends of the 90 % interval of the motor power [kW, hp] after ever more draws, beside those of first order."""
+    """Ends of the 90 % interval of the motor power [kW, hp] over the number of draws, and those of first order."""
     figure, (axis,) = stacked(1, 3.6)
     power, rows = unit("power", system, large=True), exact.convergence
     draws = [row.draws for row in rows]
@@ -273,18 +271,18 @@ def settling(exact: MonteCarlo, first_order: tuple[float, float], *, system: Sys
 Array = NDArray[np.float64]
 _HEIGHT = 4.4
 _MARKERS = {"feeding": ("v", 10, "#2E8B57"), "drive": ("o", 9, "#C55A11"), "take-up": ("s", 14, "#8064A2")}
-"""How what stands along the route is drawn: marker, its size, its colour."""
+"""Marker, size and colour of equipment along the route."""
 _FAILS = "#B3261E"
 _WAY = "distance from the head along the belt, return strand first"
 _PIECES = 24  # chords of a curve in plan
-_BEYOND = 1.5  # of the room on the rolls, to where a drift without end is drawn
+_BEYOND = 1.5  # of the free roll width: drawn length of an unbounded drift
 _HEAP = 41  # points of its outline
 _ROOM = 0.05  # of the length, above and below a level route
 _ASPECT = 5.0  # a height that is less than a fifth of the length is drawn larger
 
 
 def places(conveyor: Conveyor, line: Line) -> dict[str, tuple[int, ...]]:
-    """Boundaries of sections, counted from the tail, at which feeding points, drives and the take-up stand."""
+    """Section boundaries, counted from the tail, of feeding points, drives and the take-up."""
     names = [section.name for section in conveyor.route.sections]
     feeding = [0 if at.section is None else names.index(at.section) for at in conveyor.route.feeding_points]
     n = len(names)
@@ -296,12 +294,12 @@ def places(conveyor: Conveyor, line: Line) -> dict[str, tuple[int, ...]]:
 
 
 def _from_tail(boundary: int, sections: int) -> int:
-    """Boundary of the route of a boundary of the loop, which goes from the head along the return strand and back."""
+    """Route boundary of a loop boundary; the loop runs from the head along the return strand and back."""
     return abs(sections - boundary)
 
 
 def fault(line: Line, state: MotionState) -> str:
-    """What is wrong with the tensions of a state, to stand behind its name; nothing where nothing is."""
+    """Suffix for the name of a motion state whose belt is slack or slips; else empty."""
     slips = any(
         not holds(side.slack, grip_tension(side.force, friction=drive.friction, wrap_angle=drive.wrap_angle))
         for drive, side in zip(line.drives, state.drives, strict=True)
@@ -314,7 +312,7 @@ def fault(line: Line, state: MotionState) -> str:
 def route_profile(
     conveyor: Conveyor, line: Line, boundaries: Sequence[tuple[float, float]], *, system: System = "SI"
 ) -> Figure:
-    """Height over horizontal distance from the tail [m], of every boundary of sections; what is where is marked."""
+    """Height over horizontal distance from the tail [m], with feeding points, drives and take-up marked."""
     figure, (axis,) = stacked(1, _HEIGHT)
     length = unit("length", system, large=True)
     x, z = length(np.transpose(boundaries))
@@ -340,7 +338,7 @@ def route_profile(
 
 @own_settings()
 def cross_section(conveyor: Conveyor, line: Line, *, system: System = "SI") -> Figure:
-    """A set of each strand with its belt, and with the bulk as it lies there, to scale; the belt is centred."""
+    """An idler set of each strand with its belt and bulk, to scale; the belt is centred."""
     figure, axes = stacked(2, 1.4 * _HEIGHT)
     size, width = unit("size", system), line.belt.width
     for axis, strand in zip(axes, STRANDS, strict=True):
@@ -375,14 +373,14 @@ def cross_section(conveyor: Conveyor, line: Line, *, system: System = "SI") -> F
 
 
 def _mirrored(flat: float, half: Sequence[Wing]) -> tuple[Array, Array]:
-    """Across and up [m], of a belt level to `flat` on both sides and on the wings beyond, from left to right."""
+    """Outline of a belt (across, up) [m], from left to right: level to `flat` on both sides, then along the wings."""
     x = np.cumsum([flat, *(wing.length * math.cos(wing.angle) for wing in half)])
     y = np.cumsum([0.0, *(wing.length * math.sin(wing.angle) for wing in half)])
     return np.concatenate([-x[::-1], x]), np.concatenate([y[::-1], y])
 
 
 def _rolls(stretch: Stretch, flat: float, half: Sequence[Wing]) -> Iterator[tuple[Array, Array]]:
-    """Outlines of the rolls [m]: a wing's begins at the bend before it."""
+    """Outlines of the rolls [m]; a wing roll begins at the bend before it."""
     count, long = len(stretch.radii), stretch.roll_length
     if count % 2:
         thick = 2.0 * stretch.radii[count // 2]
@@ -409,7 +407,7 @@ def _drawn(section: RouteSection, heading: float) -> tuple[Array, float]:
 
 @own_settings()
 def plan(line: Line, *, system: System = "SI") -> Figure:
-    """The route seen from above, from the tail, which heads along x; sections on horizontal curves in red."""
+    """Plan of the route from the tail, which heads along x; horizontal curves in red."""
     figure, (axis,) = stacked(1, _HEIGHT)
     length = unit("length", system, large=True)
     at, heading = np.zeros(2), 0.0
@@ -431,7 +429,7 @@ def plan(line: Line, *, system: System = "SI") -> Figure:
 
 @own_settings()
 def drift(loads: Sequence[tuple[str, Sequence[HorizontalCheck]]], *, system: System = "SI") -> Figure:
-    """Range of the drift over all states of each load in every horizontal curve; the room on the rolls in grey."""
+    """Range of belt drift over all states of each load in every horizontal curve; the free roll width in grey."""
     bends, size = loads[0][1], unit("size", system)
     figure, (axis,) = stacked(1, 1.4 + 0.7 * len(bends))
     axis.use_sticky_edges = False  # the grey ends within the picture
@@ -461,7 +459,7 @@ def drift(loads: Sequence[tuple[str, Sequence[HorizontalCheck]]], *, system: Sys
 
 @own_settings()
 def tension_diagram(balance: Balance, moving: Motions | None = None, *, system: System = "SI") -> Figure:
-    """Tension round the loop from the head and back, a line a state; the least that the sag allows in grey."""
+    """Tension round the loop from the head, one line per motion state; the minimum for sag in grey."""
     figure, (axis,) = stacked(1, _HEIGHT)
     settled = balance.settled
     shape = balance.line.loop
@@ -491,7 +489,7 @@ def tension_diagram(balance: Balance, moving: Motions | None = None, *, system: 
 
 @own_settings()
 def flap_diagram(result: CalculatedConveyor, *, system: System = "SI") -> Figure:
-    """Natural frequencies of the belt between the sets round the loop, steady running, beside the rolls' rotation."""
+    """Natural frequencies of the belt between the idler sets in steady running, and the rotation of the rolls."""
     figure, (axis,) = stacked(1, _HEIGHT)
     length, frequency, shape = unit("length", system, large=True), unit("swing", system), result.line.loop
     places = {(s.section, s.strand): shape.way[i : i + 2] for i, s in enumerate(shape.stretches)}

@@ -1,4 +1,4 @@
-"""Curves that move, as SVG that plays by itself: no script, nothing fetched, and only when a reader asks for it."""
+"""Animated curves as SVG: no script, nothing fetched, played on a click."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _TIMES = 10.0  # over life between them
 
 @dataclass(frozen=True)
 class Panel:
-    """A curve over the place at every time, shape (m, n), in the unit of its label; `band` its ends at any time."""
+    """A curve over the place at every time, shape (m, n), in the unit of its label; `band` its extremes over time."""
 
     label: str
     values: Array
@@ -34,7 +34,7 @@ class Panel:
 def moving(
     name: str, x: tuple[str, Array], time: tuple[str, Array], panels: Sequence[Panel], *, mark: float
 ) -> Html:
-    """Draw curves over the place that move with time, below them the time.
+    """Draw curves over the place, animated in time, above a time bar.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ def moving(
 
 
 def _ticks(low: float, high: float) -> list[float]:
-    """Round figures between two ends."""
+    """Round tick values between two ends."""
     step = 10.0 ** math.floor(math.log10((high - low) / _TICKS))
     step *= next(times for times in (1.0, 2.0, 5.0, 10.0) if (high - low) / (times * step) <= _TICKS + 1.0)
     return [k * step for k in range(math.ceil(low / step), math.floor(high / step) + 1)]
@@ -92,7 +92,7 @@ def _ticks(low: float, high: float) -> list[float]:
 def _panel(
     panel: Panel, across: Array, room: tuple[float, float], begin: dict[str, str], mark: float
 ) -> Html:
-    """Frame, scale, band, the first curve, and how it moves; `room` is from where and how high [px]."""
+    """Scale, band and animated curve of a panel; `room` is its top and height [px]."""
     top, height = room
     low, high = min(0.0, float(panel.band[0].min())), float(panel.band[1].max())
     high = high if high > low else low + 1.0
@@ -121,7 +121,7 @@ def _panel(
 
 
 def _path(x: Array, y: Array) -> str:
-    """A path in whole pixels, from point to point."""
+    """SVG path in whole pixels."""
     points = np.rint([x, y]).astype(int).T
     first, steps = points[0].tolist(), np.diff(points, axis=0).tolist()
     return f"M{first[0]} {first[1]}l" + " ".join(f"{a} {b}".replace(" -", "-") for a, b in steps)

@@ -17,7 +17,7 @@ SHEET: Final = "Calibration"
 
 
 def of_calibration(calibration: CalculatedCalibration, system: System) -> Contents:
-    """Every table of a calibration in a unit system."""
+    """Contents of the calibration report in a unit system."""
     facts = (("runs", str(len(calibration.runs))), ("error", error_words(calibration)))
     parts = (
         factors(calibration), runs(calibration), correlation(calibration), notes(calibration),
@@ -28,7 +28,7 @@ def of_calibration(calibration: CalculatedCalibration, system: System) -> Conten
 
 
 def factors(calibration: CalculatedCalibration) -> Table:
-    """One row a factor: its band, or why there is none."""
+    """Calibration factors with their 90 % intervals, one row each."""
     columns = (
         Column("factor on", "text", "name"),
         Column("value", "factor", "value"),
@@ -43,7 +43,7 @@ def factors(calibration: CalculatedCalibration) -> Table:
 
 
 def runs(calibration: CalculatedCalibration) -> Table:
-    """One row a run: what was measured, what is calculated without factors and with them."""
+    """Power of every run: measured, calculated without factors and with them."""
     columns = (
         Column("run", "count", "0"),
         Column("at", "text", "run.at"),
@@ -64,7 +64,7 @@ def runs(calibration: CalculatedCalibration) -> Table:
 
 
 def correlation(calibration: CalculatedCalibration) -> Table:
-    """One row a factor; nothing of one factor alone."""
+    """Correlation matrix of the factors; no rows for a single factor."""
     names = [factor.name for factor in calibration.factors]
     rows = list(zip(names, calibration.correlation.tolist(), strict=True)) if len(names) > 1 else []
     columns = (
@@ -75,13 +75,13 @@ def correlation(calibration: CalculatedCalibration) -> Table:
 
 
 def notes(calibration: CalculatedCalibration) -> Table:
-    """What is not told apart, and what the figures rest on."""
+    """Basis and limitations of the calibration."""
     columns = (Column("note", "text", lambda row: row),)
     return Table("notes", SHEET, "Basis and limitations", columns, lines(calibration))
 
 
 def lines(calibration: CalculatedCalibration) -> tuple[str, ...]:
-    """What is not told apart, and what the figures rest on, in sentences."""
+    """Sentences on the basis and limitations of the calibration."""
     return (
         *calibration.notes,
         f"chi square {calibration.chi_square:.3g} at {calibration.freedom} degrees of freedom; "
@@ -92,7 +92,7 @@ def lines(calibration: CalculatedCalibration) -> tuple[str, ...]:
 
 
 def error_words(calibration: CalculatedCalibration) -> str:
-    """How well a power is known, and where that is from."""
+    """Relative error of a power, and its origin."""
     if calibration.error is None:
         return "as the runs state"
     source = "from the differences" if calibration.estimated else "as given"

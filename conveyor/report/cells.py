@@ -53,9 +53,9 @@ _GOOD = Look(Font(name="Calibri", color="1E6B34"), PatternFill("solid", fgColor=
 _BAD = Look(Font(name="Calibri", bold=True, color="FFFFFF"), PatternFill("solid", fgColor="B3261E"))
 _OPEN = Look(Font(name="Calibri", italic=True, color="7A5200"), PatternFill("solid", fgColor="FFF3D6"))
 VERDICTS = {"pass": _GOOD, "yes": _GOOD, "FAIL": _BAD, "NO": _BAD, "not checked": _OPEN}
-"""How verdicts look; bold on dark is a failure without colours, too."""
+"""Bold on dark is a failure without colours, too."""
 INFINITE = "∞"
-"""Written where a figure has no bound: a cell cannot hold infinity as a number."""
+"""A cell cannot hold infinity as a number."""
 
 _UNSAFE = ("=", "+", "-", "@", "\t", "\r", "\n")
 LONGEST = 32_767
@@ -69,7 +69,7 @@ _HIGHEST = 409.0
 
 
 def legible(words: str) -> str:
-    r"""Return text as a cell can hold it: printable, and not too long.
+    r"""Return text that a cell can hold: printable, cut to the length Excel allows.
 
     Examples
     --------
@@ -84,7 +84,7 @@ def legible(words: str) -> str:
 
 
 def put(cell: Cell | MergedCell, value: Any, font: Font | None = None, shown: str | None = None) -> None:
-    """Write one value: text as text whatever it begins with, numbers as numbers, nothing for None."""
+    """Write one value: text always as text, numbers as numbers, nothing for None."""
     if isinstance(cell, MergedCell) or value is None or (isinstance(value, float) and math.isnan(value)):
         return  # pandas writes a missing number of a mixed column as NaN
     if isinstance(value, str):
@@ -142,7 +142,7 @@ def table(
 
 
 def _tops(sheet: Worksheet, rows: tuple[int, int], columns: tuple[int, int]) -> None:
-    """In rows of several lines, set every cell at the top."""
+    """Align the cells of rows of several lines to the top."""
     for i in range(rows[0], rows[1] + 1):
         if (sheet.row_dimensions[i].height if i in sheet.row_dimensions else None) is None:
             continue
@@ -155,7 +155,7 @@ def _tops(sheet: Worksheet, rows: tuple[int, int], columns: tuple[int, int]) -> 
 
 
 def _text_column(sheet: Worksheet, at: tuple[int, int], values: list[Any], widest: int) -> int:
-    """Write a column of text from (row, column) downward; the width it asks for."""
+    """Write a column of text from (row, column) downward; return the width it needs."""
     longest, model = 0, None
     for i, value in enumerate(values, start=at[0]):
         if value is None:
@@ -176,7 +176,7 @@ def _text_column(sheet: Worksheet, at: tuple[int, int], values: list[Any], wides
 
 
 def _number_column(sheet: Worksheet, at: tuple[int, int], values: list[Any], formats: list[str]) -> int:
-    """Write a column of numbers from (row, column) downward, each in its format; the width it asks for."""
+    """Write a column of numbers from (row, column) downward, each in its format; return the width it needs."""
     longest = 0
     models: dict[str, Cell | MergedCell] = {}
     for i, (value, shown) in enumerate(zip(values, formats, strict=True), start=at[0]):
@@ -193,17 +193,17 @@ def _number_column(sheet: Worksheet, at: tuple[int, int], values: list[Any], for
 
 
 def lines_of(words: str, width: float) -> int:
-    """Lines that text takes on a width, in that of digits."""
+    """Number of lines of a text at a column width [digits]."""
     return max(1, len(wrap(words, int(_FILLED * width))))
 
 
 def _dress_like(cell: Any, model: Any) -> None:
-    """Give a cell the look of another: a tenth of the time of setting its parts."""
+    """Copy the style of a cell: ten times as fast as setting its parts."""
     cell._style = copy(model._style)  # noqa: SLF001 openpyxl's own way to copy a look
 
 
 def _judge(sheet: Worksheet, at: tuple[int, int], values: list[Any]) -> None:
-    """Colour verdicts; their words stay what they are read by."""
+    """Colour the verdicts of a column."""
     for i, value in enumerate(values, start=at[0]):
         if value in VERDICTS:
             look = VERDICTS[value]
@@ -212,7 +212,7 @@ def _judge(sheet: Worksheet, at: tuple[int, int], values: list[Any]) -> None:
 
 
 def _ask(sheet: Worksheet, at: tuple[int, int], count: int) -> None:
-    """Mark cells that the reader is to fill in."""
+    """Mark a column of cells for the reader to fill in."""
     for i in range(at[0], at[0] + count):
         ask(sheet.cell(i, at[1]))
 
@@ -223,7 +223,7 @@ def ask(cell: Cell | MergedCell) -> None:
 
 
 def _worded(value: Any, infinite: str = INFINITE) -> Any:
-    """Yes and no in words, infinity as its sign, nothing for what is not known; all else as it is."""
+    """Yes/no as text, infinity as a symbol, NaN as empty."""
     if isinstance(value, bool):
         return "yes" if value else "NO"
     if isinstance(value, float):
@@ -247,14 +247,14 @@ def header_row(sheet: Worksheet, row: int, column: int, names: Iterable[str]) ->
 
 
 def _two_lines(name: str) -> int:
-    """Least width in which a name takes at most two lines [characters]."""
+    """Smallest width at which a name takes at most two lines [characters]."""
     words = name.split()
     breaks = [(" ".join(words[:i]), " ".join(words[i:])) for i in range(len(words))]
     return min(max(map(len, lines)) for lines in breaks)
 
 
 def _length(value: Any, shown: str) -> int:
-    """Characters a number takes, with room beside it."""
+    """Characters a number takes, with a margin."""
     if not isinstance(value, int | float):
         return 0
     if shown.startswith("#,##0"):
@@ -282,7 +282,7 @@ def total(sheet: Worksheet, row: int, shown: Table, system: System, first: int =
 def print_set_up(
     sheet: Worksheet, name: str, last: int, *, paper: str = "A4", portrait: bool = False
 ) -> None:
-    """Fitted to the width of the paper, or as many as it has, one page high where legible; the project's name above."""
+    """Set up printing: fit to the paper's width, to one page where legible, with the project's name as header."""
     sheet.page_setup.orientation = "portrait" if portrait else "landscape"
     sheet.page_setup.paperSize = sheet.PAPERSIZE_LETTER if paper == "Letter" else sheet.PAPERSIZE_A4
     sheet.page_setup.fitToWidth = sheet.page_setup.fitToWidth or 1

@@ -30,7 +30,7 @@ _RED = "B3261E"
 _STREAM = ("centre", "lower_edge", "upper_edge", "lower_edge_after_booth")
 _TALL = 13.0  # highest area of a chart that is drawn to scale [cm]
 _STEPS = 6.0  # of the longer axis of a chart that is drawn to scale, at most
-# beside, for the key of, and round the area of a chart that is drawn to scale [cm]
+# room for axis labels, legend and frame of a chart that is drawn to scale [cm]
 _BESIDE, _KEY, _AROUND = 2.4, 6.4, 3.2
 _SYMBOLS = ("triangle", "circle", "square")
 _GRID = "D9D9D9"
@@ -46,12 +46,12 @@ def _title(words: str, *, size: int) -> Title:
 
 
 def _head(sheet: Worksheet, header: int, column: int) -> str:
-    """What stands above a column, its unit with it."""
+    """Header of a column, with its unit."""
     return str(sheet.cell(header, column).value)
 
 
 def axis_title(words: str) -> Title:
-    """Words beside an axis."""
+    """Title of an axis."""
     return _title(words, size=10)
 
 
@@ -65,12 +65,12 @@ def _dress(chart: Any, title: str, x: str, y: str) -> None:
 
 
 def sized(chart: Any, width: float, height: float = _HEIGHT) -> None:
-    """Give a chart another size [cm]."""
+    """Set the size of a chart [cm]."""
     chart.width, chart.height = width, height
 
 
 def bars(sheet: Worksheet, title: str, rows: tuple[int, int], *, label: int, value: int) -> BarChart:
-    """Bars of the figures of a table, labels and figures in two of its columns; `rows` are header and last."""
+    """Bar chart of two columns of a table, labels and values; `rows` are its header and its last row."""
     header, last = rows
     chart = BarChart()
     chart.type = "bar"
@@ -82,21 +82,21 @@ def bars(sheet: Worksheet, title: str, rows: tuple[int, int], *, label: int, val
     chart.legend = None
     chart.gapWidth = 60
     chart.x_axis.scaling.orientation = "maxMin"
-    chart.x_axis.tickLblPos = "low"  # beside negative bars too
+    chart.x_axis.tickLblPos = "low"  # clear of negative bars
     chart.y_axis.crosses = "max"  # at the bottom, as the categories run downward
     chart.y_axis.number_format = "#,##0"
     return chart
 
 
 def forces(axis: Any, name: str, system: System) -> None:
-    """Name an axis of forces, in kN over cells in N."""
+    """Title and format an axis of forces: kN for cells in N."""
     large = unit("force", system, large=True)
     axis.title = axis_title(large.beside(name))
     axis.number_format = "#,##0" if large.size == unit("force", system).size else "#,##0,"
 
 
 def differences(sheet: Worksheet, title: str, place: TablePlace, last: int) -> LineChart:
-    """Dots of the difference to the base, a compound each, with the band between its ends where there is one."""
+    """Difference of every compound to the base, with its band where known."""
     chart = LineChart()
     _dress(chart, title, "", "difference")
     for key, symbol, size in (
@@ -145,7 +145,7 @@ def power_over_temperature(sheet: Worksheet, place: TablePlace, shown: Table, sy
 
 
 def tension(sheet: Worksheet, place: TablePlace, system: System) -> ScatterChart:
-    """Tension in every state, and the least for the sag, against the way round the loop; a state that fails in red."""
+    """Tension round the loop in every state, and the minimum for sag; states that fail in red."""
     states = [key for key in place.keys[1:] if key != "distance_from_head"]
     title = "Tension round the loop, from the head along the return strand and back"
     words = (
@@ -166,7 +166,7 @@ def tension(sheet: Worksheet, place: TablePlace, system: System) -> ScatterChart
 
 
 def profile(sheet: Worksheet, place: TablePlace, system: System) -> ScatterChart:
-    """Height over the horizontal distance from the tail, with what stands along the route."""
+    """Profile of the route, with feeding points, drives and take-up."""
     words = tuple(spelled(name, "length", system) for name in ("horizontal distance from the tail", "height"))
     first = place.keys.index("height")
     what = place.keys[first:]
@@ -184,7 +184,7 @@ def profile(sheet: Worksheet, place: TablePlace, system: System) -> ScatterChart
 
 
 def trajectory(sheet: Worksheet, place: TablePlace, outline: TablePlace, system: System) -> ScatterChart:
-    """The stream over the head pulley and the belt round it, both axes in one scale."""
+    """Discharge trajectory and belt at the head pulley, both axes to one scale."""
     words = [spelled(name, "spacing", system) for name in ("forward of the axis", "over the axis")]
     chart = _scatter("Discharge over the head pulley, to scale", *words)
     drawn = [(outline, "belt", "belt"), *((place, name, name.replace("_", " ")) for name in _STREAM)]
@@ -237,7 +237,7 @@ def _curves(
     title: str,
     words: tuple[str, ...] = (),
 ) -> ScatterChart:
-    """Columns of a table over another one; axes are named as the columns unless otherwise said."""
+    """Columns of a table plotted over another; axes are titled as the columns by default."""
     x, y = place.column(across), [place.column(key) for key in up]
     named = words or (_head(sheet, place.header, x), _head(sheet, place.header, y[0]))
     chart = _scatter(title, *named)

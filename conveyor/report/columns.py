@@ -1,4 +1,4 @@
-"""Columns, figures and tables of reports: what a number is and where it appears; their names with units are made here.
+"""Columns, figures, tables and contents of reports, and their names with units.
 
 Values are SI; unit, digits and conversion follow from the kind and the system (`conveyor.units.presentation`).
 """
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 FAILS: Final = "FAILS"
-"""In the name of a state of motion whose tensions are not to be had."""
+"""In the name of a motion state whose belt is slack or slips."""
 OF_ROW: Final = "of row"
 """Kind of a column whose values have the kind of their row's figure."""
 CHECKS_AND_NOTES: Final = "Checks and notes"
@@ -29,19 +29,19 @@ CHECKS_AND_NOTES: Final = "Checks and notes"
 NAMED: Final = "named"
 """Kind of the column that names the figure of each row, with its unit."""
 Getter: TypeAlias = Callable[[Any], Any]
-"""Of a row an SI value, words, or None where it is not known."""
+"""Takes a row; returns an SI value, text, or None where it is not known."""
 
 
 HEADINGS: Final = ("action required", "basis and limitations")
-"""Above the two lists."""
+"""Headings of the two lists of notes."""
 _NAMES: Final = re.compile(r'"[^"]*"|\b[a-z_]+(?:\[\d+\])?(?:\.[a-z_]+(?:\[\d+\])?)+')
-"""What alike notes differ in: quoted names and fields."""
+"""Quoted names and fields, in which similar notes differ."""
 _SEVERAL: Final = re.compile(r'^compound ("[^"]*"(?:, "[^"]*")+) is ')
 _OF_DATA: Final = re.compile(
     r"^compounds? \"|^calculation\.(calibration|flexure)|^the belt gives|^means over|^90 % bands|^energy and cost|"
     "not given|assumed|illustrative|not read in the standard|as commonly reproduced"
 )
-"""Notes on what was given, not on what was found."""
+"""Notes on inputs and assumptions, not on results."""
 
 
 def slug(words: str) -> str:
@@ -57,9 +57,7 @@ def slug(words: str) -> str:
 
 @cache
 def at(path: str) -> Getter:
-    """Return what takes a value off a row along a path of attributes, keys and places; None where it ends in None.
-
-    Numbers of arrays are plain ones.
+    """Return a getter of a row's value at a path of attributes, keys and indices; None where it meets None.
 
     Examples
     --------
@@ -79,7 +77,7 @@ def at(path: str) -> Getter:
 
 
 def extreme(of: Callable[[Iterable[float]], float], path: str, get: str | Getter) -> Getter:
-    """Return what takes the largest or the least figure of all that a row holds at a path; None where none has one."""
+    """Return a getter of the maximum or minimum of a figure over the items at a path; None if none is known."""
     held, figure = at(path), at(get) if isinstance(get, str) else get
 
     def taken(row: Any) -> float | None:
@@ -98,26 +96,26 @@ class Column:
     label : str
         Words without unit.
     kind : str
-        Of quantity, `OF_ROW` or `NAMED`.
+        Kind of quantity, `OF_ROW` or `NAMED`.
     get : callable
-        What takes its value off a row: an SI value, words, or None where it is not known; may be given as a path.
+        Returns its value in a row: SI, text, or None where it is not known; may be given as a path.
     page : str or None
-        Which of its table's places on the page it stands in: all without a name; None: in none.
+        Name of the table's place on the page that shows it; "": all of them; None: none.
     sheet : bool
-        Whether it stands in workbook, files and data frames.
+        Whether workbook, files and data frames have it.
     json : str
-        Key in `to_dict`; left out there without.
+        Key in `to_dict`; left out there if empty.
     total : bool
-        Whether the line of totals has its sum.
+        Whether the line of totals sums it.
     sparse : bool
         Whether it is left out where no row has a value.
     asked : bool
-        Whether its cells are for the reader to fill in or to change.
+        Whether the reader fills in or changes its cells.
     formula : callable or None
-        Of a row what the workbook calculates its cell by, "" for a plain value; `[key]` is the cell of a column in the
-        same row, `[key:3]` that in the fourth.
+        Returns the formula of a row's cell, "" for a value; `[key]` is the cell of a column in the same row, `[key:3]`
+        that in the fourth.
     key : str
-        A stable name; without it made of the label.
+        Stable name; by default made of the label.
     """
 
     label: str
@@ -137,14 +135,14 @@ class Column:
         object.__setattr__(self, "get", at(self.get) if isinstance(self.get, str) else self.get)
 
     def of(self, path: str) -> Column:
-        """The same column of rows that hold the former ones at a path."""
+        """The same column for rows that hold the original rows at a path."""
         get, inner = self.get, at(path)
         return replace(self, get=lambda row: get(inner(row)))
 
 
 @dataclass(frozen=True)
 class Figure:
-    """A figure with a name of its own, a row of a table of figures.
+    """A named value: a row of a table of figures.
 
     Attributes
     ----------
@@ -153,15 +151,15 @@ class Figure:
     value : float, str, tuple or None
         SI; several where the table has several columns of values; None where it is not known.
     on : str
-        Where it is shown beside its table, words of: tile (page), large (cover), notebook; input: to be changed.
+        Where else it is shown, words of: tile (page), large (cover), notebook; input: for the reader to change.
     json : str
-        Path in `to_dict`, with points; left out there without.
+        Dotted path in `to_dict`; left out there if empty.
     key : str
-        Name that others link to it by; without it made of the label.
+        Name for links to it; by default made of the label.
     us : str
-        Symbol that US reports call it by, behind the label.
+        Symbol after the label in US reports.
     formula : str
-        What the workbook calculates it by, of names of figures; its value stands beside.
+        Formula in the workbook, in terms of names of figures.
     """
 
     label: str
@@ -177,17 +175,17 @@ class Figure:
         object.__setattr__(self, "key", self.key or slug(self.label))
 
     def unit(self, system: System) -> Unit:
-        """How it is written."""
+        """Unit and digits of the figure in a system."""
         return unit(self.kind, system)
 
     def called(self, system: System) -> str:
-        """Its label, in the US with the symbol used there."""
+        """Label, with the symbol in US reports."""
         return f"{self.label} {self.us}" if self.us and system == "US" else self.label
 
 
 @dataclass(frozen=True)
 class OnPage:
-    """A table's place on the page: part, caption, its columns' name where not all stand in it; whether paper has it."""
+    """A table's place on the page: part, caption, view (which columns), whether it is printed."""
 
     part: str
     caption: str
@@ -202,27 +200,27 @@ class Table:
     Attributes
     ----------
     key : str
-        Its name: of the range in the workbook (``table_<key>``) and of its file.
+        Name of its file and of its range in the workbook (``table_<key>``).
     sheet : str
-        Sheet it stands on; without, it is neither in the workbook nor a file.
+        Its sheet; "": neither in the workbook nor a file.
     heading : str
-        Words above it.
+        Heading.
     columns : tuple of Column
-        What stands in it; those that the page leaves out come last, and paper leaves them out too.
+        Its columns; those that page and paper leave out come last.
     rows : sequence
-        What columns get their values of.
+        Objects that the columns take their values from.
     page : str or tuple of OnPage
-        Part of the page where it stands under its heading, or its places there.
+        Part of the page that shows it under its heading, or its places there.
     note : str
-        What to know of it.
+        Note below it.
     foot : str
-        Words beside the totals; none without.
+        Label of the line of totals; "": no such line.
     named : int
-        Leading columns that name the row.
+        Number of leading columns that name the row.
     links : bool
-        Whether its rows are figures that others link to.
+        Whether its figures have defined names in the workbook.
     printed : bool
-        Whether its sheet prints it; else it stands below what is printed.
+        Whether its sheet prints it; else it is placed below the printed ones.
     """
 
     key: str
@@ -246,27 +244,27 @@ class Table:
 
     @property
     def places(self) -> tuple[OnPage, ...]:
-        """Where it stands on the page."""
+        """Its places on the page."""
         if isinstance(self.page, str):
             return (OnPage(self.page, self.heading),) if self.page else ()
         return self.page
 
     @cached_property
     def by_row(self) -> bool:
-        """Whether its rows are figures of kinds of their own."""
+        """True if every row is a figure with its own kind."""
         return any(column.kind == NAMED for column in self.columns)
 
     @property
     def figures(self) -> bool:
-        """Whether it lists figures, each with one value."""
+        """True for a list of figures with one value each."""
         return self.by_row and [c.kind for c in self.columns if c.page is not None] == [NAMED, OF_ROW]
 
     def on_sheet(self) -> Table:
-        """The table as workbook, files and data frames hold it."""
+        """The table with the columns of workbook, files and data frames."""
         return replace(self, columns=tuple(column for column in self.columns if column.sheet))
 
     def on_page(self, place: OnPage) -> Table:
-        """The table as it stands in a place on the page."""
+        """The table with the columns of a place on the page."""
         views = {"", place.view}
         return replace(self, columns=tuple(c for c in self.columns if c.page is not None and c.page in views))
 
@@ -275,7 +273,7 @@ class Table:
         return replace(self, columns=tuple(column for column in self.columns if column.key in keys))
 
     def index(self, key: str) -> int:
-        """Place of a column, from 0."""
+        """Index of a column, from 0."""
         return [column.key for column in self.columns].index(key)
 
     def name(self, column: Column, system: System) -> str:
@@ -283,17 +281,17 @@ class Table:
         return column.label if column.kind in {OF_ROW, NAMED} else headed(column.label, column.kind, system)
 
     def head(self, column: Column, system: System) -> str:
-        """Name of a column as people read it."""
+        """Name of a column with its unit in words."""
         return column.label if column.kind in {OF_ROW, NAMED} else spelled(column.label, column.kind, system)
 
     def unit(self, column: Column, row: Any, system: System) -> Unit:
-        """How a cell is written."""
+        """Unit and digits of a cell."""
         return unit(
             row.kind if column.kind == OF_ROW else "text" if column.kind == NAMED else column.kind, system
         )
 
     def cells(self, column: Column, system: System) -> list[Any]:
-        """Values of a column in a system: numbers, words, None."""
+        """Values of a column in a system: numbers, text, None."""
         if column.kind == NAMED:
             return [headed(row.called(system), row.kind, system) for row in self.rows]
         if column.kind == OF_ROW:
@@ -302,32 +300,32 @@ class Table:
         return [written.shown(column.get(row)) for row in self.rows]
 
     def names(self, system: System) -> list[str]:
-        """Names of its figures as people read them."""
+        """Names of its figures with their units in words."""
         return [spelled(row.called(system), row.kind, system) for row in self.rows]
 
     def totals(self) -> tuple[Any, ...]:
-        """The line of totals, SI: words in the first column, sums where columns have them."""
+        """Line of totals, SI: its label, then sums of the columns that have one."""
         sums = (
             sum(column.get(row) for row in self.rows) if column.total else None for column in self.columns[1:]
         )
         return (self.foot, *sums)
 
     def frame(self, system: System = "SI") -> pd.DataFrame:
-        """The table as a data frame, units in the names of its columns or rows."""
+        """Data frame with units in the names of its columns or rows."""
         shown = [column for column in self.columns if column.sheet]
         import pandas as pd
 
         return pd.DataFrame({self.name(column, system): self.cells(column, system) for column in shown})
 
     def series(self, name: str, system: System = "SI") -> pd.Series:
-        """Figures as a series, units in its index."""
+        """Figures as a series with units in its index."""
         names = [headed(row.called(system), row.kind, system) for row in self.rows]
         import pandas as pd
 
         return pd.Series(dict(zip(names, self.cells(self.columns[1], system), strict=True)), name=name)
 
     def records(self) -> list[dict[str, Any]]:
-        """Rows as plain SI data under the names of the columns, or what JSON calls them; figures beside their units."""
+        """Rows as plain SI data under the names of the columns in JSON; figures with their units."""
         cells: dict[str, list[Any]] = {}
         for column in self.columns:
             if column.sheet:
@@ -361,7 +359,7 @@ def noted(
     heading: str = "Remarks",
     page: str = "",
 ) -> Table:
-    """Return the table of remarks: lines by their kind."""
+    """Return the table of remarks from lines by kind."""
     columns = (Column("kind", "text", "kind"), Column("text", "text", "text"))
     rows = tuple(Remark(kind, line) for kind, of in lines.items() for line in of)
     return Table("remarks", sheet, heading, columns, rows, page)
@@ -370,10 +368,7 @@ def noted(
 def figures(
     key: str, sheet: str, heading: str, rows: Iterable[Figure], *, prefix: str | None = None, **more: Any
 ) -> Table:
-    """Return a table of figures with one value each, those left out that are not known.
-
-    Others link to them where there is a prefix of their names.
-    """
+    """Return a table of the known figures, one value each; with a prefix they have defined names in the workbook."""
     columns = (Column("quantity", NAMED, "label"), Column("value", OF_ROW, "value"))
     known = tuple(replace(row, key=f"{prefix or ''}{row.key}") for row in rows if row.value is not None)
     return Table(key, sheet, heading, columns, known, links=prefix is not None, **more)
@@ -381,7 +376,7 @@ def figures(
 
 @dataclass(frozen=True)
 class Drawing:
-    """A figure of the page: its name, its caption, what draws it, the table it stands above."""
+    """A drawing of the page: name, caption, function that draws it, key of the table below it."""
 
     name: str
     caption: str
@@ -391,20 +386,20 @@ class Drawing:
 
 @dataclass(frozen=True)
 class ReportHead:
-    """What a report is of.
+    """Head of a report.
 
     Attributes
     ----------
     title, kind : str
-        Name of the conveyor, and what the report is.
+        Name of the conveyor, and kind of report.
     said : mapping
-        What the spec says of the document: project, client, number, revision, engineer.
+        Document block of the spec: project, client, number, revision, engineer.
     fingerprint : str
         The spec's SHA-256.
     paper : str
-        To print on.
+        Paper size.
     facts : tuple of (str, str)
-        What stands below the title.
+        Facts below the title.
     """
 
     title: str
@@ -416,28 +411,28 @@ class ReportHead:
 
     @property
     def documented(self) -> str:
-        """What the spec says of the document, in one line."""
+        """Document block in one line."""
         return ", ".join(f"{name}: {value}" for name, value in self.said.items())
 
 
 @dataclass(frozen=True)
 class Contents:
-    """What a report holds.
+    """Contents of a report.
 
     Attributes
     ----------
     document : ReportHead
-        What it is of.
+        Head.
     parts : tuple of Table
-        Its tables in their order, no empty ones.
+        Tables in order, without empty ones.
     system : str
-        Units they are in.
+        Unit system.
     drawings : tuple of Drawing
-        Its figures.
+        Drawings.
     page : tuple of (str, str)
-        Parts of its page and their headings; those that hold nothing are left out.
+        Parts of its page and their headings; empty ones are left out.
     layout : str
-        How its workbook is laid out, if not table under table.
+        Layout of its workbook; "": tables stacked.
     """
 
     document: ReportHead
@@ -452,7 +447,7 @@ class Contents:
 
     @cached_property
     def by_key(self) -> dict[str, Table]:
-        """Tables by name."""
+        """Tables by key."""
         return {part.key: part for part in self.parts}
 
     def __getitem__(self, key: str) -> Table:
@@ -463,16 +458,16 @@ class Contents:
 
     @property
     def tables(self) -> tuple[Table, ...]:
-        """Tables of the workbook, as it and files hold them."""
+        """Tables of the workbook and of files."""
         return tuple(part.on_sheet() for part in self.parts if part.sheet)
 
     def of(self, sheet: str) -> tuple[str, ...]:
-        """Names of the tables of one sheet."""
+        """Keys of the tables of a sheet."""
         return tuple(part.key for part in self.parts if part.sheet == sheet)
 
     @property
     def sheets(self) -> tuple[str, ...]:
-        """Sheets that hold a table, in order."""
+        """Sheets with a table, in order."""
         return tuple(dict.fromkeys(part.sheet for part in self.parts if part.sheet))
 
     def lines(self, kind: str) -> tuple[str, ...]:
@@ -482,13 +477,13 @@ class Contents:
         )
 
     def marked(self, where: str) -> list[Figure]:
-        """Figures of all tables that are shown in a place, in their order."""
+        """Figures of all tables that are shown in a place: tile, large, notebook."""
         rows = chain.from_iterable(part.rows for part in self.parts if part.by_row)
         return [row for row in rows if where in row.on.split()]
 
 
 def merged(notes: Iterable[str]) -> list[str]:
-    """Make one of notes that differ in quoted names or fields only, listing those.
+    """Merge notes that differ in quoted names or fields only, listing those.
 
     Examples
     --------
@@ -508,7 +503,7 @@ def _joined(pattern: str, names: Sequence[Sequence[str]]) -> str:
 
 
 def ordered(notes: Iterable[str]) -> tuple[list[str], list[str]]:
-    """Give merged notes on what was found, then those on what the figures rest on."""
+    """Return merged notes on results, then those on inputs and assumptions."""
     every = merged(notes)
     of_data = [note for note in every if _OF_DATA.search(note)]
     return [note for note in every if note not in of_data], of_data

@@ -1,4 +1,4 @@
-"""Every table of a comparison of compounds, declared once; its ranking and its notes."""
+"""Tables of a comparison of compounds, declared once; its ranking and notes."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ _SPEED = Column("belt speed", "speed", "speed", key="speed")
 
 
 def of_comparison(comparison: CalculatedComparison, system: System) -> Contents:
-    """Every table of a comparison in a unit system."""
+    """Contents of the comparison report in a unit system."""
     ranked, every = ranking(comparison), scenes(comparison)
     parts = (
         replace(ranked, columns=tuple(c for c in ranked.columns if c.key not in _COSTS)),
@@ -86,7 +86,7 @@ def _money(comparison: CalculatedComparison) -> str:
 
 
 def scenes(comparison: CalculatedComparison) -> Table:
-    """One row a scene, in the order compound, speed, temperature; no price where the data do not reach."""
+    """One row per scene, by compound, speed and temperature; no cost where the rubber data do not reach."""
     money = _money(comparison)
     covered = {_key(scene) for scene in comparison.covered}
 
@@ -115,7 +115,7 @@ def scenes(comparison: CalculatedComparison) -> Table:
 
 
 def _key(scene: ComparedScene) -> tuple[str, float, float]:
-    """What a scene is told by."""
+    """Sort key of a scene."""
     return scene.compound, scene.speed, scene.temperature
 
 
@@ -125,7 +125,7 @@ def _joule(kwh: float | None) -> float | None:
 
 @dataclass(frozen=True)
 class Ranked:
-    """A compound at a speed over all temperatures, SI; energies of a year [kWh].
+    """Mean results of a compound at a speed over all temperatures, SI; energies of a year [kWh].
 
     Attributes
     ----------
@@ -134,21 +134,21 @@ class Ranked:
     speed : float
         Of the belt [m/s].
     temperature : float or None
-        Of the peak [K].
+        Temperature of the peak [K].
     averaged : int
-        Temperatures that means are over: those that the data of every compound reach.
+        Number of temperatures averaged: those that the data of every compound reach.
     indentation, motor, low, high, peak : float or None
-        Means [N, W], ends of the band [W], largest power [W]; None of one whose data do not reach.
+        Means [N, W], ends of the band [W], peak power [W]; None where its data do not reach.
     base : float or None
-        Mean power of the base [W]; None where the two do not compare.
+        Mean power of the base [W]; None if not comparable.
     year : Duty or None
         Energy drawn and fed back.
     cost, before, emission, extra : float or None
-        Of a year [currency]; the base's; carbon dioxide [kg]; what its belt costs more [currency].
+        Cost of a year [currency]; the base's; carbon dioxide [kg]; extra cost of its belt [currency].
     why : str or None
-        Why it is not compared with the base.
+        Reason why it is not compared with the base.
     rank : int or None
-        Place among those compared; the same for those that cannot be told apart.
+        Rank; equal for compounds whose powers do not differ significantly.
     """
 
     compound: str
@@ -171,12 +171,12 @@ class Ranked:
 
     @property
     def change(self) -> float | None:
-        """Power against the base's [-]."""
+        """Relative difference of power to the base [-]."""
         return None if not self.motor or not self.base else self.motor / self.base - 1.0
 
     @property
     def band(self) -> tuple[float | None, float | None]:
-        """Ends of the band of its power against the base's [-]."""
+        """Band of the relative difference of power to the base [-]."""
         if not self.base:
             return None, None
         low, high = (None if end is None else end / self.base - 1.0 for end in (self.low, self.high))
@@ -184,12 +184,12 @@ class Ranked:
 
     @property
     def saving(self) -> float | None:
-        """Cost of the base less its own [currency a year]."""
+        """Saving against the base [currency a year]."""
         return None if self.cost is None or self.before is None else self.before - self.cost
 
     @property
     def payback(self) -> float | None:
-        """Extra cost over saving [a]; never, infinite, where nothing is saved; None where either is not known."""
+        """Extra cost over saving [a]; infinite where nothing is saved, None where either is not known."""
         saved = self.saving
         if self.extra is None or saved is None:
             return None
@@ -197,11 +197,11 @@ class Ranked:
 
 
 def ranking(comparison: CalculatedComparison) -> Table:
-    """One row a compound and speed, the least mean power of each speed first.
+    """Ranking by mean motor power, one row per compound and speed.
 
-    Means are over the temperatures that the data of every compound reach at that speed, each of the same weight; the
-    peak is the largest where its own data reach: the cold start of the rubber. What does not compare stands last.
-    Compounds whose powers differ by less than both may be off have one rank.
+    Means are over the temperatures that the data of every compound reach at that speed, equally weighted; the peak is
+    the largest power within the compound's own data. Compounds that are not comparable come last. Powers that do not
+    differ significantly have one rank.
     """
     speeds = dict.fromkeys(scene.speed for scene in comparison.scenes)
     rows = tuple(row for speed in speeds for row in _ranked(comparison, speed))
@@ -231,7 +231,7 @@ def ranking(comparison: CalculatedComparison) -> Table:
 
 
 def _year_columns(comparison: CalculatedComparison, rows: tuple[Ranked, ...]) -> Iterator[Column]:
-    """Energy, cost, saving, carbon dioxide, payback: calculated again where a reader changes hours or prices."""
+    """Energy, cost, saving, carbon dioxide and payback, as formulas of hours and prices."""
     money, bases = (
         _money(comparison),
         {row.speed: i for i, row in enumerate(rows) if row.compound == comparison.base},
@@ -240,7 +240,7 @@ def _year_columns(comparison: CalculatedComparison, rows: tuple[Ranked, ...]) ->
     shown = "" if comparison.extra_costs else None
 
     def where(known: str, formula: str) -> Callable[[Ranked], str]:
-        """A formula where its figure is known."""
+        """Formula of rows whose figure is known."""
         return lambda row: "" if getattr(row, known) is None else formula
 
     def saving(row: Ranked) -> str:
@@ -268,12 +268,12 @@ def _year_columns(comparison: CalculatedComparison, rows: tuple[Ranked, ...]) ->
 
 
 def _energy(name: str) -> Callable[[Ranked], float | None]:
-    """An energy of the year [J]."""
+    """Getter of an energy of the year [J]."""
     return lambda row: None if row.year is None else _joule(getattr(row.year, name))
 
 
 def to_change(comparison: CalculatedComparison) -> Table:
-    """Hours, prices and factors that the year's formulas take."""
+    """Hours, prices and emission factors, for the reader to change."""
     operation = comparison.conveyor.operation
     rows = (
         () if operation is None else what_if.to_change(operation, operation.seconds_per_year, emission=True)
@@ -285,7 +285,7 @@ def to_change(comparison: CalculatedComparison) -> Table:
 
 
 def costs(ranked: Table) -> Table:
-    """Energy, cost and saving of a year, of the ranking; without rows where it has none of them."""
+    """Energy, cost and saving of a year; no rows where the ranking has none of them."""
     heading = "Energy, cost and saving of a year"
     columns = ranked.only("compound", "speed", *_COSTS).columns
     rows = ranked.rows if len(columns) > 2 else ()
@@ -342,7 +342,7 @@ def _row(
 
 
 def _places(comparison: CalculatedComparison, scenes: Sequence[list[ComparedScene]]) -> dict[str, int]:
-    """Place of each compound by the mean of its scenes; one for those that cannot be told apart."""
+    """Rank of each compound by the mean of its scenes; equal where they do not differ significantly."""
     places: dict[str, int] = {}
     for group in comparison.groups(map(RankedPower.of, scenes)):
         places |= dict.fromkeys((one.compound for one in group), len(places) + 1)
@@ -352,7 +352,7 @@ def _places(comparison: CalculatedComparison, scenes: Sequence[list[ComparedScen
 def _not_compared(
     comparison: CalculatedComparison, name: str, at: list[ComparedScene], base: list[ComparedScene]
 ) -> str | None:
-    """Why nothing is saved against the base; None where the two compare."""
+    """Reason why a compound is not compared with the base; None if it is."""
     if not at:
         return "its data do not reach"
     if not base:
@@ -363,7 +363,7 @@ def _not_compared(
 
 
 def _year(comparison: CalculatedComparison, name: str, speed: float, at: list[ComparedScene]) -> Duty | None:
-    """Energies of a year: of the duty, where there is one, at the spec's speed; else of all hours."""
+    """Energies of a year: from the duty at the spec's speed if there is one, else from all hours."""
     operation = comparison.conveyor.operation
     if comparison.conveyor.duty:
         study = comparison.years.get(name) if speed == comparison.conveyor.belt_speed else None
@@ -376,7 +376,7 @@ def _year(comparison: CalculatedComparison, name: str, speed: float, at: list[Co
 
 
 def _cost(operation: Operation | None, year: Duty | None) -> float | None:
-    """Of a year's energy [currency]; None without hours or price."""
+    """Cost of a year's energy [currency]; None without hours or price."""
     return None if operation is None or year is None else year_cost(operation, year)
 
 
@@ -390,13 +390,13 @@ def _emission(operation: Operation | None, year: Duty | None) -> float | None:
 
 
 def _mean(values: list[float] | list[float | None]) -> float | None:
-    """Mean; None of nothing, or where one is not known."""
+    """Mean; None if empty or if a value is not known."""
     known = [value for value in values if value is not None]
     return math.fsum(known) / len(known) if known and len(known) == len(values) else None
 
 
 def coverage(comparison: CalculatedComparison) -> Table:
-    """What the rolls ask of each compound at each temperature, and what its data hold."""
+    """Excitation band of the rolls and data range of each compound at each temperature."""
     columns = (
         _COMPOUND,
         _TEMPERATURE,
@@ -413,16 +413,16 @@ def coverage(comparison: CalculatedComparison) -> Table:
 
 
 def refused(comparison: CalculatedComparison) -> Table:
-    """Scenes without an answer, and why."""
+    """Scenes without a solution, with the reason."""
     columns = (_COMPOUND, _TEMPERATURE, _SPEED, Column("reason", "text", lambda row: degrees(row.reason)))
     heading, rows = "Scenes without an answer", tuple(dict.fromkeys(comparison.refused))
     return Table("refused", "Coverage", heading, columns, rows, "refused")
 
 
 def powers(comparison: CalculatedComparison, system: System) -> Iterator[Table]:
-    """Motor power over temperature, one column a compound, a table a speed in rising order.
+    """Motor power over temperature, one column per compound, one table per speed.
 
-    Empty cells are where a compound has no answer, or its data do not reach: lines of charts break there.
+    Cells without a solution, or beyond the data, are empty: lines of charts break there.
     """
     for number, speed in enumerate(sorted({scene.speed for scene in comparison.scenes}), start=1):
         at = [scene for scene in comparison.covered if scene.speed == speed]
@@ -444,7 +444,7 @@ def _power(name: str, powers: dict[tuple[str, float], float]) -> Any:
 
 
 def compounds(comparison: CalculatedComparison) -> Table:
-    """What is known of each compound."""
+    """Kind, origin and gaps of the data of each compound."""
     columns = (
         Column("compound", "text", "name"),
         Column("kind", "text", "kind"),
@@ -457,14 +457,14 @@ def compounds(comparison: CalculatedComparison) -> Table:
 
 
 def remarks_table(comparison: CalculatedComparison, system: System) -> Table:
-    """What to know of a comparison."""
+    """Table of the notes of a comparison."""
     columns = (Column("remark", "text", "text"),)
     rows = tuple(Remark("warning", line) for line in remarks(comparison, system))
     return Table("remarks", "Notes", "Remarks", columns, rows)
 
 
 def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawing]:
-    """The figures of the page."""
+    """Drawings of the page."""
     if not comparison.scenes:
         return
     ranked = [row for row in ranking(comparison).rows if row.change is not None]
@@ -504,13 +504,13 @@ def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawi
 
 
 def _named(row: Ranked, comparison: CalculatedComparison, system: System) -> str:
-    """A compound, with its speed where there are several."""
+    """Label of a ranked compound, with its speed if there are several."""
     several = len({scene.speed for scene in comparison.scenes}) > 1
     return f"{row.compound}, {unit('speed', system).brief(row.speed)}" if several else row.compound
 
 
 def _unequal_levels(comparison: CalculatedComparison) -> Iterator[str]:
-    """Compounds with tests beside compounds without: their levels do not compare."""
+    """Note on comparing compounds with rolling-resistance tests and without."""
     bare = [compound.name for compound in comparison.compounds if not compound.tests]
     if any(comparison.level_differs(compound.name) for compound in comparison.compounds):
         told = ", ".join(f'"{name}"' for name in bare)
@@ -522,7 +522,7 @@ def _unequal_levels(comparison: CalculatedComparison) -> Iterator[str]:
 
 
 def _calibrated(comparison: CalculatedComparison) -> Iterator[str]:
-    """A factor of the belt that ran, which all compounds bear."""
+    """Note on the calibration factor of the indentation, applied to all compounds."""
     given = comparison.conveyor.calculation.calibration
     factor = 1.0 if given is None else given.factors.get("indentation", 1.0)
     if factor != 1.0:
@@ -534,7 +534,7 @@ def _calibrated(comparison: CalculatedComparison) -> Iterator[str]:
 
 
 def _where(comparison: CalculatedComparison, system: System) -> Iterator[str]:
-    """At which temperatures the comparison stands."""
+    """Notes on the temperatures compared at each speed."""
     asked = {s.temperature for s in comparison.scenes} | {row.temperature for row in comparison.refused}
     for speed in sorted({scene.speed for scene in comparison.scenes}):
         run = unit("speed", system).brief(speed)
@@ -549,7 +549,7 @@ def _where(comparison: CalculatedComparison, system: System) -> Iterator[str]:
 
 
 def remarks(comparison: CalculatedComparison, system: System = "SI") -> tuple[str, ...]:
-    """Notes of a comparison in a system of units: where it stands, what it rests on."""
+    """Notes of a comparison in a system of units: conditions and assumptions."""
     lines = [*_where(comparison, system), *_unequal_levels(comparison), *_calibrated(comparison)]
     for compound in comparison.compounds:
         if compound.kind == "illustrative":
@@ -596,7 +596,7 @@ def remarks(comparison: CalculatedComparison, system: System = "SI") -> tuple[st
 
 
 def _bands(comparison: CalculatedComparison) -> Iterator[str]:
-    """What the bands hold, which are narrower than the interval of `conveyor power`."""
+    """Note on the bands, which are narrower than the interval of `conveyor power`."""
     if any(scene.motor_low is not None for scene in comparison.scenes):
         yield (
             "90 % bands are of the rubber alone, its data and its tests; the interval of conveyor power has what is "
@@ -606,7 +606,7 @@ def _bands(comparison: CalculatedComparison) -> Iterator[str]:
 
 
 def turned(comparison: CalculatedComparison, system: System = "SI") -> list[str]:
-    """Speeds at which the ranking changes with temperature, or some cannot be told apart; the order at each."""
+    """Notes on speeds whose ranking changes with temperature or has ties, with the order at each."""
     lines = []
     for speed in sorted({scene.speed for scene in comparison.scenes}):
         shared: dict[float, list[ComparedScene]] = {t: [] for t in comparison.common(speed)}
@@ -638,7 +638,7 @@ def turned(comparison: CalculatedComparison, system: System = "SI") -> list[str]
 
 
 def _in_order(groups: Sequence[Sequence[RankedPower]]) -> str:
-    """Compounds, the least first; what cannot be told apart says so."""
+    """Order of the compounds in words, ties named."""
     return ", then ".join(
         group[0].compound
         if len(group) == 1
@@ -648,7 +648,7 @@ def _in_order(groups: Sequence[Sequence[RankedPower]]) -> str:
 
 
 def _listed(temperatures: Sequence[float], system: System) -> str:
-    """Temperatures [K] one after the other, their unit at the end."""
+    """List of temperatures [K] as text, the unit at the end."""
     shown = unit("temperature", system)
     return (
         f"{', '.join(f'{value:.4g}' for value in shown(temperatures).tolist())} {degrees(shown.label or '')}"
@@ -675,7 +675,7 @@ def plain(comparison: CalculatedComparison) -> dict[str, Any]:
 
 
 def notebook_of_comparison(comparison: CalculatedComparison) -> Html:
-    """The ranking and its notes."""
+    """Ranking and notes for a notebook."""
     tables = [(comparison.conveyor.name, ranking(comparison))]
     return notebook(
         comparison.conveyor.report.units,

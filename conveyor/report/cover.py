@@ -1,4 +1,4 @@
-"""The workbook's first page: whether the conveyor stands, what governs it, what it is, what it was checked for."""
+"""The workbook's first page: verdict, governing figures, data of the conveyor, key figures, charts, checks."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ _FAILS = Look(
     Font(name="Calibri", size=12, bold=True, color="9B1C1C"), PatternFill("solid", fgColor="FDEBEB")
 )
 _MOST_CHECKS: Final = 28
-"""Rows of checks that the first page has room for."""
+"""Rows of checks that fit on the first page."""
 _ROW: Final = 15.0  # [pt]
 _GAP: Final = 7.0  # [pt]
 _LINE: Final = 118
@@ -55,10 +55,7 @@ _LINE: Final = 118
 
 
 def summary(page: Page, places: Mapping[str, tuple[Worksheet, TablePlace]]) -> None:
-    """Head, verdict, what governs, the conveyor, figures as given, profile and resistances, checks.
-
-    `places` has the tables of the other sheets, for the charts.
-    """
+    """Write the first page; `places` has the tables of the other sheets, for the charts."""
     sheet = page.sheet
     for letter, width in _WIDTHS.items():
         sheet.column_dimensions[letter].width = width
@@ -76,7 +73,7 @@ def summary(page: Page, places: Mapping[str, tuple[Worksheet, TablePlace]]) -> N
 
 
 def _rule(sheet: Worksheet, row: int, words: str, column: int = 1, last: int = 7) -> None:
-    """Heading over a line across columns."""
+    """Write a heading with a rule across columns."""
     put(sheet.cell(row, column), words, HEADING)
     for j in range(column, last + 1):
         sheet.cell(row, j).border = _RULE
@@ -88,7 +85,7 @@ def _gap(sheet: Worksheet, row: int) -> int:
 
 
 def _head(sheet: Worksheet, about: ReportHead) -> int:
-    """Title and document block; who calculated, checked and approved it, or room to sign."""
+    """Write title and document block, with names or room to sign; return the next row."""
     put(sheet["A1"], about.title, TITLE)
     sheet.row_dimensions[1].height = 24.0
     made = f"conveyor {version('conveyor')}, spec {about.fingerprint[:16]}"
@@ -108,7 +105,7 @@ def _head(sheet: Worksheet, about: ReportHead) -> int:
 
 
 def _across(sheet: Worksheet, row: int, words: str) -> None:
-    """Write words across the page, on as many lines as they take."""
+    """Write text across the page, wrapped."""
     put(sheet.cell(row, 1), words)
     sheet.merge_cells(start_row=row, start_column=1, end_row=row, end_column=len(_COLUMNS))
     sheet.cell(row, 1).alignment = Alignment(wrap_text=True, vertical="center", indent=1)
@@ -116,7 +113,7 @@ def _across(sheet: Worksheet, row: int, words: str) -> None:
 
 
 def _verdict(page: Page, row: int) -> int:
-    """The verdict in a sentence, green or red."""
+    """Write the verdict, green or red; return the next row."""
     _across(page.sheet, row, page.contents["governing_figures"].note)
     failed = any(check.verdict == "FAIL" for check in page.contents["checks"].rows)
     cell, look = page.sheet.cell(row, 1), _FAILS if failed else _STANDS
@@ -125,7 +122,7 @@ def _verdict(page: Page, row: int) -> int:
 
 
 def _governing(page: Page, row: int) -> int:
-    """What governs: figure, value, where and when."""
+    """Write the governing figures; return the next row."""
     sheet, part = page.sheet, page.contents["governing_figures"]
     _rule(sheet, row, part.heading)
     for i, line in enumerate(part.rows, start=row + 1):
@@ -139,7 +136,7 @@ def _governing(page: Page, row: int) -> int:
 
 
 def _facts(page: Page, row: int) -> int:
-    """What the conveyor is: figures on the left, words on the right."""
+    """Write the data of the conveyor, figures left, text right; return the next row."""
     sheet, system, rows = page.sheet, page.contents.system, page.contents["identity"].rows
     _rule(sheet, row, page.contents["identity"].heading)
     sides = [[r for r in rows if r.kind != "text"], [r for r in rows if r.kind == "text"]]
@@ -156,7 +153,7 @@ def _facts(page: Page, row: int) -> int:
 
 
 def _three(figure: Figure, written: Unit, font: Any = None) -> tuple[Any, Any, str | None]:
-    """Value to as many digits as are known, font and number format; figures as given stand as they are."""
+    """Value rounded to significant digits, font and number format."""
     value = written.shown(figure.value)
     if not isinstance(value, float) or written.digits.endswith("%"):
         return value, font, None if isinstance(value, str) else written.pattern
@@ -167,7 +164,7 @@ def _three(figure: Figure, written: Unit, font: Any = None) -> tuple[Any, Any, s
 
 
 def _tiles(page: Page, row: int) -> int:
-    """Key figures as given, large, each under its name."""
+    """Write the key figures, large; return the next row."""
     sheet, system = page.sheet, page.contents.system
     for letter in _COLUMNS:
         sheet[f"{letter}{row}"].fill = sheet[f"{letter}{row + 1}"].fill = PALE
@@ -188,7 +185,7 @@ def _tiles(page: Page, row: int) -> int:
 
 
 def _pictures(page: Page, row: int, places: Mapping[str, tuple[Worksheet, TablePlace]]) -> int:
-    """Resistances as bars, and the profile with what stands along it."""
+    """Add charts of resistances and profile; return the next row."""
     made: list[Any] = []
     if "breakdown" in places:
         of, place = places["breakdown"]
@@ -205,14 +202,14 @@ def _pictures(page: Page, row: int, places: Mapping[str, tuple[Worksheet, TableP
 
 
 def _margin(check: Any) -> float:
-    """How far a check is from failing; one without a margin is farthest."""
+    """Margin of a check; infinite where it has none."""
     return math.inf if check.margin is None else check.margin
 
 
 def _checked(page: Page, row: int) -> int:
-    """Of every criterion the check that governs, and all that failed; the way to the others and to the warnings.
+    """Write the governing checks and all failures, with links to the rest; return the next row.
 
-    Where the page has no room for so many, those that pass by the widest margin are left out.
+    If there is no room for all, those that pass by the widest margin are left out.
     """
     sheet, checks, system = page.sheet, page.contents["checks"].rows, page.contents.system
     count = Counter(check.verdict for check in checks)

@@ -34,14 +34,14 @@ Array: TypeAlias = "np.ndarray[Any, Any]"
 
 
 class Shown:
-    """A study's designs in a system of units.
+    """Figures of a study's designs in a system of units.
 
     Parameters
     ----------
-    found : Explored
-        The designs; at least one has an answer.
+    study : Explored
+        The designs; at least one has a solution.
     system : {"SI", "US"}
-        Of the figures.
+        Unit system of the figures.
     """
 
     def __init__(self, study: Explored, system: System) -> None:
@@ -53,18 +53,18 @@ class Shown:
         ]
 
     def sought(self, k: int) -> Any:
-        """What is sought, of every design, shape `(n,)`."""
+        """Values of the k-th objective, shape `(n,)`."""
         return self.units[k](self.found.found[:, k])
 
     def axis(self, k: int) -> str:
-        """Words of it for an axis."""
+        """Axis title of the k-th objective."""
         return self.units[k].beside(self.labels[k])
 
     @own_settings()
     def effects(self) -> Figure:
-        """Effect of each field to what is sought first: means over all other fields, and from least to most.
+        """Main effect of each field on the first objective: mean and range over all other fields.
 
-        Bars are two standard errors of a mean of draws to both sides.
+        Error bars are two standard errors of the mean to both sides.
         """
         from matplotlib.figure import Figure
 
@@ -100,7 +100,7 @@ class Shown:
 
     @own_settings()
     def heat_map(self) -> Figure:
-        """The best over all other fields, at every pair of values of the two fields that matter most."""
+        """Best first objective at every pair of values of the two most influential fields."""
         from matplotlib import colormaps
 
         figures, shades = self.found, colormaps[_SHADES].resampled(_LEVELS)
@@ -120,13 +120,13 @@ class Shown:
         return figure
 
     def _number(self, k: int, value: float) -> str:
-        """What is sought as tables write it."""
+        """Value of the k-th objective as text."""
         return f"{value:{self.units[k].digits}}"
 
     def _cells(
         self, axis: Axes, at: tuple[Array, Array], shown: Array, fields: tuple[VariedField, VariedField]
     ) -> Any:
-        """A cell a pair of values, with its number."""
+        """Draw one cell per pair of values, with its number."""
         columns, rows = (np.unique(values) for values in at)
         least = next(iter(self.found.sought.values())) == "least"
         best = np.ma.array(np.zeros((len(rows), len(columns))), mask=True)
@@ -151,7 +151,7 @@ class Shown:
 
     @own_settings()
     def front(self) -> Figure:
-        """The first two figures that are sought: every design, and those that none beats."""
+        """First two objectives of every design, and the Pareto front."""
         figures = self.found
         figure, (axis,) = stacked(1, 4.4)
         x, y = self.sought(1), self.sought(0)
@@ -173,7 +173,7 @@ class Shown:
 
     @own_settings()
     def parallel(self) -> Figure:
-        """A line a design across its fields and what is sought, shaded by what is sought first, the best on top."""
+        """Parallel coordinates: one line per design over fields and objectives, shaded by the first objective."""
         from matplotlib import colormaps
 
         figures = self.found
@@ -209,7 +209,7 @@ class Shown:
 
     @property
     def every(self) -> dict[str, Callable[[], Figure]]:
-        """What can be drawn of the study, by name."""
+        """Plots of the study by name."""
         made: dict[str, Callable[[], Figure]] = {"effects": self.effects}
         if len(self.found.fields) > 1:
             made["map"] = self.heat_map
@@ -220,7 +220,7 @@ class Shown:
 
 
 def _some(count: int, most: int) -> Array:
-    """Numbers spread evenly, the last always among them."""
+    """Indices spread evenly, the last always among them."""
     return np.unique(np.linspace(0, count - 1, min(count, most)).astype(int))
 
 
@@ -233,7 +233,7 @@ def _word(field: VariedField, value: float) -> str:
 
 
 def _broken(words: str) -> str:
-    """Words on several lines where they are long."""
+    """Break long text into lines."""
     lines = [""]
     for part in re.split(r"(?<=[-. ])", words):
         if lines[-1] and len(lines[-1]) + len(part) > _SHORT:
@@ -243,7 +243,7 @@ def _broken(words: str) -> str:
 
 
 def _named(axis: Axis, field: VariedField) -> None:
-    """An axis of a field: its name, its words where it has no numbers."""
+    """Label the axis of a field, with its words if it has no numbers."""
     axis.set_label_text(_head(field), fontsize=9, parse_math=False)
     if field.words:
         axis.set_ticks(range(len(field.words)), [_broken(word) for word in field.words], fontsize=8)

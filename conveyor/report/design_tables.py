@@ -1,4 +1,4 @@
-"""Every table and figure of a study's designs, declared once; a study in plain numbers."""
+"""Tables and figures of a study's designs, declared once; its plain numbers."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ _MOST: Final = 50  # rows of the front on the page
 
 
 def of_study(study: Explored, system: System) -> Contents:
-    """Tables and figures of a study's designs in a unit system."""
+    """Contents of the report of a study's designs in a unit system."""
     parts = (
         best(study),
         on_the_front(study),
@@ -70,7 +70,7 @@ def of_study(study: Explored, system: System) -> Contents:
 
 
 def _order(study: Explored) -> str:
-    """What orders the designs."""
+    """Order of the designs in words."""
     name, direction = next(iter(study.sought.items()))
     first = "those that keep the limits first, then " if study.plan.limits else ""
     return f"{first}the {direction} {study.figures[name].label}"
@@ -82,7 +82,7 @@ def _limit(label: str, limit: Limit) -> str:
 
 
 def best(study: Explored) -> Table:
-    """The designs that come first, one row each."""
+    """Best designs, one row each."""
     columns = (
         Column("design", "count", "number"),
         *(Column(field.label, "text", _change(field.path), key=field.path) for field in study.fields),
@@ -105,7 +105,7 @@ def _figure(name: str) -> Callable[[Design], float | None]:
 
 
 def on_the_front(study: Explored) -> Table:
-    """Pareto-optimal designs, one row each; no rows where just one figure is sought."""
+    """Pareto-optimal designs, one row each; no rows for a single objective."""
     several = len(study.sought) > 1
     rows = [int(i) for i in study.front.nonzero()[0]] if several else []
     rows.sort(key=lambda i: float(study.costs[i, 0]))
@@ -138,7 +138,7 @@ def _sought(study: Explored, k: int) -> Callable[[int], float]:
 
 
 def effects(study: Explored) -> Table:
-    """Effect of each field to what is sought first, one row a field and value."""
+    """Main effect of each field on the first objective, one row per field and value."""
     rows = (
         [(study.fields[k].path, effect) for k in study.ordered for effect in study.effects(k)]
         if len(study.values)
@@ -162,7 +162,7 @@ def effects(study: Explored) -> Table:
 
 
 def refused(study: Explored) -> Table:
-    """Why designs have no answer, and how many."""
+    """Reasons for designs without a solution, and their counts."""
     columns = (Column("designs", "count", "1"), Column("no answer because", "text", "0"))
     heading = "Designs without an answer"
     return Table("refused", "Refused", heading, columns, tuple(study.refused.items()), "refused")

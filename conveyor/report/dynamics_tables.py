@@ -1,4 +1,4 @@
-"""Every table and figure of starts and stops, declared once."""
+"""Tables and figures of starts and stops, declared once."""
 
 from __future__ import annotations
 
@@ -48,13 +48,13 @@ PARTS: Final = (
     ("assumptions", "Assumptions"),
     ("provenance", "Provenance"),
 )
-"""Parts of the page; a conveyor's has the first and the fourth among its own."""
+"""Parts of the page; the first and fourth are also parts of a conveyor's page."""
 _SAMPLES = 200  # rows of histories of a scenario
 _SCENARIO = Column("scenario", "text", "0", json="scenario")
 
 
 def of_dynamics(dynamics: CalculatedDynamics, system: System) -> Contents:
-    """Every table of the scenarios of a conveyor in a unit system."""
+    """Contents of the report on starts and stops in a unit system."""
     every = checks_of(dynamics)
     parts = (
         *tables(dynamics), checked(deciding(every), system), _remarks(dynamics, every, system),
@@ -66,13 +66,13 @@ def of_dynamics(dynamics: CalculatedDynamics, system: System) -> Contents:
 
 
 def further(dynamics: CalculatedDynamics, system: System) -> Further:
-    """What a conveyor's own report takes over."""
+    """Checks, tables and drawings of the scenarios for the report of the conveyor."""
     shown, drawn = tuple(tables(dynamics)), tuple(drawings(dynamics, system))
     return Further(checks_of(dynamics), shown, drawn, dynamics.assumptions, of_scenarios(dynamics))
 
 
 def tables(dynamics: CalculatedDynamics) -> Iterator[Table]:
-    """What happened, in their order."""
+    """Tables of the scenarios that have rows."""
     for made in (
         scenarios, sizes, scenario_drives, scenario_pulleys, scenario_tensions, splice_tensions, histories
     ):  # fmt: skip
@@ -90,7 +90,7 @@ _PEAKS: Final = (
 
 
 def scenarios(dynamics: CalculatedDynamics) -> Table:
-    """One row a scenario."""
+    """Extremes of every scenario."""
 
     def peak(one: Followed, *, high: bool) -> tuple[float, str]:
         i = int(one.record.highest.argmax() if high else one.record.lowest.argmin())
@@ -118,7 +118,7 @@ def scenarios(dynamics: CalculatedDynamics) -> Table:
 
 
 def sizes(dynamics: CalculatedDynamics) -> Table:
-    """One row a figure that was sought: what it is, how well it is known, what fails with less of it."""
+    """Sizes that keep every criterion: value, error, governing check."""
     columns = (
         Column("sought", NAMED, "label", json="sought"),
         Column("scenario", "text", "value.scenario", json="scenario"),
@@ -134,14 +134,14 @@ def sizes(dynamics: CalculatedDynamics) -> Table:
 
 
 def scenario_drives(dynamics: CalculatedDynamics) -> Table:
-    """One row a scenario and drive, with the take-up."""
+    """Extremes of every drive in every scenario, with the take-up."""
     rows = [(one.name, one, d) for one in dynamics.followed for d in range(len(one.ride.drives))]
 
     def drive(name: str, of: Any) -> Any:
         return lambda row: float(of(row[1].record.drives[name][:, row[2]]))
 
     def held(of: Any, there: Any) -> Any:
-        """Force that a brake or a backstop holds; none where there is none."""
+        """Force held by a brake or a backstop; None where there is none."""
         return lambda row: drive("holding", of)(row) if there(row[1].ride)[row[2]] else None
 
     def torque(of: Any) -> Any:
@@ -179,7 +179,7 @@ def scenario_drives(dynamics: CalculatedDynamics) -> Table:
 
 
 def scenario_pulleys(dynamics: CalculatedDynamics) -> Table:
-    """One row a scenario and pulley: highest and lowest tension beside it, and when; safety of the belt there."""
+    """Highest and lowest tension at every pulley in every scenario, with their times; safety of the belt."""
     belt = dynamics.given.line.belt
 
     def safety(row: Any) -> float | None:
@@ -200,7 +200,7 @@ def scenario_pulleys(dynamics: CalculatedDynamics) -> Table:
 
 
 def splice_tensions(dynamics: CalculatedDynamics) -> Table:
-    """One row a scenario: the range of tension that a splice goes through once round the loop, wherever it is."""
+    """Range of tension that a splice sees in every scenario."""
     belt = dynamics.given.line.belt
 
     def needed(one: Followed) -> float | None:
@@ -222,7 +222,7 @@ def splice_tensions(dynamics: CalculatedDynamics) -> Table:
 
 
 def scenario_tensions(dynamics: CalculatedDynamics) -> Table:
-    """One row a scenario and stretch: highest and lowest tension and when."""
+    """Highest and lowest tension of every section and strand in every scenario, with their times."""
     rows = [(one.name, peak) for one in dynamics.followed for peak in peaks(one)]
     columns = (
         _SCENARIO,
@@ -237,7 +237,7 @@ def scenario_tensions(dynamics: CalculatedDynamics) -> Table:
 
 
 def histories(dynamics: CalculatedDynamics) -> Table:
-    """Speeds and tensions over time, some hundred rows a scenario."""
+    """Speeds and tensions over time."""
     rows = [
         (one.name, one, int(i), d)
         for one in dynamics.followed
@@ -267,7 +267,7 @@ def histories(dynamics: CalculatedDynamics) -> Table:
 
 
 def _remarks(dynamics: CalculatedDynamics, every: tuple[Check, ...], system: System) -> Table:
-    """What fails, and what the figures rest on."""
+    """Failed checks and assumptions."""
     warned = [
         f"{check.case.text(system)}: {check.why.text(system)}"
         for check in every
@@ -277,7 +277,7 @@ def _remarks(dynamics: CalculatedDynamics, every: tuple[Check, ...], system: Sys
 
 
 def drawings(dynamics: CalculatedDynamics, system: System) -> Iterator[Drawing]:
-    """Five figures a scenario, the first of which moves."""
+    """Five drawings per scenario, the first animated."""
     for one in dynamics.followed:
         for name, words in (
             ("profile", "tension and speed round the loop; the tail is dashed, shaded what occurs"),
@@ -315,13 +315,13 @@ def plain(dynamics: CalculatedDynamics) -> dict[str, Any]:
 
 _LEVELS, _MOST = 14, 80  # shades, and points a side, of the map
 _POINTS = 1500  # of a history
-_FRAMES, _PLACES = 45, 60  # of what moves
+_FRAMES, _PLACES = 45, 60  # times and points of an animation
 _WHERE: Final = "distance from the head, return strand first"
 _HEIGHT, _LOW, _WHOLE = 4.4, 3.0, 13.0
 
 
 def profile(scenario: Followed, *, system: System = "SI") -> Html:
-    """Tension and speed over the place, moving; it plays when it is asked to."""
+    """Animation of tension and speed round the loop."""
     force, length, speed = (
         unit("force", system, large=True),
         unit("length", system, large=True),
@@ -346,7 +346,7 @@ def profile(scenario: Followed, *, system: System = "SI") -> Html:
 
 @own_settings()
 def picture(scenario: Followed, *names: str, system: System = "SI") -> Picture:
-    """Its figures on a sheet: tension over place and time, its ends over the place, speeds, forces; or those named."""
+    """Figure of a scenario: tension map, envelope, speeds and forces, or those named."""
     drawn = {"tension_map": (_map, _HEIGHT), "envelope": (_envelope, _HEIGHT), "speeds": (_speeds, _LOW),
              "forces": (_forces, _HEIGHT)}  # fmt: skip
     shown = [drawn[name] for name in names or drawn]
@@ -434,6 +434,6 @@ def _forces(axis: Axes, scenario: Followed, system: System) -> None:
 
 
 def _tail(scenario: Followed) -> int:
-    """The cell at the tail."""
+    """Index of the cell at the tail."""
     order, known = scenario.round_loop
     return int(order[int(np.argmin(np.abs(known - scenario.line.loop.way[scenario.line.count])))])

@@ -51,7 +51,7 @@ SHEETS: Final[Fills] = {
     "Rubber": sheets.rubber,
     CHECKS_AND_NOTES: sheets.notes,
 }
-"""What fills each sheet, in their order; a sheet that only a table names holds its tables under one another."""
+"""Functions that fill the sheets, in order; on all other sheets tables are stacked."""
 COMPARISON_SHEETS: Final[Fills] = {
     "Ranking": sheets.ranking,
     "Power": sheets.power,
@@ -69,7 +69,7 @@ _LAYOUTS: Final[Mapping[str, Fills]] = {
     "comparison": COMPARISON_SHEETS,
     "verification": VERIFICATION_SHEETS,
 }
-"""By the layout of a report; others have all tables of a sheet under one another."""
+"""By the layout of a report; in others the tables of a sheet are stacked."""
 _WHERE_ASKED: Final = (
     *VERIFICATION_SHEETS,
     "Pulleys",
@@ -82,7 +82,7 @@ _WHERE_ASKED: Final = (
     "Histories",
     "Uncertainty",
 )
-"""Sheets of a workbook only where the spec asks for them, or leaves something to defaults."""
+"""Sheets that are left out where they have no table."""
 _PORTRAIT: Final = (
     "Given",
     "Resistances",
@@ -96,7 +96,7 @@ _PORTRAIT: Final = (
 
 
 def write(contents: Contents, path: Path) -> Path:
-    """Write the workbook of a report: under a temporary name beside it first, then renamed.
+    """Write the workbook of a report, under a temporary name first.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def write(contents: Contents, path: Path) -> Path:
         Its tables, in their unit system.
     path : Path
         Name of the workbook, ending in ``.xlsx``; an older workbook there is replaced. Tables too long for a sheet go
-        to ``<name of the workbook>_<name of the table>.csv`` beside it.
+        to ``<name of the workbook>_<name of the table>.csv`` in its folder.
 
     Returns
     -------
@@ -114,8 +114,8 @@ def write(contents: Contents, path: Path) -> Path:
     Raises
     ------
     InputError
-        The path does not end in .xlsx, is a folder, lies in none, or cannot be written; nothing half-written
-        is left, and an older workbook is untouched.
+        The path does not end in .xlsx, is a folder, lies in none, or cannot be written; an older workbook is then
+        untouched.
     """
     if path.suffix.lower() != ".xlsx":
         raise InputError(f'{path}: a workbook\'s name ends in .xlsx, got "{path.suffix}"')
@@ -125,7 +125,7 @@ def write(contents: Contents, path: Path) -> Path:
 
 
 def files(contents: Contents, path: Path) -> dict[Path, bytes]:
-    """Workbook of a report and the tables too long for it, by the files they go to; as `write` and `build`."""
+    """Contents of the files of a report, by path: the workbook, and the tables too long for it."""
     live: dict[tuple[str, str], float | str] = {}
     with _uncollected():
         book, content = build(contents, path.stem, live), BytesIO()
@@ -139,7 +139,7 @@ def files(contents: Contents, path: Path) -> dict[Path, bytes]:
 
 @contextmanager
 def _uncollected() -> Iterator[None]:
-    """No search for cycles of objects meanwhile: it takes a third of the time, and there is little to find."""
+    """Pause the cyclic garbage collector, which would take a third of the time."""
     was = gc.isenabled()
     gc.disable()
     try:
@@ -152,7 +152,7 @@ def _uncollected() -> Iterator[None]:
 def build(
     contents: Contents, stem: str = "", live: dict[tuple[str, str], float | str] | None = None
 ) -> Workbook:
-    """Workbook of a report, not yet saved; `stem` names files beside it, `live` takes the values of its formulas."""
+    """Build the workbook of a report; `stem` names further files, `live` receives the values of its formulas."""
     about, fills = contents.document, _LAYOUTS.get(contents.layout, {})
     book = Workbook()
     book.remove(book.worksheets[0])
@@ -169,27 +169,27 @@ def build(
             fills.get(title, sheets.stacked)(page)
             last = page.print_only()
             print_set_up(page.sheet, header, last, paper=about.paper, portrait=title in _PORTRAIT)
-    if front:  # its charts are of the tables of the others
+    if front:  # its charts refer to tables of the other sheets
         cover.summary(Page(book[FRONT], contents, stem), placed)
         print_set_up(book[FRONT], header, book[FRONT].max_row, paper=about.paper, portrait=True)
     return book
 
 
 Values = Mapping[tuple[int, str], float | str]
-"""Of formulas, numbers or words, by the number of their sheet, from 1, and their cell."""
+"""Values of formulas, by the number of their sheet, from 1, and their cell."""
 
 _SHEET: Final = "xl/worksheets/sheet{}.xml"
 
 
 def with_values(workbook: bytes, values: Values) -> bytes:
-    """Return a workbook whose formulas have their values beside them, as a spreadsheet saves them.
+    """Return a workbook whose formulas have cached values, as a spreadsheet saves them.
 
     Parameters
     ----------
     workbook : bytes
         As openpyxl saves it: formulas without values.
     values : mapping
-        Of every formula.
+        Value of every formula.
     """
     if not values:
         return workbook

@@ -1,4 +1,4 @@
-"""Every table of the workbook as a file of its own: CSV or Parquet."""
+"""Tables of the workbook as files: CSV or Parquet."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 FileKind = Literal["csv", "parquet"]
 _KINDS: Final = ("csv", "parquet")
 _FORMULA: Final = ("=", "+", "-", "@", "\t", "\r", "\n")
-"""Beginnings that a spreadsheet reads as a formula when it opens a CSV file."""
+"""First characters that a spreadsheet reads as a formula in a CSV file."""
 
 
 def write(contents: Contents, folder: Path, kind: FileKind = "csv") -> tuple[Path, ...]:
@@ -60,15 +60,15 @@ def write(contents: Contents, folder: Path, kind: FileKind = "csv") -> tuple[Pat
 
 
 def files(contents: Contents, folder: Path, kind: FileKind = "csv") -> dict[Path, bytes]:
-    """Tables of a report by the files they go to; as `write`."""
+    """Encode the tables of a report, by path; as `write`."""
     encode = parquet if kind == "parquet" else csv
     return {folder / f"{part.key}.{kind}": encode(part.frame(contents.system)) for part in contents.tables}
 
 
 def csv(frame: pd.DataFrame) -> bytes:
-    r"""Write a table as CSV (RFC 4180; UTF-8 with its mark, so that Excel reads it so), no text of it a formula.
+    r"""Encode a table as CSV (RFC 4180; UTF-8 with BOM for Excel).
 
-    Text that begins as a formula does (``= + - @``, a tab or a line break) has an apostrophe before it.
+    Text that begins as a formula does (``= + - @``, a tab or a line break) gets an apostrophe before it.
 
     Examples
     --------
@@ -86,14 +86,14 @@ def csv(frame: pd.DataFrame) -> bytes:
 
 
 def plain(value: object) -> object:
-    """A cell of a CSV file: no text of it is read as a formula."""
+    """Cell of a CSV file, escaped so that no text is read as a formula."""
     if not isinstance(value, str):
         return value
     return f"'{printable(value)}" if value.startswith(_FORMULA) else printable(value)
 
 
 def parquet(frame: pd.DataFrame) -> bytes:
-    """Write a table as Parquet; a column of numbers with gaps keeps its gaps."""
+    """Encode a table as Parquet; missing numbers stay missing."""
     content = BytesIO()
     marked = frame.infer_objects()
     marked.attrs = {marks.PARQUET: marks.maker()}

@@ -20,7 +20,7 @@ _ENDINGS = (".html", ".htm")
 
 
 def write(contents: Contents, path: Path) -> Path:
-    """Write the page of a report: under a temporary name beside it first, then renamed.
+    """Write the page of a report, under a temporary name first.
 
     Parameters
     ----------
@@ -37,8 +37,8 @@ def write(contents: Contents, path: Path) -> Path:
     Raises
     ------
     InputError
-        The path does not end in .html, is a folder, lies in none, or cannot be written; nothing half-written is left,
-        and an older page is untouched.
+        The path does not end in .html, is a folder, lies in none, or cannot be written; an older page is then
+        untouched.
     """
     if path.suffix.lower() not in _ENDINGS:
         raise InputError(f'{path}: a page\'s name ends in .html, got "{path.suffix}"')
@@ -48,7 +48,7 @@ def write(contents: Contents, path: Path) -> Path:
 
 
 def build(contents: Contents) -> Html:
-    """Page of the tables and drawings of a report."""
+    """Build the page of a report."""
     about = contents.document
     made = f"conveyor {version('conveyor')}, {date.today().isoformat()}"
     if about.fingerprint:
@@ -60,7 +60,7 @@ def build(contents: Contents) -> Html:
 
 
 def _top(contents: Contents) -> Html:
-    """What the conveyor is, or what was compared at what; the notes of the spec."""
+    """Facts of the report, and the notes of the spec."""
     said = contents.document.facts
     if not said:
         rows = contents["identity"].rows
@@ -69,7 +69,7 @@ def _top(contents: Contents) -> Html:
 
 
 def _part(contents: Contents, name: str, heading: str) -> Part:
-    """A part of the page: what is its own, drawings, tables with their notes."""
+    """Part of the page: its own content, drawings, tables with their notes."""
     content = [_OWN[name](contents)] if name in _OWN else []
     content += [_drawn(drawing) for drawing in contents.drawings if drawing.above == name]
     for shown in contents.parts:
@@ -101,7 +101,7 @@ def _drawn(drawing: Drawing) -> Html:
 
 
 def _key_figures(contents: Contents) -> Html:
-    """What a reader looks for first: the verdict, what governs, figures as given."""
+    """Verdict, governing figures and key figures."""
     checks, warned = contents["checks"].rows, len(contents.lines("warning"))
     count = {word: sum(check.verdict == word for check in checks) for word in ("pass", "FAIL", "not checked")}
     counted = joined(
@@ -120,7 +120,7 @@ def _key_figures(contents: Contents) -> Html:
 
 
 def _warnings(contents: Contents) -> Html:
-    """What has to be seen to, then what the figures rest on."""
+    """Lists of warnings: action required, then basis and limitations."""
     lists = zip(HEADINGS, ordered(contents.lines("warning")), strict=True)
     shown = [
         (element("h3", heading.capitalize()), bullets(lines, "warnings")) for heading, lines in lists if lines
@@ -134,4 +134,4 @@ _OWN: Final[dict[str, Callable[[Contents], Html]]] = {
     "warnings": _warnings,
     "assumptions": lambda contents: bullets(contents.lines("assumption")),
 }
-"""What parts of the page hold beside tables and drawings."""
+"""Content of parts of the page besides tables and drawings."""

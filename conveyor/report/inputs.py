@@ -1,4 +1,4 @@
-"""Every field of a conveyor as a row: as entered, in SI, and whether the spec, a library or a default gave it."""
+"""Every field of a conveyor as a row: as entered, in SI, and its origin: spec, library or default."""
 
 from __future__ import annotations
 
@@ -21,15 +21,12 @@ def _written(value: Any) -> Any:
 
 
 def inputs(conveyor: Conveyor) -> tuple[Row, ...]:
-    """Field, value as entered (text), SI value (number where it is one), SI unit, origin; compounds by name.
-
-    Fields that are left open and have no default have no row.
-    """
+    """Rows of all fields that have a value: field, text as entered, SI value, SI unit, origin; compounds by name."""
     return tuple(_rows((), conveyor, "spec"))
 
 
 def _rows(place: tuple[str | int, ...], value: Any, origin: Origin, entry: Any = None) -> Iterator[Row]:
-    """Rows of a value; `entry` is what the library has in its place, if one is named."""
+    """Rows of a value; `entry` is the value of the library entry that is named, if any."""
     field = field_path(place)
     if value is None:
         return
@@ -65,11 +62,11 @@ def _fields(place: tuple[str | int, ...], model: Model, origin: Origin, entry: A
 _ITEM = re.compile(r"\[\d+\]")
 _DEGREES = re.compile(r"\bdeg(?=[CF]?\b)")
 _KINDS = {"m": "length", "m/s": "speed", "m/s²": "acceleration", "Pa": "pressure", "N": "force", "kg": "mass"}
-"""Of the SI units of defaults."""
+"""Kinds of the SI units of defaults."""
 
 
 def _worded(entered: str) -> str:
-    """What was entered, its unit as people write it."""
+    """Value as entered, with its unit in the usual spelling."""
     if entered in {"true", "false"}:
         return "yes" if entered == "true" else "no"
     spelled = _DEGREES.sub("°", entered).replace("^2", "²").replace("^3", "³").replace("short_ton/h", "stph")
@@ -79,7 +76,7 @@ def _worded(entered: str) -> str:
 def gathered(
     rows: Iterable[Row], system: System = "SI", *, alike: bool = False
 ) -> tuple[tuple[str, str], ...]:
-    """Rows by the part of the spec they are of: part, fields with their values; items of lists as one if alike."""
+    """Rows grouped by part of the spec: part, fields with their values; with `alike`, list items merged."""
     parts: dict[str, dict[str, list[str]]] = {}
     for field, entered, value, sign, origin in rows:
         of, _, name = field.rpartition(".")

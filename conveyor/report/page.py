@@ -1,4 +1,4 @@
-"""One static page: its style, its parts, its shell. No script, nothing fetched, every text escaped."""
+"""Elements of a static page: style, tables, lists, shell. No script, nothing fetched, every text escaped."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ COLOURS: Final = {
     "open": "#5C4400",
     "open-pale": "#FFF4D6",
 }
-"""Of the page, by what they stand for; contrast of every text is 4.5 or more (WCAG 2.2, 1.4.3)."""
+"""Colours of the page by role; contrast of every text is 4.5 or more (WCAG 2.2, 1.4.3)."""
 
 DARK: Final = {
     "paper": "#14181D",
@@ -44,7 +44,7 @@ DARK: Final = {
     "open": "#F2CE73",
     "open-pale": "#38300F",
 }
-"""The same where the reader's screen is dark."""
+"""Colours in dark mode."""
 
 _STYLE: Final = """
 * { box-sizing: border-box; }
@@ -175,7 +175,7 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
 
 
 def style(paper: Paper) -> str:
-    """Return the style sheet of a page that is printed on a paper."""
+    """Return the style sheet for a paper size."""
     light, dark = (
         ":root { " + " ".join(f"--{name}: {value};" for name, value in colours.items()) + " }"
         for colours in (COLOURS, DARK)
@@ -202,7 +202,7 @@ _MARKS = {"pass": ("pass", "✓"), "FAIL": ("fail", "✗"), "not checked": ("ope
 
 @dataclass(frozen=True)
 class Part:
-    """A part of the page: its identifier, its heading, what is in it, whether paper has it."""
+    """Part of the page: identifier, heading, content, whether it is printed."""
 
     name: str
     heading: str
@@ -252,7 +252,7 @@ def table(shown: Table, caption: str, system: System = "SI", *, kind: str = "") 
 
 
 def _class(values: Sequence[object], *, named: bool) -> str | None:
-    """How a column is set: numbers, long text, names of rows."""
+    """CSS class of a column: numbers, long text, short names."""
     given = [value for value in values if not _missing(value)]
     if given and all(isinstance(value, int | float) and not isinstance(value, bool) for value in given):
         return "n"
@@ -292,13 +292,13 @@ def _cell(shown: Table, column: Column, row: Any, system: System) -> Html:
 
 
 def scrolling(content: Html, label: str, *, wide: bool, keep: bool, kind: str = "") -> Html:
-    """Return a table that scrolls by itself where the screen is narrow."""
+    """Return content that scrolls by itself on a narrow screen."""
     kinds = "scroll" + (" wide" if wide else "") + (" keep" if keep else "") + (f" {kind}" if kind else "")
     return element("div", content, class_=kinds, tabindex="0", role="group", aria_label=label)
 
 
 def folded(caption: str, content: Html) -> Html:
-    """Return what is shown when it is asked for, and not printed."""
+    """Return content that is folded away and not printed."""
     return element("details", element("summary", caption), content)
 
 
@@ -307,7 +307,7 @@ def notebook(
     tables: Iterable[tuple[str, Table]],
     notes: Mapping[str, Sequence[object]] = MappingProxyType({}),
 ) -> Html:
-    """Return the first rows of tables under their captions, and lines folded away under their name and number."""
+    """Return tables cut to their first rows, and notes folded away."""
     shown = ((caption, replace(part.on_sheet(), rows=part.rows[:_ROWS], foot="")) for caption, part in tables)
     every = [(listed if part.figures else table)(part, caption, system) for caption, part in shown]
     below = [folded(f"{name} ({len(lines)})", bullets(lines)) for name, lines in notes.items() if lines]
@@ -315,7 +315,7 @@ def notebook(
 
 
 def in_short(contents: Contents) -> Html:
-    """Return what a notebook shows of a report: key figures, checks that failed, warnings."""
+    """Return the summary of a report for a notebook: key figures, failed checks, warnings."""
     checks = contents["checks"].rows
     failed = [check.subject for check in checks if check.verdict == "FAIL"]
     lines = [f"{len(failed)} of {len(checks)} checks failed" + (f": {'; '.join(failed)}" if failed else "")]
@@ -327,7 +327,7 @@ def in_short(contents: Contents) -> Html:
 
 
 def listed(shown: Table, caption: str, system: System = "SI") -> Html:
-    """Return named figures: name, value, unit; many of them in two tables side by side where there is room."""
+    """Return a list of figures: name, value, unit; long ones in two columns."""
     value = next(column.get for column in shown.columns if column.kind == OF_ROW)
     half = -(-len(shown.rows) // 2) if len(shown.rows) > _BESIDE else len(shown.rows)
     parts = [
@@ -358,19 +358,19 @@ def _listed(
 
 
 def verdict(word: str) -> Html:
-    """Return a verdict with its mark."""
+    """Return a verdict with its symbol."""
     kind, mark = _MARKS[word]
     return element("span", element("span", mark, aria_hidden="true"), " ", word, class_=f"verdict {kind}")
 
 
 def facts(pairs: Iterable[tuple[str, object]], kind: str = "facts") -> Html:
-    """Return names and values side by side."""
+    """Return names and values as a definition list."""
     named = (element("div", element("dt", name), element("dd", value)) for name, value in pairs)
     return element("dl", *named, class_=kind)
 
 
 def tiles(shown: Iterable[Figure], system: System = "SI") -> Html:
-    """Return key figures, large."""
+    """Return key figures as large tiles."""
     pairs = []
     for figure in shown:
         written = unit(figure.kind, system, large=True)
@@ -397,15 +397,15 @@ def page(title: str, kind: str, top: Html, parts: Sequence[Part], foot: str, *, 
     Parameters
     ----------
     title, kind : str
-        Of what, and what the page is.
+        Title, and kind of page.
     top : Html
-        Below the title, above the contents.
+        Between the title and the contents.
     parts : sequence of Part
-        Each under its heading, in their order.
+        Parts in order.
     foot : str
-        What made it.
+        Footer: program and version.
     paper : {"A4", "Letter"}
-        To print on.
+        Paper size.
     """
     head = element(
         "head",

@@ -24,7 +24,7 @@ from conveyor.report.page import COLOURS
 from conveyor.report.settings import matplotlib
 
 _FORMS: Final = Path(__file__).with_name("page.typ")
-_FONT: Final = "DejaVu Sans"  # comes with matplotlib; what it lacks is from the fonts of the machine
+_FONT: Final = "DejaVu Sans"  # comes with matplotlib; missing letters are from the fonts of the machine
 _PAPERS: Final = {"A4": "a4", "Letter": "us-letter"}
 _PAPER: Final = re.compile(r"@page { size: (\w+); }")
 _DRAWING: Final = re.compile(r"<svg\b.*?</svg>", re.DOTALL)
@@ -41,7 +41,7 @@ _INKS: Final = {"pass": "good", "fail": "bad", "open": "open"}
 
 @dataclass(eq=False)
 class _Element:
-    """An element of a page: its tag, its classes, what is in it."""
+    """An element of a page: tag, classes, content."""
 
     tag: str
     classes: frozenset[str] = frozenset()
@@ -49,27 +49,27 @@ class _Element:
 
     @property
     def elements(self) -> list[_Element]:
-        """Those directly in it."""
+        """Child elements."""
         return [one for one in self.content if isinstance(one, _Element)]
 
     @property
     def text(self) -> str:
-        """Its words."""
+        """Text content."""
         return "".join(one if isinstance(one, str) else one.text for one in self.content)
 
     def first(self, tag: str) -> _Element:
-        """The first element of a tag in it, at whatever depth."""
+        """First descendant with a tag."""
         return next(one for one in self.every() if one.tag == tag)
 
     def every(self) -> Iterator[_Element]:
-        """All elements in it, at whatever depth, in their order."""
+        """All descendants in document order."""
         for one in self.elements:
             yield one
             yield from one.every()
 
 
 class _Reader(HTMLParser):
-    """Makes the elements of a page."""
+    """Parser of a page into elements."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -92,7 +92,7 @@ class _Reader(HTMLParser):
 
 
 def write(contents: Contents, path: Path) -> Path:
-    """Write the page of a report as PDF: under a temporary name beside it first, then renamed.
+    """Write the page of a report as PDF, under a temporary name first.
 
     Parameters
     ----------
@@ -120,12 +120,12 @@ def write(contents: Contents, path: Path) -> Path:
 
 
 def require() -> None:
-    """Refuse where the package that sets the pages is not installed.
+    """Check that the package typst is installed.
 
     Raises
     ------
     InputError
-        It is not.
+        It is not installed.
     """
     if find_spec("typst") is None:
         raise InputError(
@@ -171,7 +171,7 @@ def source(page: Html) -> str:
 
 
 class _Setter:
-    """Sets elements; `drawings` are those that were taken out of the page."""
+    """Writer of elements as Typst; `drawings` are the SVG texts of the page."""
 
     def __init__(self, drawings: Sequence[str]) -> None:
         self.drawings = drawings
@@ -189,7 +189,7 @@ class _Setter:
         }
 
     def flow(self, element: _Element) -> str:
-        """What an element holds, one after the other; figures in a row side by side."""
+        """Content of an element; consecutive figures side by side."""
         parts: list[str] = []
         for figures, group in groupby(filter(_prints, element.content), _is_figure):
             made = map(self.one, list(group))
@@ -197,35 +197,35 @@ class _Setter:
         return "".join(parts)
 
     def one(self, part: _Element | str) -> str:
-        """An element, or words."""
+        """An element or text."""
         if isinstance(part, str):
             return f"#{_string(part)}" if part.strip() else " "
         return self.by_tag.get(part.tag, self.flow)(part)
 
     def heading(self, level: int, element: _Element) -> str:
-        """A heading, a bookmark of the file, too."""
+        """A heading, also a bookmark of the file."""
         return f"\n#heading(level: {level})[{self.flow(element)}]\n"
 
     def paragraph(self, element: _Element) -> str:
-        """A paragraph, a note, or the verdict on the whole."""
+        """A paragraph, a note, or the overall verdict."""
         form = "stands" if "stands" in element.classes else "muted-text" if element.classes else ""
         words = self.flow(element)
         return f"\n#{form}{_inked(element)}[{words}]\n\n" if form else f"\n{words}\n\n"
 
     def span(self, element: _Element) -> str:
-        """Words in a line: the verdict of a check, or a unit, which is not broken."""
+        """Inline text: the verdict of a check, or a unit, which is not broken."""
         form = "verdict" if "verdict" in element.classes else "box" if "unit" in element.classes else ""
         words = self.flow(element)
         return f"#{form}{_inked(element)}[{words}]" if form else words
 
     def named(self, element: _Element) -> str:
-        """Names and what they are: key figures, facts, or terms."""
+        """A definition list: key figures, facts, or terms."""
         kind = next((kind for kind in ("tiles", "facts") if kind in element.classes), "terms")
         pairs = ((self.flow(one) for one in pair.elements) for pair in element.elements)
         return f"\n#{kind}({''.join(f'([{name}], [{words}]), ' for name, words in pairs)})\n"
 
     def division(self, element: _Element) -> str:
-        """A table, parts side by side, lines to sign on, a sheet of its own, or what it holds."""
+        """A table, parts side by side, signature lines, a separate sheet, or plain content."""
         if any(one.tag == "table" for one in element.elements):
             return self.table(element.first("table"), element.classes)
         side_by_side = next((kind for kind in ("beside", "signed") if kind in element.classes), None)
@@ -234,7 +234,7 @@ class _Setter:
         return self.flow(element) + ("\n#pagebreak(weak: true)\n" if "sheet" in element.classes else "")
 
     def table(self, element: _Element, kinds: frozenset[str]) -> str:
-        """A table below its caption; its heads stand on every page."""
+        """A table with its caption; its header repeats on every page."""
         caption, head, *parts = element.elements
         (heads,) = head.elements
         rows = [(row, part.tag == "tfoot") for part in parts for row in part.elements]
@@ -245,7 +245,7 @@ class _Setter:
         return f"\n#captioned({given})\n"
 
     def cells(self, row: _Element, *, strong: bool = False) -> str:
-        """Those of a row; numbers stand to the right."""
+        """Cells of a row; numbers aligned right."""
         made = []
         for cell in row.elements:
             how = ["align: right"] * bool(cell.classes & {"n", "v"})
@@ -263,10 +263,10 @@ class _Setter:
 
 
 def _laid(rows: Sequence[_Element], *, wide: bool) -> tuple[float, str]:
-    """Letter size [pt] and widths of the columns of a table: as wide as their words where all fit side by side.
+    """Letter size [pt] and column widths of a table: as wide as the text where all fit.
 
-    Else each is as wide as its longest word, name, number or short text, and what is left goes to those that have more;
-    smaller letters where even these do not fit.
+    Else each is as wide as its longest word, name, number or short text, and the rest is shared in proportion to the
+    remaining text; letters shrink where even these do not fit.
     """
     size = _SMALL if wide else _SIZE
     room = _ROOM / (size * _LETTER)
@@ -294,13 +294,13 @@ def _is_figure(part: _Element | str) -> bool:
 
 
 def _inked(element: _Element) -> str:
-    """Colours of a verdict, in brackets; nothing of other words."""
+    """Arguments for the colours of a verdict; empty for other text."""
     ink = next((ink for kind, ink in _INKS.items() if kind in element.classes), None)
     return "" if ink is None else f"({ink}, {ink}-pale)"
 
 
 def _string(text: str) -> str:
-    r"""Return text as Typst quotes it, so that nothing of it is markup.
+    r"""Return text as a Typst string, so that nothing of it is markup.
 
     Examples
     --------

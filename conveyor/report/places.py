@@ -1,4 +1,4 @@
-"""Where tables and figures stand in the workbook: headings, names others link to, tables too long for a sheet."""
+"""Writing the tables of a sheet: placement, headings, defined names, formulas, print area."""
 
 from __future__ import annotations
 
@@ -18,30 +18,30 @@ from conveyor.report.cells import GREY, HEADING, ask, lines_of, put, table, tota
 from conveyor.report.columns import Contents, Figure, Table
 
 MOST_ROWS: Final = 10_000
-"""Rows of a table that a sheet takes: beyond them a workbook takes seconds to write and to open."""
+"""Maximum rows of a table on a sheet: longer ones take seconds to write and to open."""
 SHOWN_ROWS: Final = 100
-"""Rows that stand for a table too long."""
+"""Rows shown of a table that is too long."""
 _FILTERED_ROWS: Final = 20
-"""Rows beyond which a table has buttons to filter it."""
+"""Rows beyond which a table has filter buttons."""
 CHART_ROWS: Final = 20
 """Rows that a chart takes."""
 _CHART_SPAN: Final = 7
 """Columns that a chart takes on paper."""
 _LEAST_WIDTH: Final = 90.0
-"""Width of what is printed, and of notes [characters]: captions of narrow tables are longer than they."""
+"""Minimum width of the print area and of notes [characters]: captions are longer than narrow tables."""
 _MOST_WIDTH: Final = 270.0
-"""Width that one sheet of paper shows legibly [characters]: letters of 5 pt."""
+"""Maximum width of one sheet of paper [characters]: letters of 5 pt."""
 _GUTTER: Final = 3.0  # between tables side by side [characters]
 _NAMES: Final = 56  # characters of a name on one line
 
 
 def file_name(stem: str, part: Table) -> str:
-    """Name of the file beside a workbook that holds a table too long for it."""
+    """Name of the CSV file of a table that is too long for the workbook."""
     return f"{stem}_{part.key}.csv"
 
 
 def define(sheet: Worksheet, name: str, cells: str) -> None:
-    """Name a cell or a range of a sheet, for the whole workbook."""
+    """Define a workbook-wide name for a cell or range."""
     book = sheet.parent
     if book is not None:
         reference = f"{quote_sheetname(sheet.title)}!{absolute_coordinate(cells)}"
@@ -50,7 +50,7 @@ def define(sheet: Worksheet, name: str, cells: str) -> None:
 
 @dataclass(frozen=True)
 class TablePlace:
-    """Rows of a table's header and of its last row, its columns by name; whole if no row is left out."""
+    """Place of a table on a sheet: header row, last row, columns by key; `whole` if no row is left out."""
 
     header: int
     last: int
@@ -60,22 +60,22 @@ class TablePlace:
 
     @property
     def last_column(self) -> int:
-        """Of the table."""
+        """Index of the last column."""
         return self.first_column + len(self.keys) - 1
 
     def column(self, key: str) -> int:
-        """Where a column stands."""
+        """Column index of a key."""
         return self.first_column + self.keys.index(key)
 
     @property
     def cells(self) -> str:
-        """Range of the table with its header."""
+        """Cell range of the table with its header."""
         first, last = get_column_letter(self.first_column), get_column_letter(self.last_column)
         return f"{first}{self.header}:{last}{self.last}"
 
 
 def _centred(kept: Any) -> Alignment:
-    """An alignment at half height."""
+    """Copy of an alignment, vertically centred."""
     return Alignment(
         horizontal=kept.horizontal, indent=kept.indent, wrap_text=kept.wrap_text, vertical="center"
     )
@@ -92,9 +92,9 @@ class Page:
     contents : Contents
         Tables of the report.
     stem : str
-        Name of the workbook without its ending, for files beside it.
+        Name of the workbook without its ending, for further files.
     placed : dict
-        Every table that stands in the workbook: its sheet and its place there.
+        Sheet and place of every table of the workbook.
     live : dict
         Values of formulas, by sheet and cell.
     """
@@ -108,7 +108,7 @@ class Page:
     def place(
         self, key: str, row: int, column: int = 1, *, heading: bool = True, widest: int = _NAMES
     ) -> TablePlace:
-        """Write a table, its heading at (row, column) and its header in the row below; name it and its figures."""
+        """Write a table, its heading at (row, column) and its header below; define names for it and its figures."""
         part = self.contents[key].on_sheet()
         top = row
         if heading:
@@ -135,14 +135,14 @@ class Page:
         return place
 
     def _changing(self, cell: Cell, figure: Figure) -> None:
-        """Mark what a reader may change; write what follows from it as a formula, its value kept for saving."""
+        """Mark a cell that the reader may change, or write its formula."""
         if "input" in figure.on.split():
             ask(cell)
         if figure.formula:
             self._calculated(cell, figure.formula)
 
     def _live_columns(self, part: Table, place: TablePlace) -> None:
-        """Write the formulas of a table's columns, cells for the columns that they name."""
+        """Write the formulas of a table's columns, with cell references for column keys."""
         for column in part.columns:
             for i, row in enumerate(part.rows if column.formula else ()):
                 formula = column.formula(row) if column.formula else ""
@@ -156,13 +156,13 @@ class Page:
                     self._calculated(here, re.sub(r"\[(\w+)(?::(\d+))?\]", cell, formula))
 
     def _calculated(self, cell: Cell | MergedCell, formula: str) -> None:
-        """Write a formula; what stands in the cell is kept for saving."""
+        """Write a formula; keep the cell's value for saving."""
         value = "" if cell.value is None else cell.value
         self.live[self.sheet.title, cell.coordinate] = value if isinstance(value, str) else float(str(value))
         cell.value, cell.data_type = f"={formula}", "f"
 
     def headed(self, key: str, *, frozen: str = "B3", widest: int = 60) -> TablePlace:
-        """Write the one table of a sheet: its header stays in view and is printed on each page."""
+        """Write the main table of a sheet; its header stays in view and repeats on each page."""
         place = self.place(key, 1, widest=widest)
         self.sheet.freeze_panes = frozen
         self.sheet.print_title_rows = "1:2"
@@ -179,9 +179,9 @@ class Page:
         widest: int = _NAMES,
         least: float = _LEAST_WIDTH,
     ) -> dict[str, TablePlace]:
-        """Write tables under one another, those that there are, each with its note; where each stands.
+        """Write the existing tables under one another, each with its note; return their places.
 
-        What is not printed stands below all that is. Notes are as wide as what is printed of their table, or `least`.
+        Those that are not printed come last. Notes are as wide as the printed part of their table, at least `least`.
         """
         places = {}
         there = [key for key in keys if key in self.contents]
@@ -196,15 +196,15 @@ class Page:
 
     @property
     def keys(self) -> tuple[str, ...]:
-        """Names of the tables of this sheet."""
+        """Keys of the tables of this sheet."""
         return self.contents.of(self.sheet.title)
 
     def rest(self, row: int = 1, *, widest: int = _NAMES, but: Sequence[str] = ()) -> None:
-        """Write the tables of the sheet that are not on it yet under one another."""
+        """Write the remaining tables of the sheet under one another."""
         self.stacked([key for key in self.keys if key not in {*self.placed, *but}], row, widest=widest)
 
     def beside(self, *stacks: Iterable[str]) -> None:
-        """Write stacks of tables of one shape each side by side: tables of other shapes share no widths."""
+        """Write stacks of tables side by side, so that tables of different shapes share no column widths."""
         keys = [[key for key in stack if key in self.contents] for stack in stacks]
         column, places = 1, list[TablePlace]()
         for stack in keys:
@@ -221,7 +221,7 @@ class Page:
         self.stacked(rest, max((place.last for place in places), default=-3) + 5)
 
     def _noted(self, row: int, key: str, least: float) -> int:
-        """Write the note of a table; the rows it takes."""
+        """Write the note of a table; return its number of rows."""
         place, note = self.placed[key][1], self.contents[key].note
         cell = self.sheet.cell(row, place.first_column)
         put(cell, note, GREY)
@@ -232,7 +232,7 @@ class Page:
         return rows
 
     def print_only(self) -> int:
-        """Print what is to be printed, hide a sheet that holds nothing of it; the last row that is printed."""
+        """Set the print area, or hide a sheet with nothing to print; return the last printed row."""
         here = {key: place for key, (sheet, place) in self.placed.items() if sheet is self.sheet}
         corners = [coordinate_to_tuple(chart.anchor) for chart in vars(self.sheet)["_charts"]]
         printed = {key: place for key, place in here.items() if self.contents[key].printed}
@@ -255,16 +255,16 @@ class Page:
         return last
 
     def _width(self, columns: Iterable[int]) -> float:
-        """Of columns, in characters."""
+        """Width of columns [characters]."""
         return sum(self.sheet.column_dimensions[get_column_letter(column)].width for column in columns)
 
     def _at_least(self, width: float, columns: range) -> range:
-        """Columns, and as many behind them as make a width [characters]."""
+        """Columns extended to the right until they have a width [characters]."""
         while self._width(columns) < width:
             columns = range(columns.start, columns.stop + 1)
         return columns
 
     def _last_printed(self, key: str, place: TablePlace) -> int:
-        """Last column of a table that paper has; a table that only files and sheets have is printed whole."""
+        """Last printed column of a table; a table that is not on the page is printed whole."""
         shown = sum(column.page is not None for column in self.contents[key].on_sheet().columns)
         return place.first_column + shown - 1 if self.contents[key].page else place.last_column

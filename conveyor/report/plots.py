@@ -40,7 +40,7 @@ _OTHER: Final = {"temperature": "speed", "speed": "temperature"}
 
 
 def stacked(rows: int = 1, height: float = _SIZE[1]) -> tuple[Figure, list[Axes]]:
-    """A figure without pyplot: nothing global, safe in threads and servers."""
+    """Figure with axes under one another, made without pyplot: safe in threads and servers."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(_SIZE[0], height), layout="constrained")
@@ -58,14 +58,14 @@ def colour(k: int) -> str:
 
 
 def grouped(axis: Axis) -> None:
-    """Write the numbers of an axis with their thousands grouped: 12,000."""
+    """Group the thousands of an axis: 12,000."""
     from matplotlib.ticker import FuncFormatter
 
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.10g}"))
 
 
 def titled(figure: Figure, title: str, note: str = "") -> None:
-    """Give a figure its title, with a note below it; a "$" is a dollar, not the start of a formula."""
+    """Set the title of a figure, with a note below it; a "$" is a dollar, no formula."""
     axis = figure.axes[0]
     axis.set_title(title, parse_math=False, pad=20.0 if note else None)
     if note:
@@ -76,7 +76,7 @@ def titled(figure: Figure, title: str, note: str = "") -> None:
 
 
 def keyed(axis: Axes) -> None:
-    """Name the curves below the axis, where no legend covers a point; a user's "$" is a dollar, no formula."""
+    """Add a legend below the axis, where it covers no point; a "$" is a dollar, no formula."""
     handles, labels = axis.get_legend_handles_labels()
     once = dict(zip(labels, handles, strict=True))
     if once:
@@ -91,7 +91,7 @@ def keyed(axis: Axes) -> None:
 def finished(
     figure: Figure, x: str = "", y: str = "", title: str = "", *, note: str = "", group: str = ""
 ) -> Figure:
-    """Name the axes of a figure as `named`, and title it; the figure."""
+    """Label the axes as `named`, set the title, and return the figure."""
     named(figure.axes[0], x, y, group=group)
     if title:
         titled(figure, title, note)
@@ -99,7 +99,7 @@ def finished(
 
 
 def named(axis: Axes, x: str = "", y: str = "", *, group: str = "") -> None:
-    """Name both axes, group the thousands of "x" and "y", key the curves."""
+    """Label both axes, group the thousands of those in `group` ("x", "y"), add a legend."""
     axis.set(xlabel=x, ylabel=y)
     for name in group:
         grouped(axis.xaxis if name == "x" else axis.yaxis)
@@ -107,13 +107,12 @@ def named(axis: Axes, x: str = "", y: str = "", *, group: str = "") -> None:
 
 
 def save(figure: Figure, path: str | Path) -> Path:
-    """Write a figure; the ending of the name chooses the format (.png, .svg, .pdf).
+    """Write a figure as .png, .svg or .pdf.
 
     Raises
     ------
     InputError
-        An unknown ending, or a path that cannot be written; nothing half-written is left, and an older file
-        is untouched.
+        An unknown ending, or a path that cannot be written; an older file is then untouched.
     """
     where = Path(path)
     saving.writable(where)
@@ -122,7 +121,7 @@ def save(figure: Figure, path: str | Path) -> Path:
 
 
 def drawn(figure: Figure, path: Path) -> bytes:
-    """Draw a figure in the format of a file's name: the same figure gives the same bytes.
+    """Encode a figure in the format of a file's name; the same figure gives the same bytes.
 
     Raises
     ------
@@ -146,7 +145,7 @@ def drawn(figure: Figure, path: Path) -> bytes:
 
 @contextmanager
 def drawing(*, letters: Literal["path", "none"] = "path") -> Iterator[None]:
-    """Draw one figure at a time, letters of SVG as paths or as text: settings and warnings are the whole process's.
+    """Draw one figure at a time, as settings and warnings are global; letters of SVG as paths or as text.
 
     Raises
     ------
@@ -160,33 +159,33 @@ def drawing(*, letters: Literal["path", "none"] = "path") -> Iterator[None]:
 
 
 class Scenes(Protocol):
-    """What is drawn over temperature and speed: a `conveyor.Comparison`, or one compound alone."""
+    """Results over temperature and speed: a `conveyor.Comparison`, or one compound alone."""
 
     @property
     def conveyor(self) -> Conveyor:
-        """The spec that was varied."""
+        """Conveyor that was varied."""
 
     @property
     def compounds(self) -> tuple[RubberCompound, ...]:
-        """One curve each."""
+        """Compounds, one curve each."""
 
     @property
     def scenes(self) -> tuple[ComparedScene, ...]:
-        """What was answered."""
+        """Scenes with a solution."""
 
     @property
     def coverage(self) -> tuple[Coverage, ...]:
-        """Where the data cover what the rolls ask for."""
+        """Coverage of the excited band by the data."""
 
 
 Over: TypeAlias = Literal["temperature", "speed"]
-"""What power is drawn over; at one of the other."""
+"""Variable of the abscissa; the other is fixed."""
 
 
 def drawn_at(comparison: Scenes, over: Over) -> float | None:
-    """Speed [m/s] or temperature [K] at which power is drawn over the other: the next to the spec's that has an answer.
+    """Speed [m/s] or temperature [K] at which power is drawn over the other: the solved one nearest to the spec's.
 
-    Of temperatures one that every compound has an answer for.
+    A temperature must be solved for every compound.
     """
     if over == "temperature":
         spec, answered = comparison.conveyor.belt_speed, [{scene.speed for scene in comparison.scenes}]
@@ -203,13 +202,12 @@ def drawn_at(comparison: Scenes, over: Over) -> float | None:
 def power_over(comparison: Scenes, over: Over, at: float | None = None, *, system: System = "SI") -> Figure:
     """Motor power of every compound over temperature at one speed [m/s], or over belt speed at one temperature [K].
 
-    Without one that of `drawn_at`. Bands of the fit's replicas are shaded; dotted is where the rolls ask for
-    frequencies beyond the rubber's data.
+    By default that of `drawn_at`. Bands of the fit's replicas are shaded; dotted beyond the rubber's data.
 
     Raises
     ------
     InputError
-        No scene has an answer there, or none that all compounds share.
+        No scene is solved there, or no temperature for all compounds.
     """
     chosen, other = drawn_at(comparison, over) if at is None else at, _OTHER[over]
     if chosen is None:
@@ -224,14 +222,14 @@ def power_over(comparison: Scenes, over: Over, at: float | None = None, *, syste
 
 
 def placed(name: str, value: float, system: System) -> str:
-    """A speed or a temperature as titles write it."""
+    """Speed or temperature as text for titles."""
     written = unit(name, system, large=True)
     return written.brief(value) if name == "speed" else f"{written(value):g} {written.sign}"
 
 
 @own_settings()
 def _power(comparison: Scenes, scenes: Sequence[ComparedScene], over: str, system: System) -> Figure:
-    """Lines of scenes over temperature or speed."""
+    """Power of scenes over temperature or speed, one line per compound."""
     figure, (axis,) = stacked(1, 4.0)
     power, along = unit("power", system, large=True), unit(over, system, large=True)
     beyond = {(row.compound, row.temperature) for row in comparison.coverage if not row.covered}
@@ -262,7 +260,7 @@ def _power(comparison: Scenes, scenes: Sequence[ComparedScene], over: str, syste
 
 @own_settings()
 def differences(rows: Sequence[tuple[str, float, tuple[float | None, float | None]]], base: str) -> Figure:
-    """Difference of the motor power to a base's in per cent, a dot a compound with its band."""
+    """Difference of motor power to a base in per cent, one dot per compound with its band."""
     figure, (axis,) = stacked(1, 1.4 + 0.36 * len(rows))
     for i, (_, change, (low, high)) in enumerate(rows):
         if low is not None and high is not None:
@@ -284,18 +282,18 @@ def loss_tangents(
     *,
     system: System = "SI",
 ) -> Figure:
-    """Master curves of tan δ at one temperature [K], solid where the data hold them, and the band a conveyor excites.
+    """Master curves of tan δ at a temperature [K], solid within the data, and the excited bands.
 
     Parameters
     ----------
     compounds : sequence of RubberCompound
         At least one.
     temperature : float
-        To which the curves are shifted [K].
+        Temperature to which the curves are shifted [K].
     excited : mapping of str to tuple, optional
-        Bands of frequency by what excites them [Hz].
+        Excited frequency bands by label [Hz].
     system : {"SI", "US"}
-        Of the temperature in the label.
+        Unit system of the temperature in the label.
     """
     figure, (axis,) = stacked()
     warmth = unit("temperature", system, large=True)
@@ -327,12 +325,12 @@ def compared_loss_tangents(
 ) -> Figure:
     """Loss tangents of all compounds at one temperature [K], and the band that the conveyor's rolls excite there.
 
-    Without a temperature the one nearest the spec's that every compound has an answer for.
+    By default the temperature nearest the spec's that is solved for every compound.
 
     Raises
     ------
     NoSolutionError
-        No temperature that every compound has an answer for.
+        No temperature is solved for every compound.
     """
     at = [
         {row.temperature for row in comparison.coverage if row.compound == c.name}
@@ -352,7 +350,7 @@ def compared_loss_tangents(
 def master_curve(
     compound: RubberCompound, temperature: float | None = None, *, system: System = "SI"
 ) -> Figure:
-    """E', E'' and tan δ of one compound at a temperature [K], its reference temperature without."""
+    """E', E'' and tan δ of a compound at a temperature [K], by default its reference temperature."""
     figure, (above, below) = stacked(2, 7.0)
     modulus, warmth = unit("pressure", system, large=True), unit("temperature", system, large=True)
     at = compound.reference if temperature is None else temperature

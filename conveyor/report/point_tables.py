@@ -1,4 +1,4 @@
-"""The tables of a study, one row a point or a design: written row by row, so that its size does not matter."""
+"""Tables of a study, one row per point or design, streamed row by row."""
 
 from __future__ import annotations
 
@@ -27,30 +27,30 @@ if TYPE_CHECKING:
     from conveyor.studies.evaluation import Explored, VariedField
 
 PART: Final = 1024
-"""Points of a part of a table that is written while its study runs."""
+"""Points per part of a table that is written while its study runs."""
 _ROWS: Final = 10_000  # of a group of a Parquet file
 _PART_NAME: Final = re.compile(r"part-\d+\.(csv|parquet)")
 
 Cells = tuple[Any, ...]
 Row: TypeAlias = "tuple[int, tuple[Value, ...], Sequence[Any] | str]"
-"""Number, values of what varies, SI figures or why there are none."""
+"""Number, values of the varied fields, SI figures or the reason why there are none."""
 
 
 class CampaignTable:
-    """Headings and cells of a table of a study, one row a point or a design, in a system of units.
+    """Headings and cells of a table of a study, one row per point or design, in a system of units.
 
     Parameters
     ----------
     row : str
-        What a row is: "point".
+        Name of a row: "point" or "design".
     fields : sequence of VariedField
-        What varies: its columns have the unit of their first value.
+        Varied fields; columns have the unit of the first value.
     figures : sequence of (str, str)
-        Words and kind of each figure, in the system's units.
+        Label and kind of each figure.
     system : {"SI", "US"}
-        Of the figures.
+        Unit system of the figures.
     currency : str
-        Of costs.
+        Currency of costs.
     """
 
     def __init__(
@@ -70,7 +70,7 @@ class CampaignTable:
         self._kinds = ("count", *given, *(_STORED.get(kind, "number") for _, kind in figures), "text")
 
     def cells(self, row: Row) -> Cells:
-        """A row."""
+        """Cells of a row."""
         number, values, answer = row
         given = [
             str(value) if field.words else field.number(value)
@@ -83,7 +83,7 @@ class CampaignTable:
         return (number, *given, *shown, None)
 
     def write(self, path: Path, points: Iterable[Row]) -> int:
-        """Write the table as its name ends, `.csv` or `.parquet`; the file is there when it is whole.
+        """Write the table as `.csv` or `.parquet`, by the ending of its name; the file appears when it is complete.
 
         Returns
         -------
@@ -128,27 +128,27 @@ def _shown(value: Any, sign: Unit, kind: str) -> Any:
 
 
 _STORED: Final = {"count": "count", "text": "text", "verdict": "text"}
-"""How figures stand in a Parquet file, by kind; others are numbers."""
+"""Storage types in a Parquet file by kind; others are numbers."""
 
 
 class PartedTable:
-    """A table in a folder, a file for every so many points: each is there, whole, as soon as they have answers.
+    """A table in a folder, one file per `PART` points, each written once they are all solved.
 
     Parameters
     ----------
     table : CampaignTable
-        Of the points.
+        Table of the points.
     folder : Path
-        Made if it is not there; parts of an older run in it are removed.
+        Created if missing; parts of an older run are removed.
     count : int
-        Points of the study.
+        Number of points of the study.
     row : callable
-        Row of a point of a number, with the key of its answer.
+        Returns the row of a point from its number and keyed result.
 
     Raises
     ------
     InputError
-        The folder cannot be written, or holds something else than parts of such a table.
+        The folder cannot be written, or holds other files than parts of such a table.
     """
 
     def __init__(
@@ -175,7 +175,7 @@ class PartedTable:
             raise InputError(f"{folder}: cannot be written ({error.strerror or error})") from None
 
     def take(self, points: Iterable[tuple[int, Keyed]]) -> None:
-        """Take points by their numbers that have answers; write the parts that are whole now.
+        """Add solved points by number; write the parts that are now complete.
 
         Raises
         ------
@@ -201,7 +201,7 @@ def _line(cells: Iterable[Any]) -> str:
 
 
 def of_points(campaign: Campaign, system: System) -> CampaignTable:
-    """The table of a study's points."""
+    """Table of a study's points."""
     figures = [(OUTPUTS[key].label, OUTPUTS[key].kind) for key in campaign.outputs]
     return CampaignTable(
         "point", varied(campaign.listed, campaign.plan.paths), figures, system, campaign.currency
@@ -209,14 +209,14 @@ def of_points(campaign: Campaign, system: System) -> CampaignTable:
 
 
 def of_designs(campaign: Campaign, system: System) -> CampaignTable:
-    """The table of a study's designs; its rows come from `design_rows`."""
+    """Table of a study's designs; its rows come from `design_rows`."""
     figures = [(figure.label, figure.kind) for figure in campaign.figures.values()]
     shown = (*figures, ("breaks", "text"), ("on the front", "verdict"))
     return CampaignTable("design", varied(campaign.listed), shown, system, campaign.currency)
 
 
 def design_rows(study: Explored, designs: Iterable[Design]) -> Iterator[Row]:
-    """Designs as rows of their table."""
+    """Rows of the table of designs."""
     front = set(study.numbers[study.front].tolist())
     for one in designs:
         values = tuple(one.changes.values())
@@ -229,5 +229,5 @@ def design_rows(study: Explored, designs: Iterable[Design]) -> Iterator[Row]:
 
 
 def priced(kind: str, currency: str) -> str:
-    """A kind, money in the currency of a study's costs."""
+    """Kind of quantity; money gets its currency."""
     return f"{MONEY}{currency}" if kind == "money" else kind

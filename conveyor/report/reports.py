@@ -1,4 +1,4 @@
-"""Files of results that hold one set of contents."""
+"""Report files of results."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ if TYPE_CHECKING:
 
 
 class Reports:
-    """Files of results whose `contents` take a system of units alone."""
+    """Mixin of results: report files of their `contents`."""
 
     def contents(self, system: System | None = None) -> Contents:
-        """Everything a report holds, in a system of units."""
+        """Contents of the report in a system of units."""
         raise NotImplementedError
 
     def to_excel(self, path: str | Path, *, system: System | None = None) -> Path:

@@ -1,4 +1,4 @@
-"""The JSON schema of what `--json` prints, of a conveyor, a comparison and scenarios; declared beside a version."""
+"""The versioned JSON schema of what `--json` prints, of a conveyor, a comparison and scenarios."""
 
 from __future__ import annotations
 
@@ -6,25 +6,25 @@ from collections.abc import Mapping
 from typing import Any, Final
 
 SCHEMA_VERSION: Final = 1
-"""Raised where a key goes, or means something else; a new key does not raise it."""
+"""Increased where a key goes or changes its meaning, not for a new key."""
 
 Schema = dict[str, Any]
 
 
 def _is(*kinds: str, of: str = "") -> Schema:
-    """A value of one of some types."""
+    """Schema of a value of one of some types."""
     said: Schema = {"type": kinds[0] if len(kinds) == 1 else list(kinds)}
     return said | ({"description": of} if of else {})
 
 
 def _of(keys: Mapping[str, Schema], *, also: Mapping[str, Schema] | None = None, of: str = "") -> Schema:
-    """An object that holds every one of its keys, and may hold some more."""
+    """Schema of an object with required keys, and optional ones in `also`."""
     said: Schema = {"type": "object", "properties": {**keys, **(also or {})}, "required": list(keys)}
     return said | ({"description": of} if of else {})
 
 
 def _each(item: Schema, of: str = "") -> Schema:
-    """A list of alike items."""
+    """Schema of a list of items of one schema."""
     return {"type": "array", "items": item} | ({"description": of} if of else {})
 
 
@@ -41,7 +41,7 @@ _ROWS: Final = _each(_ROW, "rows of a table, under the names of its columns with
 
 
 def _numbers(*names: str, of: str = "") -> Schema:
-    """An object of numbers: these, and maybe more of their kind."""
+    """Schema of an object of numbers: those named, and maybe more."""
     return _of(dict.fromkeys(names, _NUMBER), of=of) | {"additionalProperties": _NUMBER}
 
 
@@ -84,7 +84,7 @@ _STATE: Final = _of(
 
 
 def _rows(*texts: str, numbers: tuple[str, ...], also: tuple[str, ...] = (), of: str = "") -> Schema:
-    """Rows of words and of numbers that may not be known; some numbers only where the spec gives what they need."""
+    """Schema of rows of text and of numbers or null; `also` names optional numbers."""
     keys = dict.fromkeys(texts, _TEXT) | dict.fromkeys(numbers, _NUMBER_OR_NOT)
     return _each(_of(keys, also=dict.fromkeys(also, _NUMBER_OR_NOT)), of)
 

@@ -1,4 +1,4 @@
-"""Matplotlib as the figures here need it: with its own defaults, whatever settings of the user it starts with."""
+"""Matplotlib with its own defaults, whatever the user's settings."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any, Final
 from conveyor.errors import InputError, shortened
 
 _STARTS: Final = ("MPLBACKEND", "MATPLOTLIBRC", "MPLCONFIGDIR")
-"""Variables that say how matplotlib starts."""
+"""Environment variables that matplotlib reads at start."""
 _PROCESS: Final = (
     "backend",
     "interactive",
@@ -22,14 +22,14 @@ _PROCESS: Final = (
     "keymap",
     "webagg",
 )
-"""Begin names of settings that are not about what a figure looks like."""
+"""Prefixes of settings that do not affect the look of a figure."""
 _DATE: Final = "SOURCE_DATE_EPOCH"
 _LAST_DATE: Final = 253_402_300_799  # the end of the year 9999, the last that a date can have
 _one_at_a_time = RLock()
 
 
 def matplotlib() -> Any:
-    """The module.
+    """Import matplotlib.
 
     Raises
     ------
@@ -51,15 +51,14 @@ def matplotlib() -> Any:
 
 @contextmanager
 def own_settings(**more: object) -> Iterator[None]:
-    """Matplotlib's defaults and some settings more, for one figure at a time: settings are the whole process's.
+    """Matplotlib's defaults and further settings, for one figure at a time, as settings are global.
 
-    Also a decorator, of functions that make a figure: its texts take their font, and whether TeX sets them, as they
-    are made.
+    Also a decorator of functions that make a figure: texts take their font and the use of TeX when they are made.
 
     Parameters
     ----------
     more : object
-        Settings by name, a point written as two underscores.
+        Settings by name, a dot written as two underscores.
 
     Raises
     ------
@@ -78,12 +77,12 @@ def own_settings(**more: object) -> Iterator[None]:
 
 
 def refuse_no_date() -> None:
-    """Refuse a date for documents that is none: matplotlib reads it for PDF and SVG.
+    """Refuse an invalid SOURCE_DATE_EPOCH: matplotlib reads it for PDF and SVG.
 
     Raises
     ------
     InputError
-        The variable holds something else than seconds since 1970.
+        The variable is not a number of seconds since 1970.
     """
     given = os.environ.get(_DATE, "")
     if given and not (given.isascii() and given.isdecimal() and int(given) <= _LAST_DATE):

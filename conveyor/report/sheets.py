@@ -1,4 +1,4 @@
-"""The sheets of the workbooks that hold more than their tables under one another, one function each."""
+"""Layouts of the sheets of workbooks, one function each."""
 
 from __future__ import annotations
 
@@ -21,40 +21,40 @@ from conveyor.units.presentation import unit
 _NARROW = 12.0  # width of a chart on a page held upright [cm]
 _NEW_PAGE = 40  # rows beyond which a table to fill in goes on on new sheets of paper
 _MOST_BARS = 24
-"""Bars that one chart shows legibly."""
+"""Maximum number of bars of a chart."""
 _PIECE = 1000  # characters of a note in one cell
 
 
 def stacked(page: Page, widest: int = 56) -> None:
-    """All tables of the sheet under one another; text beyond the widest [characters] goes on on the next line."""
+    """All tables stacked; text wraps at `widest` [characters]."""
     page.rest(widest=widest)
 
 
 def noted(page: Page) -> None:
-    """Tables of narrow columns under one another, each with its note."""
+    """All tables stacked, with narrow columns and notes."""
     page.stacked(page.keys, widest=24)
 
 
 def beside(page: Page) -> None:
-    """Lists of figures under one another, beside them the tables of several columns."""
+    """Lists of figures on the left, tables of several columns on the right."""
     lists = [key for key in page.keys if page.contents[key].figures]
     page.beside(lists, [key for key in page.keys if key not in lists])
 
 
 def single(page: Page) -> None:
-    """A table that fills its sheet; further ones below it."""
+    """One main table, further ones below it."""
     page.rest(page.headed(page.keys[0]).last + 4)
 
 
 def wide(page: Page) -> None:
-    """A wide table that fills its sheet, the columns that name its rows kept in view; further ones below it."""
+    """One wide main table with its name columns frozen, further ones below it."""
     names = [column.kind for column in page.contents[page.keys[0]].columns]
     corner = f"{get_column_letter(1 + next(i for i, kind in enumerate(names) if kind != 'text'))}3"
     page.rest(page.headed(page.keys[0], frozen=corner, widest=30).last + 4)
 
 
 def tensions(page: Page) -> None:
-    """Tension behind every section in every state with its chart; states that fail are red."""
+    """Tension behind every section in every state, with a chart; states that fail in red."""
     place = page.headed("section_ends")
     sheet, row = page.sheet, place.last + 3
     for column in range(place.first_column, place.last_column + 1):
@@ -66,7 +66,7 @@ def tensions(page: Page) -> None:
 
 
 def transfer(page: Page) -> None:
-    """Loading points, cleaners and discharge, with the trajectory as a chart to scale."""
+    """Loading points, cleaners and discharge, with a chart of the trajectory to scale."""
     contents = page.contents
     shown = page.stacked([key for key in page.keys if contents[key].printed])
     row = max(place.last for place in shown.values()) + 4
@@ -77,7 +77,7 @@ def transfer(page: Page) -> None:
 
 
 def uncertainty(page: Page) -> None:
-    """The power with its band, and which input matters, with its chart."""
+    """Power with its band, and the sensitivity with a chart."""
     page.beside([key for key in page.keys if key != "sensitivity"], ["sensitivity"])
     place = page.placed["sensitivity"][1]
     if place.whole and place.last - place.header <= _MOST_BARS:
@@ -90,7 +90,7 @@ def uncertainty(page: Page) -> None:
 
 
 def rubber(page: Page) -> None:
-    """Excitation, what is known of every compound, its moduli as a chart; tables of curves are not printed."""
+    """Excitation bands, data and moduli charts of every compound; tables of curves are not printed."""
     sheet, contents = page.sheet, page.contents
     row = page.place("rubber", 1, widest=30).last + 3
     sheet.column_dimensions["A"].width = 24
@@ -113,7 +113,7 @@ def rubber(page: Page) -> None:
 
 
 def _known(sheet: Worksheet, row: int, heading: str, facts: Sequence[tuple[str, str]]) -> int:
-    """What is known of a compound; the row its tables begin in."""
+    """Write the facts of a compound; return the next row."""
     put(sheet.cell(row, 1), heading, HEADING)
     for name, value in facts:
         row += 1
@@ -124,7 +124,7 @@ def _known(sheet: Worksheet, row: int, heading: str, facts: Sequence[tuple[str, 
 
 
 def notes(page: Page) -> None:
-    """Checks, warnings, assumptions, the spec's notes, and what made the figures."""
+    """Checks, method, warnings, assumptions, notes of the spec, provenance."""
     sheet, contents = page.sheet, page.contents
     row = page.place("checks", 1, widest=40).last + 3
     for heading, kind in (
@@ -140,7 +140,7 @@ def notes(page: Page) -> None:
 
 
 def about(page: Page) -> None:
-    """What a sheet to fill in is of, what its figures are, and who fills it in."""
+    """First sheet of a verification workbook: facts, basis of the figures, cells to fill in."""
     sheet, head = page.sheet, page.contents.document
     put(sheet["A1"], head.title, TITLE)
     for row, (name, value) in enumerate(head.facts, start=2):
@@ -152,7 +152,7 @@ def about(page: Page) -> None:
 
 
 def to_compare(page: Page) -> None:
-    """A table to fill in: names of rows and header in view, a new sheet of paper for every new first name."""
+    """Table to fill in, with frozen header and names; a page break at every new first name."""
     (key,) = page.keys
     part = page.contents[key].on_sheet()
     place = page.headed(key, frozen=f"{get_column_letter(part.named + 1)}3", widest=44)
@@ -163,7 +163,7 @@ def to_compare(page: Page) -> None:
 
 
 def ranking(page: Page) -> None:
-    """One page: what was compared, the ranking, dots of the difference to the base, what to know."""
+    """Ranking on one page: facts, ranking, costs, chart of the differences, notes."""
     sheet, contents, about = page.sheet, page.contents, page.contents.document
     facts = dict(about.facts)
     put(sheet["A1"], f"Compounds compared: {about.title}", TITLE)
@@ -195,7 +195,7 @@ def ranking(page: Page) -> None:
 
 
 def power(page: Page) -> None:
-    """Motor power over temperature at every speed, one column a compound, with its chart."""
+    """Motor power over temperature at every speed, with charts."""
     sheet, contents = page.sheet, page.contents
     row = 1
     for key in page.keys:
@@ -210,7 +210,7 @@ def power(page: Page) -> None:
 
 
 def scenes(page: Page) -> None:
-    """Every scene, one row each."""
+    """Every scene of the comparison."""
     if "scenes" in page.contents:
         page.headed("scenes", widest=44)
     else:
@@ -218,7 +218,7 @@ def scenes(page: Page) -> None:
 
 
 def coverage(page: Page) -> None:
-    """What the rolls excite against what the data hold; scenes without an answer."""
+    """Excitation bands against data ranges; scenes without a solution."""
     row = 1
     if "coverage" in page.contents:
         row = page.place("coverage", row).last + 3
@@ -230,7 +230,7 @@ def coverage(page: Page) -> None:
 
 
 def compounds(page: Page) -> None:
-    """What is known of each compound, remarks, and what made the figures."""
+    """Compounds, remarks, provenance."""
     row = page.place("compounds", 1, widest=44).last + 3
     row = paragraphs(page.sheet, row, "Remarks", page.contents.lines("warning"), columns=6)
     page.place("provenance", row, widest=70)
@@ -240,7 +240,7 @@ def compounds(page: Page) -> None:
 def paragraphs(
     sheet: Worksheet, row: int, heading: str, lines: tuple[str, ...] | list[str], columns: int = 4
 ) -> int:
-    """Write lines of text across columns, under a heading; the row after the next blank one."""
+    """Write a heading and lines of text across columns; return the next row but one."""
     put(sheet.cell(row, 1), heading, HEADING)
     for line in lines or ("none",):
         row += 1
@@ -249,7 +249,7 @@ def paragraphs(
 
 
 def _across(sheet: Worksheet, row: int, column: int, line: str, *, columns: int) -> None:
-    """Write one text across columns, on as many lines as it takes."""
+    """Write text across columns, wrapped."""
     cell = sheet.cell(row, column)
     put(cell, line)
     cell.alignment = Alignment(wrap_text=True, vertical="top", indent=1)

@@ -1,4 +1,4 @@
-"""Every table and figure of a sizing, declared once."""
+"""Tables and figures of a sizing, declared once."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _WHY: Final = (
 
 
 def of_sizing(sizing: CalculatedSizing, system: System, *, vary: bool = True) -> Contents:
-    """Every table of a sizing in a unit system; with `vary` also what varies around the best design."""
+    """Contents of the sizing report in a unit system; with `vary` also variations of the best design."""
     sweeps = around(sizing.task, sizing.best) if vary else ()
     best = sizing.best
     parts = (
@@ -67,7 +67,7 @@ def _money(sizing: CalculatedSizing) -> str:
 
 
 def designs(sizing: CalculatedSizing) -> Table:
-    """One row a design, the cheapest in a year first."""
+    """Designs, the lowest yearly cost first."""
     money, saved = _money(sizing), sizing.best.year
 
     columns = (
@@ -112,7 +112,7 @@ def _widest(design: SizedDesign) -> float:
 
 
 def _why(sizing: CalculatedSizing, rank: int) -> str:
-    """What it costs more for than the best, and less."""
+    """Largest cost shares of the best design, or largest differences to it."""
     if rank == 0:
         shares = {name: value / sizing.best.year for name, value in sizing.best.costs.yearly.items()}
         most = sorted(shares, key=lambda name: -float(shares[name]))[:3]
@@ -144,7 +144,7 @@ def costs(sizing: CalculatedSizing) -> Table:
 
 
 def swept(sizing: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
-    """One row a value around the best design."""
+    """Variations of one choice around the best design."""
     money = _money(sizing)
     rows = [
         (
@@ -175,7 +175,7 @@ def swept(sizing: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
 
 
 def spacing(sizing: CalculatedSizing) -> Table:
-    """Distances of the sets of every section, of the best design and of those that have them graduated."""
+    """Idler spacing of every section, of the best design and of those with graduated spacing."""
     rows = [
         (rank, one)
         for rank, design in enumerate(sizing.designs, start=1)
@@ -244,7 +244,7 @@ def idler_cost(design: SizedDesign) -> float:
 
 @own_settings()
 def cost_shares(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
-    """What a year costs by part, a bar a design."""
+    """Yearly cost by part, one bar per design."""
     money = unit(f"{MONEY}{sizing.duty.prices.currency}", system, large=True)
     figure, (axis,) = stacked(1, _HEIGHT + 0.22 * len(sizing.designs))
     ranks = np.arange(1, len(sizing.designs) + 1)
@@ -262,7 +262,7 @@ def cost_shares(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
 def cost_lines(
     sizing: CalculatedSizing, varied: tuple[VariedChoice, ...], *, system: System = "SI"
 ) -> Figure:
-    """Energy against idlers, belt and the rest, one choice varied around the best design."""
+    """Yearly cost of energy, idlers, belt and the rest, one choice varied around the best design."""
     money = unit(f"{MONEY}{sizing.duty.prices.currency}", system, large=True)
     figure, axes = stacked(len(varied), _TALL * len(varied))
     for axis, sweep in zip(axes, varied, strict=True):
@@ -293,7 +293,7 @@ def cost_lines(
 
 @own_settings()
 def spacing_drawn(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
-    """Distances of the sets of the best design along its profile, beside the widest that sag and bearings allow."""
+    """Idler spacing of the best design along its profile, and the widest that sag and bearings allow."""
     figure, (profile, axis) = stacked(2, _HEIGHT + _TALL)
     large, apart = unit("length", system, large=True), unit("spacing", system)
     ends = np.vstack([(0.0, 0.0), np.cumsum(sizing.task.sections, axis=0)])

@@ -1,4 +1,4 @@
-"""Every table of what a spec asks for beyond one analysis: its load cases, its year, its ranges; each declared once."""
+"""Tables of load states, load cases, duty and uncertainty, declared once."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ _AT = (
 
 
 def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[Table], list[Drawing]]:
-    """Tables and drawings of what was studied."""
+    """Tables and drawings of the studies of a conveyor."""
     if studies is None:
         return [], []
     tables: list[Table] = []
@@ -79,7 +79,7 @@ def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[
 
 
 def load_states(study: CalculatedStates) -> Table:
-    """One row a load state: what is loaded, power, tensions, what it asks of the take-up."""
+    """Load states: loaded sections, power, tensions, required take-up tension."""
     columns = (
         Column("state", "text", "label", key="state"),
         Column("sections loaded", "text", "loaded_in_words"),
@@ -105,7 +105,7 @@ def load_states(study: CalculatedStates) -> Table:
 
 
 def refused_states(study: CalculatedStates) -> Table:
-    """Load states without an answer, and why."""
+    """Load states without a solution, with the reason."""
     columns = (
         Column("state", "text", "name"),
         Column("temperature", "temperature", "temperature"),
@@ -130,7 +130,7 @@ def _of_cases(studies: CalculatedStudies, study: CalculatedCases, system: System
 
 
 def cases(study: CalculatedCases) -> Table:
-    """One row a case, speed and temperature."""
+    """Load cases, one row per case, speed and temperature."""
     low, high = study.friction_band
     columns = (
         Column("case", "text", "case.name"),
@@ -171,7 +171,7 @@ def cases(study: CalculatedCases) -> Table:
 
 
 def governing(study: CalculatedCases, governing: Sequence[Governing]) -> Table:
-    """One row a figure: its value and the load case or load state that decides it."""
+    """Governing value of every figure, with its load case or load state."""
     low, high = study.friction_band
     columns = (
         Column("figure", NAMED, "label"),
@@ -189,7 +189,7 @@ def governing(study: CalculatedCases, governing: Sequence[Governing]) -> Table:
 
 
 def refused(study: CalculatedCases) -> Table:
-    """Cases without an answer, and why."""
+    """Cases without a solution, with the reason."""
     columns = (
         Column("case", "text", "case"),
         *_AT,
@@ -200,7 +200,7 @@ def refused(study: CalculatedCases) -> Table:
 
 
 def motors(studies: CalculatedStudies, system: System) -> Table:
-    """One row a drive pulley: what it needs of all cases and load states, and motors of the series."""
+    """Required power of every drive pulley over all cases and load states, and standard motors."""
     columns = (
         Column("drive", "text", "drive"),
         Column("governing case", "text", lambda row: row.case.text(system)),
@@ -225,7 +225,7 @@ def _case_drawings(study: CalculatedCases, system: System) -> Iterator[Drawing]:
 
 
 def plain_take_up(duty: TakeUpDuty, governed_by: Said) -> dict[str, Any]:
-    """The take-up in plain numbers."""
+    """Plain numbers of the take-up for JSON."""
     return {
         "kind": duty.unit.kind,
         "setting_N": duty.setting,
@@ -238,7 +238,7 @@ def plain_take_up(duty: TakeUpDuty, governed_by: Said) -> dict[str, Any]:
 
 
 def duty(study: CalculatedYear) -> Table:
-    """One row a bar of the year's histogram."""
+    """Hours at load, temperature and speed: bars of the yearly histogram."""
     columns = (
         Column("hours", "life", lambda row: 3600.0 * row.hours),
         Column("load share", "share", "share"),
@@ -255,7 +255,7 @@ def duty(study: CalculatedYear) -> Table:
 
 
 def year(study: CalculatedYear) -> Table:
-    """Sums of the year; those that need a price or a factor only where it is given."""
+    """Sums of the year; cost and emission only if price and factor are given."""
     sums = study.year
     rows = (
         Figure("in operation", "life", sums.time),
@@ -272,7 +272,7 @@ def year(study: CalculatedYear) -> Table:
 
 
 def sensitivity(study: CalculatedRanges) -> Table:
-    """One row an input, the one that matters most first."""
+    """Sensitivity of the motor power to every input, the most influential first."""
     columns = (
         Column("input", "text", "0.name"),
         Column("low", "text", "0.low"),
@@ -291,7 +291,7 @@ def sensitivity(study: CalculatedRanges) -> Table:
 
 
 def band(study: CalculatedRanges) -> Table:
-    """The power with its bands, one row a way to combine the inputs."""
+    """Motor power with its band, one row per method of combining the inputs."""
     columns = (
         Column("combined by", "text", "0"),
         Column("motor power, low", "power", "1.0"),
@@ -313,7 +313,7 @@ def band(study: CalculatedRanges) -> Table:
 
 
 def flooded(study: FloodedBelt) -> Table:
-    """What a belt under bulk from edge to edge asks of drives, belt and structure."""
+    """Loads of a belt with bulk from edge to edge on drives, belt and structure."""
     found, heading = study.found, "Flooded belt"
     rows: list[Figure] = [
         Figure("cross-section of the bulk", "area", study.section),
@@ -340,7 +340,7 @@ def flooded(study: FloodedBelt) -> Table:
 
 
 def convergence_of_draws(study: CalculatedRanges) -> Table:
-    """Ends of the interval after ever more draws, and how well they are known; no rows without draws."""
+    """Ends of the interval over the number of draws, with their own intervals; no rows without draws."""
 
     def end(name: str, k: int) -> Callable[[Percentiles], float]:
         return lambda row: float(getattr(row, f"{name}_between")[k])
@@ -363,7 +363,7 @@ def convergence_of_draws(study: CalculatedRanges) -> Table:
 
 
 def plain(studies: CalculatedStudies) -> dict[str, Any]:
-    """Plain numbers for JSON, only of what there is; units in the keys."""
+    """Plain numbers of the existing studies for JSON; units in the keys."""
     parts: dict[str, Any] = {}
     if studies.states is not None:
         named = {key: _plain_state(state) for state in studies.states.states for key in state.keys}
@@ -399,7 +399,7 @@ def plain(studies: CalculatedStudies) -> dict[str, Any]:
 
 
 def _plain_state(state: LoadState) -> dict[str, Any]:
-    """A load state in plain numbers."""
+    """Plain numbers of a load state for JSON."""
     balance = state.balance
     return {
         "loaded_sections": list(state.loaded),
@@ -413,27 +413,27 @@ def _plain_state(state: LoadState) -> dict[str, Any]:
 
 
 def notebook_of_states(study: CalculatedStates) -> Html:
-    """The load states, and those without an answer."""
+    """Load states for a notebook, and those without a solution."""
     refusals = [f"{row.name}: {row.reason}" for row in study.refused]
     tables = [(f"{study.conveyor.name}: load states", load_states(study))]
     return notebook(study.conveyor.report.units, tables, {"without an answer": refusals})
 
 
 def notebook_of_cases(study: CalculatedCases) -> Html:
-    """The cases that govern, and those without an answer."""
+    """Governing cases for a notebook, and those without a solution."""
     refusals = [f"{row.case}: {row.reason}" for row in study.refused]
     tables = [(f"{study.conveyor.name}: governing load cases", governing(study, study.governing))]
     return notebook(study.conveyor.report.units, tables, {"without an answer": refusals})
 
 
 def notebook_of_duty(study: CalculatedYear) -> Html:
-    """Sums of the year, and its bars."""
+    """Sums and bars of the year for a notebook."""
     tables = [(f"{study.conveyor.name}: the year", year(study)), ("bars", duty(study))]
     return notebook(study.conveyor.report.units, tables)
 
 
 def notebook_of_uncertainty(study: CalculatedRanges) -> Html:
-    """Bands of the motor power, and which input matters."""
+    """Bands and sensitivity of the motor power for a notebook."""
     tables = [
         (f"{study.conveyor.name}: motor power", band(study)),
         ("sensitivity ranking", sensitivity(study)),

@@ -1,4 +1,4 @@
-"""Figures as SVG inside a page: text stays text, identifiers are the page's own, nothing but the drawing is kept."""
+"""Matplotlib figures as inline SVG: text stays text, identifiers are unique in the page, metadata is removed."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ _FONT = re.compile(r"font-family:[^;\"]*;?\s*|(font: [^;']*?\d+px )[^;\"]*")
 _NUMBER = re.compile(r"-?\d+\.\d{2,}")
 _COMMAND = re.compile(r"\s*([A-Za-z])\s*")
 _WIDTH = 6.9
-"""Of every figure [in]: its 9 pt letters stay legible on A4 and where a phone scrolls."""
+"""Width of every figure [in]: its 9 pt letters stay legible on A4 and on a phone."""
 _LETTERS, _HANDLE = 90, 8  # that stand side by side above a figure; as wide as a line in a legend
 _PAD = 0.06  # [in] about the labels
 _HIGHEST = 4.6
-"""Of a figure of up to two rows [in]; of more in proportion."""
+"""Maximum height of a figure of up to two rows [in]; of more in proportion."""
 _DASHES = ("-", (0, (6, 2)), (0, (2, 2)), (0, (8, 2, 2, 2)), (0, (4, 1, 1, 1, 1, 1)), (0, (12, 3)))
 _HOUSE = {colour(k) for k in range(8)}
 _GUIDE = "#5F6670"
 _PLAIN = 3  # decades about 1 that are written out
 _LEFT_OUT = {f"{_SPACE}metadata", f"{_SPACE}style"}
 _SIMPLER = 0.5
-"""Of lines: deviation at which a point of them is left out [px]."""
+"""Deviation below which a point of a line is left out [px]."""
 
 
 def inline(figure: Figure, name: str, label: str) -> Html:
@@ -44,11 +44,11 @@ def inline(figure: Figure, name: str, label: str) -> Html:
     Parameters
     ----------
     figure : Figure
-        Of any of the plots here; it is restyled: no title, one width, curves told apart by dashes too.
+        Any of the plots here; it is restyled: no title, the page's width, curves with different dashes.
     name : str
-        Begins every identifier in it, unique in the page.
+        Prefix of its identifiers, unique in the page.
     label : str
-        What it shows, for those who cannot see it.
+        Text alternative.
     """
     with drawing(letters="none"):
         restyle(figure)
@@ -57,7 +57,7 @@ def inline(figure: Figure, name: str, label: str) -> Html:
 
 
 def restyle(figure: Figure) -> None:
-    """Give a figure the page's width, no title (the caption is one), and curves that differ without colour."""
+    """Set the page's width, remove the title (the caption is one), and give curves different dashes."""
     from matplotlib.ticker import NullLocator
 
     rows, _ = _grid(figure)
@@ -83,7 +83,7 @@ def restyle(figure: Figure) -> None:
 
 
 def _fit(figure: Figure) -> None:
-    """Margins that hold the labels, measured once: matplotlib's own layouts measure twice and more."""
+    """Set margins that hold the labels; matplotlib's own layouts measure them several times."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
     figure.set_layout_engine("tight")  # what "none" then leaves behind allows margins to be set
@@ -115,7 +115,7 @@ def _fit(figure: Figure) -> None:
 
 
 def _grid(figure: Figure) -> tuple[int, int]:
-    """Rows and columns of its axes."""
+    """Rows and columns of a figure's axes."""
     placed = figure.axes[0].get_subplotspec()
     if placed is None:
         return len(figure.axes), 1
@@ -124,7 +124,7 @@ def _grid(figure: Figure) -> tuple[int, int]:
 
 
 def _power_of_ten(value: float, _: object = None) -> str:
-    """10 and its exponent in letters: matplotlib's own formulas are slow, and no text to a reader."""
+    """Power of ten as text: matplotlib's own formulas are slow, and not text in SVG."""
     exponent = round(math.log10(value))
     return f"{value:g}" if abs(exponent) <= _PLAIN else "10" + str(exponent).translate(RAISED)
 
@@ -201,7 +201,7 @@ def _without(node: ET.Element) -> None:
 
 
 def _flatten(node: ET.Element) -> None:
-    """Groups that say nothing give way to what they hold."""
+    """Replace empty groups by their content."""
     for child in list(node):
         _flatten(child)
     kept: list[ET.Element] = []
@@ -224,7 +224,7 @@ def _shortened(key: str, value: str, name: str) -> str:
 
 
 def figure(drawing: Html, caption: str) -> Html:
-    """Return a drawing with its caption; it scrolls by itself where the screen is narrow."""
+    """Return a drawing with its caption; it scrolls by itself on a narrow screen."""
     return element(
         "figure",
         element("div", drawing, class_="scroll drawing", tabindex="0", role="group", aria_label=caption),

@@ -1,7 +1,6 @@
-"""Every table of an analysis, declared once: its figures and columns, where they come from and where they appear.
+"""Tables of an analysis, declared once: figures and columns, their source and where they appear.
 
-Nothing else in reports reaches into results. Names of sheets, tables, columns and figures are stable: docs/workbook.md
-lists them.
+Names of sheets, tables, columns and figures are stable: docs/workbook.md lists them.
 """
 
 from __future__ import annotations
@@ -104,7 +103,7 @@ _Row = TypeVar("_Row")
 _DECADES, _PER_DECADE = (-3, 7), 4  # of frequency shown in the rubber table [Hz]
 _HOUR: Final = 3600.0
 _NAMED: Final = 2
-"""Sections of like rolls that are named."""
+"""Maximum number of sections named in a cell."""
 _USUAL_STIFFNESS: Final = (
     "The belt's stiffness is a usual multiple of its strength (general knowledge) or rating (CEMA)."
 )
@@ -112,7 +111,7 @@ _VERSIONED: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic",
 
 
 class Further(NamedTuple):
-    """What other calculations of a conveyor add to its report: checks, tables, drawings, assumptions, plain figures."""
+    """Additions of other calculations to a report: checks, tables, drawings, assumptions, plain numbers."""
 
     checks: tuple[Check, ...]
     parts: tuple[Table, ...]
@@ -124,7 +123,7 @@ class Further(NamedTuple):
 def of_analysis(
     analysis: CalculatedConveyor, studies: CalculatedStudies | None = None, further: Further | None = None
 ) -> Contents:
-    """Every table of an analysis and of its studies, in the system of its conveyor's report."""
+    """Contents of the report of an analysis and its studies, in the units of the conveyor's report."""
     system = analysis.conveyor.report.units
     about = document(analysis.conveyor, "Belt conveyor calculation", system)
     entries, every_roll = entered(analysis.conveyor), rolls(analysis)
@@ -199,7 +198,7 @@ def _every_check(
 def document(
     conveyor: Conveyor, kind: str, system: System, facts: tuple[tuple[str, str], ...] = ()
 ) -> ReportHead:
-    """What a report of a conveyor is of."""
+    """Head of a report of a conveyor."""
     report = conveyor.report
     names = ("project", "client", "number", "revision", "engineer", "reviewer", "approval")
     said = {name: value for name in names if (value := getattr(report, name)) is not None}
@@ -207,7 +206,7 @@ def document(
 
 
 def identity(conveyor: Conveyor, system: System) -> Table:
-    """What the conveyor is, in figures and words; on the cover and at the top of the page."""
+    """Data of the conveyor, for the cover and the top of the page."""
     belt, material = conveyor.belt, conveyor.material
     carcass, top, bottom = belt.carcass, belt.top_cover, belt.bottom_cover
 
@@ -242,7 +241,7 @@ def identity(conveyor: Conveyor, system: System) -> Table:
 
 
 def results(a: CalculatedConveyor, left_open: PowerRange) -> Table:
-    """Figures of the whole conveyor; the range of power where defaults leave one open."""
+    """Figures of the whole conveyor, with the range of power due to defaults."""
     conveyor, balance = a.conveyor, a.balance
     forces, power, tensions_at, classic = balance.forces, balance.power, balance.tensions, balance.classical
     low, high = (left_open.low, left_open.high) if left_open.effects else (None, None)
@@ -297,7 +296,7 @@ def results(a: CalculatedConveyor, left_open: PowerRange) -> Table:
 
 
 def defaults(left_open: PowerRange, system: System) -> Table:
-    """Every default in use and what it leaves open, the one to replace first on top."""
+    """Defaults in use and their effect on the power, the most influential first."""
     columns = (
         Column("default", "text", "name", json="what"),
         Column("forces, low", "ratio", "low_factor", json="low_factor"),
@@ -313,7 +312,7 @@ def defaults(left_open: PowerRange, system: System) -> Table:
 
 
 def _left_open(power: PowerRange, system: System) -> str:
-    """The power with its range, and what to replace first."""
+    """Power with its range, and the default to replace first."""
     low, high = (figure(end, "power", system) for end in (power.low, power.high))
     first, motor = power.effects[0], figure(power.motor, "power", system)
     said = (
@@ -325,7 +324,7 @@ def _left_open(power: PowerRange, system: System) -> str:
 
 
 def inputs(entries: tuple[Row, ...]) -> Table:
-    """Every field: as entered, in SI, and whether the spec, a library or a default gave it."""
+    """Every field: as entered, in SI, and its origin: spec, library or default."""
     columns = (
         Column("field", "text", "0"),
         Column("as entered", "text", "1"),
@@ -339,7 +338,7 @@ def inputs(entries: tuple[Row, ...]) -> Table:
 
 
 def given(entries: tuple[Row, ...], system: System) -> Iterator[Table]:
-    """Inputs as they are read: what was given, one row a part, then what was left to defaults."""
+    """Inputs grouped by part: those given, then those left to defaults."""
     columns = (Column("part", "text", "0"), Column("values", "text", "1"))
     for key, heading, chosen in (
         ("inputs_given", "Inputs given", [row for row in entries if row[-1] != "default"]),
@@ -350,7 +349,7 @@ def given(entries: tuple[Row, ...], system: System) -> Iterator[Table]:
 
 
 def sections(a: CalculatedConveyor) -> Table:
-    """One row a stretch: geometry, masses, forces; both strands, in running direction."""
+    """Geometry, masses and forces of every section of both strands, in running direction."""
     columns = (
         Column("section", "text", "stretch.section", json="section"),
         Column("strand", "text", "stretch.strand", json="strand"),
@@ -378,13 +377,13 @@ def sections(a: CalculatedConveyor) -> Table:
 
 
 def _set_life(r: StretchResult) -> float | None:
-    """Of the bearings of a set [s], where all are given."""
+    """L10 life of the bearings of a set [s]; None where one is not given."""
     life = set_life(r.stretch, r.rolls[0].curve.contact.speed)
     return life.hours * _HOUR if life is not None and life.whole else None
 
 
 def resistances(a: CalculatedConveyor) -> Table:
-    """Every newton and the law it comes from; the rows add up to the effective tension."""
+    """Resistances with their sources; the rows add up to the effective tension."""
     by_strand = [
         (f"{force.name}, {strand}", force.kind, newtons, force.source)
         for force in a.balance.along
@@ -406,19 +405,19 @@ def resistances(a: CalculatedConveyor) -> Table:
 
 
 def _share(part: float, whole: float) -> float:
-    """A share; of nothing not a number."""
+    """Share of a whole; NaN if that is zero."""
     return part / whole if whole else math.nan
 
 
 def _part_of_friction(a: CalculatedConveyor, name: str) -> float:
-    """What a main resistance adds to the friction factor f [-]; not a number of the others."""
+    """Contribution of a main resistance to the friction factor f [-]; NaN for others."""
     balance = a.balance
     main = {force.key for force in balance.along if force.kind == "main"}
     return balance.forces.parts[name] / balance.unit_main if name in main else math.nan
 
 
 def breakdown(a: CalculatedConveyor) -> Table:
-    """Sums of the forces by what they are, and their share."""
+    """Sums of the forces by kind, with their shares."""
     forces = a.balance.forces
     columns = (
         Column("resistance", "text", lambda name: name.replace("_", " ")),
@@ -431,7 +430,7 @@ def breakdown(a: CalculatedConveyor) -> Table:
 
 
 def classical(a: CalculatedConveyor) -> Table:
-    """Compare with the classical calculation with a given f, and with CEMA's where its factors are given."""
+    """Comparison with ISO 5048 / DIN 22101 at a given f, and with CEMA where its factors are given."""
     balance, forces = a.balance, a.balance.forces
     estimates = [("classical, given f", balance.classical), ("CEMA classic, given Ky", balance.cema)]
     others = [(name, made) for name, made in estimates if made is not None]
@@ -464,7 +463,7 @@ def classical(a: CalculatedConveyor) -> Table:
 
 
 def cema(a: CalculatedConveyor) -> Table:
-    """The classic form of CEMA by cause; its rows add up to Te."""
+    """CEMA classic, itemised; the rows add up to Te."""
     made, given = a.balance.cema, a.line.cema
     columns = (
         Column("symbol", "text", "0"),
@@ -483,13 +482,13 @@ def cema(a: CalculatedConveyor) -> Table:
 
 
 def _estimated_motor(balance: Balance, made: Classical) -> float:
-    """Motor power of an estimate [W]; CEMA's holds the bearings of the drive pulleys too."""
+    """Motor power of an estimate [W]; that of CEMA includes the bearings of the drive pulleys."""
     beside = made.drive_pulleys if isinstance(made, CemaEstimate) else 0.0
     return balance.frame.motor(made.total + beside)
 
 
 def rolls(a: CalculatedConveyor) -> Table:
-    """One row a roll of every stretch's set: load, contact at its highest line load, indentation, drag, life."""
+    """Every roll of every section: load, contact at its highest line load, indentation, drag, life."""
     columns = (
         Column("section", "text", "0.stretch.section"),
         Column("strand", "text", "0.stretch.strand"),
@@ -525,7 +524,7 @@ def rolls(a: CalculatedConveyor) -> Table:
 
 
 def distinct_rolls(a: CalculatedConveyor, every: Table) -> Table:
-    """Rolls that read alike once, with the sections they stand in."""
+    """Rolls with identical figures once, with their sections."""
     by_look, looks = dict[tuple[str, ...], list[Any]](), dict[tuple[Any, ...], tuple[str, ...]]()
     shown = tuple(column for column in every.columns if column.page is not None)
     for row in every.rows:
@@ -547,7 +546,7 @@ def distinct_rolls(a: CalculatedConveyor, every: Table) -> Table:
 
 
 def idler_sets(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
-    """Sets whose spec asks for rating, bearings or stillness: one row a strand and spacing, the worst of all cases."""
+    """Idler sets with rating, bearings or flap check, one row per strand and spacing; worst of all cases."""
     system, alike = a.conveyor.report.units, dict[tuple[Strand, float], list[tuple[str, SetDuty]]]()
     for load in loads:
         for duty in load.found.set_duty:
@@ -592,12 +591,12 @@ def idler_sets(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
 
 
 def _in_words(names: list[str]) -> str:
-    """Names of sections, of many the first and how many more."""
+    """Names of sections; of many the first and the number of others."""
     return ", ".join(names) if len(names) <= _NAMED else f"{names[0]} and {len(names) - 1} more"
 
 
 def tensions(a: CalculatedConveyor) -> Table:
-    """Tension round the loop in steady running, from the drive back to it."""
+    """Tension round the loop in steady running, from the drive."""
     columns = (
         Column("place", "text", "place"),
         Column("distance from drive", "length", "distance"),
@@ -609,7 +608,7 @@ def tensions(a: CalculatedConveyor) -> Table:
 
 
 def profile(a: CalculatedConveyor) -> Table:
-    """The route from the tail: one row a boundary of sections, horizontal distance and height over the tail."""
+    """Profile of the route: horizontal distance and height of every section boundary over the tail."""
     sections, ends = a.line.sections, boundaries(a.line)
     along = accumulate((section.length for section in sections), initial=0.0)
     places = analysis_plots.places(a.conveyor, a.line)
@@ -633,7 +632,7 @@ def _height_at(boundaries_of: tuple[int, ...]) -> Getter:
 
 
 def boundaries(line: Line) -> list[tuple[float, float]]:
-    """Horizontal distance and height over the tail of every boundary of sections [m]."""
+    """Horizontal distance and height over the tail of every section boundary [m]."""
     points = [(0.0, 0.0)]
     for section in line.sections:
         across, up = points[-1]
@@ -643,7 +642,7 @@ def boundaries(line: Line) -> list[tuple[float, float]]:
 
 
 def section_ends(a: CalculatedConveyor) -> Table:
-    """One row a place of the loop, from the head: the tension there in every state; states that fail are named so."""
+    """Tension at every section end of the loop, from the head, in every state; failing states are marked."""
     shape = a.line.loop
     rows = ((0, 0), *((i, 1) for i in range(len(shape.stretches))))
 
@@ -667,7 +666,7 @@ def _states(a: CalculatedConveyor) -> dict[str, MotionState]:
 
 
 def _of_places(a: CalculatedConveyor) -> tuple[Column, ...]:
-    """Where a place of the loop is, and what its sag asks for."""
+    """Columns of location and minimum tension for sag."""
     shape = a.line.loop
     return (
         Column("distance from head", "length", lambda at: float(shape.way[at[0] + at[1]])),
@@ -695,7 +694,7 @@ def _of_end(state: Any) -> Getter:
 
 
 def drives(a: CalculatedConveyor) -> Table:
-    """One row a drive and state: force, power, tensions before and behind, grip used."""
+    """Force, power, tensions and grip of every drive in every state."""
     motor, states = a.balance.frame.motor, a.balance.settled.states
     columns = (
         Column("drive", "text", "0.name"),
@@ -721,7 +720,7 @@ def drives(a: CalculatedConveyor) -> Table:
 
 
 def take_up(a: CalculatedConveyor, asks: tuple[TakeUpDuty, Said]) -> Table:
-    """The one take-up of all loads: setting, what asks for it, mass or pull, travel."""
+    """Take-up of all loads: setting, governing condition, mass or pull, travel."""
     duty, governed_by = asks
     mass, travel = duty.mass, duty.travel
     mean = a.balance.settled.steady.mean(a.line.loop.length)
@@ -756,7 +755,7 @@ def take_up(a: CalculatedConveyor, asks: tuple[TakeUpDuty, Said]) -> Table:
 
 
 def _travel_note(a: CalculatedConveyor, duty: TakeUpDuty) -> str:
-    """What stands in for figures that are not given."""
+    """Note on usual values used for the travel."""
     carcass = a.conveyor.belt.carcass
     if duty.travel is None:
         return "; travel: give belt.carcass.stiffness, nothing usual is known of this carcass"
@@ -769,7 +768,7 @@ def _travel_note(a: CalculatedConveyor, duty: TakeUpDuty) -> str:
 
 
 def conditions(a: CalculatedConveyor) -> Table:
-    """Every condition on the tensions and the setting of the take-up it asks for, the governing one first."""
+    """Required take-up setting of every condition, the governing one first."""
     settled = a.balance.settled
     columns = (
         Column("condition", "text", "0"),
@@ -784,7 +783,7 @@ def conditions(a: CalculatedConveyor) -> Table:
 
 
 def start_stop(a: CalculatedConveyor) -> Table:
-    """Start, stop, brakes and the limits of the bulk."""
+    """Start, stop, brakes and limits of material slip."""
     moving = a.motions
     start, slip = moving.start, moving.slip
     holder = "backstop" if moving.rolls_back else "brake"
@@ -834,7 +833,7 @@ def start_stop(a: CalculatedConveyor) -> Table:
 
 
 def brakes(a: CalculatedConveyor) -> Table:
-    """Torque and heat of every brake in a stop with the least friction that is certain."""
+    """Torque and heat of every brake in a stop at minimum friction."""
     whole, heat = math.fsum(a.line.brakes), a.motions.braking_heat
     columns = (
         Column("drive", "text", "name"),
@@ -849,7 +848,7 @@ def brakes(a: CalculatedConveyor) -> Table:
 
 
 def drive_parts(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
-    """One row a drive where the spec asks for parts: gear, backstop, starts, brake, sharing; the worst of all cases."""
+    """Parts of the drives: gear, backstop, starts, brake, load sharing; worst of all cases."""
     every = [load.found.drive_duty for load in loads]
     rows = [(own, [duties[i] for duties in every]) for i, own in enumerate(a.drive_duty)]
 
@@ -886,7 +885,7 @@ def drive_parts(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
 
 
 def belt_strength_table(a: CalculatedConveyor) -> Table:
-    """Strength of the belt; figures without which a row has no answer are left out with it."""
+    """Strength of the belt; figures that are not known are left out."""
     duty, strength = a.belt_duty, a.line.belt.strength
     needed = duty.strength_needed.values()
     used = max(needed) / strength if needed and strength is not None else None
@@ -913,7 +912,7 @@ def belt_strength_table(a: CalculatedConveyor) -> Table:
 
 
 def pulleys(a: CalculatedConveyor) -> Table:
-    """One row a pulley: its diameter beside the least one."""
+    """Diameter of every pulley, and the minimum."""
     columns = (
         Column("pulley", "text", "name"),
         Column("position", "text", "position"),
@@ -928,7 +927,7 @@ def pulleys(a: CalculatedConveyor) -> Table:
 
 
 def pulley_loads(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
-    """One row a pulley, for its maker: the largest loads of all cases and states, shaft, bearings, lagging."""
+    """Largest loads of every pulley over all cases and states; shaft, bearings, lagging."""
     system = a.conveyor.report.units
     every = [(load.label, duty) for load in loads for duty in load.found.pulley_duty]
     rows = []
@@ -965,7 +964,7 @@ def pulley_loads(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
 
 
 def pulley_states(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
-    """One row a pulley, case and state: tensions on both sides, resultant, torque."""
+    """Tensions, resultant and torque of every pulley in every case and state."""
     system = a.conveyor.report.units
     rows = tuple(
         (duty.pulley.name, load.label.text(system), pull)
@@ -987,7 +986,7 @@ def pulley_states(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
 
 
 def _all_cases(every: Iterable[Sequence[_Row]], **worst: Callable[[list[Any]], Any]) -> tuple[_Row, ...]:
-    """The rows of several cases as one each: as in the first, and of the named figures the worst that is known."""
+    """Merge the rows of several cases: as in the first, with the worst known value of the named figures."""
     made = []
     for same in zip(*every, strict=True):
         known = {name: [one for row in same if (one := getattr(row, name)) is not None] for name in worst}
@@ -996,7 +995,7 @@ def _all_cases(every: Iterable[Sequence[_Row]], **worst: Callable[[list[Any]], A
 
 
 def _bends(loads: Sequence[Load]) -> tuple[HorizontalCheck, ...]:
-    """Every horizontal curve with the states of all cases."""
+    """Horizontal curves with the states of all cases."""
     every = [load.found.horizontal for load in loads]
     return _all_cases(
         every, states=lambda each: tuple(chain(*each)), overstress=max, buckling=max, most=max, least=min
@@ -1004,7 +1003,7 @@ def _bends(loads: Sequence[Load]) -> tuple[HorizontalCheck, ...]:
 
 
 def vertical_curves(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
-    """One row a vertical curve and strand: its radius beside the least ones, of all cases."""
+    """Radius of every vertical curve and strand, and the minimum radii of all cases."""
     columns = (
         Column("section", "text", "section"),
         Column("strand", "text", "strand"),
@@ -1030,7 +1029,7 @@ def vertical_curves(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
 
 
 def horizontal_curves(loads: Sequence[Load]) -> Table:
-    """One row a horizontal curve and strand: how far the belt drifts, its radius beside the least ones; all cases."""
+    """Drift and radius limits of every horizontal curve and strand over all cases."""
     columns = (
         Column("section", "text", "section"),
         Column("strand", "text", "strand"),
@@ -1056,7 +1055,7 @@ def horizontal_curves(loads: Sequence[Load]) -> Table:
 
 
 def curve_edges(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
-    """One row a horizontal curve and strand: what its edges bear; nothing where stiffness or strength are not known."""
+    """Edge tensions of horizontal curves; no rows where stiffness or strength are not known."""
     columns = (
         Column("section", "text", "section"),
         Column("strand", "text", "strand"),
@@ -1073,7 +1072,7 @@ def curve_edges(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
 
 
 def drift_states(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
-    """One row a horizontal curve, strand, case and state: tensions, drift, radii."""
+    """Tensions, drift and radius limits of horizontal curves in every case and state."""
     system = a.conveyor.report.units
     rows = tuple(
         (bend, load.label.text(system), state)
@@ -1098,7 +1097,7 @@ def drift_states(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
 
 
 def transitions(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
-    """One row a transition that the spec gives: its length beside the least ones, tensions of its strips; all cases."""
+    """Transition lengths, their minimum lengths and strip tensions over all cases."""
     columns = (
         Column("end", "text", "zone.end"),
         Column("pulley over depth of trough", "share", "zone.pulley_height"),
@@ -1141,12 +1140,12 @@ def convergence(a: CalculatedConveyor) -> Table:
 
 
 def _contacts(a: CalculatedConveyor) -> dict[Any, Any]:
-    """Every distinct load curve and the last stretch that runs on it."""
+    """Distinct load curves, each with the last stretch that uses it."""
     return {curve: r for r in a.stretches for roll in r.rolls for curve in roll.curve.solved}
 
 
 def belt_support(a: CalculatedConveyor) -> Table:
-    """What the give of the belt changes and where its loss goes, one row a strand; empty on a stiff carcass."""
+    """Effect of belt compliance and shares of the loss, by strand; empty on a stiff carcass."""
     columns = (
         Column("strand", "text", "strand"),
         Column("lowest effective tension", "line force", "tensions.0"),
@@ -1165,7 +1164,7 @@ def belt_support(a: CalculatedConveyor) -> Table:
 
 
 def contact_solutions(a: CalculatedConveyor) -> Table:
-    """One row a distinct contact: its range of loads, what the curve cost, its errors."""
+    """Distinct contacts: range of loads, size of the solution, errors."""
     gives = isinstance(a.contacts, BeltContacts)  # its contacts are solved at T - m' V² per width
     columns = (
         Column("strand", "text", "1.stretch.strand"),
@@ -1191,7 +1190,7 @@ def contact_solutions(a: CalculatedConveyor) -> Table:
 
 
 def indentation(a: CalculatedConveyor) -> Table:
-    """Indentation against line load, one block a distinct contact, over the loads that occur on it."""
+    """Indentation against line load, one block per distinct contact, over the loads that occur."""
     seen: dict[Any, tuple[str, Level | None]] = {}
     for r in a.stretches:
         for roll in r.rolls:
@@ -1224,7 +1223,7 @@ def indentation(a: CalculatedConveyor) -> Table:
 
 
 def rubber(a: CalculatedConveyor) -> Table:
-    """One row a strand: its rubber, the strain and the band of frequency that the rolls work it at."""
+    """Compound, working strain, excitation band and test factor of every strand."""
     at, rows = a.temperature, []
     for strand, compound in compounds_by_strand(a.conveyor).items():
         strain = a.contacts.covers[strand].strain
@@ -1255,14 +1254,14 @@ def rubber(a: CalculatedConveyor) -> Table:
 
 
 def _level_end(contacts: Contacts, strand: Strand, sign: float) -> float | None:
-    """Lower or upper end of the band of a strand's level; None where no test says it."""
+    """Lower or upper end of a strand's test factor; None without tests."""
     if contacts.covers[strand].level is None:
         return None
     return contacts.level_factor(strand) * contacts.level_range(strand)[sign > 0.0]
 
 
 def bands(excited: str, data: str) -> Iterator[Column]:
-    """What the rolls excite and what the data hold: numbers in workbook and files, bands in words on the page."""
+    """Columns of excitation band and data range: numbers in workbook and files, text on the page."""
     for name, kind, path in (("excited", "passing", excited), ("data", "frequency", data)):
         yield Column(f"{name} from", kind, f"{path}.0", page=None)
         yield Column(f"{name} to", kind, f"{path}.1", page=None)
@@ -1276,7 +1275,7 @@ def _in_hertz(band: tuple[float | None, float | None] | None) -> str | None:
 
 
 def compounds(a: CalculatedConveyor, system: System) -> Iterator[Table]:
-    """What is known of the rubber of each strand, its relaxation spectrum, its moduli."""
+    """Facts, relaxation spectrum and moduli of the rubber of each strand."""
     at, seen = a.temperature, set()
     for strand, compound in compounds_by_strand(a.conveyor).items():
         if compound.name not in seen:
@@ -1287,7 +1286,7 @@ def compounds(a: CalculatedConveyor, system: System) -> Iterator[Table]:
 
 
 def _known(compound: RubberCompound, strand: str, system: System) -> Table:
-    """What is known of a compound, in words; what is not stated is said or left out."""
+    """Facts of a compound in words."""
     known, fit = compound.range, compound.fit
     warmth, share = unit("temperature", system), unit("share")
     band = compound.frequencies(compound.reference)
@@ -1319,7 +1318,7 @@ def _known(compound: RubberCompound, strand: str, system: System) -> Table:
 
 
 def _prony(compound: RubberCompound, strand: str, at: float) -> Table:
-    """Terms of a compound's relaxation spectrum, at the reference and at a temperature [K]."""
+    """Relaxation spectrum of a compound, at the reference and at a temperature [K]."""
     reference = compound.series_at_reference
     columns = (
         Column("modulus", "pressure", "0"),
@@ -1349,7 +1348,7 @@ def _moduli(compound: RubberCompound, strand: str, at: float) -> Table:
 
 
 class CheckRow(NamedTuple):
-    """A check in words; `leads` where it governs its criterion."""
+    """A check as text; `leads` if it governs its criterion."""
 
     subject: str
     found: str
@@ -1361,7 +1360,7 @@ class CheckRow(NamedTuple):
 
     @classmethod
     def of(cls, check: Check, system: System, *, leads: bool = False, not_sought: bool = False) -> CheckRow:
-        """Write a check in a system of units, and whether no loading was sought that would be worse."""
+        """Write a check in a system of units; `not_sought`: no worse loading was searched for."""
         name, calculated, asked = (said.text(system) for said in (check.name, check.found, check.asked))
         case = AS_GIVEN if check.case is None else check.case.text(system)
         if not_sought:
@@ -1381,9 +1380,9 @@ _VERDICT: Final = Column("verdict", "verdict", "verdict")
 
 
 def checked(checks: tuple[Check, ...], system: System, not_sought: Collection[str] = ()) -> Table:
-    """What was checked, of all cases the one that governs: what was found, what is asked for, pass or fail.
+    """Checks of the governing case: calculated, required, verdict.
 
-    Of several loads it says of which keys no loading was sought that would be worse.
+    `not_sought`: keys for which no worse loading was searched for.
     """
     first = leading(checks)
     unsought = not_sought if any(check.case is not None for check in checks) else ()
@@ -1399,7 +1398,7 @@ def checked(checks: tuple[Check, ...], system: System, not_sought: Collection[st
 
 
 def case_checks(every: tuple[Check, ...], system: System) -> Iterator[Table]:
-    """Every criterion in every load case; those that fail on the page."""
+    """Every criterion in every load case, and those that fail for the page."""
     rows = tuple(CheckRow.of(check, system) for check in every if check.case is not None)
     columns, heading = (_OF_CASE, *_CHECK, _VERDICT), "Every criterion in every load case"
     yield Table("case_checks", "Case checks", heading, columns, rows, named=2, printed=False)
@@ -1420,7 +1419,7 @@ def remarks(
 
 
 def provenance(spec: str, sheet: str = "Checks and notes") -> Table:
-    """What made the figures; `spec` is the spec's SHA-256."""
+    """Versions behind the figures; `spec` is the spec's SHA-256."""
     facts = {
         "spec SHA-256": spec,
         "date": date.today().isoformat(),
@@ -1433,12 +1432,12 @@ def provenance(spec: str, sheet: str = "Checks and notes") -> Table:
 
 
 def drifts(loads: Sequence[Load], system: System) -> list[tuple[str, tuple[HorizontalCheck, ...]]]:
-    """The horizontal curves of every case, each with its name."""
+    """Horizontal curves of every case, with its name."""
     return [(load.label.text(system).removeprefix("load state "), load.found.horizontal) for load in loads]
 
 
 def drawings(a: CalculatedConveyor, system: System, loads: Sequence[Load]) -> Iterator[Drawing]:
-    """The figures of the page, each above a table."""
+    """Drawings of the page, each above a table."""
     conveyor, at = a.conveyor, a.temperature
     yield Drawing(
         "breakdown",
@@ -1559,7 +1558,7 @@ def plain(
 
 
 def _energy(a: CalculatedConveyor, duty: CalculatedYear | None) -> dict[str, Any]:
-    """In operation as given, and of a year: at even load, or of the duty where there is one."""
+    """Specific energy, and energy and cost of a year at even load or of the duty."""
     price = None if a.conveyor.operation is None else a.conveyor.operation.price
     kwh, cost = (None, None) if a.year is None else (a.year.energy, a.year.cost)
     if duty is not None:
@@ -1573,7 +1572,7 @@ def _energy(a: CalculatedConveyor, duty: CalculatedYear | None) -> dict[str, Any
 
 
 def told(check: Check, *, governs: bool) -> dict[str, Any]:
-    """A check for programs; figures in SI, as reports write them."""
+    """A check as JSON, in SI."""
     calculated, required, margin = map(_finite, (check.calculated, check.required, check.margin))
     (shown, sign), (asked, _) = (plain_figure(value, check.kind) for value in (calculated, required))
     return {
@@ -1602,7 +1601,7 @@ def _estimate(balance: Balance, made: Classical) -> dict[str, float]:
 
 
 def placed(data: dict[str, Any], rows: Iterable[Figure]) -> dict[str, Any]:
-    """Put figures into plain data where their paths say, in SI units of reports."""
+    """Insert figures into plain data at their dotted paths, in SI units of reports."""
     for row in rows:
         if row.json:
             *path, last = row.json.split(".")

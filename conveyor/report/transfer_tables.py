@@ -1,4 +1,4 @@
-"""Tables and drawing of loading points, cleaners and the discharge; empty where the spec asks for none of it."""
+"""Tables and drawing of loading points, cleaners and the discharge; empty where the spec has none."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ _CIRCLE_POINTS: Final = 49
 
 
 def of_transfer(a: CalculatedConveyor) -> tuple[Table, ...]:
-    """Every table of what lands, clings and leaves."""
+    """Tables of loading, cleaning and discharge."""
     return (landings(a), cleaners(a), discharge(a), trajectory(a), pulley_outline(a))
 
 
 def _asked(landing: Landing) -> bool:
-    """Whether the spec asks for more of a loading point than its resistances."""
+    """True if the spec gives drop height, skirtboards or seal drag of a loading point."""
     point = landing.point
     if point.assumed:
         return False
@@ -41,7 +41,7 @@ def _asked(landing: Landing) -> bool:
 
 
 def landings(a: CalculatedConveyor) -> Table:
-    """A column a loading point: skirtboards beside what they need, impact beside what the sets bear."""
+    """Skirtboards and impact of the loading points, one column each."""
     shown = tuple(each for each in a.landings if _asked(each))
     every = (
         ("mass flow", "mass flow", "point.flow"),
@@ -74,7 +74,7 @@ def landings(a: CalculatedConveyor) -> Table:
 
 
 def cleaners(a: CalculatedConveyor) -> Table:
-    """One row a cleaner or several alike: what they take in force and leave on the belt."""
+    """Drag of the belt cleaners and carryback behind them."""
     columns = (
         Column("cleaner", "text", lambda row: row[1].scraper.kind or f"cleaner {row[0]}"),
         Column("count", "count", lambda row: float(row[1].scraper.count)),
@@ -94,7 +94,7 @@ def cleaners(a: CalculatedConveyor) -> Table:
 
 
 def discharge(a: CalculatedConveyor) -> Table:
-    """Where the bulk leaves the head pulley, and how it arrives below."""
+    """Discharge over the head pulley: point of leaving, speeds, arrival."""
     stream = a.trajectory
     rows: tuple[Figure, ...] = ()
     if stream is not None:
@@ -134,7 +134,7 @@ def _way(stream: Trajectory) -> str:
 
 
 def trajectory(a: CalculatedConveyor) -> Table:
-    """Points of the stream from the axis of the pulley, every 1/20 s and the last at the depth asked for."""
+    """Points of the trajectory from the pulley axis, every 1/20 s, the last at the given drop."""
     stream = a.trajectory
     rows: tuple[tuple[Any, ...], ...] = ()
     if stream is not None:
@@ -171,7 +171,7 @@ def _edges(stream: Trajectory) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
 
 
 def pulley_outline(a: CalculatedConveyor) -> Table:
-    """The belt round the head pulley and before it, for the picture."""
+    """Outline of the belt at the head pulley, for the chart."""
     stream = a.trajectory
     rows: tuple[tuple[float, ...], ...] = ()
     if stream is not None:
@@ -181,7 +181,7 @@ def pulley_outline(a: CalculatedConveyor) -> Table:
 
 
 def _outline(stream: Trajectory) -> tuple[Any, Any]:
-    """The belt, two radii before the pulley, once round it and back [m]."""
+    """Outline of the belt from two radii before the pulley, once round it [m]."""
     radius, slope = stream.belt_radius, stream.head.slope
     turn = np.linspace(-slope, 2.0 * math.pi - slope, _CIRCLE_POINTS)
     x, y = radius * np.sin(turn), radius * np.cos(turn)
@@ -190,7 +190,7 @@ def _outline(stream: Trajectory) -> tuple[Any, Any]:
 
 
 def drawing(a: CalculatedConveyor, system: System) -> tuple[Drawing, ...]:
-    """The stream over the head pulley, to scale; none where the spec does not ask for it."""
+    """Drawing of the discharge trajectory, if the spec has one."""
     if a.trajectory is None:
         return ()
     words = "The stream over the head pulley, to scale: centre and edges after CEMA, lower edge after Booth."
@@ -199,7 +199,7 @@ def drawing(a: CalculatedConveyor, system: System) -> tuple[Drawing, ...]:
 
 @own_settings()
 def picture(a: CalculatedConveyor, *, system: System = "SI") -> Picture:
-    """The stream over the head pulley, to scale."""
+    """Discharge trajectory over the head pulley, to scale."""
     flight = a.trajectory
     if flight is None:
         raise ValueError("no discharge to draw")

@@ -1,4 +1,4 @@
-"""What a report says first: whether the conveyor stands, what governs it under which load, what to see to."""
+"""Overall verdict and governing figures of a conveyor."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ from conveyor.units.presentation import Unit, unit
 from conveyor.units.sentences import Said, figure, percent
 
 _SET: Final = ("take_up_tension", "sag", "drive_grip")
-"""Criteria that the least setting of the take-up is made for: their margin follows from it."""
+"""Criteria that the minimum take-up setting is determined by."""
 _SETS: Final = (
-    1e-6  # [-], margin of the take-up below which its setting is the least; it is exact to rounding
+    1e-6  # [-], margin of the take-up below which its setting is the minimum; it is exact to rounding
 )
 _DOMINANT: Final = 0.3
-"""Share of the indentation in the main resistance from which the quality of the rubber data is said first."""
-_TOLD: Final = 3  # failures that are told in full
+"""Indentation share of the main resistance above which the quality of the rubber data is reported."""
+_TOLD: Final = 3  # failures reported in full
 
 
 class GoverningRow(NamedTuple):
-    """A figure that governs, in words: what, how much, where and when."""
+    """A governing figure as text: subject, value, place and case."""
 
     subject: str
     value: str
@@ -40,7 +40,7 @@ class GoverningRow(NamedTuple):
 
 
 def _place(result: CalculatedConveyor, state: MotionState, tension: float) -> str:
-    """Where round the loop a tension of a state is."""
+    """Place in the loop of a tension of a state."""
     for drive in state.drives:
         if tension in {drive.arriving, drive.leaving}:
             return drive.name
@@ -57,7 +57,7 @@ def governing_figures(
     take_up: tuple[TakeUpDuty, Said],
     left_open: PowerRange,
 ) -> Table:
-    """What governs the design, over all loads, the first as given, and the verdict in a sentence."""
+    """Governing figures over all loads (the first as given), with the verdict as note."""
     columns = (
         Column("what governs", "text", "subject", key="subject"),
         Column("value", "text", "value"),
@@ -124,12 +124,12 @@ def _rows(
 
 
 def _held(power: Unit, watts: float) -> str:
-    """Motor power, and whether it is held."""
+    """Motor power as text, marked if braking."""
     return power.short(abs(watts)) + (", braking" if watts < 0.0 else "")
 
 
 def _utilisation(governing: Sequence[Check], system: System) -> Iterator[GoverningRow]:
-    """Of what the belt may bear the share that it bears; the higher of steady running and all states."""
+    """Belt utilisation, the higher of steady running and all states."""
     share, check = highest_use(governing, BELT_USE)
     if share is not None and check is not None:
         case = AS_GIVEN if check.case is None else check.case.text(system)
@@ -138,7 +138,7 @@ def _utilisation(governing: Sequence[Check], system: System) -> Iterator[Governi
 
 
 def _rubber(a: CalculatedConveyor) -> Iterator[GoverningRow]:
-    """How good the data of each rubber are, where they decide the power."""
+    """Quality of the data of each compound."""
     share, told = unit("share"), dict[str, list[str]]()
     known: dict[str, RubberCompound] = {}
     for strand, compound in compounds_by_strand(a.conveyor).items():
@@ -164,7 +164,7 @@ def _rubber(a: CalculatedConveyor) -> Iterator[GoverningRow]:
 
 
 def sentence(governing: Sequence[Check], system: System) -> str:
-    """What is right, what fails, what to do."""
+    """Verdict in a sentence, with failures and required action."""
     count = Counter(check.verdict for check in governing)
     failed = [check for check in leading(governing) if check.failed]
     if failed:

@@ -1,4 +1,4 @@
-"""The sheet that a designer sends to a belt maker: ours beside empty columns for theirs; every table declared once."""
+"""Tables of the sheet for a belt maker: our figures, and empty columns for theirs; declared once."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _TO_FILL_IN: Final = (
 
 
 def of_verification(sheet: CalculatedVerification, system: System) -> Contents:
-    """Every table of a verification sheet in a unit system."""
+    """Contents of a verification sheet in a unit system."""
     names = ", ".join(compound.name for compound in sheet.compounds)
     facts = (
         ("compounds", names),
@@ -47,7 +47,7 @@ def of_verification(sheet: CalculatedVerification, system: System) -> Contents:
 
 
 def lines(sheet: CalculatedVerification) -> Iterator[str]:
-    """What the figures are and rest on."""
+    """Sentences on the basis of the figures."""
     yield (
         "Indentation rolling resistance of the cover alone, of one rigid roll in steady running: force per width "
         "against the belt's motion under a line load; without roll drag, flexure of the belt and losses of the rig."
@@ -83,7 +83,7 @@ def _strain(compound: Any, *, softened: bool) -> str:
 
 
 def to_fill_in() -> Table:
-    """Who tested what."""
+    """Details of the maker's test, to fill in."""
     columns = (
         Column("of the test", "text", lambda row: row),
         Column("maker", "text", lambda _: None, asked=True),
@@ -94,7 +94,7 @@ def to_fill_in() -> Table:
 
 
 def per_width(sheet: CalculatedVerification, system: System) -> Table:
-    """One row a compound, cover, roll, speed and temperature; two columns a line load, ours and theirs."""
+    """Indentation resistance per width; two columns per line load, ours and the maker's."""
     strength = unit("strength", system)
     pairs: list[Column] = []
     for k, load in enumerate(sheet.line_loads):
@@ -117,7 +117,7 @@ def per_width(sheet: CalculatedVerification, system: System) -> Table:
 
 
 def per_set(sheet: CalculatedVerification) -> Table:
-    """One row a compound and temperature."""
+    """Indentation resistance of the most loaded carry set, by compound and temperature."""
     columns = (
         Column("compound", "text", "compound"),
         Column("section", "text", "section"),

@@ -1,4 +1,4 @@
-"""What a reader may change in the workbook, prices, hours, emissions, motor reserve, and what follows by formulas."""
+"""Inputs that a reader may change in the workbook (prices, hours, emissions, motor reserve), and formulas of them."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _TONNE: Final = 1000.0
 
 
 def what_if(a: CalculatedConveyor, duty: CalculatedYear | None, motor: float) -> Table:
-    """Figures to change and what follows; `motor` is the maximum motor power of all calculated loads [W]."""
+    """Table of inputs to change and their results; `motor` is the maximum motor power of all loads [W]."""
     heading = "What if: change the yellow cells"
     rows = (*_energy(a, duty), *_motor(motor))
     note = "Formulas over the energy and power calculated; forces and power do not follow from these cells."
@@ -35,7 +35,7 @@ def _motor(motor: float) -> Iterator[Figure]:
 
 
 def _energy(a: CalculatedConveyor, duty: CalculatedYear | None) -> Iterator[Figure]:
-    """Energy, cost and carbon dioxide of a year: of the duty, else of even load."""
+    """Energy, cost and carbon dioxide of a year: of the duty, else at even load."""
     operation = a.conveyor.operation
     if operation is None:
         return
@@ -74,12 +74,12 @@ def to_change(operation: Operation, hours: float, *, emission: bool) -> Iterator
 
 
 def cost_formula(drawn: str, fed_back: str) -> str:
-    """Of a year, of the cells with its energies [MWh]."""
+    """Formula of the cost of a year, from the cells of its energies [MWh]."""
     credit = f"{_TONNE:g}*{fed_back}*what_if_feed_in_price"
     return f"({_TONNE:g}*{drawn}*what_if_energy_price-{credit}){OF_HOURS}"
 
 
 def emission_formula(drawn: str, fed_back: str) -> str:
-    """Carbon dioxide of a year [t], of the cells with its energies [MWh]."""
+    """Formula of the carbon dioxide of a year [t], from the cells of its energies [MWh]."""
     less = f"{fed_back}*what_if_emission_factor_of_energy_fed_back"
     return f"({drawn}*what_if_emission_factor-{less}){OF_HOURS}"

@@ -1,11 +1,11 @@
-"""Level of indentation: what rolling-resistance tests measured over what the theory gives at the same points.
+"""Test factor: indentation measured in rolling-resistance tests over the theory at the same points.
 
-The theory carries geometry, speed and temperature; the tests set the level. The ratio of both is fitted as
+The theory gives the effect of geometry, speed and temperature, the tests the factor on it, fitted by least squares as
 
-    ln(measured/calculated) = level(T) + slope ln(w/w0)
+    ln(measured/calculated) = ln f(T) + slope ln(w/w0)
 
-by least squares: one level at every tested temperature, straight lines between them, and a slope in the line load where
-the tests cover one. Beyond the tested temperatures and loads the factor is held and its band widens.
+with one f at every tested temperature, linear between them, and a slope in the line load where the tests cover one.
+Beyond the tested temperatures and loads the factor is held and its band widens.
 """
 
 from __future__ import annotations
@@ -22,28 +22,28 @@ from conveyor.rubber.arrays import FloatArray, positive_vector
 
 UNANCHORED: Final = 2.5
 """Published tests of low-resistance covers (CEMA-7, DIN 22123) lie 2 to 2.5 times above the theory with small-strain
-data of tyre-type rubber [-]: how far indentation without tests may be below what is measured."""
+data of tyre-type rubber [-]: the highest test factor to expect of an untested compound."""
 PLAUSIBLE: Final = (0.5, 2.0 * UNANCHORED)
-"""Twice beyond the theory itself (1) and the highest published tests (2.5): what lies outside is a slip of unit, roll
-or cover (derived; that twice is enough is general knowledge) [-]."""
+"""Test factors outside are slips of unit, roll or cover: half the theory to twice the highest published factor, 2.5
+(derived; that twice is enough is general knowledge) [-]."""
 USUAL_FACTOR: Final = (0.7, 3.0)
 """Factors beyond it are remarked: published tests lie at 1 to 2.5 (derived: a fifth to a third beyond) [-]."""
 USUAL_EXPONENT: Final = (1.1, 1.45)
-"""Of the line load in the resistance of a roll: 4/3 by the theory of a half-space (general knowledge) [-]."""
+"""Exponent of the line load in the resistance of a roll: 4/3 by half-space theory (general knowledge) [-]."""
 OVER_THEORY: Final = 0.1
-"""By which measured exponents may exceed the theory's own on a thin cover and be usual (general knowledge) [-]."""
+"""Usual excess of measured exponents over the theory's own on a thin cover (general knowledge) [-]."""
 USUAL_ROLL: Final = (0.05, 0.25)
-"""Diameter of rolls of belt conveyors and of test rigs [m] (general knowledge)."""
+"""Roll diameters of belt conveyors and test rigs [m] (general knowledge)."""
 USUAL_COVER: Final = (0.001, 0.015)
 """Thickness of covers [m] (general knowledge); more is the thickness of a belt."""
 NINE_TENTHS: Final = 1.6448536269514722
-"""Standard deviations from the middle of a normal distribution within which nine tenths lie [-]."""
+"""Half-width of the central 90 % of a normal distribution, in standard deviations [-]."""
 ONE_TEMPERATURE: Final = 2.0
-"""Tests this close are at one temperature: control of a climatic chamber (general knowledge) [K]."""
+"""Tests this close count as one temperature: control of a climatic chamber (general knowledge) [K]."""
 LEAST_SPAN: Final = 1.5
-"""Largest over smallest line load from which tests have a slope [-]; nearer ones would fit their scatter."""
+"""Least ratio of largest to smallest line load for a slope [-]; below it scatter would be fitted."""
 COVERED: Final = 0.9
-"""Share of what may be that a range or a band holds [-]."""
+"""Probability that a range or a band covers [-]."""
 PER_KELVIN: Final = 0.005
 """Half-width of the band per kelvin beyond the tested temperatures (general knowledge) [1/K]."""
 PER_LOAD: Final = 0.1
@@ -52,12 +52,12 @@ PER_LOAD: Final = 0.1
 
 @dataclass(frozen=True, eq=False)
 class Anchor:
-    """Factor on calculated indentation, from tests.
+    """Test factor on calculated indentation.
 
     Attributes
     ----------
     temperatures, levels : ndarray, shape (m,)
-        Tested temperatures, ascending [K], and ln of the factor there at `load` [-].
+        Tested temperatures, ascending [K], and ln of the test factor there at `load` [-].
     slope : float
         d ln factor/d ln line load [-]; 0 where the tests have one load.
     load : float
@@ -65,11 +65,11 @@ class Anchor:
     loads : tuple of float
         Lowest and highest tested line load [N/m].
     half_width : float
-        Of the band that holds nine tenths, of ln factor, at the tests: their residuals and their own uncertainty [-].
+        Half-width of the 90 % band of ln factor at the tests: residuals and uncertainty of a test [-].
     points : int
-        Tests behind it.
+        Number of test points.
     shared : float
-        Part of the half-width that all belts tested alike have in common [-].
+        Part of the half-width common to all belts tested alike [-].
     """
 
     temperatures: FloatArray
@@ -82,38 +82,38 @@ class Anchor:
     shared: float = 0.0
 
     def factor(self, line_load: ArrayLike, temperature: float) -> FloatArray:
-        """Measured over calculated indentation [-] at line loads [N/m] and a temperature [K], held beyond the tests."""
+        """Test factor [-] at line loads [N/m] and a temperature [K], held beyond the tests."""
         held = np.clip(np.asarray(line_load, dtype=np.float64), *self.loads)
         level = float(np.interp(temperature, self.temperatures, self.levels))
         return np.asarray(np.exp(level + self.slope * np.log(held / self.load)))
 
     def band(self, line_load: float, temperature: float) -> float:
-        """Half-width of ln factor that holds nine tenths [-], at a load [N/m] and temperature [K]."""
+        """Half-width of the 90 % band of ln factor [-] at a line load [N/m] and temperature [K]."""
         beyond = abs(temperature - self.nearest(temperature))
         outside = abs(math.log(line_load / min(max(line_load, self.loads[0]), self.loads[1])))
         return math.hypot(self.half_width, PER_KELVIN * beyond, PER_LOAD * outside)
 
     def nearest(self, temperature: float) -> float:
-        """The temperature inside the tested ones that is nearest to one [K]."""
+        """Temperature limited to the tested range [K]."""
         return min(max(temperature, float(self.temperatures[0])), float(self.temperatures[-1]))
 
     @property
     def own_half_width(self) -> float:
-        """Half-width of ln factor without what belts tested alike have in common [-].
+        """Half-width of ln factor without the part common to belts tested alike [-].
 
-        Speed, roll and loads of the tests that are not known, and how the factor holds beyond the tested temperatures
-        and loads, are errors of the method: they cancel between two such belts.
+        Unknown speed, roll and loads of the tests, and the extrapolation beyond tested temperatures and loads, are
+        errors of the method: they cancel between two such belts.
         """
         return math.sqrt((self.half_width - self.shared) * (self.half_width + self.shared))
 
     def tested_at(self, temperature: float) -> bool:
-        """Whether a temperature [K] lies between the tested ones, or as near as makes one."""
+        """True if a temperature [K] is within the tested ones, or within `ONE_TEMPERATURE` of them."""
         low, high = float(self.temperatures[0]), float(self.temperatures[-1])
         return low - ONE_TEMPERATURE <= temperature <= high + ONE_TEMPERATURE
 
 
 def ends(values: ArrayLike) -> tuple[float, float]:
-    """Quantiles of what may be, between which nine tenths of it lie: of 19 draws the outermost.
+    """Quantiles at 5 % and 95 % of draws; of 19 draws the outermost.
 
     Between draws k and n + 1 - k of n the next one lies with a chance of (n + 1 - 2 k)/(n + 1): Weibull's positions.
 
@@ -131,15 +131,15 @@ def ends(values: ArrayLike) -> tuple[float, float]:
 def fit_anchor(
     line_load: ArrayLike, temperature: ArrayLike, ratio: ArrayLike, *, uncertainty: float, shared: float = 0.0
 ) -> Anchor:
-    """Fit the factor to ratios of measured and calculated indentation [-] at line loads [N/m] and temperatures [K].
+    """Fit the test factor to ratios measured/calculated indentation [-] at line loads [N/m] and temperatures [K].
 
-    `uncertainty` is that of a test [-], `shared` its part that all belts tested alike have in common [-].
+    `uncertainty` is that of a test [-], `shared` its part common to all belts tested alike [-].
 
     Notes
     -----
-    The band is the root of the squares of 1.645 standard deviations of the residuals, so far as there are more tests
-    than parameters, and of the uncertainty of a test. Residuals of tests on several rolls, covers and speeds hold the
-    error of the transfer between them.
+    The band is the root of the squares of 1.645 standard deviations of the residuals, where there are more tests than
+    parameters, and of the uncertainty of a test. Residuals of tests on several rolls, covers and speeds include the
+    error of transferring one to another.
 
     Examples
     --------
@@ -171,9 +171,7 @@ def fit_anchor(
         columns.append(np.log(w / middle))
     matrix = np.stack(columns, axis=1)
     solution, _, rank, _ = np.linalg.lstsq(matrix, y, rcond=None)
-    if (
-        rank < matrix.shape[1]
-    ):  # every temperature has one load of its own: no slope can be told from the levels
+    if rank < matrix.shape[1]:  # one load per temperature: the slope is not determined
         matrix, sloped = matrix[:, :-1], False
         solution = np.linalg.lstsq(matrix, y, rcond=None)[0]
     freedom = y.size - matrix.shape[1]
@@ -192,9 +190,7 @@ def fit_anchor(
 
 
 def load_exponent(line_load: ArrayLike, resistance: ArrayLike) -> float | None:
-    """Exponent of the line load [N/m] in measured resistances [N/m] of one roll, cover, speed and temperature.
-
-    None where the loads are too near each other to tell it.
+    """Exponent of the line load [N/m] in resistances [N/m] of one roll, cover, speed, temperature; None if too close.
 
     Examples
     --------
@@ -211,7 +207,7 @@ def load_exponent(line_load: ArrayLike, resistance: ArrayLike) -> float | None:
 
 
 def _levels(temperature: FloatArray) -> FloatArray:
-    """Number of the temperature that each test belongs to, ascending."""
+    """Index of the tested temperature of each test, ascending."""
     order = np.argsort(temperature, kind="stable")
     ascending = temperature[order]
     numbers, start = np.zeros(temperature.size, dtype=np.int64), float(ascending[0])

@@ -14,7 +14,7 @@ ComplexArray = NDArray[np.complex128]
 
 
 def positive(name: str, value: float, unit: str, advice: str = "") -> float:
-    """A number, refused unless finite and > 0."""
+    """Number, refused unless finite and > 0."""
     number = float(value)
     if not (math.isfinite(number) and number > 0.0):
         raise InputError(f"{name} = {number:g} {unit} must be finite and > 0{advice}")
@@ -63,7 +63,7 @@ def spectrum(
 
 
 def _plain(w: FloatArray, t: FloatArray) -> bool:
-    """Whether all is as it should be, by ascending time already: what most spectra are is found at once."""
+    """True for a valid spectrum by ascending time, as most are."""
     return (
         w.ndim == 1
         and w.shape == t.shape

@@ -1,4 +1,4 @@
-"""Bootstrap of a fit: series at the same times that the data allow as well, to be carried into any result."""
+"""Bootstrap of a fit: replicas of the series at the same times, for the uncertainty of any result."""
 
 from __future__ import annotations
 
@@ -26,13 +26,12 @@ Without it some 3 % less: times and penalty, chosen from the same data, stay fix
 BARE = 1.3
 """The same without penalty: the times of few lines are parameters too, at most as many as moduli, sqrt(2) [-]."""
 LEANING = 0.5
-"""Standard deviation of ln of the factor by which a replica trusts E' more, and E'' less, or the reverse: 1.6 (general
-knowledge; at two the band of friction holds the truth too often). It moves a fit where the two contradict each other
-[-]."""
+"""Standard deviation of ln of the factor that weighs E' against E'' in a replica: 1.6 (general knowledge; at two the
+band of friction covers the truth too often). It moves a fit where the two contradict each other [-]."""
 LEVERAGE_LIMIT = 0.9
-"""Largest leverage a residual is freed of: beyond, it is rounding divided by rounding [-]."""
+"""Largest leverage a residual is corrected for: beyond, it is rounding divided by rounding [-]."""
 DRAWS_PER_REPLICA = 20
-"""Tries, on average, for one replica that is a solid."""
+"""Mean number of draws allowed for one replica that is a solid."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,7 +113,7 @@ class ReplicaBand:
         Parameters
         ----------
         of : callable
-            What a series gives, ``lambda series: series.loss(omega)``, shape `(m,)`.
+            Curve of a series, ``lambda series: series.loss(omega)``, shape `(m,)`.
         level : float
             Share of the replicas inside, equal tails cut, 0 to 1 [-].
 
@@ -145,7 +144,7 @@ def bootstrap(
     replicas: int = 200,
     seed: int = 0,
 ) -> ReplicaBand:
-    """Draw series that the same measurement could have given.
+    """Draw replicas of a fitted series that the same measurement could have given.
 
     Parameters
     ----------
@@ -184,11 +183,11 @@ def bootstrap(
     L = 1 where c cannot be told from noise. Residuals of outliers count by their trust only.
 
     The penalty on the curvature is a prior, and each curvature is held to a draw of it: what the data do not
-    tell, within gaps and beyond the window, scatters as much as the spectrum does where they tell it. Such bands of
-    a penalised curve hold the truth, its bias included, as often as they say on the mean over the window.
+    determine, in gaps and beyond the window, scatters as the spectrum does elsewhere. Such bands of a penalised curve
+    cover the truth, bias included, at their nominal rate on the mean over the window.
 
     Each replica weighs E' against E'' anew, by `LEANING`: where they contradict each other, which no scatter of
-    rows tells, the band holds how far the compromise moves with what is believed.
+    rows shows, the band covers how far the compromise moves with their weights.
 
     Of isotherms, each replica first draws the shifts from their covariance, in pairs of both signs, vertical ones
     too where they were fitted or are missing, and lays the rows out anew. It keeps these shifts: at another
@@ -284,7 +283,7 @@ def bootstrap(
 
 @dataclass(frozen=True, eq=False)
 class _Shifted:
-    """log10 a_T and log10 b_T of a replica, shape `(2, t)`, what they moved each row by, and their law [decades]."""
+    """log10 a_T and log10 b_T of a replica, shape `(2, t)`, the move of each row, and their law [decades]."""
 
     shifts: FloatArray
     moved: list[FloatArray]
@@ -292,7 +291,7 @@ class _Shifted:
 
 
 def _temperatures(superposition: Superposition, temperature: ArrayLike | None, size: int) -> FloatArray:
-    """Of every fitted row [K]."""
+    """Temperature of every fitted row [K]."""
     at = (
         superposition.temperatures[superposition.isotherm]
         if temperature is None
@@ -309,7 +308,7 @@ def _drawn(
     maker: Callable[[FloatArray], ShiftLaw] | None,
     generator: np.random.Generator,
 ) -> Iterator[_Shifted | None]:
-    """Shifts without end that the isotherms allow as well; None for those that no law follows or that rise."""
+    """Draw shifts from their covariance, endlessly; None where no law follows or they rise."""
     known = superposition.temperatures
     laid = superposition.shifts
     if maker is not None:
@@ -330,7 +329,7 @@ def _drawn(
 
 
 def _ratios(ratio: FloatArray, leverage: FloatArray, widened: float = CALIBRATION) -> tuple[FloatArray, int]:
-    """Ratios to draw from, E' and E'' shape `(2, n)` with mean 1 each [-], and the length of a block [rows]."""
+    """Ratios data/fit of E' and E'' to draw from, `(2, n)`, mean 1 each [-], and the block length [rows]."""
     error = (ratio - 1.0).reshape(2, -1)
     size = error.shape[1]
     total = float(np.sum(error**2))

@@ -1,4 +1,4 @@
-"""The master curve as two unknown smooth functions: penalised splines whose stiffness the data choose."""
+"""The master curve as penalised splines, their stiffness by restricted likelihood."""
 
 from __future__ import annotations
 

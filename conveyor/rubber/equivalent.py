@@ -1,4 +1,4 @@
-"""The equivalent-linear series: moduli at the strain amplitude that their own contact works at."""
+"""Equivalent-linear series: moduli at the working strain of their own contact."""
 
 from __future__ import annotations
 
@@ -15,15 +15,14 @@ from conveyor.rubber.prony import PronySeries
 from conveyor.rubber.strain import AmplitudeFactors
 
 Worked: TypeAlias = tuple[float, float]
-"""Strain amplitude [-] and angular frequency [rad/s] that a series is worked at."""
+"""Working strain amplitude [-] and angular frequency [rad/s]."""
 
 _SOFTENS, _SLOWS = 0.65, 0.2
 """Exponents of E' in strain and frequency, for the first step alone: between a half-space (1/2, 1/2) and a thin cover;
-0.35 to 0.73 and 0 to 0.25 were seen on the shelf's compounds."""
+0.35 to 0.73 and 0 to 0.25 on the shelf's compounds."""
 _GUESSES = 2
 _CONTRACTS = 0.2
-"""Of a change of strain or frequency, what the plain step leaves at most where nothing is measured: 0.02 to 0.1 was
-seen."""
+"""Share of a change of strain or frequency that a plain step leaves, taken at least: 0.02 to 0.1 in trials."""
 _LARGEST_STEP = math.log(3.0)
 _MOST_STEPS = 30
 
@@ -78,7 +77,7 @@ def softened(series: PronySeries, *, storage_factor: float, loss_factor: float, 
 def _softened(
     series: Sequence[PronySeries], factors: FloatArray, omega: FloatArray
 ) -> list[PronySeries | NoSolutionError]:
-    """Each series at its factors of E' and E'', shape (b, 2), at ω, shape (b,); missing terms have no modulus."""
+    """Soften each series by its factors of E' and E'', shape (b, 2), at ω, shape (b,)."""
     moduli, turn = np.zeros((2, len(series), max(1, *(one.times.size for one in series))))
     for row, one in enumerate(series):
         moduli[row, : one.moduli.size] = one.moduli
@@ -106,7 +105,7 @@ def _softened(
 
 
 def _no_solid(factors: Sequence[float], omega: float, parts: Sequence[float]) -> NoSolutionError:
-    """Why no solid has the factors at ω [rad/s]."""
+    """Error: no solid has these factors at ω [rad/s]."""
     (stiff, lossy), (r, s, g) = factors, parts
     return NoSolutionError(
         f"factors {stiff:.4g} of E' and {lossy:.4g} of E'' at {omega:.4g} rad/s leave {r:.3g} of the equilibrium "
@@ -118,7 +117,7 @@ def _no_solid(factors: Sequence[float], omega: float, parts: Sequence[float]) ->
 
 @dataclass(frozen=True, eq=False)
 class EquivalentLinear:
-    """A series at the strain its own contact works at.
+    """A series at the working strain of its own contact.
 
     Attributes
     ----------
@@ -131,7 +130,7 @@ class EquivalentLinear:
     storage_factor, loss_factor : float
         Of E' and E'' [-].
     steps : int
-        Evaluations of the working strain.
+        Number of evaluations of the working strain.
     """
 
     series: PronySeries
@@ -160,7 +159,7 @@ def equivalent_linear(
     factors : AmplitudeFactors
         Of the compound [-].
     strain_of : callable
-        Working strain amplitude [-] and angular frequency [rad/s] of whatever is made of a series.
+        Working strain amplitude [-] and angular frequency [rad/s] with a series.
     temperature : float
         Absolute temperature [K].
     swept : PronySeries, optional
@@ -184,11 +183,10 @@ def equivalent_linear(
 
     Notes
     -----
-    Fixed point of ln strain -> ln strain_of(softened(series)), by secants on the change of the strain; the first one
-    from how the strain fell with E' and how E' falls with strain. A secant whose slope would lead away, or that steps
-    by more than a factor 3, gives way to half the plain step or to that factor. It ends when what the plain step
-    leaves, by that slope and a fifth of the change at least, is within `rtol`: series and strain are those of the last
-    step, whose contact is not looked at again.
+    Fixed point of ln strain -> ln strain_of(softened(series)), by secants on the change of the strain; the first slope
+    from the fall of strain with E' and of E' with strain. A secant that would lead away is replaced by half the plain
+    step, one longer than a factor 3 by that factor. It ends when the remaining change, by that slope and a fifth of the
+    change at least, is within `rtol`; series and strain are those of the last step, whose contact is not solved again.
 
     Examples
     --------
@@ -216,7 +214,7 @@ def equivalent_linear(
 
 @dataclass(frozen=True, eq=False)
 class StrainTask:
-    """A series to be taken at the strain it works at; attributes as the arguments of `equivalent_linear`."""
+    """A series to soften to its working strain; attributes as the arguments of `equivalent_linear`."""
 
     series: PronySeries
     factors: AmplitudeFactors
@@ -237,15 +235,14 @@ def equivalent_linear_many(
     tasks : sequence of StrainTask
         Series.
     strains_of : callable
-        Working strain and frequency of whatever is made of a series, or why there is none: of the numbers of the tasks
-        that go on, and a series of each.
+        Working strains and frequencies, or errors, from the numbers of the unfinished tasks and a series of each.
     rtol : float
         Relative change of strain and frequency at which to stop [-].
 
     Returns
     -------
     list
-        In their order the answers, or why there is none.
+        Result or error of each task, in their order.
     """
     positive("rtol", rtol, "-")
     answers: dict[int, EquivalentLinear | NoSolutionError | RangeError] = {}
@@ -278,7 +275,7 @@ def equivalent_linear_many(
 def at_strains(
     tasks: Sequence[StrainTask], worked: Sequence[Worked]
 ) -> list[EquivalentLinear | NoSolutionError | RangeError]:
-    """Series at strains that are known.
+    """Soften series to known strains.
 
     Parameters
     ----------
@@ -290,7 +287,7 @@ def at_strains(
     Returns
     -------
     list
-        In their order the answers, or why there is none.
+        Result or error of each task, in their order.
     """
     answers: _Answers = {}
     paths = {i: _Path(*one) for i, one in enumerate(worked)}
@@ -308,7 +305,7 @@ def _heard(
     strains_of: Callable[[list[int], list[PronySeries]], Sequence[Worked | NoSolutionError]],
     answers: _Answers,
 ) -> dict[int, Worked]:
-    """Strains and frequencies that series are worked at; refusals go to the answers."""
+    """Working strains and frequencies; errors go to `answers`."""
     heard: dict[int, Worked] = {}
     for i, worked in zip(asked, strains_of(asked, series) if asked else (), strict=True):
         if isinstance(worked, NoSolutionError):
@@ -321,7 +318,7 @@ def _heard(
 def _factors(
     tasks: Sequence[StrainTask], asked: dict[int, tuple[float, float]], answers: _Answers
 ) -> dict[int, tuple[float, float]]:
-    """Factors of E' and E'' at strains, by their logarithms, and ω; strains beyond the sweeps go to the answers."""
+    """Factors of E' and E'' at ln strain and ω; errors of strains beyond the sweeps go to `answers`."""
     alike: dict[AmplitudeFactors, list[int]] = {}
     for i in asked:
         alike.setdefault(tasks[i].factors, []).append(i)
@@ -346,7 +343,7 @@ def _factors(
 
 
 def _held(task: StrainTask, factors: tuple[float, float], omega: float) -> tuple[float, float]:
-    """Factors whose change of each modulus is that at the nearest temperature swept."""
+    """Factors that change each modulus at most by as much as at the nearest temperature swept."""
     if task.swept is None:
         return factors
     there, here = complex(task.swept.modulus(omega)), complex(task.series.modulus(omega))
@@ -357,7 +354,7 @@ def _held(task: StrainTask, factors: tuple[float, float], omega: float) -> tuple
 def _series(
     tasks: Sequence[StrainTask], paths: dict[int, _Path], answers: _Answers
 ) -> dict[int, tuple[PronySeries, tuple[float, float]]]:
-    """Series at the trial strains, and their factors; refusals go to the answers."""
+    """Series at the trial strains, and their factors; errors go to `answers`."""
     factors = _factors(tasks, {i: (path.trial, path.omega) for i, path in paths.items()}, answers)
     if not factors:
         return {}
@@ -373,7 +370,7 @@ def _series(
 
 
 class _Path:
-    """The strain of one series on its way: ln of the first one, of the trial, and what the last step left of it."""
+    """Iteration of one working strain: ln of the first strain and of the trial, and the remaining change."""
 
     def __init__(self, strain: float, omega: float) -> None:
         self.first = self.trial = math.log(strain)
@@ -383,12 +380,12 @@ class _Path:
         self._change = 0.0
 
     def guess(self, stiff: float) -> None:
-        """The trial from the factor of E' at the trial before."""
+        """Set the trial from the factor of E' at the previous one."""
         self.trial = self.first - _SOFTENS * math.log(stiff)
         self.omega = self._slowing * stiff**_SLOWS
 
     def go_on(self, strain: float, omega: float, stiff: float, ahead: float) -> None:
-        """The next trial, from the strain and ω found with a factor of E', and the factor at that strain."""
+        """Step by secant, from strain and ω at a factor of E', and the factor at that strain."""
         self.steps += 1
         change = math.log(strain) - self.trial
         if self._before is not None and self.trial != self._before[0]:
@@ -404,7 +401,7 @@ class _Path:
         self.trial += math.copysign(min(abs(move), _LARGEST_STEP), move)
 
     def unsettled(self) -> NoSolutionError:
-        """Why it has no end."""
+        """Error: the iteration does not converge."""
         return NoSolutionError(
             f"the working strain did not settle in {_MOST_STEPS} steps: last {math.exp(self.trial):.4g}, "
             f"changing by {abs(self._change):.2g} of itself; ask for a larger rtol, or smooth the strain sweeps "

@@ -27,8 +27,8 @@ from conveyor.rubber.term_count import REACH, Candidate, Penalised, choose
 __all__ = ["Misfit", "PronyFit", "fit_prony"]
 
 REFERENCE_TERMS_PER_DECADE = 2.0
-"""Times of the fit that errors are relative to: dense enough for any spectrum to a few per cent, less than what makes
-an outlier of a row, `misfit.LEAST_SCATTER` times eight."""
+"""Density of the fit that errors are relative to: any spectrum to a few per cent, less than makes a row an outlier
+(eight times `conveyor.rubber.misfit.LEAST_SCATTER`)."""
 FLOOR_TERMS_PER_DECADE = 10.0
 """Spectrum lines of the consistency test. Lines d apart in ln(time) ripple by 4 exp(-pi^2/d): here 1e-18."""
 FLOOR_EXTRA_DECADES = 3.0
@@ -219,7 +219,7 @@ def fit_prony(
     window (see `Penalised`). So E_e is what does not relax within ten times the slowest measured period.
 
     There, too, a row that stands off by more than four robust standard deviations of its modulus loses its
-    pull (`misfit.trust`); it still counts in the misfits.
+    pull (`conveyor.rubber.misfit.trust`); it still counts in the misfits.
 
     The number of terms: densities of 2 to 8 a decade and seven strengths of the penalty are fitted, spectra of few
     lines on finer ones, and of those that AICc cannot tell from the best the one with the fewest terms is taken
@@ -295,7 +295,7 @@ def _relative(relative_to: str | None, *, chosen: bool) -> str:
 def _judged(
     rows: Rows, tau: FloatArray, strength: float, held: float | None, candidates: tuple[Candidate, ...]
 ) -> PronyFit:
-    """Fit on the times decided, and collect the statistics."""
+    """Fit on given times, and collect the statistics."""
     problem = Penalised(rows, tau, held)
     solution = problem.judged(rows.target, strength)
     moduli = solution.moduli
@@ -335,7 +335,7 @@ def _judged(
 
 
 def consistency_floor(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> float:
-    """Error that the best of all positive spectra leaves [-], without a fit: see `PronyFit.consistency_floor`."""
+    """Residual of the best of all positive spectra [-], see `PronyFit.consistency_floor`."""
     rows = checked_rows(frequency, storage, loss, storage_error=None, loss_error=None)
     best = _best_errors(
         relative_to_fit(rows, even_times(rows.omega, REFERENCE_TERMS_PER_DECADE, REACH), None)

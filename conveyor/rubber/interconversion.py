@@ -1,4 +1,4 @@
-"""A relaxation curve as the frequency sweep that says the same, so that both lie on one master curve."""
+"""Convert a relaxation curve to the equivalent frequency sweep."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from conveyor.rubber.rows import Rows, even_times, kernel
 from conveyor.rubber.term_count import Penalised, choose
 
 LINES_PER_DECADE = 2.0
-"""Of the first estimate: lines so far apart give E'' a ripple of 0.08 % (`conveyor.rubber.fit_prony`) [1/decade]."""
+"""Density of the first estimate: E'' ripples by 0.08 % (`conveyor.rubber.fit_prony`) [1/decade]."""
 MARGIN = 1.0
-"""Left out at both ends: a line a decade beyond an end adds a tenth of its modulus to E'' there [decades]."""
+"""Window cut at both ends: a line a decade beyond an end adds a tenth of its modulus to E'' there [decades]."""
 ROWS_PER_DECADE = 6.0
-"""As instruments measure (general knowledge) [1/decade]."""
+"""Rows of the sweep, as instruments measure (general knowledge) [1/decade]."""
 LEAST_DECADES = 2.5
-"""Of time: half a decade of frequency is left, four rows [decades]."""
+"""Least span of time: half a decade of frequency remains, four rows [decades]."""
 
 
 def equivalent_sweep(time: ArrayLike, modulus: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:

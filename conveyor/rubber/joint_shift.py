@@ -15,7 +15,7 @@ from conveyor.rubber.misfit import trust
 from conveyor.rubber.overlap import LogIsotherm, reach
 
 Curves = tuple[Curve, ...]
-"""One of each modulus that counts."""
+"""Common curve of each modulus that counts."""
 
 CHOICES = 6
 """Rounds in which stiffness, noise and weights are chosen anew; afterwards they stay, so that the objective
@@ -46,7 +46,7 @@ FLOOR = 1.0e-9
 
 @dataclass(frozen=True, eq=False)
 class Placed:
-    """The minimum.
+    """Shifts at the least-squares minimum.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ class Placed:
     scatter : tuple of float
         Standard deviation of each modulus, ln E, about its curve [-].
     correlation : float
-        Of residuals of neighbouring rows, the largest [-].
+        Largest correlation of residuals of neighbouring rows [-].
     residual : numpy.ndarray
         ln E about its curve, shape `(moduli, m)` [-].
     """
@@ -77,7 +77,7 @@ class Placed:
 
 @dataclass(frozen=True, eq=False)
 class _State:
-    """What is held during the steps of one round, for each modulus that counts."""
+    """Spacing, stiffness, variance and weights held during a round, for each modulus that counts."""
 
     spacing: float
     stiffness: tuple[float, ...]
@@ -91,7 +91,7 @@ class JointShift:
 
     Parameters
     ----------
-    sheets : list of Sheet
+    sheets : list of LogIsotherm
         The isotherms, coldest first.
     moduli : tuple of int
         Those that count: 0 is E', 1 is E'' [-].
@@ -122,7 +122,7 @@ class JointShift:
         self.lower, self.upper = np.vstack([limits, free]).T
 
     def minimum(self, start: FloatArray) -> Placed:
-        """Alternate between stiffness, noise, weights and steps of log10 a_T and ln b_T less a neighbour's."""
+        """Solve for steps of log10 a_T and ln b_T between neighbours, stiffness and weights re-estimated each round."""
         place = np.clip(start.ravel() if self.vertical else start[0], self.lower, self.upper)
         share, weight = np.zeros(len(self.y)), np.ones_like(self.y)
         state = self._choose(place, weight, share)
@@ -141,7 +141,7 @@ class JointShift:
         )
 
     def score(self, place: FloatArray, residual: FloatArray) -> float:
-        """Rao's score of a place: chi squared, how far the cost would fall, were it the parabola it seems.
+        """Rao's score of trial steps: chi squared, the fall of the cost in its quadratic approximation.
 
         References
         ----------
@@ -165,7 +165,7 @@ class JointShift:
         return _State(spacing, best, np.maximum(cost / freedom, FLOOR**2), weight, uneven.T @ uneven)
 
     def _descend(self, place: FloatArray, state: _State) -> tuple[FloatArray, FloatArray, FloatArray, Curves]:
-        """Projected Gauss-Newton steps; place, covariance, parameters that each modulus pays for, curves."""
+        """Projected Gauss-Newton steps; place, covariance, effective parameters of each modulus, curves."""
         splines, curves = self._fit(place, state)
         for _ in range(STEPS):
             parts, gradient = self._normal(splines, curves, state)

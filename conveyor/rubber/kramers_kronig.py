@@ -1,4 +1,4 @@
-"""Do E' and E'' agree with each other? Each is predicted from the other, and the difference located."""
+"""Kramers-Kronig test: E' and E'' each predicted from the other."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ LINES_PER_DECADE = 4.0
 """Lines d apart in ln(time) ripple by 4 exp(-pi^2/d): here 1e-7 for a smooth spectrum. A spectrum of few sharp
 lines is met to d^2/8 = 4 % of E'' only: rubbers have none [1/decade]."""
 REACH = 2.0
-"""Lines beyond the window, at both ends: farther ones are a constant or nothing to 1e-4 [decades]."""
+"""Reach of lines beyond both ends of the window: farther ones are a constant or nothing to 1e-4 [decades]."""
 MARGIN = 1.0
-"""Ends of the window that are not judged: a line a decade outside moves E'' there by a tenth of its modulus,
-and nothing measured tells it [decades]."""
+"""Ends of the window that are not judged: a line a decade outside, unseen by the data, moves E'' there by a tenth of
+its modulus [decades]."""
 STRENGTHS = (1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0)
 """Offered penalties on the curvature of the spectrum, see `Penalised`; AICc chooses [-]."""
 LEAST_ROWS = 6
@@ -96,7 +96,7 @@ class KramersKronig:
 
 
 def testable(frequency: ArrayLike) -> bool:
-    """Whether a window has rows enough beyond a decade from both of its ends to be judged by `kramers_kronig`.
+    """True if enough rows lie a decade and more from both ends of the window for `kramers_kronig`.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def kramers_kronig(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike) ->
     Returns
     -------
     KramersKronig
-        Residuals in both directions, and where.
+        Residuals in both directions, and by decade.
 
     Raises
     ------
@@ -141,7 +141,7 @@ def kramers_kronig(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike) ->
     fitted to E' alone and gives E'', another to E'' alone gives E'. The measured partner enters only as the scale
     of the penalty on the curvature.
 
-    What a window cannot say: the spectrum outside it. It adds to E' a constant (slow lines and E_e),
+    The spectrum outside the window is unknown. It adds to E' a constant (slow lines and E_e),
     which is why E' from E'' has one constant fitted; to E'' a tail at both ends, which is why a decade at
     either end is not judged. An E'' that is wrong there, or wrong by a process outside the window, passes.
     E'' from E' rests on the slope of E': scatter of E' of 1 % gives some per cent of a small E''.

@@ -29,9 +29,9 @@ class KrausLaw:
     peak_loss, far_loss : float
         E'' at the critical strain and far from it [Pa].
     critical_strain, loss_strain : float
-        Where E' has fallen half way, and where E'' is largest [-]; one and the same in Kraus' theory.
+        Strain at which E' has fallen half way, and at which E'' is largest [-]; equal in Kraus' theory.
     exponent, loss_exponent : float
-        m of E' and of E'' [-]; one and the same in Kraus' theory.
+        m of E' and of E'' [-]; equal in Kraus' theory.
 
     References
     ----------
@@ -70,7 +70,7 @@ class KrausFit:
     storage_rms, loss_rms : float
         Root mean square of the relative errors of E' and E'' [-].
     smoothed : StrainSweep
-        The law at the strains of the sweep: a smooth stand-in wherever a sweep is taken.
+        The law at the strains of the sweep, a smooth replacement for it.
     """
 
     law: KrausLaw
@@ -143,7 +143,7 @@ def fit_kraus(sweep: StrainSweep, *, shared: bool = False) -> KrausFit:
 def _moduli(
     strain: FloatArray, measured: FloatArray, which: int, place: FloatArray
 ) -> tuple[tuple[float, float], FloatArray]:
-    """The two moduli of one branch of the law at ln critical strain and ln m, and the relative errors left."""
+    """Moduli of one branch of the law at ln critical strain and ln m, and their relative errors."""
     share = _kraus_shapes(strain, math.exp(place[0]), math.exp(place[1]))[which]
     unit = float(measured.max())
     columns = np.stack([1.0 - share, share], axis=1) * (unit / measured)[:, None]
@@ -152,7 +152,7 @@ def _moduli(
 
 
 def _searched(strain: FloatArray, missed: Callable[[FloatArray], FloatArray]) -> FloatArray:
-    """Best of several starts in ln critical strain and ln m."""
+    """Least squares in ln critical strain and ln m, the best of several starts."""
     from scipy.optimize import least_squares
 
     middle = 0.5 * (math.log(strain[0]) + math.log(strain[-1]))

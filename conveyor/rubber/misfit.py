@@ -1,4 +1,4 @@
-"""How far a fit is from its data, and how far the data are from a smooth curve: error, scatter, correlation."""
+"""Errors of a fit; scatter and correlation of data about a smooth curve."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Misfit:
 
 
 def misfit(error: FloatArray, frequency: FloatArray) -> Misfit:
-    """Sum up relative errors.
+    """Root mean square and worst of relative errors.
 
     Examples
     --------
@@ -50,7 +50,7 @@ def misfit(error: FloatArray, frequency: FloatArray) -> Misfit:
 
 
 def trust(error: FloatArray) -> FloatArray:
-    """Weights, 1 to 0, that bound, and then end, the pull of a residual: Hampel's three-part loss.
+    """Weights of residuals, 1 to 0, by Hampel's three-part loss.
 
     References
     ----------
@@ -93,8 +93,8 @@ def scatter(frequency: FloatArray, modulus: FloatArray) -> float | None:
 def scatter_within(frequency: FloatArray, modulus: FloatArray, group: FloatArray) -> float | None:
     """Relative standard deviation of a row from the line through its neighbours in its own group [-].
 
-    As `scatter` of each group of three rows and more, their squares in the mean over all; None without such a group.
-    What groups, isotherms on a master curve, differ by does not count.
+    As `scatter` of each group of three rows and more, squares averaged over all; None without such a group.
+    Differences between groups, isotherms on a master curve, do not count.
 
     Examples
     --------

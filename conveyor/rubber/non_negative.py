@@ -1,4 +1,4 @@
-"""Non-negative least squares that always ends, and ends at the minimum: judged by its own conditions."""
+"""Non-negative least squares that always ends, at a minimum checked by the Kuhn-Tucker conditions."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from conveyor.rubber.arrays import FloatArray
 
 ROUNDING = float(np.finfo(np.float64).eps)
 SLACK = 10.0
-"""Slopes within this many roundings of the sizes that cancel in them are none [-]."""
+"""Slopes within this many roundings of the cancelling terms count as 0 [-]."""
 
 
 def non_negative(matrix: FloatArray, target: FloatArray) -> FloatArray:
@@ -40,7 +40,7 @@ def non_negative(matrix: FloatArray, target: FloatArray) -> FloatArray:
 
 
 def slope(matrix: FloatArray, target: FloatArray, weights: FloatArray) -> float:
-    r"""How far weights >= 0 are from the Kuhn-Tucker conditions: the largest slope that should be 0 [-]."""
+    r"""Violation of the Kuhn-Tucker conditions by weights >= 0: the largest slope that should be 0 [-]."""
     length = _lengths(matrix)
     falls = (target - matrix @ weights) @ matrix / length
     steepest = float(np.where(weights > 0.0, np.abs(falls), falls).max())
@@ -88,7 +88,7 @@ def active_set(matrix: FloatArray, target: FloatArray) -> FloatArray:
 
 
 def _entered(columns: FloatArray, target: FloatArray, weights: FloatArray, enters: int) -> FloatArray:
-    """The least squares of the weights > 0 and one more, those that would fall below 0 taken out on the way."""
+    """Least squares of the weights > 0 and one more column; weights that fall below 0 leave."""
     from scipy.linalg.lapack import dgels
 
     at = weights.copy()

@@ -1,4 +1,4 @@
-"""Neighbouring isotherms laid on each other: the first guess of a shift, and what differs in the overlap."""
+"""Overlap of neighbouring isotherms: first guess of their shift, and their differences."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from conveyor.rubber.arrays import FloatArray
 from conveyor.rubber.shift import celsius
 
 STEP = 0.05
-"""Grid of the first guess [decades]; the joint fit removes what it leaves."""
+"""Grid of the first guess [decades]; the joint fit refines it."""
 LEAST_OVERLAP = 0.1
-"""Share of the shorter isotherm that has to lie in the overlap: three decades measured by ten rows have
-their rows a ninth apart, with less nothing is compared [-]."""
+"""Least share of the shorter isotherm in the overlap: ten rows are a ninth of it apart, with less nothing is
+compared [-]."""
 FIRST_OVERLAP = 0.25
-"""The same of a first guess: with less, a lucky crossing of two points wins [-]."""
+"""The same for a first guess: with less, a chance crossing of two points wins [-]."""
 END_ROWS = 3
 """Rows at the end of an isotherm from which its slope is taken."""
 

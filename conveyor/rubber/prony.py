@@ -29,7 +29,7 @@ def _debye(omega: ArrayLike, times: FloatArray) -> tuple[FloatArray, FloatArray,
 
 
 def _one_per_time(weights: FloatArray, times: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Add terms whose times agree in every digit: a pole within 1e-16 of a root of the others leaves such pairs."""
+    """Merge terms of equal time, which a pole within 1e-16 of a root of the others leaves."""
     distinct, index = np.unique(times, return_inverse=True)
     return np.bincount(index, weights, distinct.size).astype(np.float64, copy=False), distinct
 
@@ -226,12 +226,12 @@ class PronySeries:
         return PronySeries(self.equilibrium * b, self.moduli * b, self.times * a)
 
     def merged(self, *, fastest: float, slowest: float) -> PronySeries:
-        """Leave the terms between two times; the faster ones become one, and the slower ones.
+        """Merge the terms faster than one time into one term, and those slower than another.
 
         Parameters
         ----------
         fastest, slowest : float
-            Between which the terms stay as they are [s].
+            Terms between these times stay as they are [s].
 
         Returns
         -------
@@ -346,7 +346,7 @@ class CreepSeries:
 
 
 def creeps(series: Iterable[PronySeries]) -> list[CreepSeries]:
-    """Creep forms of many series, as `PronySeries.creep`, side by side; the very same series is converted once.
+    """Convert many series to creep form, as `PronySeries.creep`; a repeated series is converted once.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The rows of a fit: checked measurements, and the relative-error matrix of a set of relaxation times."""
+"""Rows of a fit: checked measurements, and the relative-error matrix of relaxation times."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from conveyor.rubber.misfit import trust
 from conveyor.rubber.non_negative import non_negative
 
 DUST = 1.0e-12
-"""NNLS may return zero as rounding, 1e-16; no data resolve a modulus this far below the smallest E'."""
+"""Moduli below this share of the smallest E' are 0: NNLS may leave rounding, 1e-16, and no data resolve them."""
 NO_TRUST = 1.0e-300
-"""Weight of a row without any: its reciprocal is still finite [-]."""
+"""Least weight of a row: its reciprocal is still finite [-]."""
 PASSES = 5
-"""Passes of the reference: each leaves about sigma^2 of the last one's change, 1e-3 at 28 % noise."""
+"""Passes of `relative_to_fit`: each leaves about sigma^2 of the last change, 1e-3 at 28 % noise."""
 
 
 @dataclass(frozen=True, eq=False)
 class Rows:
-    """Measurements in ascending frequency, what their errors are relative to, and their weights.
+    """Measurements in ascending frequency, with scale of error and weight.
 
     Parameters
     ----------
@@ -33,9 +33,9 @@ class Rows:
     loss : numpy.ndarray
         E'', shape `(n,)` [Pa].
     scale : numpy.ndarray
-        What an error is divided by, shape `(2n,)`, E' first: the data or the fit, over the row's weight [Pa].
+        Divisor of errors, shape `(2n,)`, E' first: the data or the fit, over the row's weight [Pa].
     trust : numpy.ndarray
-        Share of its weight that each row kept, shape `(2n,)`, E' first; 0 for an outlier, see `misfit.trust` [-].
+        Weight of each row, shape `(2n,)`, E' first; 0 for an outlier, see `conveyor.rubber.misfit.trust` [-].
     """
 
     frequency: FloatArray
@@ -60,7 +60,7 @@ class Rows:
 
 
 def kernel(omega: FloatArray, tau: FloatArray) -> FloatArray:
-    """E' above E'' of a unit equilibrium modulus and of a unit term at each time."""
+    """E' above E'' of a unit equilibrium modulus and of a unit term at each time [-]."""
     x = np.outer(omega, tau)
     debye = x / np.square(np.hypot(1.0, x))
     top = np.column_stack([np.ones_like(omega), x * debye])
@@ -75,7 +75,7 @@ def checked_rows(
     storage_error: ArrayLike | None,
     loss_error: ArrayLike | None,
 ) -> Rows:
-    """Rows, checked and sorted by frequency [Hz, Pa], with errors relative to the data."""
+    """Check and sort measurements by frequency [Hz, Pa]; errors relative to the data."""
     columns = {"frequency": (frequency, "Hz"), "storage": (storage, "Pa"), "loss": (loss, "Pa")}
     arrays = {name: np.array(values, dtype=np.float64) for name, (values, _) in columns.items()}
     f = arrays["frequency"]
@@ -97,7 +97,7 @@ def checked_rows(
 
 
 def _spread(size: int, storage_error: ArrayLike | None, loss_error: ArrayLike | None) -> FloatArray:
-    """Return the stated errors over their root mean square, so that equal ones change nothing."""
+    """Relative errors over their root mean square, so that equal ones change nothing [-]."""
     if storage_error is None and loss_error is None:
         return np.ones(2 * size)
     if storage_error is None or loss_error is None:
@@ -113,7 +113,7 @@ def _spread(size: int, storage_error: ArrayLike | None, loss_error: ArrayLike | 
 
 
 def held_equilibrium(equilibrium: float, storage: FloatArray) -> float:
-    """An equilibrium modulus [Pa], refused unless below every E'."""
+    """Equilibrium modulus to hold [Pa], refused unless below every E'."""
     value = positive("equilibrium", equilibrium, "Pa")
     if value >= storage.min():
         raise InputError(
@@ -143,7 +143,7 @@ def given_times(times: ArrayLike, omega: FloatArray, held: float | None) -> Floa
 
 
 def plain(rows: Rows, tau: FloatArray, held: float | None) -> FloatArray:
-    """Moduli [Pa], equilibrium first: non-negative least squares of the rows as they stand.
+    """Fit moduli to rows by non-negative least squares, equilibrium first [Pa].
 
     References
     ----------
@@ -153,7 +153,7 @@ def plain(rows: Rows, tau: FloatArray, held: float | None) -> FloatArray:
 
 
 def _solved(rows: Rows, terms: FloatArray, held: float | None) -> FloatArray:
-    """`plain`, of the `kernel` of its times."""
+    """Moduli as `plain`, from the `kernel` of the times."""
     unit = float(np.exp(np.mean(np.log(rows.storage))))
     matrix = terms / rows.scale[:, None] * unit
     if held is None:
@@ -165,7 +165,7 @@ def _solved(rows: Rows, terms: FloatArray, held: float | None) -> FloatArray:
 
 
 def relative_to_fit(rows: Rows, tau: FloatArray, held: float | None) -> Rows:
-    """Replace the data in the denominators by the fit, by a few passes of `plain`, and end the pull of outliers.
+    """Make errors relative to the fit, in a few passes of `plain`, and remove the weight of outliers.
 
     Notes
     -----

@@ -25,12 +25,12 @@ MAX_DECADES = 100.0
 
 
 def celsius(temperature: float) -> Amount:
-    """Return a temperature [K] for a message."""
+    """Temperature [K] for a message."""
     return Amount(temperature, "temperature", f"{temperature - _ZERO_CELSIUS:.2f} degC", digits=6)
 
 
 def _kelvin(temperature: ArrayLike) -> FloatArray:
-    """Refuse what cannot be an absolute temperature."""
+    """Refuse a temperature [K] that is not finite and > 0."""
     array = np.asarray(temperature, dtype=np.float64)
     bad = array[~(np.isfinite(array) & (array > 0.0))]
     if bad.size:
@@ -41,7 +41,7 @@ def _kelvin(temperature: ArrayLike) -> FloatArray:
 
 
 class ShiftLaw(Protocol):
-    """What every shift law offers: a reference temperature [K] and log10 a_T [-] at any other."""
+    """Shift law: a reference temperature [K] and log10 a_T [-] at any other."""
 
     @property
     def reference(self) -> float:

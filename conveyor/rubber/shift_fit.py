@@ -1,4 +1,4 @@
-"""Fit a WLF or Arrhenius law to tabulated shift factors, and say in decades how badly it fits."""
+"""Fit a WLF or Arrhenius law to tabulated shift factors, with its misfit in decades."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which shift law to take: WLF, Arrhenius and the table itself, by how well each predicts a shift left out."""
+"""Compare shift laws, WLF, Arrhenius and the table itself, by their error at a shift left out."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from conveyor.rubber.shift import WLF, Arrhenius, ShiftLaw, ShiftTable
 from conveyor.rubber.shift_fit import fit_arrhenius, fit_wlf
 
 LEAST_TEMPERATURES = 5
-"""Two ends that no table predicts when left out, and three between them to judge by."""
+"""Least number of temperatures: two ends that no table predicts when left out, and three between them."""
 PARAMETERS = {"WLF": 2, "Arrhenius": 1}
 REMARKS = {
     "WLF": "two parameters, smooth; above the glass transition, not near its pole",
@@ -40,7 +40,7 @@ class ShiftComparison:
     worst : float
         Largest in magnitude, not weighted, with its sign [decades].
     worst_temperature : float
-        Where [K].
+        Temperature of the worst [K].
     left_out : float
         Root mean square error, weighted, of each inner shift predicted by the law refitted without it
         [decades].
@@ -52,7 +52,7 @@ class ShiftComparison:
     high : float
         Hottest one [K].
     remark : str
-        What kind of law it is, or why it is not there [-].
+        Kind of law, or the reason for its absence [-].
     """
 
     name: str
@@ -122,7 +122,7 @@ def compare_shift_laws(
     -----
     The criterion is leave-one-out cross-validation over the inner temperatures: it is what a law is used for,
     a temperature between the measured ones, and the one figure that a table and a formula share. Chi^2 per degree
-    of freedom stands beside it where uncertainties are given: far above 1 the law is wrong for
+    of freedom is added where uncertainties are given: far above 1 the law is wrong for
     this rubber, however it ranks. Uncertainties along a chain of isotherms are correlated (see
     `Superposition.covariance`); here they count as independent, so chi^2 is a guide.
 

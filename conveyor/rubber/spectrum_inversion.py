@@ -17,7 +17,7 @@ ROUNDING_PER_TERM = 4.0
 def interlaced(
     constant: ArrayLike, weights: FloatArray, times: FloatArray, *, reciprocal: bool = False
 ) -> tuple[FloatArray, FloatArray]:
-    r"""Zeros and residues of the inverse of ``constant + sum_j weights_j s t_j/(1 + s t_j)``; of many side by side.
+    r"""Zeros and residues of the inverse of ``constant + sum_j weights_j s t_j/(1 + s t_j)``, vectorised.
 
     `constant` has the shape of `weights` and `times` without its last axis, which is that of the terms.
 

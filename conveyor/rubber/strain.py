@@ -17,11 +17,11 @@ from conveyor.rubber.arrays import FloatArray, positive, positive_vector
 from conveyor.rubber.monotone import MonotoneCubic
 
 SAME_TEMPERATURE = 0.5
-"""Sweeps this close are at one temperature, and this far beyond the last one it still counts [K]: control of a DMA."""
+"""Sweeps this close count as one temperature, as does this far beyond the last one [K]: control of a DMA."""
 LARGEST_STRAIN = 2.0
 """A larger strain amplitude is taken for a percentage [-]."""
 PLATEAU_SPAN = 2.0
-"""A plateau is looked for from the lowest strain to this multiple of it [-] ..."""
+"""A plateau is sought from the lowest strain to this multiple of it [-] ..."""
 PLATEAU_SPREAD = 0.04
 """... over which highest and lowest modulus differ by at most this part of their mean [-]: repeatability of a DMA."""
 _FEWEST_POINTS = 4
@@ -157,7 +157,7 @@ class AmplitudeFactors:
     Notes
     -----
     Monotone cubic (PCHIP) in ln strain, linear in temperature. Beyond the measured temperatures the factors of the
-    nearest are held (`known_at` says whether), above the measured strains those of the largest (`largest_strain`);
+    nearest are held (see `known_at`), above the measured strains those of the largest (`largest_strain`);
     below the lowest measured strain they are constant only where the data show a plateau, i.e. the modulus asked for
     varies by no more than 4 % of its mean over three or more points up to twice that strain.
     The factors are taken to be independent of frequency: they hold near that of the sweeps, in the sense of the
@@ -176,7 +176,7 @@ class AmplitudeFactors:
     reference_strain: float
 
     def __post_init__(self) -> None:
-        """Check and freeze; the levels are made at once, so that a bad reference strain shows here."""
+        """Check and freeze; evaluate the sweeps, so that a bad reference strain is refused here."""
         object.__setattr__(self, "sweeps", tuple(sorted(self.sweeps, key=lambda s: s.temperature)))
         object.__setattr__(self, "reference_strain", positive("reference_strain", self.reference_strain, "-"))
         if not self.sweeps:
@@ -202,16 +202,16 @@ class AmplitudeFactors:
 
     @cached_property
     def temperatures(self) -> FloatArray:
-        """Temperatures of the levels, mean of their runs, ascending, shape `(levels,)` [K]."""
+        """Temperatures of the sweeps, mean over runs, ascending, shape `(t,)` [K]."""
         return np.array([float(np.mean([sweep.temperature for sweep in level])) for level in self._levels])
 
     def known_at(self, temperature: float) -> bool:
-        """Whether the sweeps reach a temperature [K], half a kelvin beyond the last ones included."""
+        """True if the sweeps reach a temperature [K], half a kelvin beyond the last ones included."""
         low, high = self.temperatures[0] - SAME_TEMPERATURE, self.temperatures[-1] + SAME_TEMPERATURE
         return bool(low <= temperature <= high)
 
     def largest_strain(self, temperature: float) -> float:
-        """Strain amplitude to which all runs behind the factors at a temperature [K] are measured [-]."""
+        """Largest strain amplitude measured by all runs that give the factors at a temperature [K] [-]."""
         used = [
             level
             for level, weight in zip(self._levels, self._between(np.array([temperature])), strict=True)
@@ -220,7 +220,7 @@ class AmplitudeFactors:
         return min(float(sweep.strain[-1]) for level in used for sweep in level)
 
     def nearest(self, temperature: float) -> float:
-        """Temperature whose factors stand for one [K]: itself inside the sweeps, else that of the nearest."""
+        """Temperature limited to the range of the sweeps [K]."""
         return min(max(temperature, float(self.temperatures[0])), float(self.temperatures[-1]))
 
     def storage(self, strain: ArrayLike, temperature: ArrayLike) -> FloatArray:
@@ -286,7 +286,7 @@ class AmplitudeFactors:
         return out.reshape(array.shape)[()]
 
     def _between(self, temperature: FloatArray) -> FloatArray:
-        """Weights of the levels at temperatures, shape (levels, n), linear between; the last ones are held beyond."""
+        """Linear interpolation weights of the sweep temperatures, shape (t, n), held beyond the last ones."""
         return np.array(
             [np.interp(temperature, self.temperatures, one) for one in np.eye(self.temperatures.size)]
         )

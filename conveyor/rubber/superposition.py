@@ -18,19 +18,19 @@ from conveyor.rubber.overlap import LogIsotherm, Overlap, first_guess, overlap
 from conveyor.rubber.shift import celsius
 
 LEAST_ROWS = 3
-"""Rows of an isotherm: two moduli at three frequencies tell a shift from noise."""
+"""Least rows of an isotherm: two moduli at three frequencies separate a shift from noise."""
 DIFFERENCE = 1.0e-4
 """Step of a central difference: a hundredth of the smallest shift that matters [decades]."""
 MODULI = {"both": (0, 1), "storage": (0,), "loss": (1,)}
-"""Rows of a `Sheet` that count."""
+"""Rows of `LogIsotherm.y` that count."""
 LEAST_ISOTHERMS = 3
-"""Isotherms in which a frequency must be measured to be told from one bad row [-]."""
+"""Isotherms that must hold a frequency to separate a resonance from one bad row [-]."""
 STRAY = 0.5
-"""Trust below which a row stands off: by 4.4 robust standard deviations of the residuals, see `trust` [-]."""
+"""Weight below which a row is an outlier: 4.4 robust standard deviations of the residuals, see `trust` [-]."""
 SAME_FREQUENCY = 1.0e-4
 """Frequencies closer than this are one setting of the instrument [decades]."""
 LEAST_VERTICAL = 0.004
-"""Range of log10 b_T below which a vertical shift changes no modulus by 1 % [decades]."""
+"""Least range of log10 b_T: below it a vertical shift changes no modulus by 1 % [decades]."""
 ONE_IN_A_THOUSAND = 3.09
 """Quantile of the normal distribution [-]."""
 LN10 = float(np.log(10.0))
@@ -88,14 +88,14 @@ class Isotherm:
 
 @dataclass(frozen=True)
 class Resonance:
-    """A frequency of the instrument whose rows stand off the common curve in most isotherms.
+    """A resonance of the instrument: its rows are outliers in most isotherms.
 
     Parameters
     ----------
     frequency : float
         As measured [Hz].
     isotherms : int
-        In how many it stands off [-].
+        Number of isotherms in which its rows are outliers [-].
     storage : float
         Median of E' over the common curve, less one; 0 if E' did not count [-].
     loss : float
@@ -179,7 +179,7 @@ class Superposition:
 
     @property
     def covariance(self) -> FloatArray:
-        """Of log10 a_T, shape `(n, n)` [-]."""
+        """Covariance of log10 a_T, shape `(n, n)` [-]."""
         n = self.temperatures.size
         return self.joint_covariance[:n, :n]
 
@@ -189,16 +189,16 @@ class Superposition:
         return np.array([self.log10_a_T, self.log10_b_T])
 
     def kept(self, frequency: FloatArray) -> NDArray[np.bool_]:
-        """Whether rows at frequencies [Hz] are those of no resonance, shape `(m,)`."""
+        """True for rows at frequencies [Hz] without resonance, shape `(m,)`."""
         return _kept(np.log10(frequency), [one.frequency for one in self.resonances])
 
     def drawn(self, generator: np.random.Generator) -> FloatArray:
-        """Shifts that the isotherms allow as well, by their covariance: an error, and the same of the other sign.
+        """Draw shifts from their covariance: plus an error, and minus the same error.
 
         Parameters
         ----------
         generator : numpy.random.Generator
-            Of the random numbers [-].
+            Source of random numbers [-].
 
         Returns
         -------
@@ -256,23 +256,23 @@ def superpose(
     Stiffness of the curves and noise of each modulus follow from the restricted likelihood, so E' and E''
     weigh by how well they superpose. The first guess lays each isotherm on its hotter neighbour.
 
-    A row that stands off loses its pull (`misfit.trust`). A frequency at which most isotherms stand off is a
+    An outlier loses its weight (`conveyor.rubber.misfit.trust`). A frequency with outliers in most isotherms is a
     resonance of the instrument: its rows are left out of all of them, also where one isotherm alone reaches.
 
     Isotherms with little slope are placed by a prior: the decades per kelvin change from one pair of
-    neighbours to the next by half of their mean, as a standard deviation (`joint_shift.UNEVEN`).
+    neighbours to the next by half of their mean, as a standard deviation (`conveyor.rubber.joint_shift.UNEVEN`).
 
     The uncertainty is the posterior covariance of the shifts with the curves integrated out: slope and
     scatter in the overlaps, carried along the chain to the reference. Residuals that correlate within an
     isotherm carry less information; the covariance is widened by (1 + c)/(1 - c). Without `vertical`, a score
-    test asks whether vertical shifts are missing; if so they are fitted beside, and the difference enters the
-    uncertainty as one standard deviation. It does not hold errors
+    test shows whether vertical shifts are missing; if so they are fitted too, and the difference enters the
+    uncertainty as one standard deviation. It does not cover errors
     of the thermometer (1 K is 0.1 decade or more near the glass transition), nor what all rows share.
 
     A reference between two isotherms is placed by monotone (PCHIP) interpolation of log10 a_T over T, as
     `ShiftTable` does; the error of that interpolation is not in the uncertainty.
 
-    A vertical shift is told from a horizontal one only by the bend of the curves; look at the errors.
+    Only the bend of the curves separates a vertical shift from a horizontal one; look at the errors.
 
     References
     ----------
@@ -308,7 +308,7 @@ def superpose(
 def _doubted(
     superposition: Superposition, sheets: list[LogIsotherm], moduli: tuple[int, ...], placed: Placed
 ) -> Superposition:
-    """With the vertical shift in the uncertainty where the isotherms ask for one: as an error of that size."""
+    """Add a missing vertical shift to the uncertainty, where the score test shows one."""
     steps = -np.diff(placed.shift)
     try:
         score = JointShift(sheets, moduli=moduli, vertical=True).score(
@@ -317,7 +317,7 @@ def _doubted(
         if score < _chi2_limit(steps.size):
             return superposition
         other = _result(sheets, superposition.reference, moduli, _placed(sheets, moduli, vertical=True))
-    except NoSolutionError:  # straight lines in log-log can be moved along themselves: nothing asks for it
+    except NoSolutionError:  # straight lines in log-log: no vertical shift is determined
         return superposition
     n = superposition.temperatures.size
     apart = (other.shifts - superposition.shifts).ravel()
@@ -325,7 +325,7 @@ def _doubted(
     if (
         np.ptp(other.log10_b_T) < LEAST_VERTICAL
         or np.max(np.abs(np.diff(apart[:n])))
-        > LONGEST_STEP  # the slopes hardly tell one shift from the other
+        > LONGEST_STEP  # the slopes hardly separate one shift from the other
         or other.correlation > max(chance, 0.5 * superposition.correlation)  # it does not make them one curve
     ):
         return superposition
@@ -340,7 +340,7 @@ def _doubted(
 
 
 def _chi2_limit(freedom: int) -> float:
-    """Chi squared that chance passes once in a thousand: Wilson and Hilferty, PNAS 17 (1931) 684-688."""
+    """99.9 % quantile of chi squared: Wilson and Hilferty, PNAS 17 (1931) 684-688."""
     step = 2.0 / (9.0 * freedom)
     return float(freedom * (1.0 - step + ONE_IN_A_THOUSAND * np.sqrt(step)) ** 3)
 
@@ -352,7 +352,7 @@ def _placed(sheets: list[LogIsotherm], moduli: tuple[int, ...], *, vertical: boo
 
 
 def _resonances(sheets: list[LogIsotherm], moduli: tuple[int, ...], placed: Placed) -> tuple[Resonance, ...]:
-    """Frequencies that the common curves do not trust in more than half of the isotherms that hold them."""
+    """Frequencies whose rows are outliers in more than half of the isotherms that hold them."""
     x = np.concatenate([sheet.x for sheet in sheets])
     stray = np.min([trust(one) for one in placed.residual], axis=0) < STRAY
     resonances = []
@@ -367,7 +367,7 @@ def _resonances(sheets: list[LogIsotherm], moduli: tuple[int, ...], placed: Plac
 
 
 def _kept(x: FloatArray, frequencies: list[float]) -> NDArray[np.bool_]:
-    """Whether log10 of frequencies is none of those that are left out."""
+    """True for log10 frequencies away from the frequencies left out."""
     apart: NDArray[np.bool_] = np.abs(x - np.log10(frequencies)[:, None]) >= SAME_FREQUENCY
     return np.asarray(apart.all(axis=0))
 
@@ -405,7 +405,7 @@ def _checked(isotherms: Sequence[Isotherm], reference: float) -> tuple[list[LogI
 def _result(
     sheets: list[LogIsotherm], t_ref: float, moduli: tuple[int, ...], placed: Placed
 ) -> Superposition:
-    """Move the zero to the reference, and lay the rows out."""
+    """Move the zero of the shifts to the reference, and shift the rows."""
     t = np.array([s.temperature for s in sheets])
     shift, offset = placed.shift, placed.offset
     size = t.size
@@ -445,7 +445,7 @@ def _result(
 
 
 def _zeroed(t: FloatArray, value: FloatArray, t_ref: float) -> tuple[FloatArray, FloatArray]:
-    """Values less their interpolated one at the reference, and the derivative of the former by the latter."""
+    """Values less the interpolated one at the reference, and their derivative by the values."""
     from scipy.interpolate import PchipInterpolator
 
     at = np.flatnonzero(t == t_ref)
@@ -460,5 +460,5 @@ def _zeroed(t: FloatArray, value: FloatArray, t_ref: float) -> tuple[FloatArray,
 
 
 def _root(covariance: FloatArray) -> FloatArray:
-    """Standard deviations; the one of the reference is 0 up to rounding of either sign."""
+    """Standard deviations of a covariance; that of the reference is 0 up to rounding of either sign."""
     return np.sqrt(np.maximum(np.diagonal(covariance), 0.0))

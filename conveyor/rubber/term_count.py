@@ -1,4 +1,4 @@
-"""How many terms, and how smooth a spectrum, the data support: penalised fits compared by one criterion."""
+"""Number of terms and smoothness of the spectrum that the data support, by AICc of penalised fits."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ a constant and a loss ~ 1/omega on the slow side, a loss ~ omega on the fast one
 HALVINGS = 4
 """Halvings of the spacing about the lines of a spectrum of few: 0.018 in ln(time), (0.018)^2/8 = 4e-5."""
 BARE_DENSITY = 8.0
-"""From here on no penalty is offered: a spectrum that is smooth needs fewer lines [1/decade]."""
+"""Density from which no penalty is offered: a smooth spectrum needs fewer lines [1/decade]."""
 STRENGTHS = (0.0, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0)
 """Offered strengths of the penalty; at 10 the spectrum follows E'' smoothed over a decade."""
 SUPPORT = 2.0
@@ -63,7 +63,7 @@ class Candidate:
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """Moduli of one penalised fit and what they cost.
+    """Moduli of one penalised fit, effective parameters and residual.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ class Solution:
 
 
 class Penalised:
-    """Rows of a fit on given times, factorised once, for any strength of the penalty and any data.
+    """Penalised fit on given times, factorised once for any penalty and data.
 
     Parameters
     ----------
@@ -129,12 +129,12 @@ class Penalised:
     def solve(self, target: FloatArray, strength: float, bend: FloatArray | None = None) -> FloatArray:
         """Moduli, equilibrium first, shape `(1 + m,)`, for data over scale `target`, shape `(2n,)` [Pa].
 
-        `bend` is what the penalised curvatures are held to, shape `(bends,)`; 0 without it [-].
+        `bend` is the target of the penalised curvatures, shape `(bends,)`; 0 without it [-].
         """
         return self._solved(target, self._stacked(strength), bend)
 
     def _solved(self, target: FloatArray, matrix: FloatArray, bend: FloatArray | None = None) -> FloatArray:
-        """`solve`, of the matrix of its strength."""
+        """Moduli as `solve`, from the matrix of its strength."""
         right = self.basis.T @ (target - self.fixed)
         bend = np.zeros(len(matrix) - right.size) if bend is None else bend[: len(matrix) - right.size]
         solution = non_negative(matrix, np.concatenate([right, bend]))
@@ -149,7 +149,7 @@ class Penalised:
         return np.asarray(np.sum(factor[: self.count] ** 2, axis=1))
 
     def judged(self, target: FloatArray, strength: float) -> Solution:
-        """Solve, and count parameters and errors."""
+        """Solve, with effective parameters and residual."""
         matrix = self._stacked(strength)
         moduli = self._solved(target, matrix)
         active = moduli > 0.0 if self.held is None else moduli[1:] > 0.0
@@ -212,7 +212,7 @@ def aicc(count: int, freedom: float, residual: float) -> float:
 def choose(
     rows: Rows, held: float | None, strengths: tuple[float, ...] = STRENGTHS
 ) -> tuple[FloatArray, float, tuple[Candidate, ...]]:
-    """Times [s], strength and table of the fit with the fewest terms that the data support.
+    """Choose the fit with the fewest terms that the data support: times [s], strength and table.
 
     Notes
     -----
@@ -247,7 +247,7 @@ _Offer = tuple[Candidate, FloatArray, FloatArray]
 
 
 def _offer(rows: Rows, problem: Penalised, density: float, strength: float) -> list[_Offer]:
-    """One candidate, or none where the criterion does not exist."""
+    """Fit and score one candidate; none where the criterion does not exist."""
     target = rows.target
     one = problem.judged(target, strength)
     terms = int(np.count_nonzero(one.moduli[1:]))
@@ -258,7 +258,7 @@ def _offer(rows: Rows, problem: Penalised, density: float, strength: float) -> l
 
 
 def _closer(rows: Rows, held: float | None, last: _Offer) -> list[_Offer]:
-    """Candidates of halved spacing about the lines of a spectrum of few, as long as each is better."""
+    """Candidates of halved spacing about the lines of a discrete spectrum, while each is better."""
     offers: list[_Offer] = []
     for _ in range(HALVINGS):
         line, tau, moduli = last

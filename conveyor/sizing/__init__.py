@@ -1,4 +1,4 @@
-"""Sizing: ranked designs of a conveyor from its duty alone."""
+"""Sizing: ranked designs of a conveyor from its duty."""
 
 from conveyor.sizing.designs import CalculatedSizing, size
 from conveyor.sizing.sized import SizedDesign

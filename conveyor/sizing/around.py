@@ -1,4 +1,4 @@
-"""What else could be chosen around a design: one choice varied, all that follows from it sized and calculated again."""
+"""Sensitivity of a design: one choice varied at a time, everything else sized and calculated again."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ _THICKER: Final = (0, 2, 4, 8)  # steps of the bottom cover
 
 @dataclass(frozen=True, eq=False)
 class VariedChoice:
-    """A choice varied around a design.
+    """One choice varied around a design.
 
     Attributes
     ----------
     name, kind : str
-        Of what varies.
+        Name and kind of quantity of the choice.
     values : tuple of float
         SI.
     designs : tuple of SizedDesign or str
-        At each, or why there is none.
+        Design at each value, or the reason why there is none.
     at : float
-        That of the design.
+        Value of the design.
     """
 
     name: str
@@ -38,19 +38,19 @@ class VariedChoice:
 
 
 def around(task: SizingTask, design: SizedDesign) -> tuple[VariedChoice, ...]:
-    """Vary the distances of the sets, roll diameter, speed and bottom cover of a design, each alone.
+    """Vary the set spacings, roll diameter, speed and bottom cover of a design, one at a time.
 
     Parameters
     ----------
     task : SizingTask
         The duty.
     design : SizedDesign
-        Around which; its carry sets evenly apart.
+        Base design; its carry sets are evenly spaced.
 
     Returns
     -------
     tuple of VariedChoice
-        Belt class, motors and brake of every point are its own; what keeps no rule or check has no design there.
+        Belt class, motors and brake are sized at every point; points that violate a rule or check have no design.
     """
     base = replace(design.choice, graduated=())
     axes = list(_axes(task, base, design.chosen.bottom))
@@ -78,7 +78,7 @@ def around(task: SizingTask, design: SizedDesign) -> tuple[VariedChoice, ...]:
 
 
 def _axes(task: SizingTask, base: Choice, bottom: float) -> Iterator[tuple[str, str, float, list[_Point]]]:
-    """Name, kind and value of what varies, and its values with their choices; None where a rule forbids one."""
+    """Name, kind, present value and points of each varied choice; None at points that a rule forbids."""
     carry, back = task.spacings
     yield (
         "distance of carry sets",
@@ -108,7 +108,7 @@ def _axes(task: SizingTask, base: Choice, bottom: float) -> Iterator[tuple[str, 
 
 
 def _at_speed(task: SizingTask, base: Choice, speed: float) -> Choice | None:
-    """The choice at another speed, with the narrowest belt that keeps the rules and the least rolls."""
+    """Choice at another speed, with the narrowest belt within the rules and the smallest rolls."""
     alike = sorted(
         (one for one in task.troughs if one.angle == base.trough.angle), key=lambda one: one.width.belt
     )
@@ -124,6 +124,6 @@ def _at_speed(task: SizingTask, base: Choice, speed: float) -> Choice | None:
 
 
 def _rolls(task: SizingTask, base: Choice, trough: Trough) -> list[RollSize]:
-    """Rolls of the class that the design has, which has sets for the trough."""
+    """Rolls of the design's class with sets for the trough."""
     alike = [one for one in task.rolls if one.cema_class == base.roll.cema_class]
     return [one for one in alike if min(task.set_ratings(one, trough)) > 0.0]

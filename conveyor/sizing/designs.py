@@ -1,6 +1,6 @@
-"""From a duty to ranked designs: candidates screened by a closed estimate, the best calculated exactly.
+"""Ranked designs from a duty: candidates screened by a closed estimate, the best calculated exactly.
 
-Belt class, motors and brake of each follow from its own calculated tensions; those whose checks fail are no designs.
+Belt class, motors and brake of each follow from its own calculated tensions; candidates that fail a check are rejected.
 """
 
 from __future__ import annotations
@@ -44,26 +44,24 @@ from conveyor.units.sentences import Said, figure, quoted, said
 RTOL: Final = 1e-4
 """Of the contacts, as in studies."""
 CALCULATED: Final = 16
-"""Candidates calculated at once, the best of the estimate."""
+"""Candidates calculated at once, the best by the estimate."""
 ALIKE: Final = 2
-"""Of them of one width, speed and place of drives, so that the list shows what else could be built."""
+"""Most of them with the same width, speed and drive layout, so that the list shows alternatives."""
 GRADUATED: Final = 3
-"""Designs whose carry sets are tried farther apart where the belt is tighter, if no more are wanted."""
+"""Designs tried with graduated carry spacings, at least."""
 BRAKE_RESERVE: Final = 1.3
-"""Brake force, or torque of a backstop, over that which holds the loaded belt; general knowledge."""
-_SIZINGS: Final = 8  # belt class, motors and brake against their own tensions
-_SCREENINGS: Final = 2  # levels of the estimate against calculated candidates
-_DRAWS: Final = 20  # of further candidates, where designs are wanted
-_NEAR: Final = (
-    1.1  # use of a limit by the estimate up to which candidates are calculated where no other is a design
-)
+"""Brake force, or torque of a backstop, over that to hold the loaded belt; general knowledge."""
+_SIZINGS: Final = 8  # rounds of belt class, motors and brake against their own tensions
+_SCREENINGS: Final = 2  # calibrations of the estimate by calculated candidates
+_DRAWS: Final = 20  # of further candidates while designs are missing
+_NEAR: Final = 1.1  # estimated use of a limit up to which candidates are calculated if there is no design
 _ALIKE_DRAWS: Final = (
-    4  # after so many whose candidates all fail by what ends no series, none comes nearer any more
+    4  # draws in a row without a design, a failed series limit or progress, after which the search ends
 )
-_NEARER: Final = 0.9  # of what the nearest needs over what it has, from which a draw came nearer
-_PROVEN: Final = 4  # candidates calculated where the estimate finds none near
+_NEARER: Final = 0.9  # factor on the nearest shortfall below which a draw counts as progress
+_PROVEN: Final = 4  # candidates calculated if the estimate has none near a limit
 TAKE_UP_STEP: Final = 500.0
-"""Of a take-up that is set, because the belt would go slack at the least that grip and sag ask for [N]."""
+"""Step of a take-up tension that keeps the belt taut beyond the least for grip and sag [N]."""
 _BEYOND: Final[Mapping[Limit, str]] = {
     "belt strength": "its tension asks for a belt of {}, the strongest of the series has {}: allow further drives or "
     "carcasses (rules.drives, rules.carcasses), or split the conveyor",
@@ -75,14 +73,14 @@ _BEYOND: Final[Mapping[Limit, str]] = {
     "(rules.carry_spacings, rules.return_spacings, rules.roll_life)",
     "set rating": "its idler sets bear {}, their class is rated for {}: allow closer sets (rules.carry_spacings)",
 }
-"""What to say of a limit, and what to change."""
+"""Message of each limit, with the remedy."""
 _CURES: Final = {
     "bulk_slip_start": "a softer start (rules.start_factor) or less slope",
     "bulk_slip_stopping": "less slope or a longer conveyor",
     "bulk_slip": "less slope",
     "curve_radius": "a larger radius on the route",
 }
-"""What else of a duty to change where a check fails that no choice of parts mends, by its key."""
+"""Remedies in the duty for checks that no choice of parts can meet, by key."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,15 +90,15 @@ class CalculatedSizing:
     Attributes
     ----------
     duty : SizingDuty
-        What was sized.
+        The duty.
     designs : tuple of SizedDesign
-        The cheapest in a year first; every one calculated exactly.
+        The lowest yearly cost first; all calculated exactly.
     candidates, possible, calculated : int
         Combinations within the rules; those for which the series have parts; those calculated exactly.
     refused : Mapping
-        Why calculated candidates are no designs, and how many.
+        Reasons why calculated candidates were rejected, with their number.
     estimate_error : float
-        Largest difference of the estimated cost of a year from the exact one, over it [-].
+        Largest relative error of the estimated yearly cost [-].
     """
 
     duty: SizingDuty
@@ -122,7 +120,7 @@ class CalculatedSizing:
 
     @property
     def best(self) -> SizedDesign:
-        """The cheapest one."""
+        """The cheapest design."""
         return self.designs[0]
 
 
@@ -132,21 +130,21 @@ def size(duty: SizingDuty, *, best: int = 3, progress: Progress | None = None) -
     Parameters
     ----------
     duty : SizingDuty
-        What is conveyed, and the rules.
+        The duty and its rules.
     best : int
         Designs wanted.
     progress : callable, optional
-        Called with what is done of all.
+        Called with the candidates calculated and their total.
 
     Returns
     -------
     CalculatedSizing
-        Designs by rank, and what the others failed.
+        Designs by rank, and the failures of the others.
 
     Raises
     ------
     NoSolutionError
-        No candidate keeps the rules; the message says what limits the nearest one, with figures, and what to change.
+        No candidate keeps the rules; the message gives the limit of the nearest one, with figures and the remedy.
     """
     task = SizingTask(duty)
     every = Candidates.of(task)
@@ -190,7 +188,7 @@ def size(duty: SizingDuty, *, best: int = 3, progress: Progress | None = None) -
 
 
 def _too_long(task: SizingTask) -> NoSolutionError:
-    """Every carcass stretches more for good than the take-up's travel holds."""
+    """Error that the lasting stretch of every carcass exceeds the take-up's travel."""
     least = min(task.lasting_strain(kind) for kind in task.kinds) * task.length
     reserve = 1.0 + TRAVEL_RESERVE.value
     kinds, system = " and ".join(task.kinds), task.duty.report.units
@@ -203,33 +201,33 @@ def _too_long(task: SizingTask) -> NoSolutionError:
 
 
 class _Search:
-    """Candidates of a duty, the estimate of each, and what is calculated of them so far."""
+    """Candidates of a duty, their estimates, and those calculated so far."""
 
     def __init__(self, task: SizingTask, choices: Candidates, levels: Levels) -> None:
         self.task, self.choices, self.levels = task, choices, levels
         self.estimate = screen(task, choices, levels)
         self.answers: dict[int, SizedDesign | Shortfall] = {}
-        """Of candidates calculated under the full belt; of those that fail under another load that failure."""
+        """Results of candidates under the full belt; the failure of those that fail under another load."""
         self.anchors: Anchors = []
         self.reasons: Counter[str] = Counter()
 
     @property
     def designs(self) -> Iterator[SizedDesign]:
-        """Those that are none so far of another load."""
+        """Designs so far, not rejected under another load."""
         return (one for one in self.answers.values() if isinstance(one, SizedDesign))
 
     @property
     def short(self) -> Iterator[tuple[int, Shortfall]]:
-        """Candidates that are no designs."""
+        """Rejected candidates with their shortfalls."""
         return ((i, one) for i, one in self.answers.items() if isinstance(one, Shortfall))
 
     @property
     def nearest_over(self) -> float:
-        """What the nearest of them needs over what it has [-]; infinite without a figure."""
+        """Smallest shortfall of the rejected candidates, needed over allowed [-]; infinite without a figure."""
         return min((one.over for _, one in self.short), default=math.inf)
 
     def begin(self) -> None:
-        """Set the levels of the estimate by a few candidates."""
+        """Calibrate the estimate by a few candidates."""
         task = self.task
         count = 2 * len(task.duty.covers)
         probes = _shortlist(task, self.choices, self.estimate.year, count, covers=True)
@@ -239,16 +237,16 @@ class _Search:
         self._levelled(first, {})
 
     def draw(self, most: int) -> list[int]:
-        """The cheapest by the estimate that may be designs and are not calculated yet, of so many that lead."""
+        """Uncalculated ones of the `most` candidates that are cheapest by the estimate."""
         year = self.estimate.year.copy()
         year[[i for i, _ in self.short]] = np.inf
         listed = _shortlist(self.task, self.choices, year, most)
         return [i for i in listed if i not in self.answers]
 
     def nearest(self, most: int) -> list[int]:
-        """Those that the estimate finds beyond a limit by no more than it may be off, the nearest first.
+        """Candidates beyond a limit by no more than the error of the estimate, the nearest first.
 
-        Where none is calculated yet the nearest of all, so that a refusal rests on exact figures.
+        If none is calculated yet, the nearest of all, so that a refusal has exact figures.
         """
         over = self.estimate.farthest.copy()
         over[list(self.answers)] = np.inf
@@ -257,7 +255,7 @@ class _Search:
         return _shortlist(self.task, self.choices, over, most if self.answers else _PROVEN)
 
     def calculate(self, new: Sequence[int], progress: Progress | None) -> list[SizedDesign]:
-        """Calculate candidates; the levels of the estimate follow. Those that are designs."""
+        """Calculate candidates, recalibrate the estimate, and return the designs among them."""
         if progress is not None:
             progress(len(self.answers), len(self.answers) + len(new))
         found = _designs(self.task, self.choices, self.estimate, new, self.anchors)
@@ -268,7 +266,7 @@ class _Search:
         return [one for one in found if isinstance(one, SizedDesign)]
 
     def failed(self, design: SizedDesign, why: Shortfall) -> None:
-        """A design is none under another load."""
+        """Reject a design that fails under another load."""
         self.reasons[why.rule] += 1
         for i, one in self.answers.items():
             if one is design:
@@ -283,7 +281,7 @@ class _Search:
         self.estimate = screen(self.task, self.choices, self.levels)
 
     def refusal(self, combinations: int) -> NoSolutionError:
-        """Why there is no design: what the candidate that comes nearest to one does not keep."""
+        """Error that there is no design, with the shortfall of the nearest candidate."""
         i, nearest = min(self.short, key=lambda of: of[1].over)
         choice, system = self.choices[i], self.task.duty.report.units
         width, speed = choice.trough.width.belt, choice.speed
@@ -297,7 +295,7 @@ class _Search:
 
 
 def _final(search: _Search, designs: Iterable[SizedDesign], best: int) -> list[SizedDesign]:
-    """Designs sized for every load, by rank; further loads never make one cheaper, so that no other can be better."""
+    """Designs sized for every load, by rank; further loads never make a design cheaper, so no other can be better."""
     task, anchors = search.task, search.anchors
     ranked = sorted(designs, key=_year)
     if task.rules.graduated and len(task.sections) > 1:
@@ -318,7 +316,7 @@ def _final(search: _Search, designs: Iterable[SizedDesign], best: int) -> list[S
 
 
 def _ranked(designs: Iterable[SizedDesign]) -> list[SizedDesign]:
-    """The cheapest first; of those that differ in graduated distances alone the cheapest one."""
+    """Designs by yearly cost, only the cheapest of those that differ in graduated spacings alone."""
     cheapest_last = sorted(designs, key=_year, reverse=True)
     return sorted({replace(one.choice, graduated=()): one for one in cheapest_last}.values(), key=_year)
 
@@ -330,7 +328,7 @@ def _year(design: SizedDesign) -> float:
 def _shortlist(
     task: SizingTask, choices: Candidates, order: NDArray[np.float64], most: int, *, covers: bool = False
 ) -> list[int]:
-    """Candidates of the lowest figures that are finite, not too many alike; with `covers` as many of each cover."""
+    """Candidates with the lowest finite figures, not too many alike; with `covers` equally many of each cover."""
     taken: Counter[object] = Counter()
     chosen: list[int] = []
     for i in np.argsort(order, kind="stable").tolist():
@@ -348,7 +346,7 @@ def _shortlist(
 def _first(
     task: SizingTask, choices: Candidates, estimate: Screened, chosen: Sequence[int], anchors: Anchors
 ) -> dict[int, CalculatedConveyor]:
-    """Calculations of candidates as the estimate chose them, to set its levels; of those with an answer."""
+    """Calculated candidates with estimated parts, to calibrate the estimate; only those with an answer."""
     specs, _ = _specs(task, {i: (choices[i], _estimated(task, choices[i], estimate, i)) for i in chosen})
     found = _calculated(specs, anchors, {})
     return {i: one for i, one in found.items() if isinstance(one, CalculatedConveyor)}
@@ -358,7 +356,7 @@ def _levels(
     choices: Candidates, estimate: Screened, levels: Levels,
     calculated: Mapping[int, CalculatedConveyor], uses: Mapping[int, Mapping[Limit, float]],
 ) -> Levels:  # fmt: skip
-    """Levels at which the estimate meets calculations in the middle."""
+    """Calibration at which the estimate agrees with the median of the calculations."""
     over: dict[object, list[float]] = {}
     for i, one in calculated.items():
         main = {force.key: force for force in one.balance.along}
@@ -384,7 +382,7 @@ def _levels(
 
 
 def _estimated(task: SizingTask, choice: Choice, estimate: Screened, i: int) -> Chosen:
-    """Class and motors as the estimate has them."""
+    """Belt class and motors by the estimate."""
     carcass = task.carcasses[choice.kind][int(estimate.carcass[i])]
     power = abs(float(estimate.force[i])) * choice.speed / task.efficiency
     most = task.largest_drive / task.rules.motor_reserve
@@ -399,7 +397,7 @@ def _designs(
     chosen: Sequence[int],
     anchors: Anchors,
 ) -> list[SizedDesign | Shortfall]:
-    """Candidates calculated exactly."""
+    """Calculate candidates exactly."""
     begin = [(choices[i], _estimated(task, choices[i], estimate, i), float(estimate.cost[i])) for i in chosen]
     return settled(task, begin, anchors)
 
@@ -412,22 +410,22 @@ def settled(
     every_load: bool = False,
     made: Sequence[SizedDesign] = (),
 ) -> list[SizedDesign | Shortfall]:
-    """Designs whose class, motors, brake and take-up suit their own calculated tensions, or why there is none.
+    """Size class, motors, brake and take-up of candidates by their own calculated tensions.
 
-    At the coldest and at the temperature of the duty: less friction asks more of a backstop or a brake.
+    Both at the lowest temperature and at that of the duty: less friction needs a larger backstop or brake.
 
     Parameters
     ----------
     task : SizingTask
         The duty.
     begin : sequence of (Choice, Chosen, float)
-        Candidates, class and motors to begin with, cost of a year by the estimate.
+        Candidates, initial class and motors, yearly cost by the estimate.
     anchors : list
-        Of the compounds, from calculations before; what is new is added.
+        Test calibrations of the compounds from earlier calculations; new ones are added.
     every_load : bool
-        Whether empty, inclines only, declines only and the worst loadings count, too, not the full belt alone.
+        True to include empty, inclines only, declines only and the worst loadings, not the full belt alone.
     made : sequence of SizedDesign
-        The same candidates as designs for the full belt: what is calculated of them is not calculated again.
+        The same candidates as designs for the full belt, whose results are reused.
     """
     now = {i: chosen for i, (_, chosen, _) in enumerate(begin)}
     answers: dict[int, SizedDesign | Shortfall] = {}
@@ -461,7 +459,7 @@ def settled(
 
 @dataclass(frozen=True, eq=False)
 class _Asked:
-    """What the loads of a candidate, those at the coldest first, ask of its parts; or why no parts do."""
+    """Parts required by the loads of a candidate, those at the lowest temperature first, or the shortfall."""
 
     cold: tuple[CalculatedConveyor, ...] = ()
     warm: tuple[CalculatedConveyor, ...] = ()
@@ -471,11 +469,11 @@ class _Asked:
 
     @property
     def loads(self) -> tuple[CalculatedConveyor, ...]:
-        """All of them."""
+        """All loads."""
         return self.cold + self.warm
 
     def settles(self, now: Chosen) -> bool:
-        """Whether the parts that they were calculated with are those asked for."""
+        """True if the required parts are those used in the calculation."""
         return self.chosen is not None and replace(self.chosen, settling=now.settling) == now
 
 
@@ -488,7 +486,7 @@ def _asked(
     *,
     every_load: bool,
 ) -> dict[int, _Asked]:
-    """What candidates calculated at the coldest, and some at the temperature of the duty, ask of their parts."""
+    """Parts required by candidates calculated at the lowest temperature, and some at that of the duty."""
     asked = {}
     for i, answer in cold.items():
         try:
@@ -508,7 +506,7 @@ def _without_answer(error: NoAnswer) -> Shortfall:
 def _specs(
     task: SizingTask, now: Mapping[int, tuple[Choice, Chosen]]
 ) -> tuple[dict[int, Conveyor], dict[int, Shortfall]]:
-    """Specs of candidates as they are chosen now, and why others have none."""
+    """Specs of candidates with their present parts, and the shortfalls of those without one."""
     specs, refused = dict[int, Conveyor](), dict[int, Shortfall]()
     for i, (choice, chosen) in now.items():
         try:
@@ -521,13 +519,13 @@ def _specs(
 def _calculated(
     specs: Mapping[int, Conveyor], anchors: Anchors, known: Mapping[int, CalculatedConveyor]
 ) -> dict[int, CalculatedConveyor | NoAnswer]:
-    """Calculations of specs, those that are not known side by side."""
+    """Calculate specs, unknown ones in one batch."""
     new = {i: Variant(spec) for i, spec in specs.items() if i not in known}
     return {**known, **dict(zip(new, calculate_many(list(new.values()), RTOL, anchors=anchors), strict=True))}
 
 
 def _loads(answer: CalculatedConveyor | NoAnswer, *, every_load: bool) -> tuple[CalculatedConveyor, ...]:
-    """The full belt, and every other load at one take-up where they count.
+    """The full belt, and every other load at one take-up setting if requested.
 
     Raises
     ------
@@ -542,10 +540,10 @@ def _loads(answer: CalculatedConveyor | NoAnswer, *, every_load: bool) -> tuple[
 
 
 def _chosen(task: SizingTask, choice: Choice, before: Chosen, asked: _Asked, *, every_load: bool) -> _Asked:
-    """The parts that calculated tensions ask for, or what no part of the series does.
+    """Select the parts required by the calculated tensions, or the limit that the series cannot meet.
 
-    After the first time no weaker class is taken, so that sizing ends. A backstop neither costs nor bends anything: it
-    is chosen under every load alone.
+    After the first round no weaker class is taken, so that sizing ends. A backstop affects neither cost nor tensions:
+    it is selected only with every load.
     """
     loads = asked.loads
     classes, last = task.carcasses[choice.kind], task.carcasses[choice.kind][-1]
@@ -584,14 +582,14 @@ def _chosen(task: SizingTask, choice: Choice, before: Chosen, asked: _Asked, *, 
 
 
 def _backstop(task: SizingTask, carcass: CarcassClass, loads: Iterable[CalculatedConveyor]) -> float:
-    """Torque of the next preferred backstop for what loads ask of it, with a reserve [N m]; 0 where none rolls back."""
+    """Torque of the next preferred backstop for all loads, with a reserve [N m]; 0 if none rolls back."""
     held = max((one.motions.brake_to_hold if one.motions.rolls_back else 0.0) for one in loads)
     torque = BRAKE_RESERVE * held * 0.5 * task.drive_diameter(carcass)
     return next_preferred(torque) if torque > 0.0 else 0.0
 
 
 def _take_up(before: float, loads: Sequence[CalculatedConveyor]) -> float:
-    """Tension that keeps the belt taut in every state of motion [N]; 0 where what grip and sag ask for does."""
+    """Take-up tension that keeps the belt taut in every state of motion [N]; 0 if that for grip and sag does."""
     slack = max(-state.smallest for one in loads for state in one.every_state)
     if slack <= 0.0 and before == 0.0:
         return 0.0
@@ -601,7 +599,7 @@ def _take_up(before: float, loads: Sequence[CalculatedConveyor]) -> float:
 
 
 def _needed(carcass: CarcassClass, choice: Choice, loads: Sequence[CalculatedConveyor]) -> float:
-    """Strength that the tensions ask of a class [N/m]; of one with a rating also while starting and stopping."""
+    """Belt strength required by the tensions [N/m]; of a class with a rating also while starting and stopping."""
     tension = highest_tension(loads)
     if carcass.rating is not None:
         tension = max(tension, max(one.belt_duty.largest for one in loads) / RATED_START)
@@ -609,7 +607,7 @@ def _needed(carcass: CarcassClass, choice: Choice, loads: Sequence[CalculatedCon
 
 
 def _travel(now: CarcassClass, loads: Sequence[CalculatedConveyor]) -> Callable[[CarcassClass], float]:
-    """Travel of the take-up with another class of belt than the one calculated [m]: Hooke, at the same tensions."""
+    """Take-up travel as a function of the belt class [m], by Hooke at the calculated tensions."""
     duty = take_up_of(loads)
     parts = duty.travel
     if parts is None:
@@ -620,9 +618,9 @@ def _travel(now: CarcassClass, loads: Sequence[CalculatedConveyor]) -> Callable[
 
 
 def _needed_power(task: SizingTask, loads: Sequence[CalculatedConveyor]) -> float:
-    """Power asked of each drive [W]: its share at both ends of the friction, and what starts the belt from rest.
+    """Power required of each drive [W]: its share at both ends of the friction band, and that for breakaway.
 
-    The latter at the rated power itself, so that the reserve is taken off.
+    Breakaway may use the rated power itself, so that its reserve is taken off.
     """
     running = max(check.calculated or 0.0 for one in loads for check in motor_power(one))
     starts = [(one, one.motions.start) for one in loads]
@@ -635,9 +633,9 @@ def _needed_power(task: SizingTask, loads: Sequence[CalculatedConveyor]) -> floa
 
 
 def _foreseen(task: SizingTask, design: SizedDesign) -> Chosen:
-    """Class and motors that the worst loading is likely to ask for, so that calculating the loads once mostly does.
+    """Likely class and motors for the worst loading, so that the loads mostly need only one calculation.
 
-    Bulk is left out where the belt alone pulls harder; its friction is taken in proportion to the load.
+    Bulk is left out where the belt alone needs more force; its friction is taken as proportional to the load.
     """
     one, chosen = design.coldest, design.chosen
     steady = one.balance.forces.total
@@ -668,14 +666,14 @@ def _foreseen(task: SizingTask, design: SizedDesign) -> Chosen:
 
 
 def _powers(one: CalculatedConveyor) -> list[float]:
-    """Highest power of every drive, with the friction at both ends of its band [W]."""
+    """Highest power of every drive with the friction at both ends of its band [W]."""
     return [check.calculated or 0.0 for check in motor_power(one)]
 
 
 def _design(
     task: SizingTask, begin: tuple[Choice, Chosen, float], chosen: Chosen, asked: _Asked
 ) -> SizedDesign | Shortfall:
-    """The design, or what fails in it."""
+    """The design, or its first failure."""
     failed = next(_failed(task, asked), None)
     if failed is not None:
         return failed
@@ -691,7 +689,7 @@ def _design(
 
 
 def _failed(task: SizingTask, asked: _Asked) -> Iterator[Shortfall]:
-    """Criteria that fail under a load; of penetration and rubber data the report warns."""
+    """Criteria that fail under a load; penetration and rubber data only give warnings in the report."""
     for one in asked.loads:
         for check in checks(one, contacts=False):
             if check.failed:
@@ -715,7 +713,7 @@ def _failed(task: SizingTask, asked: _Asked) -> Iterator[Shortfall]:
 
 
 def _graduated(task: SizingTask, designs: Sequence[SizedDesign], anchors: Anchors) -> list[SizedDesign]:
-    """The same with carry sets as far apart in each section as is cheapest there, where that saves."""
+    """Designs with the cheapest carry spacing in each section, if that saves."""
     tried = [
         (design, replace(design.choice, graduated=one))
         for design in designs

@@ -1,8 +1,8 @@
-"""Candidates, and a closed estimate of each: friction by scaling laws, tensions round the loop, cost of a year.
+"""Candidates and their closed estimate: friction by scaling laws, tensions round the loop, yearly cost.
 
-Indentation goes with (W⁴ h/D²)^(1/3), the scaling of Winkler's foundation (Jonkers 1980); its level, that of roll drag
-and of the secondary resistances are set by exact calculations of some candidates. It chooses what is worth calculating,
-nothing else: no figure of a design comes from here.
+Indentation scales with (W⁴ h/D²)^(1/3) as on Winkler's foundation (Jonkers 1980); factors on it, on roll drag and on
+the secondary resistances are calibrated by exact calculations of some candidates. The estimate only selects what to
+calculate: no figure of a design comes from here.
 """
 
 from __future__ import annotations
@@ -31,35 +31,33 @@ Array = NDArray[np.float64]
 
 _LOAD: Final = 4.0 / 3.0  # exponent of the line load
 _WING: Final = 2.0**_LOAD / (_LOAD + 1.0)  # a triangular load over an even one
-_CLEANERS: Final = 2.0 * 0.008 * CLEANER_PRESSURE.value * 0.6  # [N/m], of belt width: `line.defaults`
+_CLEANERS: Final = 2.0 * 0.008 * CLEANER_PRESSURE.value * 0.6  # [N/m] of belt width: `line.defaults`
 _SKIRTS: Final = (
     2.0 * 0.7 * 9.81 / 0.625**2
 )  # [m/s²]: both zones of the usual skirts, over (Q/v)²/(ρ B²) and 1 m
-_SET: Final = 0.5  # life of the bearings of a set over that of the heaviest loaded alone
-_STARTED: Final = (
-    0.375  # of what a start adds to the force its mean round a loop, a quarter of whose mass returns
-)
-_ROUNDS: Final = 4  # class of the belt, its mass, its tensions
+_SET: Final = 0.5  # bearing life of a set over that of its most loaded bearing
+_STARTED: Final = 0.375  # mean round the loop of a start's extra force, over it; 1/4 of the mass returns
+_ROUNDS: Final = 4  # of belt class, mass and tensions
 
 
 Limit = Literal["belt strength", "motor power", "take-up travel", "bearings", "set rating"]
-"""What ends the series: the strongest belt, the largest motors, the longest travel, the strongest rolls."""
+"""Limits of the series: the strongest belt, the largest motors, the longest travel, the strongest rolls."""
 
 
 @dataclass(frozen=True)
 class Levels:
-    """Levels of the estimate.
+    """Calibration factors of the estimate.
 
     Attributes
     ----------
     carry, back : tuple of float
         Indentation under carry and return rolls, of each cover [Pa^(-1/3)].
     drag : float
-        Of a roll [N].
+        Drag of a roll [N].
     rest : float
         Secondary and special resistances over the estimated ones [-].
     uses : mapping of str to float
-        Of what a limit allows the share that is used by calculation over that by the estimate [-]; 1 of those left out.
+        Calculated over estimated use of each limit [-]; 1 for those left out.
     """
 
     carry: tuple[float, ...]
@@ -70,13 +68,13 @@ class Levels:
 
 
 def first_levels(covers: int) -> Levels:
-    """Levels to begin with: Jonkers at E' 10 MPa and tan δ 0.12; they choose what is calculated first."""
+    """Initial calibration: Jonkers at E' 10 MPa and tan δ 0.12; it selects what is calculated first."""
     jonkers = 1.138 * 0.12 / 1e7 ** (1.0 / 3.0)
     return Levels((jonkers,) * covers, (jonkers,) * covers, 2.5, 1.0)
 
 
 class Running(NamedTuple):
-    """A trough with a speed [m/s], how it fills it [-], and rolls that turn slowly enough."""
+    """A trough with a speed [m/s], its filling [-], and rolls that turn slowly enough."""
 
     trough: Trough
     speed: float
@@ -86,15 +84,14 @@ class Running(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Candidates:
-    """Every combination that keeps the rules of width, lumps, filling, edge distance, and rotation.
+    """All combinations within the rules of width, lumps, filling, edge distance and rotation.
 
     Attributes
     ----------
     running : tuple of Running
-        Troughs with a speed and rolls that suit it.
+        Troughs with a speed and suitable rolls.
     numbers : ndarray of int, shape (n, 6)
-        Of each candidate the number of what runs, of the distances of carry and return sets, of cover, kind of carcass
-        and place of the drives.
+        Indices of each candidate: running combination, carry and return spacing, cover, kind of carcass, drive layout.
     """
 
     task: SizingTask
@@ -103,7 +100,7 @@ class Candidates:
 
     @classmethod
     def of(cls, task: SizingTask) -> Candidates:
-        """Combine what a duty leaves open."""
+        """Combine the free choices of a duty."""
         running = tuple(
             Running(trough, speed, filling, roll)
             for trough, speed in itertools.product(task.troughs, task.speeds)
@@ -121,11 +118,11 @@ class Candidates:
         return len(self.numbers)
 
     def only(self, rows: NDArray[np.int64] | NDArray[np.bool_]) -> Candidates:
-        """Some of them."""
+        """Subset of the candidates."""
         return Candidates(self.task, self.running, self.numbers[rows])
 
     def taken_up(self) -> Candidates:
-        """Those whose permanent stretch the take-up's travel holds, whatever the tensions."""
+        """Candidates whose permanent stretch is within the take-up's travel, whatever the tensions."""
         task = self.task
         travel = [task.lasting_strain(kind) < task.take_up_strain for kind in task.kinds]
         return self.only(np.array(travel)[self.numbers[:, 4]])
@@ -140,16 +137,16 @@ class Candidates:
         )
 
     def runs(self, get: Callable[[Running], float]) -> Array:
-        """A figure of trough, speed and rolls, of each candidate."""
+        """Figure of trough, speed and rolls for each candidate."""
         return np.array([get(one) for one in self.running])[self.numbers[:, 0]]
 
     def ratings(self) -> Array:
-        """What carry and return sets of each candidate bear by their class, shape (2, n) [N]."""
+        """Class rating of the carry and return sets of each candidate, shape (2, n) [N]."""
         rated = np.array([self.task.set_ratings(on.roll, on.trough) for on in self.running])
         return np.asarray(rated[self.numbers[:, 0]].T)
 
     def driven(self, get: Callable[[DriveLayout], float]) -> Array:
-        """A figure of the place of the drives, of each candidate."""
+        """Figure of the drive layout for each candidate."""
         return np.array([get(one) for one in self.task.rules.drives])[self.numbers[:, 5]]
 
 
@@ -160,19 +157,19 @@ class Screened:
     Attributes
     ----------
     cost, year : ndarray
-        Cost of a year [currency/a]; `year` is infinite where no belt, motor or bearing of the series does.
+        Yearly cost [currency/a]; `year` is infinite if no belt, motor or bearing of the series suffices.
     carcass : ndarray of int
-        Number of the class of the belt.
+        Index of the belt class.
     force : ndarray
-        On all drives [N].
+        Force of all drives [N].
     indentation : ndarray, shape (n, 2)
         Of carry and return strand [N].
     rolls : ndarray
-        In all sets.
+        Number of rolls in all sets.
     rest : ndarray
         Secondary and special resistances [N].
     uses : mapping of str to ndarray
-        Of what each limit of series and rules allows the share that is used [-]; beyond 1 none of the series does.
+        Use of each limit of series and rules [-]; above 1 nothing in the series suffices.
     """
 
     cost: Array
@@ -186,15 +183,15 @@ class Screened:
 
     @property
     def farthest(self) -> Array:
-        """Of each candidate the largest use of a limit [-]."""
+        """Largest use of a limit by each candidate [-]."""
         return np.asarray(np.max(list(self.uses.values()), axis=0))
 
 
 class _Series(NamedTuple):
-    """Classes of belts, by kind and number; beyond the last of a kind as its last, but infinitely strong.
+    """Belt classes by kind and index; beyond the last of a kind like its last, but infinitely strong.
 
-    Strength and stiffness [N/m], mass of the carcass [kg/m²], pulleys per width of belt [kg/m]; `covers` also by what
-    runs: top and bottom [m]; `last` number of each kind, and its strength and stiffness.
+    Strength and stiffness [N/m], mass of the carcass [kg/m²], pulleys per belt width [kg/m]; `covers` also by running
+    combination: top and bottom [m]; `last` index of each kind, and its strength and stiffness.
     """
 
     strengths: Array
@@ -208,7 +205,7 @@ class _Series(NamedTuple):
 
     @classmethod
     def of(cls, task: SizingTask, wear: Sequence[float]) -> _Series:
-        """Tables of a duty; `wear` additions to the covers [m]."""
+        """Tables of a duty; `wear` is the addition to the covers [m]."""
         kinds = [task.carcasses[kind] for kind in task.kinds]
         most = max(map(len, kinds))
         filled = [[each[min(k, len(each) - 1)] for k in range(most)] for each in kinds]
@@ -232,11 +229,11 @@ class _Series(NamedTuple):
 
 
 class _Loop(NamedTuple):
-    """Candidates with a class of belt each.
+    """Estimate of candidates with a belt class each.
 
-    Covers [m], load of the middle roll and of carry and return sets, indentation, force on all drives, tension behind
-    the head [N]; the class that the tensions ask for, and of the strongest one the shares of its strength and of the
-    take-up's travel that are used.
+    Covers [m], load of the middle roll and of carry and return sets, indentation, force of all drives, tension behind
+    the head [N]; the class required by the tensions, and with the strongest class the use of its strength and of the
+    take-up's travel [-].
     """
 
     covers: Array
@@ -265,7 +262,7 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
     carcass = np.zeros(len(every), dtype=np.int64)
     around = _around(every, levels, series, carcass, rest)
     for _ in range(_ROUNDS - 1):
-        rows = np.flatnonzero(around.carcass != carcass)  # of the others nothing changes any more
+        rows = np.flatnonzero(around.carcass != carcass)  # the others no longer change
         carcass = around.carcass.copy()
         again = _around(every.only(rows), levels, series, carcass[rows], rest[rows])
         for figure, value in zip(around, again, strict=True):
@@ -281,7 +278,7 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
         "bearings": task.roll_life / life,
         "set rating": np.max(around.sets.T / every.ratings(), axis=0),
     }
-    pushed = (every.driven(_at_tail) == 1.0) & (force >= 0.0)  # the belt is pushed by a drive at the tail
+    pushed = (every.driven(_at_tail) == 1.0) & (force >= 0.0)  # a drive at the tail pushes the belt
     possible = np.max(list(uses.values()), axis=0) <= 1.0
     if (possible & ~pushed).any():
         possible &= ~pushed
@@ -305,7 +302,7 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
 def _around(
     every: Candidates, levels: Levels, series: _Series, carcass: NDArray[np.int64], rest: Array
 ) -> _Loop:
-    """Friction and tensions with a class of belt, and the class that they ask for."""
+    """Friction and tensions with a belt class, and the class that they require."""
     task, numbers = every.task, every.numbers
     g, length, sections = task.gravity, task.length, np.array(task.sections)
     ran, cover, kind = numbers[:, 0], numbers[:, 3], numbers[:, 4]
@@ -356,13 +353,13 @@ def _around(
 
 
 def _roll_life(every: Candidates, middle: Array) -> Array:
-    """L10 of the bearings of a carry set with so much on its middle roll [s]."""
+    """L10 of the bearings of a carry set by the load of its middle roll [s]."""
     turns = RATED_REVOLUTIONS * (every.runs(lambda on: on.roll.rating) / (0.5 * middle)) ** BALL_EXPONENT
     return np.asarray(_SET * turns * math.pi * every.runs(lambda on: on.roll.diameter / on.speed))
 
 
 def _turning(every: Candidates, carry: Array, back: Array) -> Array:
-    """What turns of the rolls of both strands, per length of conveyor [kg/m]."""
+    """Rotating mass of the rolls of both strands per length of conveyor [kg/m]."""
 
     def return_set(on: Running) -> float:
         count, length, _ = on.trough.width.return_rolls
@@ -375,10 +372,10 @@ def _turning(every: Candidates, carry: Array, back: Array) -> Array:
 def _tensions(
     every: Candidates, force: Array, along: tuple[Array, Array], spans: tuple[Array, Array]
 ) -> tuple[Array, Array, Array]:
-    """Tension right behind the head, the largest, and the highest mean of the loop, at a start; by grip and sag [N].
+    """Tension right behind the head, the largest, and the highest mean round the loop at a start, by grip and sag [N].
 
-    `along` are the forces on return sections from the head and carry sections from the tail, `spans` loads of return
-    and carry strand between two sets [N].
+    `along` are the forces on return sections from the head and carry sections from the tail, `spans` the loads of
+    return and carry strand between two sets [N].
     """
     (down, up), (span_back, span_carry) = along, spans
     task, at_tail = every.task, every.driven(_at_tail)

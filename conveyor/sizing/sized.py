@@ -1,4 +1,4 @@
-"""A design that keeps every rule: what it is made of, its calculations, its cost."""
+"""A sized design within every rule: its parts, calculations and cost; and the shortfall of a candidate."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from conveyor.units.sentences import Said, figure, rounded
 
 @dataclass(frozen=True)
 class Shortfall:
-    """Why a calculated candidate is no design.
+    """Reason for the rejection of a calculated candidate.
 
     Attributes
     ----------
     rule : str
-        What it does not keep, without figures.
+        Rule or check not kept, without figures.
     why : Said
-        With its figures, and what to change.
+        Message with figures and the remedy.
     over : float
-        What is needed over what series and rules allow [-]; infinite where no figure says it.
+        Needed over allowed by series and rules [-]; infinite without a figure.
     uses : mapping of str to float
-        Of what each limit of series and rules allows the share that is used, as far as known [-].
+        Use of each limit of series and rules, as far as known [-].
     """
 
     rule: str
@@ -37,24 +37,24 @@ class Shortfall:
 
 @dataclass(frozen=True, eq=False)
 class SizedDesign:
-    """A design that keeps every rule.
+    """A design within every rule.
 
     Attributes
     ----------
     choice, chosen : Choice, Chosen
-        What it is made of.
+        Its parts.
     found : CalculatedConveyor
-        At the temperature of the duty; its spec is `found.conveyor`.
+        Result at the temperature of the duty; its spec is `found.conveyor`.
     coldest : CalculatedConveyor
-        At the lowest temperature: motors and strength; `found` where the duty has none lower.
+        Result at the lowest temperature, for motors and strength; `found` if the duty has none lower.
     costs : Costs
-        Capital and a year.
+        Capital and yearly costs.
     estimate : float
-        Cost of a year by the closed estimate that chose it [currency/a].
+        Yearly cost by the closed estimate [currency/a].
     roll_life : float
-        Of the set that lives shortest, L10 of its bearings [s].
+        Shortest L10 of the bearings of any set [s].
     uses : mapping of str to float
-        Of what each limit of series and rules allows the share that is used [-].
+        Use of each limit of series and rules [-].
     """
 
     choice: Choice
@@ -80,12 +80,12 @@ class SizedDesign:
 
     @property
     def year(self) -> float:
-        """Cost of a year [currency/a]."""
+        """Yearly cost [currency/a]."""
         return float(self.costs.year)
 
     @property
     def safety(self) -> float:
-        """Of the belt in steady running, at the lowest temperature [-]."""
+        """Belt safety in steady running at the lowest temperature [-]."""
         return self.chosen.carcass.strength * self.found.line.belt.width / highest_tension(self.pair)
 
     @property
@@ -95,5 +95,5 @@ class SizedDesign:
 
 
 def highest_tension(pair: Iterable[CalculatedConveyor]) -> float:
-    """Highest in steady running [N]."""
+    """Highest belt tension in steady running [N]."""
     return max(one.belt_duty.largest_steady for one in pair)

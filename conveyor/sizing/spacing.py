@@ -1,4 +1,4 @@
-"""How far apart the idler sets of a design could stand in each section: by sag, by their bearings, by cost."""
+"""Spacing of the idler sets of a design in each section: by sag, bearing life and cost."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ class SectionSpacing:
     Attributes
     ----------
     section, strand : str
-        Where.
+        Location.
     length, built : float
-        Of the section; their distance [m].
+        Length of the section; present spacing [m].
     sag : float
-        Widest that sag allows at the lowest steady tension there [m].
+        Widest spacing by sag at the lowest steady tension [m].
     tension_per_spacing : float
-        What sag asks of the tension for a metre of distance [N/m].
+        Tension required by sag per metre of spacing [N/m].
     bearings : float
-        Widest that the L10 asked for of a set's bearings allows; infinite without load [m].
+        Widest spacing by the required L10 of a set's bearings; infinite without load [m].
     grows, falls : float
-        Cost of a year of a metre with a distance a, grows a^(1/3) + falls/a [currency/a].
+        Coefficients of the yearly cost of a metre at a spacing a, grows a^(1/3) + falls/a [currency/a].
     """
 
     section: str
@@ -46,11 +46,11 @@ class SectionSpacing:
 
     @property
     def cheapest(self) -> float:
-        """Where the cost has its minimum, (3 falls/grows)^(3/4) [m]."""
+        """Spacing of minimum cost, (3 falls/grows)^(3/4) [m]."""
         return math.pow(3.0 * self.falls / self.grows, 0.75)
 
     def cost(self, spacing: float) -> float:
-        """Of a year, of indentation, rotation and the sets themselves [currency/(a m)]."""
+        """Yearly cost of indentation, rotation and the sets themselves [currency/(a m)]."""
         return self.grows * math.cbrt(spacing) + self.falls / spacing
 
 
@@ -62,13 +62,13 @@ def section_spacings(task: SizingTask, design: SizedDesign) -> Iterator[SectionS
     task : SizingTask
         The duty.
     design : SizedDesign
-        Whose tensions and friction count.
+        The design, with its tensions and friction.
 
     Notes
     -----
-    Per metre of section, with a distance a: indentation as a^(1/3), rotation and cost of the sets as 1/a (derived, by
-    the scaling of the estimate); sag a (m'_B + m'_G) g/(8 T) at the lowest steady tension. The life of the bearings
-    falls with the third power of the load.
+    Per metre of section at a spacing a: indentation as a^(1/3), rotation and cost of the sets as 1/a (derived, by the
+    scaling of the estimate); sag a (m'_B + m'_G) g/(8 T) at the lowest steady tension. Bearing life falls with the
+    third power of the load.
     """
     line, prices = design.found.line, task.duty.prices.amounts
     width, roll, count = design.choice.trough.width, design.choice.roll, line.count
@@ -102,16 +102,16 @@ def section_spacings(task: SizingTask, design: SizedDesign) -> Iterator[SectionS
 
 
 def _lowest(one: CalculatedConveyor, at: int) -> float:
-    """Lowest tension of a stretch in steady running [N]; `at` counts as the line does, the loop begins at the head."""
+    """Lowest steady tension of a stretch [N]; `at` counts as in the line, the loop begins at the head."""
     steady, i = one.balance.settled.steady, (at + one.line.count) % (2 * one.line.count)
     return float(min(steady.starts[i], steady.ends[i]))
 
 
 def graduated_spacings(task: SizingTask, design: SizedDesign) -> Iterator[tuple[float, ...]]:
-    """Distances of the carry sets of each section, the cheapest that sag and bearings bear there [m].
+    """Carry spacings of each section, the cheapest that sag and bearings allow [m].
 
-    At the tensions of the design; and where sag sets the take-up, let down by what closer sets in the slackest section
-    allow, as far as everything else lets it.
+    At the tensions of the design; if sag sets the take-up, also at tensions reduced as far as closer sets in the
+    slackest section, and everything else, allow.
     """
     carry = [one for one in section_spacings(task, design) if one.strand == "carry"]
     slackest = min(carry, key=lambda one: one.sag / one.built)
@@ -122,14 +122,14 @@ def graduated_spacings(task: SizingTask, design: SizedDesign) -> Iterator[tuple[
 
 
 def _borne(task: SizingTask, design: SizedDesign, one: SectionSpacing, let_down: float) -> tuple[float, ...]:
-    """Distances of the series that a section bears; the one it has is calculated to be borne at its own tensions."""
+    """Spacings of the series allowed in a section; the present one is allowed at its own tensions."""
     widest = min(one.sag - let_down / one.tension_per_spacing, one.bearings, design.choice.back)
     borne = tuple(a for a in task.spacings[0] if a <= widest or (a == one.built and let_down == 0.0))
     return borne or (min(task.spacings[0]),)
 
 
 def _set_by_sag(design: SizedDesign) -> float:
-    """What the sag of the carry strand alone asks of the take-up beyond all else, in every calculation [N]."""
+    """Take-up tension required by carry sag beyond all other conditions, the least of both calculations [N]."""
     return max(
         0.0,
         min(

@@ -1,4 +1,4 @@
-"""A first spec to start from: every field that matters, what it means, and what happens without it."""
+"""Starter specs: the important fields with comments on meaning and defaults."""
 
 from __future__ import annotations
 

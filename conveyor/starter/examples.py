@@ -1,4 +1,4 @@
-"""Full examples to start from, as they stand in the folder of examples: each runs with its command as it is."""
+"""Full examples from the examples folder, each runnable as it is."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from conveyor.errors import InputError
 
 
 class Example(NamedTuple):
-    """An example: its file, the command that runs it, and the spec that it varies."""
+    """Example: file, command that runs it, spec that it varies."""
 
     file: str
     command: str = "power"
@@ -26,16 +26,16 @@ EXAMPLES: Final = {
     "study": Example("studies/spacing.yaml", "study", "specs/overland.yaml"),
     "search": Example("studies/search.yaml", "optimise", "specs/overland_10km.yaml"),
 }
-"""By kind, as `conveyor new` offers them beside the starters."""
+"""Examples by kind of `conveyor new`."""
 
 
 def example(kind: str, path: Path) -> dict[Path, bytes]:
-    """Files of an example to be written: at a path, and beside it the spec that a study varies.
+    """Files of an example by the paths to write: itself, and next to it the spec that a study varies.
 
     Raises
     ------
     InputError
-        The package is not whole.
+        The package is incomplete.
 
     Examples
     --------
@@ -51,7 +51,7 @@ def example(kind: str, path: Path) -> dict[Path, bytes]:
 
 
 def _read(name: str) -> str:
-    """A file of the examples, of the package or of the checkout."""
+    """Text of an example file, of the package or the checkout."""
     package = Path(conveyor.__file__).parent
     for folder in (package / "_examples", package.parent / "examples"):
         if (folder / name).is_file():

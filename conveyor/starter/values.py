@@ -14,11 +14,11 @@ from conveyor.units.presentation import SYSTEMS
 
 Kind = Literal["overland", "in-plant", "downhill"]
 KINDS: Final[tuple[Kind, ...]] = get_args(Kind)
-"""Conveyors there is a starter of."""
+"""Kinds of conveyor with a starter."""
 OPTIONAL: Final = "?"
-"""Behind the key of a field that is written as a comment."""
+"""Suffix of the key of a field written as a comment."""
 LEFT_OUT: Final = "~"
-"""Value of a field that a system of units goes without."""
+"""Value of a field left out in a system of units."""
 
 
 @cache
@@ -39,7 +39,7 @@ def values(kind: Kind | Literal["duty"], units: System = "SI", *, optional: bool
     units : {"SI", "US"}
         System of units.
     optional : bool
-        Whether the fields that the spec shows as comments are in it, too.
+        Include the fields that the spec shows as comments.
 
     Examples
     --------
@@ -63,7 +63,7 @@ def _plain(value: Any, units: System, *, optional: bool) -> Any:
 
 
 def in_units(value: Any, units: System) -> Any:
-    """Take the value of a system of units from ``SI | US``."""
+    """Value of a system of units from ``SI | US``."""
     if not isinstance(value, str) or " | " not in value:
         return value
     chosen = value.split(" | ")[SYSTEMS.index(units)]

@@ -70,7 +70,7 @@ def written(kind: Kind | Literal["duty"], units: System = "SI", *, file: str = "
 
 
 def quoted(name: str) -> str:
-    """Write the name of a file as it stands in a command: in quotes where it has blanks, on one line in any case.
+    """File name for a command line: quoted where it has blanks, always on one line.
 
     Examples
     --------
@@ -81,7 +81,7 @@ def quoted(name: str) -> str:
 
 
 def _units() -> str:
-    """List the units of the kinds of quantity that a newcomer meets first."""
+    """Comment lines with the units of common quantities."""
     listed = (f"{kind}: {' '.join(dict.fromkeys(QUANTITIES[kind].units.values()))}" for kind in _SHOWN_KINDS)
     return textwrap.fill(
         "; ".join(part.strip() for part in listed),
@@ -94,14 +94,14 @@ def _units() -> str:
 
 
 class _Writer:
-    """Lines of a spec: a value on the left, what it means on the right."""
+    """Lines of a spec: values on the left, comments on the right."""
 
     def __init__(self, units: System, words: Mapping[str, str]) -> None:
         self._units: System = units
         self._words = words
 
     def group(self, group: FieldGroup, data: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
-        """Write the fields of a model that the data have, in the model's order."""
+        """Lines of the fields of a model that the data have, in the model's order."""
         for part in group.parts:
             given = data.get(part.key, data.get(part.key + OPTIONAL, LEFT_OUT))
             if in_units(given, self._units) == LEFT_OUT:
@@ -127,7 +127,7 @@ class _Writer:
             yield from self._table(part, data, path)
 
     def _table(self, table: FieldTable, data: list[dict[str, Any]], path: tuple[str, ...]) -> Iterator[str]:
-        """Write what the fields of a row mean, then the rows."""
+        """Lines of a list: comments on its fields, then the rows."""
         indent = "  " * len(path)
         shown = dict.fromkeys(key for row in data for key in row)
         fields = [part for part in table.parts if part.key in shown]
@@ -142,7 +142,7 @@ class _Writer:
             yield f"{indent}- {{{cells}}}"
 
     def _comment(self, part: Part, path: tuple[str, ...], value: Any = None) -> str:
-        """Say what a field means, its range in the unit of its value, and what is taken without it."""
+        """Comment of a field: meaning, range in the unit of its value, default."""
         doc = self._words.get(".".join(path), part.doc)
         said = [doc if doc.endswith(".") or not doc else doc + "."]
         if isinstance(part, Leaf):
@@ -157,7 +157,7 @@ class _Writer:
 
 
 def _without(part: Part, doc: str, value: Any) -> str:
-    """Say what happens when a field is left out."""
+    """Sentence on the default of an optional field."""
     default = part.default if isinstance(part, Leaf) else None
     if isinstance(default, float) and isinstance(part, Leaf) and "%" in part.units:
         default = f"{100.0 * default:g} %"
@@ -175,7 +175,7 @@ def _scalar(value: Any) -> str:
 
 
 def _commented(line: str, indent: str) -> str:
-    """Turn a line into a comment; what stands beside it keeps its column where there is room."""
+    """Comment out a line; its own comment keeps its column where there is room."""
     if not line or line.strip().startswith("#"):
         return line
     left, gap, comment = line.removeprefix(indent).partition("  # ")
@@ -184,7 +184,7 @@ def _commented(line: str, indent: str) -> str:
 
 
 def _beside(left: str, comment: str) -> list[str]:
-    """Put a comment to the right of a value, over several lines where it is long."""
+    """Value with a comment to its right, over several lines where it is long."""
     if not comment:
         return [left]
     opening = left.ljust(_COMMENT_COLUMN - 2) + "  # "

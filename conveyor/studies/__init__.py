@@ -1,4 +1,4 @@
-"""What a spec asks for beyond one analysis: its load cases, its year, its ranges."""
+"""Studies of a spec beyond one analysis: load states, load cases, the year's duty, input ranges."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ from conveyor.studies.uncertainty import CalculatedRanges, study
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CalculatedStudies:
-    """Studies of one conveyor; None where the spec has nothing to study.
+    """Studies of one conveyor; None for those that the spec does not request.
 
     Attributes
     ----------
     states : CalculatedStates
         Load states, for every spec.
     cases : CalculatedCases or None
-        Of `cases`.
+        From `cases`.
     duty : CalculatedYear or None
-        Of `operation.duty`.
+        From `operation.duty`.
     uncertainty : CalculatedRanges or None
-        Of `uncertainty`.
+        From `uncertainty`.
     flooded : FloodedBelt or None
         Bulk from edge to edge, for every spec that carries some.
     """
@@ -54,12 +54,12 @@ class CalculatedStudies:
 
     @cached_property
     def governing(self) -> tuple[Governing, ...]:
-        """For every figure of the design the load that decides it: as given, a load case or a load state."""
+        """Governing load of every design figure: as given, a load case or a load state."""
         return governing(self._loads)
 
     @property
     def motors(self) -> tuple[MotorChoice, ...]:
-        """Motors of every drive pulley for the governing load of all; none without a case to design by."""
+        """Motors of every drive pulley for the governing load; none without a case to design by."""
         return recommended_motors(self._loads, reserve=MOTOR_RESERVE) if self._loads else ()
 
     @cached_property
@@ -74,16 +74,16 @@ class CalculatedStudies:
 def studies(
     conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: Progress | None = None
 ) -> CalculatedStudies:
-    """Calculate the load states and what the spec asks for.
+    """Calculate the load states and the studies that the spec requests.
 
     Parameters
     ----------
     conveyor : Conveyor
         With `cases`, `operation.duty` or `uncertainty`, or none of them.
     given : CalculatedConveyor, optional
-        The spec's own load, where it is calculated already.
+        The spec's own load, if already calculated.
     progress : callable, optional
-        Called with the study's name, what is done of it and its whole.
+        Called with the study's name, the items done and their total.
 
     Raises
     ------

@@ -1,10 +1,10 @@
-"""Factors on the main resistances from measured power: which the runs tell apart, with bands.
+"""Factors on the main resistances from measured power, as many as the runs resolve, with bands.
 
-Every run is the conveyor of the spec at its flow, speed and temperature; their contacts are solved side by side,
-once. The forces are then scaled and the loop of tensions is closed again (Gauss-Newton: the power is all but linear in
-the factors), weighted least squares. Factors that the runs do not tell apart become one; of all ways to join them that
-with the most factors is taken whose bands say something. Derived; least squares and bands as in every textbook (Seber
-and Lee, Linear Regression Analysis, 2003, chapters 3 and 5).
+Every run is the conveyor of the spec at its flow, speed and temperature; all contacts are solved in one batch, once.
+The forces are then scaled and the loop of tensions is closed again (Gauss-Newton: the power is nearly linear in the
+factors), weighted least squares. Factors that the runs do not resolve are joined: the grouping with the most factors
+whose bands are narrow enough is taken. Derived; least squares and bands as in every textbook (Seber and Lee, Linear
+Regression Analysis, 2003, chapters 3 and 5).
 """
 
 from __future__ import annotations
@@ -34,13 +34,13 @@ Group = tuple[str, ...]
 Grouping = tuple[Group, ...]
 
 TYPICAL_ERROR: Final = 0.02
-"""Standard deviation of a measured power over itself, where bands are judged before residuals say it: general knowledge
-(a power meter of 0.5 to 1 % and a belt scale of 1 to 2 %)."""
+"""Relative standard deviation of a measured power assumed until residuals are known: general knowledge (a power meter
+of 0.5 to 1 % and a belt scale of 1 to 2 %)."""
 TOLD_APART: Final = 0.25
-"""Half width of a band up to which a factor is told: wider, it says less than a guess does (general knowledge)."""
+"""Widest half band of a factor that is reported: a wider one says less than a guess (general knowledge)."""
 UNLIKE: Final = 0.2
-"""Standard deviation by which factors that are joined may differ from their mean: general knowledge (friction factors
-of like conveyors spread as much). It is in the bands of the other factors."""
+"""Standard deviation of joined factors about their mean: general knowledge (friction factors of like conveyors spread
+as much). It enters the bands of the other factors."""
 POOR_FIT: Final = 0.01
 """Probability of a larger chi square below which stated errors are taken to be too small, and bands are widened."""
 LARGEST_FACTOR: Final = 10.0
@@ -55,7 +55,7 @@ _MOST: Final = 30
 
 @dataclass(frozen=True)
 class FittedFactor:
-    """A factor that the runs tell, one for all its forces, between whose ends nine tenths lie [-]."""
+    """A fitted factor, one for all its forces, with the ends of its 90 % band [-]."""
 
     forces: tuple[str, ...]
     value: float
@@ -64,13 +64,13 @@ class FittedFactor:
 
     @property
     def name(self) -> str:
-        """Its forces in words."""
+        """Names of its forces."""
         return _words(self.forces)
 
 
 @dataclass(frozen=True)
 class CalibratedRun:
-    """A run: measured, as computed without factors and with them [W], and the error it was weighed with [W]."""
+    """A run: power measured, computed without and with the factors, and the standard error of its weight [W]."""
 
     run: MeasuredRun
     measured: float
@@ -98,7 +98,7 @@ class CalculatedCalibration:
     conveyor : Conveyor
         With the factors as its `calculation.calibration`.
     factors : tuple of FittedFactor
-        Those that the runs tell apart, with bands.
+        Those that the runs resolve, with bands.
     held : tuple of str
         Forces whose factor stays 1.
     correlation : ndarray, shape (n, n)
@@ -106,15 +106,15 @@ class CalculatedCalibration:
     runs : tuple of CalibratedRun
         In the order given.
     chi_square : float
-        Squares of differences over errors, summed; the degrees of freedom where errors are estimated.
+        Sum of squared differences over errors; the degrees of freedom where errors are estimated.
     freedom : int
         Runs less factors.
     error : float or None
-        Standard deviation of a power over itself: given, or from the residuals; None where the runs state their own.
+        Relative standard deviation of a power: given, or from the residuals; None where the runs state their own.
     estimated : bool
-        Whether it is from the residuals.
+        True if it is from the residuals.
     notes : tuple of str
-        What is not told apart, and what else to know.
+        Factors that are not resolved, and other remarks.
     """
 
     conveyor: Conveyor
@@ -130,13 +130,13 @@ class CalculatedCalibration:
 
     @property
     def calibration(self) -> Calibration:
-        """The factors as the spec takes them."""
+        """The factors as a field of the spec."""
         given = self.conveyor.calculation.calibration
         return Calibration() if given is None else given
 
     @property
     def fragment(self) -> str:
-        """Part of a spec, YAML, to paste."""
+        """YAML of the calibration, to paste into a spec."""
         lines = [f"    {name}: {value:g}" for name, value in self.calibration.factors.items()]
         return "\n".join(
             ["calculation:", "  calibration:", *lines, f'    source: "{self.calibration.source}"', ""]
@@ -162,29 +162,29 @@ def calibrate(
     Parameters
     ----------
     conveyor : Conveyor
-        The spec; a calibration that it has is left out, and replaced.
+        The spec; its own calibration is ignored and replaced.
     runs : sequence of MeasuredRun
         Measured power.
     error : float, optional
-        Standard deviation of a power over itself [-], of runs that do not state theirs; without it from the residuals.
+        Relative standard deviation of a power [-], for runs that do not state theirs; by default from the residuals.
     factors : sequence of str, optional
-        Which of indentation, idler_rotation, flexure and misalignment are wanted, each for itself, the others stay 1;
-        without it as many as the runs tell apart, others joined.
+        Those of indentation, idler_rotation, flexure and misalignment to fit, each for itself, the others stay 1; by
+        default as many as the runs resolve, the others joined.
     rtol : float, optional
-        Relative tolerance of the contacts [-]; that of the spec without it.
+        Relative tolerance of the contacts [-]; by default that of the spec.
     progress : callable, optional
-        Called with what is done and the whole.
+        Called with the items done and their total.
 
     Returns
     -------
     CalculatedCalibration
-        Factors with bands, runs with residuals, what is not told apart.
+        Factors with bands, runs with residuals, remarks.
 
     Raises
     ------
     InputError
         Fewer runs than factors, runs at the mains without the train's efficiency, runs that brake without theirs or
-        against the calculation, factors that are not told apart or come out negative.
+        against the calculation, factors that are not resolved or come out negative.
     NoSolutionError, RangeError
         A run has no answer.
 
@@ -232,7 +232,7 @@ def calibrate(
 def _check(
     conveyor: Conveyor, runs: Sequence[MeasuredRun], error: float | None, factors: Sequence[str] | None
 ) -> None:
-    """Refuse what no fit can mend."""
+    """Reject runs that cannot be fitted."""
     unknown = [name for name in factors or () if name not in CALIBRATED]
     if unknown or (factors is not None and not factors):
         raise InputError(f"factors: got {', '.join(unknown) or 'none'}, allowed: {', '.join(CALIBRATED)}")
@@ -275,7 +275,7 @@ def _check_direction(runs: Sequence[MeasuredRun], power: Array, how: str) -> Non
 
 @dataclass(frozen=True, eq=False)
 class _Scene:
-    """The runs with their contacts solved under a calibration (which on vertical curves loads the rolls)."""
+    """The runs with their contacts solved at given factors (which on vertical curves load the rolls)."""
 
     found: tuple[CalculatedConveyor, ...]
     at: tuple[str, ...]
@@ -293,7 +293,7 @@ class _Scene:
         error: float | None,
         solve: Callable[[list[Variant]], list[CalculatedConveyor | NoAnswer]],
     ) -> _Scene:
-        """Solve the runs; those of one state once."""
+        """Solve the runs, each distinct state once."""
         made = conveyor.replace(calculation=conveyor.calculation.replace(calibration=under))
         states = dict(zip((run.state for run in runs), with_runs(made, runs), strict=True))
         answers = dict(zip(states, solve(list(map(Variant, states.values()))), strict=True))
@@ -313,21 +313,21 @@ class _Scene:
 
     @property
     def curved(self) -> bool:
-        """Whether tensions load the rolls."""
+        """True if tensions load the rolls."""
         return self.found[0].line.tension_acts
 
     @property
     def estimated(self) -> bool:
-        """Whether errors are known from the differences only."""
+        """True if errors are estimated from the residuals."""
         return self.error is None and self.stated is None
 
     def solved_with(self, calibration: Calibration) -> bool:
-        """Whether the contacts were solved under these factors, to the digits that are given."""
+        """True if the contacts were solved at these factors, within 1e-4."""
         pairs = zip(self.under.factors.values(), calibration.factors.values(), strict=True)
         return all(abs(a - b) <= 10.0**-4 for a, b in pairs)
 
     def power(self, calibration: Calibration) -> Array:
-        """Power of every run where it was measured [W], the loop closed again around scaled forces."""
+        """Power of every run at its point of measurement [W], with the loop closed on the scaled forces."""
         runs = dict.fromkeys(self.found)
         loops = [
             OpenLoop(
@@ -342,7 +342,7 @@ class _Scene:
         return np.array([power[one].mains if at == "mains" else power[one].motor for one, at in pairs])
 
     def slopes(self, grouping: Grouping, values: Sequence[float], power: Array) -> Array:
-        """Derivatives of the powers by the factors of groups [W], shape (n, groups)."""
+        """Derivatives of the powers with respect to the group factors [W], shape (n, groups)."""
         columns = []
         for k in range(len(grouping)):
             moved = [value * (1.0 + _STEP * (i == k)) for i, value in enumerate(values)]
@@ -350,7 +350,7 @@ class _Scene:
         return np.array(columns).T
 
     def sigma(self, power: Array) -> Array:
-        """Errors the runs are weighed with [W]: stated, or the share of what is calculated."""
+        """Standard errors of the runs [W]: stated, or the relative error times the calculated power."""
         return self.stated if self.stated is not None else (self.error or 1.0) * abs(power)
 
 
@@ -361,9 +361,9 @@ def _calibration(grouping: Grouping, values: Sequence[float]) -> Calibration:
 
 
 def _free(scene: _Scene, factors: Sequence[str] | None) -> tuple[Grouping, list[str]]:
-    """Factors that change something, and why others do not; those that no power tells apart are joined.
+    """Factors that affect the power, and notes on the others; those that no power can separate are joined.
 
-    Flexure and misalignment both go with the load, at any flow, speed and temperature.
+    Flexure and misalignment are both proportional to the load, at any flow, speed and temperature.
     """
     notes = []
     forces = {name: max(abs(_total(one, name)) for one in scene.found) for name in CALIBRATED}
@@ -383,7 +383,7 @@ def _free(scene: _Scene, factors: Sequence[str] | None) -> tuple[Grouping, list[
     groups: list[Group] = [(name,) for name in free if name not in _BY_LOAD]
     if (
         "flexure" in free
-    ):  # small beside it, misalignment stays as computed where flexure has no factor of its own
+    ):  # small against flexure, misalignment stays as computed where flexure has no factor of its own
         groups.append(tuple(name for name in free if name in _BY_LOAD))
     return tuple(groups), notes
 
@@ -394,7 +394,7 @@ def _total(one: CalculatedConveyor, name: str) -> float:
 
 @dataclass(frozen=True, eq=False)
 class _Fit:
-    """Factors of a grouping, rounded as they are given."""
+    """Fitted factors of a grouping, rounded as they are reported."""
 
     calibration: Calibration
     factors: tuple[FittedFactor, ...]
@@ -408,7 +408,7 @@ class _Fit:
 
 
 def _groupings(free: Grouping) -> Iterator[list[Grouping]]:
-    """Ways to join factors, by their number: each for itself, two joined, all joined."""
+    """Groupings of the factors, from most to fewest: each for itself, two joined, all joined."""
     yield [free]
     if len(free) == 3:
         a, b, c = free
@@ -418,12 +418,12 @@ def _groupings(free: Grouping) -> Iterator[list[Grouping]]:
 
 
 def _chosen(scene: _Scene, free: Grouping, *, wanted: bool) -> tuple[Grouping, _Fit]:
-    """The most factors whose bands say something.
+    """Grouping and fit with the most factors whose bands are narrow enough.
 
     Raises
     ------
     InputError
-        Not even one factor is told, or not those that are wanted.
+        No factor, or not those requested, can be fitted.
     """
     reasons = []
     for ways in _groupings(free):
@@ -452,7 +452,7 @@ def _chosen(scene: _Scene, free: Grouping, *, wanted: bool) -> tuple[Grouping, _
 
 
 def _expected_width(scene: _Scene, grouping: Grouping) -> float:
-    """Widest half band of a grouping's factors before any residual is seen [-]; infinite where they cannot be told."""
+    """Widest half band of a grouping's factors expected before the fit [-]; infinite if they are dependent."""
     ones = [1.0] * len(grouping)
     power = scene.power(Calibration())
     error = scene.sigma(power) * (TYPICAL_ERROR if scene.estimated else 1.0)
@@ -468,12 +468,12 @@ def _normal() -> float:
 
 
 def _student(freedom: int) -> float:
-    """Standard deviations from the middle of a band to its ends."""
+    """Student's t quantile at the end of a 90 % band [-]."""
     return float(stdtrit(freedom, 0.5 + 0.5 * COVERED))
 
 
 def _fit(scene: _Scene, grouping: Grouping) -> _Fit | str:
-    """Gauss-Newton on the closed loop; or why its factors are of no use."""
+    """Gauss-Newton fit on the closed loop, or the reason why its factors are unusable."""
     values = [1.0] * len(grouping)
     for _ in range(_MOST):
         power = scene.power(_calibration(grouping, values))
@@ -496,7 +496,7 @@ def _fit(scene: _Scene, grouping: Grouping) -> _Fit | str:
 def _judged(
     scene: _Scene, grouping: Grouping, values: list[float], power: Array, slopes: Array
 ) -> _Fit | str:
-    """Bands of fitted factors; or which of them says nothing."""
+    """Fit with the bands of its factors, or the reason why one band is too wide."""
     sigma, freedom = scene.sigma(power), len(power) - len(values)
     chi_square = float((((scene.measured - power) / sigma) ** 2).sum())
     error, ends, notes = scene.error, _normal(), []
@@ -532,7 +532,7 @@ def _judged(
 def _of_joined(
     scene: _Scene, grouping: Grouping, values: Sequence[float], power: Array, solved: Array
 ) -> Array:
-    """Covariance of the factors from the differences inside joined ones, which are means as the runs weigh them.
+    """Covariance of the factors from the differences within joined ones, which are means weighted by the runs.
 
     With P = Σ J_i θ_i and estimates A P, A of shape (groups, runs), a difference δ_i moves the factor of group k by
     A_k J_i δ_i.
@@ -551,7 +551,7 @@ def _of_joined(
 
 
 def _not_told(runs: Sequence[MeasuredRun], grouping: Grouping) -> Iterator[str]:
-    """What the runs do not tell apart, and what would."""
+    """Notes on the joined factors, and the runs that would separate them."""
     for group in grouping:
         if len(group) > 1:
             yield (
@@ -561,7 +561,7 @@ def _not_told(runs: Sequence[MeasuredRun], grouping: Grouping) -> Iterator[str]:
 
 
 def _kind_of_runs(runs: Sequence[MeasuredRun]) -> str:
-    """What is alike in all runs, in words."""
+    """Description of what all runs have in common."""
     flows, temperatures = ({run.state[k] for run in runs} for k in (0, 2))
     flow = "empty runs only" if flows == {0.0} else "runs at one flow only" if len(flows) == 1 else ""
     alike = [flow] if flow else []

@@ -1,9 +1,8 @@
-"""A study run: its points in batches on any executor, every answer kept as it comes, so that a stopped run goes on.
+"""A parametric study: points in batches on any executor, every answer saved as it comes, so that a run can resume.
 
-Answers stand in a file (SQLite: what was half written when a run ended is undone), each under the key of its point: a
-hash of all that it follows from (spec, compounds, changes, figures asked for, version). What is there already is not
-calculated again, and nothing of it is held in memory. The table is written from the file, in the order of the points,
-whatever order their answers came in.
+Answers are stored in a SQLite file (unfinished writes are rolled back), each under the key of its point: a hash of all
+that it depends on (spec, compounds, changes, requested figures, version). Stored answers are not calculated again and
+not held in memory. The table is written from the file in the order of the points, whatever order the answers came in.
 """
 
 from __future__ import annotations
@@ -47,46 +46,46 @@ from conveyor.studies.refusals import refuse_unknown
 from conveyor.studies.workers import workers_of
 
 BATCH: Final = 256
-"""Points solved side by side at most, and lost at most where a run is stopped."""
+"""Most points solved in one batch, and lost when a run is stopped."""
 SHARES: Final = 16
-"""Batches that a smaller study is cut into, so that several workers have work."""
+"""Batches of a smaller study at least, so that several workers have work."""
 SMALLEST: Final = 8
-"""Points of such a batch at least."""
+"""Fewest points of such a batch."""
 AHEAD: Final = 2
-"""Batches a worker that are handed out at once."""
+"""Batches per worker submitted at once."""
 WINDOW: Final = 16 * BATCH
-"""Points that are looked through for those which share their rubber, temperature and speed."""
+"""Points searched for those that share rubber, temperature and speed."""
 _SHARED: Final = ("ambient.", "belt.speed", "belt.top_cover.")
-"""Fields that the rolls of both strands feel: points that differ in others alone may share the return rolls."""
+"""Fields that affect the rolls of both strands: points that differ only in others may share the return rolls."""
 
 _MARK: Final = 0x636F6E77
-"""In the head of a file of answers with checksums."""
+"""SQLite application id of a file of answers with checksums."""
 _COLUMNS: Final = "(key BLOB PRIMARY KEY, answer BLOB, checksum INTEGER) WITHOUT ROWID"
 
 Progress: TypeAlias = Callable[[int, int, int], None]
-"""Called with points that have been gone through, all, and those of them that this run found without an answer."""
+"""Called with the points done, their total, and the number without an answer in this run."""
 Point: TypeAlias = tuple[int, tuple[Value, ...], Answer]
 """Number of a point, its values of `plan.paths`, its answer."""
 Keyed: TypeAlias = tuple[bytes, Changes]
 """A point with the key of its answer."""
 Answered: TypeAlias = Callable[[Sequence[tuple[int, Keyed]]], None]
-"""Called with points that all have answers, by their numbers from 1."""
+"""Called with a batch of answered points, by their numbers from 1."""
 
 
 @dataclass(frozen=True, eq=False)
 class Campaign:
-    """A study with its spec and compounds read.
+    """A study with its spec and compounds.
 
     Attributes
     ----------
     plan : StudyPlan
-        What varies.
+        The fields that vary.
     base : Conveyor
         The spec.
     compounds : mapping
-        Those that points name.
+        Compounds named by the points.
     outputs : tuple of str
-        Keys of the figures asked for.
+        Keys of the requested figures.
     """
 
     plan: VariedSpec
@@ -96,12 +95,12 @@ class Campaign:
 
     @classmethod
     def of(cls, plan: VariedSpec, base: Conveyor, resolve: Callable[[str], RubberCompound]) -> Self:
-        """Read what a plan names.
+        """Resolve the compounds, figures and fields that a plan names.
 
         Raises
         ------
         InputError
-            A compound, a figure or a field is not known, or the spec has no duty that the plan asks for.
+            A compound, figure or field is unknown, or the spec lacks the duty that the plan requires.
         """
         plan = with_states(plan, base)
         resolve = cache(resolve)
@@ -125,12 +124,12 @@ class Campaign:
 
     @property
     def listed(self) -> StudyPlan:
-        """The plan, where it lists its points.
+        """The plan, if it lists its points.
 
         Raises
         ------
         InputError
-            It searches them.
+            The plan is a search.
         """
         if not isinstance(self.plan, StudyPlan):
             raise InputError("a plan that searches lists no points; optimise takes it")
@@ -138,26 +137,26 @@ class Campaign:
 
     @cached_property
     def figures(self) -> dict[str, DesignFigure]:
-        """Figures of a design by name."""
+        """Design figures by name."""
         return figures_of(self.plan, self.base)
 
     @property
     def currency(self) -> str:
-        """Of all costs."""
+        """Currency of all costs."""
         return self.plan.currency(self.base)
 
     @cached_property
     def job(self) -> Job:
-        """What its batches follow from."""
+        """Inputs common to all batches."""
         return Job.of(self.base, self.asked, self.compounds, self.plan.met)
 
     @cached_property
     def asked(self) -> tuple[str, ...]:
-        """What is calculated of points."""
+        """Keys calculated for every point."""
         return asked_of(self.outputs)
 
     def answer(self, known: Answers, keyed: Keyed) -> Answer:
-        """Figures asked for of a point whose answer is known."""
+        """Requested figures of a point whose answer is stored."""
         key, point = keyed
         if not self._costed:
             return priced(known[key], self.asked, self.outputs, {}, 0.0)
@@ -169,17 +168,17 @@ class Campaign:
 
     @cached_property
     def _costed(self) -> bool:
-        """Whether parts have prices."""
+        """True if parts have prices."""
         return not any(_unpriced(self.plan, self.base))
 
     def operation(self, changes: Changes) -> Operation | None:
-        """Hours and price of energy of a point or a design."""
+        """Operating hours and energy price of a point or a design."""
         own = {path: value for path, value in changes.items() if path.startswith("operation.")}
         return with_fields(self.base, own).operation if own else self.base.operation
 
     @cached_property
     def _common(self) -> hashlib._Hash:
-        """Hash of what every point follows from: without those fields of the spec that no answer does."""
+        """Hash of the inputs common to all points, without the spec's fields that affect no answer."""
         idle, said = ["name", "notes", "scenarios", "uncertainty"], [self.asked]
         if loads_asked(self.asked):
             said.append(self.plan.met)
@@ -191,7 +190,7 @@ class Campaign:
 
     @cached_property
     def _rubber(self) -> dict[str, dict[Value, str]]:
-        """Hashes of the compounds that points name, by field."""
+        """Hashes of the compounds named by points, by field."""
         known: dict[Value, str] = {
             name: _hash(one.as_data()).hexdigest() for name, one in self.compounds.items()
         }
@@ -200,7 +199,7 @@ class Campaign:
         }
 
     def key(self, point: Changes) -> bytes:
-        """Hash of all that the answer of a point follows from."""
+        """Hash of all inputs of a point's answer."""
         digest = self._common.copy()
         rubber = [known.get(point[path]) for path, known in self._rubber.items()]
         digest.update(json.dumps([point, rubber], sort_keys=True).encode())
@@ -208,7 +207,7 @@ class Campaign:
 
 
 def _unpriced(plan: VariedSpec, base: Conveyor) -> Iterator[str]:
-    """What keeps every point of a plan from having costs of parts."""
+    """Reasons why no point of a plan can have costs of parts."""
     yield from (f"{field} is not given" for field in unpriced(base) if field not in plan.paths)
     if plan.hours is None and base.operation is None:
         yield "operation.hours_per_year is not given"
@@ -217,7 +216,7 @@ def _unpriced(plan: VariedSpec, base: Conveyor) -> Iterator[str]:
 
 
 def _refuse_unpriced(plan: VariedSpec, base: Conveyor, outputs: Iterable[str]) -> None:
-    """Refuse costs of parts that are asked for where no point has them."""
+    """Reject requested costs of parts that no point can have."""
     for key in outputs:
         why = list(_unpriced(plan, base)) if OUTPUTS[key].of == "parts" else []
         if why:
@@ -234,15 +233,15 @@ def _checksum(key: bytes, text: bytes) -> int:
 
 
 def _is_whole(key: object, text: object, checksum: object) -> bool:
-    """Whether a row holds what was written."""
+    """True if a row matches its checksum."""
     return isinstance(key, bytes) and isinstance(text, bytes) and _checksum(key, text) == checksum
 
 
 class Answers:
-    """A file of answers by key, each with its checksum; it only grows.
+    """Append-only file of answers by key, each with its checksum.
 
-    Answers whose checksum does not match (a disk or a copy that lost a bit) are taken out as the file is opened, so
-    that they are calculated anew, with a warning that says how many.
+    Answers whose checksum does not match (a damaged disk or copy) are removed when the file is opened, with a warning
+    that says how many, and calculated anew.
 
     Raises
     ------
@@ -272,7 +271,7 @@ class Answers:
             )
 
     def _begin(self) -> None:
-        """Make the table in a file that is new, or that a full disk left without one."""
+        """Create the table in a new file, or in one that a full disk left without it."""
         (mark,) = self._file.execute("PRAGMA application_id").fetchone()
         (pages,) = self._file.execute("PRAGMA page_count").fetchone()
         if pages and mark != _MARK:
@@ -285,7 +284,7 @@ class Answers:
             self._file.execute(f"CREATE TABLE IF NOT EXISTS answers {_COLUMNS}")
 
     def _take_out_damaged(self) -> int:
-        """Write the table anew without answers that are not what was written; how many these are."""
+        """Rewrite the table without damaged answers and return their number."""
         query = "SELECT key, answer, checksum FROM answers"
         damaged = sum(not _is_whole(*row) for row in self._file.execute(query))
         if damaged:
@@ -300,7 +299,7 @@ class Answers:
 
     @contextmanager
     def _told(self) -> Iterator[None]:
-        """Say what keeps the file from being read or written."""
+        """Report why the file cannot be read or written."""
         try:
             yield
         except (sqlite3.DatabaseError, UnicodeDecodeError) as error:  # SQLite quotes what is damaged
@@ -315,7 +314,7 @@ class Answers:
             ) from None
 
     def among(self, keys: Sequence[bytes]) -> set[bytes]:
-        """Those of some keys that have answers."""
+        """The given keys that have answers."""
         query = f"SELECT key FROM answers WHERE key IN ({', '.join('?' * len(keys))})"  # noqa: S608 no text of users
         with self._told():
             return {key for (key,) in self._file.execute(query, keys)}
@@ -330,7 +329,7 @@ class Answers:
         return answer
 
     def add(self, answers: Iterable[tuple[bytes, Answer]]) -> None:
-        """Keep answers, all of them on the disk when this returns.
+        """Store answers; all are on the disk when this returns.
 
         Raises
         ------
@@ -366,24 +365,24 @@ def run(
     progress: Progress | None = None,
     answered: Answered | None = None,
 ) -> None:
-    """Calculate every point whose answer is not known.
+    """Calculate every point that has no stored answer.
 
     Parameters
     ----------
     campaign : Campaign
         The study.
     known : Answers
-        What is known; new answers are added batch by batch.
+        Stored answers; new ones are added batch by batch.
     points : sequence of mapping, optional
-        Points; all of the plan without.
+        Points; by default all of the plan.
     executor : concurrent.futures.Executor, optional
-        Where batches are calculated: processes, a cluster; in this process without one.
+        Executor of the batches (processes, a cluster); by default this process.
     workers : int
-        Of the executor: as many batches are handed out at once, and as many again.
+        Workers of the executor; twice as many batches are submitted at once.
     progress : callable, optional
-        Called with points gone through, all, and those that this run found without an answer.
+        Called with the points done, their total, and the number without an answer in this run.
     answered : callable, optional
-        Called with every batch once all of it has answers, in whatever order they come.
+        Called with every batch once all of it has answers, in any order.
 
     Raises
     ------
@@ -418,14 +417,14 @@ def run(
 
 
 class Batch(NamedTuple):
-    """Points by their numbers, and by key those without an answer."""
+    """Points by number, and those without an answer by key."""
 
     every: list[tuple[int, Keyed]]
     new: dict[bytes, Changes]
 
 
 def _asked(job: Job, batch: Batch, executor: Executor | None) -> Future[list[Answer]]:
-    """The answers of what is new in a batch: on the executor, or calculated in this process."""
+    """Answers of the new points of a batch: from the executor, or calculated in this process."""
     points = list(batch.new.values())
     if executor is not None and points:
         return executor.submit(answers, job, points)
@@ -435,10 +434,10 @@ def _asked(job: Job, batch: Batch, executor: Executor | None) -> Future[list[Ans
 
 
 def batches(campaign: Campaign, known: Answers, points: Iterable[Changes], whole: int) -> Iterator[Batch]:
-    """Points without an answer, a few hundred of all `whole` at a time: whoever calculates them, the same batches.
+    """Batches of points, a few hundred of all `whole` at a time, independent of the number of workers.
 
-    What is solved side by side has its last digits in common, so the order is that of the plan and nothing else's; only
-    points of a window that share what the rolls of both strands feel come one after the other.
+    A batch is solved together, which sets its last digits, so the order is that of the plan; only points of a window
+    that share the fields affecting the rolls of both strands are grouped.
     """
     size = min(BATCH, max(SMALLEST, -(-whole // SHARES)))
     felt = [path for path in campaign.plan.paths if path.startswith(_SHARED)]
@@ -459,13 +458,13 @@ def rows(campaign: Campaign, known: Answers) -> Iterator[Point]:
 
 
 def keyed_points(campaign: Campaign) -> Iterator[tuple[int, Keyed]]:
-    """Every point with its number from 1 and its key, in the order of the plan."""
+    """Every point with its key and number from 1, in the order of the plan."""
     for number, point in enumerate(campaign.listed.points(), start=1):
         yield number, (campaign.key(point), point)
 
 
 def point_of(campaign: Campaign, known: Answers, number: int, keyed: Keyed) -> Point:
-    """A point of a number whose answer is known."""
+    """A numbered point whose answer is stored."""
     _, point = keyed
     return number, tuple(point[path] for path in campaign.plan.paths), campaign.answer(known, keyed)
 
@@ -477,7 +476,7 @@ def designs(campaign: Campaign, known: Answers) -> Iterator[Design]:
 
 
 def design_of(campaign: Campaign, known: Answers, design: Changes, number: int = 1) -> Design:
-    """A design whose points have answers, over its states."""
+    """A design over its states, whose points have answers."""
     keyed = ((campaign.key(point), point) for point in campaign.plan.points_of(design))
     answers = [campaign.answer(known, one) for one in keyed]
     made = reduced(campaign.plan, campaign.figures, campaign.outputs, answers, campaign.operation(design))

@@ -1,9 +1,8 @@
-"""Load cases at several temperatures and speeds, and which of them governs each figure of the design.
+"""Load cases at several temperatures and speeds, and the governing case of each design figure.
 
-The take-up is one: unless the spec gives its setting, it is the least that serves every state of the spec's own load
-and of every case, and all are calculated with it. The resistances of every case are computed as `analyse` does. What
-they are used for decides on which side they are safe: motors and starts are sized with the friction at the upper end of
-a band, generators and brakes at its lower end.
+All share one take-up: unless the spec gives its setting, it is the least that suits every state of the spec's own load
+and of every case. The resistances of every case are computed as `analyse` does. Motors and starts are sized with the
+friction at the upper end of a band, generators and brakes at its lower end.
 """
 
 from __future__ import annotations
@@ -26,9 +25,9 @@ from conveyor.ties import largest, least
 from conveyor.units.sentences import Said, quoted, said
 
 MOTOR_RESERVE: Final = 1.1
-"""Rated power over the largest needed one [-]; general knowledge (10 to 15 % is customary), not a source."""
+"""Rated power over the largest needed [-]; general knowledge (10 to 15 % is customary), not a source."""
 AS_GIVEN: Final = "as given"
-"""Load of a spec itself."""
+"""Name of the spec's own load."""
 _CARRYING: Final = frozenset({AS_GIVEN, "full", "part load"})
 
 
@@ -39,9 +38,9 @@ class Load:
     Attributes
     ----------
     name : str
-        What it is called.
+        Its name.
     label : Said
-        Its name, and where it is not as given its temperature.
+        Its name, and its temperature unless it is as given.
     found : CalculatedConveyor
         Forces, tensions and power as `analyse` gives them, SI.
     """
@@ -52,28 +51,28 @@ class Load:
 
     @property
     def temperature(self) -> float:
-        """Of the covers [K]."""
+        """Temperature of the covers [K]."""
         return self.found.temperature
 
     @property
     def speed(self) -> float:
-        """Of the belt [m/s]."""
+        """Belt speed [m/s]."""
         return self.found.line.speed
 
     @property
     def forces(self) -> tuple[float, float]:
-        """Drive force with the friction at both ends of the band; lift and acceleration of bulk have none [N]."""
+        """Drive force with the friction at both ends of the band, which lift and acceleration of bulk lack [N]."""
         return self.found.drive_forces
 
     @cached_property
     def motors(self) -> tuple[float, float]:
-        """Power at the motors' shafts with the friction at both ends of the band [W]."""
+        """Motor shaft power with the friction at both ends of the band [W]."""
         low, high = map(self.found.balance.frame.motor, self.forces)
         return low, high
 
     @cached_property
     def heaviest_roll(self) -> tuple[float, str]:
-        """Highest force on a roll [N], and where."""
+        """Highest force on a roll [N], and its location."""
         load, stretch = max(
             ((load, stretch) for stretch in self.found.line.stretches for load in stretch.loads),
             key=lambda pair: pair[0].force,
@@ -88,25 +87,25 @@ class CaseResult(Load):
     Attributes
     ----------
     case : LoadCase
-        What is loaded.
+        The load case.
     """
 
     case: LoadCase
 
     @cached_property
     def covered(self) -> bool:
-        """Whether the rubber's data cover it; else its figures are none to design by."""
+        """True if the rubber's data cover it; otherwise it is not designed by."""
         return covered(self.found)
 
     @cached_property
     def checks(self) -> tuple[Check, ...]:
-        """Every criterion as `analyse` checks it; none but the rubber's where its data do not cover the case."""
+        """Every criterion as `analyse` checks it; only the rubber's if its data do not cover the case."""
         made = (replace(check, case=self.label) for check in checks(self.found))
         return tuple(made if self.covered else map(_unjudged, made))
 
     @property
     def energy_per_tonne_km(self) -> float | None:
-        """Energy from the mains [kWh/(t km)], where the whole route carries."""
+        """Energy from the mains [kWh/(t km)], if the whole route carries."""
         return self.found.balance.power.energy_per_tonne_km if self.case.loading in _CARRYING else None
 
 
@@ -123,7 +122,7 @@ def _unjudged(check: Check) -> Check:
 
 @dataclass(frozen=True)
 class CaseRefusal:
-    """A case without an answer, and why; SI."""
+    """A case without an answer, and the reason; SI."""
 
     case: str
     temperature: float
@@ -133,7 +132,7 @@ class CaseRefusal:
 
 @dataclass(frozen=True, eq=False)
 class Governing:
-    """The load that decides a figure: its key, name, value and kind of quantity, the load."""
+    """The governing load of a figure: key, name, value and kind of the figure, and the load."""
 
     key: str
     figure: str
@@ -144,7 +143,7 @@ class Governing:
 
 @dataclass(frozen=True)
 class MotorChoice:
-    """Motors of one drive pulley: what they must give or hold at the shaft [W], number, rating [W], series, load."""
+    """Motors of one drive pulley: shaft power to give or hold [W], number, rating [W], series, load."""
 
     drive: str
     needed: float
@@ -155,7 +154,7 @@ class MotorChoice:
 
     @property
     def reserve(self) -> float:
-        """Rated power over what is needed [-]."""
+        """Rated over needed power [-]."""
         return math.inf if self.needed == 0.0 else self.count * self.rated / abs(self.needed)
 
 
@@ -168,13 +167,13 @@ class CalculatedCases:
     conveyor : Conveyor
         The spec that was varied.
     cases : tuple of LoadCase
-        What was asked for.
+        The requested cases.
     friction_band : tuple of float
         Friction over the computed one, low and high end [-]; lift and acceleration of bulk have none.
     results, refused : tuple
-        What was answered, in the order case, speed, temperature, and what was not.
+        Results in the order case, speed, temperature, and cases without an answer.
     as_given : CalculatedConveyor or None
-        The load of the spec itself with the take-up of the cases; None where it has no answer.
+        The spec's own load with the take-up of the cases; None if it has no answer.
     """
 
     conveyor: Conveyor
@@ -190,17 +189,17 @@ class CalculatedCases:
 
     @cached_property
     def designing(self) -> tuple[CaseResult, ...]:
-        """Cases to design by: those that the rubber's data cover."""
+        """Cases to design by: those covered by the rubber's data."""
         return tuple(result for result in self.results if result.covered)
 
     @property
     def temperatures(self) -> tuple[float, ...]:
-        """Of the belt in every case with an answer [K]."""
+        """Belt temperature of every case with an answer [K]."""
         return tuple(result.temperature for result in self.results)
 
     @cached_property
     def take_up(self) -> TakeUpDuty:
-        """What the spec's own load and the cases to design by ask of the one take-up; all cases, if there is neither.
+        """Take-up duty of the spec's own load and the cases to design by; of all cases if there is neither.
 
         Raises
         ------
@@ -217,12 +216,12 @@ class CalculatedCases:
 
     @cached_property
     def governing(self) -> tuple[Governing, ...]:
-        """For every figure of the design the case that decides it, of those to design by."""
+        """Governing case of every design figure, of those to design by."""
         return governing(self.designing)
 
     @cached_property
     def checks(self) -> tuple[Check, ...]:
-        """Every criterion in every case; those without an answer say why."""
+        """Every criterion in every case; cases without an answer give the reason."""
         return (*_unanswered(self), *(check for result in self.results for check in result.checks))
 
     def motors(self, reserve: float = MOTOR_RESERVE) -> tuple[MotorChoice, ...]:
@@ -250,26 +249,26 @@ def analyse_cases(
     rtol: float | None = None,
     progress: Progress | None = None,
 ) -> CalculatedCases:
-    """Calculate load cases, all contacts side by side.
+    """Calculate load cases, all contacts in one batch.
 
     Parameters
     ----------
     conveyor : Conveyor
         The spec.
     cases : sequence of LoadCase, optional
-        Those of the spec without it; without any there the standard ones: full, empty, inclines only, declines only.
+        By default those of the spec, or the standard ones: full, empty, inclines only, declines only.
     friction_band : tuple of float, optional
-        Friction over the computed one where it is certain, and where it must be reckoned with [-]. Without it
-        drive.least_friction (0.6 by default, general knowledge: f 0.012 over 0.020) and 1: the computed resistances.
+        Least certain and highest expected friction over the computed one [-]. By default drive.least_friction (0.6
+        unless given, general knowledge: f 0.012 over 0.020) and 1: the computed resistances.
     rtol : float, optional
-        Relative tolerance of the contacts [-]; that of the spec without it.
+        Relative tolerance of the contacts [-]; by default that of the spec.
     progress : callable, optional
-        Called with what is done and the whole.
+        Called with the items done and their total.
 
     Returns
     -------
     CalculatedCases
-        One result a case, speed and temperature; governing cases; motors.
+        One result per case, speed and temperature; governing cases; motors.
 
     Raises
     ------
@@ -314,7 +313,7 @@ def analyse_cases(
 
 
 def with_motors(cases: CalculatedCases, further: Iterable[CalculatedConveyor] = ()) -> CalculatedCases:
-    """Cases that know what motors of a power not given have at rest: what the load that needs most is started with."""
+    """Cases with the starting force of motors without a given power: that of the load that needs most."""
     own = () if cases.as_given is None else (cases.as_given,)
     force = start_of_motors([*own, *(result.found for result in cases.designing), *further])
     if force is None:
@@ -325,7 +324,7 @@ def with_motors(cases: CalculatedCases, further: Iterable[CalculatedConveyor] = 
 
 
 def start_of_motors(loads: Sequence[CalculatedConveyor]) -> float | None:
-    """Force at the belt at rest that the load which needs most is started with [N]; None where motors are given."""
+    """Starting force at the belt for the load that needs most [N]; None if the motors' power is given."""
     if not loads or all(drive.power is not None for drive in loads[0].line.drives):
         return None
     return max(load.motions.start.standstill for load in loads)
@@ -365,12 +364,12 @@ _FIGURES: Final[dict[str, tuple[str, str, bool, Callable[[Load], float]]]] = {
 
 
 def figures_for_the_worse(load: Load) -> dict[str, float]:
-    """Figures that loads are compared by, by their names: the higher, the more a load governs it."""
+    """Figures by which loads are compared, by name; the highest governs."""
     return {figure: value(load) if most else -value(load) for figure, _, most, value in _FIGURES.values()}
 
 
 def governing(loads: Sequence[Load]) -> tuple[Governing, ...]:
-    """The load that decides each figure, the first of equals; nothing for no loads."""
+    """Governing load of each figure, the first of equals; empty without loads."""
     if not loads:
         return ()
     rows = []
@@ -392,14 +391,14 @@ def _unanswered(study: CalculatedCases) -> Iterator[Check]:
 
 
 def recommended_motors(loads: Sequence[Load], *, reserve: float) -> tuple[MotorChoice, ...]:
-    """Motors of every drive pulley: the least number of equal ones of the series that give or hold its share.
+    """Motors of every drive pulley: the fewest equal ones of the series that give or hold its share.
 
-    Of NEMA for a spec with US units, else of IEC 60072-1.
+    The series is NEMA for a spec with US units, else IEC 60072-1.
 
     Parameters
     ----------
     loads : sequence of Load
-        The one that asks for most, driving with the friction high or braking with it low, decides.
+        The one with the highest power, driving with high or braking with low friction, governs.
     reserve : float
         Least rated power over needed power [-], at least 1.
 

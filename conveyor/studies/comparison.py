@@ -1,8 +1,8 @@
-"""Compounds, temperatures and speeds on one conveyor: what the better rubber saves.
+"""Compounds compared on one conveyor at several temperatures and speeds, with savings.
 
-Loads and every force that no rubber changes are formed once for each compound and speed; all contacts of a compound are
-solved side by side. A scene that has no answer (a compound outside its data, a contact that splits) is listed with its
-reason, never filled in.
+Loads and forces independent of the rubber are formed once per compound and speed; all contacts of a compound are solved
+in one batch. A scene (compound, temperature and speed) without an answer (a compound outside its data, a contact that
+splits) is listed with its reason, never filled in.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ __all__ = [
 ]
 
 RTOL = 1e-4
-"""Relative tolerance of the contacts: a hundredth of what any rubber is known to."""
+"""Relative tolerance of the contacts: a hundredth of the uncertainty of any rubber."""
 
 
 _SPEED: Final[TypeAdapter[Quantity]] = TypeAdapter(BeltSpeed)
@@ -63,17 +63,17 @@ class CalculatedComparison:
     compounds : tuple of RubberCompound
         In the order given; the first is the base unless another was named.
     base : str
-        Name of the compound that savings are counted against.
+        Name of the reference compound of the savings.
     cover : {"bottom", "top", "both"}
-        Which cover took the compounds.
+        Cover made of the compounds.
     scenes, refused : tuple
-        What was answered, and what was not.
+        Scenes with and without an answer.
     coverage : tuple of Coverage
-        For each compound and temperature, whether the data cover what the rolls ask for.
+        For each compound and temperature, the excited band against that of the data.
     extra_costs : mapping
         Price of a belt of each compound above the base's [currency of the spec].
     years : mapping
-        The year of `operation.duty` with each compound whose data reach all its bars; empty without a duty.
+        The year of `operation.duty` with each compound whose data cover all its bars; empty without a duty.
     """
 
     conveyor: Conveyor
@@ -93,12 +93,12 @@ class CalculatedComparison:
 
     @property
     def covered(self) -> tuple[ComparedScene, ...]:
-        """Scenes that the data of their compound reach: only these are averaged, ranked and priced."""
+        """Scenes covered by their compound's data: only these are averaged, ranked and priced."""
         beyond = {(row.compound, row.temperature) for row in self.coverage if not row.covered}
         return tuple(scene for scene in self.scenes if (scene.compound, scene.temperature) not in beyond)
 
     def common(self, speed: float) -> tuple[float, ...]:
-        """Temperatures [K] that the data of every compound reach at a speed [m/s]; those that reach none left out."""
+        """Temperatures [K] covered by all compounds at a speed [m/s], leaving out compounds that cover none."""
         known: dict[str, set[float]] = {}
         for scene in self.covered:
             if scene.speed == speed:
@@ -106,21 +106,18 @@ class CalculatedComparison:
         return tuple(sorted(set.intersection(*known.values()))) if known else ()
 
     def tested_alike(self, one: str, other: str) -> bool:
-        """Whether two compounds were tested on the same rolls and covers, at the same speeds and temperatures."""
+        """True if two compounds were tested on the same rolls and covers, at the same speeds and temperatures."""
         tests = {compound.name: {test.conditions for test in compound.tests} for compound in self.compounds}
         return bool(tests[one]) and tests[one] == tests[other]
 
     def told_apart(self, less: RankedPower, more: RankedPower) -> bool:
-        """Whether one compound asks for less than another by more than both may be off, common errors left out.
-
-        Errors of the two are independent: the root of their squares counts.
-        """
+        """True if `more` exceeds `less` by more than the root of the squares of both errors, without common ones."""
         alike = self.tested_alike(less.compound, more.compound)
         (_, up), (down, _) = (less.own, more.own) if alike else (less.whole, more.whole)
         return more.motor - less.motor > math.hypot(up, down)
 
     def groups(self, standings: Iterable[RankedPower]) -> list[list[RankedPower]]:
-        """Compounds by their power, the least first, those together that cannot be told apart from their first."""
+        """Compounds by power, the least first, grouped where they do not clearly differ from the first of the group."""
         grouped: list[list[RankedPower]] = []
         for one in sorted(standings, key=lambda standing: standing.motor):
             if grouped and not self.told_apart(grouped[-1][0], one):
@@ -130,7 +127,7 @@ class CalculatedComparison:
         return grouped
 
     def level_differs(self, name: str) -> bool:
-        """Whether tests set the indentation of one of a compound and the base, and theory that of the other."""
+        """True if only one of a compound and the base has rolling-resistance tests that set its indentation."""
         if self.conveyor.calculation.anchor != "tests":
             return False
         tested = {compound.name: bool(compound.tests) for compound in self.compounds}
@@ -139,7 +136,7 @@ class CalculatedComparison:
 
 @dataclass(frozen=True)
 class RankedPower:
-    """The motor power of a compound, at one temperature or its mean over several, and how far it may be off.
+    """Motor power of a compound, at one temperature or its mean over several, with its error.
 
     Attributes
     ----------
@@ -148,7 +145,7 @@ class RankedPower:
     motor : float
         Motor power [W].
     whole, own : tuple of float
-        How far below and above it may lie [W]; `own` without what belts tested alike have in common.
+        Errors below and above [W]; `own` without those common to belts tested alike.
     """
 
     compound: str
@@ -158,16 +155,16 @@ class RankedPower:
 
     @classmethod
     def of(cls, scenes: Sequence[ComparedScene]) -> RankedPower:
-        """The mean of scenes of one compound, at least one.
+        """Mean of at least one scene of one compound.
 
-        An error of the rubber is taken to be the same at all temperatures; that of the contacts is added to it.
+        The error of the rubber is taken as equal at all temperatures; that of the contacts is added.
         """
         count = len(scenes)
         motor = math.fsum(scene.motor for scene in scenes) / count
         solved = math.fsum(scene.error * abs(scene.motor) for scene in scenes) / count
 
         def mean(ends: Iterable[float | None]) -> float:
-            """Distance of the mean of the ends; that of the contacts alone where one is not known."""
+            """Distance of the mean of the ends from the mean; the error of the contacts alone if an end is unknown."""
             known = [end for end in ends if end is not None]
             return solved + (abs(math.fsum(known) / count - motor) if len(known) == count else 0.0)
 
@@ -200,25 +197,25 @@ def compare_compounds(
     Parameters
     ----------
     conveyor : Conveyor
-        The spec; where temperatures or speeds are not given, its own.
+        The spec; its own temperature or speed is the default.
     compounds : iterable of str or RubberCompound
         Shelf names, paths of compound files, or compounds.
     temperatures, speeds : iterable of str or Quantity, optional
         Of the belt, each with its unit ("-30 degC", "5 m/s").
     cover : {"bottom", "top", "both"}
-        Which cover is made of the compounds: the bottom cover runs on the carry rolls.
+        Cover made of the compounds; the bottom cover runs on the carry rolls.
     base : str, optional
-        Name of the compound that the others are compared with; the first without it.
+        Name of the reference compound; by default the first.
     extra_costs : mapping of str to float, optional
-        What a belt of a compound costs more than one of the base, in the currency of the spec's energy price.
+        Price of a belt of a compound above that of the base, in the currency of the spec's energy price.
     rtol : float
         Relative tolerance of the contacts [-].
     shelves : iterable of path
         Further folders of compounds.
     executor : concurrent.futures.Executor, optional
-        Where groups of compounds are calculated; one after the other here without one.
+        Executor of groups of compounds; by default they are calculated one after the other in this process.
     workers : int
-        Of the executor: as many groups.
+        Workers of the executor, and number of groups.
     progress : callable, optional
         Called with the number of compounds done and their total.
 
@@ -265,7 +262,7 @@ def compare_compounds(
 
 
 class _Answer(NamedTuple):
-    """One compound: its scenes, and its year where it has one."""
+    """Scenes of one compound, and its year if it has one."""
 
     study: CompoundStudy
     year: CalculatedYear | None
@@ -273,7 +270,7 @@ class _Answer(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class _Job:
-    """What every compound is asked, in whatever process: quantities as text, as specs pickle theirs."""
+    """Inputs common to all compounds, in any process: quantities as text, as specs pickle theirs."""
 
     conveyor: Conveyor
     temperatures: tuple[str, ...]
@@ -282,7 +279,7 @@ class _Job:
     rtol: float
 
     def of(self, compound: RubberCompound, kept: Kept) -> _Answer:
-        """What one answers."""
+        """Scenes and year of a compound."""
         study = of_compound(
             self.conveyor,
             compound,
@@ -296,7 +293,7 @@ class _Job:
 
 
 def _in_turn(job: _Job, compounds: Sequence[RubberCompound]) -> Iterator[list[_Answer]]:
-    """Every compound after the other; what those before had in common with it is not made again."""
+    """Calculate compounds one after the other, reusing common results."""
     kept = Kept()
     return ([job.of(compound, kept)] for compound in compounds)
 
@@ -304,7 +301,7 @@ def _in_turn(job: _Job, compounds: Sequence[RubberCompound]) -> Iterator[list[_A
 def _on(
     executor: Executor, workers: int, job: _Job, compounds: Sequence[RubberCompound]
 ) -> Iterator[list[_Answer]]:
-    """Compounds in as many groups as there are workers."""
+    """Calculate compounds in as many groups as there are workers."""
     count = max(1, min(workers, len(compounds)))
     ends = [len(compounds) * k // count for k in range(count + 1)]
     asked = [executor.submit(_several, job, compounds[a:b]) for a, b in pairwise(ends)]
@@ -324,14 +321,14 @@ def _several(job: _Job, compounds: Sequence[RubberCompound]) -> list[_Answer]:
 def _year(
     conveyor: Conveyor, compound: RubberCompound, cover: CoverChoice, rtol: float
 ) -> CalculatedYear | None:
-    """The year of a duty; None without one, or where a bar of it has no answer, or no data."""
+    """The year of a duty; None without a duty, or if a bar has no answer or no data."""
     if not conveyor.duty:
         return None
     changed = with_compound(conveyor, compound, cover)
     try:
         year = analyse_duty(changed, rtol=rtol)
     except ConveyorError:
-        return None  # its scenes say why; the report's remarks say that it has no year
+        return None  # its scenes give the reason; the report remarks that it has no year
     strands = strands_of(changed, cover)
     bands = [(row.temperature, row.excited[strand]) for row in year.rows for strand in strands]
     asked = [Coverage(compound.name, t, band, compound.frequencies(t)) for t, band in bands if band]
@@ -355,7 +352,7 @@ def _compounds(
 
 
 def _named(name: str, compounds: Sequence[RubberCompound]) -> str:
-    """Name of one of the compounds, in any case."""
+    """Name of one of the compounds, ignoring case."""
     for compound in compounds:
         if compound.name.casefold() == name.casefold():
             return compound.name
@@ -364,7 +361,7 @@ def _named(name: str, compounds: Sequence[RubberCompound]) -> str:
 
 
 def _check_speed(given: Quantity) -> None:
-    """Refuse a speed that no belt runs at, as its field in a spec does."""
+    """Reject a speed outside the range of the spec's field."""
     try:
         _SPEED.validate_python(given)
     except ValidationError as error:

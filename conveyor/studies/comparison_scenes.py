@@ -1,6 +1,6 @@
-"""The scenes of a comparison: one compound on the conveyor at every temperature and speed.
+"""Scenes of a comparison: one compound on the conveyor at every temperature and speed.
 
-All contacts of a compound are solved side by side. A scene that has no answer (a compound outside its data, a contact
+All contacts of a compound are solved in one batch. A scene without an answer (a compound outside its data, a contact
 that splits) is listed with its reason.
 """
 
@@ -23,7 +23,7 @@ from conveyor.pipeline import CalculatedConveyor, Kept, Variant, calculate_many
 from conveyor.rubber.anchor import ends
 from conveyor.units import Quantity
 
-_BAND_RTOL = 1e-3  # of the contacts that the band is formed from: a tenth of the narrowest band
+_BAND_RTOL = 1e-3  # of the contacts behind the band: a tenth of the narrowest band
 
 
 @dataclass(frozen=True)
@@ -43,12 +43,11 @@ class ComparedScene:
     motor : float
         Motor power [W].
     motor_low, motor_high : float or None
-        Band in which the level of the tests and nine tenths of the replicas leave it [W]; None where the compound
-        carries neither.
+        90 % band from the tests or the replicas of the fit [W]; None if the compound has neither.
     own_low, own_high : float or None
-        The same without what belts tested alike have in common [W].
+        The same without errors common to belts tested alike [W].
     largest_tension : float
-        Of the belt, start included [N].
+        Belt tension, start included [N].
     energy_per_tonne_km, energy_per_year, cost_per_year : float or None
         [kWh/(t km)], [kWh], [currency].
     error : float
@@ -75,7 +74,7 @@ class ComparedScene:
 
 @dataclass(frozen=True)
 class Coverage:
-    """What the rolls ask of a compound at a temperature, slowest to fastest speed, and what its data hold; SI.
+    """Frequency band excited in a compound at a temperature, slowest to fastest speed, and that of its data; SI.
 
     Attributes
     ----------
@@ -84,9 +83,9 @@ class Coverage:
     temperature : float
         Of the belt [K].
     excited : tuple of float
-        Frequencies between which nine tenths of the loss lie [Hz].
+        Frequencies between which 90 % of the loss lies [Hz].
     data : tuple of float or None
-        Band of the data at this temperature [Hz]; None where the compound does not state it.
+        Band of the data at this temperature [Hz]; None if the compound does not state it.
     """
 
     compound: str
@@ -96,13 +95,13 @@ class Coverage:
 
     @property
     def covered(self) -> bool:
-        """Whether the data hold all of it; not where they are not stated."""
+        """True if the data are stated and cover the whole excited band."""
         return self.data is not None and self.data[0] <= self.excited[0] and self.excited[1] <= self.data[1]
 
 
 @dataclass(frozen=True)
 class Refusal:
-    """A scene without an answer, and why; SI."""
+    """A scene without an answer, and the reason; SI."""
 
     compound: str
     temperature: float
@@ -136,15 +135,15 @@ def of_compound(
     conveyor : Conveyor
         The spec.
     compound : RubberCompound
-        What the cover is made of.
+        Compound of the cover.
     temperatures, speeds : sequence of Quantity
         Of the belt.
     cover : {"bottom", "top", "both"}
-        Which cover changes.
+        Cover that changes.
     rtol : float
         Relative tolerance of the contacts [-].
     kept : Kept, optional
-        What the compounds before have in common with this one: lines, and the rolls under a cover that stays.
+        Results shared with earlier compounds: lines, and the rolls under an unchanged cover.
 
     Raises
     ------
@@ -226,7 +225,7 @@ def _scene(
 
 
 def _heaviest(result: CalculatedConveyor, strands: frozenset[Strand]) -> RollResult | None:
-    """The roll that loses most, of the strands whose cover is compared."""
+    """Roll with the highest loss, of the strands whose cover is compared."""
     pairs = zip(result.line.stretches, result.contacts.rolls, strict=True)
     rolls = [roll for stretch, several in pairs if stretch.strand in strands for roll in several]
     return max(rolls, key=lambda roll: roll.resistance) if rolls else None
@@ -238,11 +237,11 @@ def _band(
     results: Sequence[CalculatedConveyor],
     strands: frozenset[Strand],
 ) -> _Bands | None:
-    """Factors on the indentation between which nine tenths lie: of its tests, else of the replicas of its fit.
+    """90 % bands of the indentation factor from the tests, else from the replicas of the fit; whole and own.
 
-    The second ones without what belts tested alike have in common. Replicas by the roll that loses most.
-    Of the middle one of the speeds; other rolls and speeds excite nearly the same band of the rubber. Fit and replicas
-    are both taken at the strain of the master curve: softening changes all alike.
+    The own band leaves out errors common to belts tested alike. Replicas are evaluated for the roll with the highest
+    loss at the middle speed: other rolls and speeds excite nearly the same band. Fit and replicas are both taken at the
+    strain of the master curve: softening changes all alike.
     """
     middle = results[len(results) // 2]
     roll = _heaviest(middle, strands)
@@ -268,7 +267,7 @@ def _coverage(
     results: Sequence[CalculatedConveyor],
     strands: Iterable[Strand],
 ) -> Coverage | None:
-    """What the rolls excite from the slowest speed to the fastest; None without loss."""
+    """Band excited by the rolls from the slowest to the fastest speed; None without loss."""
     slowest, fastest = (
         min(results, key=lambda one: one.line.speed),
         max(results, key=lambda one: one.line.speed),

@@ -1,4 +1,4 @@
-"""What a conveyor costs: parts by their prices, each over its life, energy and upkeep; numbers or arrays alike."""
+"""Costs of a conveyor: parts at their prices over their lives, energy and upkeep; for numbers or arrays."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor
 
 Value: TypeAlias = "float | NDArray[np.float64]"
-_NO_LIFE: Final = 1e12  # [s], of rolls without load or bearings: their seals end sooner
+_NO_LIFE: Final = 1e12  # [s], for rolls without load or bearings: their seals wear out sooner
 
 
 @dataclass(frozen=True, eq=False)
 class Parts:
-    """What a conveyor is built of and what it draws; every figure a number, or an array over candidates.
+    """Quantities of parts and power of a conveyor; each a number, or an array over candidates.
 
     `width`, `length` [m], `strength` [N/m], `cover` and `special_cover` thickness [m], `steel_cord` 1 or 0, number of
-    idler `sets` and `rolls`, what of all rolls turns `roll_mass` [kg], `roll_life` of bearings [s], number of `drives`
-    and their `power` [W], `pulley_mass` [kg], `take_up` tension [N].
+    idler `sets` and `rolls`, rotating mass of all rolls `roll_mass` [kg], `roll_life` of bearings [s], number of
+    `drives` and their `power` [W], `pulley_mass` [kg], `take_up` tension [N].
     """
 
     width: Value
@@ -48,45 +48,45 @@ class Parts:
 
 @dataclass(frozen=True, eq=False)
 class Costs:
-    """Capital by part, and what a year costs by part and of energy and upkeep [currency, currency/a]."""
+    """Capital by part, and yearly costs by part, energy and upkeep [currency, currency/a]."""
 
     capital: Mapping[str, Value]
     yearly: Mapping[str, Value]
 
     @property
     def whole_capital(self) -> Value:
-        """Of all parts."""
+        """Capital of all parts [currency]."""
         return sum(self.capital.values(), 0.0)
 
     @property
     def year(self) -> Value:
-        """Of everything."""
+        """Total cost of a year [currency/a]."""
         return sum(self.yearly.values(), 0.0)
 
     @property
     def parts_year(self) -> Value:
-        """Of everything but energy."""
+        """Cost of a year without energy [currency/a]."""
         return sum((value for name, value in self.yearly.items() if name != "energy"), 0.0)
 
 
 def costs(parts: Parts, prices: Mapping[str, float], *, seconds: float, energy: Value | None) -> Costs:
-    """Cost a conveyor.
+    """Capital and yearly costs of a conveyor.
 
     Parameters
     ----------
     parts : Parts
-        What it is built of.
+        Quantities of its parts.
     prices : mapping of str to float
         `Prices.amounts`.
     seconds : float
-        Of running in a year [s].
+        Running time in a year [s].
     energy : float or ndarray, optional
         Cost of a year's energy [currency/a].
 
     Returns
     -------
     Costs
-        Of each part, at an annuity over its life: what is worn is renewed for ever.
+        Of each part, at an annuity over its life: worn parts are renewed for ever.
     """
     p, area = prices, 2.0 * parts.length * parts.width
     steel = parts.steel_cord
@@ -120,7 +120,7 @@ def costs(parts: Parts, prices: Mapping[str, float], *, seconds: float, energy: 
 
 
 def unpriced(line: Conveyor) -> Iterator[str]:
-    """Fields that a spec has to give before its parts have a price."""
+    """Fields missing in a spec for pricing its parts."""
     if line.belt.carcass.strength is None and line.belt.carcass.rating is None:
         yield "belt.carcass.strength"
     if line.drive.installed_power is None:
@@ -131,16 +131,16 @@ def unpriced(line: Conveyor) -> Iterator[str]:
 
 
 def roll_life(one: CalculatedConveyor) -> float:
-    """L10 of the bearings of the set that lives shortest [s]."""
+    """Shortest L10 of the bearings of any set [s]."""
     lives = [shortest_life(one.line.stretches, strand, one.line.speed) for strand in STRANDS]
     return min((3600.0 * life.hours for life in lives if life is not None), default=_NO_LIFE)
 
 
 def parts_of(one: CalculatedConveyor) -> Parts | None:
-    """Parts of a calculated conveyor as its spec lists them; None where `unpriced` names a field.
+    """Parts of a calculated conveyor as its spec lists them; None if `unpriced` names a field.
 
-    The bottom cover is a special one where its compound is not that of the top cover; a belt sold by its rated tension
-    is taken to break at a usual multiple of it.
+    The bottom cover is a special one if its compound is not that of the top cover; a belt sold by its rated tension is
+    taken to break at a usual multiple of it.
     """
     if any(unpriced(one.conveyor)):
         return None

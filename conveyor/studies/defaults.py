@@ -1,8 +1,8 @@
-"""The range of power from what the spec does not give: every default in use at both ends of its band.
+"""Range of the power from the defaults in use: each at both ends of its band.
 
-Forces are linear in what a default scales, so no contact is solved again: its forces are scaled and the loop of
-tensions is closed around them. Bands are taken to be independent; changes down and changes up add as the root of their
-squares. A default is one line of `DEFAULTS`.
+Forces are linear in the defaults, so no contact is solved again: the forces are scaled and the loop of tensions is
+closed around them. Bands are taken to be independent; changes down and changes up add as the root of their squares. A
+default is one line of `DEFAULTS`.
 """
 
 from __future__ import annotations
@@ -42,26 +42,26 @@ from conveyor.studies.effects import Effect, ends_of_band, root_of_squares
 from conveyor.units.sentences import Said, quoted, said, told
 
 Shares: TypeAlias = NDArray[np.float64] | float
-"""Of a force what rests on a default [-]: of every stretch, shape (2n,), or at one place."""
+"""Share of a force that depends on a default [-]: of every stretch, shape (2n,), or at one place."""
 Share: TypeAlias = Callable[[CalculatedConveyor, Force], Shares]
 
 
 @dataclass(frozen=True)
 class Assumed:
-    """A default of the spec: what it scales, how far it may be off, what replaces it.
+    """A default of the spec: the forces it scales, its band, the fields that replace it.
 
     Attributes
     ----------
     key, what : str
-        For figures in files; for people.
+        Key in files; label for people.
     low, high : float
-        The forces that rest on it over those computed, between which nine tenths lie [-].
+        90 % band of the dependent forces over those computed [-].
     give : str
         Fields that replace it.
     share : callable
-        Of a conveyor and a force of it the share that rests on this default; 0 where it is not in use.
+        Share of a force of a conveyor that depends on this default; 0 if it is not in use.
     band : callable, optional
-        Of a conveyor both ends, where they are not the same for all; `low` and `high` are then of no use.
+        Band of a conveyor, if it is not the same for all; replaces `low` and `high`.
     """
 
     key: str
@@ -78,17 +78,17 @@ class Assumed:
 
 
 def banded(key: str, what: str, of: Default, give: str, share: Share) -> Assumed:
-    """A default whose forces are proportional to a figure with its range."""
+    """A default whose forces are proportional to a figure with a range."""
     return Assumed(key, what, of.low / of.value, of.high / of.value, give, share)
 
 
 def along(key: str, share: Callable[[CalculatedConveyor], Shares]) -> Share:
-    """Share of a force along the belt that rests on a default, of every stretch where they differ."""
+    """Share of a force along the belt that depends on a default, by stretch if they differ."""
     return lambda result, force: share(result) if force.key == key else 0.0
 
 
 def usual(*keys: str) -> Share:
-    """All of the forces of usual parts that stand in for missing ones."""
+    """Share of forces from usual parts assumed for missing ones: all or nothing."""
     return lambda _found, force: float(force.assumed and force.key in keys)
 
 
@@ -103,19 +103,19 @@ def _flexure(result: CalculatedConveyor) -> Shares:
 
 
 def _misalignment(result: CalculatedConveyor) -> Shares:
-    """Drag of the strands whose sets have no misalignment of their own."""
+    """Stretches whose sets have no misalignment of their own."""
     return np.array([float(stretch.idlers.misalignment is None) for stretch in result.line.stretches])
 
 
 def _misalignment_band(result: CalculatedConveyor) -> tuple[float, float]:
-    """From the best to the worst alignment of such a site."""
+    """Band from the best to the worst alignment of such a site."""
     of_site = MISALIGNMENT[result.conveyor.site]
     low, middle, high = map(misalignment_friction, (of_site.low, of_site.value, of_site.high))
     return low / middle, high / middle
 
 
 def _unanchored(result: CalculatedConveyor, force: Force) -> Shares:
-    """Indentation of the strands whose rubber no test has set the level of."""
+    """Indentation of the strands whose rubber has no rolling-resistance tests."""
     if force.key != "indentation":
         return 0.0
     covers = result.contacts.covers
@@ -128,33 +128,33 @@ def _tested(result: CalculatedConveyor, force: Force) -> Shares:
 
 
 def _tests_band(result: CalculatedConveyor) -> tuple[float, float]:
-    """The wider ends of the levels of both strands: of their tests, and of their spectra beyond them."""
+    """Band enclosing those of the test factors of both strands, spectra beyond the tests included."""
     lows, highs = zip(*(result.contacts.level_range(strand) for strand in STRANDS), strict=True)
     return min(lows), max(highs)
 
 
 def _bending(result: CalculatedConveyor, force: Force) -> Shares:
-    """Indentation under a belt that gives without a loss of its own."""
+    """Indentation under a flexible belt whose carcass has no bending loss."""
     given = result.conveyor.belt.carcass.bending_loss > 0.0
     return float(force.key == "indentation" and isinstance(result.contacts, BeltContacts) and not given)
 
 
 def _bending_band(result: CalculatedConveyor) -> tuple[float, float]:
-    """Up to the flexure that the law of load and sag has on a stiff carcass, over the indentation."""
+    """Band up to the flexure by load and sag of a stiff carcass, over the indentation."""
     contacts = result.contacts
     left_out = contacts.flexure_left_out if isinstance(contacts, BeltContacts) else 0.0
     return 1.0, 1.0 + left_out / result.balance.forces.indentation
 
 
 def _pressed(result: CalculatedConveyor, force: Force) -> float:
-    """Whether a cleaner is given without its pressure."""
+    """1 if a cleaner is given without its pressure, else 0."""
     names = [each.name for each in result.balance.singles if each.key == "cleaner"]
     cleaner = dict(zip(names, result.conveyor.route.cleaners, strict=False)).get(force.name)
     return float(cleaner is not None and "pressure" not in cleaner.model_fields_set)
 
 
 def _cleaners_band(result: CalculatedConveyor) -> tuple[float, float]:
-    """From one usual cleaner to CEMA's force on each."""
+    """Band from one usual cleaner to CEMA's force on each."""
     line = result.line
     usual = math.fsum(
         force.total for force in result.balance.singles if force.key == "cleaner" and force.assumed
@@ -164,7 +164,7 @@ def _cleaners_band(result: CalculatedConveyor) -> tuple[float, float]:
 
 
 def _pulleys_band(result: CalculatedConveyor) -> tuple[float, float]:
-    """From half of what the usual pulleys resist to CEMA's count with a take-up and its bends."""
+    """Band from half the resistance of usual pulleys to CEMA's with a take-up and its bends."""
     usual = math.fsum(
         force.total for force in result.balance.singles if force.key in _PULLEYS and force.assumed
     )
@@ -172,7 +172,7 @@ def _pulleys_band(result: CalculatedConveyor) -> tuple[float, float]:
 
 
 def _stands_for_a_kind(result: CalculatedConveyor, force: Force) -> Shares:
-    """Indentation of the strands whose compound is no rubber of its own but stands for a kind."""
+    """Indentation of the strands whose compound is illustrative, representing a kind of cover."""
     if force.key != "indentation":
         return 0.0
     compounds = compounds_by_strand(result.conveyor)
@@ -181,11 +181,11 @@ def _stands_for_a_kind(result: CalculatedConveyor, force: Force) -> Shares:
 
 
 COVERS_OF_A_KIND: Final = (0.7, 1.4)
-"""Indentation of covers that are sold under one name, over their middle [-]: general knowledge; a design program takes
-0.80 for low-resistance covers, tests of single makes differ by as much either way."""
+"""Indentation of covers sold under one name, over their middle [-]: general knowledge; a design program takes 0.80 for
+low-resistance covers, tests of single makes differ by as much either way."""
 _PULLEYS: Final = ("wrap", "pulley_bearings")
 _CEMA_PULLEYS: Final = ("slack", "slack", "other", "other")
-"""Tail, take-up and its two bends; the head is driven, as CEMA leaves it out."""
+"""Tail, take-up and its two bends; CEMA leaves out the driven head."""
 
 DEFAULTS: Final = (
     banded("roll_drag", "drag of the rolls in service", SERVICE_DRAG, "idlers.*.roll.drag or drag_law",
@@ -214,15 +214,15 @@ DEFAULTS: Final = (
 )  # fmt: skip
 """Every default with a band; one more line is one more default.
 
-Of usual parts general knowledge: bulk that lands at half the belt's speed, half and twice the skirts, one cleaner, half
-the pulleys' resistance; their high ends are CEMA's: 5 lbf/in of each cleaner, and 150 lbf at tail and take-up, 100 at
-the two bends before it.
+Bands of usual parts are general knowledge: bulk landing at half the belt's speed, half and twice the skirts, one
+cleaner, half the pulleys' resistance; their high ends are CEMA's: 5 lbf/in of each cleaner, and 150 lbf at tail and
+take-up, 100 at the two bends before it.
 """
 
 
 @dataclass(frozen=True)
 class AssumedEffect(Effect):
-    """What a default in use does to the power; `key` and `give` as of `Assumed`.
+    """Effect of a default in use on the power; `key` and `give` as in `Assumed`.
 
     Attributes
     ----------
@@ -238,20 +238,20 @@ class AssumedEffect(Effect):
 
 @dataclass(frozen=True)
 class PowerRange:
-    """The motor power with what the defaults leave open.
+    """Motor power with its range from the defaults.
 
     Attributes
     ----------
     motor, low, high : float
-        At the motors' shafts, as computed and between which nine tenths lie [W].
+        At the motors' shafts: computed, and its 90 % band [W].
     effects : tuple of AssumedEffect
-        One a default in use, the largest swing first.
+        One per default in use, the largest swing first.
     notes : tuple of str
-        Ends of bands without an answer, and why.
+        Ends of bands without an answer, and the reason.
     friction : tuple of float
-        Effective tension less lift over the computed one, between which nine tenths lie [-].
+        90 % band of the effective tension less lift, over the computed one [-].
     untested : tuple of Said
-        Rubbers whose level no test has set at the belt's temperature.
+        Rubbers without rolling-resistance tests at the belt's temperature.
     """
 
     motor: float
@@ -268,18 +268,18 @@ def power_range(result: CalculatedConveyor) -> PowerRange:
 
     Parameters
     ----------
-    found : CalculatedConveyor
-        Of `calculate`.
+    result : CalculatedConveyor
+        Result of `calculate`.
 
     Returns
     -------
     PowerRange
-        The band, and every default with what it does.
+        The band, and the effect of every default.
 
     Notes
     -----
-    On vertical curves the rolls keep their loads. A default at an end of whose band the loop has no answer is left out
-    and noted.
+    On vertical curves the rolls keep their loads. A default for which the loop has no answer at an end of its band is
+    left out and noted.
     """
     motor = result.balance.power.motor
     using = [one for one in DEFAULTS if any(_rests(one, result, force) for force in result.balance.every)]
@@ -314,7 +314,7 @@ def _friction(balance: Balance) -> float:
 
 
 def _untested(result: CalculatedConveyor) -> Iterator[Said]:
-    """Rubbers that are tested at other temperatures, at which, and what carries their level to this one."""
+    """Notes on rubbers tested at other temperatures: which, and the spectrum that extrapolates the test factor."""
     levels = [result.contacts.covers[strand].level for strand in STRANDS]
     names: dict[tuple[tuple[float, ...], str], dict[str, None]] = {}
     for level in levels:
@@ -333,7 +333,7 @@ def _untested(result: CalculatedConveyor) -> Iterator[Said]:
 
 
 def _rests(assumed: Assumed, result: CalculatedConveyor, force: Force) -> bool:
-    """Whether a force rests on a default."""
+    """True if a force depends on a default."""
     return bool(np.any(np.asarray(assumed.share(result, force)) * np.asarray(force.newtons)))
 
 

@@ -1,4 +1,4 @@
-"""Designs of a study: figures of each over the states that it meets, limits, and which of them no other beats."""
+"""Designs of a study: their figures over the operating states, limits, and the Pareto front."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _BUILT: Final = ("capital_cost", "parts_cost_per_year")
 
 @dataclass(frozen=True)
 class DesignFigure:
-    """A figure of a design: words, kind of quantity, outputs it is made of, and how, at its operation [SI]."""
+    """A design figure: label, kind of quantity, outputs needed, and its function of outputs and operation [SI]."""
 
     label: str
     kind: str
@@ -50,9 +50,9 @@ class Design:
     figures : mapping of str to float or None
         By name [SI]; empty without an answer.
     why : str or None
-        Why it has no answer.
+        Reason if it has no answer.
     broken : tuple of str
-        Limits that it does not keep.
+        Limits exceeded.
     """
 
     number: int
@@ -63,19 +63,19 @@ class Design:
 
     @property
     def keeps(self) -> bool:
-        """Whether it has an answer and keeps every limit."""
+        """True if it has an answer and keeps every limit."""
         return self.why is None and not self.broken
 
 
 def figures_of(plan: VariedSpec, base: Conveyor) -> dict[str, DesignFigure]:
-    """Figures of a plan's designs by name: those asked for, then those that are sought or limited.
+    """Figures of a plan's designs by name: those requested, then objectives and limited ones.
 
-    Without any, every output asked for: its mean over the states.
+    Without any, the mean of every requested output over the states.
 
     Raises
     ------
     InputError
-        A name is not known, a yearly figure has no hours, or a limit is of another kind.
+        A name is unknown, a yearly figure has no hours, or a limit is of another kind.
     """
     named = plan.figures or (() if plan.best or plan.limits else tuple(outputs_of(plan.outputs)))
     hours = plan.hours
@@ -103,7 +103,7 @@ def figures_of(plan: VariedSpec, base: Conveyor) -> dict[str, DesignFigure]:
 
 
 def _require_needed(name: str, plan: VariedSpec, base: Conveyor) -> None:
-    """Refuse a figure without any field that it needs, in the spec and among those that vary."""
+    """Reject a figure if none of the fields it needs is in the spec or among those that vary."""
     needs = OUTPUTS[name.partition(" ")[0]].needs
     varied = [f"{path}." for path in plan.paths]
     given = (field(base, need) or any(f"{need}.".startswith(path) for path in varied) for need in needs)
@@ -112,12 +112,12 @@ def _require_needed(name: str, plan: VariedSpec, base: Conveyor) -> None:
 
 
 def require_year(name: str, plan: VariedSpec, base: Conveyor) -> None:
-    """Refuse energy or cost of a year that no state of a spec's duty has alone.
+    """Reject a yearly energy or cost that a single state of a spec's duty does not have.
 
     Raises
     ------
     InputError
-        It is asked for without states, or as a mean or an extreme of them.
+        It is requested without states, or as a mean or an extreme of them.
     """
     key, _, how = name.partition(" ")
     if base.duty and key in _YEARLY and (how or plan.hours is None):
@@ -154,7 +154,7 @@ def _figure(name: str, plan: VariedSpec, operation: Operation | None, weights: A
 
 
 def _yearly(key: str, plan: VariedSpec, operation: Operation | None, hours: Array) -> DesignFigure:
-    """Energy and its cost over the states' hours, as of a duty; with that of the parts."""
+    """Yearly energy or cost over the states' hours, as for a duty; total cost with that of the parts."""
     if plan.hours is None:
         raise InputError(f"{key}: the states have no hours; give them hours, or ask for {key} mean")
     unpriced = (operation is None or operation.price is None) and "operation.price" not in plan.paths
@@ -174,7 +174,7 @@ def _yearly(key: str, plan: VariedSpec, operation: Operation | None, hours: Arra
 
 
 def mean(values: Array, weights: Array) -> float:
-    """Mean by weight.
+    """Weighted mean.
 
     Parameters
     ----------
@@ -190,7 +190,7 @@ def mean(values: Array, weights: Array) -> float:
 
 
 def percentile(values: Array, weights: Array, share: float) -> float:
-    """Least value that is not exceeded for a share of the weight: the inverse of the distribution.
+    """Weighted percentile: the least value not exceeded for a share of the weight.
 
     Parameters
     ----------
@@ -218,18 +218,18 @@ def reduced(
     answers: Sequence[Answer],
     operation: Operation | None,
 ) -> tuple[dict[str, float | None], str | None, tuple[str, ...]]:
-    """Figures of a design of the answers of its states; why it has none; limits that it does not keep.
+    """Figures of a design from the answers of its states; reason if it has none; limits exceeded.
 
     Parameters
     ----------
     plan : VariedSpec
         With the limits.
     figures : mapping
-        Those of a design, by name.
+        Design figures by name.
     outputs : sequence of str
         Keys of the answers' figures.
     answers : sequence
-        One a state.
+        One per state.
     operation : Operation or None
         Of the design.
     """
@@ -251,7 +251,7 @@ def reduced(
 
 
 def violation(limit: Limit, name: str, kind: str, value: float | None) -> float:
-    """How far a figure is beyond its limit, over the limit's size if it has one; infinite if it is not known [-]."""
+    """Excess of a figure over its limit, relative unless the limit is 0; infinite if the figure is unknown [-]."""
     if value is None:
         return float("inf")
     least, most = limit.ends(name, kind)
@@ -260,7 +260,7 @@ def violation(limit: Limit, name: str, kind: str, value: float | None) -> float:
 
 
 def front(costs: Array) -> NDArray[np.bool_]:
-    """Which points no other beats: none is as good in every cost and better in one (Pareto).
+    """Pareto front: mask of the points to which no other is as good in every cost and better in one.
 
     Parameters
     ----------

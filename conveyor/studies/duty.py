@@ -1,4 +1,4 @@
-"""A year of a conveyor from its duty: every bar of the histogram calculated, not scaled from full load."""
+"""Year of a conveyor from its duty: every bar of the histogram calculated, not scaled from full load."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class DutyRow:
     shaft, mains : float
         Power at the motors' shafts and from the mains [W], negative when fed back.
     excited : mapping of str to tuple or None
-        Frequencies that hold nine tenths of the loss of each strand's cover [Hz]; None without loss.
+        Frequencies that hold 90 % of the loss of each strand's cover [Hz]; None without loss.
     """
 
     hours: float
@@ -52,7 +52,7 @@ class DutyRow:
 
     @property
     def step(self) -> DutyStep:
-        """As the laws of energy take it."""
+        """Input to the energy laws."""
         return DutyStep(time=3600.0 * self.hours, power=self.mains, mass_flow=self.flow)
 
     @property
@@ -111,19 +111,19 @@ def analyse_duty(
     rtol: float | None = None,
     progress: Progress | None = None,
 ) -> CalculatedYear:
-    """Calculate every bar of a conveyor's duty and sum up the year.
+    """Calculate every bar of a conveyor's duty and sum the year.
 
     Parameters
     ----------
     conveyor : Conveyor
         With operation; without a duty there, all its hours are at the flow and temperature of the spec.
     take_up : TakeUpSetting, optional
-        Its setting through the year and its side, as `conveyor.studies` finds them for every load; without it the least
-        of each bar, as `analyse` has it.
+        Setting and side through the year, as `conveyor.studies` determines them for every load; by default the least of
+        each bar, as in `analyse`.
     rtol : float, optional
-        Relative tolerance of the contacts [-]; that of the spec without it.
+        Relative tolerance of the contacts [-]; by default that of the spec.
     progress : callable, optional
-        Called with what is done and the whole.
+        Called with the items done and their total.
 
     Returns
     -------
@@ -133,9 +133,9 @@ def analyse_duty(
     Raises
     ------
     InputError
-        There is no operation, or a bar is refused (bulk that does not fit, a compound not known there).
+        There is no operation, or a bar is invalid (bulk that does not fit, a compound outside its data).
     NoSolutionError
-        A bar has no answer: a year with a hole has no energy.
+        A bar has no answer.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What one input does to the power, and the band that several make."""
+"""Effect of one input on the power, and the band from several."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Effect:
-    """What one input does to the power.
+    """Effect of one input on the power.
 
     Attributes
     ----------
     name : str
         The input.
     low, given, high : str
-        Its values, in words.
+        Its values as text.
     motor_low, motor_high : float
-        Power at the motors' shafts at both [W]; for rubber the 5 % and 95 % quantiles of its replicas.
+        Motor shaft power at both ends [W]; for rubber the 5 % and 95 % quantiles of its replicas.
     """
 
     name: str
@@ -30,19 +30,19 @@ class Effect:
 
     @property
     def swing(self) -> float:
-        """Change of the power between both ends [W]."""
+        """Change of the power between the ends [W]."""
         return abs(self.motor_high - self.motor_low)
 
 
 def root_of_squares(motor: float, effects: Sequence[Effect]) -> tuple[float, float]:
-    """Band of independent inputs: the roots of the squares of all changes down and of all up [W].
+    """Band of independent inputs: root of the sum of squares of the changes down, and of those up [W].
 
     Parameters
     ----------
     motor : float
         Power as given [W].
     effects : sequence of Effect
-        What each input does.
+        One per input.
 
     Examples
     --------
@@ -53,7 +53,7 @@ def root_of_squares(motor: float, effects: Sequence[Effect]) -> tuple[float, flo
 
 
 def ends_of_band(value: float, ends: Iterable[Sequence[float]]) -> tuple[float, float]:
-    """Band of a figure from what it is at both ends of each of several independent inputs.
+    """Band of a figure from its values at both ends of each of several independent inputs.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What people look at in a study: its designs as numbers, the best of them, the front, and what each field does."""
+"""Summary of a study: its designs as numbers, the best ones, the Pareto front, and the main effect of each field."""
 
 from __future__ import annotations
 
@@ -25,25 +25,25 @@ from conveyor.units import quantity
 Array: TypeAlias = NDArray[np.float64]
 _NUMBER: Final = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 BEST: Final = 10
-"""Designs that are listed, and written as specs."""
+"""Most designs listed, and written as specs."""
 BINS: Final = 8
-"""Of a field that is drawn from a range."""
+"""Parts of the range of a field with many values."""
 
 
 @dataclass(frozen=True)
 class VariedField:
-    """A field of designs as numbers: in the unit of its first value, or numbers of its words.
+    """A field of designs as numbers: in the unit of its first value, or indices of its words.
 
     Attributes
     ----------
     path : str
-        Of the field.
+        Path of the field.
     unit : str
-        Of its numbers; empty without.
+        Unit of its numbers; empty without one.
     words : tuple of str
-        What it is given by where it has no numbers; number 0 is the first.
+        Its values if they are not numbers; index 0 is the first.
     label : str
-        The end of its path, as long as it takes to tell the fields apart.
+        Shortest end of its path that is unique among the fields.
     """
 
     path: str
@@ -52,33 +52,33 @@ class VariedField:
     label: str = ""
 
     def number(self, value: Value) -> float:
-        """A value as a number."""
+        """Convert a value to a number."""
         if self.words:
             return float(self.words.index(str(value)))
         return _read(value, self.unit)
 
     def said(self, number: float) -> str:
-        """A number in words."""
+        """Format a number as a value."""
         return self.words[int(number)] if self.words else f"{number:.9g} {self.unit}".strip()
 
 
 @dataclass(frozen=True)
 class MainEffect:
-    """What sought figure the designs with a value of a field have: mean, least and most [SI].
+    """Mean, least and most of the first objective over the designs with a value of a field [SI].
 
     Attributes
     ----------
     at : float
-        Number of the value; of a range the middle of a part.
+        Number of the value; the middle of a part of a range.
     value : str
-        It in words.
+        The value as text.
     count : int
-        Designs.
+        Number of designs.
     mean, least, most : float
-        Of what is sought first [SI].
+        Of the first objective [SI].
     error : float or None
-        Standard error of the mean, of a field that is drawn [SI]: the fields drawn beside it have other values in every
-        part. None of one draw, and of a field all of whose values meet the same others.
+        Standard error of the mean for a sampled field [SI], as the other sampled fields differ in every part. None for
+        a single draw, and for a field whose values all meet the same others.
     """
 
     at: float
@@ -92,7 +92,7 @@ class MainEffect:
 
 @dataclass(frozen=True, eq=False)
 class Explored:
-    """Designs of a study that have an answer, as numbers.
+    """Designs of a study with an answer, as numbers.
 
     Attributes
     ----------
@@ -101,25 +101,25 @@ class Explored:
     base : Conveyor
         Its spec.
     fields : tuple of VariedField
-        What tells designs apart; not those that are the same in all.
+        Fields that differ between designs.
     figures : mapping of str to DesignFigure
-        Of designs, by name.
+        Design figures by name.
     sought : mapping of str to {"least", "most"}
-        The figures that order and front are of.
+        Objectives: figures of the ranking and the front.
     values : ndarray
-        Of the fields, shape `(n, fields)`.
+        Values of the fields, shape `(n, fields)`.
     found : ndarray
-        What is sought, shape `(n, sought)` [SI].
+        Values of the objectives, shape `(n, objectives)` [SI].
     keeps, front : ndarray
-        Whether a design keeps all limits; whether of those that do none beats it, shape `(n,)`.
+        True if a design keeps all limits; true if it is also on the Pareto front, shape `(n,)`.
     numbers : ndarray
-        Of the designs in the plan, shape `(n,)`.
+        Numbers of the designs in the plan, shape `(n,)`.
     best : tuple of Design
-        The ten that come first: those that keep the limits, in the order of what is sought first.
+        The ten best: designs that keep the limits, by the first objective.
     refused : mapping of str to int
-        Why designs have no answer, and how many.
+        Reasons why designs have no answer, with their number.
     count : int
-        Designs, those without an answer included.
+        Number of designs, those without an answer included.
     """
 
     plan: StudyPlan
@@ -138,16 +138,16 @@ class Explored:
 
     @property
     def currency(self) -> str:
-        """Of all costs."""
+        """Currency of all costs."""
         return self.plan.currency(self.base)
 
     @property
     def costs(self) -> Array:
-        """What is sought with less better, shape `(n, sought)`."""
+        """Objectives with the sign that makes less better, shape `(n, objectives)`."""
         return self.found * signs(self.sought)
 
     def effects(self, field: int) -> tuple[MainEffect, ...]:
-        """What a field does to what is sought first: over all other fields, value by value or in parts of its range."""
+        """Main effects of a field on the first objective, by value or in parts of its range."""
         at, values_of = self.values[:, field], self.found[:, 0]
         different = np.unique(at)
         varied = self.fields[field]
@@ -172,7 +172,7 @@ class Explored:
         )
 
     def _standard_error(self, rows: NDArray[np.int64]) -> float | None:
-        """Of the mean of what is sought first of some designs, each draw counted once; None of one draw."""
+        """Standard error of the mean of the first objective, each draw counted once; None for one draw."""
         drawn = [k for k, field in enumerate(self.fields) if field.path in self.plan.drawn]
         values = self.values[rows][:, drawn]
         _, draw, count = np.unique(values, axis=0, return_inverse=True, return_counts=True)
@@ -181,7 +181,7 @@ class Explored:
 
     @property
     def ordered(self) -> tuple[int, ...]:
-        """Fields, that which matters most first: by the range of its means."""
+        """Fields by the range of their mean effects, the widest first."""
 
         def span(field: int) -> float:
             means = [effect.mean for effect in self.effects(field)]
@@ -191,14 +191,14 @@ class Explored:
 
 
 def signs(sought: dict[str, Direction]) -> Array:
-    """1 of what is sought least, -1 of what is sought most."""
+    """Sign of each objective: 1 for least, -1 for most."""
     return np.array([1.0 if direction == "least" else -1.0 for direction in sought.values()])
 
 
 def sought_of(plan: StudyPlan, figures: Iterable[str], base: Conveyor) -> dict[str, Direction]:
-    """What is sought: as the plan says, else cost and energy of a year if designs have them, else the first figure.
+    """Objectives: those of the plan, else cost and energy of a year if designs have them, else the first figure.
 
-    Of a safety and of the flow the most, of all else the least.
+    Safeties and the flow are maximised, all others minimised.
     """
     known, operation = tuple(figures), base.operation
     priced = (
@@ -210,14 +210,14 @@ def sought_of(plan: StudyPlan, figures: Iterable[str], base: Conveyor) -> dict[s
 
 
 def explored(campaign: Campaign, designs: Iterable[Design]) -> Explored:
-    """Gather the designs of a study, once through.
+    """Summarise the designs of a study in one pass.
 
     Parameters
     ----------
     campaign : Campaign
         The study.
     designs : iterable of Design
-        All of them; numbers of each are kept, of the best ten everything.
+        All designs; only numbers of each are kept, and the best ten in full.
     """
     plan = campaign.listed
     every = varied(plan)
@@ -263,7 +263,7 @@ def explored(campaign: Campaign, designs: Iterable[Design]) -> Explored:
 
 
 def varied(plan: StudyPlan, paths: Sequence[str] = ()) -> tuple[VariedField, ...]:
-    """Fields that vary; those that tell designs apart without paths."""
+    """Varied fields at the given paths; by default those that differ between designs."""
     every = paths or plan.designed
     return tuple(replace(_field(path, _given(plan, path)), label=_label(path, every)) for path in every)
 
@@ -276,7 +276,7 @@ def _label(path: str, every: Sequence[str]) -> str:
 
 
 def _given(plan: StudyPlan, path: str) -> Sequence[Value]:
-    """Values of a field; of a range its ends."""
+    """Values of a field, or the ends of its range."""
     if plan.samples is not None and path in plan.samples.fields:
         span = plan.samples.fields[path]
         return (span.at(0.0), span.at(1.0))
@@ -294,7 +294,7 @@ def _field(path: str, given: Sequence[Value]) -> VariedField:
 
 
 def _read(value: Value, unit: str) -> float:
-    """A number, or that of a quantity in a unit."""
+    """Number of a value, converted to a unit if it is a quantity."""
     if not isinstance(value, str):
         return float(value)
     number, _, sign = value.partition(" ")

@@ -1,8 +1,8 @@
-"""The flooded belt: bulk heaped from edge to edge over the whole route, and what drives, belt and structure then bear.
+"""Flooded belt: bulk heaped from edge to edge over the whole route, with its forces, tensions and set loads.
 
-A feeder that does not stop fills the belt to its edges: the load that structures are designed for and from which drives
-may have to start (general knowledge). It is no load to design the conveyor by: nothing is checked, the figures stand
-beside those that are installed.
+A feeder that does not stop fills the belt to its edges: the load for which structures are designed and from which
+drives may have to start (general knowledge). The conveyor is not designed by it: nothing is checked, the figures are
+listed with the installed ones.
 """
 
 from __future__ import annotations
@@ -23,16 +23,16 @@ _RTOL = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class FloodedBelt:
-    """A conveyor under bulk from edge to edge, on every section that bears some.
+    """A conveyor flooded from edge to edge on every section that bears bulk.
 
     Attributes
     ----------
     section, held : float
-        Cross-section of the bulk, and that which the belt holds by ISO 5048, on the level [m²].
+        Cross-section of the bulk, and that of ISO 5048 on a level belt [m²].
     found : CalculatedConveyor or None
-        Forces, tensions and power, the take-up at its setting; None where it has no answer.
+        Forces, tensions and power, the take-up at its setting; None without an answer.
     reason : str
-        Why it has none.
+        Reason if it has no answer.
     """
 
     section: float
@@ -42,7 +42,7 @@ class FloodedBelt:
 
     @property
     def heaviest(self) -> Stretch | None:
-        """The carry stretch whose sets bear most."""
+        """Carry stretch with the highest set load."""
         if self.found is None:
             return None
         carry = self.found.line.stretches[: self.found.line.count]
@@ -60,17 +60,17 @@ class FloodedBelt:
 
 
 def _set_load(stretch: Stretch) -> float:
-    """Of belt and bulk on one set [N]."""
+    """Force of belt and bulk on one set [N]."""
     return math.fsum(roll.force for roll in stretch.loads)
 
 
 def flooded_belt(own: CalculatedConveyor) -> FloodedBelt | None:
-    """Calculate a conveyor with bulk heaped from edge to edge at its surcharge angle; None where it carries none.
+    """Calculate a conveyor with bulk heaped from edge to edge at its surcharge angle; None if it carries no bulk.
 
     Parameters
     ----------
     own : CalculatedConveyor
-        The spec's own load; its take-up setting is that of the flooded belt.
+        The spec's own load; its take-up setting is kept.
     """
     conveyor, line = own.conveyor, own.line
     section, held = conveyor.flooded_section, conveyor.section_on_slope(0.0)

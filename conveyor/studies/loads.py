@@ -1,4 +1,4 @@
-"""Every load of a conveyor with the take-up at the one setting that serves them all, and every check of them."""
+"""Every load of a conveyor at the one take-up setting that suits them all, and all their checks."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from conveyor.studies.states import CalculatedStates, at_one_take_up, load_state
 from conveyor.units.sentences import Said, quoted, said
 
 Progress: TypeAlias = Callable[[str, int, int], None]
-"""Called with a name, what is done of it and its whole."""
+"""Called with a name, the items done and their total."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,9 +26,9 @@ class EveryLoad:
     Attributes
     ----------
     states : CalculatedStates
-        With the spec's own load.
+        Load states, with the spec's own load.
     cases : CalculatedCases or None
-        Of `cases`.
+        Load cases.
     """
 
     states: CalculatedStates
@@ -41,12 +41,12 @@ class EveryLoad:
 
     @cached_property
     def governing(self) -> tuple[Check, ...]:
-        """Of each criterion and subject the check that governs, as `conveyor power` lists them; without scenarios."""
+        """Governing check of each criterion and subject, as `conveyor power` lists them; without scenarios."""
         return deciding(every_check(self.own, self.states, self.cases))
 
     @property
     def failed(self) -> int:
-        """Criteria that are not met in one of the loads."""
+        """Number of criteria not met in at least one load."""
         return sum(check.failed for check in self.governing)
 
     @cached_property
@@ -56,33 +56,33 @@ class EveryLoad:
 
     @property
     def motor_power(self) -> float:
-        """Highest that motors give or hold, at the less favourable end of the friction [W]."""
+        """Highest power that motors give or hold, at the less favourable end of the friction band [W]."""
         return max(abs(load.motor_asked) for load in self.designing)
 
     @property
     def motor_use(self) -> float | None:
-        """Power over that installed, of the drive that is used most [-]; None without an installed power."""
+        """Utilisation of the most loaded drive [-]; None without an installed power."""
         return highest_use(self.governing, {"motor_power"})[0]
 
     @property
     def largest_tension(self) -> float:
-        """Of all states of motion [N]."""
+        """Largest belt tension of all states of motion [N]."""
         return max(load.balance.tensions.largest for load in self.designing)
 
     @property
     def belt_safety(self) -> float | None:
-        """Lowest in steady running, which is what is checked [-]; None without the belt's strength."""
+        """Lowest belt safety in steady running, as checked [-]; None without the belt's strength."""
         safeties = [load.belt_duty.safety_steady for load in self.designing]
         return min((one for one in safeties if one is not None), default=None)
 
     @property
     def belt_use(self) -> float | None:
-        """What the belt bears over what its strength or rating allows [-]; None where neither is given."""
+        """Belt utilisation by strength or rating [-]; None if neither is given."""
         return highest_use(self.governing, BELT_USE)[0]
 
     @property
     def take_up(self) -> float:
-        """Its setting [N]."""
+        """Setting of the take-up [N]."""
         return self.states.setting
 
 
@@ -96,14 +96,14 @@ def every_load(
     conveyor : Conveyor
         The spec.
     given : CalculatedConveyor, optional
-        The spec's own load, where it is calculated already.
+        The spec's own load, if already calculated.
     progress : callable, optional
-        Called with "load cases" or "load states", what is done of them and their whole.
+        Called with "load cases" or "load states", the items done and their total.
 
     Raises
     ------
     NoSolutionError, RangeError, InputError
-        The spec's own load has no answer, or no setting of the take-up serves all; cases without an answer are listed.
+        The spec's own load has no answer, or no setting of the take-up suits all; cases without an answer are listed.
     """
 
     def told(name: str) -> Callable[[int, int], None] | None:
@@ -117,7 +117,7 @@ def every_load(
 def designing(
     own: CalculatedConveyor, states: CalculatedStates | None, cases: CalculatedCases | None
 ) -> tuple[Load, ...]:
-    """Loads to design by, of equals the first: as given, load cases that the rubber's data cover, load states."""
+    """Loads to design by: as given, load cases covered by the rubber's data, load states."""
     return (
         Load(AS_GIVEN, said(AS_GIVEN), own),
         *(() if cases is None else cases.designing),
@@ -128,7 +128,7 @@ def designing(
 def asked_of_take_up(
     own: CalculatedConveyor, states: CalculatedStates | None, cases: CalculatedCases | None
 ) -> tuple[TakeUpDuty, Said]:
-    """What all loads to design by, at one setting, ask of the take-up; the load and the condition that ask for it."""
+    """Take-up duty of all loads to design by at one setting, and the governing load and condition."""
     loads = designing(own, states, cases)
     duty = take_up_of([load.found for load in loads], () if cases is None else cases.temperatures)
     condition, label = quoted(duty.governed_by), loads[duty.governing].label
@@ -141,7 +141,7 @@ def every_check(
     cases: CalculatedCases | None,
     further: Iterable[Check] = (),
 ) -> tuple[Check, ...]:
-    """Of the conveyor as given, then of its load cases and load states, then of other calculations."""
+    """Checks of the conveyor as given, of its load cases and load states, then of other calculations."""
     together = reach(asked_of_take_up(own, states, cases)[0])
     of_cases = () if cases is None else cases.checks
     of_states = () if states is None else states.checks

@@ -1,8 +1,7 @@
-"""Draws of what is not known, each calculated in full: no first order, inputs together and correlated.
+"""Monte Carlo draws of uncertain inputs, together and correlated, each calculated in full.
 
 Every input is normal with the ends of its range at the 5 % and 95 % quantiles, as in the first-order band; replicas of
-a rubber's fit are equally likely. Draws are independent of each other, so that the ranks of a binomial distribution
-bound their percentiles.
+a rubber's fit are equally likely. Draws are independent, so binomial ranks bound their percentiles.
 """
 
 from __future__ import annotations
@@ -30,15 +29,15 @@ from conveyor.rubber.anchor import COVERED, ends
 Array: TypeAlias = NDArray[np.float64]
 _BATCH = 64
 SURE = 0.9
-"""Chance that a percentile lies between the ends it is given with."""
+"""Confidence of the bounds of a percentile."""
 
 
 @dataclass(frozen=True)
 class DrawnInput:
-    """An input that is drawn: its name, and a conveyor, or what else of a variant, of how far from the middle it is.
+    """An input that is drawn: its name and how a draw changes the conveyor or its variant.
 
-    `change` takes a conveyor and multiples of the half width, 1 at the high end [-]; `drag` and `level` give factors of
-    the variant; `rubber` are a compound and its equally likely replicas.
+    `change` takes a conveyor and the distance from the middle in half widths, 1 at the high end [-]; `drag` and `level`
+    give factors of the variant; `rubber` is a compound and its equally likely replicas.
     """
 
     name: str
@@ -50,7 +49,7 @@ class DrawnInput:
 
 @dataclass(frozen=True)
 class Percentiles:
-    """Ends of the 90 % interval after some draws, each with the ends between which it lies with 90 % [W]."""
+    """Ends of the 90 % interval after some draws, each with its 90 % confidence bounds [W]."""
 
     draws: int
     low: float
@@ -68,7 +67,7 @@ class MonteCarlo:
     power : ndarray
         At the motors' shafts, in the order of the draws, shape `(n,)` [W].
     refused : mapping of str to int
-        Why draws have no answer, and how many.
+        Reasons why draws have no answer, with their number.
     """
 
     power: Array
@@ -76,7 +75,7 @@ class MonteCarlo:
 
     @property
     def band(self) -> tuple[float, float]:
-        """Between which nine tenths lie [W]."""
+        """90 % interval [W]."""
         return ends(self.power)
 
     @cached_property
@@ -88,14 +87,14 @@ class MonteCarlo:
 
 
 def percentiles(power: Array) -> Percentiles:
-    """The 90 % interval of draws, and how well its ends are known: by ranks, whatever the distribution is.
+    """90 % interval of draws with distribution-free bounds of its ends, by ranks.
 
     Parameters
     ----------
     power : ndarray
         Of at least 64 independent draws, shape `(n,)` [W]; of fewer the outermost bounds nothing.
     """
-    from scipy.stats import binom  # 0.3 s that a report without draws does not pay
+    from scipy.stats import binom  # takes 0.3 s, not needed without draws
 
     ranked, count = np.sort(power), len(power)
     low, high = ends(power)
@@ -117,29 +116,29 @@ def drawn(
     rtol: float | None = None,
     progress: Progress | None = None,
 ) -> MonteCarlo:
-    """Draw inputs together and calculate every draw.
+    """Draw all inputs together and calculate every draw.
 
     Parameters
     ----------
     given : CalculatedConveyor
         The spec calculated.
     inputs : sequence of DrawnInput
-        What is drawn.
+        Inputs to draw.
     ranges : Uncertainty
         Draws, seed and correlations.
     end : float
         Standard deviations from the middle to an end of a range [-].
     take_up : TakeUpSetting, optional
-        Its setting and side in every draw [N]; the least of each without it.
+        Setting and side in every draw [N]; by default the least of each.
     rtol : float, optional
-        Relative tolerance of the contacts [-]; that of the spec without it.
+        Relative tolerance of the contacts [-]; by default that of the spec.
     progress : callable, optional
-        Called with what is done and the whole.
+        Called with the items done and their total.
 
     Raises
     ------
     InputError
-        No inputs have these correlations, or one of them is not drawn.
+        The correlations contradict each other, or name an input that is not drawn.
     NoSolutionError
         Fewer than 64 draws have an answer.
     """
@@ -172,7 +171,7 @@ def drawn(
 
 
 def _root(names: Sequence[str], ranges: Uncertainty) -> Array:
-    """Root of the matrix of correlations: times independent normals it gives correlated ones."""
+    """Cholesky root of the correlation matrix, which correlates independent normals."""
     matrix = np.eye(len(names))
     for pair in ranges.correlations:
         for name in pair.between:
@@ -189,7 +188,7 @@ def _root(names: Sequence[str], ranges: Uncertainty) -> Array:
 
 
 def _variant(conveyor: Conveyor, inputs: Sequence[DrawnInput], row: Sequence[float], end: float) -> Variant:
-    """A draw."""
+    """Variant of one draw."""
     made, drag = conveyor, 1.0
     level: dict[Strand, float] = {}
     for one, normal in zip(inputs, row, strict=True):

@@ -1,8 +1,8 @@
-"""The best design: differential evolution over ranges and lists, every design calculated in full and kept.
+"""Best design by differential evolution over ranges and lists, every design calculated in full and stored.
 
 Storn and Price 1997 in SciPy's implementation, with Lampinen's rule for limits (2002): a design that keeps them beats
-one that does not, of two that do not the one that is less beyond. Which designs are tried follows from the seed and the
-answers alone; a search that was stopped finds its answers in the file and goes on where it was.
+one that does not; of two that do not, the one with the smaller excess wins. The designs tried depend on the seed and
+the answers alone; a stopped search resumes from the stored answers.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ from conveyor.units.presentation import MONEY, unit
 
 Array: TypeAlias = NDArray[np.float64]
 Generation: TypeAlias = Callable[[int, int, Design], None]
-"""Called with generations done, the most there are, and the best design so far."""
+"""Called with the generations done, their maximum, and the best design so far."""
 _SPREAD: Final = 0.01
-"""Of the costs of a generation over their mean: below it the search ends (SciPy's own)."""
+"""Relative spread of the costs of a generation below which the search ends (SciPy's default)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,13 +39,13 @@ class SearchResult:
     Attributes
     ----------
     design : Design
-        It.
+        The best design.
     tried : int
-        Different designs that were calculated.
+        Different designs calculated.
     generations : int
-        Gone through.
+        Generations calculated.
     settled : bool
-        Whether the designs of the last generation cost alike; else generations ran out.
+        True if the designs of the last generation cost alike; else generations ran out.
     history : tuple of float
         Best cost of each generation, of those that keep every limit [SI].
     """
@@ -65,18 +65,18 @@ def optimise(
     workers: int = 1,
     progress: Generation | None = None,
 ) -> SearchResult:
-    """Search the best design of a plan.
+    """Search for the best design of a plan.
 
     Parameters
     ----------
     campaign : Campaign
-        Of a `SearchPlan`.
+        Study of a `SearchPlan`.
     known : Answers
-        What is known; new answers are added.
+        Stored answers; new ones are added.
     executor : concurrent.futures.Executor, optional
-        Where designs are calculated, a generation side by side.
+        Executor of the designs of a generation.
     workers : int
-        Of the executor.
+        Workers of the executor.
     progress : callable, optional
         Called after every generation.
 
@@ -85,7 +85,7 @@ def optimise(
     InputError
         The plan is of another kind, or a list of fields leaves no choice.
     NoSolutionError
-        No design that was tried keeps the limits; it says what the next best breaks.
+        No design tried keeps the limits; the message names those that the closest exceeds.
     ConveyorError
         As `campaign.run`.
     """
@@ -105,7 +105,7 @@ def optimise(
 
     ends = [(0.0, 1.0)] * len(plan.ranges) + [(0.0, len(listed) - 1.0) for listed in plan.choices]
     evolved = differential_evolution(
-        search.costs,  # type: ignore[arg-type]  # side by side, as vectorized says
+        search.costs,  # type: ignore[arg-type]  # takes many designs, as vectorized says
         Bounds(*np.transpose(ends)),
         popsize=plan.population,
         maxiter=plan.generations,
@@ -126,7 +126,7 @@ def optimise(
 
 
 class _Search:
-    """Designs that were tried, by their fields; each is calculated once."""
+    """Designs tried, by their fields; each is calculated once."""
 
     def __init__(
         self, campaign: Campaign, plan: SearchPlan, known: Answers, calculate: Callable[..., None]
@@ -136,20 +136,20 @@ class _Search:
         self.designs: dict[tuple[Value, ...], Design] = {}
 
     def costs(self, shares: Array, /) -> Array:
-        """What is sought of designs, less is better, shape `(n,)` of `(fields, n)`."""
+        """Objective of designs, less is better, shape `(n,)` from `(fields, n)`."""
         return np.array([self.cost(design) for design in self._of(shares)])
 
     def beyond(self, shares: Array) -> Array:
-        """How far designs are beyond their limits, shape `(1, n)` of `(fields, n)`."""
+        """Excess of designs over their limits, shape `(1, n)` from `(fields, n)`."""
         return np.array([[self.violation(design) for design in self._of(shares)]])
 
     def cost(self, design: Design) -> float:
-        """What is sought, less is better."""
+        """Objective of a design, less is better."""
         value = design.figures.get(self._name)
         return math.inf if value is None else value if self._direction == "least" else -value
 
     def violation(self, design: Design) -> float:
-        """Sum of what it is beyond its limits [-]; infinite without an answer."""
+        """Sum of the excesses over the limits [-]; infinite without an answer."""
         if design.figures.get(self._name) is None:
             return math.inf
         limits = self._plan.limits.items()
@@ -157,7 +157,7 @@ class _Search:
         return math.fsum(violation(one, name, kinds[name].kind, design.figures[name]) for name, one in limits)
 
     def told(self, name: str) -> str:
-        """A figure of the best, and the limit that it does not keep."""
+        """Text of a figure of the best design and the limit it exceeds."""
         kind, value, limit = (
             self._campaign.figures[name].kind,
             self.best.figures[name],
@@ -172,11 +172,11 @@ class _Search:
 
     @property
     def best(self) -> Design:
-        """The best that keeps the limits, else the one least beyond; the first of equal ones."""
+        """Best design that keeps the limits, else the one with the least excess; the first of equals."""
         return min(self.designs.values(), key=lambda one: (self.violation(one), self.cost(one)))
 
     def _of(self, shares: Array) -> list[Design]:
-        """Designs of shares; those that are new are calculated side by side."""
+        """Designs at given shares; new ones are calculated in one batch."""
         asked = [self._plan.design(one) for one in np.atleast_2d(shares.T).tolist()]
         new = {key: one for one in asked if (key := tuple(one.values())) not in self.designs}
         points = [point for one in new.values() for point in self._plan.points_of(one)]

@@ -1,4 +1,4 @@
-"""Points of a study: the exact calculation of a spec with some fields changed, many side by side."""
+"""Points of a study: exact calculations of a spec with some fields changed, in batches."""
 
 from __future__ import annotations
 
@@ -21,24 +21,24 @@ from conveyor.studies.costs import Parts, costs, parts_of
 from conveyor.studies.loads import every_load
 
 Loads: TypeAlias = Mapping[str, Any]
-"""Figures of every load of a design, by key."""
+"""Figures over all loads of a design, by key."""
 Answer: TypeAlias = list[Any] | str
-"""Figures of a point, SI, in the order asked for; or why it has none."""
+"""Figures of a point in the requested order [SI], or the reason why it has none."""
 
 
 @dataclass(frozen=True)
 class Output:
-    """A figure of a point: words, kind of quantity, and how it is read."""
+    """A figure of a point: label, kind of quantity, and its getter."""
 
     label: str
     kind: str
     get: Callable[[Any], float | int | None]
     of: Literal["point", "parts", "loads"] = "point"
-    """What it is read from: the calculated conveyor, the costs of its parts, every load of the design."""
+    """Source: the calculated conveyor, the costs of its parts, or every load of the design."""
     better: Direction = "least"
-    """What is sought of it where a study does not say."""
+    """Default direction as an objective."""
     needs: tuple[str, ...] = ()
-    """Fields of a spec without any of which there is no such figure."""
+    """Fields of a spec, at least one of which the figure needs."""
 
 
 _STRENGTH: Final = ("belt.carcass.strength",)
@@ -123,16 +123,16 @@ OUTPUTS: Final[Mapping[str, Output]] = {
 }
 """Figures by key."""
 PARTS: Final = "parts"
-"""What is kept of a point for figures that are priced."""
+"""Key of a point's parts, from which priced figures follow."""
 
 
 def outputs_of(keys: Iterable[str]) -> dict[str, Output]:
-    """Figures asked for; of none all but those of every load, which take a hundred times as long.
+    """Requested figures; by default all but those of every load, which take a hundred times as long.
 
     Raises
     ------
     InputError
-        A key is not known.
+        A key is unknown.
     """
     asked = tuple(keys) or tuple(key for key, one in OUTPUTS.items() if one.of != "loads")
     for key in asked:
@@ -142,12 +142,12 @@ def outputs_of(keys: Iterable[str]) -> dict[str, Output]:
 
 
 def loads_asked(asked: Iterable[str]) -> tuple[str, ...]:
-    """What of things asked for is read from every load of a design."""
+    """Keys of the requested figures that need every load of a design."""
     return tuple(key for key in asked if key != PARTS and OUTPUTS[key].of == "loads")
 
 
 def asked_of(outputs: Iterable[str]) -> tuple[str, ...]:
-    """What is calculated of points for figures: those that are priced follow from parts, whatever they cost."""
+    """Keys to calculate at points for the requested figures; priced ones need only the parts."""
     keys = dict.fromkeys(outputs)
     read = [key for key in keys if OUTPUTS[key].of != "parts"]
     energy = ("cost_per_year",) if "total_cost_per_year" in keys else ()
@@ -157,18 +157,18 @@ def asked_of(outputs: Iterable[str]) -> tuple[str, ...]:
 def priced(
     answer: Answer, asked: Sequence[str], outputs: Sequence[str], amounts: Mapping[str, float], seconds: float
 ) -> Answer:
-    """Figures of an answer that is calculated.
+    """Requested figures of a calculated answer, with prices applied.
 
     Parameters
     ----------
     answer : list or str
-        Of `asked`, [SI].
+        Values of the keys `asked` [SI].
     asked, outputs : sequence of str
-        What was calculated, and what is wanted.
+        Keys calculated, and keys requested.
     amounts : mapping
-        `Prices.amounts`; empty where parts have no price.
+        `Prices.amounts`; empty if parts have no price.
     seconds : float
-        Of running in a year [s].
+        Running time in a year [s].
     """
     if isinstance(answer, str) or PARTS not in asked:
         return answer
@@ -185,14 +185,14 @@ def priced(
 
 @dataclass(frozen=True)
 class Job:
-    """What every batch of a study follows from, packed once; equal ones have the same key.
+    """Inputs common to all batches of a study, pickled once; equal jobs have the same key.
 
     Attributes
     ----------
     key : bytes
-        Hash of all of it.
+        Hash of the packed inputs.
     packed : bytes
-        Spec, what is asked of points, compounds, paths of states, and the levels of all compounds.
+        Spec, keys to calculate, compounds, paths of states, and the test factors of all compounds.
     """
 
     key: bytes
@@ -206,7 +206,7 @@ class Job:
         compounds: Mapping[str, RubberCompound],
         met: Sequence[str] = (),
     ) -> Self:
-        """Pack a spec, what is `asked_of` its points, compounds that they give by name, paths of their states."""
+        """Pack a spec, the keys to calculate, compounds by name, and paths of the states."""
         every = _every(base, compounds)
         anchors = anchors_of(base, every)
         # a compound that is unpickled is another object
@@ -221,7 +221,7 @@ def _every(base: Conveyor, compounds: Mapping[str, RubberCompound]) -> tuple[Rub
 
 
 class _Opened:
-    """A job where it is done: the very same parts for all its batches, and what batches before made of them."""
+    """An unpickled job: shared inputs of all its batches, and results of earlier ones."""
 
     def __init__(self, job: Job) -> None:
         self.base: Conveyor
@@ -234,19 +234,19 @@ class _Opened:
         self._loads: dict[tuple[tuple[str, Value], ...], Loads] = {}
 
     def made(self, point: Changes) -> Conveyor:
-        """The spec of a point.
+        """Spec of a point.
 
         Raises
         ------
         InputError
-            A change is refused.
+            A change is invalid.
         """
         return with_fields(self.base, point, resolve=self.compounds.__getitem__, known=self.kept.fields)
 
     def loads(self, point: Changes) -> Loads:
-        """Every load of the design of a point, whatever state it is in; or why there is none.
+        """Figures over all loads of a point's design, whatever state the point is in.
 
-        Calculated for itself: whatever batch asks first, it is the same.
+        Calculated on its own, so that it does not depend on the batch.
         """
         design = {path: value for path, value in point.items() if path not in self._met}
         key = tuple(design.items())
@@ -259,12 +259,12 @@ class _Opened:
 
 @lru_cache(maxsize=1)
 def _opened(job: Job) -> _Opened:
-    """A job unpacked, once in a process that does many batches of it."""
+    """Unpickled job, cached in a process that does many of its batches."""
     return _Opened(job)
 
 
 def answers(job: Job, points: Sequence[Changes]) -> list[Answer]:
-    """Figures of points, calculated side by side.
+    """Calculate points in one batch.
 
     Parameters
     ----------
@@ -276,7 +276,7 @@ def answers(job: Job, points: Sequence[Changes]) -> list[Answer]:
     Returns
     -------
     list
-        In their order what is asked for in SI, or why a point has none.
+        For each point the requested values in SI, or the reason why it has none.
     """
     opened = _opened(job)
     opened.kept.forget_solved()
@@ -312,13 +312,13 @@ def _answer(result: CalculatedConveyor | ConveyorError, opened: _Opened, point: 
 
 
 def _loads(design: Conveyor, asked: Iterable[str]) -> Loads:
-    """Figures of every load of a design that are asked for."""
+    """Requested figures over all loads of a design."""
     loads = every_load(design)
     return {key: kept(OUTPUTS[key].get(loads)) for key in loads_asked(asked)}
 
 
 def kept(value: Any) -> Any:
-    """A figure to ten digits: what follows them differs from one run of the same batch to the next.
+    """Round to ten digits: further ones differ from run to run of the same batch.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What a plan names that its spec does not know: all of it at once, each with its place in the plan."""
+"""Validation of a plan against its spec: all errors at once, each with its location in the plan."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ from conveyor.studies.points import outputs_of
 from conveyor.units import Quantity, is_quantity, quantity
 
 _MOST = 100
-"""Problems that are looked for."""
+"""Most problems reported."""
 
 
 class Problems:
-    """What is wrong with a plan, gathered."""
+    """Collected errors of a plan."""
 
     def __init__(self) -> None:
         self._found: list[tuple[Location, str]] = []
 
     @contextmanager
     def at(self, *location: int | str) -> Iterator[None]:
-        """Keep what is refused, with its place."""
+        """Record an error with its location."""
         try:
             yield
         except PlacedError as error:
@@ -39,20 +39,20 @@ class Problems:
         return len(self._found)
 
     def refuse(self) -> None:
-        """Refuse the plan if anything is wrong."""
+        """Raise the recorded errors, if any."""
         if self._found:
             raise PlacedError(self._found)
 
 
 def refuse_unknown(plan: VariedSpec, base: Conveyor, resolve: Callable[[str], RubberCompound]) -> None:
-    """Refuse fields, values, compounds, figures and limits of a plan that cannot be right on its spec.
+    """Reject fields, values, compounds, figures and limits of a plan that cannot be right for its spec.
 
-    What is beyond a range is a point without an answer, and says so there.
+    A value outside its range makes a point without an answer instead.
 
     Raises
     ------
     PlacedError
-        Everything that is wrong.
+        All errors.
     """
     problems = Problems()
     known: dict[str, object] = {}
@@ -86,7 +86,7 @@ def _refuse_drawn(plan: VariedSpec, path: str, like: object) -> None:
 def _refuse_other_kind(
     base: Conveyor, path: str, like: object, value: Value, resolve: Callable[[str], RubberCompound]
 ) -> None:
-    """Refuse a compound that is not there, a value in units that the field never has, a value for a group of fields."""
+    """Reject an unknown compound, a value of the wrong dimension, or a value for a group of fields."""
     if isinstance(like, RubberCompound) and isinstance(value, str):
         resolve(value)
     elif is_quantity(like) and not _alike(value, like):
@@ -99,7 +99,7 @@ def _refuse_other_kind(
 
 
 def _refuse_other_currency(plan: VariedSpec, base: Conveyor, value: Value) -> None:
-    """Refuse a price of energy that costs of the study cannot be summed with."""
+    """Reject an energy price in another currency than the study's costs."""
     operation = with_fields(base, {"operation.price": value}).operation
     price = None if operation is None else operation.price
     if price is not None and price.currency != plan.currency(base):

@@ -1,8 +1,8 @@
 """Load states of a conveyor: empty, full, inclines only, declines only, and the worst loadings by superposition.
 
-The take-up is as it is set for the spec's own load and its cases. Forces add by section: a loading has those of the
-full belt on the sections that bear bulk, and those of the empty one elsewhere. The worst for the drive force is
-calculated in full besides: its own tensions press on the rolls of vertical curves, its own loads soften the rubber.
+The take-up is set as for the spec's own load and its cases. Forces add by section: a loading has those of the full belt
+on the sections that bear bulk, and those of the empty one elsewhere. The worst for the drive force is also calculated
+in full: its own tensions load the rolls of vertical curves, its own loads soften the rubber.
 """
 
 from __future__ import annotations
@@ -38,13 +38,13 @@ from conveyor.ties import largest
 from conveyor.units import from_si
 from conveyor.units.sentences import Said, quoted, said
 
-_ROW: Final = 3  # sections from which a row of them is named by its ends
-_ROUNDS: Final = 20  # of loading the rolls anew; their share in the tensions is a hundredth of it
+_ROW: Final = 3  # consecutive sections from which a row is named by its ends
+_ROUNDS: Final = 20  # of reloading the rolls; each changes the tensions by a hundredth of the last change
 _IN_FULL: Final = frozenset({DRIVE_FORCE, HOLDING_BACK, HOLDING_DOWN})
-"""Figures whose worst loading is calculated with contacts of its own."""
-_NAMED: Final = 2  # figures that name a state
-_FIGURE: Final = 3  # rank of what is no criterion: behind those that are not checked
-_DIGITS: Final = 9  # of figures: what rounding parts is equal
+"""Figures whose worst loading is calculated with its own contacts."""
+_NAMED: Final = 2  # figures in the name of a state
+_FIGURE: Final = 3  # rank of figures that are no criteria: behind unchecked ones
+_DIGITS: Final = 9  # of figures: values that differ by rounding are equal
 _KEYS: Final = {"full": "full", "empty": "empty", "inclines only": "inclines", "declines only": "declines"}
 
 
@@ -55,19 +55,19 @@ class LoadState:
     Attributes
     ----------
     name : str
-        What it is called in reports.
+        Name in reports.
     loaded : tuple of str
         Sections that bear bulk.
     temperature : float
         Of the belt [K].
     worst_for : tuple of str
-        Figures that no loading makes worse, as far as single sections go, at no temperature of the cases.
+        Figures for which it is the worst loading by sections, over all temperatures of the cases.
     keys : tuple of str
-        For programs; a loading that is several of the standard states and the worst has the keys of all.
+        Keys for programs: all those of the standard states and worst loadings that it represents.
     balance : Balance
         Forces, tensions and power, the take-up at its setting.
     found : CalculatedConveyor or None
-        The same with all that follows from it, where that is known.
+        The full result, if known.
     """
 
     name: str
@@ -80,24 +80,24 @@ class LoadState:
 
     @property
     def label(self) -> str:
-        """Its name, of a standard state with what it is worst for."""
+        """Its name; for a standard state with the figures it is worst for."""
         if self.name in _KEYS and self.worst_for:
             return f"{self.name} (worst for {', '.join(self.worst_for)})"
         return self.name
 
     @property
     def title(self) -> str:
-        """What it is called among load cases."""
+        """Its name among load cases."""
         return f"load state {self.name if self.name in _KEYS else f'worst for {self.worst_for[0]}'}"
 
     @property
     def case(self) -> Said:
-        """What its checks are of."""
+        """Case of its checks."""
         return said(f"{quoted(self.title)}, {{}}", (self.temperature, "temperature"))
 
     @property
     def loaded_in_words(self) -> str:
-        """The sections that bear bulk, by name, or those that do not where these are fewer words."""
+        """Names of the sections that bear bulk, or of those that do not if that is shorter."""
         names, bearing = [section.name for section in self.balance.line.sections], frozenset(self.loaded)
         loaded, empty = (
             _in_words(names, [(name in bearing) is on for name in names]) for on in (True, False)
@@ -109,7 +109,7 @@ class LoadState:
 
 @dataclass(frozen=True)
 class StateRefusal:
-    """A load without an answer, and why; SI."""
+    """A load without an answer, and the reason; SI."""
 
     name: str
     temperature: float
@@ -125,9 +125,9 @@ class CalculatedStates:
     own : CalculatedConveyor
         The spec's own load.
     states, refused : tuple
-        The standard ones first, then worst loadings that are none of them; what has no answer.
+        The standard states first, then other worst loadings; states without an answer.
     ends : tuple
-        Temperatures at which loadings are looked at [K], each with the loops under full and empty belt.
+        Temperatures of the loadings [K], each with the loops under full and empty belt.
     """
 
     own: CalculatedConveyor
@@ -142,12 +142,12 @@ class CalculatedStates:
 
     @property
     def take_up(self) -> TakeUpSetting:
-        """What it keeps in every state."""
+        """Setting and side of the take-up in every state."""
         return self.own.balance.settled.take_up
 
     @property
     def setting(self) -> float:
-        """Of the take-up in every state [N]."""
+        """Take-up setting in every state [N]."""
         return self.take_up.tension
 
     def __repr__(self) -> str:
@@ -155,16 +155,16 @@ class CalculatedStates:
         return f'StateStudy("{name}": {answered} states, {len(self.refused)} without an answer)'
 
     def state(self, key: str) -> LoadState | None:
-        """The state of a key: full, empty, inclines, declines, worst and what `worst_key` makes."""
+        """State of a key: full, empty, inclines, declines, worst and those of `worst_key`."""
         return next((state for state in self.states if key in state.keys), None)
 
     @cached_property
     def loads(self) -> tuple[Load, ...]:
-        """Every state that is not the spec's own load; its contacts are those of the spec's."""
+        """Every state but the spec's own load, with the contacts of the spec's own load."""
         return tuple(self.load(state) for state in self.states if state.balance is not self.own.balance)
 
     def load(self, state: LoadState) -> Load:
-        """A state as a load; its contacts are those of the spec's."""
+        """A state as a load, with the contacts of the spec's own load."""
         found = state.found
         if found is None or found.balance is not state.balance:
             found = replace(self.own, temperature=state.temperature, balance=state.balance)
@@ -172,7 +172,7 @@ class CalculatedStates:
 
     @cached_property
     def checks(self) -> tuple[Check, ...]:
-        """Every criterion that needs no contacts, in every state that is not the spec's own load."""
+        """Every criterion that needs no contacts, in every state but the spec's own load."""
         return tuple(
             replace(check, case=load.label)
             for load in self.loads
@@ -181,7 +181,7 @@ class CalculatedStates:
 
 
 def _in_words(names: Sequence[str], on: Sequence[bool]) -> str:
-    """Names that are on; of three and more in a row the first and the last."""
+    """Names of the selected sections; of three or more in a row the first and the last."""
     runs = [
         [name for name, _ in run]
         for is_on, run in groupby(zip(names, on, strict=True), itemgetter(1))
@@ -191,7 +191,7 @@ def _in_words(names: Sequence[str], on: Sequence[bool]) -> str:
 
 
 def worst_key(figure: str) -> str:
-    """Return the key of the worst loading for a figure: worst is that of the drive force.
+    """Key of the worst loading for a figure; `worst` for the drive force.
 
     Examples
     --------
@@ -211,7 +211,7 @@ def load_states(
 ) -> CalculatedStates:
     """Calculate empty, full, inclines only and declines only, and the worst loadings at every temperature of the cases.
 
-    A loading that is several of them is one state.
+    Coinciding loadings are one state.
 
     Parameters
     ----------
@@ -220,9 +220,9 @@ def load_states(
     given : CalculatedConveyor, optional
         The spec's own load; its take-up setting is that of every state. Calculated without it.
     cases : CalculatedCases, optional
-        Cases at the same setting: their temperatures are looked at too, and what they know is not calculated again.
+        Cases at the same setting: their temperatures are included, and their results reused.
     progress : callable, optional
-        Called with what is done and the whole.
+        Called with the items done and their total.
 
     Raises
     ------
@@ -267,7 +267,7 @@ def load_states(
 
 
 def _standing(own: CalculatedConveyor) -> CalculatedConveyor:
-    """The spec's own load, its take-up on the side of the drives that it has for every load."""
+    """The spec's own load with the take-up on the side of the drives that suits every load."""
     (balance,) = on_one_side([own.balance])
     return own if balance is own.balance else replace(own, balance=balance)
 
@@ -275,24 +275,22 @@ def _standing(own: CalculatedConveyor) -> CalculatedConveyor:
 def at_one_take_up(
     states: CalculatedStates, cases: CalculatedCases | None
 ) -> tuple[CalculatedStates, CalculatedCases | None]:
-    """The same loads with the take-up at the least setting that serves the load states too; a given one stands.
+    """The same loads at the least take-up setting that suits the load states too; a given setting is kept.
 
-    Cases that the rubber's data do not cover are at the setting, and do not ask for it. Loadings under which a
-    criterion is worse than under every other load, the take-up at that setting, become load states.
-
-    Where tension acts on the rolls, every load is loaded anew until setting and rolls agree.
+    Cases outside the rubber's data are at the setting but do not determine it. Loadings that govern a criterion at that
+    setting become load states. Where tension loads the rolls, loads are recalculated until setting and rolls agree.
 
     Parameters
     ----------
     states : CalculatedStates
-        With the spec's own load.
+        Load states, with the spec's own load.
     cases : CalculatedCases or None
-        At the same setting.
+        Load cases at the same setting.
 
     Raises
     ------
     NoSolutionError
-        No setting serves every load, or a load has no answer at it.
+        No setting suits every load, or a load has no answer at it.
     """
     states, cases = _at_one_setting(states, cases)
     for _ in range(_ROUNDS):
@@ -307,7 +305,7 @@ def at_one_take_up(
 def _at_one_setting(
     states: CalculatedStates, cases: CalculatedCases | None
 ) -> tuple[CalculatedStates, CalculatedCases | None]:
-    """Every load with the take-up at one setting."""
+    """Every load at one take-up setting."""
     if states.own.line.take_up.tension is not None:
         return states, cases
     for _ in range(_ROUNDS):
@@ -334,7 +332,7 @@ def _at_one_setting(
 def _with_motors(
     states: CalculatedStates, cases: CalculatedCases | None
 ) -> tuple[CalculatedStates, CalculatedCases | None]:
-    """Loads that know what motors of a power not given have at rest."""
+    """Loads with the starting force of motors without a given power."""
     of_states = [states.own, *(load.found for load in states.loads)]
     of_cases = [] if cases is None else [result.found for result in cases.designing]
     own = replace(states.own, start_of_motors=start_of_motors([*of_states, *of_cases]))
@@ -342,7 +340,7 @@ def _with_motors(
 
 
 def _with_candidates(states: CalculatedStates, cases: CalculatedCases | None) -> CalculatedStates:
-    """With the loadings that are worst for a figure of the criteria at whichever temperature, but those there are."""
+    """States extended by the loadings that are worst for a figure of the criteria at any temperature."""
     own = states.own
     ends = iter(held([loop for _, *pair in states.ends for loop in pair], states.take_up))
     looked_at = {temperature: CriterionLoadings(next(ends), next(ends)) for temperature, *_ in states.ends}
@@ -371,7 +369,7 @@ def _with_candidates(states: CalculatedStates, cases: CalculatedCases | None) ->
 def _loadings_there(
     states: CalculatedStates, cases: CalculatedCases | None
 ) -> set[tuple[float, tuple[str, ...]]]:
-    """Temperature and loaded sections of every load that is calculated at the spec's speed and full cross-section."""
+    """Temperature and loaded sections of every load calculated at the spec's speed and full cross-section."""
     there = {(state.temperature, state.loaded) for state in states.states if state.keys}
     for result in () if cases is None else cases.designing:
         if result.speed == states.own.line.speed and result.case.loading in STANDARD_LOADINGS:
@@ -381,7 +379,7 @@ def _loadings_there(
 
 
 def _governing_only(states: CalculatedStates, cases: CalculatedCases | None) -> CalculatedStates:
-    """Of the candidates those that govern a criterion or a figure, each named by what it governs."""
+    """States with only those candidates that govern a criterion or a figure, each named by it."""
     own, of_cases = states.own, () if cases is None else cases.designing
     fixed = [state for state in states.states if state.keys]
     candidates = [state for state in states.states if not state.keys]
@@ -408,7 +406,7 @@ def _governing_only(states: CalculatedStates, cases: CalculatedCases | None) -> 
 
 
 def _ranks(load: Load) -> Iterator[tuple[tuple[str, str], Rank]]:
-    """Criteria and figures of a load by key and name, and how they rank: the least governs, as in `deciding`."""
+    """Criteria and figures of a load by key and name, with their rank: the least governs, as in `deciding`."""
     for check in checks(load.found, contacts=False):
         yield (check.key, check.subject.text()), severity(check)
     figures = figures_for_the_worse(load)
@@ -433,18 +431,18 @@ def _ranks(load: Load) -> Iterator[tuple[tuple[str, str], Rank]]:
 
 
 def _to_digits(value: float) -> float:
-    """A figure without what rounding parts."""
+    """Figure rounded so that values differing by rounding are equal."""
     return float(f"{value:.{_DIGITS}g}")
 
 
 def _called(figures: Sequence[str]) -> str:
-    """Name of a state that is the worst for figures."""
+    """Name of a state by the figures it is worst for."""
     more = f" and {len(figures) - _NAMED} more" if len(figures) > _NAMED else ""
     return f"worst for {', '.join(figures[:_NAMED])}{more}"
 
 
 def _loaded_anew(loads: Sequence[CalculatedConveyor], take_up: TakeUpSetting) -> list[CalculatedConveyor]:
-    """Loads whose rolls bear what the take-up at a setting does to them; the first is the spec's own."""
+    """Loads recalculated with the rolls loaded by the tension at a take-up setting; the first is the spec's own."""
     variants = [Variant(one.conveyor, one.temperature, take_up=take_up) for one in loads]
     made = []
     for before, again in zip(loads, calculate_many(variants, known=loads[0]), strict=True):
@@ -455,7 +453,7 @@ def _loaded_anew(loads: Sequence[CalculatedConveyor], take_up: TakeUpSetting) ->
 
 
 Rank = tuple[int, float, float]
-"""As `severity` has it."""
+"""Rank of a check, as returned by `severity`."""
 _Ends = tuple[Balance, Balance]
 """Under full and empty belt."""
 
@@ -463,9 +461,9 @@ _Ends = tuple[Balance, Balance]
 def _full_and_empty(
     conveyor: Conveyor, own: CalculatedConveyor, cases: CalculatedCases | None, progress: Progress | None
 ) -> tuple[dict[float, _Ends], list[StateRefusal]]:
-    """The full and the empty belt at the spec's temperature and those of its cases; of cases what they know.
+    """Full and empty belt at the spec's temperature and those of its cases, reusing results of the cases.
 
-    A temperature at which the rubber's data do not cover a case is left out: worst loadings would design by it.
+    A temperature at which a case is outside the rubber's data is left out: worst loadings would be designed by it.
     """
     every = [] if cases is None else [r for r in cases.results if r.speed == own.line.speed]
     beyond = {r.temperature for r in every if not r.covered}
@@ -503,7 +501,7 @@ def _full_and_empty(
 
 
 def _loaded(conveyor: Conveyor, case: LoadCase, temperature: float, own: CalculatedConveyor) -> Conveyor:
-    """The conveyor loaded as a case says at a temperature; itself where that changes nothing."""
+    """Conveyor under a load case at a temperature; the same object if nothing changes."""
     loaded = with_case(conveyor, case)
     if temperature == own.temperature:
         return loaded
@@ -513,7 +511,7 @@ def _loaded(conveyor: Conveyor, case: LoadCase, temperature: float, own: Calcula
 def _worst(
     adding: Mapping[float, Loadings],
 ) -> dict[tuple[float, bytes], tuple[Loading, tuple[str, ...]]]:
-    """The worst loadings at whichever temperature, each with the figures it is worst for."""
+    """Worst loadings over all temperatures, each with the figures it is worst for."""
     every: dict[str, list[tuple[float, float, Loading]]] = {}
     for temperature, states in adding.items():
         for figure, loading in states.worst().items():
@@ -529,7 +527,7 @@ def _worst(
 def _in_full(
     conveyor: Conveyor, loads: Sequence[tuple[float, tuple[str, ...]]], own: CalculatedConveyor
 ) -> list[CalculatedConveyor | ConveyorError]:
-    """Loadings at temperatures with their own contacts, or why they have none."""
+    """Calculate loadings at temperatures with their own contacts, or return the errors."""
     made: list[CalculatedConveyor | ConveyorError] = []
     variants: dict[int, Variant] = {}
     for i, (temperature, loaded) in enumerate(loads):
@@ -548,6 +546,6 @@ def _in_full(
 
 
 def _names(own: CalculatedConveyor, loading: Loading) -> tuple[str, ...]:
-    """Sections that bear bulk, by name."""
+    """Names of the sections that bear bulk."""
     pairs = zip(own.line.sections, loading.tolist(), strict=True)
     return tuple(section.name for section, on in pairs if on)

@@ -1,9 +1,9 @@
-"""How far the power may be off: every uncertain input at both ends of its range, calculated anew, and their sum.
+"""Uncertainty of the power: every uncertain input recalculated at both ends of its range, and the combined band.
 
-Ranges are taken to hold nine tenths of what may be, each input independent of the others. Bands hold nine tenths too:
-the root of the squares of all changes, and a Latin hypercube (McKay, Beckman, Conover 1979) on the first-order model
-P = P0 + Σ c_i(z_i), c_i a straight line from the middle to each end, z_i normal with its ends at the 5 % and 95 %
-quantiles. Both are exact for a power that is linear and inputs that are normal.
+Ranges are taken as 90 % intervals of independent inputs. Bands are 90 % intervals too: the root of the squares of all
+changes, and a Latin hypercube (McKay, Beckman, Conover 1979) on the first-order model P = P0 + Σ c_i(z_i), c_i a
+straight line from the middle to each end, z_i normal with its ends at the 5 % and 95 % quantiles. Both are exact for a
+power that is linear and inputs that are normal.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ from conveyor.units.sentences import figure, percent
 Array = NDArray[np.float64]
 
 END: Final = float(ndtri(0.5 + 0.5 * COVERED))
-"""Standard deviations from the middle of a range to its ends, normal."""
+"""Standard deviations from the middle of a range to its ends, for a normal distribution."""
 SAMPLES: Final = 4096
-"""Of the hypercube: its quantiles are then good to about 1 % of the band."""
+"""Points of the hypercube: quantiles are then accurate to about 1 % of the band."""
 
 
 _COVERS: Final = {
@@ -47,29 +47,29 @@ _COVERS: Final = {
     "cleaner_pressure": "cleaner_pressure",
     "rubber": "tested_level",
 }
-"""Ranges that stand for the band of a default, and its key."""
+"""Ranges that replace the band of a default, with the key of the default."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CalculatedRanges:
-    """The power with its band, and which input matters.
+    """Motor power with its band, and the effect of every input.
 
     Attributes
     ----------
     conveyor : Conveyor
         The spec.
     motor : float
-        Power at the motors' shafts as the spec says [W].
+        Motor shaft power of the spec [W].
     effects : tuple of Effect
-        One an input, the largest swing first.
+        One per input, the largest swing first.
     band, sampled : tuple of float
-        Between which nine tenths lie: by the root of the squares, and by the hypercube [W].
+        90 % interval by the root of the squares, and by the hypercube [W].
     notes : tuple of str
-        What was left out, and why.
+        Inputs left out, and the reason.
     monte_carlo : MonteCarlo or None
-        Draws of all inputs together, each calculated in full; None where the ranges ask for none.
+        Draws of all inputs together, each calculated in full; None if the ranges request none.
     left_open : tuple of Effect
-        Defaults in use that no range covers: neither the bands nor the draws have them.
+        Defaults in use that no range covers, in neither the bands nor the draws.
     """
 
     conveyor: Conveyor
@@ -91,19 +91,19 @@ class CalculatedRanges:
 
     @property
     def band_with_defaults(self) -> tuple[float, float]:
-        """Between which nine tenths lie by the ranges and by the defaults that none of them covers [W]."""
+        """90 % interval by the ranges and by the defaults not covered by any range [W]."""
         return root_of_squares(self.motor, (*self.effects, *self.left_open))
 
     @property
     def shares(self) -> tuple[float, ...]:
-        """Share of each input in the variance of the power, first order [-]; zero where nothing matters."""
+        """First-order share of each input in the variance of the power [-]; zero without variance."""
         squares = [effect.swing**2 for effect in self.effects]
         whole = math.fsum(squares)
         return tuple(square / whole if whole > 0.0 else 0.0 for square in squares)
 
 
 _BEYOND: Final = 2.0
-"""To how many times the working strain sweeps are carried on: softer rubber is strained more [-]."""
+"""Strain up to which sweeps are extended, over the working strain: softer rubber is strained more [-]."""
 
 
 @dataclass(frozen=True)
@@ -115,10 +115,10 @@ class _Variation:
     given: str
     high: str
     variants: tuple[Variant, ...]
-    """The low and the high end, or replicas of which quantiles are taken."""
+    """Low and high end, or replicas whose quantiles are taken."""
     replicas: bool = False
     drawn: DrawnInput | None = None
-    """How draws change it; None of what is not drawn."""
+    """Its change by draws; None if it is not drawn."""
 
 
 @checked
@@ -139,18 +139,18 @@ def study(
     conveyor : Conveyor
         The spec.
     ranges : Uncertainty, optional
-        Ranges; those of the spec without it.
+        Ranges; by default those of the spec.
     take_up : TakeUpSetting, optional
-        Its setting and side in every variant, as `conveyor.studies` finds them for every load; without it the least of
-        each, as `analyse` has it.
+        Setting and side in every variant, as `conveyor.studies` determines them for every load; by default the least of
+        each, as in `analyse`.
     rtol : float, optional
-        Relative tolerance of the contacts [-]; that of the spec without it.
+        Relative tolerance of the contacts [-]; by default that of the spec.
     samples : int
         Points of the hypercube, at least 2.
     seed : int
         Of the hypercube.
     progress : callable, optional
-        Called with what is done and the whole.
+        Called with the items done and their total.
 
     Returns
     -------
@@ -160,13 +160,13 @@ def study(
     Raises
     ------
     InputError
-        There is no range, or an end of one is refused (bulk that does not fit, a temperature without data).
+        There is no range, or an end of one is invalid (bulk that does not fit, a temperature without data).
     NoSolutionError, RangeError
         The conveyor, or an end of a range, has no answer.
 
     Notes
     -----
-    Contacts are solved side by side; a range that does not change them (roll drag, flexure, cleaners) costs none.
+    Contacts are solved in one batch; a range that does not change them (roll drag, flexure, cleaners) costs none.
 
     Examples
     --------
@@ -214,7 +214,7 @@ def study(
 
 
 def _left_open(result: CalculatedConveyor, ranges: Uncertainty) -> tuple[Effect, ...]:
-    """What the defaults in use that no range covers do to the power."""
+    """Effects of the defaults in use that no range covers."""
     covered = {key for name, key in _COVERS.items() if getattr(ranges, name)}
     return tuple(effect for effect in power_range(result).effects if effect.key not in covered)
 
@@ -235,7 +235,7 @@ def hypercube_band(
     motor : float
         Power as given [W].
     effects : sequence of Effect
-        What each input does.
+        One per input.
     samples : int
         Points, at least 2.
     seed : int
@@ -280,7 +280,7 @@ def _variations(
 
 
 def _refused(name: str, change: Callable[[], Conveyor]) -> Conveyor:
-    """A changed conveyor; a refusal names the range."""
+    """Change a conveyor; an error names the range."""
     try:
         return change()
     except InputError as error:
@@ -299,7 +299,7 @@ def _flexure(conveyor: Conveyor, ends: Sequence[Quantity]) -> _Variation:
 
 
 def _with_flexure(conveyor: Conveyor, away: float, ends: Sequence[Quantity]) -> Conveyor:
-    """With the share so many half widths from the middle of its range."""
+    """Conveyor with the flexure share at a distance from the middle of its range, in half widths."""
     share = between(ends[0], ends[1], 0.5 + 0.5 * away)
     return _refused(
         "flexure_share",
@@ -384,7 +384,7 @@ def _scaled(
 
 
 def _rubber(result: CalculatedConveyor, notes: list[str]) -> Iterator[_Variation]:
-    """Replicas of each compound, the level of its tests, and its strain sweeps where the belt is beyond them."""
+    """Replicas of each compound, its test factor, and its strain sweeps if the working strain exceeds them."""
     conveyor, covers = result.conveyor, result.contacts.covers
     compounds = compounds_by_strand(conveyor)
     for name in dict.fromkeys(compound.name for compound in compounds.values()):
@@ -423,7 +423,7 @@ def _rubber(result: CalculatedConveyor, notes: list[str]) -> Iterator[_Variation
 
 
 def _carried_on(compound: RubberCompound, strain: float) -> StrainDependence:
-    """Strain sweeps that end below a working strain [-], carried on to twice that, steeper than they end.
+    """Extend strain sweeps that end below a working strain [-] to twice that strain, steeper than at their end.
 
     Measured on S100 and S120 cut off at 0.3 to 1 %: over the next factor of five in strain ln E' falls 1.2 to 2.1 times
     as steeply as at the end, ln E'' more steeply by at most the slope of ln E'.
@@ -448,7 +448,7 @@ def _carried_on(compound: RubberCompound, strain: float) -> StrainDependence:
 
 
 def _level(conveyor: Conveyor, name: str, bands: Mapping[Strand, float]) -> _Variation:
-    """Both ends of the band of a compound's tests."""
+    """Test factor of a compound at both ends of its band."""
     ends = tuple(
         Variant(conveyor, level={strand: math.exp(sign * half) for strand, half in bands.items()})
         for sign in (-1.0, 1.0)

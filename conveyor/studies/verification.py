@@ -1,7 +1,7 @@
-"""What a compound loses under single rolls over line load, temperature, roll, cover and speed: to be held to tests.
+"""Indentation loss of compounds under single rolls over line load, temperature, roll, cover and speed, for tests.
 
-Rows of laboratories (DIN 22123, AS 1334.13, CEMA-7 test one roll under line loads at temperatures and speeds) are
-computed as the rolls of a conveyor are, all contacts side by side.
+Rows as laboratories measure them (DIN 22123, AS 1334.13, CEMA-7 test one roll under line loads at temperatures and
+speeds), computed like the rolls of a conveyor, all contacts in one batch.
 """
 
 from __future__ import annotations
@@ -35,10 +35,10 @@ TEMPERATURES: Final = ("-20 degC", "-10 degC", "0 degC", "10 degC", "20 degC", "
 ROLL_DIAMETERS: Final = ("159 mm", "194 mm", "219 mm")
 SPEEDS: Final = ("2.5 m/s", "5 m/s", "7.5 m/s")
 COVERS: Final = ("6 mm", "7 mm", "8 mm")
-"""What laboratories test at, and designers build: rolls of ISO 1537; loads, temperatures and covers of the published
-tests of low-resistance covers (219 mm roll, 7 mm cover, 1 to 8 N/mm, 20 degC: CEMA-7)."""
+"""Usual test and design values: rolls of ISO 1537; loads, temperatures and covers of the published tests of
+low-resistance covers (219 mm roll, 7 mm cover, 1 to 8 N/mm, 20 degC: CEMA-7)."""
 SPACING: Final = 1.2
-"""Of the rolls [m]; a confined cover forgets a roll within a few thicknesses, so it hardly matters."""
+"""Roll spacing [m]; a confined cover recovers within a few thicknesses, so it hardly matters."""
 MOST_POINTS: Final = 100_000
 _AXES: Final[dict[str, tuple[str, TypeAdapter[Any]]]] = {
     "line_loads": ("line force", TypeAdapter(Annotated[LineForce, Bounds(ge="1 N/m", le="100 kN/m")])),
@@ -47,12 +47,12 @@ _AXES: Final[dict[str, tuple[str, TypeAdapter[Any]]]] = {
     "speeds": ("speed", TypeAdapter(BeltSpeed)),
     "covers": ("thickness", TypeAdapter(Annotated[Thickness, Bounds(ge="1 mm", le="100 mm")])),
 }
-"""Kind of every axis, and what is allowed: as fields of a spec are, line loads to ten times the heaviest roll's."""
+"""Kind and range of every axis: as fields of a spec, line loads to ten times those of the heaviest roll."""
 
 
 @dataclass(frozen=True)
 class VerificationRow:
-    """A compound under a roll at a temperature and speed: what it loses at every line load, or why that is not known.
+    """Loss of a compound under a roll at a temperature and speed, by line load, or the reason why it is unknown.
 
     Attributes
     ----------
@@ -63,7 +63,7 @@ class VerificationRow:
     resistances : tuple of float or None
         Indentation resistance per width at every line load [N/m].
     reason : str
-        Why there is none.
+        Reason if there is none.
     """
 
     compound: str
@@ -77,18 +77,18 @@ class VerificationRow:
 
 @dataclass(frozen=True)
 class SetRow:
-    """A compound under the most loaded idler set of a conveyor: what its rolls lose [N], or why that is not known.
+    """Loss of a compound under the most loaded idler set of a conveyor [N], or the reason why it is unknown.
 
     Attributes
     ----------
     compound, section : str
-        Its name; where the set stands.
+        Its name; section of the set.
     temperature, load : float or None
         Of the cover [K]; of all rolls of the set [N].
     resistance : float or None
         Indentation resistance of the set [N].
     reason : str
-        Why there is none.
+        Reason if there is none.
     """
 
     compound: str
@@ -101,7 +101,7 @@ class SetRow:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CalculatedVerification:
-    """What compounds lose, to be held to a maker's tests.
+    """Losses of compounds, for comparison with a maker's tests.
 
     Attributes
     ----------
@@ -112,11 +112,11 @@ class CalculatedVerification:
     rows : tuple of VerificationRow
         By compound, cover, roll, speed, temperature.
     sets : tuple of SetRow
-        Of the conveyor, where one is given.
+        Of the conveyor, if one is given.
     conveyor : Conveyor or None
-        Whose sets.
+        Conveyor of the sets.
     softened : bool
-        Whether moduli are those at the strain of each roll, where the compound knows it.
+        True if moduli are those at the strain of each roll, for compounds with strain dependence.
     """
 
     compounds: tuple[RubberCompound, ...]
@@ -146,7 +146,7 @@ def verification(
     rtol: float = 1e-6,
     progress: Progress | None = None,
 ) -> CalculatedVerification:
-    """Calculate what compounds lose under single rolls, and under an idler set of a conveyor.
+    """Calculate the losses of compounds under single rolls, and under an idler set of a conveyor.
 
     Parameters
     ----------
@@ -155,12 +155,12 @@ def verification(
     line_loads, roll_diameters, speeds, covers : iterable of str or Quantity
         Each with its unit ("4 N/mm", "194 mm", "5 m/s", "7 mm").
     temperatures : iterable of str or Quantity, optional
-        Of the cover; without them -20 to 40 degC as far as each compound is known.
+        Of the cover; by default -20 to 40 degC as far as each compound is known.
     conveyor : Conveyor, optional
-        Whose most loaded carry set is calculated at the temperatures with each compound as its bottom cover.
+        Its most loaded carry set is calculated at the temperatures with each compound as its bottom cover.
     softened : bool
-        Take moduli at the strain of every roll and load where the compound knows it (half a second a figure), not at
-        that of its master curve.
+        Take moduli at the strain of every roll and load, for compounds with strain dependence (half a second per
+        figure), not at that of the master curve.
     shelves : iterable of path
         Further folders of compounds.
     rtol : float
@@ -176,7 +176,7 @@ def verification(
     Raises
     ------
     InputError
-        No compound, a value without unit or of a size that no roll has, more than 100,000 figures.
+        No compound, a value without unit or outside its range, more than 100,000 figures.
 
     Examples
     --------
@@ -223,7 +223,7 @@ def verification(
 
 
 def _axis(name: str, given: Given) -> tuple[float, ...]:
-    """Values of an axis, SI, each once and in order."""
+    """Sorted distinct values of an axis in SI."""
     kind, allowed = _AXES[name]
     values = []
     for item in given:
@@ -253,7 +253,7 @@ def _rows(
     softened: bool,
     rtol: float,
 ) -> Iterator[VerificationRow]:
-    """Every row of a compound: the contacts of all of them in one batch."""
+    """Rows of a compound, all contacts in one batch."""
     asked: list[tuple[VerificationRow, list[RollContact], list[tuple[float, float]]]] = []
     for (cover, diameter, speed), (temperature, series) in product(scenes, known.items()):
         row = VerificationRow(compound.name, cover, diameter, speed, temperature, (None,) * len(loads))
@@ -280,7 +280,7 @@ def _rows(
 def _softened(
     roll: RollContact, loads: Sequence[float], compound: RubberCompound, temperature: float
 ) -> list[RollContact]:
-    """The roll on its cover as softened at each line load."""
+    """Roll contacts with the cover softened at each line load."""
     factors = compound.amplitude_factors()
     if factors is None:
         return [roll for _ in loads]
@@ -295,7 +295,7 @@ def _filled(
     loads: tuple[float, ...],
     level: Anchor | None,
 ) -> VerificationRow:
-    """A row with what its curves say, one for all loads or one for each, at the level of the compound's tests."""
+    """Row with the resistances of its curves (one for all loads or one for each) times the test factor."""
     drawn: list[IndentationCurve] = []
     for curve in curves:
         if isinstance(curve, NoSolutionError):
@@ -310,7 +310,7 @@ def _filled(
 
 
 def _sets(conveyor: Conveyor, compound: RubberCompound, temperatures: Sequence[float]) -> Iterator[SetRow]:
-    """The most loaded carry set of a conveyor on a compound at every temperature."""
+    """Loss of the most loaded carry set of a conveyor on a compound at every temperature."""
     try:
         made = with_compound(conveyor, compound, "bottom")
     except ConveyorError as error:

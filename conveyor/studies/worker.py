@@ -1,4 +1,4 @@
-"""What processes that calculate batches read and build before their first one: once, where they are copies of one."""
+"""Imports and model builds for worker start-up: once, if workers are forked from one process."""
 
 from __future__ import annotations
 

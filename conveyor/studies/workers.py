@@ -1,4 +1,4 @@
-"""A process that was lost, said in one line."""
+"""Error message for a lost worker process."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from conveyor.errors import ConveyorError
 
 @contextmanager
 def workers_of(what: str, then: str = "") -> Iterator[None]:
-    """Say that a worker of something was lost, and what to do.
+    """Report the loss of a worker as an error.
 
     Raises
     ------
     ConveyorError
-        The executor is broken, or what was asked of it cancelled.
+        The executor is broken, or its work was cancelled.
     """
     try:
         yield

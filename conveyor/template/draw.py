@@ -1,4 +1,4 @@
-"""How the template looks: forms and lists with their notes, drop-downs and ranges."""
+"""Sheets of the template: forms and lists with notes, drop-downs and ranges."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from conveyor.template.fill import FilledSheets
 from conveyor.units import System
 
 _ENDLESS: Final = 1e300
-"""Stands for no limit: spreadsheet programs reach a little further."""
+"""Number for "no limit", just below the largest of spreadsheet programs."""
 _ALLOWED: Final = {
     "switch": f"{YES} or {NO}",
     "list": 'values separated by ";"',
@@ -39,14 +39,14 @@ _ALLOWED: Final = {
 
 
 class Rules:
-    """Gives cells their drop-downs, whose entries stand on a hidden sheet."""
+    """Validation rules of cells; entries of drop-downs are on a hidden sheet."""
 
     def __init__(self, compounds: Iterable[str]) -> None:
         self._compounds = tuple(compounds)
         self._lists: dict[tuple[Any, ...], str] = {}
 
     def apply(self, sheet: Worksheet, leaf: Leaf, value: str, unit: str) -> None:
-        """Give the value and unit cells of a field, or the ranges of them, their rules."""
+        """Add the rules of a field to its value and unit cells or ranges."""
         if leaf.units:
             self._add(sheet, self._drop_down(leaf.units), unit)
         if leaf.kind == "choice" and leaf.choices:
@@ -85,7 +85,7 @@ class Rules:
 
 
 def said(leaf: Leaf) -> str:
-    """Say what a field allows."""
+    """Allowed values of a field as text."""
     if leaf.kind == "choice":
         return ", ".join(map(str, leaf.choices))
     general = _ALLOWED.get(leaf.kind, "")
@@ -95,7 +95,7 @@ def said(leaf: Leaf) -> str:
 
 
 def default_text(leaf: Leaf) -> str:
-    """Write a default as its cells would hold it."""
+    """Default of a field as text."""
     if leaf.default is None:
         return ""
     value, unit = to_cells(leaf, leaf.default)
@@ -103,7 +103,7 @@ def default_text(leaf: Leaf) -> str:
 
 
 def _range(leaf: Leaf) -> DataValidation:
-    """Let the spreadsheet program refuse what no limit allows; open ends it takes as closed."""
+    """Validation rule for the range of a number; open ends are treated as closed."""
     rule = DataValidation(type="decimal", operator="between", allow_blank=True, showErrorMessage=True)
     if leaf.kind == "count":
         rule.type = "whole"
@@ -120,7 +120,7 @@ def _alike(old: DataValidation, new: DataValidation) -> bool:
 _HEADERS: Final = {"Field": 26, VALUE: 30, UNIT: 11, "Allowed": 30, "Default": 14, "Meaning": 56, KEY: 30}
 """Columns of a form and their widths [characters]."""
 _PRINTED: Final = 4
-"""Columns that paper has: field, value, unit, what is allowed."""
+"""Printed columns: field, value, unit, allowed."""
 _HEAD: Final = 4
 """Row of the headers."""
 _KEYS: Final = 6
@@ -156,17 +156,17 @@ _RARE: Final = frozenset({
     "Further feeding", "Ploughs", "Fill", "Train", "Torque curve", "Further drives", "Starter fill", "Correlations",
     "Scenarios", "Events", "Starter fill 2",
 })  # fmt: skip
-"""Lists that few conveyors have: their sheets are hidden while they are empty."""
-_WIDE: Final = 16  # columns of a list that one page shows legibly
+"""Rare lists: their sheets are hidden while empty."""
+_WIDE: Final = 16  # columns of a list on one printed page
 
 
 def _filled(sheets: FilledSheets, part: tuple[str, ...]) -> bool:
-    """Whether any field of a part has a value."""
+    """True if any field of a part has a value."""
     return any(path[: len(part)] == part for path in sheets.cells)
 
 
 class Book:
-    """A workbook being drawn."""
+    """The template workbook."""
 
     def __init__(self, title: str, compounds: Sequence[str], system: System = "SI") -> None:
         self.system = system
@@ -175,7 +175,7 @@ class Book:
         self._looks: dict[tuple[bool, bool], Any] = {}
 
     def draw(self, every: Sequence[FilledSheets]) -> Workbook:
-        """Draw all sheets: every form, after it the lists of its part, last those of no part."""
+        """Draw all sheets: every form followed by the lists of its part, then the other lists."""
         for sheets in every:
             for drawn in _in_order(sheets):
                 if isinstance(drawn, Form):
@@ -331,7 +331,7 @@ class Book:
         self.rules.apply(sheet, leaf, ranges[0], ranges[1])
 
     def _input(self, cell: Any, leaf: Leaf | None) -> None:
-        """Frame a cell to fill in, of text so that nothing is made of it; a look copied is a tenth of one made."""
+        """Format an input cell, text fields as text; styles are copied, which is ten times faster."""
         is_text = leaf is not None and leaf.kind in {"text", "list", "reference", "json"}
         numeric = leaf is not None and leaf.kind in {"quantity", "number", "count"}
         if (is_text, numeric) in self._looks:
@@ -347,7 +347,7 @@ class Book:
     # -- first sheet
 
     def _how_to(self, sheet: Worksheet, every: Sequence[FilledSheets]) -> None:
-        """Say how to fill in, and link every sheet, below the fields of the first one."""
+        """Add instructions and links to all sheets below the fields of the first one."""
         put(sheet.cell(1, 1), f"{self.title}: input", TITLE)
         row = int(sheet.max_row) + 2
         put(sheet.cell(row, 1), "How to fill in", HEADING)
@@ -370,7 +370,7 @@ class Book:
 
 
 def _note(leaf: Leaf, path: str) -> Comment:
-    """Write a field's note: key, meaning, range, default."""
+    """Note of a field: key, meaning, range, default."""
     default = default_text(leaf)
     lines = [
         path,
@@ -390,7 +390,7 @@ def _lines(text: str, width: int) -> int:
 
 
 def _in_order(sheets: FilledSheets) -> Iterator[Form | ListSheet]:
-    """Give every form and, after the form of its part, every list; a list's own lists follow it."""
+    """Forms and lists in drawing order: lists after the form of their part, nested lists after their parent."""
     tables = {table.name: table for table in sheets.plan.tables}
     tops = {name: table for name, table in tables.items() if table.parent is None}
     for name, table in tables.items():
@@ -407,7 +407,7 @@ def _in_order(sheets: FilledSheets) -> Iterator[Form | ListSheet]:
 
 
 def _yellow(formula: str) -> Rule:
-    """Colour a cell in which something needed is missing."""
+    """Conditional format of a required cell that is empty."""
     return Rule(type="expression", formula=[formula], dxf=DifferentialStyle(fill=_NEEDED))
 
 

@@ -1,4 +1,4 @@
-"""From a conveyor to the cells of its sheets: what it states, and nothing that it leaves to a default."""
+"""Cells of the template filled in from a conveyor; defaults stay empty."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Cells: TypeAlias = dict[Path, tuple[Value, str | None]]
 
 @dataclass(frozen=True)
 class FilledRow:
-    """An item of a list: its number, the number of the item it belongs to, its cells."""
+    """Row of a list: number, number of its parent item, cells."""
 
     number: int
     parent: int | None
@@ -29,17 +29,17 @@ class FilledRow:
 
 @dataclass
 class FilledSheets:
-    """The cells of all sheets of a plan."""
+    """Cells of all sheets of a plan."""
 
     plan: Plan
     called: str = ""
-    """What a written-out model is referred to by."""
+    """Name of a written-out model in references."""
     cells: Cells = field(default_factory=dict)
     items: dict[str, list[FilledRow]] = field(default_factory=dict)
 
 
 def filled(model: BaseModel, shelves: Iterable[str | FilePath] = ()) -> list[FilledSheets]:
-    """Return the cells of a model: its own sheets first, then those of its written-out compounds.
+    """Cells of a model: its own sheets first, then those of its written-out compounds.
 
     A compound that is on the shelf under its name, with the same content, is given by name.
     """
@@ -50,13 +50,13 @@ def filled(model: BaseModel, shelves: Iterable[str | FilePath] = ()) -> list[Fil
 
 
 def stated(model: BaseModel) -> dict[str, Any]:
-    """Return the plain data that a model was given, without its defaults."""
+    """Plain data given to a model, without defaults."""
     return model.model_dump(mode="json", by_alias=True, exclude_none=True, exclude_unset=True)
 
 
 @dataclass(frozen=True)
 class _At:
-    """Where filling in stands: the sheets, the cells of a form or row, the path among them, the row's number."""
+    """Filling position: sheets, cells of a form or row, path among them, number of the row."""
 
     sheets: FilledSheets
     cells: Cells
@@ -91,7 +91,7 @@ class _Filler:
                     at.cells[*at.path, part.key] = to_cells(part, part.default)
 
     def _part(self, part: Part, data: Any, at: _At) -> bool:
-        """Fill in a field, a nested model or a list; tells whether any cell was."""
+        """Fill in a field, a nested model or a list; True if any cell was filled."""
         before = len(at.cells)
         if isinstance(part, Leaf):
             given = self._reference(part.model, data) if part.model is not None else data
@@ -112,7 +112,7 @@ class _Filler:
             self._group(replace(table.item, required=False), item, _At(at.sheets, row.cells, (), row.number))
 
     def _reference(self, model: type[BaseModel], data: dict[str, Any]) -> str:
-        """Return the name of a model: on the shelf, or of its own sheet in this workbook."""
+        """Name of a model on the shelf, or of its own sheet in this workbook."""
         whole_data = model.model_validate(data).model_dump(mode="json", by_alias=True, exclude_none=True)
         name = str(data.get("name", "")) or "compound"
         if self._on_shelf(name, whole_data):

@@ -22,11 +22,11 @@ from conveyor.units import System
 
 _MADE: Final = Path("template.xlsx")
 _SECTION: Final = {"name": "tail to head", "length": "4000 m | 13500 ft", "lift": "45 m | 150 ft"}
-"""The one that a template opens with."""
+"""Section of the example template."""
 
 
 def example(units: System = "SI") -> Conveyor:
-    """What a template is filled in with unless a conveyor is given: the overland starter on one straight section."""
+    """Example conveyor of the template: the overland starter on one straight section."""
     data = values("overland", units)
     data["route"]["sections"] = [{key: in_units(value, units) for key, value in _SECTION.items()}]
     return spec.from_data(data)
@@ -47,8 +47,8 @@ def write_template(
     path : str or Path
         Name of the workbook, ending in ``.xlsx``; an older workbook there is replaced.
     conveyor : Conveyor, optional
-        What it is filled in with: values and units as written, defaults left open, compounds of the shelf by
-        name and others written out. Without it an example.
+        Conveyor to fill in: values and units as written, defaults left open, shelf compounds by name, others
+        written out. Without it an example.
     shelves : iterable of path
         Further folders of compounds, as in `conveyor.spec.load`.
     units : {"SI", "US"}
@@ -69,7 +69,7 @@ def write_template(
     if where.suffix.lower() != ".xlsx":
         raise InputError(f'{where}: a workbook\'s name ends in .xlsx, got "{where.suffix}"')
     writable(where)
-    with naming(where):  # made by way of temporary files
+    with naming(where):  # openpyxl writes temporary files
         made = template(conveyor, shelves=shelves, units=units)
     save({where: made})
     return where
@@ -101,7 +101,7 @@ def _content(conveyor: Conveyor, shelves: tuple[str | Path, ...]) -> bytes:
 
 
 def _compare(content: bytes, conveyor: Conveyor, shelves: tuple[str | Path, ...]) -> None:
-    """Refuse to keep a workbook that does not read back to the same conveyor."""
+    """Refuse a workbook that does not read back to the same conveyor."""
     try:
         filled = read_filled(_MADE, Conveyor, content)
         same = spec.from_data(filled.data, shelves=shelves).as_data() == conveyor.as_data()

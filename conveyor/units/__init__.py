@@ -1,4 +1,4 @@
-"""Quantities as people write them, their kinds, and the only place that writes a number for people."""
+"""Quantities with units, their kinds, and numbers as text."""
 
 from conveyor.units.kinds import KINDS
 from conveyor.units.quantities import (

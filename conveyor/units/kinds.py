@@ -1,4 +1,4 @@
-"""Kinds of quantity: what each is called, the units it may be written in, the units of reports."""
+"""Kinds of quantity: name, accepted units, units of reports."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Kind:
     si: str
     us: str
     units: dict[str, str] = field(init=False, repr=False, compare=False)
-    """Every accepted spelling and the spelling that stands for it in output."""
+    """Output spelling of each accepted spelling."""
 
     def __post_init__(self) -> None:
         table = {form: name for name in self.spelled.split() for form in _forms(name)}
@@ -25,12 +25,12 @@ class Kind:
 
     @property
     def expected(self) -> str:
-        """What a message asks for."""
+        """Expected input, for messages: noun and example."""
         return self.noun if self.si == "" else f'{self.noun} such as "{self.example}"'
 
 
 def _forms(name: str) -> list[str]:
-    """List the ways to write a unit, the one used for output first."""
+    """Spellings of a unit, the one used for output first."""
     forms = [name]
     for power, signs in {"^2": ("²", "2"), "^3": ("³", "3")}.items():
         forms += [name.replace(power, sign) for sign in signs if power in name]
@@ -98,8 +98,7 @@ MAGNITUDES: dict[str, tuple[float, float]] = {
     "volume flow": (1e-9, 1e6), "power": (1e-3, 1e12), "energy": (1e-3, 1e18), "molar energy": (1e-3, 1e9),
     "fraction": (1e-9, 1e6),
 }  # fmt: skip
-"""Smallest and largest size of each kind in SI base units, beside zero: wide about every conveyor and laboratory, so
-that sums, products and ratios of them stay figures. Fields narrow them further."""
+"""Smallest and largest nonzero size of each kind in SI base units; so wide that products and ratios stay finite."""
 
 SPELLINGS: dict[str, str] = {}
 for _kind in KINDS.values():

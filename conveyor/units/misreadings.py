@@ -1,4 +1,4 @@
-"""Why a text is no quantity, and what to write instead: the traps of locale, unit and kind."""
+"""Messages for input that is no quantity: traps of locale, unit and kind, and what to write instead."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 NUMBER_UNIT = re.compile(rf"\s*({NUMBER})\s*([^\s0-9.,+-](?:.*\S)?|)\s*")
 _LARGEST = sys.float_info.max
 _POWERS = (-1, 1, -2, 2, -3, 3, -4, 4)
-"""Of ten, by which the example of a kind becomes one that a range allows."""
+"""Powers of ten tried on the example of a kind until a range allows it."""
 LONGEST = 80
-"""Characters: no quantity needs more, and messages quote the text."""
+"""Largest number of characters of a quantity."""
 
 _SEPARATORS = "[ \u00a0\u2007\u2009\u202f'’_]"
 _THOUSANDS = rf"[+-]?[0-9]{{1,3}}({_SEPARATORS}[0-9]{{3}})+(?![0-9])"
@@ -44,12 +44,12 @@ _OFTEN_MEANT = {
 
 
 def every(_: str) -> bool:
-    """Allow whatever a message proposes."""
+    """Allow every proposal of a message."""
     return True
 
 
 def why_not(given: object, kind: str | None, allows: Callable[[str], bool] = every) -> str:
-    """Say why `given` is no quantity of `kind` and what to write instead, of that only what is allowed."""
+    """Reason why `given` is no quantity of `kind`, and an allowed text to write instead."""
     if isinstance(given, str):
         return _why_not_text(given, kind, allows)
     expected = expected_of(kind, allows)
@@ -61,7 +61,7 @@ def why_not(given: object, kind: str | None, allows: Callable[[str], bool] = eve
 
 
 def expected_of(kind: str | None, allows: Callable[[str], bool] = every) -> str:
-    """What a message asks for: the noun of a kind and an example that is allowed, where there is one.
+    """Expected input, for messages: the noun of a kind and an allowed example, if any.
 
     Examples
     --------
@@ -79,7 +79,7 @@ def expected_of(kind: str | None, allows: Callable[[str], bool] = every) -> str:
 
 
 def example_of(kind: str, allows: Callable[[str], bool] = every) -> str | None:
-    """Example of a kind that is allowed: the kind's own, or that times a power of ten; None where none is.
+    """Allowed example of a kind: its own, or that times a power of ten; None if none is allowed.
 
     Examples
     --------
@@ -93,7 +93,7 @@ def example_of(kind: str, allows: Callable[[str], bool] = every) -> str | None:
 
 
 def _give_the_unit(number: str, kind: str | None, allows: Callable[[str], bool]) -> str:
-    """Propose the first unit with which the number is allowed, that of the kind's example before others."""
+    """Propose the first unit that makes the number allowed, that of the kind's example before others."""
     first = "mm" if kind is None else KINDS[kind].example.split()[1]
     units = dict.fromkeys([first, *([] if kind is None else KINDS[kind].units.values())])
     meant = next((unit for unit in units if unit and allows(f"{number} {unit}")), None)
@@ -113,7 +113,7 @@ def _shown(value: object) -> str:
 
 
 def on_one_line(text: str) -> str:
-    r"""Write line breaks and tabs as their codes: a message is one line.
+    r"""Escape line breaks and tabs: a message is one line.
 
     Examples
     --------
@@ -143,7 +143,7 @@ def _why_not_text(given: str, kind: str | None, allows: Callable[[str], bool]) -
 
 
 def _trapped(start: str, allows: Callable[[str], bool]) -> str | None:
-    """Say what to write instead where a text is one of the traps."""
+    """Advice for a text that is one of the traps, else None."""
     if re.match(_THOUSANDS, start):
         together = re.sub(rf"(?<=[0-9]){_SEPARATORS}(?=[0-9]{{3}})", "", on_one_line(start))
         meant = f', e.g. "{together}"' if _may_be(together, allows) else ""
@@ -158,12 +158,12 @@ def _trapped(start: str, allows: Callable[[str], bool]) -> str | None:
 
 
 def _may_be(meant: str, allows: Callable[[str], bool]) -> bool:
-    """Whether a text is allowed, or what else is wrong with it remains to be said."""
+    """True if a text is allowed or has further faults, reported later."""
     return allows(meant) or NUMBER_UNIT.fullmatch(meant) is None
 
 
 def _readings(number: str) -> Iterator[str]:
-    """A number with commas as one decimal comma, and as thousands, where it can be that."""
+    """Possible readings of a number with commas: decimal comma, thousands separators."""
     if re.fullmatch(r"[^,]+,[0-9]+", number):
         yield re.sub(r"[.' ]", "", number).replace(",", ".")
     if re.fullmatch(r"[+-]?[0-9]{1,3}(,[0-9]{3})+(\.[0-9]+)?", number):
@@ -171,7 +171,7 @@ def _readings(number: str) -> Iterator[str]:
 
 
 def _wrong_unit(number: str, unit: str, kind: str | None, allows: Callable[[str], bool]) -> str:
-    """Say which unit to write when the number is fine."""
+    """Message about a wrong unit behind a valid number."""
     others = [name for name, other in KINDS.items() if unit in other.units]
     if others:
         hint = next(

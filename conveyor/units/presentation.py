@@ -1,4 +1,4 @@
-"""How reports write a number: the unit and the digits of every kind of quantity in every system, and nothing else.
+"""Units and digits of reports, for every kind of quantity and system of units.
 
 Values come in SI units; energies per mass and distance in kWh/(t km), paybacks in years, money in its currency.
 """
@@ -19,18 +19,18 @@ from conveyor.units.sentences import belt_rating, belt_strength, rounded
 
 SYSTEMS: Final[tuple[System, ...]] = ("SI", "US")
 NEVER: Final = "never"
-"""A payback without end."""
+"""Text of an infinite payback."""
 MONEY: Final = "money "
-"""Before a currency's code: a kind of its own."""
+"""Prefix of the kinds of money, before the currency's code."""
 _HUGE: Final = 1e12
-_MOST: Final = {"margin": 1.0, "life": 1e6}  # in the unit of reports: beyond it the size says nothing
+_MOST: Final = {"margin": 1.0, "life": 1e6}  # in the unit of reports; larger sizes are meaningless
 _FAR: Final = 10.0  # times that, below zero
 _SIGNIFICANT, _DECIMALS = 12, 9  # beyond them is the rounding of a conversion
 _SPELLED: Final = {"degC": "°C", "degF": "°F", "deg": "°", "-": ""}
 
 
 class _Kind(NamedTuple):
-    """A kind in one system: the unit that heads a column and digits as Python writes them; both on axes."""
+    """Unit and format of a kind in one system, in tables and on axes."""
 
     unit: str | None
     digits: str
@@ -47,7 +47,7 @@ _SAME: Final = {
     "heat": _Kind("MJ", ",.3f"), "rise": _Kind("K", ",.0f"), "swing": _Kind("Hz", ".1f"),
     "emission factor": _Kind("kg/kWh", ".3f"), "years": _Kind("a", ".1f"), "margin": _Kind("-", ".1%"),
 }  # fmt: skip
-"""Kinds that every system writes alike."""
+"""Kinds written alike in every system."""
 _KINDS: Final[dict[System, dict[str, _Kind]]] = {
     "SI": {
         **_SAME,
@@ -82,25 +82,25 @@ _SIZES: Final = {"-": 1.0, "rpm": 1.0 / 60.0, "deg": math.pi / 180.0, "kWh/(t km
     "kWh/(short ton mile)": 1.0 / (0.90718474 * 1.609344), "kg m²": 1.0, "lb ft²": 0.45359237 * 0.3048**2, "K": 1.0,
     "Δ°F": 5.0 / 9.0,
 }  # fmt: skip
-"""Units that specs spell otherwise, or not at all; of the others the registry knows the size."""
+"""SI sizes of units that the registry does not know by this spelling."""
 
 
 @dataclass(frozen=True)
 class Unit:
-    """A kind of quantity in a system.
+    """Unit and format of a kind of quantity in a system.
 
     Attributes
     ----------
     label : str or None
-        Its unit as headers write it; None where the kind has none.
+        Unit as headers write it; None for kinds without one.
     digits : str
-        How Python formats its numbers; empty for six significant digits.
+        Python format of its numbers; empty for six significant digits.
     size, zero : float
-        What one of it is in SI, and where it is zero.
+        Value of one unit and of its zero point in SI.
     exact : bool
-        Whether numbers are shown with all their digits, not rounded where a conversion is.
+        False: converted values are rounded to 12 digits.
     most : float
-        Beyond it a number is written as more than it, and as less than ten times it on the other side of zero.
+        Larger numbers are written "> most", those below -10 times it "< -10 most".
     """
 
     label: str | None
@@ -111,13 +111,13 @@ class Unit:
     most: float = math.inf
 
     def __call__(self, values: ArrayLike) -> Any:
-        """Values in this unit, of SI values; for axes."""
+        """Convert SI values to this unit, for axes."""
         given = np.asarray(values, dtype=float) - self.zero
         scaled = given * (1.0 / self.size) if self.size < 1.0 else given / self.size
         return scaled if self.zero == 0.0 else np.round(scaled, _DECIMALS)
 
     def shown(self, value: Any) -> Any:
-        """One value in this unit; words, gaps and whole numbers as they are."""
+        """Convert one SI value to this unit; text, gaps and whole numbers stay as they are."""
         if isinstance(value, np.generic):
             value = value.item()
         if not isinstance(value, float) or not math.isfinite(value):
@@ -169,7 +169,7 @@ class Unit:
         return self._with_sign(self.written(value))
 
     def brief(self, value: float | str) -> str:
-        """One SI value to four digits with its unit, for sentences; words as they are.
+        """One SI value to four digits with its unit, for sentences; text stays as it is.
 
         Examples
         --------
@@ -185,7 +185,7 @@ class Unit:
         return self._with_sign(written)
 
     def short(self, value: float | str | None) -> str:
-        """One SI value to three digits with its unit, for what is read first; words as they are.
+        """One SI value to three digits with its unit, for summaries; text stays as it is.
 
         Examples
         --------
@@ -202,7 +202,7 @@ class Unit:
         return self._with_sign(rounded(number))
 
     def converted(self, value: Quantity) -> str:
-        """A quantity as a spec gives it, in this unit, for sentences."""
+        """A quantity of a spec as text in this unit, for sentences."""
         return self.written(si(value)) if self.digits.endswith("%") else self.brief(si(value))
 
     def _with_sign(self, number: str) -> str:
@@ -210,7 +210,7 @@ class Unit:
         return f"{number}{self.sign}" if self.sign == "°" else f"{number} {self.sign}".rstrip()
 
     def beside(self, words: str) -> str:
-        """Words with the unit in brackets, for an axis.
+        """Label with the unit in brackets, for an axis.
 
         Examples
         --------
@@ -221,12 +221,12 @@ class Unit:
 
     @property
     def sign(self) -> str:
-        """The unit as pages and sentences write it: degrees with their sign, none for ratios."""
+        """Unit sign for pages and sentences: degrees with their sign, none for ratios."""
         return "" if self.label is None else _SPELLED.get(self.label, self.label)
 
     @property
     def pattern(self) -> str:
-        """How a spreadsheet formats its numbers.
+        """Number format of spreadsheets.
 
         Examples
         --------
@@ -245,7 +245,7 @@ class Unit:
 
 @cache
 def unit(kind: str, system: System = "SI", *, large: bool = False) -> Unit:
-    """Return how a kind is written in a system; `large`: as axes and sentences do, kN where tables have N.
+    """Return the unit and format of a kind in a system; `large`: of axes and sentences, kN instead of N.
 
     Examples
     --------
@@ -268,7 +268,7 @@ def unit(kind: str, system: System = "SI", *, large: bool = False) -> Unit:
 
 
 def spelled(label: str, kind: str, system: System = "SI") -> str:
-    """Return a name with its unit as people read it: degrees with their sign, none beside per cent.
+    """Return a label with its unit for people: degrees with their sign, none for per cent.
 
     Examples
     --------
@@ -280,7 +280,7 @@ def spelled(label: str, kind: str, system: System = "SI") -> str:
 
 
 def headed(label: str, kind: str, system: System = "SI") -> str:
-    """Return the name of a column or figure: its label and its unit, as every table has it.
+    """Return the name of a column or figure in tables: label and unit.
 
     Examples
     --------
@@ -291,17 +291,17 @@ def headed(label: str, kind: str, system: System = "SI") -> str:
 
 
 def labelled(label: str, sign: str | None) -> str:
-    """Return a label and a unit as every table has them; without a unit the label."""
+    """Return a label with its unit in brackets, if it has one."""
     return f"{label} [{sign}]" if sign else label
 
 
 def unsigned(number: str) -> str:
-    """Zero has no sign."""
+    """Drop the minus of a number that rounds to zero."""
     return number.removeprefix("-") if not number.strip("-0.,%") else number
 
 
 def chosen(own: System, system: System | None) -> System:
-    """Return the system a report is written in: the one asked for, else the spec's own.
+    """Return the system of units of a report: the given one, else the spec's own.
 
     Raises
     ------
@@ -314,10 +314,10 @@ def chosen(own: System, system: System | None) -> System:
 
 
 def strength_of(value: Quantity, system: System) -> str:
-    """Write a belt's breaking strength per width as belts are named."""
+    """Breaking strength per width as text, as in belt names."""
     return belt_strength(si(value), system)
 
 
 def rating_of(value: Quantity, system: System) -> str:
-    """Write a belt's rated working tension per width."""
+    """Rated working tension per width as text."""
     return belt_rating(si(value), system)

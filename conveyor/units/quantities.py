@@ -1,7 +1,7 @@
-"""Quantities as people write them: one regex, a white list of units, SI floats for the laws.
+"""Quantities with units: read from text, kept as entered (`text`), converted to SI (`si`).
 
 Text such as ``"1200 mm"`` is split by one regular expression and its unit looked up in a table; it never
-reaches pint's expression parser. Number and unit stay as entered (`text`); laws read `si`.
+reaches pint's expression parser.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ for _form, _unit in UNITS.items():
     _SPELLED.setdefault(_unit, _form)
 _PERCENT, _PLAIN = UNITS["%"], UNITS[""]
 Allows = Callable[[str], bool]
-"""Whether a message may propose a text."""
+"""Test for texts that a message may propose."""
 _MEASURE = "measure"  # in the schema of a field
 
 
@@ -58,7 +58,7 @@ def quantity(value: object, kind: str | None = None) -> Quantity:
     Raises
     ------
     InputError
-        Not a number and a unit of the table, of another kind, not finite, or of a size that nothing of the kind has.
+        Not a number and a unit of the table, of another kind, not finite, or of an impossible size.
 
     Examples
     --------
@@ -69,7 +69,7 @@ def quantity(value: object, kind: str | None = None) -> Quantity:
 
 
 def _read(value: object, kind: str | None, allows: Allows) -> Quantity:
-    """`quantity` whose messages propose only what is allowed."""
+    """`quantity` with messages that propose only allowed texts."""
     if isinstance(value, str):
         match = NUMBER_UNIT.fullmatch(value) if len(value) <= LONGEST else None
         if match is not None:
@@ -85,7 +85,7 @@ def _read(value: object, kind: str | None, allows: Allows) -> Quantity:
 
 
 def _sized(value: Quantity, kind: str | None, allows: Allows, unit: str | None = None) -> Quantity:
-    """Refuse a size that nothing of its kind has: what is computed with it would overflow or vanish."""
+    """Refuse an impossible size of a kind: results would overflow or vanish."""
     if kind == "temperature" and si(value) < 0.0:
         raise InputError(f"got {text(value)}, below absolute zero (-273.15 degC)")
     number = abs(value.magnitude)
@@ -104,7 +104,7 @@ def _sized(value: Quantity, kind: str | None, allows: Allows, unit: str | None =
 
 @cache
 def _sizes(kind: str, unit: str) -> tuple[float, float]:
-    """Smallest and largest size of a kind as numbers of a unit; a scale with an offset counts its own degrees."""
+    """Smallest and largest size of a kind in a unit; for scales with an offset in their degrees."""
     scale = _si_scale(UNITS[unit]._units)  # noqa: SLF001 as `si` asks
     one = 1.0 if scale is None or scale[2] else scale[0] / scale[1]
     return MAGNITUDES[kind][0] / one, MAGNITUDES[kind][1] / one
@@ -148,12 +148,12 @@ def si(value: Quantity) -> float:
 
 
 def in_si(value: str, kind: str, place: str = "") -> float:
-    """Read what somebody wrote as a quantity of one kind straight into SI, as `si` gives it.
+    """Read a quantity of one kind from text straight to its SI value.
 
     Raises
     ------
     InputError
-        As `quantity` raises it, with the place it was written at where that is given.
+        As of `quantity`, preceded by the place if given.
 
     Examples
     --------
@@ -169,7 +169,7 @@ def in_si(value: str, kind: str, place: str = "") -> float:
 
 
 def si_with_unit(value: Quantity) -> tuple[float, str]:
-    """Return the value in SI and the unit it has there, as reports write it.
+    """Return the value in SI and its SI unit, as reports write it.
 
     Examples
     --------
@@ -185,7 +185,7 @@ def _si_label(unit: Any) -> str:
 
 
 def between(low: Quantity, high: Quantity, share: float) -> Quantity:
-    """The quantity a share of the way from one to another, in the unit of the first.
+    """Interpolate between two quantities, in the unit of the first.
 
     Raises
     ------
@@ -207,13 +207,13 @@ def between(low: Quantity, high: Quantity, share: float) -> Quantity:
 
 
 def same(one: Quantity, other: Quantity) -> bool:
-    """Tell whether two quantities have the same value, in whatever units."""
+    """True if two quantities have the same value, in any units."""
     return si(one) == si(other)
 
 
 @cache
 def _si_scale(unit: Any) -> tuple[float, float, float] | None:
-    """Factor, divisor and offset to SI, None of degrees unlike kelvin; asked of pint once for each unit."""
+    """Factor, divisor and offset to SI, None for degrees unlike kelvin; by pint once for each unit."""
     if REGISTRY.Unit(unit) == _PERCENT:
         return 1.0, 100.0, 0.0
     zero, one = (float(_build(number, unit).to_base_units().magnitude) for number in (0.0, 1.0))
@@ -257,12 +257,12 @@ def system_of(value: Quantity) -> System:
 
 
 def is_quantity(value: object) -> TypeGuard[Quantity]:
-    """Tell whether a value is a quantity of this package."""
+    """True for a quantity of this package."""
     return isinstance(value, REGISTRY.Quantity)
 
 
 def is_kind(value: Quantity, kind: str) -> bool:
-    """Tell whether the unit of a quantity is one of a kind's.
+    """True if the unit of a quantity is one of a kind's.
 
     Examples
     --------
@@ -318,7 +318,7 @@ def unit_label(kind: str, system: System = "SI") -> str:
 
 
 def convert(value: float, kind: str, system: System = "SI") -> float:
-    """Return an SI value in the unit of `unit_label`, for table columns.
+    """Convert an SI value to the unit of `unit_label`, for table columns.
 
     Examples
     --------
@@ -332,7 +332,7 @@ def convert(value: float, kind: str, system: System = "SI") -> float:
 
 @cache
 def _one(kind: str, system: System) -> float:
-    """What one of the SI base unit is in the unit of reports."""
+    """Factor from the SI base unit to the unit of reports."""
     return float(from_si(1.0, kind, unit_label(kind, system)).magnitude)
 
 
@@ -364,7 +364,7 @@ def _refusing(check: Callable[[Any], Quantity]) -> Callable[[Any], Quantity]:
 
 
 def written(value: Quantity) -> str | float:
-    """Return what a spec holds: text, or a plain number for a fraction without a percent sign."""
+    """Return a quantity as a spec stores it: text, or a number for a fraction without a percent sign."""
     return float(value.magnitude) if value.units == _PLAIN else text(value)
 
 
@@ -383,7 +383,7 @@ class Measure:
         )
 
     def within(self, schema: Any, bounds: Bounds) -> None:
-        """Let the messages of a schema of this measure propose only what lies within bounds."""
+        """Limit the proposals in a schema's messages to the bounds."""
         schema["function"] = schema["function"] | {"function": self._reads(partial(bounds.allows, self.kind))}
 
     def _reads(self, allows: Allows) -> Callable[[Any], Quantity]:
@@ -430,7 +430,7 @@ class Bounds:
         return all(holds(given, si(limit)) for _, limit, holds in self._limits())
 
     def allows(self, kind: str, given: str) -> bool:
-        """Whether a text is a quantity of a kind within this range."""
+        """True if a text is a quantity of a kind within this range."""
         try:
             return self._hold(quantity(given, kind))
         except InputError:

@@ -1,6 +1,6 @@
-"""The pint registry of the package: the units of specs from the start, pint's own file once a program asks for more.
+"""The pint registry of the package: units of specs at once, all of pint's when a program needs more.
 
-pint takes longer to read its whole file than to calculate a conveyor, and specs know no other units.
+Reading all of pint's units takes longer than calculating a conveyor.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ pound_per_inch_width = force_pound / inch = PIW
     kilogram
 @end
 """
-"""As in pint's file; fpm, tph, stph and PIW are not in it."""
+"""Definitions as in pint's file, and fpm, tph, stph, PIW."""
 
 
 REGISTRY: Final[pint.UnitRegistry[Any]] = pint.UnitRegistry(
@@ -83,14 +83,14 @@ _NAMES: Final = {
 }
 _MADE: Final = {name: REGISTRY.Unit(_NAMES.get(name, name)) for name in SPELLINGS.values()}
 UNITS: Final[dict[str, Any]] = {form: _MADE[name] for form, name in SPELLINGS.items()}
-"""The units of specs by each of their spellings."""
+"""Units of specs by each of their spellings."""
 
 
 _READING: Final = RLock()
 
 
 def _whole(text: str) -> str:
-    """Before the first unit that a program names in text: all of pint's."""
+    """Load all of pint's units, at the first unit that a program gives as text."""
     with _READING:
         if _whole in REGISTRY.preprocessors:
             REGISTRY.preprocessors[REGISTRY.preprocessors.index(_whole)] = _waited
@@ -103,7 +103,7 @@ def _whole(text: str) -> str:
 
 
 def _waited(text: str) -> str:
-    """Before a unit that another thread names while all of pint's are read."""
+    """Wait while another thread loads pint's units."""
     with _READING:
         return text
 

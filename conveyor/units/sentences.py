@@ -1,4 +1,4 @@
-"""Figures in sentences: SI in, text with its unit out, as reports write them."""
+"""Figures in sentences: text with units from SI values."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def celsius(temperature: float) -> float:
 
 
 def rounded(number: float) -> str:
-    """Write a number to three significant digits, its thousands grouped.
+    """Format a number to three significant digits, its thousands grouped.
 
     Examples
     --------
@@ -46,7 +46,7 @@ def rounded(number: float) -> str:
 
 
 def percent(share: float, decimals: int = 0, *, signed: bool = False) -> str:
-    """Write a share in per cent, `signed` with a plus; what rounds to nothing has no minus.
+    """Format a share in per cent, `signed` with a plus; no minus on a rounded zero.
 
     Examples
     --------
@@ -57,7 +57,7 @@ def percent(share: float, decimals: int = 0, *, signed: bool = False) -> str:
 
 
 def figure(value: float, kind: str, system: System = "SI") -> str:
-    """Write an SI figure for people: three digits, thousands grouped, forces in kN, heat below 1 MJ in kJ, ° for deg.
+    """Format an SI figure: three digits, thousands grouped, forces in kN, heat below 1 MJ in kJ, ° for deg.
 
     Examples
     --------
@@ -79,7 +79,7 @@ def figure(value: float, kind: str, system: System = "SI") -> str:
 
 
 def belt_strength(value: float, system: System = "SI") -> str:
-    """Write a breaking strength per width [N/m] as belts are named.
+    """Format a breaking strength per width [N/m] as in belt names.
 
     Examples
     --------
@@ -90,7 +90,7 @@ def belt_strength(value: float, system: System = "SI") -> str:
 
 
 def belt_rating(value: float, system: System = "SI") -> str:
-    """Write a working tension per width [N/m] beside a rated one: PIW in the US.
+    """Format a working tension per width [N/m] like rated ones: PIW in the US.
 
     Examples
     --------
@@ -104,15 +104,15 @@ def belt_rating(value: float, system: System = "SI") -> str:
 
 @dataclass(frozen=True)
 class Said:
-    """A sentence with figures in it: SI values with their kinds, written in the reader's units.
+    """Sentence with figures: SI values with their kinds, written in the reader's units.
 
     Parameters
     ----------
     words : str
-        With {} for each figure.
+        Text with {} for each figure.
     figures : tuple of (float, str)
-        Value and kind of quantity; beside those, "belt strength" and "belt rating" are written as belts are named,
-        "safety" with two decimals, "number" plainly.
+        Value and kind of quantity; also "belt strength" and "belt rating", written as in belt names, "safety" with
+        two decimals, "number" plainly.
 
     Examples
     --------
@@ -125,7 +125,7 @@ class Said:
     figures: tuple[tuple[float, str], ...] = ()
 
     def text(self, system: System = "SI") -> str:
-        """Write it in a system of units."""
+        """Text in a system of units."""
         return self.words.format(*(_written(value, kind, system) for value, kind in self.figures))
 
     def __str__(self) -> str:
@@ -133,7 +133,7 @@ class Said:
 
 
 def told(error: E, system: System) -> E:
-    """Return an error with its figures in a reader's units; in SI they are as the error writes them itself.
+    """Return an error with its figures in a system of units.
 
     Examples
     --------
@@ -145,7 +145,7 @@ def told(error: E, system: System) -> E:
 
 @contextmanager
 def telling(system: System) -> Iterator[None]:
-    """Raise what is raised inside as `told` in a system of units."""
+    """Raise errors of the block with their figures in a system of units."""
     try:
         yield
     except ConveyorError as error:
@@ -164,7 +164,7 @@ def said(words: str, *figures: tuple[float, str]) -> Said:
 
 
 def degrees(words: str) -> str:
-    """Text with degrees as people write them.
+    """Replace degC and degF by °C and °F.
 
     Examples
     --------
@@ -175,7 +175,7 @@ def degrees(words: str) -> str:
 
 
 def quoted(words: str) -> str:
-    """Return a user's text so that its braces stand for themselves in a `Said`, degrees with their sign."""
+    """Escape the braces of a user's text for a `Said`; degrees get their sign."""
     return degrees(words).replace("{", "{{").replace("}", "}}")
 
 
@@ -190,7 +190,7 @@ def _written(value: float, kind: str, system: System) -> str:
 
 
 def plain_figure(value: float | None, kind: str) -> tuple[float | None, str]:
-    """Return an SI figure for programs, in the SI unit of reports, and that unit; "-" of ratios.
+    """Return an SI figure for programs in the SI unit of reports, and that unit; "-" for ratios.
 
     Examples
     --------
@@ -205,7 +205,7 @@ def plain_figure(value: float | None, kind: str) -> tuple[float | None, str]:
 
 
 def band_words(band: tuple[float, float]) -> str:
-    """Write a band of frequency [Hz] for people.
+    """Format a band of frequency [Hz].
 
     Examples
     --------

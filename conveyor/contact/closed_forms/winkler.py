@@ -29,7 +29,7 @@ _TOLERANCE: Final = 1e-15  # of the roots, relative
 
 
 def _memory_functions(u: Array) -> tuple[Array, Array, Array]:
-    """Return g1, g2, g3 of the module's docstring, accurate for every u ≥ 0."""
+    """g1, g2, g3 of the module's docstring, accurate for every u ≥ 0."""
     small = np.minimum(u, 1.0)
     s1, s2, s3 = np.ones_like(u), np.ones_like(u), np.ones_like(u)
     for j in range(_SERIES_TERMS, 0, -1):  # Σ_j (-u)^j m!/(j+m)!, Horner
@@ -45,14 +45,14 @@ def _memory_functions(u: Array) -> tuple[Array, Array, Array]:
 
 
 def _history(depth: Array, memory: Array) -> Array:
-    """Return a d g1(d/k) - (d²/2) g2(d/k) with a = 1: stress of one element over E_i/(R h)."""
+    """Stress of one element over E_i/(R h), a d g1(d/k) - (d²/2) g2(d/k) with a = 1."""
     g1, g2, _ = _memory_functions(depth / memory)
     history: Array = depth * g1 - depth**2 / 2.0 * g2
     return history
 
 
 def _dissipated(memory: Array, depth: float) -> Array:
-    """Return (1/k) ∫_0^depth history² dd for each element, with a = 1: every term positive."""
+    """(1/k) ∫_0^depth stress² dd of each element with a = 1: every term positive."""
     doublings = 2.0 ** np.arange(math.log2(_DECAYED) + 1.0)
     start = np.minimum(memory, depth)[:, None]
     edges = np.concatenate(
@@ -93,7 +93,7 @@ class WinklerContact:
 
 
 def _checked(equilibrium: float, moduli: Array, memories: Array) -> tuple[Array, Array]:
-    """Return the elements that carry stress: a memory of 0 is relaxed everywhere."""
+    """Moduli and memories of the elements that carry stress, checked: a memory of 0 is relaxed everywhere."""
     require_positive(equilibrium=equilibrium)
     ok = moduli.ndim == 1 and bool(np.all((moduli >= 0.0) & np.isfinite(moduli)))
     require(ok, "moduli", moduli, "finite numbers of at least 0, shape (n,), are needed")

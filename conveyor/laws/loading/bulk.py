@@ -283,7 +283,7 @@ def filled_width(
 
 
 class Spread(NamedTuple):
-    """How a cross-section of bulk lies on a belt: width of belt under it [m], and surcharge angle of its heap [rad]."""
+    """Width of belt under a cross-section of bulk [m] and surcharge angle of its heap [rad]."""
 
     width: float
     surcharge_angle: float
@@ -300,7 +300,7 @@ def spread_bulk(
 ) -> Spread:
     """Width of belt under a cross-section and slope of its heap: `filled_width` as far as the belt's edges.
 
-    What the heap of the bulk's slope does not hold from edge to edge stands in a steeper one on the whole belt:
+    Bulk beyond a heap of its own slope from edge to edge makes a steeper heap on the whole belt:
     tan β = 6 (A - A_bottom)/W², W the width of the trough across (`cross_section` solved for β).
 
     Parameters
@@ -357,7 +357,7 @@ def spread_bulk(
 
 
 class _Trough(TypedDict):
-    """What makes the shape of a set."""
+    """Shape of a set's trough."""
 
     middle_roll_length: float
     trough_angle: float

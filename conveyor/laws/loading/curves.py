@@ -1,4 +1,4 @@
-"""What the belt's tension adds to the rolls on a vertical curve.
+"""Loads of the belt's tension on the rolls of a vertical curve.
 
 Source: statics of a taut belt on a polygon of idler sets.
 """
@@ -11,7 +11,7 @@ from conveyor.require import require, require_finite, require_not_negative, requ
 
 
 def effective_tension(tension: float, *, line_mass: float, belt_speed: float) -> float:
-    """Tension that acts on a curve, T - m' v²: the rest bends the path of the moving mass.
+    """Effective tension on a curve, T - m' v²: the rest bends the path of the moving mass.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ def curve_set_force(tension: float, *, radius: float, spacing: float) -> float:
 
 
 def curve_belt_mass(set_force: float, *, spacing: float, inclination: float, gravity: float) -> float:
-    """Mass per length that would press like the curve, Δm' = F/(a g cos δ).
+    """Equivalent mass per length of the curve's load, Δm' = F/(a g cos δ).
 
     Parameters
     ----------

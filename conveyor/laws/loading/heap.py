@@ -1,4 +1,4 @@
-"""The heap's two conventions, and the share of each roll by the area above it.
+"""The two conventions of the heap, and shares of the rolls by the area above them.
 
 Sources: ISO 5048 (parabola that meets the edge at the surcharge angle θ); DIN 22101 (triangle of the equivalent slope
 β, tan β = 2/3 tan θ: the same area); the share by area is geometry.
@@ -52,7 +52,7 @@ def shares_by_area(
     heap: Heap = "parabola",
     inner_wing: Wing = NO_WING,
 ) -> tuple[float, ...]:
-    """Shares of the bulk's weight that stand above the rolls of a set: their areas over the whole.
+    """Shares of the bulk's weight above the rolls of a set: their areas over the whole.
 
     Parameters
     ----------

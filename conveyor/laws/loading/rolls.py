@@ -1,4 +1,4 @@
-"""From the line masses to the load of every roll of a set, and how it lies along the roll.
+"""Load of every roll of a set from the line masses, and its distribution along the roll.
 
 Source: VDI 2341 (shares of the rolls).
 """
@@ -267,7 +267,7 @@ def roll_loads(
     belt_shares: tuple[float, ...] | None = None,
     outer_shape: Shape = "triangular",
 ) -> tuple[RollLoad, ...]:
-    """Load of every roll of a set (VDI 2341), and how it lies along the roll.
+    """Load of every roll of a set (VDI 2341), and its distribution along the roll.
 
     Parameters
     ----------
@@ -296,7 +296,7 @@ def roll_loads(
         The same for the belt's own weight [-]. Default: three rolls (l_M + 20 mm)/B on the middle one
         (VDI 2341), else in proportion to the lengths under the belt.
     outer_shape : {"triangular", "uniform"}
-        How the bulk lies along the outer rolls of a set of two or more [-].
+        Distribution of the bulk along the outer rolls of a set of two or more [-].
 
     Returns
     -------

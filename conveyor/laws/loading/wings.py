@@ -1,4 +1,4 @@
-"""The line of a set's rolls across the belt: what lies on the middle roll is level, each wing a straight piece.
+"""Cross line of the belt on a set: level on the middle roll, each wing of straight pieces.
 
 Sets of two and three rolls have one piece a side, those of four and five two; geometry.
 """
@@ -24,7 +24,7 @@ NO_WING: Final = Wing(0.0, 0.0)
 def wings(
     width: float, *, middle_roll_length: float, trough_angle: float, inner_wing: Wing = NO_WING
 ) -> tuple[Wing, ...]:
-    """Pieces of a belt on one side of the middle roll, from it outward: on the inner wing roll as far as it reaches.
+    """Straight pieces of belt on one side of the middle roll, from it outward.
 
     Parameters
     ----------

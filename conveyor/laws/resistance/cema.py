@@ -80,7 +80,7 @@ def cema_idler_factor(belt_mass: float, *, bulk_mass: float, idler_friction: flo
 
 
 def cema_acceleration(mass_flow: float, *, belt_speed: float, initial_speed: float) -> float:
-    """Acceleration of the bulk, Tam = 2.8755e-4 Q (V - V0) (CEMA).
+    """Resistance of accelerating the bulk, Tam = 2.8755e-4 Q (V - V0) (CEMA).
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ def cema_acceleration(mass_flow: float, *, belt_speed: float, initial_speed: flo
 
 
 def cema_pulley_friction(places: Sequence[Place]) -> float:
-    """Turning of all non-driven pulleys, Tp: 200 lbf tight, 150 lbf slack, 100 lbf elsewhere, each (CEMA).
+    """Resistance of all non-driven pulleys, Tp: 200 lbf tight, 150 lbf slack, 100 lbf elsewhere, each (CEMA).
 
     Parameters
     ----------
@@ -151,7 +151,7 @@ def cema_pulley_friction(places: Sequence[Place]) -> float:
 
 
 def cema_skirts(length: float, *, skirt_factor: float, depth: float, seals: float) -> float:
-    """Skirtboards with their rubber seals, Tsb = Lb (Cs hs² + 6) (CEMA).
+    """Resistance of skirtboards with rubber seals, Tsb = Lb (Cs hs² + 6) (CEMA).
 
     Parameters
     ----------

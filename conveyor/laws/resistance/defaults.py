@@ -1,4 +1,4 @@
-"""Figures to fall back on when the user gives none: value, range, source, and whether the source was read."""
+"""Default figures: value, range, source, and whether the source was read."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Final, Literal, TypeAlias
 
 Site: TypeAlias = Literal["overland", "plant", "poor"]
-"""How well a conveyor is aligned and kept."""
+"""Alignment and upkeep of a conveyor."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,7 +26,7 @@ SITE_SAG: Final = Default(
 
 
 def _coefficient(sag: float) -> float:
-    """Return c for which the site has its share of flexure, at a sag over the spacing [-]."""
+    """Coefficient c that gives the site its share of flexure, at a sag over the spacing [-]."""
     return FLEXURE_SHARE.value * SITE_LOSS / (SITE_LOAD * sag)
 
 
@@ -41,7 +41,7 @@ HARMONICS: Final = np.arange(1.0, 128.0)  # summed one by one; the rest is then 
 
 
 def _rest(ratio: float, first: int) -> float:
-    """Sum of n/(1 + (r n)²)² from n = first on: Euler-Maclaurin to the first derivative."""
+    """Remainder of Σ n/(1 + (r n)²)² from n = first: Euler-Maclaurin to the first derivative."""
     square = (ratio * first) ** 2
     integral = 1.0 / (2.0 * ratio**2 * (1.0 + square))
     value = first / (1.0 + square) ** 2
@@ -187,7 +187,7 @@ def bulk_flexure_bound(
     trough_angle: float,
     gravity: float,
 ) -> float:
-    """Working of the bulk by both wings over one span, at most 2 (K_p - K_a) ρ g sin λ b³ Δφ/6 (derived).
+    """Flexure of the bulk by both wings over one span, at most 2 (K_p - K_a) ρ g sin λ b³ Δφ/6 (derived).
 
     Parameters
     ----------

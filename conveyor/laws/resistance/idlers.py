@@ -35,7 +35,7 @@ class RollDrag:
 
 
 def default_roll_drag(roll_diameter: float) -> Default:
-    """Return the acceptance limit of the rim drag of a roll of this diameter.
+    """Acceptance limit of a roll's rim drag by its diameter.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def default_roll_drag(roll_diameter: float) -> Default:
 
 
 def roll_drag(given: float | None, *, roll_diameter: float) -> RollDrag:
-    """Drag of one roll at its rim: as given, else the acceptance limit of its diameter, flagged.
+    """Drag of one roll at its rim: the given one, else the acceptance limit, flagged as assumed.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ def roll_drag(given: float | None, *, roll_diameter: float) -> RollDrag:
 
 
 def idler_rotation_resistance(drag: float, *, n_rolls: int, spacing: float, length: float) -> float:
-    """Rotation of all rolls of a strand section: drag × rolls per set × sets.
+    """Rotation resistance of all rolls of a strand section: drag × rolls per set × sets.
 
     Parameters
     ----------

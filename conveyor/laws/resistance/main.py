@@ -68,7 +68,7 @@ def section_main_resistance(
     inclination: float,
     gravity: float,
 ) -> float:
-    """Return the main resistance of one section of one strand (DIN 22101:2002).
+    """Main resistance of one section of one strand (DIN 22101:2002).
 
     F_H,i = l f g (m'_R + (m'_belt + m'_bulk) cos δ).
 
@@ -133,7 +133,7 @@ def main_resistance(
     inclination: float,
     gravity: float,
 ) -> float:
-    """Return the main resistance of both strands of a conveyor (ISO 5048).
+    """Main resistance of both strands of a conveyor (ISO 5048).
 
     F_H = f L g [m'_R,carry + m'_R,return + (2 m'_belt + m'_bulk) cos δ].
 
@@ -193,7 +193,7 @@ def main_resistance(
 
 
 def equivalent_friction_factor(main_force: float, *, unit_main_force: float) -> float:
-    """Friction factor that DIN 22101's main resistance needs for the same force, f = F_H / F_H(f = 1).
+    """Friction factor of DIN 22101's main resistance for the same force, f = F_H / F_H(f = 1).
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Ploughs that sweep the bulk off the belt.
+"""Resistance of ploughs that sweep the bulk off the belt.
 
 Source: ISO 5048, DIN 22101. A tripper has no law of its own there: it is a lift and its pulleys.
 """

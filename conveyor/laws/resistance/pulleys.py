@@ -32,7 +32,7 @@ def _wrap(
 def fabric_wrap_resistance(
     *, belt_width: float, tension: float, belt_thickness: float, pulley_diameter: float
 ) -> float:
-    """Bending of a fabric belt round a pulley, 9 B (140 + 0.01 F/B) d/D (ISO 5048).
+    """Bending resistance of a fabric belt round a pulley, 9 B (140 + 0.01 F/B) d/D (ISO 5048).
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def fabric_wrap_resistance(
 def steel_cord_wrap_resistance(
     *, belt_width: float, tension: float, belt_thickness: float, pulley_diameter: float
 ) -> float:
-    """Bending of a steel-cord belt round a pulley, 12 B (200 + 0.01 F/B) d/D (general knowledge).
+    """Bending resistance of a steel-cord belt round a pulley, 12 B (200 + 0.01 F/B) d/D (general knowledge).
 
     Parameters
     ----------

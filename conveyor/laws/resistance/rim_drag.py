@@ -1,4 +1,4 @@
-"""Drag of a roll at its rim, from its bearings and seals or along the line makers publish.
+"""Drag of a roll at its rim, from its bearings and seals or from the maker's line.
 
 Sources: Palmgren (moments of the bearings, see `roll_bearing`); acceptance limits of idler rolls.
 """
@@ -171,7 +171,7 @@ def linear_roll_drag(
     reference_load: float = TEST_LOAD,
     reference_rotation: float = TEST_ROTATION,
 ) -> float:
-    """Drag of a roll from a measured one, F = F_ref + c_P (P - P_ref) + c_n (n - n_ref), as makers publish it.
+    """Drag of a roll from a measured drag, F = F_ref + c_P (P - P_ref) + c_n (n - n_ref), as makers publish it.
 
     Parameters
     ----------

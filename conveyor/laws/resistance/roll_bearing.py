@@ -263,7 +263,7 @@ def bearing_load_moment(f1: float, *, load: float, mean_diameter: float) -> floa
 def labyrinth_moment(
     dynamic_viscosity: float, *, rotation: float, radius: float, length: float, gap: float
 ) -> float:
-    """Shear of the filling of one cylindrical labyrinth gap, M = 4 π² η n b r³/c (Petroff).
+    """Friction moment of one cylindrical labyrinth gap, M = 4 π² η n b r³/c (Petroff).
 
     Parameters
     ----------

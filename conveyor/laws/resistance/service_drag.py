@@ -1,4 +1,4 @@
-"""Drag of a roll in service of which nothing is known but its size: usual bearings, grease and seals.
+"""Drag of a roll in service by its size alone: usual bearings, grease and seals.
 
 Sources: Palmgren (moments of a bearing, see `roll_bearing`); boundary dimensions of ISO 15, static ratings as makers
 list them. Which bearing, grease and seal is usual, and how they cool, is general knowledge.
@@ -108,7 +108,7 @@ _UNIT_SPEED: Final = (
 
 @dataclass(frozen=True, eq=False)
 class ServiceDrag:
-    """Drag of rolls in service, of the shape of their loads.
+    """Drag of rolls in service, in the shape of their loads.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ class ServiceDrag:
 
 
 def usual_bearing(roll_diameter: float) -> Bearing:
-    """Return the bearing that a roll of this diameter usually has.
+    """Usual bearing of a roll by its diameter.
 
     Parameters
     ----------
@@ -156,7 +156,7 @@ def usual_bearing(roll_diameter: float) -> Bearing:
 
 
 def roll_end_cooling(roll_diameter: float, *, roll_length: float) -> float:
-    """Heat that one end of a roll gives to the air per kelvin, h π D [l tanh(L/(2 l)) + D/4], l² = k s/h (derived).
+    """Heat conductance from one end of a roll to the air, h π D [l tanh(L/(2 l)) + D/4], l² = k s/h (derived).
 
     Parameters
     ----------
