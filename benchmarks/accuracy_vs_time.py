@@ -25,11 +25,11 @@ from boundary_elements import solve_boundary_elements
 from other_solvers import least, reference
 
 from conveyor.contact import ContactProblem, CreepSpectrum, solve, solve_loads, solve_many
-from conveyor.contact.grid import solve_grid
-from conveyor.contact.load import LoadSearch, carry, guess
+from conveyor.contact.grid_solver import solve_grid
+from conveyor.contact.load_control import LoadSearch, contact_at_load, guess_half_width
 from conveyor.contact.quadrature import build_rule
-from conveyor.contact.scene import Scene
-from conveyor.contact.spectral import assemble, equilibrium
+from conveyor.contact.solver_state import SolverState
+from conveyor.contact.spectral import assemble_matrix, solve_equilibrium
 from conveyor.errors import NoSolutionError
 from conveyor.validation import reference_cases
 
@@ -66,8 +66,8 @@ def scenes() -> dict[str, ContactProblem]:
 
 def by_order(problem: ContactProblem, n: int) -> float:
     """Friction at one order under the given load."""
-    scene = Scene.of(problem)
-    state = carry(scene, LoadSearch(scene.target, *guess(scene)), n, 1e-10)
+    scene = SolverState.of(problem)
+    state = contact_at_load(scene, LoadSearch(scene.target, *guess_half_width(scene)), n, 1e-10)
     if state is None:
         raise NoSolutionError(f"no contact at order {n}")
     return float(state.contact.friction[0])
@@ -137,7 +137,7 @@ def scaling(problem: ContactProblem) -> dict[str, tuple[list[int], list[float]]]
     rule = build_rule(problem.layer, problem.creep, float(alpha[0]))
 
     def contact(n: int) -> object:
-        return equilibrium(assemble(rule, problem.creep, alpha, n), alpha, problem.rho)
+        return solve_equilibrium(assemble_matrix(rule, problem.creep, alpha, n), alpha, problem.rho)
 
     def with_terms(count: int) -> ContactProblem:
         weights = np.full(count, 0.99 / count)

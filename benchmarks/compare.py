@@ -20,7 +20,7 @@ import numpy as np
 
 import conveyor
 from conveyor import shelf
-from conveyor.cli.workers import executor_of
+from conveyor.cli.worker_processes import open_executor
 from conveyor.models import RubberCompound
 from conveyor.units import si
 
@@ -63,7 +63,7 @@ def main(count: int, workers: int) -> None:
     temperatures = [f"{t:g} degC" for t in np.linspace(-30, 40, 15)]
     speeds = [f"{v:g} m/s" for v in np.linspace(4.5, 7.2, 10)]
     conveyor.compare_compounds(line, compounds[:1], temperatures=temperatures[:2])
-    with executor_of(None, workers) as executor:
+    with open_executor(None, workers) as executor:
         start, cpu = time.perf_counter(), time.process_time()
         found = conveyor.compare_compounds(
             line, compounds, temperatures=temperatures, speeds=speeds, executor=executor, workers=workers

@@ -25,7 +25,7 @@ from typing import Any
 import numpy as np
 
 import conveyor
-from conveyor.dynamics.follow import prepared_rides, refined, side_by_side, standard_scenarios
+from conveyor.dynamics.simulation import prepare_setups, simulate_batch, simulate_to_error, standard_scenarios
 from conveyor.errors import NoSolutionError, RangeError
 from conveyor.models import Conveyor, Scenario
 from conveyor.spec import from_data
@@ -120,15 +120,15 @@ def measured(
     """Name, error told and true error of every scenario; those refused."""
     name, spec, scenarios = case
     try:
-        rides, _ = prepared_rides(spec, scenarios)
-        followed, refused = refined(rides)
+        setups, _ = prepare_setups(spec, scenarios)
+        followed, refused = simulate_to_error(setups)
     except (NoSolutionError, RangeError) as error:
         return [], [f"{name}: {error}"]
     found = []
     steps = {one.record.step for one in followed}
     for step in sorted(steps):  # those of one length of cells side by side
         told = [one for one in followed if one.record.step == step]
-        for one, true in zip(told, side_by_side([one.ride for one in told], step / CLOSER), strict=True):
+        for one, true in zip(told, simulate_batch([one.setup for one in told], step / CLOSER), strict=True):
             off = max(abs(true.highest - one.highest), abs(true.lowest - one.lowest)) / true.highest
             found.append((f"{name}: {one.name}", one.error or 0.0, off))
     return found, [f"{name}: {one.scenario}: {one.reason.text()}" for one in refused]

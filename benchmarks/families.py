@@ -3,7 +3,8 @@
     python benchmarks/families.py [--seeds N] [--noise 0.01 0.02 0.03] [--family NAME ...]
 
 Each rubber is "measured" at nine temperatures, -16 to 38 degC, at ten frequencies, 0.1 to 100 Hz, with independent
-lognormal noise of E' and E'', and goes in as a laboratory's file would, through `conveyor.fitting.compound.fit_file`.
+lognormal noise of E' and E'', and goes in as a laboratory's file would, through
+`conveyor.fitting.fitted_compound.fit_file`.
 Errors are relative to the truth: root mean squares over the window of the master curve at 20 degC, and of log10 a_T;
 the friction of a 159 mm roll on 4 mm of cover at 5 m/s, 3 N/mm and 10 degC. Printed is the median of all fits of a
 family; friction has its worst, too. Coverage is the share of the truth inside the 90 % band of 20 replicas.
@@ -32,10 +33,10 @@ import numpy as np
 
 from conveyor.contact import solve_many
 from conveyor.errors import ConveyorError
-from conveyor.fitting.compound import Request, fit_file
+from conveyor.fitting.fitted_compound import Request, fit_file
 from conveyor.indentation import RollContact, to_problem
 from conveyor.rubber import WLF, Arrhenius, PronySeries
-from conveyor.studies.comparison_scenes import ends
+from conveyor.studies.comparison_scenes import quantile_band
 
 CELSIUS = 273.15
 REFERENCE = 20.0 + CELSIUS
@@ -181,7 +182,8 @@ def errors(rubber: Rubber, series: PronySeries, warm: PronySeries, omega: np.nda
 def share(values: list[np.ndarray], truth: np.ndarray) -> float:
     """Of the truth inside the ends of its replicas, shape `(replicas, n)`."""
     inside = [
-        low <= true <= high for (low, high), true in zip(map(ends, np.array(values).T), truth, strict=True)
+        low <= true <= high
+        for (low, high), true in zip(map(quantile_band, np.array(values).T), truth, strict=True)
     ]
     return float(np.mean(inside))
 

@@ -17,8 +17,8 @@ from contextlib import contextmanager
 import numpy as np
 
 from conveyor.errors import NoSolutionError
-from conveyor.rubber import PronyFit, PronySeries, fit_prony, interconversion, rows, term_count
-from conveyor.rubber.non_negative import ROUNDING, non_negative, slope
+from conveyor.rubber import PronyFit, PronySeries, fit_prony, fit_rows, interconversion, term_count
+from conveyor.rubber.non_negative import ROUNDING, largest_slope, non_negative_least_squares
 
 Solver = Callable[[np.ndarray, np.ndarray], np.ndarray]
 NOISES = (0.0, 0.0, 0.003, 0.02)
@@ -45,14 +45,14 @@ def spectrum(rng: np.random.Generator) -> tuple[PronySeries, np.ndarray]:
 @contextmanager
 def solver(used: Solver) -> Iterator[None]:
     """Put a solver in place of the package's."""
-    places = (rows, term_count, interconversion)
+    places = (fit_rows, term_count, interconversion)
     for place in places:
         place.non_negative = used
     try:
         yield
     finally:
         for place in places:
-            place.non_negative = non_negative
+            place.non_negative = non_negative_least_squares
 
 
 def alone(matrix: np.ndarray, target: np.ndarray) -> np.ndarray:
@@ -76,8 +76,8 @@ def main() -> None:
     steepest: list[float] = []
 
     def judged(matrix: np.ndarray, target: np.ndarray) -> np.ndarray:
-        found = non_negative(matrix, target)
-        steepest.append(slope(matrix, target, found) / ROUNDING)
+        found = non_negative_least_squares(matrix, target)
+        steepest.append(largest_slope(matrix, target, found) / ROUNDING)
         if np.any(found < 0.0):
             raise AssertionError("a weight below 0")
         return found

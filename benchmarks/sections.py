@@ -18,10 +18,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import conveyor
-from conveyor.loop.balance import Balance, balance
+from conveyor.loop.balance import Balance, close_loop
 from conveyor.models import Conveyor, standard_cases
 from conveyor.pipeline import calculate
-from conveyor.studies.cases import analyse_cases
+from conveyor.studies.load_cases import analyse_cases
 from conveyor.studies.states import load_states
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -64,7 +64,7 @@ def main() -> None:
         found = calculate(made)
 
         def loop(found: Balance = found.balance, unit_main: float = found.balance.unit_main) -> float:
-            return balance(found.frame, found.along, unit_main).tensions.tight
+            return close_loop(found.frame, found.along, unit_main).tensions.tight
 
         each = fastest(loop)
         print(f"{count:8d} {whole * 1e3:24.1f} {each * 1e3:17.3f} {CASES * each * 1e3:15.1f}")

@@ -18,16 +18,16 @@ from pathlib import Path
 from typing import TypeVar
 
 import conveyor
-from conveyor.sizing import size
+from conveyor.sizing import size_conveyor
 from conveyor.spec import from_data
-from conveyor.starter import values
+from conveyor.starter import starter_values
 from conveyor.study_file import read_duty
 
 DUTIES = Path(__file__).resolve().parents[1] / "examples" / "duties"
 HAND_MADE = {
     "overland": lambda: conveyor.load(DUTIES.parent / "specs" / "overland.yaml"),
-    "in_plant": lambda: from_data(values("in-plant")),
-    "downhill": lambda: from_data(values("downhill")),
+    "in_plant": lambda: from_data(starter_values("in-plant")),
+    "downhill": lambda: from_data(starter_values("downhill")),
     "in_plant_us": lambda: conveyor.load(DUTIES.parent / "specs" / "in_plant_us.yaml"),
 }
 T = TypeVar("T")
@@ -45,7 +45,7 @@ def main() -> None:
     for name, spec in HAND_MADE.items():
         line = spec()
         hand, one = timed(lambda line=line: conveyor.analyse(line))
-        found, seconds = timed(lambda name=name: size(read_duty(DUTIES / f"{name}.yaml"), best=1))
+        found, seconds = timed(lambda name=name: size_conveyor(read_duty(DUTIES / f"{name}.yaml"), best=1))
         best = found.best
         powers = [each.balance.power.motor / 1e3 for each in (hand, best.found)]
         choice = best.choice

@@ -25,7 +25,7 @@ import numpy as np
 from conveyor import shelf
 from conveyor.errors import ConveyorError
 from conveyor.models.sizing import SizingDuty
-from conveyor.sizing import size
+from conveyor.sizing import size_conveyor
 from conveyor.studies.loads import every_load
 
 COUNT = 500
@@ -79,7 +79,7 @@ def main(count: int = 40, first: int = 0) -> None:
     for i, data in enumerate(duties, start=first):
         begun = time.process_time()
         try:
-            found = size(SizingDuty.from_data(data), best=1)
+            found = size_conveyor(SizingDuty.from_data(data), best=1)
             said = f"{found.best.choice.trough.width.belt * 1e3:.0f} mm, {found.calculated} calculated"
             answered += 1
         except ConveyorError as error:

@@ -23,7 +23,7 @@ from pathlib import Path
 import numpy as np
 
 from conveyor.contact import ContactProblem, CreepSpectrum, solve, solve_loads, solve_many, solve_penetration
-from conveyor.contact.grid import solve_grid
+from conveyor.contact.grid_solver import solve_grid
 from conveyor.validation import reference_cases
 
 RUNS = 15

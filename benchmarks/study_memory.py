@@ -22,11 +22,11 @@ def run(count: int) -> None:
     import conveyor
     from conveyor import shelf
     from conveyor.models.study import StudyPlan
-    from conveyor.report.point_tables import PartedTable, of_points
-    from conveyor.studies import campaign as running
-    from conveyor.studies.evaluation import explored
+    from conveyor.report.point_tables import PartedTable, point_table
+    from conveyor.studies import parametric_study as running
+    from conveyor.studies.evaluation import summarise_study
 
-    running.answers = lambda _, points: [[1e6, 1e5, 8.0] for _ in points]
+    running.evaluate_points = lambda _, points: [[1e6, 1e5, 8.0] for _ in points]
     fields = {
         "belt.speed": {"low": "4 m/s", "high": "6 m/s"},
         "idlers.carry.spacing": {"low": "1 m", "high": "2 m"},
@@ -39,21 +39,21 @@ def run(count: int) -> None:
             "outputs": ["motor_power", "indentation", "belt_safety"],
         }
     )
-    study = running.Campaign.of(plan, conveyor.load(SPEC), shelf.compound)
-    with tempfile.TemporaryDirectory() as folder, running.Answers(Path(folder) / "a") as known:
+    study = running.ParametricStudy.of(plan, conveyor.load(SPEC), shelf.compound)
+    with tempfile.TemporaryDirectory() as folder, running.ResultStore(Path(folder) / "a") as known:
 
-        def row(number: int, keyed: running.Keyed) -> running.Point:
-            return running.point_of(study, known, number, keyed)
+        def row(number: int, keyed: running.KeyedPoint) -> running.Point:
+            return running.point_result(study, known, number, keyed)
 
-        table = of_points(study, "SI")
+        table = point_table(study, "SI")
         parts = PartedTable(table, Path(folder) / "parts", count, row)
         begun = process_time()
-        running.run(study, known, answered=parts.take)
+        running.run_study(study, known, answered=parts.take)
         ran = process_time() - begun
-        table.write(Path(folder) / "t.csv", running.rows(study, known))
+        table.write(Path(folder) / "t.csv", running.point_results(study, known))
         wrote = process_time() - begun - ran
         plain = peak()
-        explored(study, running.designs(study, known))
+        summarise_study(study, running.design_results(study, known))
     memory = f"peak {plain:.0f} MB, with designs {peak():.0f} MB"
     print(
         f"{count:,} points: {memory}; run with parts {ran:.1f} s, table {wrote:.1f} s of the processor",

@@ -23,9 +23,9 @@ import numpy as np
 
 import conveyor
 from conveyor import shelf
-from conveyor.cli.workers import begin, executor_of
+from conveyor.cli.worker_processes import open_executor, preload_workers
 from conveyor.models.study import StudyPlan
-from conveyor.studies import campaign as running
+from conveyor.studies import parametric_study as running
 from conveyor.studies import points
 
 SPEC = Path(__file__).parent.parent / "examples" / "specs" / "overland.yaml"
@@ -37,9 +37,9 @@ AXES = {
 }
 
 
-def study(**axes: object) -> running.Campaign:
+def study(**axes: object) -> running.ParametricStudy:
     data = {"name": "rate", "base": SPEC.name, "axes": AXES | axes, "outputs": ["energy_per_tonne_km"]}
-    return running.Campaign.of(StudyPlan.from_data(data), conveyor.load(SPEC), shelf.compound)
+    return running.ParametricStudy.of(StudyPlan.from_data(data), conveyor.load(SPEC), shelf.compound)
 
 
 def reference() -> float:
@@ -55,17 +55,17 @@ def reference() -> float:
     return min(times)
 
 
-def rate(campaign: running.Campaign) -> None:
+def rate(campaign: running.ParametricStudy) -> None:
     """Batches of one process, the least of three goes at each: whatever else runs makes them longer only."""
-    with tempfile.TemporaryDirectory() as folder, running.Answers(Path(folder) / "a") as none:
+    with tempfile.TemporaryDirectory() as folder, running.ResultStore(Path(folder) / "a") as none:
         listed, count = campaign.listed.points(), campaign.listed.count
-        every = [list(batch.new.values()) for batch in running.batches(campaign, none, listed, count)]
+        every = [list(batch.new.values()) for batch in running.point_batches(campaign, none, listed, count)]
     unit, least = reference(), [float("inf")] * len(every)
     for _ in range(3):
-        points._opened.cache_clear()  # noqa: SLF001 each go makes its strands anew
+        points._unpack_job.cache_clear()  # noqa: SLF001 each go makes its strands anew
         for k, batch in enumerate(every):
             began = process_time()
-            points.answers(campaign.job, batch)
+            points.evaluate_points(campaign.job, batch)
             least[k], unit = min(least[k], process_time() - began), min(unit, reference())
     spent = sum(least)
     print(
@@ -75,17 +75,17 @@ def rate(campaign: running.Campaign) -> None:
     )
 
 
-def scaled(campaign: running.Campaign, workers: int) -> None:
+def scaled(campaign: running.ParametricStudy, workers: int) -> None:
     """Wall and processor time of a whole run, processes against one, by turns; start-up of the processes is in it."""
     print(f"{campaign.listed.count} points", flush=True)
     for turn in range(3):
         wall, processor = [], []
         for many in (1, workers):
             begun, before = perf_counter(), sum(os.times()[:4])
-            with tempfile.TemporaryDirectory() as folder, running.Answers(Path(folder) / "a") as known:
-                begin(None, many)
-                with executor_of(None, many) as executor:
-                    running.run(campaign, known, executor=executor, workers=many)
+            with tempfile.TemporaryDirectory() as folder, running.ResultStore(Path(folder) / "a") as known:
+                preload_workers(None, many)
+                with open_executor(None, many) as executor:
+                    running.run_study(campaign, known, executor=executor, workers=many)
             wall.append(perf_counter() - begun)
             forkserver._forkserver._stop()  # noqa: SLF001 its processes' time is told when it ends
             processor.append(sum(os.times()[:4]) - before)

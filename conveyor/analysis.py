@@ -13,26 +13,26 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 
 from conveyor import studies as study
-from conveyor.arguments import checked
-from conveyor.checks import Check, checks
+from conveyor.arguments import check_arguments
+from conveyor.checks import Check, run_checks
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor, calculate
-from conveyor.remarks import assumptions, warnings
-from conveyor.studies import cases as case_study
+from conveyor.remarks import analysis_assumptions, analysis_warnings
 from conveyor.studies import duty as duty_study
+from conveyor.studies import input_ranges as range_study
+from conveyor.studies import load_cases as case_study
 from conveyor.studies import states as state_study
-from conveyor.studies import uncertainty as range_study
 from conveyor.studies.loads import EveryLoad, Progress
-from conveyor.units.presentation import chosen
+from conveyor.units.presentation import report_system
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from conveyor.drawing import AnalysisPlots
-    from conveyor.dynamics.follow import CalculatedDynamics
-    from conveyor.report.columns import Contents, Table
-    from conveyor.report.files import FileKind
-    from conveyor.report.tables import Further
+    from conveyor.dynamics.simulation import CalculatedDynamics
+    from conveyor.report.analysis_tables import ReportAdditions
+    from conveyor.report.table_files import FileKind
+    from conveyor.report.table_model import Contents, Table
     from conveyor.units import System
 
 Given = ParamSpec("Given")
@@ -56,17 +56,17 @@ class Analysis(CalculatedConveyor):
     @cached_property
     def checks(self) -> tuple[Check, ...]:
         """Every criterion with its verdict."""
-        return checks(self)
+        return run_checks(self)
 
     @property
     def assumptions(self) -> tuple[str, ...]:
         """Assumptions behind every figure."""
-        return assumptions(self.conveyor)
+        return analysis_assumptions(self.conveyor)
 
     @cached_property
     def warnings(self) -> tuple[str, ...]:
         """Strained assumptions and criteria not met, in the units of the spec's report."""
-        return tuple(said.text(self.conveyor.report.units) for said in warnings(self, self.checks))
+        return tuple(said.text(self.conveyor.report.units) for said in analysis_warnings(self, self.checks))
 
     def in_units(self, system: System | None) -> Self:
         """Return the same analysis with remarks and reports in another system of units; None leaves it as it is.
@@ -90,10 +90,10 @@ class Analysis(CalculatedConveyor):
 
     def contents(self, studies: Studies | None = None, *, system: System | None = None) -> Contents:
         """Contents of a report in a system of units, with `conveyor.studies` if given."""
-        from conveyor.report.tables import of_analysis
+        from conveyor.report.analysis_tables import analysis_contents
 
-        shown = self.beside(studies).in_units(chosen(self.conveyor.report.units, system))
-        return of_analysis(shown, studies, _further(studies, shown.conveyor.report.units))
+        shown = self.beside(studies).in_units(report_system(self.conveyor.report.units, system))
+        return analysis_contents(shown, studies, _scenario_additions(studies, shown.conveyor.report.units))
 
     @cached_property
     def tables(self) -> dict[str, Table]:
@@ -130,11 +130,11 @@ class Analysis(CalculatedConveyor):
 
         `conveyor schema --result` prints the JSON schema of it.
         """
-        from conveyor.report.tables import plain
+        from conveyor.report.analysis_tables import analysis_json
 
-        return plain(self.beside(studies), studies, _further(studies, "SI"))
+        return analysis_json(self.beside(studies), studies, _scenario_additions(studies, "SI"))
 
-    @checked
+    @check_arguments
     def to_excel(
         self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
     ) -> Path:
@@ -155,11 +155,11 @@ class Analysis(CalculatedConveyor):
         InputError
             The path cannot be written, or the system is neither SI nor US.
         """
-        from conveyor.report.excel import write
+        from conveyor.report.excel import write_workbook
 
-        return write(self.contents(studies, system=system), Path(path))
+        return write_workbook(self.contents(studies, system=system), Path(path))
 
-    @checked
+    @check_arguments
     def to_tables(
         self,
         folder: str | Path,
@@ -186,11 +186,11 @@ class Analysis(CalculatedConveyor):
         InputError
             No such folder, it cannot be written to, an unknown system or kind, or Parquet without pyarrow.
         """
-        from conveyor.report.files import write
+        from conveyor.report.table_files import write_tables
 
-        return write(self.contents(studies, system=system), Path(folder), kind)
+        return write_tables(self.contents(studies, system=system), Path(folder), kind)
 
-    @checked
+    @check_arguments
     def to_html(
         self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
     ) -> Path:
@@ -210,11 +210,11 @@ class Analysis(CalculatedConveyor):
         InputError
             The path cannot be written, or the system is neither SI nor US.
         """
-        from conveyor.report.html import write
+        from conveyor.report.html import write_page
 
-        return write(self.contents(studies, system=system), Path(path))
+        return write_page(self.contents(studies, system=system), Path(path))
 
-    @checked
+    @check_arguments
     def to_pdf(
         self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
     ) -> Path:
@@ -225,9 +225,9 @@ class Analysis(CalculatedConveyor):
         InputError
             As `to_html`, or the package typst is not installed.
         """
-        from conveyor.report.pdf import write
+        from conveyor.report.pdf import write_pdf
 
-        return write(self.contents(studies, system=system), Path(path))
+        return write_pdf(self.contents(studies, system=system), Path(path))
 
     @property
     def plots(self) -> AnalysisPlots:
@@ -245,9 +245,9 @@ class Analysis(CalculatedConveyor):
 
     def _repr_html_(self) -> str:
         """For notebooks: key figures, failed checks, warnings."""
-        from conveyor.report.page import in_short
+        from conveyor.report.page_elements import notebook_summary
 
-        return in_short(self.contents())
+        return notebook_summary(self.contents())
 
 
 class CaseStudy(case_study.CalculatedCases):
@@ -256,14 +256,14 @@ class CaseStudy(case_study.CalculatedCases):
     @cached_property
     def table(self) -> pd.DataFrame:
         """One row per case, temperature and speed; units in the names."""
-        from conveyor.report.study_tables import cases
+        from conveyor.report.study_tables import case_table
 
-        return cases(self).frame()
+        return case_table(self).frame()
 
     def _repr_html_(self) -> str:
-        from conveyor.report.study_tables import notebook_of_cases
+        from conveyor.report.study_tables import cases_notebook
 
-        return notebook_of_cases(self)
+        return cases_notebook(self)
 
 
 class StateStudy(state_study.CalculatedStates):
@@ -277,9 +277,9 @@ class StateStudy(state_study.CalculatedStates):
         return load_states(self).frame()
 
     def _repr_html_(self) -> str:
-        from conveyor.report.study_tables import notebook_of_states
+        from conveyor.report.study_tables import states_notebook
 
-        return notebook_of_states(self)
+        return states_notebook(self)
 
 
 class DutyStudy(duty_study.CalculatedYear):
@@ -288,21 +288,21 @@ class DutyStudy(duty_study.CalculatedYear):
     @cached_property
     def table(self) -> pd.DataFrame:
         """One row per bar; units in the names."""
-        from conveyor.report.study_tables import duty
+        from conveyor.report.study_tables import duty_table
 
-        return duty(self).frame()
+        return duty_table(self).frame()
 
     @cached_property
     def summary(self) -> pd.Series:
         """Sums of the year; units in the names."""
-        from conveyor.report.study_tables import year
+        from conveyor.report.study_tables import year_table
 
-        return year(self).series("year")
+        return year_table(self).series("year")
 
     def _repr_html_(self) -> str:
-        from conveyor.report.study_tables import notebook_of_duty
+        from conveyor.report.study_tables import duty_notebook
 
-        return notebook_of_duty(self)
+        return duty_notebook(self)
 
 
 class UncertaintyStudy(range_study.CalculatedRanges):
@@ -311,14 +311,14 @@ class UncertaintyStudy(range_study.CalculatedRanges):
     @cached_property
     def table(self) -> pd.DataFrame:
         """The tornado: one row per input, the largest swing first; units in the names."""
-        from conveyor.report.study_tables import sensitivity
+        from conveyor.report.study_tables import sensitivity_table
 
-        return sensitivity(self).frame()
+        return sensitivity_table(self).frame()
 
     def _repr_html_(self) -> str:
-        from conveyor.report.study_tables import notebook_of_uncertainty
+        from conveyor.report.study_tables import uncertainty_notebook
 
-        return notebook_of_uncertainty(self)
+        return uncertainty_notebook(self)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -340,17 +340,17 @@ class Studies(study.CalculatedStudies):
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers of the studies present for JSON; units in the keys."""
-        from conveyor.report.study_tables import plain
+        from conveyor.report.study_tables import studies_json
 
-        return plain(self)
+        return studies_json(self)
 
 
-def faced(plain: Any, face: Callable[..., Face]) -> Face:
+def as_results_class(plain: Any, face: Callable[..., Face]) -> Face:
     """Convert plain results to their class for people."""
     return face(**{field.name: getattr(plain, field.name) for field in fields(plain)})
 
 
-def facing(name: str, work: Callable[Given, Any], face: type[Face]) -> Callable[Given, Face]:
+def results_function(name: str, work: Callable[Given, Any], face: type[Face]) -> Callable[Given, Face]:
     """Wrap a function to return results of a class for people, named as in the module of that class for pickling.
 
     Its signature and docstring state that class, too.
@@ -358,7 +358,7 @@ def facing(name: str, work: Callable[Given, Any], face: type[Face]) -> Callable[
 
     @wraps(work)
     def called(*given: Given.args, **named: Given.kwargs) -> Face:
-        return faced(work(*given, **named), face)
+        return as_results_class(work(*given, **named), face)
 
     plain = inspect.signature(work)
     called.__module__, called.__name__, called.__qualname__ = face.__module__, name, name
@@ -368,11 +368,11 @@ def facing(name: str, work: Callable[Given, Any], face: type[Face]) -> Callable[
     return called
 
 
-analyse = facing("analyse", calculate, Analysis)
-analyse_cases = facing("analyse_cases", case_study.analyse_cases, CaseStudy)
-analyse_duty = facing("analyse_duty", duty_study.analyse_duty, DutyStudy)
-study_ranges = facing("study_ranges", range_study.study, UncertaintyStudy)
-load_states = facing("load_states", state_study.load_states, StateStudy)
+analyse = results_function("analyse", calculate, Analysis)
+analyse_cases = results_function("analyse_cases", case_study.analyse_cases, CaseStudy)
+analyse_duty = results_function("analyse_duty", duty_study.analyse_duty, DutyStudy)
+study_ranges = results_function("study_ranges", range_study.analyse_ranges, UncertaintyStudy)
+load_states = results_function("load_states", state_study.load_states, StateStudy)
 
 
 def analyse_studies(
@@ -405,35 +405,37 @@ def analyse_studies(
     >>> conveyor.analyse_studies(conveyor.load("examples/specs/shuttle.yaml"))
     Studies(states, flooded)
     """
-    made = study.studies(conveyor, given, progress=progress)
+    made = study.calculate_studies(conveyor, given, progress=progress)
     return Studies(
-        states=None if made.states is None else faced(made.states, StateStudy),
-        cases=None if made.cases is None else faced(made.cases, CaseStudy),
-        duty=None if made.duty is None else faced(made.duty, DutyStudy),
-        uncertainty=None if made.uncertainty is None else faced(made.uncertainty, UncertaintyStudy),
+        states=None if made.states is None else as_results_class(made.states, StateStudy),
+        cases=None if made.cases is None else as_results_class(made.cases, CaseStudy),
+        duty=None if made.duty is None else as_results_class(made.duty, DutyStudy),
+        uncertainty=None
+        if made.uncertainty is None
+        else as_results_class(made.uncertainty, UncertaintyStudy),
         flooded=made.flooded,
-        dynamics=_followed(conveyor, made, progress) if conveyor.scenarios else None,
+        dynamics=_scenario_results(conveyor, made, progress) if conveyor.scenarios else None,
     )
 
 
 studies = analyse_studies
 
 
-def _followed(
+def _scenario_results(
     conveyor: Conveyor, made: study.CalculatedStudies, progress: Progress | None
 ) -> CalculatedDynamics:
     """Simulated scenarios of a spec, at the take-up setting of its loads."""
-    from conveyor.dynamics.follow import follow
+    from conveyor.dynamics.simulation import simulate_scenarios
 
     loads = None if made.states is None else EveryLoad(made.states, made.cases)
     told = None if progress is None else partial(progress, "scenarios")
-    return follow(conveyor, progress=told, loads=loads)
+    return simulate_scenarios(conveyor, progress=told, loads=loads)
 
 
-def _further(studies: Studies | None, system: System) -> Further | None:
+def _scenario_additions(studies: Studies | None, system: System) -> ReportAdditions | None:
     """Additions of scenarios to a report."""
     if studies is None or studies.dynamics is None:
         return None
-    from conveyor.report.dynamics_tables import further
+    from conveyor.report.dynamics_tables import report_additions
 
-    return further(studies.dynamics, system)
+    return report_additions(studies.dynamics, system)

@@ -12,17 +12,17 @@ from functools import cache, wraps
 from numbers import Integral, Real
 from typing import Any, Final, Literal, ParamSpec, TypeVar, get_args, get_origin
 
-from conveyor.errors import InputError, shortened
+from conveyor.errors import InputError, shorten_text
 
 P = ParamSpec("P")
 R = TypeVar("R")
 
-_SHOWN: Final = 60
+_LONGEST_VALUE: Final = 60
 _NUMBERS: Final[dict[Any, Any]] = {float: Real, int: Integral}
 _LISTS: Final = (list, tuple)
 
 
-def checked(function: Callable[P, R]) -> Callable[P, R]:
+def check_arguments(function: Callable[P, R]) -> Callable[P, R]:
     """Refuse arguments of another type than the function's signature states.
 
     Items of lists, tuples and mappings are checked too; protocols and the arguments of callables are not.
@@ -34,7 +34,7 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
 
     Examples
     --------
-    >>> @checked
+    >>> @check_arguments
     ... def doubled(value: float, *, times: int = 1) -> float:
     ...     return 2.0**times * value
     >>> doubled(3.0, times=2)
@@ -54,9 +54,9 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
             raise InputError(f"{named}: {error}") from None
         for name, value in bound.arguments.items():
             written = signature.parameters[name].annotation
-            if not _fits(value, _hint(function.__module__, written)):
+            if not _is_of_type(value, _annotated_type(function.__module__, written)):
                 expected = str(written).replace(" | None", "")
-                shown = shortened(repr(value), _SHOWN)
+                shown = shorten_text(repr(value), _LONGEST_VALUE)
                 raise InputError(
                     f"{named}: {name}: expected {expected}, got {shown} ({type(value).__name__})"
                 )
@@ -65,47 +65,47 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
     return called
 
 
-class _NotLoaded:
+class _UnloadedType:
     """Placeholder for a type of a module that is not imported: no value is of it."""
 
 
-class _Known(dict[str, Any]):
+class _ModuleNames(dict[str, Any]):
     """Names of a module; those imported for types only are looked up in the loaded modules."""
 
     def __missing__(self, name: str) -> Any:
         if hasattr(builtins, name):
             raise KeyError(name)
         ours = [module for key, module in list(sys.modules.items()) if key.startswith("conveyor.")]
-        return next((vars(module)[name] for module in ours if name in vars(module)), _NotLoaded)
+        return next((vars(module)[name] for module in ours if name in vars(module)), _UnloadedType)
 
 
-def _hint(module: str, written: Any) -> Any:
+def _annotated_type(module: str, written: Any) -> Any:
     """Type of an annotation; Any if it cannot be evaluated."""
     if not isinstance(written, str):
         return Any if written is inspect.Parameter.empty else written
     try:
-        return _evaluated(module, written, len(sys.modules))
+        return _evaluate_annotation(module, written, len(sys.modules))
     except (AttributeError, TypeError):
         return Any
 
 
 @cache
-def _evaluated(module: str, written: str, _loaded: int) -> Any:
+def _evaluate_annotation(module: str, written: str, _loaded: int) -> Any:
     """Evaluate an annotation of this package; again whenever further modules are loaded."""
-    return eval(written, {}, _Known(vars(sys.modules[module])))  # noqa: S307
+    return eval(written, {}, _ModuleNames(vars(sys.modules[module])))  # noqa: S307
 
 
-def _fits(value: Any, hint: Any) -> bool:
+def _is_of_type(value: Any, hint: Any) -> bool:
     """Check a value's type, as far as it can be checked."""
     origin, arguments = get_origin(hint), get_args(hint)
     if origin in {typing.Union, types.UnionType}:
-        fits = any(_fits(value, one) for one in arguments)
+        fits = any(_is_of_type(value, one) for one in arguments)
     elif origin is typing.Annotated:
-        fits = _fits(value, arguments[0])
+        fits = _is_of_type(value, arguments[0])
     elif origin is Literal:
         fits = True  # a wrong word is refused with those allowed, by the function
     elif origin is not None:
-        fits = _holds(value, origin, arguments)
+        fits = _is_container_of(value, origin, arguments)
     elif hint in _NUMBERS:
         fits = isinstance(value, _NUMBERS[hint]) and not isinstance(value, bool)
     elif hint is None:
@@ -116,7 +116,7 @@ def _fits(value: Any, hint: Any) -> bool:
     return fits
 
 
-def _holds(value: Any, origin: Any, arguments: tuple[Any, ...]) -> bool:
+def _is_container_of(value: Any, origin: Any, arguments: tuple[Any, ...]) -> bool:
     """Check the type of a container and of its items."""
     if origin in {Sequence, Iterable} and isinstance(value, str | bytes):
         return False
@@ -125,7 +125,9 @@ def _holds(value: Any, origin: Any, arguments: tuple[Any, ...]) -> bool:
     if isinstance(origin, type) and not isinstance(value, origin):
         return False
     if isinstance(value, Mapping) and len(arguments) == 2:
-        return all(_fits(key, arguments[0]) and _fits(item, arguments[1]) for key, item in value.items())
+        return all(
+            _is_of_type(key, arguments[0]) and _is_of_type(item, arguments[1]) for key, item in value.items()
+        )
     if isinstance(value, _LISTS) and arguments and (origin is not tuple or arguments[-1] is Ellipsis):
-        return all(_fits(item, arguments[0]) for item in value)
+        return all(_is_of_type(item, arguments[0]) for item in value)
     return True

@@ -11,30 +11,30 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from conveyor.analysis import faced, facing
-from conveyor.arguments import checked
-from conveyor.measured.runs import read_runs
+from conveyor.analysis import as_results_class, results_function
+from conveyor.arguments import check_arguments
+from conveyor.measured.run_table import read_runs
 from conveyor.models import Conveyor, MeasuredRun, RubberCompound
 from conveyor.models.variants import CoverChoice
-from conveyor.pipeline import Progress
-from conveyor.report.reports import Reports
+from conveyor.pipeline import ProgressCallback
+from conveyor.report.report_exports import ReportExports
 from conveyor.studies import calibration as calibration_study
 from conveyor.studies import comparison as compound_study
 from conveyor.studies import verification as verification_study
 from conveyor.studies.comparison import RTOL
 from conveyor.units import Quantity
-from conveyor.units.presentation import chosen
-from conveyor.units.sentences import telling
+from conveyor.units.presentation import report_system
+from conveyor.units.sentences import reraise_in_units
 
 if TYPE_CHECKING:
     import pandas as pd
 
     from conveyor.drawing import ComparisonPlots
-    from conveyor.report.columns import Contents
+    from conveyor.report.table_model import Contents
     from conveyor.units import System
 
 
-class Comparison(compound_study.CalculatedComparison, Reports):
+class Comparison(compound_study.CalculatedComparison, ReportExports):
     """Compounds on one conveyor, with tables, reports and figures."""
 
     @cached_property
@@ -42,20 +42,20 @@ class Comparison(compound_study.CalculatedComparison, Reports):
         """One row per scene; units in the names."""
         from conveyor.report import comparison_tables
 
-        return comparison_tables.scenes(self).frame()
+        return comparison_tables.scene_table(self).frame()
 
     @cached_property
     def ranking(self) -> pd.DataFrame:
         """One row per compound and speed, the least mean power first; savings and payback against the base."""
         from conveyor.report import comparison_tables
 
-        return comparison_tables.ranking(self).frame()
+        return comparison_tables.ranking_table(self).frame()
 
     def contents(self, system: System | None = None) -> Contents:
         """Everything a report holds, in a system of units."""
-        from conveyor.report.comparison_tables import of_comparison
+        from conveyor.report.comparison_tables import comparison_contents
 
-        return of_comparison(self, chosen(self.conveyor.report.units, system))
+        return comparison_contents(self, report_system(self.conveyor.report.units, system))
 
     @property
     def plots(self) -> ComparisonPlots:
@@ -68,40 +68,40 @@ class Comparison(compound_study.CalculatedComparison, Reports):
         """For notebooks: the ranking and its remarks."""
         from conveyor.report import comparison_tables
 
-        return comparison_tables.notebook_of_comparison(self)
+        return comparison_tables.comparison_notebook(self)
 
 
-class CalibrationStudy(calibration_study.CalculatedCalibration, Reports):
+class CalibrationStudy(calibration_study.CalculatedCalibration, ReportExports):
     """Factors from measured power, with their tables."""
 
     @cached_property
     def table(self) -> pd.DataFrame:
         """One row per factor with its band."""
-        from conveyor.report.calibration_tables import factors
+        from conveyor.report.calibration_tables import factor_table
 
-        return factors(self).frame()
+        return factor_table(self).frame()
 
     @cached_property
     def residuals(self) -> pd.DataFrame:
         """One row per run: measured, calculated before and after; units in the names."""
-        from conveyor.report.calibration_tables import runs
+        from conveyor.report.calibration_tables import run_table
 
-        return runs(self).frame()
+        return run_table(self).frame()
 
     def contents(self, system: System | None = None) -> Contents:
         """Everything a report holds, in a system of units."""
-        from conveyor.report.calibration_tables import of_calibration
+        from conveyor.report.calibration_tables import calibration_contents
 
-        return of_calibration(self, chosen(self.conveyor.report.units, system))
+        return calibration_contents(self, report_system(self.conveyor.report.units, system))
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers for JSON; units in the keys."""
-        from conveyor.report.calibration_tables import plain
+        from conveyor.report.calibration_tables import calibration_json
 
-        return plain(self)
+        return calibration_json(self)
 
 
-class VerificationSheet(verification_study.CalculatedVerification, Reports):
+class VerificationSheet(verification_study.CalculatedVerification, ReportExports):
     """Losses of compounds under rolls for comparison with a maker's tests, with tables and reports."""
 
     @cached_property
@@ -111,22 +111,22 @@ class VerificationSheet(verification_study.CalculatedVerification, Reports):
 
     def contents(self, system: System | None = None) -> Contents:
         """Contents of a report in a system of units, SI by default."""
-        from conveyor.report.verification_tables import of_verification
+        from conveyor.report.verification_tables import verification_contents
 
-        return of_verification(self, "SI" if system is None else system)
+        return verification_contents(self, "SI" if system is None else system)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers for JSON; units in the keys."""
-        from conveyor.report.verification_tables import plain
+        from conveyor.report.verification_tables import verification_json
 
-        return plain(self)
-
-
-compare_compounds = facing("compare_compounds", compound_study.compare_compounds, Comparison)
-verify_sheet = facing("verify_sheet", verification_study.verification, VerificationSheet)
+        return verification_json(self)
 
 
-@checked
+compare_compounds = results_function("compare_compounds", compound_study.compare_compounds, Comparison)
+verify_sheet = results_function("verify_sheet", verification_study.verify_compounds, VerificationSheet)
+
+
+@check_arguments
 def calibrate(
     conveyor: Conveyor,
     runs: str | Path | Sequence[MeasuredRun],
@@ -134,9 +134,9 @@ def calibrate(
     error: float | None = None,
     factors: Sequence[str] | None = None,
     rtol: float | None = None,
-    progress: Progress | None = None,
+    progress: ProgressCallback | None = None,
 ) -> CalibrationStudy:
-    """Fit factors on forces to measured power, as `conveyor.studies.calibration.calibrate`.
+    """Fit factors on forces to measured power, as `conveyor.studies.calibration.fit_factors`.
 
     Parameters
     ----------
@@ -172,14 +172,14 @@ def calibrate(
     >>> conveyor.calibrate(line, "runs.csv").table  # doctest: +SKIP
     """
     given = read_runs(runs) if isinstance(runs, str | Path) else runs
-    with telling(conveyor.report.units):
-        found = calibration_study.calibrate(
+    with reraise_in_units(conveyor.report.units):
+        found = calibration_study.fit_factors(
             conveyor, given, error=error, factors=factors, rtol=rtol, progress=progress
         )
-        return faced(found, CalibrationStudy)
+        return as_results_class(found, CalibrationStudy)
 
 
-@checked
+@check_arguments
 def compare(
     conveyor: Conveyor,
     compounds: Iterable[str | RubberCompound],
@@ -193,7 +193,7 @@ def compare(
     shelves: Iterable[str | Path] = (),
     executor: Executor | None = None,
     workers: int = 1,
-    progress: Progress | None = None,
+    progress: ProgressCallback | None = None,
 ) -> pd.DataFrame:
     """The table of `compare_compounds`, one row per scene.
 

@@ -11,28 +11,35 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from conveyor import shelf, sizing
-from conveyor.arguments import checked
+from conveyor.arguments import check_arguments
 from conveyor.models import Conveyor
 from conveyor.models.sizing import SizingDuty
 from conveyor.models.study import StudyPlan
-from conveyor.pipeline import Progress
-from conveyor.report.reports import Reports
+from conveyor.pipeline import ProgressCallback
+from conveyor.report.report_exports import ReportExports
 from conveyor.spec import load
-from conveyor.studies.campaign import Answers, Campaign, Point, designs, rows, run
-from conveyor.studies.evaluation import Explored, explored
-from conveyor.study_file import base_of, named, read_duty, read_plan
-from conveyor.units.presentation import chosen
+from conveyor.studies.evaluation import StudySummary, summarise_study
+from conveyor.studies.parametric_study import (
+    ParametricStudy,
+    Point,
+    ResultStore,
+    design_results,
+    point_results,
+    run_study,
+)
+from conveyor.study_file import base_spec_path, name_plan_file, read_duty, read_plan
+from conveyor.units.presentation import report_system
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
     import pandas as pd
 
-    from conveyor.report.columns import Contents
+    from conveyor.report.table_model import Contents
     from conveyor.units import System
 
 
-class Sizing(sizing.CalculatedSizing, Reports):
+class Sizing(sizing.CalculatedSizing, ReportExports):
     """Ranked designs of a duty, with their tables and reports; `.best.conveyor` is the spec of the cheapest."""
 
     @cached_property
@@ -47,28 +54,28 @@ class Sizing(sizing.CalculatedSizing, Reports):
 
     def contents(self, system: System | None = None, *, vary: bool = True) -> Contents:
         """Contents of a report in a system of units; the sensitivity of the best design takes seconds."""
-        from conveyor.report.sizing_tables import of_sizing
+        from conveyor.report.sizing_tables import sizing_contents
 
-        return of_sizing(self, chosen(self.duty.report.units, system), vary=vary)
+        return sizing_contents(self, report_system(self.duty.report.units, system), vary=vary)
 
 
 @dataclass(frozen=True, eq=False)
-class Study(Reports):
+class Study(ReportExports):
     """Every point of a study, and its designs: `explored.best` are the ten best.
 
     Attributes
     ----------
-    campaign : Campaign
+    campaign : ParametricStudy
         The study on its spec.
     points : tuple of (int, values, answer)
         Number, values of the fields, SI figures or the reason why there are none.
-    explored : Explored
+    explored : StudySummary
         Summary of the designs: best ones, front, main effects.
     """
 
-    campaign: Campaign
+    campaign: ParametricStudy
     points: tuple[Point, ...]
-    explored: Explored
+    explored: StudySummary
 
     def __repr__(self) -> str:
         name, without = self.campaign.plan.name, sum(isinstance(answer, str) for *_, answer in self.points)
@@ -80,20 +87,20 @@ class Study(Reports):
         """One row per point; units in the names."""
         import pandas as pd
 
-        from conveyor.report.point_tables import of_points
+        from conveyor.report.point_tables import point_table
 
-        made = of_points(self.campaign, self.campaign.base.report.units)
+        made = point_table(self.campaign, self.campaign.base.report.units)
         return pd.DataFrame(map(made.cells, self.points), columns=list(made.headings))
 
     def contents(self, system: System | None = None) -> Contents:
         """Tables and figures of the designs, in a system of units."""
-        from conveyor.report.design_tables import of_study
+        from conveyor.report.design_tables import study_contents
 
-        return of_study(self.explored, chosen(self.campaign.base.report.units, system))
+        return study_contents(self.explored, report_system(self.campaign.base.report.units, system))
 
 
-@checked
-def size(duty: str | Path | SizingDuty, *, best: int = 3, progress: Progress | None = None) -> Sizing:
+@check_arguments
+def size(duty: str | Path | SizingDuty, *, best: int = 3, progress: ProgressCallback | None = None) -> Sizing:
     """Ranked designs of a duty.
 
     Parameters
@@ -123,11 +130,11 @@ def size(duty: str | Path | SizingDuty, *, best: int = 3, progress: Progress | N
     >>> conveyor.size("examples/duties/overland.yaml", best=3).table  # doctest: +SKIP
     """
     given = duty if isinstance(duty, SizingDuty) else read_duty(duty)
-    sized = sizing.size(given, best=best, progress=progress)
+    sized = sizing.size_conveyor(given, best=best, progress=progress)
     return Sizing(**{field.name: getattr(sized, field.name) for field in fields(sized)})
 
 
-@checked
+@check_arguments
 def study(
     plan: str | Path | StudyPlan,
     conveyor: Conveyor | None = None,
@@ -137,7 +144,7 @@ def study(
     workers: int = 1,
     shelves: Iterable[str | Path] = (),
 ) -> Study:
-    """Calculate every point of a study, from a file or data, as `conveyor.studies.campaign.run`.
+    """Calculate every point of a study, from a file or data, as `conveyor.studies.parametric_study.run_study`.
 
     Parameters
     ----------
@@ -174,13 +181,17 @@ def study(
     given = plan if isinstance(plan, StudyPlan) else read_plan(plan)
     spec = Path(given.base) if isinstance(plan, StudyPlan) else Path(plan).parent / given.base
     if not isinstance(plan, StudyPlan) and conveyor is None:
-        spec = base_of(given, plan)
+        spec = base_spec_path(given, plan)
     base = load(spec, shelves=shelves) if conveyor is None else conveyor
     resolve = shelf.resolver(extra=shelves, base=spec.parent)
-    with nullcontext() if isinstance(plan, StudyPlan) else named(plan):
-        campaign = Campaign.of(given, base, resolve)
+    with nullcontext() if isinstance(plan, StudyPlan) else name_plan_file(plan):
+        campaign = ParametricStudy.of(given, base, resolve)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "study.answers" if answers is None else Path(answers)
-        with Answers(path) as known:
-            run(campaign, known, executor=executor, workers=workers)
-            return Study(campaign, tuple(rows(campaign, known)), explored(campaign, designs(campaign, known)))
+        with ResultStore(path) as known:
+            run_study(campaign, known, executor=executor, workers=workers)
+            return Study(
+                campaign,
+                tuple(point_results(campaign, known)),
+                summarise_study(campaign, design_results(campaign, known)),
+            )

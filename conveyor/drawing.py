@@ -1,6 +1,6 @@
 """Figures of results: `analysis.plots.tensions()`, `comparison.plots.loss_tangents()`.
 
-Matplotlib figures are returned, never shown or saved; `conveyor.report.plots.save` writes one.
+Matplotlib figures are returned, never shown or saved; `conveyor.report.plots.save_figure` writes one.
 """
 
 from __future__ import annotations
@@ -12,15 +12,15 @@ from typing import TYPE_CHECKING, Final
 from conveyor.errors import InputError
 from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, RubberCompound
-from conveyor.models.variants import scaled
+from conveyor.models.variants import scale_quantity
 from conveyor.report import analysis_plots, plots, transfer_tables
-from conveyor.report.tables import boundaries, drifts
+from conveyor.report.analysis_tables import drifts_by_case, section_boundaries
 from conveyor.studies import CalculatedStudies
-from conveyor.studies.comparison_scenes import ComparedScene, Coverage, of_compound
-from conveyor.studies.loads import designing
+from conveyor.studies.comparison_scenes import ComparedScene, Coverage, calculate_compound
+from conveyor.studies.loads import design_loads
 from conveyor.units import Quantity, System, quantity
-from conveyor.units.presentation import chosen
-from conveyor.units.sentences import celsius
+from conveyor.units.presentation import report_system
+from conveyor.units.sentences import to_celsius
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from conveyor.pipeline import CalculatedConveyor
     from conveyor.studies.comparison import CalculatedComparison
 
-_WARMER: Final = tuple(range(-40, 41, 5))  # from the spec's belt temperature [K]
-_FASTER: Final = tuple(round(0.6 + 0.1 * k, 1) for k in range(9))  # on the spec's belt speed
+_TEMPERATURE_STEPS: Final = tuple(range(-40, 41, 5))  # from the spec's belt temperature [K]
+_SPEED_FACTORS: Final = tuple(round(0.6 + 0.1 * k, 1) for k in range(9))  # on the spec's belt speed
 _RTOL: Final = 1e-4  # of the contacts: less than a line's width
 _STRANDS: Final[tuple[Strand, ...]] = ("carry", "return")
 
@@ -64,7 +64,7 @@ class AnalysisPlots:
         """Height of the route over its length, with feeding points, drives and vertical curves."""
         conveyor = self.analysis.conveyor
         return analysis_plots.route_profile(
-            conveyor, self.analysis.line, boundaries(self.analysis.line), system=self._in(system)
+            conveyor, self.analysis.line, section_boundaries(self.analysis.line), system=self._in(system)
         )
 
     def trajectory(self, *, system: System | None = None) -> Figure:
@@ -77,7 +77,7 @@ class AnalysisPlots:
         """
         if self.analysis.trajectory is None:
             raise InputError("no trajectory: give route.discharge, and bulk that reaches the head")
-        return transfer_tables.picture(self.analysis, system=self._in(system))
+        return transfer_tables.discharge_figure(self.analysis, system=self._in(system))
 
     def cross_section(self, *, system: System | None = None) -> Figure:
         """Idler set of each strand with belt and bulk, to scale."""
@@ -86,7 +86,7 @@ class AnalysisPlots:
 
     def plan(self, *, system: System | None = None) -> Figure:
         """Plan view of the route with its horizontal curves."""
-        return analysis_plots.plan(self.analysis.line, system=self._in(system))
+        return analysis_plots.plan_view(self.analysis.line, system=self._in(system))
 
     def drift(self, studies: CalculatedStudies | None = None, *, system: System | None = None) -> Figure:
         """Drift of the belt in every horizontal curve over all states of motion, and all cases of the studies if given.
@@ -99,8 +99,8 @@ class AnalysisPlots:
         if not self.analysis.horizontal:
             raise InputError("drift: the route has no horizontal curve (route.sections[].horizontal_curve)")
         shown, held = self._in(system), CalculatedStudies() if studies is None else studies
-        loads = designing(self.analysis, held.states, held.cases)
-        return analysis_plots.drift(drifts(loads, shown), system=shown)
+        loads = design_loads(self.analysis, held.states, held.cases)
+        return analysis_plots.drift_diagram(drifts_by_case(loads, shown), system=shown)
 
     def pressure(self, *, system: System | None = None) -> Figure:
         """Contact pressure under the highest line load of each strand."""
@@ -113,7 +113,7 @@ class AnalysisPlots:
         chosen_one = compounds[strand]
         on_it = tuple(each for each in _STRANDS if compounds[each].name == chosen_one.name)
         contacts = self.analysis.contacts
-        return analysis_plots.rubber_at_work(
+        return analysis_plots.excited_master_curve(
             chosen_one, conveyor.temperature, contacts, on_it, system=self._in(system)
         )
 
@@ -135,10 +135,10 @@ class AnalysisPlots:
             A temperature is refused, or none has an answer.
         """
         conveyor = self.analysis.conveyor
-        at = celsius(conveyor.temperature)
-        around = [quantity(f"{at + step:.9g} degC", "temperature") for step in _WARMER]
+        at = to_celsius(conveyor.temperature)
+        around = [quantity(f"{at + step:.9g} degC", "temperature") for step in _TEMPERATURE_STEPS]
         given = around if temperatures is None else [quantity(t, "temperature") for t in temperatures]
-        varied = _varied(conveyor, given, [conveyor.belt.speed])
+        varied = _sweep_conveyor(conveyor, given, [conveyor.belt.speed])
         return plots.power_over(varied, "temperature", system=self._in(system))
 
     def power_against_speed(
@@ -159,9 +159,9 @@ class AnalysisPlots:
             A speed is refused, or none has an answer.
         """
         conveyor = self.analysis.conveyor
-        around = [scaled(conveyor.belt.speed, times) for times in _FASTER]
+        around = [scale_quantity(conveyor.belt.speed, times) for times in _SPEED_FACTORS]
         given = around if speeds is None else [quantity(v, "speed") for v in speeds]
-        varied = _varied(conveyor, [conveyor.ambient.belt], given)
+        varied = _sweep_conveyor(conveyor, [conveyor.ambient.belt], given)
         return plots.power_over(varied, "speed", system=self._in(system))
 
     def every(
@@ -181,14 +181,14 @@ class AnalysisPlots:
             "power-temperature": self.power_against_temperature(system=system),
             "power-speed": self.power_against_speed(system=system),
         }
-        return made if studies is None else made | dict(_of_studies(studies, self._in(system)))
+        return made if studies is None else made | dict(_study_figures(studies, self._in(system)))
 
     def _in(self, system: System | None) -> System:
-        return chosen(self.analysis.conveyor.report.units, system)
+        return report_system(self.analysis.conveyor.report.units, system)
 
 
 @dataclass(frozen=True)
-class _Alone:
+class _ConveyorSweep:
     """Results of a conveyor with its own rubber at several temperatures and speeds."""
 
     conveyor: Conveyor
@@ -197,26 +197,31 @@ class _Alone:
     coverage: tuple[Coverage, ...]
 
 
-def _varied(conveyor: Conveyor, temperatures: list[Quantity], speeds: list[Quantity]) -> _Alone:
+def _sweep_conveyor(
+    conveyor: Conveyor, temperatures: list[Quantity], speeds: list[Quantity]
+) -> _ConveyorSweep:
     compound = conveyor.carry_compound
-    varied = of_compound(conveyor, compound, temperatures, speeds, cover="bottom", rtol=_RTOL)
+    varied = calculate_compound(conveyor, compound, temperatures, speeds, cover="bottom", rtol=_RTOL)
     if not varied.scenes:
         why = "; ".join(dict.fromkeys(refusal.reason for refusal in varied.refused))
         raise InputError(f"nothing to draw: {why}")
-    return _Alone(conveyor, (compound,), varied.scenes, varied.coverage)
+    return _ConveyorSweep(conveyor, (compound,), varied.scenes, varied.coverage)
 
 
-def _of_studies(studies: CalculatedStudies, system: System) -> Iterator[tuple[str, Figure]]:
+def _study_figures(studies: CalculatedStudies, system: System) -> Iterator[tuple[str, Figure]]:
     cases = studies.cases
     if cases is not None and len({result.temperature for result in cases.results}) > 1:
         yield "cases-temperature", analysis_plots.case_power(cases, "temperature", system=system)
     if cases is not None and len({result.speed for result in cases.results}) > 1:
         yield "cases-speed", analysis_plots.case_power(cases, "speed", system=system)
     if studies.uncertainty is not None:
-        yield "ranges", analysis_plots.tornado(studies.uncertainty, system=system)
+        yield "ranges", analysis_plots.tornado_chart(studies.uncertainty, system=system)
         exact = studies.uncertainty.monte_carlo
         if exact is not None:
-            yield "draws", analysis_plots.settling(exact, studies.uncertainty.sampled, system=system)
+            yield (
+                "draws",
+                analysis_plots.interval_convergence(exact, studies.uncertainty.sampled, system=system),
+            )
 
 
 @dataclass(frozen=True, eq=False)
@@ -242,4 +247,4 @@ class ComparisonPlots:
         return plots.compared_loss_tangents(self.comparison, temperature, system=self._in(system))
 
     def _in(self, system: System | None) -> System:
-        return chosen(self.comparison.conveyor.report.units, system)
+        return report_system(self.comparison.conveyor.report.units, system)

@@ -8,12 +8,12 @@ from copy import copy
 from dataclasses import dataclass
 from typing import Any, Final, Self
 
-_WORD: Final = re.compile(r"(\S{200})\S{100,}")
-_LINE: Final = re.compile(r"(.{800}).{100,}(.{100})")
+_LONG_WORD: Final = re.compile(r"(\S{200})\S{100,}")
+_LONG_LINE: Final = re.compile(r"(.{800}).{100,}(.{100})")
 
 
 @dataclass(frozen=True)
-class Amount:
+class MessageQuantity:
     """Quantity in an error message: SI text, SI value and kind, so that it can be written in other units.
 
     Parameters
@@ -21,7 +21,7 @@ class Amount:
     value : float
         Value in SI units.
     kind : str
-        Kind of quantity, a key of `conveyor.units.kinds.KINDS`.
+        Kind of quantity, a key of `conveyor.units.quantity_kinds.KINDS`.
     written : str
         Text with its SI unit.
     digits : int
@@ -29,7 +29,7 @@ class Amount:
 
     Examples
     --------
-    >>> error = ConveyorError("a belt of {}", Amount(1.2, "length", "1.2 m"))
+    >>> error = ConveyorError("a belt of {}", MessageQuantity(1.2, "length", "1.2 m"))
     >>> str(error), str(error.told(lambda part: f"{part.value / 0.3048:.3g} ft"))
     ('a belt of 1.2 m', 'a belt of 3.94 ft')
     """
@@ -73,7 +73,7 @@ class ConveyorError(Exception):
 
         Examples
         --------
-        >>> print(RangeError("no data at {}", Amount(250.0, "temperature", "250 K")).at("run 2"))
+        >>> print(RangeError("no data at {}", MessageQuantity(250.0, "temperature", "250 K")).at("run 2"))
         run 2: no data at 250 K
         """
         kind = InputError if isinstance(self, InputError) else type(self)
@@ -81,15 +81,15 @@ class ConveyorError(Exception):
 
     def _said(self, write: Callable[[object], object]) -> str:
         whole = self._message.format(*map(write, self._parts)) if self._parts else self._message
-        return _LINE.sub(r"\1 ... \2", _WORD.sub(r"\1...", whole))
+        return _LONG_LINE.sub(r"\1 ... \2", _LONG_WORD.sub(r"\1...", whole))
 
 
-def shortened(quoted: str, longest: int = 80) -> str:
+def shorten_text(quoted: str, longest: int = 80) -> str:
     """Cut a quoted text to a readable length.
 
     Examples
     --------
-    >>> shortened("overland"), shortened("overland", 4)
+    >>> shorten_text("overland"), shorten_text("overland", 4)
     ('overland', 'over...')
     """
     return quoted if len(quoted) <= longest else quoted[:longest] + "..."
@@ -127,7 +127,7 @@ class SpecError(InputError):
         return type(self), (self.problems,), self.__dict__
 
 
-class PlacedError(InputError):
+class PlanError(InputError):
     """All problems of a plan, each with its location as pydantic gives it."""
 
     def __init__(self, problems: Iterable[tuple[tuple[int | str, ...], str]]) -> None:

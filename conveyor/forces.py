@@ -1,7 +1,8 @@
 """Every resistance of a conveyor in one list, over which sums, tables, plots and the loop of tensions iterate.
 
-A new resistance is a law, its field of the spec, and its line in `along_the_belt` (independent of the rubber: computed
-in `without_rubber`) or `at_places`.
+A new resistance is a law, its field of the spec, and its line in `forces_along_belt` (independent of the rubber:
+computed
+in `rubber_free_forces`) or `point_forces`.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ from conveyor.laws.resistance import (
 )
 from conveyor.laws.transfer import skirt_seal_resistance
 from conveyor.line.line import BendPulley, Line, LoadingPoint
-from conveyor.line.stations import Spot
+from conveyor.line.loop_positions import LoopPosition
 from conveyor.line.strands import OneStrand, Strands
 from conveyor.line.stretches import STRANDS, Strand, Stretch
 from conveyor.models import Calibration
@@ -45,9 +46,9 @@ Array = NDArray[np.float64]
 ForceKind = Literal["main", "secondary", "special", "lift"]
 
 _TILT_STEEP = math.radians(37.5)  # trough angle midway between the two listed coefficients C_e
-_SLOPE_OVER = 1e6  # [N], tension for the slope of a wrap; the law is linear, any would do
-_CONTACT = "viscoelastic contact of every roll (see Method)"
-_MISALIGNED = "friction across the belt x sine of the angle, derived"
+_SLOPE_TENSION = 1e6  # [N], tension for the slope of a wrap; the law is linear, any would do
+_CONTACT_SOURCE = "viscoelastic contact of every roll (see Method)"
+_MISALIGNMENT_SOURCE = "friction across the belt x sine of the angle, derived"
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +67,7 @@ class Force:
         Source of its law.
     certain : bool
         True if not by friction, so that no uncertainty of friction changes it.
-    spot, place : Spot or None, str
+    spot, place : LoopPosition or None, str
         Position in the loop, and in words; None and empty for forces along the belt.
     short : str
         Name of its column in tables of sections; `name` without it.
@@ -82,7 +83,7 @@ class Force:
     newtons: Array | float
     source: str
     certain: bool = False
-    spot: Spot | None = None
+    spot: LoopPosition | None = None
     place: str = ""
     short: str = ""
     assumed: bool = False
@@ -156,7 +157,7 @@ _AFTER_MAIN = ("secondary", "special", "lift")
 
 
 @dataclass(frozen=True, eq=False)
-class WithoutRubber:
+class RubberFreeForces:
     """Forces along a line independent of rubber and air [N], shape (2n,).
 
     `guidance` is None without skewed sets in horizontal curves, `flexure` where it is a share of the other main
@@ -170,7 +171,7 @@ class WithoutRubber:
     unit_main: Array
     flexure: Array | None
 
-    def joined(self, back: WithoutRubber) -> WithoutRubber:
+    def joined(self, back: RubberFreeForces) -> RubberFreeForces:
         """Join these forces of the carry strand with those of the return strand."""
 
         def both(one: Array, other: Array) -> Array:
@@ -182,38 +183,38 @@ class WithoutRubber:
             None if one is other is None else both(*(none if part is None else part for part in (one, other)))
             for one, other in pairs
         )
-        return WithoutRubber(
+        return RubberFreeForces(
             both(self.misalignment, back.misalignment), both(self.tilt, back.tilt), guidance,
             both(self.lift, back.lift), both(self.unit_main, back.unit_main), flexure,
         )  # fmt: skip
 
 
-def without_rubber(strands: Strands) -> WithoutRubber:
+def rubber_free_forces(strands: Strands) -> RubberFreeForces:
     """Forces along the belt independent of rubber and air."""
-    carry, back = map(strand_without_rubber, strands.each)
+    carry, back = map(strand_rubber_free_forces, strands.each)
     return carry.joined(back)
 
 
-def strand_without_rubber(strand: OneStrand) -> WithoutRubber:
+def strand_rubber_free_forces(strand: OneStrand) -> RubberFreeForces:
     """Forces along one strand independent of rubber and air, shape (n,)."""
 
     def each(law: Callable[[Stretch, float], float]) -> Array:
         return np.array([law(stretch, strand.gravity) for stretch in strand.stretches])
 
     skewed = any(stretch.turn is not None and stretch.turn.guided for stretch in strand.stretches)
-    return WithoutRubber(
-        misalignment=each(_misalignment),
-        tilt=each(_tilt),
-        guidance=each(_guidance) if skewed else None,
-        lift=each(_lift),
-        unit_main=each(_unit_main),
-        flexure=each(_flexure) if strand.flexes else None,
+    return RubberFreeForces(
+        misalignment=each(_misalignment_force),
+        tilt=each(_tilt_force),
+        guidance=each(_guidance_force) if skewed else None,
+        lift=each(_lift_force),
+        unit_main=each(_unit_main_force),
+        flexure=each(_flexure_force) if strand.flexes else None,
     )
 
 
-def along_the_belt(
+def forces_along_belt(
     line: Line,
-    fixed: WithoutRubber,
+    fixed: RubberFreeForces,
     indentation: Array,
     *,
     roll_drag: float = 1.0,
@@ -225,8 +226,8 @@ def along_the_belt(
     ----------
     line : Line
         The conveyor.
-    fixed : WithoutRubber
-        Forces of `without_rubber`.
+    fixed : RubberFreeForces
+        Forces of `rubber_free_forces`.
     indentation : ndarray, shape (2n,)
         Indentation resistance of every stretch [N].
     roll_drag : float
@@ -245,28 +246,35 @@ def along_the_belt(
     flexure = factors.flexure * flexure
     misalignment = factors.misalignment * fixed.misalignment
     return (
-        Force("indentation", "indentation", "main", indentation, _CONTACT),
+        Force("indentation", "indentation", "main", indentation, _CONTACT_SOURCE),
         Force("idler_rotation", "idler rotation", "main", rotation, "roll drag x number of rolls"),
         Force("flexure", "flexure of belt and bulk", "main", flexure, line.flexure_source, short="flexure"),
-        Force("misalignment", "misaligned idlers", "main", misalignment, _MISALIGNED, short="misalignment"),
+        Force(
+            "misalignment",
+            "misaligned idlers",
+            "main",
+            misalignment,
+            _MISALIGNMENT_SOURCE,
+            short="misalignment",
+        ),
         Force("tilt", "idler tilt", "special", fixed.tilt, "ISO 5048, F_e"),
-        *_guiding(fixed),
+        *_guidance_forces(fixed),
         Force("lift", "lift", "lift", fixed.lift, "ISO 5048, F_St", certain=True, short="lift force"),
     )
 
 
-def _flexure(stretch: Stretch, _gravity: float) -> float:
+def _flexure_force(stretch: Stretch, _gravity: float) -> float:
     """Flexure over all spans of the stretch [N]."""
     return stretch.sets * (stretch.span_flexure or 0.0)
 
 
-def _misalignment(stretch: Stretch, _gravity: float) -> float:
+def _misalignment_force(stretch: Stretch, _gravity: float) -> float:
     """Drag of all rolls of the stretch that are not square to the belt [N]."""
     pairs = zip(stretch.misalignment, stretch.loads, strict=True)
     return stretch.sets * math.fsum(friction * load.force for friction, load in pairs)
 
 
-def _tilt(stretch: Stretch, gravity: float) -> float:
+def _tilt_force(stretch: Stretch, gravity: float) -> float:
     """Resistance of wings tilted forward [N]."""
     if stretch.tilt_angle == 0.0:
         return 0.0
@@ -283,12 +291,12 @@ def _tilt(stretch: Stretch, gravity: float) -> float:
     )
 
 
-def _guidance(stretch: Stretch, _gravity: float) -> float:
+def _guidance_force(stretch: Stretch, _gravity: float) -> float:
     """Resistance of sets skewed to steer the belt on a horizontal curve [N]."""
     return 0.0 if stretch.turn is None else stretch.sets * stretch.turn.guidance()
 
 
-def _guiding(fixed: WithoutRubber) -> Iterator[Force]:
+def _guidance_forces(fixed: RubberFreeForces) -> Iterator[Force]:
     if fixed.guidance is not None:
         law = "guiding friction x sine of the skew, derived"
         yield Force(
@@ -296,11 +304,11 @@ def _guiding(fixed: WithoutRubber) -> Iterator[Force]:
         )
 
 
-def _lift(stretch: Stretch, gravity: float) -> float:
+def _lift_force(stretch: Stretch, gravity: float) -> float:
     return slope_resistance(stretch.line_mass, lift=stretch.rise, gravity=gravity)
 
 
-def _unit_main(stretch: Stretch, gravity: float) -> float:
+def _unit_main_force(stretch: Stretch, gravity: float) -> float:
     return section_main_resistance(
         friction_factor=1.0,
         length=stretch.length,
@@ -312,13 +320,13 @@ def _unit_main(stretch: Stretch, gravity: float) -> float:
     )
 
 
-def at_places(line: Line) -> tuple[Force, ...]:
+def point_forces(line: Line) -> tuple[Force, ...]:
     """Forces at single places independent of tension: feeding points, cleaners, ploughs."""
-    loaded = [force for point in line.loading for force in _loading(line, point)]
-    return (*loaded, *_cleaners(line), *_ploughs(line))
+    loaded = [force for point in line.loading for force in _loading_forces(line, point)]
+    return (*loaded, *_cleaner_forces(line), *_plough_forces(line))
 
 
-def by_length_coefficient(line: Line, spot: Spot, along: Iterable[Force]) -> Force:
+def length_coefficient_force(line: Line, spot: LoopPosition, along: Iterable[Force]) -> Force:
     """Secondary resistances as a whole, (C-1) F_H, at the loading point."""
     main = ForceSums.of(along).main
     force = secondary_resistance(main, length=line.length)
@@ -328,7 +336,7 @@ def by_length_coefficient(line: Line, spot: Spot, along: Iterable[Force]) -> For
     )  # fmt: skip
 
 
-def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
+def _loading_forces(line: Line, point: LoadingPoint) -> Iterator[Force]:
     name, here = point.name, partial(Force, spot=point.spot, place=point.place, assumed=point.assumed)
     length = point.acceleration_length(line.speed, line.gravity)
     if point.lift is not None and point.flow > 0.0:
@@ -339,7 +347,7 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
         )  # fmt: skip
     if point.flow > 0.0 and (line.secondary != "C" or point.lift is not None):
         inertia = acceleration_resistance(point.flow, belt_speed=line.speed, initial_speed=point.speed)
-        law = _law("ISO 5048, F_bA", point.assumed)
+        law = _source_text("ISO 5048, F_bA", point.assumed)
         yield here("acceleration", f"acceleration of the bulk{name}", "secondary", inertia, law, certain=True,
                    bulk=point.comes_with)  # fmt: skip
         zone = acceleration_skirt_resistance(
@@ -353,12 +361,12 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
             gravity=line.gravity,
             passing=max(0.0, point.flow_beyond - point.flow) / line.density,
         )
-        law = _law("ISO 5048, F_f", point.assumed)
+        law = _source_text("ISO 5048, F_f", point.assumed)
         yield here("loading_skirts", f"skirts in the loading zone{name}", "secondary", zone, law,
                    bulk=point.comes_with)  # fmt: skip
     if point.seal_drag > 0.0:
         drag = skirt_seal_resistance(point.boards(line.speed, line.gravity), drag_per_length=point.seal_drag)
-        law = _law("seal_drag x length of the skirts", point.assumed)
+        law = _source_text("seal_drag x length of the skirts", point.assumed)
         yield here("skirt_seals", f"seals of the skirts{name}", "special", drag, law)
     if point.flow_beyond == 0.0:
         return
@@ -372,26 +380,26 @@ def _loading(line: Line, point: LoadingPoint) -> Iterator[Force]:
         skirt_friction=point.skirt_friction,
         gravity=line.gravity,
     )
-    law = _law("ISO 5048, F_gL", point.assumed)
+    law = _source_text("ISO 5048, F_gL", point.assumed)
     yield here("skirts", f"skirts beyond the loading zone{name}", "special", beyond, law, bulk=point.section)
 
 
-def _law(source: str, assumed: bool) -> str:
+def _source_text(source: str, assumed: bool) -> str:
     return f"{source}, usual figures" if assumed else source
 
 
-def _cleaners(line: Line) -> Iterator[Force]:
+def _cleaner_forces(line: Line) -> Iterator[Force]:
     """Forces of the cleaners, behind the head and any head drive."""
     for i, scraper in enumerate(line.scrapers, start=1):
         one = cleaner_resistance(scraper.area, pressure=scraper.pressure, friction=scraper.friction)
         yield Force(
             "cleaner", f"cleaner {i} (x{scraper.count})", "special", scraper.count * one,
-            _law("ISO 5048, F_r", scraper.assumed),
+            _source_text("ISO 5048, F_r", scraper.assumed),
             spot=line.places.behind("head", None), place="head", assumed=scraper.assumed,
         )  # fmt: skip
 
 
-def _ploughs(line: Line) -> Iterator[Force]:
+def _plough_forces(line: Line) -> Iterator[Force]:
     """Forces of the ploughs; none on an empty belt."""
     if line.flow == 0.0:
         return
@@ -406,7 +414,7 @@ def _ploughs(line: Line) -> Iterator[Force]:
 
 
 @dataclass(frozen=True)
-class Bend:
+class PulleyResistance:
     """Resistances of a pulley as linear functions of its tensions.
 
     Attributes
@@ -427,25 +435,25 @@ class Bend:
         """Wrap and bearing resistance [N] as named forces."""
         name, assumed = self.pulley.name, self.pulley.assumed
         here = partial(Force, spot=self.pulley.spot, place=self.pulley.place, assumed=assumed)
-        law = _law("ISO 5048 / DIN 22101, belt wrap", assumed)
+        law = _source_text("ISO 5048 / DIN 22101, belt wrap", assumed)
         yield here("wrap", f"wrap, {name}", "secondary", wrap, law)
         if self.bearings is not None:
-            law = _law("ISO 5048, F_t", assumed)
+            law = _source_text("ISO 5048, F_t", assumed)
             yield here("pulley_bearings", f"bearings, {name}", "secondary", bearings, law)
 
-    def times(self, factor: float) -> Bend:
+    def times(self, factor: float) -> PulleyResistance:
         """The pulley with its resistances times a factor."""
         base, slope = self.wrap
         turn = None if self.bearings is None else factor * self.bearings
-        return Bend(self.pulley, (factor * base, factor * slope), turn)
+        return PulleyResistance(self.pulley, (factor * base, factor * slope), turn)
 
 
-def bends(line: Line) -> tuple[Bend, ...]:
+def pulley_resistances(line: Line) -> tuple[PulleyResistance, ...]:
     """Wrap resistance of every pulley, bearings of those not driven; none with the length coefficient C."""
-    return () if line.secondary == "C" else tuple(_bend(line, pulley) for pulley in line.pulleys)
+    return () if line.secondary == "C" else tuple(_pulley_resistance(line, pulley) for pulley in line.pulleys)
 
 
-def _bend(line: Line, pulley: BendPulley) -> Bend:
+def _pulley_resistance(line: Line, pulley: BendPulley) -> PulleyResistance:
     law = steel_cord_wrap_resistance if line.belt.steel_cord else fabric_wrap_resistance
     slack, taut = (
         law(
@@ -454,9 +462,9 @@ def _bend(line: Line, pulley: BendPulley) -> Bend:
             belt_thickness=line.belt.thickness,
             pulley_diameter=pulley.diameter,
         )
-        for tension in (0.0, _SLOPE_OVER)
+        for tension in (0.0, _SLOPE_TENSION)
     )
     turn = pulley_bearing_resistance(
         1.0, shaft_diameter=pulley.shaft_diameter, pulley_diameter=pulley.diameter
     )
-    return Bend(pulley, (slack, (taut - slack) / _SLOPE_OVER), None if pulley.driven else turn)
+    return PulleyResistance(pulley, (slack, (taut - slack) / _SLOPE_TENSION), None if pulley.driven else turn)

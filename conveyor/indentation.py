@@ -27,9 +27,9 @@ from conveyor.contact import (
     solve,
     solve_many,
 )
-from conveyor.errors import Amount, InputError, NoSolutionError, RangeError
+from conveyor.errors import InputError, MessageQuantity, NoSolutionError, RangeError
 from conveyor.require import require_number
-from conveyor.rubber import CreepSeries, PronySeries, creeps
+from conveyor.rubber import CreepSeries, PronySeries, creep_forms
 
 Array = NDArray[np.float64]
 Support = Literal["confined", "free", "half-space", "belt"]
@@ -119,12 +119,12 @@ class RollContact:
         return None if self.backing is None else self.backing.tension
 
 
-MEMORY = 4.0
+SPACING_INFLUENCE = 4.0
 """Factor of (h/λ)³, the relative influence of the spacing on friction: at most 1.8 (h/λ)³ was seen on the shelf's
 rubbers (λ/h 25 to 800, 0.5 and 8 m/s, -27 to 77 °C)."""
 
 
-def forgotten(contacts: Iterable[RollContact], rtol: float) -> dict[RollContact, RollContact]:
+def merge_equal_contacts(contacts: Iterable[RollContact], rtol: float) -> dict[RollContact, RollContact]:
     """Contact to solve for each contact: those that differ in spacing only share the closest, where rtol allows.
 
     Parameters
@@ -152,16 +152,16 @@ def forgotten(contacts: Iterable[RollContact], rtol: float) -> dict[RollContact,
 
 def spacing_error(contact: RollContact) -> float:
     """Relative change of a confined contact's friction at a larger roll spacing, an upper estimate [-]."""
-    return MEMORY * (contact.cover_thickness / contact.spacing) ** 3
+    return SPACING_INFLUENCE * (contact.cover_thickness / contact.spacing) ** 3
 
 
-FAST, SLOW = 2.0, 0.1
+FAST_TERMS_INFLUENCE, SLOW_TERMS_INFLUENCE = 2.0, 0.1
 """Factors of (V τ/a)^1.5 and (h/(V τ))²: relative change of friction as all terms faster, all slower than τ are
 merged. At most 1.03 and 0.044 were seen on four compounds of the shelf (-30 to 50 °C, 0.5 to 9 m/s, 0.1 to 10 N/mm,
 2.5 to 16 mm, rolls of 60 to 240 mm)."""
 
 
-def felt(contact: RollContact, line_load: float, error: float) -> tuple[float, float]:
+def resolved_relaxation_times(contact: RollContact, line_load: float, error: float) -> tuple[float, float]:
     """Relaxation times between which a roll resolves the terms of its rubber [s].
 
     Parameters
@@ -182,11 +182,11 @@ def felt(contact: RollContact, line_load: float, error: float) -> tuple[float, f
     unit = 4.0 * (1.0 - contact.poisson**2) * line_load * contact.radius / math.pi
     narrow = math.sqrt(unit / rubber.glassy)
     narrow = math.sqrt(unit / float(rubber.storage(speed / narrow)))
-    fastest = (error / FAST) ** (2.0 / 3.0) * narrow / speed
-    return fastest, math.sqrt(SLOW / error) * contact.cover_thickness / speed
+    fastest = (error / FAST_TERMS_INFLUENCE) ** (2.0 / 3.0) * narrow / speed
+    return fastest, math.sqrt(SLOW_TERMS_INFLUENCE / error) * contact.cover_thickness / speed
 
 
-def coarsened(contact: RollContact, line_load: float, error: float) -> RollContact:
+def coarsen_rubber(contact: RollContact, line_load: float, error: float) -> RollContact:
     """Merge the rubber terms that the roll does not resolve; only of a confined, incompressible cover.
 
     Parameters
@@ -196,11 +196,11 @@ def coarsened(contact: RollContact, line_load: float, error: float) -> RollConta
     line_load : float
         w, the least that occurs [N/m].
     error : float
-        As in `felt`, for the fast and for the slow terms each [-].
+        As in `resolved_relaxation_times`, for the fast and for the slow terms each [-].
     """
     if contact.support != "confined" or contact.poisson != 0.5:
         return contact
-    fastest, slowest = felt(contact, line_load, error)
+    fastest, slowest = resolved_relaxation_times(contact, line_load, error)
     return replace(contact, rubber=contact.rubber.merged(fastest=fastest, slowest=slowest))
 
 
@@ -288,7 +288,7 @@ def to_problems(contacts: Sequence[RollContact], line_loads: Sequence[float]) ->
     """
     behind = [contact.backing.rubber for contact in contacts if contact.backing is not None]
     rubbers = dict.fromkeys([*(contact.rubber for contact in contacts), *behind])
-    creep_of = dict(zip(rubbers, creeps(rubbers), strict=True))
+    creep_of = dict(zip(rubbers, creep_forms(rubbers), strict=True))
     problems = []
     for contact, line_load in zip(contacts, line_loads, strict=True):
         k = 2.0 * math.pi / contact.spacing
@@ -297,10 +297,10 @@ def to_problems(contacts: Sequence[RollContact], line_loads: Sequence[float]) ->
             ContactProblem(
                 support=contact.support
                 if contact.backing is None
-                else _belt(contact, contact.backing, creep_of[contact.backing.rubber]),
+                else _dimensionless_belt(contact, contact.backing, creep_of[contact.backing.rubber]),
                 radius=contact.radius / contact.spacing,
                 pressure=(1.0 - contact.poisson**2) * line_load / (math.pi * rubbery * contact.radius),
-                creep=_normalised(creep_of[contact.rubber], rubbery, contact.speed * k),
+                creep=_normalised_creep(creep_of[contact.rubber], rubbery, contact.speed * k),
                 thickness=math.inf if contact.support == "half-space" else k * contact.cover_thickness,
                 poisson=contact.poisson,
             )
@@ -308,7 +308,7 @@ def to_problems(contacts: Sequence[RollContact], line_loads: Sequence[float]) ->
     return problems
 
 
-def _normalised(creep: CreepSeries, rubbery: float, rate: float) -> CreepSpectrum:
+def _normalised_creep(creep: CreepSeries, rubbery: float, rate: float) -> CreepSpectrum:
     """Creep over 1/E0, times over 1/(V k)."""
     return CreepSpectrum(
         instantaneous=rubbery * creep.instantaneous,
@@ -317,14 +317,14 @@ def _normalised(creep: CreepSeries, rubbery: float, rate: float) -> CreepSpectru
     )
 
 
-def _belt(contact: RollContact, behind: Backing, creep: CreepSeries) -> Belt:
+def _dimensionless_belt(contact: RollContact, behind: Backing, creep: CreepSeries) -> Belt:
     """Dimensionless belt: tension T k/E0, bending D k³/E0, in-plane stiffness K k/E0."""
     k, rubbery = 2.0 * math.pi / contact.spacing, contact.rubber.equilibrium
     bending = behind.bending * k**3 / rubbery
     return Belt(
         bottom=k * contact.cover_thickness,
         top=k * behind.cover_thickness,
-        top_creep=_normalised(creep, behind.rubber.equilibrium, contact.speed * k),
+        top_creep=_normalised_creep(creep, behind.rubber.equilibrium, contact.speed * k),
         top_modulus=behind.rubber.equilibrium / rubbery,
         tension=behind.tension * k / rubbery,
         bending=complex(bending, bending * behind.bending_loss),
@@ -392,7 +392,7 @@ class IndentationCurve:
         RangeError
             A load outside the curve.
         """
-        (found,) = resistances([self], [np.asarray(line_load, dtype=float)])
+        (found,) = curve_resistances([self], [np.asarray(line_load, dtype=float)])
         return found
 
     def penetration(self, line_load: ArrayLike) -> Array:
@@ -418,7 +418,7 @@ class IndentationCurve:
             loads = [float(w.min()), float(w.max()), self.lowest, self.highest]
             raise RangeError(
                 "line load from {} to {}: the curve was solved from {} to {}; solve a wider one",
-                *(Amount(each, "line force", f"{each:.6g} N/m") for each in loads),
+                *(MessageQuantity(each, "line force", f"{each:.6g} N/m") for each in loads),
             )
         return np.asarray(w * (self.curve.problem.pressure / self.highest))
 
@@ -454,7 +454,7 @@ class IndentationCurve:
         )
 
 
-def resistances(curves: Sequence[IndentationCurve], line_loads: Sequence[Array]) -> list[Array]:
+def curve_resistances(curves: Sequence[IndentationCurve], line_loads: Sequence[Array]) -> list[Array]:
     """Indentation resistance per width on each of many curves at its own line loads, as `IndentationCurve.resistance`.
 
     Raises
@@ -517,29 +517,29 @@ def indentation_curves(
     pressures = np.array([problem.pressure for problem in problems])
     curves = load_curves(problems, pressures * (np.asarray(lowest) / np.asarray(highest)), pressures, rtol)
     return [
-        no_answer(contact, (low, high), curve)
+        no_contact_error(contact, (low, high), curve)
         if isinstance(curve, NoSolutionError)
         else IndentationCurve(contact, curve, low, high)
         for contact, curve, low, high in zip(contacts, curves, lowest, highest, strict=True)
     ]
 
 
-def no_answer(contact: RollContact, loads: tuple[float, ...], why: NoSolutionError) -> NoSolutionError:
+def no_contact_error(contact: RollContact, loads: tuple[float, ...], why: NoSolutionError) -> NoSolutionError:
     """Error of a roll's contact under a line load or between two [N/m], which names roll, cover and load."""
     diameter, cover = 2.0 * contact.radius, contact.cover_thickness
     *least, most = loads
-    low = (Amount(each, "line force", f"{each:.4g}") for each in least)
+    low = (MessageQuantity(each, "line force", f"{each:.4g}") for each in least)
     return NoSolutionError(
-        f"roll of {{}} on a {{}} cover ({contact.support}), {'{} to ' * len(least)}{{}}: {{}}{_advice(contact)}",
-        Amount(diameter, "thickness", f"{1e3 * diameter:.4g} mm"),
-        Amount(cover, "thickness", f"{1e3 * cover:.4g} mm"),
+        f"roll of {{}} on a {{}} cover ({contact.support}), {'{} to ' * len(least)}{{}}: {{}}{_cover_hint(contact)}",
+        MessageQuantity(diameter, "thickness", f"{1e3 * diameter:.4g} mm"),
+        MessageQuantity(cover, "thickness", f"{1e3 * cover:.4g} mm"),
         *low,
-        Amount(most, "line force", f"{most:.4g} N/m"),
+        MessageQuantity(most, "line force", f"{most:.4g} N/m"),
         why,
     )
 
 
-def _advice(contact: RollContact) -> str:
+def _cover_hint(contact: RollContact) -> str:
     if contact.support == "confined":
         return ""
     return '; a cover on a real carcass is "confined", not a layer that bends or has no end'
@@ -605,6 +605,6 @@ def indentation_resistances(
     return [
         solution.friction * w
         if solution.status is Status.OK
-        else no_answer(contact, (w,), NoSolutionError(solution.message))
+        else no_contact_error(contact, (w,), NoSolutionError(solution.message))
         for contact, w, solution in zip(contacts, line_loads, solutions, strict=True)
     ]

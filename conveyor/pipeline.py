@@ -20,53 +20,60 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.errors import InputError, NoSolutionError, RangeError
-from conveyor.forces import WithoutRubber, along_the_belt, strand_without_rubber
-from conveyor.laws.softening import softened_many
-from conveyor.line.anchors import Theory
-from conveyor.line.belts import GAUSS, Tensioned, solve_belts
-from conveyor.line.contacts import Contacts, RollResult, SolvedCurves, solve_contacts
+from conveyor.forces import RubberFreeForces, forces_along_belt, strand_rubber_free_forces
+from conveyor.laws.softening import soften_covers
+from conveyor.line.belt_contacts import STRETCH_QUADRATURE, TensionedCurveCache, solve_belt_contacts
+from conveyor.line.contacts import Contacts, LoadCurveCache, RollResult, solve_contacts
 from conveyor.line.covers import (
-    FELT,
-    READ_RTOL,
+    STRAIN_INTERPOLATION_RTOL,
+    TERM_MERGE_SHARE,
+    CoverLoading,
     Covers,
-    Level,
-    RunningCover,
-    StrandAtWork,
+    CoverState,
+    CoverTestFactor,
     compounds_by_strand,
-    covers_of,
-    rubbers,
+    cover_series,
+    covers_by_strand,
+    resolved_time_range,
     softened_covers,
-    told_apart,
 )
 from conveyor.line.line import Line
 from conveyor.line.roll_drags import StrandDrags, roll_drags_many
+from conveyor.line.rolling_test_theory import RollingTestTheory
 from conveyor.line.strands import OneStrand, Strands
-from conveyor.line.stretches import STRANDS, Acting, RouteSection, Strand, Stretch, route_sections
-from conveyor.loop.balance import Balance, OpenLoop, balances
+from conveyor.line.stretches import STRANDS, CurveLoads, RouteSection, Strand, Stretch, route_sections
+from conveyor.loop.annual_energy import AnnualEnergy, annual_energy
+from conveyor.loop.balance import Balance, OpenLoop, close_loops
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
-from conveyor.loop.curves import Convergence, acting, converged, pulls
 from conveyor.loop.drive_duty import DriveDuty, drive_duty
-from conveyor.loop.frame import Frame, TakeUpSetting
-from conveyor.loop.horizontal import HorizontalCheck, horizontal_checks
+from conveyor.loop.horizontal_curve_duty import HorizontalCurveCheck, horizontal_curve_checks
+from conveyor.loop.loop_layout import LoopLayout, TakeUpSetting
 from conveyor.loop.pulley_duty import PulleyDuty, pulley_duty
 from conveyor.loop.set_duty import SetDuty, set_duty
-from conveyor.loop.starting import Motions, every_state, motions
-from conveyor.loop.take_up import TakeUpDuty, at_one_setting, take_up_duty
+from conveyor.loop.start_and_stop import StartAndStop, motion_states, start_and_stop
+from conveyor.loop.take_up_duty import TakeUpDuty, at_common_setting, take_up_duty
+from conveyor.loop.tension_coupling import Convergence, loads_on_curves, next_convergence, pull_per_width
 from conveyor.loop.tensions import MotionState
-from conveyor.loop.transfer import Cleaning, Landing, Trajectory, cleanings, landings, trajectory
-from conveyor.loop.year import Year, year
+from conveyor.loop.transfer_points import (
+    CleanerDuty,
+    LoadingPointDuty,
+    Trajectory,
+    cleaner_duty,
+    discharge_trajectory,
+    loading_point_duty,
+)
 from conveyor.models import Calculation, Conveyor, RubberCompound
 from conveyor.models.belt import Belt
-from conveyor.models.fields import KnownParts
-from conveyor.rubber.anchor import Anchor
-from conveyor.units.sentences import told
+from conveyor.models.fields import PartCache
+from conveyor.rubber.rolling_test_factor import RollingTestFactor
+from conveyor.units.sentences import error_in_units
 
 Array = NDArray[np.float64]
 T = TypeVar("T")
 NoAnswer: TypeAlias = NoSolutionError | RangeError | InputError
-Progress: TypeAlias = Callable[[int, int], None]
+ProgressCallback: TypeAlias = Callable[[int, int], None]
 """Called with the amount done, which never falls, and the total."""
-Anchors: TypeAlias = list[tuple[RubberCompound, bool, Anchor | NoAnswer | None]]
+KnownTestFactors: TypeAlias = list[tuple[RubberCompound, bool, RollingTestFactor | NoAnswer | None]]
 """Compounds by identity, whether softened by strain, and their test factors or errors; begins empty."""
 
 
@@ -108,7 +115,7 @@ class StretchResult:
     ----------
     stretch : Stretch
         Geometry, masses and loads.
-    cover : RunningCover
+    cover : CoverState
         Cover under its rolls.
     rolls : tuple of RollResult
         Rolls of one set, left to right.
@@ -119,7 +126,7 @@ class StretchResult:
     """
 
     stretch: Stretch
-    cover: RunningCover
+    cover: CoverState
     rolls: tuple[RollResult, ...]
     forces: Mapping[str, float]
     main: float
@@ -145,7 +152,7 @@ class CalculatedConveyor:
         Contacts of all rolls.
     balance : Balance
         Forces, tensions, power.
-    fixed : WithoutRubber
+    fixed : RubberFreeForces
         Forces independent of the rubber.
     convergence : Convergence or None
         Convergence of tensions and roll loads; None without coupling.
@@ -160,7 +167,7 @@ class CalculatedConveyor:
     temperature: float
     contacts: Contacts
     balance: Balance
-    fixed: WithoutRubber
+    fixed: RubberFreeForces
     convergence: Convergence | None = None
     friction_band: tuple[float, float] | None = None
     start_of_motors: float | None = None
@@ -173,7 +180,7 @@ class CalculatedConveyor:
         return low, high
 
     @property
-    def motor_asked(self) -> float:
+    def governing_motor_power(self) -> float:
         """Motor power at the less favourable end of the friction band [W]; negative: generating."""
         least, most = map(self.balance.frame.motor, self.drive_forces)
         return least if abs(least) > abs(most) else most
@@ -200,34 +207,34 @@ class CalculatedConveyor:
         return tuple(results)
 
     @cached_property
-    def motions(self) -> Motions:
+    def motions(self) -> StartAndStop:
         """Start, coasting, braking, holding; slip limits of the bulk."""
-        return motions(self.balance)
+        return start_and_stop(self.balance)
 
     @property
-    def every_state(self) -> tuple[MotionState, ...]:
+    def motion_states(self) -> tuple[MotionState, ...]:
         """Tensions in every state of motion."""
-        return every_state(self.balance, self.motions)
+        return motion_states(self.balance, self.motions)
 
     @cached_property
     def take_up(self) -> TakeUpDuty:
         """Setting, mass and travel of the take-up for this load."""
-        return take_up_of([self])
+        return common_take_up_duty([self])
 
     @cached_property
     def belt_duty(self) -> BeltDuty:
         """Safety of the belt, diameters of the pulleys, radii of vertical curves, lengths of transitions."""
-        return belt_duty(self.balance, self.every_state)
+        return belt_duty(self.balance, self.motion_states)
 
     @cached_property
-    def horizontal(self) -> tuple[HorizontalCheck, ...]:
+    def horizontal(self) -> tuple[HorizontalCurveCheck, ...]:
         """Horizontal curves on both strands: drift in every state, radii, tensions of the edges."""
-        return horizontal_checks(self.balance, self.every_state)
+        return horizontal_curve_checks(self.balance, self.motion_states)
 
     @cached_property
     def pulley_duty(self) -> tuple[PulleyDuty, ...]:
         """Loads of every pulley in every state, its shaft, bearings and lagging."""
-        return pulley_duty(self.balance, self.every_state)
+        return pulley_duty(self.balance, self.motion_states)
 
     @cached_property
     def drive_duty(self) -> tuple[DriveDuty, ...]:
@@ -240,27 +247,27 @@ class CalculatedConveyor:
         return set_duty(self.balance)
 
     @cached_property
-    def landings(self) -> tuple[Landing, ...]:
+    def loading_point_duty(self) -> tuple[LoadingPointDuty, ...]:
         """Impact and skirts of every loading point."""
-        return landings(self.line)
+        return loading_point_duty(self.line)
 
     @cached_property
-    def cleanings(self) -> tuple[Cleaning, ...]:
+    def cleaner_duty(self) -> tuple[CleanerDuty, ...]:
         """Carryback behind every cleaner."""
-        return cleanings(self.line)
+        return cleaner_duty(self.line)
 
     @cached_property
     def trajectory(self) -> Trajectory | None:
         """Trajectory of the bulk over the head pulley, where the spec gives `discharge`."""
-        return trajectory(self.line)
+        return discharge_trajectory(self.line)
 
     @cached_property
-    def year(self) -> Year | None:
+    def year(self) -> AnnualEnergy | None:
         """Annual energy at constant load and its cost; None without hours or with a duty."""
         operation = self.conveyor.operation
         if operation is None or operation.duty:
             return None
-        return year(operation, self.balance.power.mains, self.line.flow)
+        return annual_energy(operation, self.balance.power.mains, self.line.flow)
 
     @property
     def error_estimate(self) -> float:
@@ -268,14 +275,16 @@ class CalculatedConveyor:
         return self.contacts.error
 
 
-def take_up_of(loads: Sequence[CalculatedConveyor], temperatures: Iterable[float] = ()) -> TakeUpDuty:
+def common_take_up_duty(
+    loads: Sequence[CalculatedConveyor], temperatures: Iterable[float] = ()
+) -> TakeUpDuty:
     """Setting, mass and travel of the take-up for several loads calculated at one setting.
 
     The travel covers further `temperatures` of the belt [K], too.
     """
     return take_up_duty(
         [load.balance for load in loads],
-        [load.every_state for load in loads],
+        [load.motion_states for load in loads],
         [*(load.temperature for load in loads), *temperatures],
     )
 
@@ -318,12 +327,12 @@ def calculate(conveyor: Conveyor) -> CalculatedConveyor:
 def calculate_many(
     variants: Sequence[Variant],
     rtol: float | None = None,
-    progress: Progress | None = None,
+    progress: ProgressCallback | None = None,
     *,
     one_take_up: Callable[[CalculatedConveyor], bool] | None = None,
     known: CalculatedConveyor | None = None,
-    anchors: Anchors | None = None,
-    kept: Kept | None = None,
+    anchors: KnownTestFactors | None = None,
+    kept: ReuseCache | None = None,
     runs: Iterable[Iterable[int]] = (),
 ) -> list[CalculatedConveyor | NoAnswer]:
     """Calculate many variants, all contacts in one batch.
@@ -343,11 +352,11 @@ def calculate_many(
         A variant calculated before: the test factors of its compounds are reused.
     anchors : list, optional
         Test factors of earlier calls with the same compounds, by default those of `kept`; new ones are added.
-    kept : Kept, optional
+    kept : ReuseCache, optional
         Cache of earlier calls; new parts are added.
     runs : iterable of iterable of int
         Indices of variants that differ in speed alone: their working strain is interpolated among three, where `rtol`
-        allows it (`READ_RTOL`).
+        allows it (`STRAIN_INTERPOLATION_RTOL`).
 
     Returns
     -------
@@ -359,22 +368,24 @@ def calculate_many(
     NoSolutionError
         No setting of the take-up serves all.
     """
-    shared = _Shared(known, anchors, rtol, Kept() if kept is None else kept)
-    shared.read_among(runs)
-    tell = _Told(len(variants), progress)
+    shared = _BatchContext(known, anchors, rtol, ReuseCache() if kept is None else kept)
+    shared.set_speed_runs(runs)
+    tell = _ProgressReporter(len(variants), progress)
     shared.anchor(variants)
     made: dict[int, CalculatedConveyor] = {}
     refused: dict[int, NoAnswer] = {}
-    going = {i: _Step() for i in range(len(variants))}
+    going = {i: _IterationState() for i in range(len(variants))}
     while going:
-        loaded: dict[int, _Loaded] = {}
+        loaded: dict[int, _PreparedLine] = {}
         for i, one in shared.loaded({i: (variants[i], step.acting) for i, step in going.items()}):
-            if isinstance(one, _Loaded):
+            if isinstance(one, _PreparedLine):
                 loaded[i] = one
             else:
                 refused[i] = one
             tell(len(variants) - len(going), len(loaded))
-        for i, result in _closed(variants, loaded, _solved(shared, loaded, going, rtol)).items():
+        for i, result in _close_all_loops(
+            variants, loaded, _solve_all_contacts(shared, loaded, going, rtol)
+        ).items():
             if isinstance(result, CalculatedConveyor):
                 made[i] = result
             else:
@@ -383,103 +394,108 @@ def calculate_many(
             made.pop(i, None)
         if one_take_up is not None:
             asking = list(map(one_take_up, made.values()))
-            level = at_one_setting([result.balance for result in made.values()], asking)
+            level = at_common_setting([result.balance for result in made.values()], asking)
             made = {i: replace(made[i], balance=one) for i, one in zip(made, level, strict=True)}
-        acted = [i for i in going if i in made and made[i].line.tension_acts]
-        again: dict[int, _Step] = {}
+        acted = [i for i in going if i in made and made[i].line.has_tension_coupling]
+        again: dict[int, _IterationState] = {}
         for i in acted:
             try:
-                made[i] = result = replace(made[i], convergence=_convergence(made[i], going[i]))
-                again[i] = _Step.after(result)
+                made[i] = result = replace(made[i], convergence=_tension_convergence(made[i], going[i]))
+                again[i] = _IterationState.after(result)
             except NoSolutionError as error:
                 refused[i] = error
                 del made[i]
-        moving = {i for i in again if not _settled(made[i])}
+        moving = {i for i in again if not _is_settled(made[i])}
         # one that still moves the common setting moves the tensions of all
         going = again if one_take_up is not None and moving else {i: again[i] for i in moving}
         tell(len(variants) - len(going), 0)
     systems = enumerate(one.conveyor.report.units for one in variants)
-    return [told(refused[i], system) if i in refused else made[i] for i, system in systems]
+    return [error_in_units(refused[i], system) if i in refused else made[i] for i, system in systems]
 
 
 @dataclass(frozen=True, eq=False)
-class _Step:
+class _IterationState:
     """Iteration state of a variant: loads on curves, pull of the belt, results of the step before."""
 
-    acting: Acting = field(default_factory=Acting)
+    acting: CurveLoads = field(default_factory=CurveLoads)
     pulls: Array | None = None
     covers: Covers = field(default_factory=dict)
     before: Balance | None = None
     convergence: Convergence | None = None
 
     @classmethod
-    def after(cls, result: CalculatedConveyor) -> _Step:
+    def after(cls, result: CalculatedConveyor) -> _IterationState:
         """State for the step after a result."""
         line, steady = result.line, result.balance.settled.steady
-        held = pulls(line, steady, GAUSS[0]) if line.support == "belt" else None
+        held = pull_per_width(line, steady, STRETCH_QUADRATURE[0]) if line.support == "belt" else None
         covers = result.contacts.covers
-        return cls(acting(line, steady), held, covers, result.balance, result.convergence)
+        return cls(loads_on_curves(line, steady), held, covers, result.balance, result.convergence)
 
 
 @dataclass(frozen=True, eq=False)
-class _Loaded:
+class _PreparedLine:
     """A line prepared for its contacts: loop, forces independent of rubber, loaded covers.
 
     `acted`: with loads of tension on curves, so that no other variant shares it; `anchored`: test factors apply.
     """
 
     line: Line
-    frame: Frame
-    fixed: WithoutRubber
-    acted: bool
-    works: Mapping[Strand, StrandAtWork] = field(default_factory=dict)
-    anchored: bool = False
+    frame: LoopLayout
+    fixed: RubberFreeForces
+    has_curve_loads: bool
+    works: Mapping[Strand, CoverLoading] = field(default_factory=dict)
+    uses_rolling_tests: bool = False
 
 
-def anchors_of(conveyor: Conveyor, compounds: Iterable[RubberCompound]) -> Anchors:
+def conveyor_test_factors(conveyor: Conveyor, compounds: Iterable[RubberCompound]) -> KnownTestFactors:
     """Test factors of compounds as a conveyor's calculation uses them."""
-    levels: Anchors = []
-    if _anchored(conveyor.calculation):
+    levels: KnownTestFactors = []
+    if _uses_rolling_tests(conveyor.calculation):
         softened = conveyor.calculation.strain != "off"
-        for theory in _theories(levels, [(compound, softened) for compound in compounds]):
-            found = theory.levels(softened_many(theory.works))
+        for theory in _missing_theories(levels, [(compound, softened) for compound in compounds]):
+            found = theory.levels(soften_covers(theory.works))
             levels += zip(theory.compounds, repeat(softened), found, strict=False)
     return levels
 
 
-def _theories(levels: Anchors, asked: Iterable[tuple[RubberCompound, bool]]) -> list[Theory]:
+def _missing_theories(
+    levels: KnownTestFactors, asked: Iterable[tuple[RubberCompound, bool]]
+) -> list[RollingTestTheory]:
     """Theory at the tests of compounds, softened or not, whose test factors are unknown."""
     new: list[tuple[RubberCompound, bool]] = []
     for one, soft in asked:
         if not any(one is other and soft == how for other, how, *_ in (*levels, *new)):
             new.append((one, soft))
     return [
-        Theory([one for one, soft in new if soft == softened], softened=softened)
+        RollingTestTheory([one for one, soft in new if soft == softened], softened=softened)
         for softened in dict.fromkeys(soft for _, soft in new)
     ]
 
 
-def _anchored(calculation: Calculation) -> bool:
+def _uses_rolling_tests(calculation: Calculation) -> bool:
     """True if rolling-resistance tests scale the indentation."""
     return calculation.anchor == "tests" and calculation.support in {"confined", "belt"}
 
 
-def _strand(
-    conveyor: Conveyor, sections: tuple[RouteSection, ...], strand: Strand, on_curves: Acting
-) -> tuple[OneStrand, WithoutRubber]:
+def _strand_and_forces(
+    conveyor: Conveyor, sections: tuple[RouteSection, ...], strand: Strand, on_curves: CurveLoads
+) -> tuple[OneStrand, RubberFreeForces]:
     """A strand of a conveyor and its forces independent of rubber."""
     made = OneStrand.of(conveyor, sections, strand, on_curves)
-    return made, strand_without_rubber(made)
+    return made, strand_rubber_free_forces(made)
 
 
-def _loaded(line: Line, fixed: Sequence[WithoutRubber], acted: bool) -> _Loaded:
+def _prepare_line(line: Line, fixed: Sequence[RubberFreeForces], acted: bool) -> _PreparedLine:
     """Prepare a line without roll drags and loaded covers."""
     carry, back = fixed
-    return _Loaded(line, Frame(line), carry.joined(back), acted)
+    return _PreparedLine(line, LoopLayout(line), carry.joined(back), acted)
 
 
-def _solved(
-    shared: _Shared, loaded: Mapping[int, _Loaded], steps: Mapping[int, _Step], rtol: float | None
+def _solve_all_contacts(
+    shared: _BatchContext,
+    loaded: Mapping[int, _PreparedLine],
+    steps: Mapping[int, _IterationState],
+    rtol: float | None,
 ) -> dict[int, Contacts | NoAnswer]:
     """Solve the contacts of prepared lines, their covers at their working strain, in one batch.
 
@@ -494,13 +510,15 @@ def _solved(
     held = {i: fast for i in tight if isinstance(fast := contacts[i], Contacts)}
     if held:
         rtols = [loaded[i].line.rtol if rtol is None else rtol for i in held]
-        belts = solve_belts(list(held.values()), [tight[i] for i in held], rtols, shared.tensioned)
+        belts = solve_belt_contacts(list(held.values()), [tight[i] for i in held], rtols, shared.tensioned)
         contacts |= dict(zip(held, belts, strict=True))
     return contacts
 
 
-def _closed(
-    variants: Sequence[Variant], loaded: Mapping[int, _Loaded], contacts: Mapping[int, Contacts | NoAnswer]
+def _close_all_loops(
+    variants: Sequence[Variant],
+    loaded: Mapping[int, _PreparedLine],
+    contacts: Mapping[int, Contacts | NoAnswer],
 ) -> dict[int, CalculatedConveyor | NoAnswer]:
     """Close the loops around the forces of the rolls in one batch."""
     found: dict[int, CalculatedConveyor | NoAnswer] = {}
@@ -508,12 +526,12 @@ def _closed(
     for i, one in contacts.items():
         try:
             if isinstance(one, Contacts):
-                open_loops[i] = one, _open(variants[i], loaded[i], one)
+                open_loops[i] = one, _open_loop(variants[i], loaded[i], one)
             else:
                 found[i] = one
         except InputError as error:
             found[i] = error
-    closed = balances([loop for _, loop in open_loops.values()])
+    closed = close_loops([loop for _, loop in open_loops.values()])
     for (i, (rolls, _)), made in zip(open_loops.items(), closed, strict=True):
         at = variants[i]
         found[i] = (
@@ -524,10 +542,10 @@ def _closed(
     return found
 
 
-def _open(variant: Variant, loaded: _Loaded, contacts: Contacts) -> OpenLoop:
+def _open_loop(variant: Variant, loaded: _PreparedLine, contacts: Contacts) -> OpenLoop:
     """Loop with the forces along the belt, to be closed."""
     level = np.repeat([variant.level.get(strand, 1.0) for strand in STRANDS], loaded.line.count)
-    along = along_the_belt(
+    along = forces_along_belt(
         loaded.line,
         loaded.fixed,
         level * contacts.indentation,
@@ -537,24 +555,24 @@ def _open(variant: Variant, loaded: _Loaded, contacts: Contacts) -> OpenLoop:
     return OpenLoop.of(loaded.frame, along, float(loaded.fixed.unit_main.sum()), variant.take_up)
 
 
-def _convergence(result: CalculatedConveyor, step: _Step) -> Convergence | None:
+def _tension_convergence(result: CalculatedConveyor, step: _IterationState) -> Convergence | None:
     """Convergence of coupled tensions against the step before; None in the first step."""
     if step.before is None:
         return None
     before, now = step.before.settled.steady, result.balance.settled.steady
-    return converged(step.convergence, before, now, result.line, result.balance.tensions.largest)
+    return next_convergence(step.convergence, before, now, result.line, result.balance.tensions.largest)
 
 
-def _settled(result: CalculatedConveyor) -> bool:
+def _is_settled(result: CalculatedConveyor) -> bool:
     """True if tensions and roll loads have converged."""
     return result.convergence is not None and result.convergence.settled(result.line.rtol)
 
 
-_NOTHING: Final[Any] = object()
-_RUBBER: Final[Any] = {cover: {"compound"} for cover in ("top_cover", "bottom_cover")}
+_MISSING: Final[Any] = object()
+_RUBBER_FIELDS: Final[Any] = {cover: {"compound"} for cover in ("top_cover", "bottom_cover")}
 
 
-class _Same:
+class _IdentityKey:
     """Dictionary key of a spec's part by identity; it keeps the part alive."""
 
     __slots__ = ("part",)
@@ -563,13 +581,13 @@ class _Same:
         self.part = part
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Same) and self.part is other.part
+        return isinstance(other, _IdentityKey) and self.part is other.part
 
     def __hash__(self) -> int:
         return object.__hash__(self.part)
 
 
-class Kept:
+class ReuseCache:
     """Cache of parts shared by the variants of a spec: strands, lines, covers, load curves.
 
     Parts of specs are compared by identity: variants come from `replace`, which keeps unchanged parts. Belts that
@@ -581,11 +599,11 @@ class Kept:
 
     def __init__(self) -> None:
         self._made: dict[object, Any] = {}
-        self.anchors: Anchors = []
-        self.covers: dict[StrandAtWork, RunningCover | NoAnswer] = {}
-        self.curves: SolvedCurves = {}
+        self.anchors: KnownTestFactors = []
+        self.covers: dict[CoverLoading, CoverState | NoAnswer] = {}
+        self.curves: LoadCurveCache = {}
         self.drags: dict[tuple[OneStrand, float | None], StrandDrags | InputError] = {}
-        self.fields = KnownParts()
+        self.fields = PartCache()
         """For `with_fields`: specs of equal changes share their parts."""
 
     def begin(self) -> None:
@@ -595,7 +613,7 @@ class Kept:
             for key in list(known)[: max(0, len(known) - self.MOST)]:
                 known.pop(key, None)
         if self.fields.full:
-            self.fields = KnownParts()
+            self.fields = PartCache()
 
     def forget_solved(self) -> None:
         """Drop batch solutions, whose last digits depend on the batch."""
@@ -606,32 +624,36 @@ class Kept:
         self, make: Callable[[], T], what: str, parts: Iterable[object], values: tuple[object, ...] = ()
     ) -> T:
         """Cached value for the same parts and equal values, made if absent."""
-        key = (what, *map(_Same, parts), *values)
-        made: T = self._made.pop(key, _NOTHING)
-        if made is _NOTHING:
+        key = (what, *map(_IdentityKey, parts), *values)
+        made: T = self._made.pop(key, _MISSING)
+        if made is _MISSING:
             made = make()
         self._made[key] = made  # at the end are those used last
         return made
 
     def belt(self, belt: Belt) -> Belt:
         """First belt that differs from `belt` in its rubber alone."""
-        said = self.once(lambda: belt.model_dump_json(exclude=_RUBBER), "said", (belt,))
-        return self.once(partial(_itself, belt), "belt", (), (said, belt.line_mass))
+        said = self.once(lambda: belt.model_dump_json(exclude=_RUBBER_FIELDS), "said", (belt,))
+        return self.once(partial(_same_object, belt), "belt", (), (said, belt.line_mass))
 
 
-class _Shared:
+class _BatchContext:
     """Parts shared by the variants of one call: lines, rubbers at a temperature, covers at their strain."""
 
     def __init__(
-        self, known: CalculatedConveyor | None, anchors: Anchors | None, rtol: float | None, kept: Kept
+        self,
+        known: CalculatedConveyor | None,
+        anchors: KnownTestFactors | None,
+        rtol: float | None,
+        kept: ReuseCache,
     ) -> None:
         kept.begin()
-        self._kept, self._own = kept, Kept()
-        self._theories: list[Theory] = []
+        self._kept, self._own = kept, ReuseCache()
+        self._theories: list[RollingTestTheory] = []
         self._anchors, self._rtol = kept.anchors if anchors is None else anchors, rtol
-        self._running: dict[StrandAtWork, RunningCover | NoAnswer] = {}
+        self._running: dict[CoverLoading, CoverState | NoAnswer] = {}
         self._drags = kept.drags
-        self.tensioned: Tensioned = {}
+        self.tensioned: TensionedCurveCache = {}
         self._runs: list[list[int]] = []
         self.curves = kept.curves
         if known is not None:
@@ -639,68 +661,83 @@ class _Shared:
                 cover = known.contacts.covers[strand]
                 if cover.level is not None:
                     self._anchors.append((compound, known.line.softened, cover.level.anchor))
-                work = StrandAtWork(known.line, strand, cover, compound, known.temperature)
-                first = kept.once(partial(_itself, work), "alike", (compound,), work.scene)
+                work = CoverLoading(known.line, strand, cover, compound, known.temperature)
+                first = kept.once(partial(_same_object, work), "alike", (compound,), work.scene)
                 self._running[first] = cover
 
-    def read_among(self, runs: Iterable[Iterable[int]]) -> None:
+    def set_speed_runs(self, runs: Iterable[Iterable[int]]) -> None:
         """Interpolate strains of variants that differ in speed alone, where the tolerance allows."""
-        if self._rtol is not None and self._rtol >= READ_RTOL:
+        if self._rtol is not None and self._rtol >= STRAIN_INTERPOLATION_RTOL:
             self._runs = [list(run) for run in runs]
 
     def anchor(self, variants: Iterable[Variant]) -> None:
         """Request the test factors of all compounds; they are solved with the covers of the strands."""
-        anchored = [one.conveyor for one in variants if _anchored(one.conveyor.calculation)]
+        anchored = [one.conveyor for one in variants if _uses_rolling_tests(one.conveyor.calculation)]
         compounds = ((one, compounds_by_strand(one).values()) for one in anchored)
         asked = [(compound, one.calculation.strain != "off") for one, each in compounds for compound in each]
-        self._theories = _theories(self._anchors, asked)
+        self._theories = _missing_theories(self._anchors, asked)
 
-    def loaded(self, asked: Mapping[int, tuple[Variant, Acting]]) -> Iterator[tuple[int, _Loaded | NoAnswer]]:
+    def loaded(
+        self, asked: Mapping[int, tuple[Variant, CurveLoads]]
+    ) -> Iterator[tuple[int, _PreparedLine | NoAnswer]]:
         """Lines of variants under the loads on their curves, with their covers at small strain.
 
         An error where the belt lifts off on a concave curve or runs off its rolls on a horizontal one, a compound is
         unknown at the belt's temperature, or a law of roll drag is out of range at a load.
         """
-        still: dict[int, _Loaded | NoAnswer] = {}
+        still: dict[int, _PreparedLine | NoAnswer] = {}
         for i, (variant, on_curves) in asked.items():
             try:
-                still[i] = self._still(variant.conveyor, on_curves)
+                still[i] = self._line_without_drag(variant.conveyor, on_curves)
             except (NoSolutionError, RangeError, InputError) as error:
                 still[i] = error
-        self._drag([(asked[i][0].conveyor, one) for i, one in still.items() if isinstance(one, _Loaded)])
+        self._drag(
+            [(asked[i][0].conveyor, one) for i, one in still.items() if isinstance(one, _PreparedLine)]
+        )
         for i, one in still.items():
             try:
-                yield i, self._in_air(asked[i][0], one) if isinstance(one, _Loaded) else one
+                yield i, self._in_air(asked[i][0], one) if isinstance(one, _PreparedLine) else one
             except (NoSolutionError, RangeError, InputError) as error:
                 yield i, error
 
-    def _drag(self, lines: Iterable[tuple[Conveyor, _Loaded]]) -> None:
+    def _drag(self, lines: Iterable[tuple[Conveyor, _PreparedLine]]) -> None:
         """Calculate the unknown drags of all rolls in one batch."""
-        asked = {(one, _air(given)): (given, one) for given, line in lines for one in line.line.strands.each}
+        asked = {
+            (one, _drag_air_temperature(given)): (given, one)
+            for given, line in lines
+            for one in line.line.strands.each
+        }
         new = {key: pair for key, pair in asked.items() if key not in self._drags}
         self._drags.update(zip(new, roll_drags_many(list(new.values())), strict=True))
 
-    def _in_air(self, variant: Variant, still: _Loaded) -> _Loaded:
+    def _in_air(self, variant: Variant, still: _PreparedLine) -> _PreparedLine:
         """Line with the drags of its rolls and its covers at small strain."""
         given, at = variant.conveyor, variant.covers_at
         compounds = compounds_by_strand(given)
-        rubber = rubbers(given, lambda one: self._kept.once(partial(one.series, at), "series", (one,), (at,)))
+        rubber = cover_series(
+            given, lambda one: self._kept.once(partial(one.series, at), "series", (one,), (at,))
+        )
         gives = given.calculation.support == "belt"
-        acted = self._own if still.acted else self._kept
-        running = acted.once(partial(self._dragged, still, _air(given)), "in air", (still,), (_air(given),))
+        acted = self._own if still.has_curve_loads else self._kept
+        running = acted.once(
+            partial(self._dragged, still, _drag_air_temperature(given)),
+            "in air",
+            (still,),
+            (_drag_air_temperature(given),),
+        )
         rtol = running.line.rtol if self._rtol is None else self._rtol
         works = {
             strand: acted.once(
-                partial(self._worked, StrandAtWork(running.line, strand, cover, compounds[strand], at), rtol),
+                partial(self._worked, CoverLoading(running.line, strand, cover, compounds[strand], at), rtol),
                 "work",
                 (running.line, cover.rubber, compounds[strand], *((cover.other[1],) if gives else ())),
                 (strand, at, rtol),
             )
-            for strand, cover in covers_of(given, rubber).items()
+            for strand, cover in covers_by_strand(given, rubber).items()
         }
-        return replace(running, works=works, anchored=_anchored(given.calculation))
+        return replace(running, works=works, uses_rolling_tests=_uses_rolling_tests(given.calculation))
 
-    def _dragged(self, still: _Loaded, air: float | None) -> _Loaded:
+    def _dragged(self, still: _PreparedLine, air: float | None) -> _PreparedLine:
         """Line with the drags of its rolls in air of a temperature [K]."""
         drags: list[tuple[float, ...]] = []
         for strand in still.line.strands.each:
@@ -711,14 +748,14 @@ class _Shared:
         line = replace(still.line, roll_drags=tuple(drags))
         return replace(still, line=line, frame=still.frame.of(line))
 
-    def _worked(self, work: StrandAtWork, rtol: float) -> StrandAtWork:
+    def _worked(self, work: CoverLoading, rtol: float) -> CoverLoading:
         """First strand that loads its cover identically, with unresolved relaxation terms merged."""
-        felt = self._felt(work, rtol)
-        return self._kept.once(partial(_itself, felt), "alike", (work.compound,), felt.scene)
+        felt = self._merge_unresolved_terms(work, rtol)
+        return self._kept.once(partial(_same_object, felt), "alike", (work.compound,), felt.scene)
 
-    def _felt(self, work: StrandAtWork, rtol: float) -> StrandAtWork:
+    def _merge_unresolved_terms(self, work: CoverLoading, rtol: float) -> CoverLoading:
         """Merge relaxation terms that the rolls of a strand cannot resolve."""
-        times = told_apart(work, rtol)
+        times = resolved_time_range(work, rtol)
         if times is None:
             return work
         rubber, (fastest, slowest) = work.cover.rubber, times
@@ -726,33 +763,33 @@ class _Shared:
         less = self._kept.once(
             lambda: rubber.merged(fastest=fastest, slowest=slowest), "merged", (rubber,), cut
         )
-        return replace(work, cover=replace(work.cover, rubber=less, merged=2.0 * FELT * rtol))
+        return replace(work, cover=replace(work.cover, rubber=less, merged=2.0 * TERM_MERGE_SHARE * rtol))
 
-    def _still(self, given: Conveyor, on_curves: Acting) -> _Loaded:
+    def _line_without_drag(self, given: Conveyor, on_curves: CurveLoads) -> _PreparedLine:
         """Line of a spec without roll drags."""
-        acted = on_curves != Acting()
+        acted = on_curves != CurveLoads()
         kept, belt = self._own if acted else self._kept, self._kept.belt(given.belt)
         others = (belt, given.material, given.route, given.drive, given.calculation, given.report)
-        scene = (*map(_in_order, vars(on_curves).values()), given.ambient.wind_speed, given.site)
+        scene = (*map(_item_tuple, vars(on_curves).values()), given.ambient.wind_speed, given.site)
 
-        def made() -> _Loaded:
+        def made() -> _PreparedLine:
             """Build the line; specs of equal belt, load and idlers share strands."""
             sections = self._kept.once(lambda: route_sections(given), "sections", (given.route,))
             each = []
             for strand, own in zip(STRANDS, sets, strict=True):
                 parts = (belt, own, given.material, given.route, given.calculation)
-                laid = partial(_strand, given, sections, strand, on_curves)
+                laid = partial(_strand_and_forces, given, sections, strand, on_curves)
                 each.append(kept.once(laid, "strand", parts, (strand, *scene)))
             (carry, up), (back, down) = each
             strands, wind = Strands(sections, (carry, back)), (given.ambient.wind_speed,)
             like = self._kept.once(lambda: Line.of(given, strands, [(), ()]), "like", others, wind)
-            return _loaded(replace(like, strands=strands), (up, down), acted)
+            return _prepare_line(replace(like, strands=strands), (up, down), acted)
 
         sets = given.idlers.carry, given.idlers.return_
         return kept.once(made, "line", (*sets, *others), scene)
 
     def softened(
-        self, loaded: Mapping[int, _Loaded], before: Mapping[int, Covers]
+        self, loaded: Mapping[int, _PreparedLine], before: Mapping[int, Covers]
     ) -> dict[int, Covers | NoAnswer]:
         """Covers of many lines at their working strain; identical ones are one object and share load curves.
 
@@ -760,9 +797,9 @@ class _Shared:
         """
         for i, kept in before.items():
             for strand, cover in kept.items():
-                if loaded[i].works[strand].still_at(cover):
+                if loaded[i].works[strand].keeps_strain_of(cover):
                     self._running.setdefault(loaded[i].works[strand], cover)
-        still = {work for one in loaded.values() if not one.acted for work in one.works.values()}
+        still = {work for one in loaded.values() if not one.has_curve_loads for work in one.works.values()}
         works = dict.fromkeys(work for one in loaded.values() for work in one.works.values())
         asked = [work for work in works if work not in self._running]
         known = self._kept.covers
@@ -782,51 +819,51 @@ class _Shared:
             self._anchors += zip(theory.compounds, repeat(theory.softened), levels, strict=False)
         self._theories = []
         return {
-            i: _together({strand: self._at_level(one, strand) for strand in one.works})
+            i: _all_or_error({strand: self._at_level(one, strand) for strand in one.works})
             for i, one in loaded.items()
         }
 
-    def _at_level(self, loaded: _Loaded, strand: Strand) -> RunningCover | NoAnswer:
+    def _at_level(self, loaded: _PreparedLine, strand: Strand) -> CoverState | NoAnswer:
         """Cover of a strand with the test factor of its compound, if any."""
         work = loaded.works[strand]
         cover = self._running[work]
-        known = self._anchors if loaded.anchored else ()
+        known = self._anchors if loaded.uses_rolling_tests else ()
         softened = loaded.line.softened
         anchors = (level for one, how, level in known if one is work.compound and how == softened)
         anchor = next(anchors, None)
-        if not isinstance(cover, RunningCover) or isinstance(anchor, NoAnswer):
+        if not isinstance(cover, CoverState) or isinstance(anchor, NoAnswer):
             return anchor if isinstance(anchor, NoAnswer) else cover
-        level = None if anchor is None else Level(anchor, work.temperature, work.compound)
+        level = None if anchor is None else CoverTestFactor(anchor, work.temperature, work.compound)
         if cover.level == level:
             return cover
         return self._kept.once(lambda: replace(cover, level=level), "level", (cover, anchor))
 
 
-def _itself(one: T) -> T:
+def _same_object(one: T) -> T:
     return one
 
 
-def _air(conveyor: Conveyor) -> float | None:
+def _drag_air_temperature(conveyor: Conveyor) -> float | None:
     """Air temperature at the rolls [K], where their drag depends on it."""
     return conveyor.air_temperature if conveyor.idlers.drag_follows_air else None
 
 
-def _in_order(figures: Mapping[tuple[str, Strand], float]) -> tuple[object, ...]:
+def _item_tuple(figures: Mapping[tuple[str, Strand], float]) -> tuple[object, ...]:
     return tuple(figures.items())
 
 
-def _together(covers: Mapping[Strand, RunningCover | NoAnswer]) -> Covers | NoAnswer:
+def _all_or_error(covers: Mapping[Strand, CoverState | NoAnswer]) -> Covers | NoAnswer:
     """Covers of all strands, or the first error."""
     for cover in covers.values():
-        if not isinstance(cover, RunningCover):
+        if not isinstance(cover, CoverState):
             return cover
-    return {strand: cover for strand, cover in covers.items() if isinstance(cover, RunningCover)}
+    return {strand: cover for strand, cover in covers.items() if isinstance(cover, CoverState)}
 
 
-class _Told:
+class _ProgressReporter:
     """Reports the progress of a batch; repeated steps never lower it."""
 
-    def __init__(self, variants: int, progress: Progress | None) -> None:
+    def __init__(self, variants: int, progress: ProgressCallback | None) -> None:
         self._whole, self._most, self._progress = 2 * variants, 0, progress
 
     def __call__(self, solved: int, loaded: int) -> None:

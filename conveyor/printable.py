@@ -5,31 +5,31 @@ from __future__ import annotations
 import re
 from typing import Final
 
-_NOT_SHOWN: Final = re.compile(
+_CONTROLS: Final = re.compile(
     "[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]"
 )
 """Controls but the tab and the line feed, marks of direction, lone surrogates, non-characters."""
 
 
-def printable(text: str) -> str:
+def escape_controls(text: str) -> str:
     r"""Replace control characters by their codes, so that no name moves the cursor or breaks a file.
 
     All text for people goes through here: terminal, SVG, CSV, HTML, workbooks.
 
     Examples
     --------
-    >>> printable("got \x1b[31mred\x9b")
+    >>> escape_controls("got \x1b[31mred\x9b")
     'got \\x1b[31mred\\x9b'
     """
-    return _NOT_SHOWN.sub(lambda match: match[0].encode("unicode_escape").decode("ascii"), text)
+    return _CONTROLS.sub(lambda match: match[0].encode("unicode_escape").decode("ascii"), text)
 
 
-def in_json(written: str) -> str:
+def escape_json_controls(written: str) -> str:
     r"""Replace control characters in JSON text by JSON escapes; it reads back to the same.
 
     Examples
     --------
-    >>> in_json('"\x9b"')
+    >>> escape_json_controls('"\x9b"')
     '"\\u009b"'
     """
-    return _NOT_SHOWN.sub(lambda match: f"\\u{ord(match[0]):04x}", written)
+    return _CONTROLS.sub(lambda match: f"\\u{ord(match[0]):04x}", written)

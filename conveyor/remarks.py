@@ -21,25 +21,25 @@ from conveyor.laws.resistance import (
     SERVICE_DRAG,
 )
 from conveyor.laws.wind import WIND_DRAG, WIND_LIFT
-from conveyor.line.belts import BeltContacts
+from conveyor.line.belt_contacts import BeltContacts
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.line import Line
 from conveyor.line.roll_drags import acceptance_limit, assumed_bearing, bearing_viscosity
 from conveyor.line.stretches import misalignment_angle
-from conveyor.loop.year import earns_nothing
+from conveyor.loop.annual_energy import lacks_feed_in_price
 from conveyor.models import Conveyor, IdlerSet, Roll
-from conveyor.models.listed import Listed, without
+from conveyor.models.library_items import LibraryItem, without_entry_fields
+from conveyor.models.plausibility import implausible_inputs
 from conveyor.models.rolls import BearingDrag, MakerDrag
-from conveyor.models.unlikely import unlikely
 from conveyor.pipeline import CalculatedConveyor
-from conveyor.units import quantity, same, text
-from conveyor.units.sentences import Said, figure, percent, quoted, said
+from conveyor.units import quantity, same_value, text
+from conveyor.units.sentences import Message, escape_braces, format_figure, message, percent
 
 LEAST_PUBLISHED_FRICTION: Final = 0.0075
 """Friction factor measured over six shifts on Henderson PC2, 16.28 km (Alspaugh, MINExpo 2004) [-]."""
 
 
-def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
+def analysis_assumptions(conveyor: Conveyor) -> tuple[str, ...]:
     """Assumptions behind all results of an analysis, in words."""
     support = {
         "confined": "the cover is bonded to a carcass that does not give (a real belt differs by 1 to 8 %)",
@@ -48,21 +48,21 @@ def assumptions(conveyor: Conveyor) -> tuple[str, ...]:
         "half-space": "the cover is endlessly thick",
     }[conveyor.calculation.support]
     return (
-        _rubber_law(conveyor),
+        _rubber_assumption(conveyor),
         f"Contact is plane strain, frictionless, steady, on cylinders in line: {support}.",
         f"Contacts are solved to a relative tolerance of {conveyor.calculation.rtol:g} of the indentation resistance "
         "(calculation.rtol); at 1e-4 half widths are good to 0.1 %. Peak pressures stand with their own error.",
         *roll_assumptions(conveyor),
         "The bearings of driven pulleys (at each drive's place the most wrapped ones) are included in the drive's "
         "efficiency; tension changes the load of the rolls on curves only.",
-        *_horizontal(conveyor),
-        *_wind(conveyor),
-        f"Covers are at {figure(conveyor.temperature, 'temperature', conveyor.report.units)} throughout.",
-        *_energy(conveyor),
+        *_horizontal_assumptions(conveyor),
+        *_wind_assumption(conveyor),
+        f"Covers are at {format_figure(conveyor.temperature, 'temperature', conveyor.report.units)} throughout.",
+        *_energy_assumption(conveyor),
     )
 
 
-def _horizontal(conveyor: Conveyor) -> Iterator[str]:
+def _horizontal_assumptions(conveyor: Conveyor) -> Iterator[str]:
     """Assumptions on drift in horizontal curves."""
     if all(section.horizontal_curve is None for section in conveyor.route.sections):
         return
@@ -82,7 +82,7 @@ def _horizontal(conveyor: Conveyor) -> Iterator[str]:
         )
 
 
-def _wind(conveyor: Conveyor) -> Iterator[str]:
+def _wind_assumption(conveyor: Conveyor) -> Iterator[str]:
     """Assumptions on wind on a strand without bulk."""
     if conveyor.ambient.wind_speed is not None:
         yield (
@@ -94,7 +94,7 @@ def _wind(conveyor: Conveyor) -> Iterator[str]:
         )
 
 
-def method(result: CalculatedConveyor) -> tuple[str, ...]:
+def method_summary(result: CalculatedConveyor) -> tuple[str, ...]:
     """Method of calculation, for readers of the report alone."""
     tested = any(level is not None for level in (cover.level for cover in result.contacts.covers.values()))
     scaled = ", scaled to the rolling-resistance tests of the compound" if tested else ""
@@ -111,7 +111,7 @@ def method(result: CalculatedConveyor) -> tuple[str, ...]:
     )
 
 
-def _rubber_law(conveyor: Conveyor) -> str:
+def _rubber_assumption(conveyor: Conveyor) -> str:
     softened = list(
         dict.fromkeys(
             compound.name
@@ -130,7 +130,7 @@ def _rubber_law(conveyor: Conveyor) -> str:
     return f"Rubber is linearly viscoelastic {at}; Poisson's ratio is constant."
 
 
-def _energy(conveyor: Conveyor) -> Iterator[str]:
+def _energy_assumption(conveyor: Conveyor) -> Iterator[str]:
     if conveyor.operation is not None and not conveyor.drive.knows_mains:
         yield (
             "Energy and cost are those of the motors' shafts: drive.train has no part between mains and motor shaft, "
@@ -138,25 +138,25 @@ def _energy(conveyor: Conveyor) -> Iterator[str]:
         )
 
 
-def warnings(result: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Said, ...]:
+def analysis_warnings(result: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Message, ...]:
     """Warnings: strained assumptions, defaults in use, failed checks, doubtful results."""
     conveyor = result.conveyor
     return tuple(
         dict.fromkeys(
             (
-                *unlikely(conveyor),
-                *_rubber(conveyor),
-                *_strain(result),
-                *_level(result),
-                *_contact(result),
+                *implausible_inputs(conveyor),
+                *_rubber_warnings(conveyor),
+                *_strain_warnings(result),
+                *_test_factor_warnings(result),
+                *_contact_warnings(result),
                 *roll_warnings(result),
-                *_left_out(result),
-                *_trippers(result.line),
-                *_calibration(conveyor),
-                *_drive(result),
-                *_slack_side(result),
+                *_omission_warnings(result),
+                *_tripper_warnings(result.line),
+                *_calibration_warnings(conveyor),
+                *_drive_warnings(result),
+                *_slack_side_warnings(result),
                 *(
-                    _of_case(check, check.why)
+                    _name_case(check, check.why)
                     for check in checked
                     if check.verdict != "pass" and check.why is not None
                 ),
@@ -165,43 +165,43 @@ def warnings(result: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Said
     )
 
 
-def _of_case(check: Check, why: Said) -> Said:
+def _name_case(check: Check, why: Message) -> Message:
     if check.case is None:
         return why
-    return Said(f"{check.case.words}: {why.words}", check.case.figures + why.figures)
+    return Message(f"{check.case.words}: {why.words}", check.case.figures + why.figures)
 
 
-def _rubber(conveyor: Conveyor) -> Iterator[Said]:
+def _rubber_warnings(conveyor: Conveyor) -> Iterator[Message]:
     for strand, compound in compounds_by_strand(conveyor).items():
-        name = quoted(compound.name)
+        name = escape_braces(compound.name)
         if compound.kind == "illustrative":
-            yield said(f'compound "{name}" is illustrative, not measured: for comparison, not for design')
+            yield message(f'compound "{name}" is illustrative, not measured: for comparison, not for design')
         if strand == "return" and conveyor.belt.top_cover.compound is None and not conveyor.route.turned_over:
-            yield said(
+            yield message(
                 f'top_cover.compound is not given: the return rolls run on the bottom cover\'s, "{name}"'
             )
         if compound.missing and compound.kind == "measured":
-            yield said(f'compound "{name}": unknown: {quoted("; ".join(compound.missing))}')
+            yield message(f'compound "{name}": unknown: {escape_braces("; ".join(compound.missing))}')
 
 
-def _strain(result: CalculatedConveyor) -> Iterator[Said]:
+def _strain_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     """Working strain and its factors on the moduli, for compounds with strain dependence."""
     for strand, compound in compounds_by_strand(result.conveyor).items():
-        known, name = compound.strain_dependence, quoted(compound.name)
+        known, name = compound.strain_dependence, escape_braces(compound.name)
         if known is None:
             continue
         worked = result.contacts.covers[strand].strain
         factors = compound.amplitude_factors()
         if worked is not None and factors is not None:
-            note = f" ({quoted(known.reference_note)})" if known.reference_note else ""
-            yield said(
+            note = f" ({escape_braces(known.reference_note)})" if known.reference_note else ""
+            yield message(
                 f'compound "{name}": working strain under the {strand} rolls {percent(worked.strain, 1)} at '
                 f"{worked.frequency:.3g} Hz: E' x {worked.storage_factor:.3g}, E'' x {worked.loss_factor:.3g} of "
                 f"the master curve at {text(known.reference_strain)}{note}"
             )
             largest = factors.largest_strain(result.temperature)
             if worked.strain > largest:
-                yield said(
+                yield message(
                     f'compound "{name}": its strain sweeps end at {percent(largest, 2)}, below the working strain: the '
                     "factors there are held, the rubber is softer than that; measure larger strains, or leave strain "
                     "out (calculation: {{strain: off}})"
@@ -209,7 +209,7 @@ def _strain(result: CalculatedConveyor) -> Iterator[Said]:
             if not factors.known_at(result.temperature):
                 reached = [(kelvin, "temperature") for kelvin in factors.temperatures[[0, -1]].tolist()]
                 held = (factors.nearest(result.temperature), "temperature")
-                yield said(
+                yield message(
                     f'compound "{name}": its strain sweeps ({{}} to {{}}) do not reach {{}}: the factors at {{}} '
                     "are used",
                     *reached,
@@ -217,21 +217,21 @@ def _strain(result: CalculatedConveyor) -> Iterator[Said]:
                     held,
                 )
         elif not result.line.softened:
-            yield said(f'compound "{name}": calculation.strain is off, its strain sweeps are not used')
+            yield message(f'compound "{name}": calculation.strain is off, its strain sweeps are not used')
 
 
-def _level(result: CalculatedConveyor) -> Iterator[Said]:
+def _test_factor_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     """Test factor on the indentation and its band, or that it is untested."""
     contacts, calculation = result.contacts, result.conveyor.calculation
     for strand, compound in compounds_by_strand(result.conveyor).items():
-        level, name = contacts.covers[strand].level, quoted(compound.name)
+        level, name = contacts.covers[strand].level, escape_braces(compound.name)
         if level is not None:
-            low, high = contacts.level_range(strand)
+            low, high = contacts.test_factor_range(strand)
             beyond = (
                 "" if level.anchor.tested_at(level.temperature) else ", held beyond the tested temperatures"
             )
-            yield said(
-                f'compound "{name}": indentation of the {strand} rolls {contacts.level_factor(strand):.2f} times '
+            yield message(
+                f'compound "{name}": indentation of the {strand} rolls {contacts.test_factor(strand):.2f} times '
                 f"the theory ({percent(low - 1.0)} to +{percent(high - 1.0)}), the level of its "
                 f"rolling-resistance tests{beyond}"
             )
@@ -239,116 +239,117 @@ def _level(result: CalculatedConveyor) -> Iterator[Said]:
             why = (
                 "calculation.anchor is off" if calculation.anchor == "off" else "the support is not confined"
             )
-            yield said(f'compound "{name}": {why}, its rolling-resistance tests are not used')
+            yield message(f'compound "{name}": {why}, its rolling-resistance tests are not used')
         else:
-            yield said(
+            yield message(
                 f'compound "{name}": level not tested: published tests of low-resistance covers lie 2 to 2.5 times '
                 "above tyre-type small-strain data; give the compound rolling-resistance tests"
             )
     if 0.0 < result.balance.friction_factor < LEAST_PUBLISHED_FRICTION:
-        yield said(
+        yield message(
             f"friction factor {result.balance.friction_factor:.4f} is below {LEAST_PUBLISHED_FRICTION:g}, the "
             "best ever measured on a conveyor (Henderson PC2, Alspaugh 2004): look for resistances that are missing or "
             "too low"
         )
 
 
-def _contact(result: CalculatedConveyor) -> Iterator[Said]:
+def _contact_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     conveyor, contacts = result.conveyor, result.contacts
     support = conveyor.calculation.support
     if isinstance(contacts, BeltContacts):
         for give in contacts.gives:
-            yield said(
+            yield message(
                 f"the belt gives under the {give.strand} rolls: indentation changes by {percent(give.change, 1)} "
                 "against a stiff carcass, at effective tensions of {} to {}",
                 (give.tensions[0], "line force"),
                 (give.tensions[2], "line force"),
             )
         if conveyor.calculation.flexure is None:
-            yield said(
+            yield message(
                 "the flexure of the belt by load and sag, {} on a stiff carcass, is not added: the belt that bends "
                 "over the rolls holds it, with the loss that its carcass is given",
                 (contacts.flexure_left_out, "force"),
             )
         if conveyor.belt.carcass.bending_loss == 0.0:
-            yield said(
+            yield message(
                 "belt.carcass.bending_loss is 0: no figure holds what the carcass loses as it bends, which must be "
                 "known before the power on a belt that gives is"
             )
         if conveyor.belt.carcass.bending_stiffness is None:
-            yield said(
+            yield message(
                 f"belt.carcass.bending_stiffness not given: {CARCASS_BENDING.value:g} N m² per metre of width taken "
                 f"({CARCASS_BENDING.low:g} to {CARCASS_BENDING.high:g}; general knowledge)"
             )
         if conveyor.belt.carcass.stiffness is None:
-            yield said("belt.carcass.stiffness not given: a usual multiple of strength or rating taken")
+            yield message("belt.carcass.stiffness not given: a usual multiple of strength or rating taken")
         if conveyor.calculation.flexure is not None and conveyor.calculation.flexure.belt is not None:
-            yield said('calculation.flexure.belt is not used: support "belt" includes that loss')
+            yield message('calculation.flexure.belt is not used: support "belt" includes that loss')
     elif support != "confined":
-        yield said(
+        yield message(
             f'calculation.support is "{support}": a real cover is bonded to a carcass far stiffer than rubber, '
             '"confined" is meaningful for it; use this one to compare with the paper'
         )
 
 
-def _left_out(result: CalculatedConveyor) -> Iterator[Said]:
+def _omission_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     line = result.line
     if line.secondary == "itemised":
         if not line.pulleys:
-            yield said("route.pulleys not given: wraps and pulley bearings not included")
+            yield message("route.pulleys not given: wraps and pulley bearings not included")
         elif line.pulleys[0].assumed:
-            yield said(
+            yield message(
                 "route.pulleys not given: a head and a tail pulley of {} assumed, the least the carcass bears (general "
                 "knowledge)",
                 (line.pulleys[0].diameter, "thickness"),
             )
         elif line.belt.steel_cord:
-            yield said(
+            yield message(
                 "wrap of a steel-cord belt: coefficients are general knowledge, not read in the standard"
             )
         if not line.loading and line.flow > 0.0:
-            yield said("route.feeding not given: acceleration of the material and skirts not included")
+            yield message("route.feeding not given: acceleration of the material and skirts not included")
     if line.loading and line.loading[0].assumed:
-        yield said(
+        yield message(
             "route.feeding not given: bulk that lands at rest, skirts of {}, {} apart, assumed as in the worked "
             "example of ISO 5048",
             (line.loading[0].skirt_length, "length"),
             (line.loading[0].skirt_width, "thickness"),
         )
     if not line.scrapers:
-        yield said("route.cleaners not given: cleaners not included")
+        yield message("route.cleaners not given: cleaners not included")
     elif line.scrapers[0].assumed:
-        yield said(
+        yield message(
             f"route.cleaners not given: {line.scrapers[0].count} as wide as the belt assumed, pressed as in the worked "
             "example of ISO 5048 (general knowledge)"
         )
 
 
-def _trippers(line: Line) -> Iterator[Said]:
+def _tripper_warnings(line: Line) -> Iterator[Message]:
     for point in line.loading:
         if point.lift == 0.0:
-            yield said(
-                f"tripper at the {quoted(point.place)}: tripper_lift not given or 0: lift of its material not included"
+            yield message(
+                f"tripper at the {escape_braces(point.place)}: tripper_lift not given or 0: lift of its material "
+                f"not included"
             )
 
 
-def _calibration(conveyor: Conveyor) -> Iterator[Said]:
+def _calibration_warnings(conveyor: Conveyor) -> Iterator[Message]:
     given = conveyor.calculation.calibration
     if given is None or all(factor == 1.0 for factor in given.factors.values()):
         return
     factors = ", ".join(f"{name.replace('_', ' ')} x {value:g}" for name, value in given.factors.items())
-    source = "no source given" if given.source is None else quoted(given.source)
-    yield said(
+    source = "no source given" if given.source is None else escape_braces(given.source)
+    yield message(
         f"calculation.calibration: {factors} ({source}) in forces, tensions and power, not in figures of single rolls"
     )
 
 
-def _drive(result: CalculatedConveyor) -> Iterator[Said]:
+def _drive_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     drive, balance = result.conveyor.drive, result.balance
     if balance.settled.least_force < 0.0:
         given = "least_friction" in drive.model_fields_set
         source = "" if given else ", general knowledge: f 0.012 downhill over 0.020"
-        yield said(
+        yield message(
             f"drive force {{}} at {percent(drive.certain_friction)} of the calculated friction, the minimum "
             f"(drive.least_friction{source}), {{}} at all of it; grip and brakes are checked at the minimum",
             (balance.settled.least_force, "force"),
@@ -358,40 +359,42 @@ def _drive(result: CalculatedConveyor) -> Iterator[Said]:
     if line.start_factor is None:
         usual = f"{START_FACTOR.low:g} to {START_FACTOR.high:g} are usual"
         if not line.torque_curve or balance.settled.force <= 0.0:
-            yield said(f"drive.start_factor not given: {START_FACTOR.value:g} assumed, {usual}")
+            yield message(f"drive.start_factor not given: {START_FACTOR.value:g} assumed, {usual}")
         else:
-            yield said(
+            yield message(
                 "drive.start_factor not given: an uncontrolled start, all that the motors give reaches the belt"
             )
     if line.start_factor is None and line.torque_curve and any(each.power is None for each in line.drives):
-        yield said("drive.installed_power not given: the motors' torque and the start are not known")
+        yield message("drive.installed_power not given: the motors' torque and the start are not known")
     assumed = [each for each in line.drives if not each.mass_given]
     for each in assumed:
         if each.power is None:
-            yield said(
-                f'rotating masses of "{quoted(each.name)}" not given (drive.reduced_mass, inertia), nor its power: '
+            yield message(
+                f'rotating masses of "{escape_braces(each.name)}" not given (drive.reduced_mass, inertia), nor its '
+                f"power: "
                 "start and stop do not include them"
             )
         else:
-            yield said(
-                f'rotating masses of "{quoted(each.name)}" not given (drive.reduced_mass, inertia): {{}} at the belt '
+            yield message(
+                f'rotating masses of "{escape_braces(each.name)}" not given (drive.reduced_mass, inertia): {{}} at '
+                f"the belt "
                 f"assumed, {DRIVE_INERTIA.value:g} s of its rated power ({DRIVE_INERTIA.source}; general knowledge)",
                 (each.reduced_mass, "mass"),
             )
-    if balance.power.mains < 0.0 and earns_nothing(result.conveyor.operation):
-        yield said("operation.feed_in_price not given: energy that is fed back earns nothing")
+    if balance.power.mains < 0.0 and lacks_feed_in_price(result.conveyor.operation):
+        yield message("operation.feed_in_price not given: energy that is fed back earns nothing")
 
 
-def _slack_side(result: CalculatedConveyor) -> Iterator[Said]:
+def _slack_side_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     """A take-up before the drives, as the belt drives the motors."""
     if result.line.take_up.on_slack_side and result.balance.settled.force < 0.0:
-        yield said(
+        yield message(
             "the belt drives the motors: the slack side, where the take-up stands under every load, is before the "
             "drives; give route.take_up.position if it is built elsewhere"
         )
 
 
-COLD_OIL = (
+COLD_OIL_VISCOSITY = (
     1e-3  # [m²/s], ten times a usual base oil at 40 degC: its drag is then a multiple of the measured range
 )
 
@@ -399,11 +402,12 @@ COLD_OIL = (
 def roll_assumptions(conveyor: Conveyor) -> tuple[str, ...]:
     """Assumptions on load shares, flexure, drag and alignment; library entries with their sources."""
     return (
-        _shares(conveyor), _flexure(conveyor), _drag(conveyor), _alignment(conveyor), *_entries(conveyor)
+        _share_assumption(conveyor), _flexure_assumption(conveyor), _drag_assumption(conveyor),
+        _alignment_assumption(conveyor), *_library_assumptions(conveyor)
     )  # fmt: skip
 
 
-def _shares(conveyor: Conveyor) -> str:
+def _share_assumption(conveyor: Conveyor) -> str:
     sets = (conveyor.idlers.carry, conveyor.idlers.return_)
     rule = "VDI 2341"
     if conveyor.idlers.carry.load_shares is not None:
@@ -420,7 +424,7 @@ def _shares(conveyor: Conveyor) -> str:
     return f"Load shares of the rolls after {rule}; {joined}{outer}."
 
 
-def _alignment(conveyor: Conveyor) -> str:
+def _alignment_assumption(conveyor: Conveyor) -> str:
     carry, back = (
         math.degrees(misalignment_angle(conveyor, idlers))
         for idlers in (conveyor.idlers.carry, conveyor.idlers.return_)
@@ -431,7 +435,7 @@ def _alignment(conveyor: Conveyor) -> str:
     )
 
 
-def _flexure(conveyor: Conveyor) -> str:
+def _flexure_assumption(conveyor: Conveyor) -> str:
     calculation = conveyor.calculation
     if calculation.flexure_share is not None:
         return (
@@ -454,10 +458,10 @@ def _flexure(conveyor: Conveyor) -> str:
     return f"Flexure {'; '.join(laws)}."
 
 
-def _drag(conveyor: Conveyor) -> str:
+def _drag_assumption(conveyor: Conveyor) -> str:
     in_service = conveyor.calculation.roll_drag == "in service"
     laws = {
-        strand: sorted({_law_in_words(roll, in_service=in_service) for _, roll in _rolls(idlers)})
+        strand: sorted({_law_in_words(roll, in_service=in_service) for _, roll in _rolls_by_field(idlers)})
         for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_))
     }
     if all(law == ["constant"] for law in laws.values()):
@@ -481,29 +485,29 @@ def _law_in_words(roll: Roll, *, in_service: bool) -> str:
     return "constant"
 
 
-def _rolls(idlers: IdlerSet) -> list[tuple[str, Roll]]:
+def _rolls_by_field(idlers: IdlerSet) -> list[tuple[str, Roll]]:
     """Rolls of a set with their field names."""
     rolls = [("roll", idlers.roll)]
     return rolls if idlers.middle_roll is None else [*rolls, ("middle_roll", idlers.middle_roll)]
 
 
-def _listed(conveyor: Conveyor) -> Iterator[tuple[str, Listed]]:
+def _library_models(conveyor: Conveyor) -> Iterator[tuple[str, LibraryItem]]:
     yield "belt", conveyor.belt
     yield "material", conveyor.material
     for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
-        for name, roll in _rolls(idlers):
+        for name, roll in _rolls_by_field(idlers):
             yield f"idlers.{strand}.{name}", roll
 
 
-def _entries(conveyor: Conveyor) -> Iterator[str]:
-    for field, model in _listed(conveyor):
+def _library_assumptions(conveyor: Conveyor) -> Iterator[str]:
+    for field, model in _library_models(conveyor):
         entry = model.entry
         if entry is not None:
             note = f"; {entry.note}" if entry.note else ""
             yield f'{field}: "{entry.name}" of the library where the spec gives nothing ({entry.source}){note}.'
 
 
-def roll_warnings(result: CalculatedConveyor) -> tuple[Said, ...]:
+def roll_warnings(result: CalculatedConveyor) -> tuple[Message, ...]:
     """Warnings on defaults in use and strained laws of rolls, sets and belt."""
     conveyor = result.conveyor
     return (
@@ -518,7 +522,7 @@ def roll_warnings(result: CalculatedConveyor) -> tuple[Said, ...]:
     )
 
 
-def _alignment_warnings(conveyor: Conveyor) -> Iterator[Said]:
+def _alignment_warnings(conveyor: Conveyor) -> Iterator[Message]:
     """Sets whose misalignment is the site's default."""
     sets = (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_))
     without = [f"idlers.{strand}.misalignment" for strand, idlers in sets if idlers.misalignment is None]
@@ -526,37 +530,39 @@ def _alignment_warnings(conveyor: Conveyor) -> Iterator[Said]:
         band = MISALIGNMENT[conveyor.site]
         value, low, high = (f"{math.degrees(angle):.2g}" for angle in (band.value, band.low, band.high))
         taken = f"site {conveyor.site}" + ("" if "site" in conveyor.model_fields_set else " by default")
-        yield said(
+        yield message(
             f"{' and '.join(without)} not given: {value} deg assumed ({taken}; {low} to {high} deg, {band.source}; "
             "general knowledge)"
         )
 
 
-def _mass_warnings(conveyor: Conveyor) -> Iterator[Said]:
+def _mass_warnings(conveyor: Conveyor) -> Iterator[Message]:
     """Sets whose reduced mass is used as rotating mass."""
     for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
         if idlers.reduced_mass is not None and idlers.reduced_only:
-            yield said(
+            yield message(
                 f"idlers.{strand}: rotating_mass not given, reduced_mass ({text(idlers.reduced_mass)}) stands for "
                 "it in the classical estimate too, which it lowers a little"
             )
 
 
-def _drag_warnings(result: CalculatedConveyor) -> Iterator[Said]:
+def _drag_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     conveyor = result.conveyor
     air = conveyor.air_temperature
     in_service = conveyor.calculation.roll_drag == "in service"
     for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
-        for name, roll in _rolls(idlers):
+        for name, roll in _rolls_by_field(idlers):
             law, field = roll.drag_law, f"idlers.{strand}.{name}"
             if isinstance(law, BearingDrag):
                 yield from _bearing_warnings(field, law, air)
             elif law is None and roll.drag is None and idlers.drag is None and in_service:
-                drags = _drags_of(result, strand, idlers, roll)
+                drags = _drags_of_roll(result, strand, idlers, roll)
                 bearing, band = assumed_bearing(roll), SERVICE_DRAG
                 condition = ROLL_CONDITION[conveyor.site].value
-                ends = list({figure(drag, "force"): drag for drag in (min(drags), max(drags))}.values())
-                yield said(
+                ends = list(
+                    {format_figure(drag, "force"): drag for drag in (min(drags), max(drags))}.values()
+                )
+                yield message(
                     f"idlers.{strand}: roll drag not given, {' to '.join('{}' for _ in ends)} a roll assumed (bearings "
                     f"{bearing}, usual grease and seals in service in air of {{}}, {condition:g} times that of rolls "
                     f"in order for site {conveyor.site}; {band.low:g} to {band.high:g} times that is usual, general "
@@ -566,76 +572,80 @@ def _drag_warnings(result: CalculatedConveyor) -> Iterator[Said]:
                 )
             elif law is None and roll.drag is None and idlers.drag is None:
                 limit = acceptance_limit(roll)
-                yield said(
+                yield message(
                     f"idlers.{strand}: roll drag not given, {{}} a roll assumed ({limit.source}; the limit of a new "
                     f"roll's test, chosen by calculation.roll_drag), give {field}.drag",
                     (limit.value, "force"),
                 )
 
 
-def _drags_of(result: CalculatedConveyor, strand: str, idlers: IdlerSet, roll: Roll) -> list[float]:
+def _drags_of_roll(result: CalculatedConveyor, strand: str, idlers: IdlerSet, roll: Roll) -> list[float]:
     """Drags of one roll in all sets of a strand [N]."""
     places = [place for place in range(idlers.rolls) if idlers.roll_at(place) is roll]
     pairs = zip(result.line.stretches, result.line.roll_drags, strict=True)
     return [drags[place] for stretch, drags in pairs if stretch.strand == strand for place in places]
 
 
-def _bearing_warnings(field: str, law: BearingDrag, air: float) -> Iterator[Said]:
+def _bearing_warnings(field: str, law: BearingDrag, air: float) -> Iterator[Message]:
     missing = [name for name in ("f0", "f1_factor", "f1_exponent") if name not in law.model_fields_set]
     if missing:
-        yield said(
+        yield message(
             f"{field}.drag_law: {', '.join(missing)} not given, upper ends for greased ball bearings assumed "
             "(general knowledge, Palmgren's range); a measured drag takes precedence over this law"
         )
     viscosity = bearing_viscosity(law, air)
-    if viscosity > COLD_OIL:
-        yield said(
+    if viscosity > COLD_OIL_VISCOSITY:
+        yield message(
             f"{field}.drag_law: the oil has {viscosity * 1e6:.4g} mm²/s at {{}}: bearings warm themselves, "
             "the drag is overestimated; give a measured drag or drag_law.warming",
             (air, "temperature"),
         )
 
 
-def _flexure_warnings(conveyor: Conveyor) -> Iterator[Said]:
+def _flexure_warnings(conveyor: Conveyor) -> Iterator[Message]:
     calculation = conveyor.calculation
     flexure = calculation.flexure
     if flexure is None:
         if calculation.flexure_share is None:
             c = FLEXURE_COEFFICIENT
-            yield said(
+            yield message(
                 f"calculation.flexure not given: load x sag x {c.value:.3f} ({c.low:.3f} to {c.high:.3f}) assumed, so "
                 f"that one measured site has its {100.0 * FLEXURE_SHARE.value:.0f} % at 1 % sag (general knowledge)"
             )
         return
     left_out = [name for name in ("belt", "bulk") if getattr(flexure, name) is None]
     if left_out:
-        yield said(
+        yield message(
             f"calculation.flexure.{left_out[0]} not given: flexure of the {left_out[0]} is not in the figures"
         )
     if flexure.belt is not None:
-        yield said(
+        yield message(
             "calculation.flexure.belt: a derived law of the belt between its sets, not measured on a conveyor"
         )
     if flexure.bulk is not None:
-        yield said(
+        yield message(
             "calculation.flexure.bulk: an upper bound; its opening angle is the spec's, no law computes it here"
         )
 
 
-def _library_warnings(conveyor: Conveyor) -> Iterator[Said]:
-    for field, model in _listed(conveyor):
+def _library_warnings(conveyor: Conveyor) -> Iterator[Message]:
+    for field, model in _library_models(conveyor):
         entry = model.entry
         if entry is None or not entry.general_knowledge:
             continue
         given = model.as_data()
-        taken = [name for name in entry.fields if name != "name" and name not in without(given, entry.fields)]
+        taken = [
+            name
+            for name in entry.fields
+            if name != "name" and name not in without_entry_fields(given, entry.fields)
+        ]
         if taken:
             spans = "; ".join(f"{name} {entry.range[name]}" for name in taken if name in entry.range)
             met = f", in practice {spans}" if spans else ""
-            yield said(f'{field}: {", ".join(taken)} assumed as of "{entry.name}": {entry.source}{met}')
+            yield message(f'{field}: {", ".join(taken)} assumed as of "{entry.name}": {entry.source}{met}')
 
 
-def _cover_warnings(conveyor: Conveyor) -> Iterator[Said]:
+def _cover_warnings(conveyor: Conveyor) -> Iterator[Message]:
     """Belt mass of a library entry with other cover thicknesses."""
     belt = conveyor.belt
     held = {} if belt.entry is None else belt.entry.fields
@@ -643,45 +653,45 @@ def _cover_warnings(conveyor: Conveyor) -> Iterator[Said]:
         return
     for name, cover in (("top_cover", belt.top_cover), ("bottom_cover", belt.bottom_cover)):
         listed = held.get(name, {}).get("thickness")
-        if listed is not None and not same(quantity(listed), cover.thickness):
-            yield said(
+        if listed is not None and not same_value(quantity(listed), cover.thickness):
+            yield message(
                 f"belt.mass {text(belt.mass)} is listed for a {name} of {listed}, the spec has "
                 f"{text(cover.thickness)}: give belt.mass"
             )
 
 
-def _set_warnings(result: CalculatedConveyor) -> Iterator[Said]:
+def _set_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     widest, idlers_of = widest_spacings(), result.conveyor.idlers
     for strand, idlers in (("carry", idlers_of.carry), ("return", idlers_of.return_)):
         stretches = [stretch for stretch in result.line.stretches if stretch.strand == strand]
         if stretches[0].tilt_angle > 0.0 or any(s.turn is not None and s.turn.guided for s in stretches):
             friction = ROLL_ON_BELT_FRICTION.value
-            yield said(
+            yield message(
                 f"idlers.{strand}: friction of belt on tilted or skewed rolls {friction:g} assumed (general knowledge)"
             )
         if idlers.offset.magnitude > 0.0:
-            yield said(f"idlers.{strand}.offset: the loads of the rolls are those of a set in one plane")
+            yield message(f"idlers.{strand}.offset: the loads of the rolls are those of a set in one plane")
         spacing = max(stretch.spacing for stretch in stretches)
         if spacing > widest[strand]:
-            yield said(
+            yield message(
                 f"idlers.{strand}: sets {{}} apart, the widest in use on overland conveyors are {{}}",
                 (spacing, "length"),
                 (widest[strand], "length"),
             )
 
 
-def _other_warnings(conveyor: Conveyor) -> Iterator[Said]:
+def _other_warnings(conveyor: Conveyor) -> Iterator[Message]:
     if any("scraping_factor" not in plough.model_fields_set for plough in conveyor.route.ploughs):
-        yield said(
+        yield message(
             f"route.ploughs: scraping factor {SCRAPING_FACTOR.value:g} N/m assumed, normal value of ISO 5048 as "
             "commonly reproduced: it knows neither density nor speed"
         )
     if conveyor.calculation.cema is not None:
-        yield said(
+        yield message(
             "CEMA classic form: formulas and figures as commonly reproduced, Ky, Kt, Ai, Cs by the spec, "
             "one Ky for the whole conveyor"
         )
         if conveyor.route.feeding is not None and conveyor.calculation.cema.skirt_factor is None:
-            yield said(
+            yield message(
                 "calculation.cema.skirt_factor not given: of the skirts only the seals are in CEMA's figures"
             )

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from numbers import Real
 
-from conveyor.errors import Amount, ConveyorError, InputError
+from conveyor.errors import ConveyorError, InputError, MessageQuantity
 
 
 def require(ok: bool, name: str, value: object, allowed: str | ConveyorError) -> None:
     """Refuse an argument unless `ok`; an amount is written in the reader's units."""
     if not ok:
-        shown = value if isinstance(value, Amount) else repr(value)
+        shown = value if isinstance(value, MessageQuantity) else repr(value)
         raise InputError("{} = {} is not allowed: {}", name, shown, allowed)
 
 

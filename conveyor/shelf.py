@@ -9,17 +9,17 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from conveyor.arguments import checked
+from conveyor.arguments import check_arguments
 from conveyor.errors import InputError
-from conveyor.explain import read_model
+from conveyor.files.compound_folders import ENVIRONMENT, SUFFIXES, built_in, compound_files, folders
 from conveyor.files.document import read_document, yaml_text
-from conveyor.files.shelves import ENVIRONMENT, SUFFIXES, built_in, files, folders
+from conveyor.model_file import read_model
 from conveyor.models.compound import RubberCompound
 
 __all__ = ["ENVIRONMENT", "built_in", "compound", "dump", "folders", "names", "read_compound", "resolver"]
 
 
-@checked
+@check_arguments
 def names(extra: Iterable[str | Path] = ()) -> list[str]:
     """Return the names on the shelf, sorted.
 
@@ -28,10 +28,10 @@ def names(extra: Iterable[str | Path] = ()) -> list[str]:
     >>> "standard-cover" in names()
     True
     """
-    return sorted(files(extra))
+    return sorted(compound_files(extra))
 
 
-@checked
+@check_arguments
 def compound(
     name_or_path: str | Path, *, extra: Iterable[str | Path] = (), base: Path | None = None
 ) -> RubberCompound:
@@ -64,8 +64,8 @@ def compound(
         or "/" in text
         or os.sep in text
     ):
-        return read_compound((base or Path()) / _expanded(text))
-    known = files(extra)
+        return read_compound((base or Path()) / _expand_home(text))
+    known = compound_files(extra)
     paths = known.get(text.casefold(), [])
     if len(paths) > 1:
         listed = " and ".join(str(path) for path in paths)
@@ -77,7 +77,7 @@ def compound(
     return read_compound(paths[0])
 
 
-def _expanded(text: str) -> Path:
+def _expand_home(text: str) -> Path:
     try:
         return Path(text).expanduser()
     except RuntimeError:
@@ -99,11 +99,11 @@ def read_compound(path: Path) -> RubberCompound:
     except (OSError, ValueError):  # ValueError: a null byte in the name
         read_document(path)
         raise
-    return _read_once(path, state.st_mtime_ns, state.st_size)
+    return _read_cached(path, state.st_mtime_ns, state.st_size)
 
 
 @lru_cache(maxsize=256)
-def _read_once(path: Path, _changed: int, _size: int) -> RubberCompound:
+def _read_cached(path: Path, _changed: int, _size: int) -> RubberCompound:
     """Read a file, cached by its time and size: models are frozen and may be shared."""
     return read_model(RubberCompound, path)
 
@@ -127,7 +127,7 @@ def resolver(
     return resolve
 
 
-@checked
+@check_arguments
 def dump(compound: RubberCompound, heading: str = "") -> str:
     """YAML text of a compound file, as the shelf reads it; lists of numbers and terms on one line each.
 
@@ -148,7 +148,7 @@ def dump(compound: RubberCompound, heading: str = "") -> str:
             return made
         if isinstance(value, list):
             row = CommentedSeq([laid(item) for item in value])
-            if not any(isinstance(item, Mapping | list) for item in value) and _short(value):
+            if not any(isinstance(item, Mapping | list) for item in value) and _fits_one_line(value):
                 row.fa.set_flow_style()
             return row
         return value
@@ -157,6 +157,6 @@ def dump(compound: RubberCompound, heading: str = "") -> str:
     return (f"# {heading}\n" if heading else "") + written
 
 
-def _short(items: list[Any]) -> bool:
+def _fits_one_line(items: list[Any]) -> bool:
     """True for a list of numbers and short texts."""
     return all(not isinstance(item, str) or len(item) < 24 for item in items)

@@ -13,19 +13,19 @@ from typing import Any, Final
 from pydantic import ValidationError
 
 from conveyor import shelf
-from conveyor.arguments import checked
+from conveyor.arguments import check_arguments
 from conveyor.errors import InputError
-from conveyor.explain import read_model
-from conveyor.files.document import first_lines, read_document, yaml_text
+from conveyor.files.document import error_lines, read_document, yaml_text
+from conveyor.model_file import read_model
 from conveyor.models import Conveyor
-from conveyor.models.base import Model, field_path, real_errors, validate
-from conveyor.models.wording import Location, message
+from conveyor.models.base import Model, field_path, real_errors, validate_model
+from conveyor.models.validation_messages import Location, error_message
 
 _FIELD: Final = re.compile(r"[a-z_]+(?:\.[a-z_]+|\[[0-9]+\])*(?=[: ])")
-_TABLES: Final = {".xls", ".xlsm", ".xlsb", ".ods", ".csv", ".tsv"}
+_TABLE_ENDINGS: Final = {".xls", ".xlsm", ".xlsb", ".ods", ".csv", ".tsv"}
 
 
-@checked
+@check_arguments
 def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
     """Read a conveyor from a ``.yaml``, ``.yml`` or ``.json`` file, or from an input workbook (``.xlsx``).
 
@@ -49,11 +49,11 @@ def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
     """
     where = Path(path)
     if where.suffix.lower() == ".xlsx":
-        from conveyor.forms.read import read_template
+        from conveyor.forms.form_reader import read_template
 
         filled = read_template(where)
         return from_data(filled.data, where=filled.where, shelves=shelves, base=where.parent)
-    if where.suffix.lower() in _TABLES:
+    if where.suffix.lower() in _TABLE_ENDINGS:
         raise InputError(f"{where}: a workbook or table is read as .xlsx only; save a workbook as .xlsx")
     if where.suffix.lower() not in {".yaml", ".yml", ".json"} and not where.is_dir():
         raise InputError(
@@ -62,7 +62,7 @@ def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
     return read_model(Conveyor, where, {"compound": shelf.resolver(extra=shelves, base=where.parent)})
 
 
-@checked
+@check_arguments
 def from_data(
     data: Mapping[str, Any],
     *,
@@ -87,19 +87,19 @@ def from_data(
         Refused; all errors at once, each on a line ``place field: message``.
     """
     try:
-        return validate(Conveyor, dict(data), {"compound": shelf.resolver(extra=shelves, base=base)})
+        return validate_model(Conveyor, dict(data), {"compound": shelf.resolver(extra=shelves, base=base)})
     except ValidationError as error:
 
         def line(item: Any) -> str:
             location: Location = tuple(item["loc"])
             place = "" if where is None else where(location) + " "
-            return f"{place}{field_path(location) or 'conveyor'}: {message(item, Conveyor)}"
+            return f"{place}{field_path(location) or 'conveyor'}: {error_message(item, Conveyor)}"
 
-        raise InputError(first_lines(real_errors(error), line)) from None
+        raise InputError(error_lines(real_errors(error), line)) from None
 
 
 @contextmanager
-def placing(path: str | Path) -> Iterator[None]:
+def locate_errors(path: str | Path) -> Iterator[None]:
     """Put the place in the spec before an error raised later about one of its fields.
 
     Parameters
@@ -120,19 +120,19 @@ def placing(path: str | Path) -> Iterator[None]:
         if not parts or parts[0] not in Conveyor.model_fields:
             raise
         location: Location = tuple(int(part) if part.isdigit() else part for part in parts)
-        raise InputError(f"{_placed(Path(path), location)} {error}") from None
+        raise InputError(f"{_field_place(Path(path), location)} {error}") from None
 
 
-def _placed(path: Path, location: Location) -> str:
+def _field_place(path: Path, location: Location) -> str:
     if path.suffix.lower() == ".xlsx":
-        from conveyor.forms.read import read_template
+        from conveyor.forms.form_reader import read_template
 
         return read_template(path).where(location)
     line, column = read_document(path).place(location)
     return f"{path}:{line}:{column}"
 
 
-@checked
+@check_arguments
 def dump(conveyor: Conveyor) -> str:
     """Return a spec (YAML) that `load` reads back to an equal conveyor, compounds written out."""
     return yaml_text(conveyor.as_data(), width=110)

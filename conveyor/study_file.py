@@ -9,32 +9,32 @@ from pathlib import Path
 from typing import Final, TypeVar
 
 from conveyor import shelf
-from conveyor.errors import InputError, PlacedError
-from conveyor.explain import read_model
-from conveyor.files.content import file_content
-from conveyor.files.document import Document, Fault, first_lines, listing, read_document
-from conveyor.laboratory.encoding import decoded
-from conveyor.laboratory.grid import TextLine, refusal
-from conveyor.laboratory.separated import headed_lines
+from conveyor.errors import InputError, PlanError
+from conveyor.files.document import Document, Fault, error_lines, fault_lines, read_document
+from conveyor.files.file_bytes import file_content
+from conveyor.laboratory.cell_grid import TextLine, cell_error
+from conveyor.laboratory.delimited_text import table_lines
+from conveyor.laboratory.encoding import decode_text
+from conveyor.model_file import read_model
 from conveyor.models.base import field_path
 from conveyor.models.sizing import SizingDuty
 from conveyor.models.study import (
-    DUTY,
-    HOURS,
+    DUTY_STATES,
+    HOURS_KEY,
     SearchPlan,
     StudyPlan,
     Value,
     VariedSpec,
-    alike_as_one,
     hours_of,
+    merge_equal_states,
 )
-from conveyor.models.wording import Location
+from conveyor.models.validation_messages import Location
 from conveyor.units import quantity
 
 LARGEST_FILE: Final = 10_000_000
 """Bytes; a year of hourly values takes a tenth."""
-_HEAD: Final = re.compile(r"\s*([^\s\[\]()]+)\s*(?:\[\s*(.*?)\s*\])?\s*")
-Given = TypeVar("Given", bound=VariedSpec)
+_HEADER_PATTERN: Final = re.compile(r"\s*([^\s\[\]()]+)\s*(?:\[\s*(.*?)\s*\])?\s*")
+Plan = TypeVar("Plan", bound=VariedSpec)
 
 
 def read_plan(path: str | Path) -> StudyPlan:
@@ -45,12 +45,12 @@ def read_plan(path: str | Path) -> StudyPlan:
     InputError
         A file cannot be read, or is refused; all its errors at once, each with file, line, column and field.
     """
-    return _with_states(read_model(StudyPlan, Path(path)), Path(path))
+    return _with_state_table(read_model(StudyPlan, Path(path)), Path(path))
 
 
 def read_search(path: str | Path) -> SearchPlan:
     """Read a search for `conveyor optimise`; as `read_plan`."""
-    return _with_states(read_model(SearchPlan, Path(path)), Path(path))
+    return _with_state_table(read_model(SearchPlan, Path(path)), Path(path))
 
 
 def read_duty(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> SizingDuty:
@@ -66,7 +66,7 @@ def read_duty(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Sizing
 
 
 @contextmanager
-def named(path: str | Path) -> Iterator[None]:
+def name_plan_file(path: str | Path) -> Iterator[None]:
     """Name the plan file in later errors about its fields, figures or compounds.
 
     Raises
@@ -76,45 +76,49 @@ def named(path: str | Path) -> Iterator[None]:
     """
     try:
         yield
-    except PlacedError as error:
-        raise InputError(_listed(read_document(Path(path)), error)) from None
+    except PlanError as error:
+        raise InputError(_problem_lines(read_document(Path(path)), error)) from None
     except InputError as error:
         raise InputError("\n".join(f"{path}: {line}" for line in str(error).splitlines())) from None
 
 
-def _listed(document: Document, error: PlacedError) -> str:
+def _problem_lines(document: Document, error: PlanError) -> str:
     """Text of the problems of a plan with their lines in its file or its table of states."""
     faults, of_states = [], []
     table = document.data.get("states")
     for place, said in error.problems:
-        if place[0] == "states" and len(place) == 3 and isinstance(table, str) and table != DUTY:
+        if place[0] == "states" and len(place) == 3 and isinstance(table, str) and table != DUTY_STATES:
             of_states.append((place[1], place[2], said))
         else:
-            faults.append(Fault(document.place(place, of_key=True), field_path(place), _without(place, said)))
-    lines = [listing(document.path, sorted(faults, key=lambda fault: fault.place))] if faults else []
+            faults.append(
+                Fault(document.place(place, of_key=True), field_path(place), _strip_place(place, said))
+            )
+    lines = [fault_lines(document.path, sorted(faults, key=lambda fault: fault.place))] if faults else []
     if of_states:
         path = Path(document.path).parent / str(table)
         firsts: dict[tuple[tuple[str, Value], ...], int] = {}
-        rows = _rows(path)
+        rows = _state_rows(path)
         for number, row in rows:
-            firsts.setdefault(tuple((name, value) for name, value in row.items() if name != HOURS), number)
+            firsts.setdefault(
+                tuple((name, value) for name, value in row.items() if name != HOURS_KEY), number
+            )
         numbers = list(firsts.values())
         columns = list(rows[0][1])
         lines += [
-            str(refusal(str(path), numbers[int(i)], columns.index(str(field)), said))
+            str(cell_error(str(path), numbers[int(i)], columns.index(str(field)), said))
             for i, field, said in of_states
         ]
     return "\n".join(lines)
 
 
-def _without(place: Location, said: str) -> str:
+def _strip_place(place: Location, said: str) -> str:
     """Message without the parts of its location, which are written before it."""
     for part in place:
         said = said.removeprefix(f"{part}: ")
     return said
 
 
-def base_of(plan: VariedSpec, path: str | Path) -> Path:
+def base_spec_path(plan: VariedSpec, path: str | Path) -> Path:
     """Path of the base spec of a plan, relative to its file.
 
     Raises
@@ -123,15 +127,15 @@ def base_of(plan: VariedSpec, path: str | Path) -> Path:
         The spec does not exist.
     """
     base = Path(path).parent / plan.base
-    with named(path):
+    with name_plan_file(path):
         if not base.exists():
-            raise PlacedError([(("base",), f"{base}: no such file")])
+            raise PlanError([(("base",), f"{base}: no such file")])
     return base
 
 
-def _with_states(plan: Given, path: Path) -> Given:
+def _with_state_table(plan: Plan, path: Path) -> Plan:
     """Plan with the states of its table, where it names one."""
-    if not isinstance(plan.states, str) or plan.states == DUTY:
+    if not isinstance(plan.states, str) or plan.states == DUTY_STATES:
         return plan
     table = path.parent / plan.states
     try:
@@ -149,16 +153,14 @@ def read_states(path: Path) -> tuple[dict[str, Value], ...]:
     InputError
         The table cannot be read, or a cell is empty or of another kind.
     """
-    return alike_as_one(row for _, row in _rows(path))
+    return merge_equal_states(row for _, row in _state_rows(path))
 
 
-def _rows(path: Path) -> list[tuple[int, dict[str, Value]]]:
+def _state_rows(path: Path) -> list[tuple[int, dict[str, Value]]]:
     """Numbered rows of a table of states; all problems in one error."""
-    text, _ = decoded(file_content(path, largest=LARGEST_FILE, expected="table of states"), path.name)
-    head, *lines = [line for line in headed_lines(text) if not line.comment] or [
-        TextLine(1, ("",), "", False)
-    ]
-    heads = [_HEAD.fullmatch(name) for name in head.cells]
+    text, _ = decode_text(file_content(path, largest=LARGEST_FILE, expected="table of states"), path.name)
+    head, *lines = [line for line in table_lines(text) if not line.comment] or [TextLine(1, ("",), "", False)]
+    heads = [_HEADER_PATTERN.fullmatch(name) for name in head.cells]
     named = [(one[1], one[2] or "") for one in heads if one is not None]
     if not lines or len(named) < len(heads):
         raise InputError(
@@ -166,7 +168,7 @@ def _rows(path: Path) -> list[tuple[int, dict[str, Value]]]:
         )
     names = [name for name, _ in named]
     wrong = [
-        refusal(str(path), head.number, i, f"{name} has a column already; leave one of both")
+        cell_error(str(path), head.number, i, f"{name} has a column already; leave one of both")
         for i, name in enumerate(names)
         if name in names[:i]
     ]
@@ -180,18 +182,18 @@ def _rows(path: Path) -> list[tuple[int, dict[str, Value]]]:
         given: dict[str, Value] = {}
         for i, (cell, (name, unit)) in enumerate(zip(cells, named, strict=True)):
             try:
-                given[name] = _cell(cell, unit, timed=name == HOURS)
+                given[name] = _cell_value(cell, unit, timed=name == HOURS_KEY)
             except InputError as error:
-                wrong.append(refusal(str(path), number, i, str(error), header=head.cells[i]))
+                wrong.append(cell_error(str(path), number, i, str(error), header=head.cells[i]))
         rows.append((number, given))
     if wrong:
-        raise InputError(first_lines(wrong, str, str(path)))
+        raise InputError(error_lines(wrong, str, str(path)))
     return rows
 
 
-def _cell(cell: str, unit: str, *, timed: bool) -> Value:
+def _cell_value(cell: str, unit: str, *, timed: bool) -> Value:
     """Value of a cell as in specs; hours of a time."""
-    value = f"{cell} {unit}" if unit else _number(cell)
+    value = f"{cell} {unit}" if unit else _number_or_text(cell)
     if unit:
         quantity(value)
     if not timed:
@@ -202,7 +204,7 @@ def _cell(cell: str, unit: str, *, timed: bool) -> Value:
     return time
 
 
-def _number(cell: str) -> Value:
+def _number_or_text(cell: str) -> Value:
     """Number, else the text."""
     try:
         return float(cell)

@@ -8,11 +8,11 @@ from typing import TypeVar
 
 T = TypeVar("T")
 
-ALIKE = 1e-9
+TIE_RTOL = 1e-9
 """Largest relative rounding difference along a loop of thousands of sections, on any processor."""
 
 
-def largest(items: Iterable[T], value: Callable[[T], float]) -> T:
+def first_maximum(items: Iterable[T], value: Callable[[T], float]) -> T:
     """Return the item of the largest value; of values equal but for rounding the first.
 
     Raises
@@ -22,15 +22,17 @@ def largest(items: Iterable[T], value: Callable[[T], float]) -> T:
 
     Examples
     --------
-    >>> largest([("as given", 2.0), ("full", 2.0 + 1e-15), ("empty", 1.0)], lambda load: load[1])[0]
+    >>> first_maximum([("as given", 2.0), ("full", 2.0 + 1e-15), ("empty", 1.0)], lambda load: load[1])[0]
     'as given'
     """
     values = [(item, value(item)) for item in items]
     most = max(known for _, known in values)
-    return next(item for item, known in values if known == most or math.isclose(known, most, rel_tol=ALIKE))
+    return next(
+        item for item, known in values if known == most or math.isclose(known, most, rel_tol=TIE_RTOL)
+    )
 
 
-def least(items: Iterable[T], value: Callable[[T], float]) -> T:
+def first_minimum(items: Iterable[T], value: Callable[[T], float]) -> T:
     """Return the item of the smallest value; of values equal but for rounding the first.
 
     Raises
@@ -38,4 +40,4 @@ def least(items: Iterable[T], value: Callable[[T], float]) -> T:
     ValueError
         No items.
     """
-    return largest(items, lambda item: -value(item))
+    return first_maximum(items, lambda item: -value(item))

@@ -36,9 +36,9 @@ from statistics import NormalDist
 
 import numpy as np
 
-from conveyor.fitting.compound import Fitted, Request, fit_file
+from conveyor.fitting.fitted_compound import FittedCompound, Request, fit_file
 from conveyor.rubber import WLF, KrausLaw, PronySeries
-from conveyor.rubber.anchor import NINE_TENTHS
+from conveyor.rubber.rolling_test_factor import DEVIATIONS_OF_90_PERCENT
 from conveyor.shelf import dump
 
 ZERO_CELSIUS = 273.15
@@ -185,7 +185,7 @@ def listing(items: list[str]) -> str:
     return "[" + ", ".join(items) + "]"
 
 
-def refit(name: str) -> Fitted:
+def refit(name: str) -> FittedCompound:
     """What `conveyor fit` makes of the files beside the compound."""
     file = SHELF / name.lower()
     return fit_file(
@@ -266,7 +266,7 @@ def drawn_shapes(cover: Illustrative) -> list[Shape]:
     """A Latin hypercube of normal draws of what the targets leave open."""
     generator = np.random.default_rng(0)
     middles = (np.arange(REPLICAS) + 0.5) / REPLICAS
-    normal = np.array([NormalDist().inv_cdf(p) for p in middles]) / NINE_TENTHS
+    normal = np.array([NormalDist().inv_cdf(p) for p in middles]) / DEVIATIONS_OF_90_PERCENT
     draws = [generator.permutation(normal) for _ in range(len(GLASS) + 7)]
     shapes = []
     for *hotter, share, slow, fast, tail, glassy, c1, c2 in zip(*draws, strict=True):

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import conveyor
 from conveyor.fitting import summary
-from conveyor.fitting.compound import Request, fit_file
+from conveyor.fitting.fitted_compound import Request, fit_file
 from conveyor.report import plots
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -21,16 +21,16 @@ TEMPERATURES = [f"{celsius} degC" for celsius in range(-25, 41, 5)]
 
 def draw(comparison: conveyor.Comparison, result: conveyor.Analysis, folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
-    plots.save(plots.power_over(comparison, "temperature"), folder / "compare_power.png")
+    plots.save_figure(plots.power_over(comparison, "temperature"), folder / "compare_power.png")
     carry = result.rubber.set_index("strand").loc["carry"]
     band = (carry["excited from [Hz]"], carry["excited to [Hz]"])
     figure = plots.loss_tangents(comparison.compounds, 293.15, {"90 % loss band of the carry rolls": band})
-    plots.save(figure, folder / "tan_delta.png")
+    plots.save_figure(figure, folder / "tan_delta.png")
     s120 = fit_file(
         ROOT / "materials" / "s120.dma.csv",
         Request("S120", shift=ROOT / "materials" / "s120.shift.csv", vertical=True),
     )
-    plots.save(summary.figure(s120), folder / "rubber_s120.png")
+    plots.save_figure(summary.band_figure(s120), folder / "rubber_s120.png")
 
 
 def main(folder: Path | None) -> None:

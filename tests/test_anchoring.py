@@ -7,10 +7,10 @@ import math
 
 import pytest
 
-from conveyor import anchoring, shelf
+from conveyor import rolling_test_calibration, shelf
 from conveyor.errors import InputError
 from conveyor.indentation import RollContact, indentation_resistance
-from conveyor.measured.rolling_tests import read_rolling_tests
+from conveyor.measured.rolling_test_table import read_rolling_tests
 from tests.test_cli import run
 
 HEAD = (
@@ -58,7 +58,7 @@ def test_known_factors_come_back_on_another_roll(carrier, tmp_path):
     tests = read_rolling_tests(path, "laboratory, report 7")
     assert len(tests) == 4
     assert all(len(test.line_load) == 3 and test.source == "laboratory, report 7" for test in tests)
-    found = anchoring.anchored(carrier, tests, name="acme-x", softened=False)
+    found = rolling_test_calibration.calibrate_compound(carrier, tests, name="acme-x", softened=False)
     # theory at the tests to 1e-4
     assert found.anchor.slope == pytest.approx(-0.1, abs=2e-4)
     assert found.anchor.factor(1e3, 263.15) == pytest.approx(1.8, rel=5e-4)
@@ -75,10 +75,12 @@ def test_tests_far_from_any_published_ones_are_refused(carrier, tmp_path, times,
     path.write_text(campaign(carrier, POINTS, lambda *_: times), encoding="utf-8")
     tests = read_rolling_tests(path, "laboratory, report 7")
     if not refused:
-        assert anchoring.anchored(carrier, tests).anchor.levels == pytest.approx(math.log(times), abs=1e-3)
+        assert rolling_test_calibration.calibrate_compound(carrier, tests).anchor.levels == pytest.approx(
+            math.log(times), abs=1e-3
+        )
         return
     with pytest.raises(InputError, match=rf"{times:g} times the theory at -10 degC.*0\.5 to 5 are taken"):
-        anchoring.anchored(carrier, tests)
+        rolling_test_calibration.calibrate_compound(carrier, tests)
 
 
 @pytest.mark.parametrize(("tilt", "said"), [(-1.2, "refused"), (-0.4, "remarked"), (0.0, "")])
@@ -91,9 +93,11 @@ def test_resistance_goes_with_the_line_load_as_rolls_have_it(carrier, tmp_path, 
         with pytest.raises(
             InputError, match=r"line load to the power of \d\.\d+, where rolls have 1\.1 to 1\.[45]"
         ):
-            anchoring.anchored(carrier, tests, softened=False)
+            rolling_test_calibration.calibrate_compound(carrier, tests, softened=False)
         return
-    lines = anchoring.lines(anchoring.anchored(carrier, tests, softened=False))
+    lines = rolling_test_calibration.calibration_notes(
+        rolling_test_calibration.calibrate_compound(carrier, tests, softened=False)
+    )
     assert any("is the drag of bearings in it" in line for line in lines) == (said == "remarked")
 
 
@@ -113,9 +117,16 @@ def test_unusual_rolls_and_covers_are_remarked(carrier, tmp_path, field, value, 
     path = tmp_path / "campaign.csv"
     path.write_text(campaign(carrier, POINTS, lambda *_: 1.5), encoding="utf-8")
     tests = read_rolling_tests(path)
-    assert not any("usual are" in line for line in anchoring.lines(anchoring.anchored(carrier, tests)))
+    assert not any(
+        "usual are" in line
+        for line in rolling_test_calibration.calibration_notes(
+            rolling_test_calibration.calibrate_compound(carrier, tests)
+        )
+    )
     changed = [tests[0].replace(**{field: value})]
-    lines = anchoring.lines(anchoring.anchored(carrier, changed, softened=False))
+    lines = rolling_test_calibration.calibration_notes(
+        rolling_test_calibration.calibrate_compound(carrier, changed, softened=False)
+    )
     assert any(remark in line for line in lines)
 
 
@@ -123,7 +134,9 @@ def test_unusual_rolls_and_covers_are_remarked(carrier, tmp_path, field, value, 
 def test_factors_beyond_published_ones_are_remarked(carrier, tmp_path, times, remarked):
     path = tmp_path / "campaign.csv"
     path.write_text(campaign(carrier, POINTS, lambda *_: times), encoding="utf-8")
-    lines = anchoring.lines(anchoring.anchored(carrier, read_rolling_tests(path)))
+    lines = rolling_test_calibration.calibration_notes(
+        rolling_test_calibration.calibrate_compound(carrier, read_rolling_tests(path))
+    )
     assert any("published tests lie at 1 to 2.5" in line for line in lines) == remarked
 
 
@@ -136,13 +149,13 @@ def test_scatter_of_the_transfer_is_the_band(carrier, tmp_path):
     path = tmp_path / "campaign.csv"
     path.write_text(campaign(carrier, POINTS, factor), encoding="utf-8")
     tests = [test.replace(uncertainty="0 %") for test in read_rolling_tests(path)]
-    found = anchoring.anchored(carrier, tests, softened=False)
+    found = rolling_test_calibration.calibrate_compound(carrier, tests, softened=False)
     assert found.compound.carrier is None
     # residuals are half of ln 1.1 everywhere: 12 rows, 3 parameters
     assert found.anchor.half_width == pytest.approx(
         1.644854 * 0.5 * math.log(1.1) * math.sqrt(12 / 9), rel=5e-3
     )
-    assert any("4 tests" in line for line in anchoring.lines(found))
+    assert any("4 tests" in line for line in rolling_test_calibration.calibration_notes(found))
 
 
 def test_units_of_the_headers(tmp_path):
@@ -189,7 +202,7 @@ def test_doubtful_campaigns_are_refused_at_their_row(text, match, tmp_path):
 
 def test_no_test_is_refused(carrier):
     with pytest.raises(InputError, match="give at least one"):
-        anchoring.anchored(carrier, [])
+        rolling_test_calibration.calibrate_compound(carrier, [])
 
 
 def test_the_command_writes_a_compound_that_specs_take(carrier, tmp_path):

@@ -16,14 +16,14 @@ import pytest
 import conveyor
 from conveyor import sizing
 from conveyor.contact import ContactProblem, CreepSpectrum, load_curve, solve, solve_loads, solve_many
-from conveyor.fitting.compound import Request, fit_file
-from conveyor.fitting.summary import lines
-from conveyor.laboratory.read import read_answered
+from conveyor.fitting.fitted_compound import Request, fit_file
+from conveyor.fitting.summary import summary_lines
+from conveyor.laboratory.dma_file import read_with_answers
 from conveyor.rubber import PronySeries, fit_prony
-from conveyor.studies.calibration import calibrate
+from conveyor.studies.calibration import fit_factors
 from conveyor.studies.comparison import compare_compounds
 from conveyor.studies.duty import analyse_duty
-from conveyor.studies.verification import verification
+from conveyor.studies.verification import verify_compounds
 
 ROOT = Path(__file__).parent.parent
 SPECS = ROOT / "examples" / "specs"
@@ -34,7 +34,7 @@ FREE = ContactProblem("free", 0.4, 0.05, CREEP, thickness=1.0)
 def test_import_reaches_what_the_pages_name() -> None:
     code = (
         "import conveyor; conveyor.spec.from_data; conveyor.shelf.compound; conveyor.contact.solve; "
-        "conveyor.rubber.PronySeries; conveyor.units.si; conveyor.studies.studies; conveyor.libraries.belts; "
+        "conveyor.rubber.PronySeries; conveyor.units.si; conveyor.studies.calculate_studies; conveyor.libraries.belts; "
         "conveyor.uncertainty.study; conveyor.indentation.RollContact; print(*dir(conveyor))"
     )
     told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT)
@@ -87,9 +87,9 @@ def test_options_are_those_of_what_is_called() -> None:
     pairs = (
         (conveyor.compare, compare_compounds),
         (conveyor.compare_compounds, compare_compounds),
-        (conveyor.calibrate, calibrate),
-        (conveyor.size, sizing.size),
-        (conveyor.verify_sheet, verification),
+        (conveyor.calibrate, fit_factors),
+        (conveyor.size, sizing.size_conveyor),
+        (conveyor.verify_sheet, verify_compounds),
         (conveyor.analyse_duty, analyse_duty),
     )
     for door, behind in pairs:
@@ -206,7 +206,7 @@ def test_a_short_window_is_fitted_and_said_to_be_untested(tmp_path: Path) -> Non
     """Two decades leave no row a decade from both ends: the fit stands, Kramers-Kronig cannot judge it."""
     found = fit_file(_master(tmp_path, -0.3, 1.7), Request("short", "20 degC", replicas=0))
     assert found.consistency is None
-    assert any("Kramers-Kronig: not tested" in line for line in lines(found))
+    assert any("Kramers-Kronig: not tested" in line for line in summary_lines(found))
     omega = 2.0 * np.pi * np.logspace(-0.2, 1.6, 9)
     series = found.compound.series(293.15)
     assert series.storage(omega) == pytest.approx(SERIES.storage(omega), rel=0.02)
@@ -215,20 +215,20 @@ def test_a_short_window_is_fitted_and_said_to_be_untested(tmp_path: Path) -> Non
 def test_a_wide_window_is_tested(tmp_path: Path) -> None:
     found = fit_file(_master(tmp_path, -2.0, 4.0), Request("wide", "20 degC", replicas=0))
     assert found.consistency is not None
-    assert any("E'' predicted from E'" in line for line in lines(found))
+    assert any("E'' predicted from E'" in line for line in summary_lines(found))
 
 
 def test_an_answer_for_one_file_does_not_refuse_another(tmp_path: Path) -> None:
     master = _master(tmp_path, -2.0, 4.0)  # states Pa in its header
     answers = {"modulus_unit": "MPa"}
     with pytest.raises(conveyor.InputError, match="modulus-unit"):
-        read_answered(master, answers, poisson_ratio=0.5, several=False)
-    read = read_answered(master, answers, poisson_ratio=0.5, several=True)
+        read_with_answers(master, answers, poisson_ratio=0.5, several=False)
+    read = read_with_answers(master, answers, poisson_ratio=0.5, several=True)
     assert read.storage is not None
     assert read.storage.max() == pytest.approx(SERIES.storage(2.0 * np.pi * 1e4), rel=1e-5)
     isotherms = SPECS.parent / "laboratory" / "isotherms.csv"  # states its temperatures
     told = [
-        read_answered(p, {"temperature": 293.15}, poisson_ratio=0.5, several=True)
+        read_with_answers(p, {"temperature": 293.15}, poisson_ratio=0.5, several=True)
         for p in (isotherms, master)
     ]
     assert np.ptp(told[0].temperature) > 80.0  # -36 to 48 degC
@@ -241,7 +241,7 @@ def test_studies_show_themselves_in_one_line() -> None:
         uncertainty={"roll_drag": "30 %"},
         operation={"price": "0.1 USD/kWh", "duty": [{"hours": "3000 h", "share": "100 %"}]},
     )
-    made = conveyor.studies.studies(line)
+    made = conveyor.studies.calculate_studies(line)
     assert (
         repr(made)
         == repr(conveyor.analyse_studies(line))

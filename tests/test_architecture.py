@@ -86,12 +86,12 @@ def _without_docstrings(name: str, text: str) -> str:
 RENDERERS = (
     "cells",
     "charts",
-    "cover",
+    "summary_sheet",
     "excel",
-    "files",
+    "table_files",
     "html",
-    "page",
-    "places",
+    "page_elements",
+    "sheet_writer",
     "sheets",
 )
 

@@ -12,7 +12,7 @@ from unittest.mock import MagicMock
 import pytest
 
 import conveyor
-from conveyor.cli.app import progress, values
+from conveyor.cli.application import parse_values, progress_bar
 from conveyor.errors import InputError
 from tests.command_line import run
 
@@ -55,7 +55,7 @@ def test_everything_is_written_and_said(written):
 def at_the_take_up(spec):
     """The analysis with the take-up that serves the load states too, as `power` shows it."""
     found = conveyor.analyse(conveyor.load(spec))
-    return found.beside(conveyor.studies.studies(found.conveyor, found))
+    return found.beside(conveyor.studies.calculate_studies(found.conveyor, found))
 
 
 def test_units_of_the_terminal(written):
@@ -170,25 +170,25 @@ def test_help_has_examples(command):
 
 
 def test_values_with_and_without_a_unit():
-    assert values("-10:10:10", "--temperature", "degC", "degF") == ["-10 degC", "0 degC", "10 degC"]
-    assert values("32,50 degF", "--temperature", "degC", "degF") == ["32 degF", "50 degF"]
+    assert parse_values("-10:10:10", "--temperature", "degC", "degF") == ["-10 degC", "0 degC", "10 degC"]
+    assert parse_values("32,50 degF", "--temperature", "degC", "degF") == ["32 degF", "50 degF"]
     with pytest.raises(InputError, match=r"--speed: got \"5 kn\", .* a,b,c in m/s or fpm"):
-        values("5 kn", "--speed", "m/s", "fpm")
+        parse_values("5 kn", "--speed", "m/s", "fpm")
 
 
 def test_no_bar_where_output_is_piped():
-    with progress(silent=False) as told:
+    with progress_bar(silent=False) as told:
         assert told is None
-    with progress(silent=True) as told:
+    with progress_bar(silent=True) as told:
         assert told is None
 
 
 def test_what_was_done_before_a_bar_appears_is_no_speed(monkeypatch):
     now, bar = [0.0], MagicMock()
-    monkeypatch.setattr(sys.modules["conveyor.cli.app"], "perf_counter", lambda: now[0])
-    monkeypatch.setattr(sys.modules["conveyor.cli.app"], "_bar", lambda: nullcontext(bar))
+    monkeypatch.setattr(sys.modules["conveyor.cli.application"], "perf_counter", lambda: now[0])
+    monkeypatch.setattr(sys.modules["conveyor.cli.application"], "_bar", lambda: nullcontext(bar))
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    with progress(silent=False) as told:
+    with progress_bar(silent=False) as told:
         now[0] = 1.5
         told("points", 500, 6000)
     assert bar.add_task.call_args.kwargs["completed"] == 500
@@ -196,10 +196,10 @@ def test_what_was_done_before_a_bar_appears_is_no_speed(monkeypatch):
 
 def test_bar_appears_after_a_second_and_names_what_runs(monkeypatch, capsys):
     now = [0.0]
-    monkeypatch.setattr(sys.modules["conveyor.cli.app"], "perf_counter", lambda: now[0])
+    monkeypatch.setattr(sys.modules["conveyor.cli.application"], "perf_counter", lambda: now[0])
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     monkeypatch.setenv("TERM", "xterm")
-    with progress(silent=False) as told:
+    with progress_bar(silent=False) as told:
         told("load cases", 1, 10)
         assert capsys.readouterr().err == ""
         now[0] = 1.5

@@ -15,8 +15,8 @@ from ruamel.yaml import YAML
 import conveyor
 import conveyor.spec
 from conveyor.analysis import studies
-from conveyor.reference import anchor
-from conveyor.starter.values import values
+from conveyor.format_reference import heading_anchor
+from conveyor.starter.starter_data import starter_values
 from tests.command_line import run
 
 ROOT = Path(__file__).parent.parent
@@ -154,7 +154,7 @@ def test_the_studies_on_their_page_are_the_examples() -> None:
 
 def test_defaults_on_the_designers_page_do_what_it_says() -> None:
     text = (ROOT / "docs" / "designer.md").read_text(encoding="utf-8")
-    given = values("overland")
+    given = starter_values("overland")
 
     def motor(change: dict[str, Any]) -> str:
         line = conveyor.spec.from_data(merged(given, change))
@@ -201,7 +201,7 @@ def test_links_pictures_and_anchors_exist(page: Path) -> None:
         assert path.exists(), f"{page.name}: {target}"
         if place:
             lines = path.read_text(encoding="utf-8").splitlines()
-            headings = {anchor(line.lstrip("#").strip()) for line in lines if line.startswith("#")}
+            headings = {heading_anchor(line.lstrip("#").strip()) for line in lines if line.startswith("#")}
             assert place in headings, f"{page.name}: {target}#{place}"
 
 

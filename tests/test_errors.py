@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import pytest
 
 from conveyor.contact.quadrature import RuleTooLongError
-from conveyor.errors import ConveyorError, InputError, PlacedError, ValidityWarning
+from conveyor.errors import ConveyorError, InputError, PlanError, ValidityWarning
 
 
 def kinds(of: type[Exception] = ConveyorError) -> Iterator[type[Exception]]:
@@ -19,7 +19,7 @@ def kinds(of: type[Exception] = ConveyorError) -> Iterator[type[Exception]]:
 
 
 def made(kind: type[Exception]) -> Exception:
-    if issubclass(kind, PlacedError):
+    if issubclass(kind, PlanError):
         return kind([(("states", 1), "states[1]: no such state"), ((), "x" * 2000)])
     return kind("belt.width: got 0 mm, allowed: > 0\n" + "x" * 2000 + " y" * 2000)
 
@@ -28,7 +28,7 @@ KINDS = [*kinds(), ValidityWarning]
 
 
 def test_all_are_tried() -> None:
-    assert {InputError, PlacedError, RuleTooLongError} <= {*KINDS}
+    assert {InputError, PlanError, RuleTooLongError} <= {*KINDS}
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -42,7 +42,7 @@ def test_it_is_the_same_in_another_process(kind: type[Exception]) -> None:
 
 def test_a_placed_error_keeps_its_places() -> None:
     problems = [(("designs", 0, "speed"), "designs[0].speed: got 0 m/s"), (("states",), "states: none")]
-    read = pickle.loads(pickle.dumps(PlacedError(problems)))  # noqa: S301 made here
+    read = pickle.loads(pickle.dumps(PlanError(problems)))  # noqa: S301 made here
     assert isinstance(read, InputError)
     assert read.problems == tuple(problems)
     assert str(read) == "designs[0].speed: got 0 m/s\nstates: none"

@@ -12,8 +12,8 @@ import pytest
 
 from conveyor import shelf
 from conveyor.errors import InputError
-from conveyor.fitting.compound import Request, Tabulated, from_files
-from conveyor.fitting.programs import INCOMPRESSIBLE, exported
+from conveyor.fitting.fitted_compound import Request, TabulatedCompound, compound_from_files
+from conveyor.fitting.programs import INCOMPRESSIBLE_RATIO, program_input
 from conveyor.models import RubberCompound
 from conveyor.rubber import PronySeries
 
@@ -41,7 +41,7 @@ def read_abaqus(text: str) -> tuple[float, np.ndarray, list[str]]:
     (elastic,) = data["*ELASTIC, MODULI=INSTANTANEOUS"]
     rows = np.array([[float(x) for x in row.split(",")] for row in data["*VISCOELASTIC, TIME=PRONY"]])
     assert np.array_equal(rows[:, 0], rows[:, 1])  # shear and bulk alike: Poisson's ratio is constant
-    assert float(elastic.split(",")[1]) == INCOMPRESSIBLE
+    assert float(elastic.split(",")[1]) == INCOMPRESSIBLE_RATIO
     shift = next((values for key, values in data.items() if key.startswith("*TRS")), [])
     return float(elastic.split(",")[0]), rows[:, [0, 2]], shift
 
@@ -74,7 +74,7 @@ def read_ansys(text: str) -> tuple[float, np.ndarray, list[str]]:
 @pytest.mark.parametrize(("ending", "read"), [(".inp", read_abaqus), (".mac", read_ansys)])
 def test_read_back_the_moduli_are_the_compounds(name, ending, read):
     compound = shelf.compound(name)
-    instantaneous, terms, _ = read(exported(compound, ending)[1])
+    instantaneous, terms, _ = read(program_input(compound, ending)[1])
     storage, loss = moduli(instantaneous, terms)
     series = compound.series_at_reference
     assert storage == pytest.approx(series.storage(OMEGA) / 1e6, rel=PRINTED, abs=REST * instantaneous)
@@ -83,7 +83,7 @@ def test_read_back_the_moduli_are_the_compounds(name, ending, read):
 
 def test_the_table_of_pyvisco_goes_out_and_in(tmp_path: Path):
     compound = shelf.compound("s120")
-    text = exported(compound, ".csv")[1]
+    text = program_input(compound, ".csv")[1]
     head, units, *rows = csv.reader(io.StringIO(text))
     assert (head, units) == (["i", "tau_i", "alpha_i", "E_0", "E_i"], ["-", "s", "-", "MPa", "MPa"])
     table = np.array(rows, dtype=float)
@@ -91,8 +91,8 @@ def test_the_table_of_pyvisco_goes_out_and_in(tmp_path: Path):
     expected = compound.series_at_reference.storage(OMEGA) / 1e6
     assert storage == pytest.approx(expected, rel=PRINTED, abs=REST * table[0, 3])
     (tmp_path / "terms.csv").write_text(text, encoding="utf-8")
-    back = from_files(tmp_path / "terms.csv", Request("back", "39.9639 degC"))
-    assert isinstance(back, Tabulated)
+    back = compound_from_files(tmp_path / "terms.csv", Request("back", "39.9639 degC"))
+    assert isinstance(back, TabulatedCompound)
     assert back.compound.series_at_reference.loss(OMEGA) == pytest.approx(
         compound.series_at_reference.loss(OMEGA), rel=PRINTED
     )
@@ -101,28 +101,28 @@ def test_the_table_of_pyvisco_goes_out_and_in(tmp_path: Path):
 def test_shift_laws_of_the_programs():
     cover = shelf.compound("standard-cover")
     law = cover.shift_law()
-    t0, c1, c2 = map(float, read_abaqus(exported(cover, ".inp")[1])[2][0].split(","))
+    t0, c1, c2 = map(float, read_abaqus(program_input(cover, ".inp")[1])[2][0].split(","))
     assert -c1 * (0.0 - t0) / (c2 + 0.0 - t0) == pytest.approx(float(law.log10_a_T(273.15)), rel=1e-8)
-    assert read_ansys(exported(cover, ".mac")[1])[2] == pytest.approx([t0, c1, c2])
+    assert read_ansys(program_input(cover, ".mac")[1])[2] == pytest.approx([t0, c1, c2])
     arrhenius = cover.replace(shift={"law": "arrhenius", "activation_energy": "120 kJ/mol"})
-    text = exported(arrhenius, ".inp")[1]
+    text = program_input(arrhenius, ".inp")[1]
     gas = float(re.search(r"UNIVERSAL GAS=([\d.]+)", text)[1])  # type: ignore[index]
     zero = float(re.search(r"ABSOLUTE ZERO=(-[\d.]+)", text)[1])  # type: ignore[index]
     t0, energy = map(float, read_abaqus(text)[2][0].split(","))
     decades = energy / gas * (1.0 / (0.0 - zero) - 1.0 / (t0 - zero)) / np.log(10.0)
     assert decades == pytest.approx(float(arrhenius.shift_law().log10_a_T(273.15)), rel=1e-8)
-    reference, over_gas = read_ansys(exported(arrhenius, ".mac")[1])[2]
+    reference, over_gas = read_ansys(program_input(arrhenius, ".mac")[1])[2]
     assert (reference, over_gas) == pytest.approx((20.0, 120e3 / gas))
 
 
 def test_a_table_that_no_wlf_law_follows_is_not_written_as_one():
     bent = shelf.compound("s120").as_data()
     bent["shift"]["log10_aT"][0] += 3.0
-    text = exported(RubberCompound.from_data(bent), ".inp")[1]
+    text = program_input(RubberCompound.from_data(bent), ".inp")[1]
     assert "*TRS" not in text
     assert "none written, the nearest WLF law misses the table" in text
     with pytest.raises(InputError, match=r"ends in \.inp"):
-        exported(shelf.compound("s120"), ".txt")
+        program_input(shelf.compound("s120"), ".txt")
 
 
 TABLES = [
@@ -137,7 +137,7 @@ def test_tables_of_finite_element_programs(tmp_path: Path, text, reading, equili
     path = tmp_path / "table.csv"
     path.write_text(text, encoding="utf-8")
     held = None if equilibrium else 6e6
-    made = from_files(path, Request("x", "20 degC", equilibrium=held, reading=reading)).compound
+    made = compound_from_files(path, Request("x", "20 degC", equilibrium=held, reading=reading)).compound
     factor = 3.0 if "G_i" in text else 1.0  # 2 (1 + nu) at nu = 0.5
     expected = PronySeries(equilibrium or 6e6, factor * np.array([5e6, 3e6]), np.array([1e-3, 1e-2]))
     assert made.series(293.15).storage(OMEGA) == pytest.approx(expected.storage(OMEGA), rel=1e-11)
@@ -158,4 +158,4 @@ def test_tables_that_say_too_little_or_too_much(tmp_path: Path, text, message):
     path = tmp_path / "table.csv"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match=message):
-        from_files(path, Request("x", "20 degC"))
+        compound_from_files(path, Request("x", "20 degC"))

@@ -12,10 +12,10 @@ from conveyor import shelf
 from conveyor.errors import InputError, RangeError
 from conveyor.indentation import (
     RollContact,
-    felt,
     indentation_curve,
     indentation_resistance,
     indentation_resistances,
+    resolved_relaxation_times,
     to_problem,
 )
 from conveyor.rubber import PronySeries
@@ -103,7 +103,7 @@ def test_terms_that_a_roll_does_not_tell_apart_change_no_more_than_allowed(at, s
 
 def less(roll, load, error):
     """The roll on its cover of fewer terms."""
-    fastest, slowest = felt(roll, load, error)
+    fastest, slowest = resolved_relaxation_times(roll, load, error)
     fewer = roll.rubber.merged(fastest=fastest, slowest=slowest)
     assert fewer.times.size < roll.rubber.times.size - 8
     return replace(roll, rubber=fewer)

@@ -11,9 +11,8 @@ import pytest
 
 from conveyor import shelf
 from conveyor.errors import InputError
-from conveyor.fitting import page as fit_page
-from conveyor.fitting import summary, verdict
-from conveyor.fitting.compound import Request, fit_file
+from conveyor.fitting import fit_page, fit_verdict, summary
+from conveyor.fitting.fitted_compound import Request, fit_file
 from conveyor.laboratory import read_dma
 from conveyor.rubber import PronySeries, equivalent_sweep
 from conveyor.spec import load
@@ -219,10 +218,10 @@ def test_e_or_g_is_answered(tmp_path: Path):
 
 
 def test_a_good_rubber_passes_and_the_page_holds_what_is_signed(together):
-    criteria = verdict.verdict(together, load(ROOT / "examples" / "specs" / "overland.yaml"))
-    assert verdict.passed(criteria), [one.line for one in criteria if one.verdict == "FAIL"]
+    criteria = fit_verdict.fit_criteria(together, load(ROOT / "examples" / "specs" / "overland.yaml"))
+    assert fit_verdict.is_accepted(criteria), [one.line for one in criteria if one.verdict == "FAIL"]
     assert any(one.name.startswith("window covers") for one in criteria)
-    page = fit_page.build(together, criteria, {"by": "A. Tester <b>", "number": "2026-17"})
+    page = fit_page.build_page(together, criteria, {"by": "A. Tester <b>", "number": "2026-17"})
     for words in (
         "A. Tester &lt;b&gt;",
         "2026-17",
@@ -236,7 +235,7 @@ def test_a_good_rubber_passes_and_the_page_holds_what_is_signed(together):
 
 
 def failing(found, conveyor=None) -> set[str]:
-    return {one.name for one in verdict.verdict(found, conveyor) if one.verdict == "FAIL"}
+    return {one.name for one in fit_verdict.fit_criteria(found, conveyor) if one.verdict == "FAIL"}
 
 
 def test_each_fault_fails_its_own_criterion(tmp_path: Path):

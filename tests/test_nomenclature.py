@@ -13,8 +13,8 @@ import pytest
 
 import conveyor
 from conveyor.contact import ContactProblem, ContactSolution, CreepSpectrum
-from conveyor.report.comparison_tables import of_comparison, plain
-from conveyor.report.tables import of_analysis
+from conveyor.report.analysis_tables import analysis_contents
+from conveyor.report.comparison_tables import comparison_contents, comparison_json
 from conveyor.spec import from_data
 from tests.worked_examples import worked_example
 
@@ -50,7 +50,7 @@ def rows() -> dict[str, list[str]]:
 
 def frames(name: str) -> Iterator[pd.DataFrame | pd.Series]:
     result, asked = worked_example(name)
-    for table in of_analysis(result, asked).tables:
+    for table in analysis_contents(result, asked).tables:
         if table.key not in OF_WORDS:
             yield pd.Series(dtype=float, index=table.frame().iloc[:, 0]) if table.by_row else table.frame()
     if asked.cases is not None:
@@ -101,7 +101,7 @@ def test_every_column_of_lives_is_named() -> None:
 
 def test_every_column_of_a_comparison_is_named_with_its_unit() -> None:
     found = comparison()
-    held = of_comparison(found, "SI")
+    held = comparison_contents(found, "SI")
     made = [
         found.table,
         found.ranking,
@@ -135,7 +135,7 @@ def test_every_key_of_the_json_is_named() -> None:
         result, asked = worked_example(name)
         for key in keys(result.to_dict(asked)):
             assert key in told or key.rsplit(".", 1)[-1] in rows(), key
-    for key in keys(plain(comparison())):
+    for key in keys(comparison_json(comparison())):
         assert key in told or key.rsplit(".", 1)[-1] in rows(), key
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from conveyor.practice import QUANTITIES, PracticeFigure, practice_figures, summarise
+from conveyor.practice_cases import QUANTITIES, PracticeFigure, practice_figures, practice_summary
 
 PAGE = Path(__file__).parent.parent / "docs" / "printed.md"
 DIGITS = 2
@@ -77,7 +77,7 @@ def written() -> str:
     made = [HEAD.format(count=len({one.spec for one in figures()}))]
     for evidence, title in (("printed", "Printed designs"), ("measured", "Measured conveyors")):
         chosen = [one for one in figures() if one.evidence == evidence]
-        found = summarise(chosen)
+        found = practice_summary(chosen)
         made.append(
             f"## {title}\n\n"
             f"{found.within} of {found.count} lie in the band; medians: design over stated "
@@ -108,7 +108,7 @@ def test_what_is_stated_lies_in_the_band_mostly(evidence, least):
 
 def test_printed_designs_lie_at_the_upper_end():
     """Median of design over printed, wanted from 0.95 to 1.10."""
-    found = summarise([one for one in figures() if one.evidence == "printed"])
+    found = practice_summary([one for one in figures() if one.evidence == "printed"])
     assert 0.95 <= found.design_over_stated <= 1.10
     assert found.expected_over_stated < 1.0
 

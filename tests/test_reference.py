@@ -11,13 +11,13 @@ from pydantic import BaseModel, TypeAdapter
 from typer.testing import CliRunner
 
 from conveyor.cli import app
+from conveyor.format_reference import example_value, format_fields, heading_anchor, markdown_reference
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.sizing import SizingDuty
-from conveyor.reference import anchor, example, fields, markdown
 
 PAGE = Path(__file__).parent.parent / "docs" / "spec.md"
 FORMATS = (Conveyor, SizingDuty, RubberCompound)
-FIELDS = [(model, path) for model in FORMATS for path in fields(model)]
+FIELDS = [(model, path) for model in FORMATS for path in format_fields(model)]
 
 
 def models_in(annotation: Any) -> list[type[BaseModel]]:
@@ -38,10 +38,10 @@ def annotations(model: type[BaseModel], path: str) -> list[Any]:
 
 @pytest.mark.parametrize(("model", "path"), FIELDS)
 def test_every_example_is_accepted(model: type[BaseModel], path: str) -> None:
-    leaf = fields(model)[path]
+    leaf = format_fields(model)[path]
     if leaf.kind == "reference" or (model, path) == (SizingDuty, "covers"):
         return
-    shown = example(model, path)
+    shown = example_value(model, path)
     assert shown not in (None, "")
     types = annotations(model, path)
     assert types
@@ -52,7 +52,7 @@ def test_every_example_is_accepted(model: type[BaseModel], path: str) -> None:
 
 @pytest.mark.parametrize(("model", "path"), FIELDS)
 def test_every_field_says_what_it_is(model: type[BaseModel], path: str) -> None:
-    assert fields(model)[path].doc
+    assert format_fields(model)[path].doc
 
 
 def test_an_example_outside_its_field_would_be_seen() -> None:
@@ -62,35 +62,41 @@ def test_an_example_outside_its_field_would_be_seen() -> None:
 
 
 def test_page_is_what_the_models_say() -> None:
-    assert PAGE.read_text(encoding="utf-8") == markdown(), "run: conveyor schema --markdown > docs/spec.md"
+    assert PAGE.read_text(encoding="utf-8") == markdown_reference(), (
+        "run: conveyor schema --markdown > docs/spec.md"
+    )
 
 
 def test_command_line_prints_the_page() -> None:
     found = CliRunner().invoke(app, ["schema", "--markdown"])
     assert found.exit_code == 0
-    assert found.stdout == markdown()
+    assert found.stdout == markdown_reference()
 
 
 def test_every_field_is_on_the_page() -> None:
-    text = markdown()
+    text = markdown_reference()
     blocks = re.split(r"\n## The (?:duty|compound)\n", text)
-    elsewhere = fields(Conveyor)
+    elsewhere = format_fields(Conveyor)
     for model, block in zip(FORMATS, blocks, strict=True):
         own = [
-            path for path, leaf in fields(model).items() if model is Conveyor or elsewhere.get(path) != leaf
+            path
+            for path, leaf in format_fields(model).items()
+            if model is Conveyor or elsewhere.get(path) != leaf
         ]
         keys = {path.split(".")[-1] for path in own}
         assert {key for key in keys if f"| `{key}` |" not in block} == set()
 
 
 def test_every_link_has_its_heading_and_every_heading_is_once() -> None:
-    text = markdown()
-    headings = [anchor(line.lstrip("#").strip()) for line in text.splitlines() if line.startswith("#")]
+    text = markdown_reference()
+    headings = [
+        heading_anchor(line.lstrip("#").strip()) for line in text.splitlines() if line.startswith("#")
+    ]
     assert len(headings) == len(set(headings))
     assert set(re.findall(r"\]\(#([^)]+)\)", text)) <= set(headings)
 
 
 def test_rows_have_five_cells() -> None:
-    for line in markdown().splitlines():
+    for line in markdown_reference().splitlines():
         if line.startswith("| `") and "** |" in line:
             assert len(re.split(r"(?<!\\)\|", line)) == 7

@@ -8,7 +8,7 @@ import openpyxl
 import pytest
 
 from conveyor.errors import InputError
-from conveyor.measured.runs import read_runs
+from conveyor.measured.run_table import read_runs
 from conveyor.models import MeasuredRun
 
 

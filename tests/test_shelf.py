@@ -10,7 +10,7 @@ import pytest
 
 from conveyor import shelf
 from conveyor.errors import InputError
-from conveyor.files import shelves as shelf_files
+from conveyor.files import compound_folders as shelf_files
 from conveyor.units import si
 
 BUILT_IN = ["cold-resistant-cover", "low-rolling-resistance-cover", "s100", "s120", "standard-cover"]

@@ -410,11 +410,11 @@ def test_schema_patterns_take_the_examples() -> None:
 
 def test_errors_that_a_study_finds_later_get_their_place(tmp_path: Path) -> None:
     path = write(tmp_path, GOOD)
-    with pytest.raises(InputError, match=rf"^{path}:4:10 belt.speed: too fast$"), spec.placing(path):
+    with pytest.raises(InputError, match=rf"^{path}:4:10 belt.speed: too fast$"), spec.locate_errors(path):
         raise InputError("belt.speed: too fast")
 
 
 @pytest.mark.parametrize("message", ["result.xlsx: is a folder", "shelf: nowhere", "No field at all"])
 def test_errors_of_something_else_get_no_place(tmp_path: Path, message: str) -> None:
-    with pytest.raises(InputError, match=f"^{message}$"), spec.placing(write(tmp_path, GOOD)):
+    with pytest.raises(InputError, match=f"^{message}$"), spec.locate_errors(write(tmp_path, GOOD)):
         raise InputError(message)

@@ -17,7 +17,7 @@ from pydantic import BaseModel, ValidationError
 from conveyor import units
 from conveyor.errors import InputError
 from conveyor.units import Bounds, Density, Fraction, Length, MassFlow, Speed, Temperature, quantity, si, text
-from conveyor.units.kinds import KINDS, MAGNITUDES
+from conveyor.units.quantity_kinds import KINDS, MAGNITUDES
 from conveyor.units.registry import UNITS
 
 # Definitions: international yard and pound (1959): 1 ft = 0.3048 m, 1 lb = 0.45359237 kg; standard gravity
@@ -258,7 +258,7 @@ def test_from_si_and_convert_invert_si() -> None:
     ],
 )
 def test_display(value: float, kind: str, metric: str, us: str) -> None:
-    assert (units.display(value, kind), units.display(value, kind, "US")) == (metric, us)
+    assert (units.format_si(value, kind), units.format_si(value, kind, "US")) == (metric, us)
 
 
 class Sample(BaseModel):

@@ -9,9 +9,9 @@ import pytest
 
 from conveyor import shelf
 from conveyor.errors import InputError
-from conveyor.fitting import summary, verdict
-from conveyor.fitting.compound import Request, fit_file
-from conveyor.rubber import Arrhenius, PronySeries, shifted
+from conveyor.fitting import fit_verdict, summary
+from conveyor.fitting.fitted_compound import Request, fit_file
+from conveyor.rubber import Arrhenius, PronySeries, shift_series
 from tests.command_line import run
 
 MATERIALS = Path(__file__).parent.parent / "materials"
@@ -30,7 +30,7 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     lines, omega = [], 2.0 * np.pi * MEASURED
     for t in TEMPERATURES:
         a = 10.0 ** float(LAW.log10_a_T(t))
-        series = shifted(TRUTH, LAW, t, b_T=t / REFERENCE)
+        series = shift_series(TRUTH, LAW, t, b_T=t / REFERENCE)
         lines += [
             f"{f:.9g},{e1:.9g},{e2:.9g}"
             for f, e1, e2 in zip(MEASURED * a, series.storage(omega), series.loss(omega), strict=True)
@@ -57,7 +57,7 @@ def test_it_is_suggested_and_mends_the_contradiction(files: tuple[Path, Path]) -
         assert np.max(np.abs(model(omega) / true(omega) - 1.0)) < 0.03
     compound = mended.compound
     assert compound.shift.vertical(273.15) == pytest.approx(273.15 / REFERENCE, rel=1e-4)
-    cold = shifted(TRUTH, LAW, 263.15, b_T=263.15 / REFERENCE)
+    cold = shift_series(TRUTH, LAW, 263.15, b_T=263.15 / REFERENCE)
     w = 2.0 * np.pi * 100.0
     assert float(compound.series(263.15).storage(w)) == pytest.approx(float(cold.storage(w)), rel=0.03)
 
@@ -79,12 +79,15 @@ def test_curves_that_contradict_themselves_say_so() -> None:
     s120 = (MATERIALS / "s120.dma.csv", MATERIALS / "s120.shift.csv")
     plain = fit_file(s120[0], Request("s120", shift=s120[1], replicas=0))
     assert plain.entropic_floor == pytest.approx(0.030, abs=0.001)
-    assert any("it would leave 3.0 %: try --vertical" in line for line in summary.lines(plain))
-    ends = next(one for one in verdict.verdict(plain) if one.name == "ends of the window")
+    assert any("it would leave 3.0 %: try --vertical" in line for line in summary.summary_lines(plain))
+    ends = next(one for one in fit_verdict.fit_criteria(plain) if one.name == "ends of the window")
     assert (ends.verdict, "contradict" in ends.why) == ("FAIL", True)
     mended = fit_file(s120[0], Request("s120", shift=s120[1], replicas=0, vertical=True))
     assert mended.entropic_floor is None
-    assert next(one for one in verdict.verdict(mended) if one.name == "ends of the window").verdict == "pass"
+    assert (
+        next(one for one in fit_verdict.fit_criteria(mended) if one.name == "ends of the window").verdict
+        == "pass"
+    )
 
 
 def test_what_cannot_be_told_is_refused(files: tuple[Path, Path], tmp_path: Path) -> None:

@@ -10,20 +10,20 @@ import gc
 gc.set_threshold(100_000)  # imports create hardly any garbage: collections took 7 % of a short command
 
 from conveyor.cli import (  # noqa: E402, F401 each registers its commands
-    anchor,
-    calibrate,
-    compare,
-    dynamics,
-    new,
-    optimise,
-    power,
-    rubber,
-    size,
-    study,
-    tools,
-    verify,
+    anchor_command,
+    calibrate_command,
+    compare_command,
+    dynamics_command,
+    new_command,
+    optimise_command,
+    power_command,
+    rubber_commands,
+    size_command,
+    study_command,
+    tool_commands,
+    verify_sheet_command,
 )
-from conveyor.cli.app import app  # noqa: E402
-from conveyor.cli.run import main  # noqa: E402
+from conveyor.cli.application import app  # noqa: E402
+from conveyor.cli.entry_point import main  # noqa: E402
 
 __all__ = ["app", "main"]

@@ -9,8 +9,8 @@ import textwrap
 from collections.abc import Callable, Collection, Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
-from conveyor.printable import printable
-from conveyor.units.presentation import Unit, headed, unit
+from conveyor.printable import escape_controls
+from conveyor.units.presentation import Unit, column_name, display_unit
 from conveyor.units.sentences import percent
 
 if TYPE_CHECKING:
@@ -18,41 +18,41 @@ if TYPE_CHECKING:
     from rich.table import Table as Grid
     from rich.text import Text
 
-    from conveyor.report.columns import Contents, Figure, Table
+    from conveyor.report.table_model import Contents, Figure, Table
     from conveyor.units import System
 
-_PIPED: Final = 120  # columns without a terminal
+_PIPED_WIDTH: Final = 120  # columns without a terminal
 _NARROWEST: Final = 40
-_SUMS: Final = ("main", "secondary", "special", "lift", "total")
-_DOCUMENT: Final = ("project", "number", "client", "engineer", "revision")
-_MATTERS: Final = 3
+_FORCE_SUMS: Final = ("main", "secondary", "special", "lift", "total")
+_DOCUMENT_FIELDS: Final = ("project", "number", "client", "engineer", "revision")
+_INPUTS_NAMED: Final = 3
 """Number of most sensitive inputs printed."""
-_FIRST_ORDER: Final = 2  # rows of the band
-_SCENARIO: Final = (
+_FIRST_ORDER_ROWS: Final = 2  # rows of the band
+_SCENARIO_COLUMNS: Final = (
     "scenario", "highest_tension", "at", "in", "lowest_tension", "lowest_at", "lowest_in", "comes_to_rest", "way",
 )  # fmt: skip
-_DESIGN: Final = (
+_DESIGN_COLUMNS: Final = (
     "rank", "belt_width", "speed", "trough", "belt", "rolls", "carry_sets", "return_sets", "drives", "motors",
     "motor_power", "cost_a_year",
 )  # fmt: skip
 
 
-def console() -> Console:
+def terminal_console() -> Console:
     """Console of the width of the terminal or of `COLUMNS`; 120 where output is piped."""
     from rich.console import Console
 
     own = sys.stdout.isatty() or os.environ.get("COLUMNS", "").strip("0").isdecimal()
-    return Console(highlight=False, width=max(Console().width, _NARROWEST) if own else _PIPED)
+    return Console(highlight=False, width=max(Console().width, _NARROWEST) if own else _PIPED_WIDTH)
 
 
-def words(text: str, style: str = "") -> Text:
+def plain_text(text: str, style: str = "") -> Text:
     """Text for the terminal, without markup and control characters."""
     from rich.text import Text
 
-    return Text(printable(text), style=style)
+    return Text(escape_controls(text), style=style)
 
 
-def table(title: str | None = None, heads: Iterable[str] = (), *, left: Collection[str] = ()) -> Grid:
+def plain_table(title: str | None = None, heads: Iterable[str] = (), *, left: Collection[str] = ()) -> Grid:
     """Table without a frame, with a line below its head.
 
     Columns are aligned right, those of `left` left.
@@ -61,7 +61,7 @@ def table(title: str | None = None, heads: Iterable[str] = (), *, left: Collecti
     from rich.table import Table
 
     made = Table(
-        title=None if title is None else words(title, "bold"),
+        title=None if title is None else plain_text(title, "bold"),
         title_justify="left",
         box=box.SIMPLE_HEAD,
         show_edge=False,
@@ -70,27 +70,27 @@ def table(title: str | None = None, heads: Iterable[str] = (), *, left: Collecti
     )
     for head in heads:
         of_words = head in left
-        made.add_column(words(head), justify="left" if of_words else "right", no_wrap=not of_words)
+        made.add_column(plain_text(head), justify="left" if of_words else "right", no_wrap=not of_words)
     return made
 
 
-def grid(part: Table, system: System, title: str | None = None, *, large: bool = False) -> Grid:
+def report_grid(part: Table, system: System, title: str | None = None, *, large: bool = False) -> Grid:
     """Table of the report, units below names; `large`: kN for N, and no decimals that are all zero."""
-    made = table(part.heading if title is None else title)
+    made = plain_table(part.heading if title is None else title)
     every = []
     for column in part.columns:
         of_words = column.kind == "text"
-        sign = unit(column.kind, system, large=large).sign
+        sign = display_unit(column.kind, system, large=large).sign
         heading = f"{column.label}\n[{sign}]" if sign else column.label
         cells = (
-            unit(column.kind, system, large=True) if large else part.unit(column, row, system)
+            display_unit(column.kind, system, large=True) if large else part.unit(column, row, system)
             for row in part.rows
         )
         written = [cell.written(column.get(row)) for cell, row in zip(cells, part.rows, strict=True)]
         if large and not of_words:
             written = without_zeros(written)
-        every.append([words(text) for text in written])
-        made.add_column(words(heading), justify="left" if of_words else "right")
+        every.append([plain_text(text) for text in written])
+        made.add_column(plain_text(heading), justify="left" if of_words else "right")
         if not of_words:  # text wraps, numbers do not
             made.columns[-1].min_width = max((text.cell_len for text in every[-1]), default=None)
     for row in zip(*every, strict=True):
@@ -113,52 +113,54 @@ def without_zeros(numbers: Sequence[str]) -> list[str]:
     return [number[: len(number) - zeros] for number in numbers]
 
 
-def wrapped(line: str, width: int, *, first: str = "", further: str = "") -> str:
+def wrap_line(line: str, width: int, *, first: str = "", further: str = "") -> str:
     """Wrap a line to a width, further lines indented."""
     return textwrap.fill(line, width - 1, initial_indent=first, subsequent_indent=further)
 
 
 def show_notes(screen: Console, notes: Sequence[str]) -> None:
     """Print notes as two lists, wrapped to the terminal."""
-    from conveyor.report.columns import HEADINGS, ordered
+    from conveyor.report.table_model import NOTE_HEADINGS, sort_notes
 
-    for heading, colour, listed in zip(HEADINGS, ("bold yellow", "bold"), ordered(notes), strict=True):
+    for heading, colour, listed in zip(
+        NOTE_HEADINGS, ("bold yellow", "bold"), sort_notes(notes), strict=True
+    ):
         if listed:
-            screen.print(words(f"\n{heading}", style=colour))
+            screen.print(plain_text(f"\n{heading}", style=colour))
         for note in listed:
-            screen.print(words(wrapped(note, screen.width, first="  - ", further="    ")))
+            screen.print(plain_text(wrap_line(note, screen.width, first="  - ", further="    ")))
 
 
 def show_power(contents: Contents) -> None:
     """Print the main results, the most important first and warnings last."""
-    screen = console()
-    _head(screen, contents)
+    screen = terminal_console()
+    _print_head(screen, contents)
     screen.print()
-    screen.print(_forces(contents))
+    screen.print(_force_table(contents))
     if "defaults" in contents:
-        screen.print(words(wrapped(contents["defaults"].note, screen.width)))
+        screen.print(plain_text(wrap_line(contents["defaults"].note, screen.width)))
     screen.print()
-    screen.print(_sums(contents))
+    screen.print(_tension_rows(contents))
     if "cema" in contents:
         screen.print()
-        screen.print(_cema(contents))
-    _checks(screen, contents)
+        screen.print(_cema_table(contents))
+    _print_checks(screen, contents)
     if "load_states" in contents:
         screen.print()
-        screen.print(_states(contents["load_states"], contents.system))
+        screen.print(_state_table(contents["load_states"], contents.system))
     if "flooded" in contents:
-        screen.print(words(wrapped(_flooded(contents["flooded"], contents.system), screen.width)))
+        screen.print(plain_text(wrap_line(_flooded_text(contents["flooded"], contents.system), screen.width)))
     if "governing_cases" in contents:
         screen.print()
-        screen.print(_cases(contents["governing_cases"], contents.system))
+        screen.print(_case_table(contents["governing_cases"], contents.system))
     if "duty_year" in contents:
         screen.print()
-        screen.print(_year(contents["duty_year"].rows, contents.system))
+        screen.print(_year_table(contents["duty_year"].rows, contents.system))
     if "power_band" in contents:
-        _ranges(screen, contents)
+        _print_uncertainty(screen, contents)
     show_notes(screen, contents.lines("warning"))
     error, balance = (
-        _figure(contents, f"contact_{name}").value for name in ("error_estimate", "energy_error")
+        _result_figure(contents, f"contact_{name}").value for name in ("error_estimate", "energy_error")
     )
     screen.print(
         f"\nrelative error of the contact solutions: at most {error:.0e}; "
@@ -166,31 +168,31 @@ def show_power(contents: Contents) -> None:
     )
 
 
-def _figure(contents: Contents, key: str) -> Figure:
+def _result_figure(contents: Contents, key: str) -> Figure:
     figure: Figure = next(row for row in contents["results"].rows if row.key == key)
     return figure
 
 
-def _head(screen: Console, contents: Contents) -> None:
+def _print_head(screen: Console, contents: Contents) -> None:
     about, system = contents.document, contents.system
-    screen.print(words(about.title, style="bold"))
+    screen.print(plain_text(about.title, style="bold"))
     named = {"client": "for {}", "engineer": "by {}", "revision": "revision {}"}
-    said = (named.get(name, "{}").format(about.said[name]) for name in _DOCUMENT if name in about.said)
+    said = (named.get(name, "{}").format(about.said[name]) for name in _DOCUMENT_FIELDS if name in about.said)
     if about.said:
-        screen.print(words(", ".join(said)))
-    facts = {row.label: row.unit(system).brief(row.value) for row in contents["identity"].rows}
+        screen.print(plain_text(", ".join(said)))
+    facts = {row.label: row.unit(system).four_digits(row.value) for row in contents["identity"].rows}
     material = facts["material"].rpartition(", ")[0]  # without its density
     screen.print(
-        words(
+        plain_text(
             f"{material}, {facts['mass flow']} over {facts['length']}, lift {facts['lift']}\n"
             f"belt {facts['belt width']} at {facts['belt speed']}, {facts['temperature of the covers']}"
         )
     )
 
 
-def _forces(contents: Contents) -> Grid:
+def _force_table(contents: Contents) -> Grid:
     system = contents.system
-    force, power = unit("force", system, large=True), unit("power", system, large=True)
+    force, power = display_unit("force", system, large=True), display_unit("power", system, large=True)
     sums = {row.key: row.value for row in contents["classical"].rows}
     total = sums["total"][0]
     whole = "effective tension Te" if system == "US" else "effective tension"
@@ -198,24 +200,26 @@ def _forces(contents: Contents) -> Grid:
     rows: list[tuple[str, float, float | None]] = [
         (row.label, row.value, None)
         for row in (
-            _figure(contents, f"{name}_force")
+            _result_figure(contents, f"{name}_force")
             for name in ("indentation", "idler_rotation", "flexure", "misalignment")
         )
     ]
-    rows += [(names.get(key, key), *sums[key][:2]) for key in _SUMS]
+    rows += [(names.get(key, key), *sums[key][:2]) for key in _FORCE_SUMS]
     classical = f"classical, f = {sums['friction_factor'][1]:g}"
-    made = table(None, ("force", "this calculation", "share", "f", classical), left=("force",))
+    made = plain_table(None, ("force", "this calculation", "share", "f", classical), left=("force",))
     f, given = sums["friction_factor"][:2]
     over = f / sums["main"][0]  # part of f over main resistance
     for name, value, other in rows:
         share = percent(value / total, 1) if total else ""
-        friction = "" if name in {*_SUMS[1:], whole} else f"{value * over:.4f}"
+        friction = "" if name in {*_FORCE_SUMS[1:], whole} else f"{value * over:.4f}"
         beside = "" if other is None else force.said(other)
         made.add_row(
             name, force.said(value), share, friction, beside, end_section=name in {"misalignment", "lift"}
         )
     made.add_section()
-    belt, motor, mains = (_figure(contents, f"{name}_power").value for name in ("belt", "motor", "mains"))
+    belt, motor, mains = (
+        _result_figure(contents, f"{name}_power").value for name in ("belt", "motor", "mains")
+    )
     made.add_row("belt power", power.said(belt))
     made.add_row("motor power", power.said(motor), "", "", power.said(sums["motor"][1]), style="bold")
     if mains != motor:
@@ -224,18 +228,18 @@ def _forces(contents: Contents) -> Grid:
     return made
 
 
-def _sums(contents: Contents) -> Grid:
+def _tension_rows(contents: Contents) -> Grid:
     """Tensions and energy as label/value pairs."""
     from rich.table import Table
 
-    force = unit("force", contents.system, large=True)
+    force = display_unit("force", contents.system, large=True)
     known = {row.key: row for row in contents["results"].rows}
     tight, slack = (force.said(known[f"{side}_side_tension"].value) for side in ("tight", "slack"))
     made = Table.grid(padding=(0, 2))
     made.add_row(
         "tensions, T1 / T2" if contents.system == "US" else "tensions, tight / slack", f"{tight} / {slack}"
     )
-    made.add_row("take-up", _take_up(contents))
+    made.add_row("take-up", _take_up_text(contents))
     if "specific_energy" in known:
         energy = known["specific_energy"]
         made.add_row("energy", energy.unit(contents.system).said(energy.value))
@@ -249,10 +253,10 @@ def _sums(contents: Contents) -> Grid:
     return made
 
 
-def _cema(contents: Contents) -> Grid:
+def _cema_table(contents: Contents) -> Grid:
     """Resistances by the classic form of CEMA, with motor power."""
-    force, power = (unit(kind, contents.system) for kind in ("force", "power"))
-    made, items = table("CEMA classic", ("resistance", "force"), left=("resistance",)), contents["cema"]
+    force, power = (display_unit(kind, contents.system) for kind in ("force", "power"))
+    made, items = plain_table("CEMA classic", ("resistance", "force"), left=("resistance",)), contents["cema"]
     for symbol, name, newtons in items.rows:
         made.add_row(f"{symbol}, {name}", force.said(newtons))
     made.add_section()
@@ -262,10 +266,12 @@ def _cema(contents: Contents) -> Grid:
     return made
 
 
-def _take_up(contents: Contents) -> str:
+def _take_up_text(contents: Contents) -> str:
     """Take-up setting, mass and travel as text."""
     known = {row.key: row for row in contents["take_up"].rows if row.value is not None}
-    force, mass, length = (unit(kind, contents.system, large=True) for kind in ("force", "mass", "length"))
+    force, mass, length = (
+        display_unit(kind, contents.system, large=True) for kind in ("force", "mass", "length")
+    )
     said = [force.said(known["take_up_setting"].value)]
     if "take_up_mass" in known:
         said.append(mass.said(known["take_up_mass"].value))
@@ -274,70 +280,83 @@ def _take_up(contents: Contents) -> str:
     return ", ".join(said)
 
 
-def _checks(screen: Console, contents: Contents) -> None:
+def _print_checks(screen: Console, contents: Contents) -> None:
     rows = contents["checks"].rows
     counts = {word: sum(check.verdict == word for check in rows) for word in ("pass", "FAIL", "not checked")}
     said = ", ".join(f"{count} {word}" for word, count in counts.items() if count)
-    screen.print(words(f"checks: {said}", style="bold"))
+    screen.print(plain_text(f"checks: {said}", style="bold"))
     cases = ["case"] if "case" in [column.key for column in contents["checks"].columns] else []
     text = ("check", "calculated, required", *cases, "")
-    made = table(None, (*text[:2], "margin", *text[2:]), left=text)
+    made = plain_table(None, (*text[:2], "margin", *text[2:]), left=text)
     for check in rows:
         if check.leads or check.verdict == "FAIL":
-            cells = [check.subject, f"{check.found}, {check.asked}", unit("margin").written(check.margin)]
+            cells = [
+                check.subject,
+                f"{check.found}, {check.asked}",
+                display_unit("margin").written(check.margin),
+            ]
             cells += [*([check.case] if cases else []), check.verdict]
-            made.add_row(*map(words, cells), style="red" if check.verdict == "FAIL" else "")
+            made.add_row(*map(plain_text, cells), style="red" if check.verdict == "FAIL" else "")
     screen.print(made)
 
 
-def _states(states: Table, system: System) -> Grid:
+def _state_table(states: Table, system: System) -> Grid:
     figures = {
         "motor_power": "motor",
         "largest_tension": "max. tension",
         "take_up_tension_asked_for": "take-up",
     }
     text = ("state", "sections loaded", "at")
-    made = table("load states", (*text, *figures.values()), left=text)
+    made = plain_table("load states", (*text, *figures.values()), left=text)
     columns = {column.key: column for column in states.columns}
     for row in states.rows:
-        said = [unit(columns[key].kind, system, large=True).said(columns[key].get(row)) for key in figures]
-        at = unit("temperature", system).brief(columns["temperature"].get(row))
-        made.add_row(words(columns["state"].get(row)), words(columns["sections_loaded"].get(row)), at, *said)
+        said = [
+            display_unit(columns[key].kind, system, large=True).said(columns[key].get(row)) for key in figures
+        ]
+        at = display_unit("temperature", system).four_digits(columns["temperature"].get(row))
+        made.add_row(
+            plain_text(columns["state"].get(row)), plain_text(columns["sections_loaded"].get(row)), at, *said
+        )
     return made
 
 
-def _cases(cases: Table, system: System) -> Grid:
-    made = table("governing load cases", ("figure", "value", "case", "at"), left=("figure", "case", "at"))
+def _case_table(cases: Table, system: System) -> Grid:
+    made = plain_table(
+        "governing load cases", ("figure", "value", "case", "at"), left=("figure", "case", "at")
+    )
     get = {column.key: column.get for column in cases.columns}
     for row in cases.rows:
-        at = ", ".join(unit(key, system).brief(get[key](row)) for key in ("temperature", "speed"))
-        value = unit(row.kind, system, large=True).said(get["value"](row))
-        made.add_row(row.label, value, words(get["case"](row)), at)
+        at = ", ".join(
+            display_unit(key, system).four_digits(get[key](row)) for key in ("temperature", "speed")
+        )
+        value = display_unit(row.kind, system, large=True).said(get["value"](row))
+        made.add_row(row.label, value, plain_text(get["case"](row)), at)
     return made
 
 
-def _year(figures: Iterable[Figure], system: System) -> Grid:
-    made = table("the year", ("figure", "value"), left=("figure",))
+def _year_table(figures: Iterable[Figure], system: System) -> Grid:
+    made = plain_table("the year", ("figure", "value"), left=("figure",))
     for figure in figures:
         value = figure.unit(system).shown(figure.value)
         written = f"{value:,.4f}" if 0.0 < abs(value) < 1.0 else f"{value:,.0f}"
-        made.add_row(words(headed(figure.label, figure.kind, system)), written)
+        made.add_row(plain_text(column_name(figure.label, figure.kind, system)), written)
     return made
 
 
-def _ranges(screen: Console, contents: Contents) -> None:
-    power, band = unit("power", contents.system, large=True), contents["power_band"]
+def _print_uncertainty(screen: Console, contents: Contents) -> None:
+    power, band = display_unit("power", contents.system, large=True), contents["power_band"]
     ends = [band.columns[band.index(key)].get for key in ("motor_power_low", "motor_power_high")]
     said = " to ".join(power.said(end(band.rows[0])) for end in ends)
     exact = [
-        f"; {row[0]}: {' to '.join(power.said(end(row)) for end in ends)}" for row in band.rows[_FIRST_ORDER:]
+        f"; {row[0]}: {' to '.join(power.said(end(row)) for end in ends)}"
+        for row in band.rows[_FIRST_ORDER_ROWS:]
     ]
     inputs = contents["sensitivity"]
-    first = ", ".join(inputs.columns[0].get(row) for row in inputs.rows[:_MATTERS])
-    screen.print(words("\nuncertainty", style="bold"))
+    first = ", ".join(inputs.columns[0].get(row) for row in inputs.rows[:_INPUTS_NAMED])
+    screen.print(plain_text("\nuncertainty", style="bold"))
     of = "90 % interval of the inputs' ranges alone, first order"
     said = f"motor power {said} ({of}){''.join(exact)}; most sensitive to: {first}"
-    screen.print(words(wrapped(said, screen.width, first="  ", further="  ")))
+    screen.print(plain_text(wrap_line(said, screen.width, first="  ", further="  ")))
 
 
 def show_comparison(contents: Contents) -> None:
@@ -345,24 +364,26 @@ def show_comparison(contents: Contents) -> None:
     facts = dict(contents.document.facts)
     title = f"{contents.document.title}: {facts['cover']} cover, against {facts['savings against']}"
     ranked = contents["ranking"]
-    columns = _of_ranking(ranked, contents.by_key.get("costs"), contents.system)
-    made = table(title, columns, left=("compound",))
+    columns = _ranking_columns(ranked, contents.by_key.get("costs"), contents.system)
+    made = plain_table(title, columns, left=("compound",))
     for row in ranked.rows:
-        made.add_row(*(words(shown(row)) for shown in columns.values()))
-    screen = console()
+        made.add_row(*(plain_text(shown(row)) for shown in columns.values()))
+    screen = terminal_console()
     screen.print(made)
     show_notes(screen, contents.lines("warning"))
 
 
-def _of_ranking(ranked: Table, costs: Table | None, system: System) -> dict[str, Callable[[Any], str]]:
+def _ranking_columns(ranked: Table, costs: Table | None, system: System) -> dict[str, Callable[[Any], str]]:
     """Headings and cell functions of the ranking."""
-    power, speed, warmth = (unit(kind, system, large=True) for kind in ("power", "speed", "temperature"))
+    power, speed, warmth = (
+        display_unit(kind, system, large=True) for kind in ("power", "speed", "temperature")
+    )
 
     def band(row: Any) -> str:
         return (
             ""
             if row.low is None or row.high is None
-            else f"{_number(power, row.low)}-{_number(power, row.high)}"
+            else f"{_number_text(power, row.low)}-{_number_text(power, row.high)}"
         )
 
     columns: dict[str, Callable[[Any], str]] = {
@@ -371,29 +392,29 @@ def _of_ranking(ranked: Table, costs: Table | None, system: System) -> dict[str,
     }
     if len({row.speed for row in ranked.rows}) > 1:
         columns[speed.sign] = lambda row: f"{speed.shown(row.speed):.4g}"
-    columns[_over("mean", power)] = lambda row: _number(power, row.motor)
+    columns[_unit_heading("mean", power)] = lambda row: _number_text(power, row.motor)
     if any(row.low is not None for row in ranked.rows):
-        columns[_over("90 % band", power)] = band
+        columns[_unit_heading("90 % band", power)] = band
     columns["change"] = lambda row: "" if row.change is None else f"{100.0 * row.change:+.1f} %"
-    columns[_over("peak", power)] = lambda row: _number(power, row.peak)
-    columns[_over("at", warmth)] = lambda row: (
+    columns[_unit_heading("peak", power)] = lambda row: _number_text(power, row.peak)
+    columns[_unit_heading("at", warmth)] = lambda row: (
         "" if row.temperature is None else f"{warmth.shown(row.temperature):g}"
     )
     saved = [] if costs is None else [column for column in costs.columns if column.key == "saving_per_year"]
     if saved:
-        money = unit(saved[0].kind, system)
-        columns[_over("saved/a", money)] = lambda row: _number(money, row.saving)
+        money = display_unit(saved[0].kind, system)
+        columns[_unit_heading("saved/a", money)] = lambda row: _number_text(money, row.saving)
     if any(row.payback is not None for row in ranked.rows):
-        years = unit("years", system)
-        columns[_over("payback", years)] = lambda row: _number(years, row.payback)
+        years = display_unit("years", system)
+        columns[_unit_heading("payback", years)] = lambda row: _number_text(years, row.payback)
     return columns
 
 
-def _over(words: str, written: Unit) -> str:
+def _unit_heading(words: str, written: Unit) -> str:
     return f"{words}\n[{written.sign}]"
 
 
-def _number(written: Unit, given: float | None) -> str:
+def _number_text(written: Unit, given: float | None) -> str:
     if given is None:
         return ""
     value = written.shown(given)
@@ -402,7 +423,7 @@ def _number(written: Unit, given: float | None) -> str:
     return f"{value:,.0f}" if abs(value) >= 100.0 else f"{value:.1f}"
 
 
-def _flooded(table: Table, system: System) -> str:
+def _flooded_text(table: Table, system: System) -> str:
     """Sentence on the flooded belt, or why it has no answer."""
     said = ", ".join(f"{row.called(system)} {row.unit(system).said(row.value)}" for row in table.rows)
     return f"flooded belt: {said}. {table.note}"
@@ -410,17 +431,17 @@ def _flooded(table: Table, system: System) -> str:
 
 def show_dynamics(contents: Contents) -> None:
     """Print the scenarios, then checks that fail and assumptions."""
-    shown = contents["scenarios"].only(*_SCENARIO)
-    screen = console()
-    screen.print(grid(shown, contents.system, contents.document.title, large=True))
+    shown = contents["scenarios"].only(*_SCENARIO_COLUMNS)
+    screen = terminal_console()
+    screen.print(report_grid(shown, contents.system, contents.document.title, large=True))
     if "scenario_sizes" in contents:
-        _sizes(screen, contents)
+        _print_sizes(screen, contents)
     counted = [row.verdict for row in contents["checks"].rows]
     screen.print(f"\nchecks: {counted.count('pass')} pass, {counted.count('FAIL')} FAIL")
     show_notes(screen, [*contents.lines("warning"), *contents.lines("assumption")])
 
 
-def _sizes(screen: Console, contents: Contents) -> None:
+def _print_sizes(screen: Console, contents: Contents) -> None:
     """Print the sized values, their errors and governing checks."""
     shown = contents["scenario_sizes"]
     by_key = {column.key: column for column in shown.columns}
@@ -432,23 +453,25 @@ def _sizes(screen: Console, contents: Contents) -> None:
         said += "" if most is None else f"; up to {written.said(most)} serves"
         governs, why = by_key["governing_check"].get(row), by_key["what_fails_with_less"].get(row)
         said += f"; governed by {governs} ({why})" if governs else "; the least looked for serves"
-        screen.print(words(said))
+        screen.print(plain_text(said))
 
 
 def show_sizing(contents: Contents) -> None:
     """Print the designs, the reasons for their rank, and remarks."""
-    from conveyor.report.columns import merged
+    from conveyor.report.table_model import merge_notes
 
     every = contents["designs"]
     title = f"{contents.document.title}: designs"
-    screen = console()
-    screen.print(grid(every.only(*_DESIGN), contents.system, title, large=True))
+    screen = terminal_console()
+    screen.print(report_grid(every.only(*_DESIGN_COLUMNS), contents.system, title, large=True))
     for rank, row in enumerate(every.rows, start=1):
         top, bottom, safety, why = (
-            unit(column.kind, contents.system).said(column.get(row))
+            display_unit(column.kind, contents.system).said(column.get(row))
             for column in every.only("top_cover", "bottom_cover", "belt_safety", "why").columns
         )
-        screen.print(words(f"{rank}: {why}; top cover {top}, bottom cover {bottom}, belt safety {safety}"))
-    screen.print(words("\nbasis and limitations", style="bold"))
-    for line in merged(contents.lines("assumption")):
-        screen.print(words(wrapped(line, screen.width, first="  - ", further="    ")))
+        screen.print(
+            plain_text(f"{rank}: {why}; top cover {top}, bottom cover {bottom}, belt safety {safety}")
+        )
+    screen.print(plain_text("\nbasis and limitations", style="bold"))
+    for line in merge_notes(contents.lines("assumption")):
+        screen.print(plain_text(wrap_line(line, screen.width, first="  - ", further="    ")))

@@ -15,14 +15,14 @@ from scipy import special
 
 Array = NDArray[np.float64]
 
-_FAR_DOWN = 2
+_LONGEST_DESCENT = 2
 _SMALLEST = 1e-260  # I_v/I_0 whose inverse is within double range
 _NEGLIGIBLE = 1e-20  # of the diagonal, whose sum over terms is of the order of one
-_UPWARD = 0.25  # times order²: rounding grows e⁴ upward from there
+_UPWARD_FROM = 0.25  # times order²: rounding grows e⁴ upward from there
 # sweeps, by differences and by the recurrence: 1e-15 from order 32 on, for every argument
-_SMOOTH, _PLAIN = 8, 4
+_DIFFERENCE_SWEEPS, _RECURRENCE_SWEEPS = 8, 4
 _SMOOTH_FROM = 32  # order from which the ratios are computed so; only tables beyond twice this order use it
-_DAMPED = 24.0  # exponent of the damping: 4e-11 of the start's error, itself below 1e-3
+_DAMPING_EXPONENT = 24.0  # exponent of the damping: 4e-11 of the start's error, itself below 1e-3
 
 
 def bessel_j(order: int, x: Array) -> Array:
@@ -53,23 +53,27 @@ def bessel_j(order: int, x: Array) -> Array:
     top = float(x.max(initial=0.0))
     # f_start = 1 has no influence where J_start falls below 1e-16 J_order or, for x < order, x²/4v below rounding
     start = max(order + 6, int(top + 6.0 * top ** (1.0 / 3.0)) + 2)
-    return _downward(order, start, x) if start <= _FAR_DOWN * order + 40 else _by_ratios(order, x)
+    return (
+        _downward_recurrence(order, start, x)
+        if start <= _LONGEST_DESCENT * order + 40
+        else _ratio_recurrence(order, x)
+    )
 
 
-def enough_orders(x: Array, order: int) -> int:
+def nonzero_orders(x: Array, order: int) -> int:
     """Number of orders of J_v(x) that are not zero to rounding, at most `order`."""
     top = float(x.max(initial=0.0))
     return min(order, int(top + 12.0 * math.cbrt(top)) + 24)
 
 
-def _downward(order: int, start: int, x: Array) -> Array:
+def _downward_recurrence(order: int, start: int, x: Array) -> Array:
     half = 0.5 * x
     quarter = half * half
     table = np.empty((start + 1, *x.shape))
     table[start] = 1.0
-    np.subtract(1.0, quarter * _over_products(start)[0], out=table[start - 1])
+    np.subtract(1.0, quarter * _recurrence_factors(start)[0], out=table[start - 1])
     work = np.empty_like(x)
-    for v, factor in zip(range(start - 1, 0, -1), _over_products(start)[1:], strict=True):
+    for v, factor in zip(range(start - 1, 0, -1), _recurrence_factors(start)[1:], strict=True):
         np.multiply(quarter, factor, out=work)
         work *= table[v + 1]
         np.subtract(table[v], work, out=table[v - 1])
@@ -86,12 +90,12 @@ def _downward(order: int, start: int, x: Array) -> Array:
 
 
 @lru_cache(maxsize=256)
-def _over_products(start: int) -> list[float]:
+def _recurrence_factors(start: int) -> list[float]:
     """Factors 1/(v (v+1)) for v = start … 1."""
     return [1.0 / (v * (v + 1.0)) for v in range(start, 0, -1)]
 
 
-def _by_ratios(order: int, x: Array) -> Array:
+def _ratio_recurrence(order: int, x: Array) -> Array:
     flat = x.ravel()
     rank = np.argsort(flat, kind="stable")
     sorted_x = flat[rank]
@@ -121,7 +125,7 @@ def _by_ratios(order: int, x: Array) -> Array:
 
 
 @lru_cache(maxsize=32)
-def _above_diagonal(size: int) -> Array:
+def _upper_triangle(size: int) -> Array:
     return np.triu(np.ones((size, size)), 1)
 
 
@@ -159,13 +163,13 @@ class ProductIK:
         self._high = np.ones_like(r)  # I_v/I_0
         np.cumprod(r[:-1], axis=0, out=self._high[1:])
 
-    def falling(self, order: int) -> Array:
+    def falling_ratios(self, order: int) -> Array:
         """K_v/K_order of v = 0 … order, shape (order + 1, k, t)."""
         ratios = np.ones((order + 1, *self._rise.shape[1:]))
         ratios[:-1] = np.cumprod(1.0 / self._rise[:order][::-1], axis=0)[::-1]
         return ratios
 
-    def weighted(self, weights: Array) -> tuple[Array, Array]:
+    def weighted_sums(self, weights: Array) -> tuple[Array, Array]:
         """Sums over the terms.
 
         Parameters
@@ -192,7 +196,7 @@ class ProductIK:
             low = self._diagonal[..., wide] * weights[:, wide] / high
         # contiguous, or the product is not left to BLAS
         left, right = np.ascontiguousarray(low.swapaxes(0, 1)), np.ascontiguousarray(high.swapaxes(0, 1))
-        upper = (left @ right.swapaxes(1, 2)) * _above_diagonal(size)
+        upper = (left @ right.swapaxes(1, 2)) * _upper_triangle(size)
         if not wide.all():
             self._add_narrow(upper, weights, ~wide)
         return upper + upper.swapaxes(1, 2), deficit
@@ -257,10 +261,10 @@ def _ratio_i(order: int, b: Array) -> Array:
     where b is so large that this takes long, the recurrence upward from I_1/I_0, which grows rounding by
     exp(order²/b) only.
     """
-    far = max(_UPWARD * order * order, 1.0)
+    far = max(_UPWARD_FROM * order * order, 1.0)
     upward = b > far
     longest = float(b[~upward].max(initial=0.0))
-    start = order + 6 + int(np.sqrt(order * order + _DAMPED * longest) - order)
+    start = order + 6 + int(np.sqrt(order * order + _DAMPING_EXPONENT * longest) - order)
     two_over_b = 2.0 / b
     r = b / (start + 0.5 + np.hypot(start + 1.5, b))
     out = np.empty((order + 1, *b.shape))
@@ -307,23 +311,23 @@ def neighbour_ratios(first: int, last: int, b: Array) -> tuple[Array, Array]:
     >>> round(float(upper[0, 0] / (special.iv(41, 3.0) / special.iv(40, 3.0))), 12)
     1.0
     """
-    spare = _SMOOTH + _PLAIN
+    spare = _DIFFERENCE_SWEEPS + _RECURRENCE_SWEEPS
     v = np.arange(first - spare, last + spare + 1.0)[:, None]
     rise = 2.0 * v / b
     upper = b / (v + 0.5 + np.hypot(v + 1.5, b))
     lower = b / (v - 0.5 + np.hypot(v + 0.5, b))
-    for sweep in range(1, _SMOOTH + 1):
+    for sweep in range(1, _DIFFERENCE_SWEEPS + 1):
         change, step = upper[:-1] - upper[1:], rise[sweep:]
-        upper = _root(step + change, 1.0 - change * step)
-        lower = _root(step + (lower[:-1] - lower[1:]), 1.0)
-    for sweep in range(_PLAIN):
-        upper = 1.0 / (rise[_SMOOTH + 1 : upper.shape[0] + _SMOOTH] + upper[1:])
-        lower = 1.0 / (rise[_SMOOTH + 1 + sweep :] + lower[:-1])
+        upper = _positive_root(step + change, 1.0 - change * step)
+        lower = _positive_root(step + (lower[:-1] - lower[1:]), 1.0)
+    for sweep in range(_RECURRENCE_SWEEPS):
+        upper = 1.0 / (rise[_DIFFERENCE_SWEEPS + 1 : upper.shape[0] + _DIFFERENCE_SWEEPS] + upper[1:])
+        lower = 1.0 / (rise[_DIFFERENCE_SWEEPS + 1 + sweep :] + lower[:-1])
     count = last - first + 1
-    return upper[_PLAIN : _PLAIN + count], lower[:count]
+    return upper[_RECURRENCE_SWEEPS : _RECURRENCE_SWEEPS + count], lower[:count]
 
 
-def _root(linear: Array, constant: Array | float) -> Array:
+def _positive_root(linear: Array, constant: Array | float) -> Array:
     """Positive root of x² + linear x = constant."""
     root: Array = 2.0 * constant / (linear + np.sqrt(linear * linear + 4.0 * constant))
     return root

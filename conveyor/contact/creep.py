@@ -10,13 +10,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from conveyor.arguments import checked
-from conveyor.contact.moved import log_places
+from conveyor.arguments import check_arguments
+from conveyor.contact.regrid import log_places
 from conveyor.errors import InputError
 
 Array = NDArray[np.float64]
 
-_TIMES = 1e-100, 1e100
+_TIME_RANGE = 1e-100, 1e100
 _STIFFEST = 1e-30  # products of smaller ones with a load underflow; rubber stiffens by 1e5
 _SUM_TOLERANCE = 1e-9  # j∞ + Σ d = 1: users type decimals
 
@@ -49,7 +49,7 @@ class CreepSpectrum:
     weights: Array = field(default_factory=lambda: np.empty(0))
     times: Array = field(default_factory=lambda: np.empty(0))
 
-    @checked
+    @check_arguments
     def __init__(self, instantaneous: float, weights: ArrayLike = (), times: ArrayLike = ()) -> None:
         try:
             d, z = (np.array(given, dtype=float, ndmin=1) for given in (weights, times))
@@ -61,7 +61,7 @@ class CreepSpectrum:
             raise InputError(
                 f"weights = {d.tolist()}: each weight is positive, the instantaneous part and all weights add to 1"
             )
-        least, most = _TIMES
+        least, most = _TIME_RANGE
         plain = z.size == 0 or least <= z.min() <= z.max() <= most
         if not plain and not np.all((z == 0.0) | ((z >= least) & (z <= most))):
             raise InputError(
@@ -96,7 +96,7 @@ class CreepSpectrum:
 
 
 @dataclass(frozen=True, eq=False)
-class Creeps:
+class CreepBatch:
     """Batch of creep spectra (internal to the solver); terms of weight zero fill the gaps.
 
     Shapes: `instantaneous` (b,), `weights` and `times` (b, t), every time positive.
@@ -124,7 +124,7 @@ class Creeps:
         return out
 
     @classmethod
-    def of(cls, spectra: Sequence[CreepSpectrum]) -> Creeps:
+    def of(cls, spectra: Sequence[CreepSpectrum]) -> CreepBatch:
         """Stack spectra."""
         terms = max([1, *(creep.weights.size for creep in spectra)])
         weights, times = np.zeros((len(spectra), terms)), np.ones((len(spectra), terms))
@@ -133,5 +133,5 @@ class Creeps:
             times[row, : creep.times.size] = creep.times
         return cls(np.array([creep.instantaneous for creep in spectra]), weights, times)
 
-    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_] | slice) -> Creeps:
-        return Creeps(self.instantaneous[chosen], self.weights[chosen], self.times[chosen])
+    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_] | slice) -> CreepBatch:
+        return CreepBatch(self.instantaneous[chosen], self.weights[chosen], self.times[chosen])

@@ -16,13 +16,25 @@ from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike, NDArray
 
 from conveyor.contact.excitation import excited_harmonics
-from conveyor.contact.finer import flows_to, peak_error
-from conveyor.contact.pressure import peak
+from conveyor.contact.peak_error import flow_order, peak_error
+from conveyor.contact.pressure import largest_pressure
 from conveyor.contact.problem import ContactProblem
-from conveyor.contact.sampling import Sampled, coefficients, columns, half_misses, points
-from conveyor.contact.scene import Scene, instantly_relaxed
+from conveyor.contact.sampling import (
+    SampledContacts,
+    chebyshev_coefficients,
+    curve_figures,
+    half_degree_errors,
+    lobatto_points,
+)
 from conveyor.contact.solution import SolveStats
-from conveyor.contact.spectral import Contact, assemble, chosen_rows, equilibrium_of_orders, penetration
+from conveyor.contact.solver_state import SolverState, merge_instant_terms
+from conveyor.contact.spectral import (
+    Contact,
+    assemble_matrix,
+    crown_depth,
+    select_contacts,
+    solve_nested_equilibrium,
+)
 from conveyor.errors import InputError, RangeError
 
 Array = NDArray[np.float64]
@@ -31,7 +43,7 @@ _NEWTON_STEPS = 40
 _LAST_STEP = 1e-9  # leaves its square
 _PEAK_ORDER = 64  # of it peaks of covers are off by 2e-5 in the middle, 1e-4 in nine tenths
 _PEAK_PLACE = 1e-8  # relative, of eccentricities there
-_PEAK_EXPONENT, _OTHERWISE = 0.5, 0.25  # d ln p̂/d ln p̃_m: 1/2 on a thick layer, 2/3 on a thin one
+_PEAK_EXPONENT, _PEAK_EXPONENT_SPREAD = 0.5, 0.25  # d ln p̂/d ln p̃_m: 1/2 on a thick layer, 2/3 on a thin one
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,22 +61,22 @@ class LoadSolutions:
     energy_error: Array
     error_estimate: Array
     stats: SolveStats
-    _later: Callable[[str], Array]  # a partial of a function at the top: solutions pickle
+    _form_figure: Callable[[str], Array]  # a partial of a function at the top: solutions pickle
 
     @cached_property
     def penetration(self) -> Array:
         """Δ/R [-]."""
-        return self._later("penetration")
+        return self._form_figure("penetration")
 
     @cached_property
     def peak_pressure(self) -> Array:
         """Largest p̃ [-]."""
-        return self._later("peak_pressure")
+        return self._form_figure("peak_pressure")
 
     @cached_property
     def peak_error(self) -> Array:
         """Estimated relative error of the largest p̃ [-]."""
-        return self._later("peak_error")
+        return self._form_figure("peak_error")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -93,18 +105,18 @@ class LoadCurve:
     stats: SolveStats
     _centre: float
     _half: float
-    _sampled: Sampled
+    _sampled: SampledContacts
 
     def _repr_html_(self) -> str:
         """Range of load and contact at its ends, for notebooks."""
-        from conveyor.markup import listing
+        from conveyor.markup import name_value_table
 
         ends = self.at([self.lowest, self.highest])
         there = [("friction there", ends.friction), ("half_width there", ends.half_width)]
         rows = [("mean pressure p̃_m", f"{self.lowest:.6g} to {self.highest:.6g}")]
         rows += [(name, " to ".join(f"{value:.6g}" for value in span)) for name, span in there]
         rows.append(("relative error of friction", f"{self.error:.1e}"))
-        return listing("LoadCurve, lengths over R", rows)
+        return name_value_table("LoadCurve, lengths over R", rows)
 
     def at(self, pressure: ArrayLike) -> LoadSolutions:
         """Results at mean pressures p̃_m.
@@ -127,7 +139,7 @@ class LoadCurve:
             energy_error=np.full(p.shape, self.energy_error),
             error_estimate=np.full(p.shape, self.error),
             stats=self.stats,
-            _later=partial(self._figure, t, width),
+            _form_figure=partial(self._figure, t, width),
         )
 
     def friction(self, pressure: ArrayLike) -> Array:
@@ -143,9 +155,9 @@ class LoadCurve:
 
     def _places(self, pressure: ArrayLike) -> tuple[Array, Array, Array]:
         """Mean pressures p̃_m, their places t and half widths a/R."""
-        p = _numbers(pressure)
+        p = _pressure_array(pressure)
         self._check(p)
-        t = _places(self._columns[:, :1], [np.log(p).ravel()]).reshape(p.shape)
+        t = _invert_loads(self._columns[:, :1], [np.log(p).ravel()]).reshape(p.shape)
         return p, t, np.exp(self._centre + self._half * t) / self.problem.rho
 
     def _check(self, p: Array) -> None:
@@ -169,7 +181,7 @@ class LoadCurve:
         if name == "penetration":
             return np.asarray(chebyshev.chebval(t, self._depths) * width**2)
         if name == "peak_error":
-            sampled = points(self._peak_errors.size - 1)
+            sampled = lobatto_points(self._peak_errors.size - 1)
             above = np.clip(np.searchsorted(-sampled, -t), 1, sampled.size - 1)
             return np.maximum(self._peak_errors[above - 1], self._peak_errors[above])
         return np.asarray(chebyshev.chebval(t, self._peaks) * width)
@@ -188,17 +200,17 @@ class LoadCurve:
         """
         fine, lower = self._fine
         n = fine.c.shape[1]
-        half_loads = np.where(lower.inside[0], lower.pressure[0], self._every.pressure)
+        half_loads = np.where(lower.inside[0], lower.pressure[0], self._sampled_contacts.pressure)
         half = self._carried(lower.c[0, :, : n // 2], half_loads)
         by_order = np.where(lower.inside[0], np.abs(half / self._carried(fine.c, fine.pressure) - 1.0), 1.0)
-        creep = instantly_relaxed(self.problem.creep)
-        for k, load in enumerate(self._every.pressure):
-            if flows_to(creep, float(fine.alpha[k]), n) > n:
-                here = chosen_rows(fine, slice(k, k + 1))
+        creep = merge_instant_terms(self.problem.creep)
+        for k, load in enumerate(self._sampled_contacts.pressure):
+            if flow_order(creep, float(fine.alpha[k]), n) > n:
+                here = select_contacts(fine, slice(k, k + 1))
                 by_order[k] += peak_error(replace(self.problem, pressure=float(load)), here)
-        moved = np.abs(self._every.pressure / fine.pressure - 1.0)
-        between = float(half_misses(self._sampled_peaks)[0] / self._sampled_peaks.min())
-        return by_order + _OTHERWISE * moved + between + self.error
+        moved = np.abs(self._sampled_contacts.pressure / fine.pressure - 1.0)
+        between = float(half_degree_errors(self._sampled_peaks)[0] / self._sampled_peaks.min())
+        return by_order + _PEAK_EXPONENT_SPREAD * moved + between + self.error
 
     @cached_property
     def excitation_widest(self) -> Array:
@@ -216,7 +228,7 @@ class LoadCurve:
         _, t, _ = self._places(pressure)
         there = self._contacts(t[None])
         strip = float(there.eps[0]), float(there.alpha[0]), there.c[0]
-        return excited_harmonics(self.problem.layer, instantly_relaxed(self.problem.creep), [strip])
+        return excited_harmonics(self.problem.layer, merge_instant_terms(self.problem.creep), [strip])
 
     def _contacts(self, t: Array) -> Contact:
         """Contacts of the highest order at places t, shape (b,)."""
@@ -229,35 +241,35 @@ class LoadCurve:
 
         alpha = np.exp(self._centre + self._half * t)
         log_p, drag, eps = chebyshev.chebval(t, self._columns)
-        c: Array = alpha[:, None] * chebyshev.chebval(t, self._sampled.interpolated(scaled)).T
+        c: Array = alpha[:, None] * chebyshev.chebval(t, self._sampled.interpolated_series(scaled)).T
         friction = drag * alpha / self.problem.rho
         return Contact(alpha, eps * alpha, c, np.exp(log_p), friction, np.ones(t.shape, dtype=bool))
 
     @cached_property
     def _columns(self) -> Array:
         """Chebyshev coefficients of (ln p, μρ/α, ε/α), shape (k, 3)."""
-        return self._sampled.interpolated(partial(columns, self.problem.rho))
+        return self._sampled.interpolated_series(partial(curve_figures, self.problem.rho))
 
     @cached_property
-    def _every(self) -> Contact:
+    def _sampled_contacts(self) -> Contact:
         """Contacts at the sampled half widths, shape (k,)."""
-        return self._contacts(points(self._columns.shape[0] - 1))
+        return self._contacts(lobatto_points(self._columns.shape[0] - 1))
 
     @cached_property
     def _depths(self) -> Array:
         """Chebyshev coefficients of Δρ²/α²."""
-        scene, rho = Scene.of(self.problem), self.problem.rho
-        every = self._every
-        depth = penetration(scene.rule(float(every.alpha[0])), scene.creep, every, rho)
-        return coefficients((depth * (rho / every.alpha) ** 2)[:, None])[:, 0]
+        scene, rho = SolverState.of(self.problem), self.problem.rho
+        every = self._sampled_contacts
+        depth = crown_depth(scene.rule(float(every.alpha[0])), scene.creep, every, rho)
+        return chebyshev_coefficients((depth * (rho / every.alpha) ** 2)[:, None])[:, 0]
 
     @cached_property
     def _fine(self) -> tuple[Contact, Contact]:
         """Contacts at the sampled half widths, of the order that the largest pressure needs; and of lower orders."""
-        every, scene = self._every, Scene.of(self.problem)
+        every, scene = self._sampled_contacts, SolverState.of(self.problem)
         order = max(every.c.shape[1], _PEAK_ORDER)
-        matrix = assemble(scene.rule(float(every.alpha[0])), scene.creep, every.alpha, order)
-        return equilibrium_of_orders(matrix, every.alpha, self.problem.rho, every.eps, _PEAK_PLACE)
+        matrix = assemble_matrix(scene.rule(float(every.alpha[0])), scene.creep, every.alpha, order)
+        return solve_nested_equilibrium(matrix, every.alpha, self.problem.rho, every.eps, _PEAK_PLACE)
 
     @cached_property
     def _sampled_peaks(self) -> Array:
@@ -267,13 +279,13 @@ class LoadCurve:
 
     def _carried(self, c: Array, loads: Array) -> Array:
         """Largest pressures of contacts of coefficients c, scaled from their `loads` to the curve's, shape (k,)."""
-        carried: Array = peak(c) * (self._every.pressure / loads) ** _PEAK_EXPONENT
+        carried: Array = largest_pressure(c) * (self._sampled_contacts.pressure / loads) ** _PEAK_EXPONENT
         return carried
 
     @cached_property
     def _peaks(self) -> Array:
         """Chebyshev coefficients of p̂ρ/α."""
-        return coefficients(self._sampled_peaks)[:, 0]
+        return chebyshev_coefficients(self._sampled_peaks)[:, 0]
 
 
 def frictions(curves: Sequence[LoadCurve], pressures: Sequence[ArrayLike]) -> list[Array]:
@@ -290,7 +302,7 @@ def frictions(curves: Sequence[LoadCurve], pressures: Sequence[ArrayLike]) -> li
         raise InputError(
             f"pressures: those of {len(pressures)} curves are given, of {len(curves)} are needed"
         )
-    given = [_numbers(each) for each in pressures]
+    given = [_pressure_array(each) for each in pressures]
     by_degree: dict[int, list[int]] = {}
     for i, (curve, p) in enumerate(zip(curves, given, strict=True)):
         curve._check(p)  # noqa: SLF001 of this module
@@ -300,7 +312,7 @@ def frictions(curves: Sequence[LoadCurve], pressures: Sequence[ArrayLike]) -> li
         chosen = [curves[i] for i in members]
         sizes = [given[i].size for i in members]
         log_p, drags = np.stack([curve._columns[:, :2] for curve in chosen], axis=-1).swapaxes(0, 1)  # noqa: SLF001
-        t = _places(log_p, [np.log(given[i]).ravel() for i in members])
+        t = _invert_loads(log_p, [np.log(given[i]).ravel() for i in members])
         widths = np.array([(c._centre - math.log(c.problem.rho), c._half) for c in chosen])  # noqa: SLF001
         centre, half = np.repeat(widths, sizes, axis=0).T
         friction = chebyshev.chebval(t, drags.repeat(sizes, axis=1), tensor=False) * np.exp(centre + half * t)
@@ -309,7 +321,7 @@ def frictions(curves: Sequence[LoadCurve], pressures: Sequence[ArrayLike]) -> li
     return [found[i] for i in range(len(curves))]
 
 
-def _numbers(pressure: ArrayLike) -> Array:
+def _pressure_array(pressure: ArrayLike) -> Array:
     """Mean pressures as an array."""
     try:
         return np.asarray(pressure, dtype=float)
@@ -317,13 +329,13 @@ def _numbers(pressure: ArrayLike) -> Array:
         raise InputError(f"pressure = {pressure!r}: numbers are needed") from None
 
 
-def _places(columns: Array, log_p: Sequence[Array]) -> Array:
+def _invert_loads(columns: Array, log_p: Sequence[Array]) -> Array:
     """Places t in [-1, 1] where ln p(t) = log_p, curve after curve; coefficients of ln p have shape (k, b).
 
     Newton from the chords, on monotone smooth functions.
     """
     degree, sizes = columns.shape[0] - 1, [one.size for one in log_p]
-    sampled = points(degree)[::-1]
+    sampled = lobatto_points(degree)[::-1]
     chords = (chebyshev.chebvander(sampled, degree) @ columns).T
     t = np.concatenate([np.interp(one, chord, sampled) for one, chord in zip(log_p, chords, strict=True)])
     value = columns.repeat(sizes, axis=1)

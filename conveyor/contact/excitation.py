@@ -1,7 +1,7 @@
 """Harmonics in which a contact loses its energy: the frequency band that rubber data must cover.
 
 A particle of the layer passes harmonic m of the rolls at the angular frequency m k V; harmonic m loses
-Im S_m |p̃̂_m|² (contact/energy.py). The band lies between two shares of the running sum.
+Im S_m |p̃̂_m|² (contact/energy_balance.py). The band lies between two shares of the running sum.
 """
 
 from __future__ import annotations
@@ -12,20 +12,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.contact.creep import CreepSpectrum
-from conveyor.contact.energy import Strip, spectrum, width
+from conveyor.contact.energy_balance import Strip, contact_width, pressure_spectrum
 from conveyor.contact.layers import Layer
 from conveyor.contact.quadrature import series_rule
 
 Array = NDArray[np.float64]
 
-SHARES = (0.05, 0.5, 0.95)
+LOSS_SHARES = (0.05, 0.5, 0.95)
 """Of the loss: the band between the outer ones holds nine tenths of it."""
-_NARROW = 0.2  # width α below which a hundred harmonics and more carry the loss
+_NARROW_WIDTH = 0.2  # width α below which a hundred harmonics and more carry the loss
 _POINTS = 240
 _REACH = 40.0  # m α: |p̃̂_m|² falls like (mα)^-3, beyond lies less than a thousandth of the loss
 
 
-def _many_harmonics(layer: Layer, creep: CreepSpectrum, end: float) -> tuple[Array, NDArray[np.complex128]]:
+def _integral_rule(layer: Layer, creep: CreepSpectrum, end: float) -> tuple[Array, NDArray[np.complex128]]:
     """Nodes and weights of the sum as an integral over ln m, where many harmonics share the loss."""
     logs, step = np.linspace(0.0, np.log(end), _POINTS, retstep=True)
     m = np.exp(logs)
@@ -36,7 +36,7 @@ def excited_harmonics(
     layer: Layer,
     creep: CreepSpectrum,
     strips: Sequence[Strip],
-    shares: Sequence[float] = SHARES,
+    shares: Sequence[float] = LOSS_SHARES,
 ) -> Array:
     """Harmonics m below which the given shares of the loss lie, shape of `shares`.
 
@@ -51,15 +51,15 @@ def excited_harmonics(
     shares : sequence of float
         Ascending, in (0, 1) [-].
     """
-    span = width(strips)
+    span = contact_width(strips)
     narrowest = min(alpha for _, alpha, _ in strips)
     end = _REACH / narrowest
     m, weights = (
-        _many_harmonics(layer, creep, end)
-        if span < _NARROW
+        _integral_rule(layer, creep, end)
+        if span < _NARROW_WIDTH
         else series_rule(layer, creep, span=span, end=end)
     )
-    wave = spectrum(m, strips)
+    wave = pressure_spectrum(m, strips)
     lost = weights.imag * m * (wave.real**2 + wave.imag**2)
     order = np.argsort(m)
     lost = lost[order]

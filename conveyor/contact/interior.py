@@ -14,14 +14,14 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from conveyor.contact.inside import Inside
+from conveyor.contact.interior_harmonics import InteriorHarmonics
 from conveyor.contact.solution import ContactSolution
 from conveyor.errors import InputError, NoSolutionError
 
 Array = NDArray[np.float64]
 
 _FEWEST_DEPTHS, _FEWEST_POINTS = 4, 12
-_COARSER = 0.6
+_COARSENING = 0.6
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,8 +132,8 @@ class Interior:
         name = "working_strain" if self.dissipation.any() else "maximum"
         nodes = int(np.count_nonzero(self.weights))
         fewer = (
-            _interior(self._solution, int(_COARSER * nodes), self._points),
-            _interior(self._solution, nodes, int(_COARSER * self._points)),
+            _depth_profile(self._solution, int(_COARSENING * nodes), self._points),
+            _depth_profile(self._solution, nodes, int(_COARSENING * self._points)),
         )
         here = getattr(self, name)
         return float(sum(abs(getattr(coarse, name) / here - 1.0) for coarse in fewer))
@@ -181,11 +181,11 @@ def interior(solution: ContactSolution, *, depths: int = 16, points: int = 48) -
     >>> round(inside.working_strain, 4), inside.energy_error < 1e-3
     (0.0153, True)
     """
-    _refuse_unsolved(solution)
+    _require_solution(solution)
     for name, value, least in (("depths", depths, _FEWEST_DEPTHS), ("points", points, _FEWEST_POINTS)):
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
             raise InputError(f"{name} = {value!r}: a whole number, at least {least}")
-    return _interior(solution, int(depths), int(points))
+    return _depth_profile(solution, int(depths), int(points))
 
 
 def interior_fields(
@@ -220,10 +220,10 @@ def interior_fields(
     -----
     The window blurs over R α/(ρ `points`): valid below that depth, and at the surface away from the edges.
     """
-    _refuse_unsolved(solution)
+    _require_solution(solution)
     if isinstance(points, bool) or not isinstance(points, (int, np.integer)) or points < _FEWEST_POINTS:
         raise InputError(f"points = {points!r}: a whole number, at least {_FEWEST_POINTS}")
-    problem, inside = solution.problem, Inside(solution, points)
+    problem, inside = solution.problem, InteriorHarmonics(solution, points)
     try:
         at, z = (np.atleast_1d(np.asarray(given, dtype=float)) for given in (x, depth))
     except (TypeError, ValueError):
@@ -245,7 +245,7 @@ def interior_fields(
     )
 
 
-def _refuse_unsolved(solution: object) -> None:
+def _require_solution(solution: object) -> None:
     if not isinstance(solution, ContactSolution):
         raise InputError(f"solution = {solution!r}: a ContactSolution is needed")
 
@@ -285,8 +285,8 @@ def path_amplitude(*, difference: Array, shear: Array, dilatation: Array) -> Arr
     return out
 
 
-def _interior(solution: ContactSolution, depths: int, points: int) -> Interior:
-    inside, rho = Inside(solution, points), solution.problem.rho
+def _depth_profile(solution: ContactSolution, depths: int, points: int) -> Interior:
+    inside, rho = InteriorHarmonics(solution, points), solution.problem.rho
     z, weights = inside.depths(depths)
     d, g, v = inside.sums(inside.places(), z, strains_only=True)
     dissipation, wave_number = inside.dissipation(z)

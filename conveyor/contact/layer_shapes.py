@@ -41,7 +41,7 @@ def half_space_shapes(y: Array, nu: float) -> Shapes:
     return y * decay, y * decay, -decay, (2.0 * (1.0 - nu) + y) * decay
 
 
-def _products(q: Array, t: Array) -> tuple[Array, Array, Array, Array]:
+def _hyperbolic_products(q: Array, t: Array) -> tuple[Array, Array, Array, Array]:
     """Four times C c, C s, S c, S s, each times e^{-(q+t)}."""
     high, low = 1.0 + np.exp(-2.0 * q), -np.expm1(-2.0 * q)
     up, down = 1.0 + np.exp(-2.0 * t), -np.expm1(-2.0 * t)
@@ -59,7 +59,7 @@ def confined_shapes(q: Array, y: Array, t: Array, nu: float) -> Shapes:
         ν [-], in [0, 0.5].
     """
     A, B, kappa = 2.0 * (1.0 - nu), 1.0 - 2.0 * nu, 3.0 - 4.0 * nu
-    Cc, Cs, Sc, Ss = _products(q, t)
+    Cc, Cs, Sc, Ss = _hyperbolic_products(q, t)
     once, twice = np.exp(-2.0 * q), np.exp(-2.0 * t)
     cosh_y, sinh_y = 2.0 * (twice + once), -2.0 * twice * np.expm1(-2.0 * y)
     unit = np.exp(-y) / (kappa * (1.0 + once) ** 2 + 4.0 * (B * B + q * q) * once)
@@ -99,7 +99,7 @@ def free_shapes(q: Array, y: Array, t: Array, nu: float) -> Shapes:
         ν [-], in [0, 0.5].
     """
     A, B = 2.0 * (1.0 - nu), 1.0 - 2.0 * nu
-    Cc, _, Sc, Ss = _products(q, t)
+    Cc, _, Sc, Ss = _hyperbolic_products(q, t)
     once, twice = np.exp(-2.0 * q), np.exp(-2.0 * t)
     cosh_y, sinh_y = 2.0 * (twice + once), -2.0 * twice * np.expm1(-2.0 * y)
     # S² - q² = (S C + q)/L(q) without its cancellation

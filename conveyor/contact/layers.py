@@ -87,7 +87,7 @@ class Confined:
 
 
 @dataclass(frozen=True, eq=False)
-class Layers:
+class PlainLayerBatch:
     """Batch of layers of one kind (internal to the solver); `thickness` k h and `poisson` of shape (b,)."""
 
     support: str
@@ -105,8 +105,8 @@ class Layers:
         q = m * self.thickness[:, None]
         return j * (free_symbol(q) if self.support == "free" else confined_symbol(q, self.poisson[:, None]))
 
-    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_]) -> Layers:
-        return Layers(self.support, self.thickness[chosen], self.poisson[chosen])
+    def __getitem__(self, chosen: NDArray[np.bool_] | NDArray[np.int_]) -> PlainLayerBatch:
+        return PlainLayerBatch(self.support, self.thickness[chosen], self.poisson[chosen])
 
 
 def free_symbol(q: Array) -> Array:

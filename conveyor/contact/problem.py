@@ -25,7 +25,7 @@ from functools import cached_property
 
 import numpy as np
 
-from conveyor.contact.belt import BeltSupport
+from conveyor.contact.belt_layer import BeltSupport
 from conveyor.contact.creep import CreepSpectrum
 from conveyor.contact.layers import Confined, Free, HalfSpace, Layer
 from conveyor.errors import InputError
@@ -34,7 +34,7 @@ _SUPPORTS = ("free", "confined", "half-space")
 _THINNEST, _LIGHTEST = 1e-12, 1e-30  # squares and cubes of smaller numbers underflow
 _HEAVIEST = 1e30  # of pressure and thickness: squares and cubes of larger ones overflow
 _SMALLEST_ROLL = 1e-12
-_TRIED = 5  # wave numbers at which a user's own layer is checked
+_TRIAL_WAVES = 5  # wave numbers at which a user's own layer is checked
 
 
 class Status(Enum):
@@ -160,7 +160,7 @@ class ContactProblem:
 
 def _check_symbol(layer: Layer, creep: CreepSpectrum) -> None:
     """Raise InputError for a user's own layer whose symbol is no compliance at some wave numbers."""
-    m = np.geomspace(1.0, 1e4, _TRIED)
+    m = np.geomspace(1.0, 1e4, _TRIAL_WAVES)
     symbol = np.asarray(layer.symbol(m, creep))
     if symbol.shape != m.shape or not (np.isfinite(symbol).all() and (symbol.real > 0.0).all()):
         raise InputError(

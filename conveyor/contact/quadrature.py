@@ -53,11 +53,13 @@ class Panels:
     window: float = 1.0
 
 
-SOLVE = Panels(points=16, stretch=1.7, phase=14.0, ramps=3.0)
-CHECK = Panels(points=18, stretch=1.9, phase=15.0, ramps=3.3, window=1.3)  # no node of an integral in common
+SOLVE_PANELS = Panels(points=16, stretch=1.7, phase=14.0, ramps=3.0)
+CHECK_PANELS = Panels(
+    points=18, stretch=1.9, phase=15.0, ramps=3.3, window=1.3
+)  # no node of an integral in common
 
 
-_gauss = lru_cache(maxsize=8)(np.polynomial.legendre.leggauss)
+_gauss_rule = lru_cache(maxsize=8)(np.polynomial.legendre.leggauss)
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +77,7 @@ class Rule:
     edge_sum: float
 
 
-def build_rule(layer: Layer, creep: CreepSpectrum, half_width: float, panels: Panels = SOLVE) -> Rule:
+def build_rule(layer: Layer, creep: CreepSpectrum, half_width: float, panels: Panels = SOLVE_PANELS) -> Rule:
     """Nodes and weights valid for every contact of half width up to `half_width` = k a [-].
 
     Raises
@@ -84,7 +86,7 @@ def build_rule(layer: Layer, creep: CreepSpectrum, half_width: float, panels: Pa
         The layer is so thin against the contact that the rule would need more than two million nodes.
     """
     span = 2.0 * half_width
-    width = panels.window * _window(span)
+    width = panels.window * _window_width(span)
     centre = _RAMP * width
     ramp_end = 2.0 * centre
     end = max(ramp_end, layer.reach)
@@ -92,7 +94,7 @@ def build_rule(layer: Layer, creep: CreepSpectrum, half_width: float, panels: Pa
     integers = np.arange(1.0, math.ceil(end if one_by_one else ramp_end) + 1.0)
     last = ramp_end if one_by_one else end
     edges = _panel_edges(creep, panels, span=span, width=width, end=last, ramp_end=ramp_end)
-    x, gauss = _gauss(panels.points)
+    x, gauss = _gauss_rule(panels.points)
     logs = np.log(edges[1:])
     half = 0.5 * np.diff(logs)
     beyond = np.exp(logs[:-1, None] + half[:, None] * (x + 1.0))
@@ -119,7 +121,7 @@ def build_rule(layer: Layer, creep: CreepSpectrum, half_width: float, panels: Pa
 
 
 def series_rule(
-    layer: Layer, creep: CreepSpectrum, *, span: float, end: float, panels: Panels = SOLVE
+    layer: Layer, creep: CreepSpectrum, *, span: float, end: float, panels: Panels = SOLVE_PANELS
 ) -> tuple[Array, NDArray[np.complex128]]:
     """Nodes and weights of the plain sum Σ_{1≤m≤end} S F/m for an F that turns by `span` radians a wave number.
 
@@ -131,7 +133,7 @@ def series_rule(
     RuleTooLongError
         More than two million nodes.
     """
-    width = panels.window * _window(span)
+    width = panels.window * _window_width(span)
     centre = _RAMP * width
     last = max(end, 2.0 * centre)
     edges = _panel_edges(creep, panels, span=span, width=width, end=last, ramp_end=2.0 * centre)
@@ -139,7 +141,7 @@ def series_rule(
         m = np.arange(1.0, math.ceil(last) + 1.0)
         return m, layer.symbol(m, creep) / m
     integers = np.arange(1.0, math.ceil(2.0 * centre) + 1.0)
-    x, gauss = _gauss(panels.points)
+    x, gauss = _gauss_rule(panels.points)
     logs = np.log(edges[1:])
     half = 0.5 * np.diff(logs)
     m = np.exp(logs[:-1, None] + half[:, None] * (x + 1.0))
@@ -153,10 +155,10 @@ def series_rule(
 
 def window_end(span: float) -> float:
     """Wave number up to which the window of `series_rule` takes integers."""
-    return 2.0 * _RAMP * _window(span)
+    return 2.0 * _RAMP * _window_width(span)
 
 
-def _window(span: float) -> float:
+def _window_width(span: float) -> float:
     return max(2.0, _ALIAS / (2.0 * math.pi - span))
 
 

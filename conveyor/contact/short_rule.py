@@ -22,26 +22,26 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from conveyor.contact.creep import Creeps
-from conveyor.contact.layers import Layers
-from conveyor.contact.moved import POINTS, logs, moved, stencils
+from conveyor.contact.creep import CreepBatch
+from conveyor.contact.layer_batch import LayerBatch
+from conveyor.contact.layers import PlainLayerBatch
 from conveyor.contact.quadrature import Rule
-from conveyor.contact.stack import Stack
+from conveyor.contact.regrid import STENCIL_POINTS, lagrange_stencils, log_grid, regrid_weights
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-CAPS = (0.5, 1.0, 1.5, 2.0, 2.4)
+WINDOW_CAPS = (0.5, 1.0, 1.5, 2.0, 2.4)
 """Half widths α up to which windows are made: the alias exp(-(w(2π-2α))²/4) requires wider ones."""
-WIDEST = CAPS[0]  # where the width below meets it, 1e-17
+NARROW_CAP = WINDOW_CAPS[0]  # where the width below meets it, 1e-17
 # Up to a cap: nodes on [0, 1], where f is a polynomial of one degree less to rounding; ζ beyond which Q_l is recurred
 # upward, where it loses r^(2·nodes) units of rounding, r = |z + sqrt(z² - 1)| = 1.7, 1.36, z = -1 - 2i/ζ; Gauss points
 # of the other terms, r^(nodes - 2·points) = 1e-15
-_UNITS = {True: (10, 7.4, 36), False: (18, 21.5, 64)}
+_UNIT_NODES = {True: (10, 7.4, 36), False: (18, 21.5, 64)}
 
 
 @dataclass(frozen=True)
-class Grade:
+class RuleGrade:
     """Fineness of a rule: window width w, Gauss points and coarse nodes beyond what the phase needs.
 
     `stretch` and `phase` limit the panels beyond the window as in quadrature.Panels; `depth` is the q = m k h beyond
@@ -61,26 +61,32 @@ class Grade:
     other: float
     ramp: float = 6.5  # as in quadrature.py
 
-    def floor(self, layers: Stack) -> float:
+    def floor(self, layers: LayerBatch) -> float:
         """Error of friction that the rule may leave over such layers."""
-        return self.error if isinstance(layers, Layers) else self.other
+        return self.error if isinstance(layers, PlainLayerBatch) else self.other
 
 
 # to rounding, to 1e-9 and to 1e-7 of the largest entry; the rules of a pair have no node in common
-FINE = (Grade(2.4, 16, 11, 1.7, 14.0, 20.0, 5e-11, 1e-10), Grade(2.8, 18, 14, 1.9, 15.0, 20.0, 5e-11, 1e-10))
-COARSE = (Grade(2.4, 12, 5, 1.7, 13.0, 13.5, 2e-8, 6e-8), Grade(2.8, 13, 6, 1.8, 13.0, 14.0, 2e-8, 6e-8))
-LOOSE = (
-    Grade(1.55, 9, 3, 1.7, 10.0, 10.5, 5e-6, 5e-5, 4.6),
-    Grade(1.7, 10, 4, 1.8, 10.0, 11.0, 5e-6, 5e-5, 4.6),
+FINE_GRADES = (
+    RuleGrade(2.4, 16, 11, 1.7, 14.0, 20.0, 5e-11, 1e-10),
+    RuleGrade(2.8, 18, 14, 1.9, 15.0, 20.0, 5e-11, 1e-10),
+)
+COARSE_GRADES = (
+    RuleGrade(2.4, 12, 5, 1.7, 13.0, 13.5, 2e-8, 6e-8),
+    RuleGrade(2.8, 13, 6, 1.8, 13.0, 14.0, 2e-8, 6e-8),
+)
+LOOSE_GRADES = (
+    RuleGrade(1.55, 9, 3, 1.7, 10.0, 10.5, 5e-6, 5e-5, 4.6),
+    RuleGrade(1.7, 10, 4, 1.8, 10.0, 11.0, 5e-6, 5e-5, 4.6),
 )
 LOOSE_FROM, COARSE_FROM, FINE_FROM = 1e-4, 1e-7, 1e-10  # rtol down to which the pairs are valid
 
 
-def grades_for(rtol: float) -> tuple[Grade, Grade]:
+def rule_grades(rtol: float) -> tuple[RuleGrade, RuleGrade]:
     """Grades of the rules that solve and check to a tolerance."""
     if rtol >= LOOSE_FROM:
-        return LOOSE
-    return COARSE if rtol >= COARSE_FROM else FINE
+        return LOOSE_GRADES
+    return COARSE_GRADES if rtol >= COARSE_FROM else FINE_GRADES
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +100,7 @@ class ShortRule:
         return ShortRule(self.nodes[chosen], self.weights[chosen])
 
 
-def full_rule(rule: Rule) -> ShortRule:
+def as_short_rule(rule: Rule) -> ShortRule:
     """Full rule of one problem as a batch of one."""
     return ShortRule(rule.nodes[None], rule.weights[None])
 
@@ -112,19 +118,19 @@ class _Window:
     spread: Array  # (unit + inner, K)
 
 
-_gauss = lru_cache(maxsize=32)(np.polynomial.legendre.leggauss)
+_gauss_rule = lru_cache(maxsize=32)(np.polynomial.legendre.leggauss)
 
 
-def _width(grade: Grade, cap: float) -> float:
+def _window_width(grade: RuleGrade, cap: float) -> float:
     """Width w of the window for contacts up to a cap."""
-    return grade.width * (math.pi - WIDEST) / (math.pi - cap)
+    return grade.width * (math.pi - NARROW_CAP) / (math.pi - cap)
 
 
-def _edges(grade: Grade, cap: float, end: float) -> Array:
+def _window_panels(grade: RuleGrade, cap: float, end: float) -> Array:
     """Panels of the window from m = 1 on."""
-    if cap == WIDEST:
+    if cap == NARROW_CAP:
         return np.concatenate([[1.0, 3.0], np.linspace(0.28, 1.0, 4) * end])
-    longest = min(grade.phase / (2.0 * cap), 3.0 * _width(grade, cap))
+    longest = min(grade.phase / (2.0 * cap), 3.0 * _window_width(grade, cap))
     edges = [1.0]
     while edges[-1] < end:
         edges.append(min(edges[-1] + min(math.expm1(grade.stretch) * edges[-1], longest), end))
@@ -132,19 +138,19 @@ def _edges(grade: Grade, cap: float, end: float) -> Array:
 
 
 @lru_cache(maxsize=64)
-def _window(grade: Grade, count: int, cap: float) -> _Window:
+def _grade_window(grade: RuleGrade, count: int, cap: float) -> _Window:
     """Window of a grade with `count` coarse nodes, for contacts up to `cap`."""
-    width = _width(grade, cap)
+    width = _window_width(grade, cap)
     centre = grade.ramp * width
     end = float(math.ceil(2.0 * centre))
     integers = np.arange(1.0, end + 1.0)
-    x, gauss = _gauss(grade.points)
-    edges = _edges(grade, cap, end)
+    x, gauss = _gauss_rule(grade.points)
+    edges = _window_panels(grade, cap, end)
     half = 0.5 * np.diff(edges)[:, None]
     panels = (edges[:-1, None] + half * (x + 1.0)).ravel()
     measure = (half * gauss).ravel()
-    unit_x, _ = _gauss(_UNITS[cap == WIDEST][0])
-    coarse_x, coarse_gauss = _gauss(count)
+    unit_x, _ = _gauss_rule(_UNIT_NODES[cap == NARROW_CAP][0])
+    coarse_x, coarse_gauss = _gauss_rule(count)
     fine = np.concatenate([0.5 * (unit_x + 1.0), integers, panels]) * (2.0 / end) - 1.0
     all_degrees = np.arange(count)
     spread = (special.eval_legendre(all_degrees, fine[:, None]) * (all_degrees + 0.5)) @ (
@@ -164,31 +170,33 @@ def _window(grade: Grade, count: int, cap: float) -> _Window:
 @lru_cache(maxsize=2)
 def _unit_table(unit: int, slow: float, plain: int) -> Array:
     """`_unit_weights` of terms with 1/ζ on the grid of logarithms, real and imaginary parts in turn."""
-    return _unit_weights(1.0 / logs(), unit, slow, plain).view(float)
+    return _unit_weights(1.0 / log_grid(), unit, slow, plain).view(float)
 
 
-def cap_of(half_width: float) -> float:
+def window_cap(half_width: float) -> float:
     """Cap of the window for contacts of this half width; infinite beyond all caps."""
-    return next((cap for cap in CAPS if half_width <= cap), math.inf)
+    return next((cap for cap in WINDOW_CAPS if half_width <= cap), math.inf)
 
 
-def short_rules(layers: Stack, creeps: Creeps, half_width: Array, grades: Sequence[Grade]) -> list[ShortRule]:
+def short_rules(
+    layers: LayerBatch, creeps: CreepBatch, half_width: Array, grades: Sequence[RuleGrade]
+) -> list[ShortRule]:
     """Rules of b problems in each grade, each valid for contacts up to its half width α [-], at most 2.4.
 
     All problems get as many nodes as the one that needs most: pass similar ones. Times must lie `within`.
     """
     widest = float(half_width.max())
-    cap = cap_of(widest)
-    windows = [_window(grade, _count(grade, cap, widest), cap) for grade in grades]
-    panels = _beyond(layers, half_width, grades, [window.end for window in windows])
-    unit = _UNITS[cap == WIDEST]
-    first, shares = stencils(creeps.places)
-    low, high = int(first.min()), int(first.max()) + POINTS
-    (terms,) = moved((first - low, shares), high - low, creeps.weights)
+    cap = window_cap(widest)
+    windows = [_grade_window(grade, _node_count(grade, cap, widest), cap) for grade in grades]
+    panels = _layer_panels(layers, half_width, grades, [window.end for window in windows])
+    unit = _UNIT_NODES[cap == NARROW_CAP]
+    first, shares = lagrange_stencils(creeps.places)
+    low, high = int(first.min()), int(first.max()) + STENCIL_POINTS
+    (terms,) = regrid_weights((first - low, shares), high - low, creeps.weights)
     below = (terms @ _unit_table(*unit)[low:high]).view(complex)
-    below += creeps.instantaneous[:, None] * (0.5 * _gauss(unit[0])[1])
+    below += creeps.instantaneous[:, None] * (0.5 * _gauss_rule(unit[0])[1])
     inner = np.concatenate([window.inner for window in windows])
-    every = _beside(inner, np.concatenate([nodes for nodes, _ in panels], axis=1))
+    every = _join_nodes(inner, np.concatenate([nodes for nodes, _ in panels], axis=1))
     j = creeps.compliance(every)
     symbol = layers.symbol(every, j)
     rules, start, far = [], 0, inner.size
@@ -202,12 +210,12 @@ def short_rules(layers: Stack, creeps: Creeps, half_width: Array, grades: Sequen
         weights.real[:, : window.coarse.size] = parts[: half_width.size]
         weights.imag[:, : window.coarse.size] = parts[half_width.size :]
         weights[:, window.coarse.size :] = measure * (symbol[:, far:last] - j[:, far:last]) / nodes
-        rules.append(ShortRule(_beside(window.coarse, nodes), weights))
+        rules.append(ShortRule(_join_nodes(window.coarse, nodes), weights))
         start, far = end, last
     return rules
 
 
-def _beside(shared: Array, own: Array) -> Array:
+def _join_nodes(shared: Array, own: Array) -> Array:
     """Common nodes, shape (k,), and those of each problem, shape (b, l), joined to shape (b, k + l)."""
     out = np.empty((own.shape[0], shared.size + own.shape[1]))
     out[:, : shared.size] = shared
@@ -215,15 +223,15 @@ def _beside(shared: Array, own: Array) -> Array:
     return out
 
 
-def _count(grade: Grade, cap: float, widest: float) -> int:
+def _node_count(grade: RuleGrade, cap: float, widest: float) -> int:
     """Number of coarse nodes: a function that turns ±c radians is a polynomial of degree c + O(c^(1/3))."""
-    phase = widest * math.ceil(2.0 * grade.ramp * _width(grade, cap))
-    steps = 4.0 if cap == WIDEST else 16.0
+    phase = widest * math.ceil(2.0 * grade.ramp * _window_width(grade, cap))
+    steps = 4.0 if cap == NARROW_CAP else 16.0
     return int(steps * math.ceil((phase + 4.0 * phase ** (1.0 / 3.0) + grade.spare) / steps))
 
 
-def _beyond(
-    layers: Stack, half_width: Array, grades: Sequence[Grade], ends: Sequence[float]
+def _layer_panels(
+    layers: LayerBatch, half_width: Array, grades: Sequence[RuleGrade], ends: Sequence[float]
 ) -> list[tuple[Array, Array]]:
     """Panels from the windows' ends to the layer's reach; problems with fewer panels get empty ones."""
     reach = np.array([layers.reach(grade.depth) for grade in grades])
@@ -237,7 +245,7 @@ def _beyond(
     half = 0.5 * (bounds[1:] - bounds[:-1])
     panels = []
     for k, grade in enumerate(grades):
-        x, gauss = _gauss(grade.points)
+        x, gauss = _gauss_rule(grade.points)
         count = np.count_nonzero(half[:, k].max(axis=1))
         wide, shape = half[:count, k].T[:, :, None], (half_width.size, count * grade.points)
         nodes = bounds[:count, k].T[:, :, None] + wide * (x + 1.0)
@@ -245,7 +253,7 @@ def _beyond(
     return panels
 
 
-def panels_beyond(reach: Array, half_width: Array, grade: Grade) -> NDArray[np.int_]:
+def panel_count(reach: Array, half_width: Array, grade: RuleGrade) -> NDArray[np.int_]:
     """Approximate number of panels of each problem beyond the window, to group similar ones."""
     end = float(math.ceil(2.0 * grade.ramp * grade.width))
     by_phase = np.maximum(reach - end, 0.0) * 2.0 * half_width / grade.phase
@@ -256,17 +264,17 @@ def panels_beyond(reach: Array, half_width: Array, grade: Grade) -> NDArray[np.i
 def _unit_weights(zeta: Array, unit: int, slow: float, plain: int) -> ComplexArray:
     """Weights of ∫_0^1 f/(1-imζ) dm on Gauss nodes of [0, 1], shape (t, unit); ζ of shape (t,)."""
     degrees = np.arange(unit)[:, None]
-    x, gauss = _gauss(plain)
+    x, gauss = _gauss_rule(plain)
     nodes = 0.5 * (x + 1.0)
     moments = (0.5 * gauss * special.eval_legendre(degrees, x)) @ (
         1.0 / (1.0 - 1j * np.multiply.outer(nodes, zeta))
     )
-    moments[:, zeta > slow] = _moments(zeta[zeta > slow], unit)
-    x, gauss = _gauss(unit)
+    moments[:, zeta > slow] = _legendre_moments(zeta[zeta > slow], unit)
+    x, gauss = _gauss_rule(unit)
     return moments.T @ ((2.0 * degrees + 1.0) * special.eval_legendre(degrees, x) * (0.5 * gauss))
 
 
-def _moments(zeta: Array, count: int) -> ComplexArray:
+def _legendre_moments(zeta: Array, count: int) -> ComplexArray:
     """∫_0^1 P_l(2m-1)/(1-imζ) dm for l < `count` of slow terms, shape (count, ...): upward, 2 Q_l/(iζ)."""
     z = -1.0 - 2.0j / zeta
     out = np.empty((count, *zeta.shape), dtype=complex)

@@ -10,12 +10,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from conveyor.contact.belt import BeltSupport
-from conveyor.contact.energy import Strip, belt_losses
-from conveyor.contact.excitation import SHARES, excited_harmonics
-from conveyor.contact.fields import Fields, SpectralFields
-from conveyor.contact.finer import Errors
+from conveyor.contact.belt_layer import BeltSupport
+from conveyor.contact.contact_fields import Fields, SpectralFields
+from conveyor.contact.energy_balance import Strip, belt_losses
+from conveyor.contact.excitation import LOSS_SHARES, excited_harmonics
 from conveyor.contact.layers import Confined, HalfSpace
+from conveyor.contact.peak_error import FieldErrors
 from conveyor.contact.problem import ContactProblem, Status
 from conveyor.errors import InputError, NoSolutionError
 
@@ -26,7 +26,7 @@ _FIGURES = (
     "error_estimate",
 )  # fmt: skip
 _SHALLOW = 0.5
-_DEEP = "the penetration is {:.2f} R, far outside small strain"
+_DEEP_REMARK = "the penetration is {:.2f} R, far outside small strain"
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class SolveStats:
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class ContactResult:
     """Contact that carries the load (internal to the solver); lengths X, `centre` of the outer edges."""
 
     friction: float
@@ -75,11 +75,11 @@ class Found:
 
 
 @dataclass(frozen=True, eq=False)
-class Outcome:
+class SolveOutcome:
     """Status, result and cost of one solver (internal to the solver)."""
 
     status: Status
-    found: Found | None = None
+    found: ContactResult | None = None
     order: int = 0
     grid: int = 0
     matrices: int = 0
@@ -107,12 +107,12 @@ class ContactSolution:
     """
 
     problem: ContactProblem
-    _ended: Status
+    _end_status: Status
     stats: SolveStats
     _remarks: tuple[str, ...] = ()
-    _found: Found | None = field(default=None, repr=False)
+    _found: ContactResult | None = field(default=None, repr=False)
 
-    def _need(self) -> Found:
+    def _need(self) -> ContactResult:
         if self._found is None:
             raise NoSolutionError(self.message)
         return self._found
@@ -120,8 +120,8 @@ class ContactSolution:
     @cached_property
     def status(self) -> Status:
         """Reason why the solve stopped; TOO_DEEP where a converged contact is deeper than the radius."""
-        deep = self._ended is Status.OK and not self._plainly_shallow and self.penetration > 1.0
-        return Status.TOO_DEEP if deep else self._ended
+        deep = self._end_status is Status.OK and not self._plainly_shallow and self.penetration > 1.0
+        return Status.TOO_DEEP if deep else self._end_status
 
     @property
     def _plainly_shallow(self) -> bool:
@@ -137,7 +137,7 @@ class ContactSolution:
         """Remarks on validity, e.g. a penetration beyond small strain."""
         if self._found is None or self._plainly_shallow or self.penetration <= 1.0:
             return self._remarks
-        return (_DEEP.format(self.penetration), *self._remarks)
+        return (_DEEP_REMARK.format(self.penetration), *self._remarks)
 
     @property
     def message(self) -> str:
@@ -146,13 +146,13 @@ class ContactSolution:
 
     def _repr_html_(self) -> str:
         """Results, or why there are none, for notebooks."""
-        from conveyor.markup import listing
+        from conveyor.markup import name_value_table
 
         rows: list[tuple[str, object]] = [("status", self.message)]
         if self._found is not None:
             rows += [(name, f"{getattr(self, name):.8g}") for name in _FIGURES]
             rows.append(("patches", "; ".join(f"{left:.6g} to {right:.6g}" for left, right in self.patches)))
-        return listing("ContactSolution, lengths over R", rows)
+        return name_value_table("ContactSolution, lengths over R", rows)
 
     @property
     def friction(self) -> float:
@@ -229,7 +229,7 @@ class ContactSolution:
         return self._need().peak_error + self._errors.peak + self.error_estimate
 
     @cached_property
-    def _errors(self) -> Errors:
+    def _errors(self) -> FieldErrors:
         return self._need().fields.errors(self.problem)
 
     @property
@@ -249,7 +249,7 @@ class ContactSolution:
         """Largest pressure p̃ [-]."""
         return self._need().fields.peak()
 
-    def excitation(self, shares: Sequence[float] = SHARES) -> Array:
+    def excitation(self, shares: Sequence[float] = LOSS_SHARES) -> Array:
         """Harmonics m below which given shares of the loss lie, shape of `shares` [-].
 
         The layer's particles pass them at the frequency f = m V/λ: between the first and the last of the default

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from conveyor.arguments import checked
-from conveyor.contact.general import FirstSight, by_strips
-from conveyor.contact.narrow import Left, solve_narrow
+from conveyor.arguments import check_arguments
+from conveyor.contact.many_strips import CoarseContact, solve_strips
+from conveyor.contact.one_strip import HalfWidthStart, solve_one_strip
+from conveyor.contact.one_strip_batch import UnsolvedReason, solve_batch
 from conveyor.contact.problem import ContactProblem, Status, check_rtol
 from conveyor.contact.quadrature import RuleTooLongError
-from conveyor.contact.scene import Scene
-from conveyor.contact.single import Near, by_half_width
-from conveyor.contact.solution import ContactSolution, Outcome, SolveStats
+from conveyor.contact.solution import ContactSolution, SolveOutcome, SolveStats
+from conveyor.contact.solver_state import SolverState
 from conveyor.errors import InputError, NoSolutionError
 
 _SHALLOWEST, _DEEPEST = (
@@ -21,7 +21,7 @@ _SHALLOWEST, _DEEPEST = (
 )  # of penetrations over R: the loads of others underflow or lead beyond the roll
 
 
-@checked
+@check_arguments
 def solve(problem: ContactProblem, rtol: float = 1e-6, *, throw: bool = True) -> ContactSolution:
     """Solve a steady rolling contact under load control.
 
@@ -58,10 +58,10 @@ def solve(problem: ContactProblem, rtol: float = 1e-6, *, throw: bool = True) ->
     >>> round(s.friction, 8), s.status.name
     (0.28505539, 'OK')
     """
-    return _all([problem], rtol, throw)[0]
+    return _solve_all([problem], rtol, throw)[0]
 
 
-@checked
+@check_arguments
 def solve_penetration(
     problem: ContactProblem, penetration: float, rtol: float = 1e-6, *, throw: bool = True
 ) -> ContactSolution:
@@ -101,10 +101,10 @@ def solve_penetration(
             f"penetration = {penetration!r}: Δ/R is finite and positive, from {_SHALLOWEST:g} to {_DEEPEST:g}"
         )
     check_rtol(rtol)
-    return _solved(Scene.of(problem, depth=penetration), rtol, throw)
+    return _solve_alone(SolverState.of(problem, depth=penetration), rtol, throw)
 
 
-@checked
+@check_arguments
 def solve_many(
     problems: Sequence[ContactProblem], rtol: float = 1e-6, *, throw: bool = False
 ) -> list[ContactSolution]:
@@ -119,25 +119,27 @@ def solve_many(
     NoSolutionError
         As `solve`, for the first problem without a solution (throw=True).
     """
-    return _all(problems, rtol, throw)
+    return _solve_all(problems, rtol, throw)
 
 
-def _all(problems: Sequence[ContactProblem], rtol: float, throw: bool) -> list[ContactSolution]:
+def _solve_all(problems: Sequence[ContactProblem], rtol: float, throw: bool) -> list[ContactSolution]:
     check_rtol(rtol)
     return [
-        _solution(problem, outcome, throw)
-        if isinstance(outcome, Outcome)
-        else _solved(Scene.of(problem), rtol, throw, outcome)
-        for problem, outcome in zip(problems, solve_narrow(problems, rtol), strict=True)
+        _make_solution(problem, outcome, throw)
+        if isinstance(outcome, SolveOutcome)
+        else _solve_alone(SolverState.of(problem), rtol, throw, outcome)
+        for problem, outcome in zip(problems, solve_batch(problems, rtol), strict=True)
     ]
 
 
-def _solved(scene: Scene, rtol: float, throw: bool, left: Left | Near | None = None) -> ContactSolution:
+def _solve_alone(
+    scene: SolverState, rtol: float, throw: bool, left: UnsolvedReason | HalfWidthStart | None = None
+) -> ContactSolution:
     """Solve one problem as one strip, or as several where a coarse grid shows them."""
     try:
-        outcome = _found(scene, rtol, left)
+        outcome = _find_outcome(scene, rtol, left)
     except RuleTooLongError:
-        outcome = Outcome(Status.TOO_THIN)
+        outcome = SolveOutcome(Status.TOO_THIN)
     rule = scene.rules.get("solve")
     outcome = replace(
         outcome,
@@ -148,27 +150,29 @@ def _solved(scene: Scene, rtol: float, throw: bool, left: Left | Near | None = N
     problem = scene.problem
     if scene.depth is not None and outcome.found is not None:
         problem = replace(problem, pressure=outcome.found.mean_pressure)
-    return _solution(problem, outcome, throw)
+    return _make_solution(problem, outcome, throw)
 
 
-def _found(scene: Scene, rtol: float, left: Left | Near | None) -> Outcome:
-    seen = FirstSight.of(scene, scene.problem.pressure) if left is Left.ANY else None
+def _find_outcome(
+    scene: SolverState, rtol: float, left: UnsolvedReason | HalfWidthStart | None
+) -> SolveOutcome:
+    seen = CoarseContact.of(scene, scene.problem.pressure) if left is UnsolvedReason.ANY else None
     refusal = seen.refusal if seen is not None else None
     if refusal is not None:
         return refusal
-    if left is Left.STRIPS:
-        return by_strips(scene, rtol)
-    outcome = by_strips(scene, rtol, seen) if seen is not None and seen.several else None
+    if left is UnsolvedReason.STRIPS:
+        return solve_strips(scene, rtol)
+    outcome = solve_strips(scene, rtol, seen) if seen is not None and seen.several else None
     if outcome is not None and outcome.status is not Status.NOT_CONVERGED:
         return outcome
-    near = left if isinstance(left, Near) else None
-    one = by_half_width(scene, rtol, near, doubtful=outcome is not None)
+    near = left if isinstance(left, HalfWidthStart) else None
+    one = solve_one_strip(scene, rtol, near, doubtful=outcome is not None)
     if outcome is None:
-        return one or by_strips(scene, rtol, seen)
+        return one or solve_strips(scene, rtol, seen)
     return one if one is not None and one.status is Status.OK else outcome
 
 
-def _solution(problem: ContactProblem, outcome: Outcome, throw: bool) -> ContactSolution:
+def _make_solution(problem: ContactProblem, outcome: SolveOutcome, throw: bool) -> ContactSolution:
     stats = SolveStats(
         outcome.order, outcome.matrices, outcome.nodes, outcome.terms, outcome.grid, outcome.way
     )

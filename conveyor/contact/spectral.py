@@ -18,17 +18,17 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact.bessel import ProductIK, bessel_j, enough_orders
-from conveyor.contact.circle import eccentricity, mean_drop, slope_expansion
-from conveyor.contact.creep import Creeps, CreepSpectrum
+from conveyor.contact.bessel import ProductIK, bessel_j, nonzero_orders
+from conveyor.contact.creep import CreepBatch, CreepSpectrum
 from conveyor.contact.quadrature import Rule
+from conveyor.contact.roll_profile import mean_drop, slope_expansion, solve_eccentricity
 from conveyor.contact.short_rule import ShortRule
 
 Array = NDArray[np.float64]
 
-_SETTLED = 1e-14  # relative, of the eccentricity
-_NEAR = 0.95  # (a + |e|)/R up to which one or two steps suffice
-_STEPS = 2
+_ECCENTRICITY_RTOL = 1e-14  # relative, of the eccentricity
+_NEAR_EXTENT = 0.95  # (a + |e|)/R up to which one or two steps suffice
+_BALANCE_STEPS = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +46,7 @@ class Contact:
     inside: NDArray[np.bool_]
 
 
-def chosen_rows(contact: Contact, at: NDArray[np.int_] | slice) -> Contact:
+def select_contacts(contact: Contact, at: NDArray[np.int_] | slice) -> Contact:
     """Selected contacts of a batch, of one order or of several."""
     return Contact(
         contact.alpha[at],
@@ -59,7 +59,7 @@ def chosen_rows(contact: Contact, at: NDArray[np.int_] | slice) -> Contact:
 
 
 @lru_cache(maxsize=32)
-def _signs(n: int) -> tuple[Array, Array, Array]:
+def _sign_factors(n: int) -> tuple[Array, Array, Array]:
     """Factors of Re S and Im S in the matrix, and of the retardation products, shape (n+1, n)."""
     i, v = np.arange(n + 1.0)[:, None], np.arange(1.0, n + 1.0)[None, :]
     q = i - v
@@ -70,8 +70,12 @@ def _signs(n: int) -> tuple[Array, Array, Array]:
     return real, imaginary, retarded
 
 
-def assemble(
-    rule: Rule | ShortRule, creep: CreepSpectrum | Creeps, alpha: Array, n: int, ik: ProductIK | None = None
+def assemble_matrix(
+    rule: Rule | ShortRule,
+    creep: CreepSpectrum | CreepBatch,
+    alpha: Array,
+    n: int,
+    ik: ProductIK | None = None,
 ) -> Array:
     """Galerkin matrix, rows T_0 … T_n, columns c_1 … c_n, shape (b, n+1, n).
 
@@ -81,7 +85,7 @@ def assemble(
     ----------
     rule : Rule or ShortRule
         Nodes valid for the largest of `alpha`; one rule for all, or one for each.
-    creep : CreepSpectrum or Creeps
+    creep : CreepSpectrum or CreepBatch
         Every ζ_t positive; one for all, or one for each.
     alpha : ndarray, shape (b,)
         Half widths k a [-].
@@ -90,9 +94,9 @@ def assemble(
     ik : ProductIK, optional
         Bessel products of these half widths, if known.
     """
-    real, imaginary, retarded = _signs(n)
+    real, imaginary, retarded = _sign_factors(n)
     place = alpha[:, None] * rule.nodes
-    shown = enough_orders(place, n)
+    shown = nonzero_orders(place, n)
     table = bessel_j(shown, place).swapaxes(0, 1)
     even, odd = table[:, 0::2], table[:, 1::2]
     dense, lossy = rule.weights.real[..., None, :], rule.weights.imag[..., None, :]
@@ -108,7 +112,7 @@ def assemble(
     half_space -= np.asarray(creep.instantaneous)[..., None]
     if creep.weights.size:
         ik = ProductIK(n, alpha[:, None] / creep.times) if ik is None else ik
-        products, deficit = ik.weighted(creep.weights)
+        products, deficit = ik.weighted_sums(creep.weights)
         matrix += products[:, :, 1:] * retarded
         # -j0 + 2v Σ d I K = -(j∞ + Σ d (1 - 2v I K)) keeps a small j∞
         half_space -= 2.0 * (index + 1) * deficit[:, 1:]
@@ -116,15 +120,19 @@ def assemble(
     return matrix
 
 
-def equilibrium(
-    matrix: Array, alpha: Array, rho: Array | float, eps: Array | None = None, tolerance: float = _SETTLED
+def solve_equilibrium(
+    matrix: Array,
+    alpha: Array,
+    rho: Array | float,
+    eps: Array | None = None,
+    tolerance: float = _ECCENTRICITY_RTOL,
 ) -> Contact:
     """Pressure and eccentricity of contacts of given half width.
 
     Parameters
     ----------
     matrix : ndarray, shape (b, n+1, n)
-        From `assemble`, or a leading block of it.
+        From `assemble_matrix`, or a leading block of it.
     alpha : ndarray, shape (b,)
         Half widths [-].
     rho : float or ndarray, shape (b,)
@@ -139,37 +147,37 @@ def equilibrium(
     Contact
         With friction μ = -(1/λ)∫ p u' dx / p_m (paper, section 3) from the coefficients of pressure and slope.
     """
-    found = _in_balance(_alone, matrix, (alpha, eps), rho, tolerance)
-    return _order(found, 0, found.inside)
+    found = _balance_contacts(_solve_whole, matrix, (alpha, eps), rho, tolerance)
+    return _select_order(found, 0, found.inside)
 
 
-def equilibrium_of_orders(
+def solve_nested_equilibrium(
     matrix: Array, alpha: Array, rho: Array | float, eps: Array | None, tolerance: float
 ) -> tuple[Contact, Contact]:
-    """`equilibrium` with the contacts of half and of three quarters of the order, these as one of shape (2, b).
+    """`solve_equilibrium` with the contacts of half and of three quarters of the order, these as one of shape (2, b).
 
     The lower orders are exact to second order in the shift of their eccentricity.
     """
-    found = _in_balance(_nested, matrix, (alpha, eps), rho, tolerance)
+    found = _balance_contacts(_solve_nested, matrix, (alpha, eps), rho, tolerance)
     lower = slice(1, None)
     on_roll = (found.alpha + np.abs(found.eps[lower]) < rho) & (found.pressure[lower] > 0.0)
-    return _order(found, 0, found.inside), _order(found, lower, on_roll)
+    return _select_order(found, 0, found.inside), _select_order(found, lower, on_roll)
 
 
-def _order(found: Contact, at: int | slice, inside: NDArray[np.bool_]) -> Contact:
+def _select_order(found: Contact, at: int | slice, inside: NDArray[np.bool_]) -> Contact:
     """Contacts of the selected orders of the solver."""
     return Contact(found.alpha, found.eps[at], found.c[at], found.pressure[at], found.friction[at], inside)
 
 
-Solver = Callable[[Array, Array], Array]
+LinearSolver = Callable[[Array, Array], Array]
 """Solutions x of rows (b, n, n) for right sides (b, n, r), shape (k, b, n, r): full order, then lower ones."""
 
 
-def _alone(rows: Array, right: Array) -> Array:
+def _solve_whole(rows: Array, right: Array) -> Array:
     return np.asarray(np.linalg.solve(rows, right), dtype=np.float64)[None]
 
 
-def _nested(rows: Array, right: Array) -> Array:
+def _solve_nested(rows: Array, right: Array) -> Array:
     """Solutions at the full, half and three quarters of the order by one elimination, in blocks n/2, n/4 and n/4."""
     n = rows.shape[2]
     half, most = n // 2, (3 * n) // 4
@@ -189,8 +197,12 @@ def _nested(rows: Array, right: Array) -> Array:
     return x
 
 
-def _in_balance(
-    solver: Solver, matrix: Array, place: tuple[Array, Array | None], rho: Array | float, tolerance: float
+def _balance_contacts(
+    solver: LinearSolver,
+    matrix: Array,
+    place: tuple[Array, Array | None],
+    rho: Array | float,
+    tolerance: float,
 ) -> Contact:
     """Equilibrium of the k orders that the solver returns: eps, c, pressure and friction have k rows of b."""
     alpha, eps = place
@@ -199,13 +211,13 @@ def _in_balance(
         unit = np.zeros((matrix.shape[2], 1))
         unit[0] = 1.0
         eps = alpha * (matrix[:, :1] @ np.linalg.solve(matrix[:, 1:], unit))[:, 0, 0]
-    for _ in range(_STEPS):
+    for _ in range(_BALANCE_STEPS):
         reach = (alpha + np.abs(eps)) / radius
-        near = reach < _NEAR
+        near = reach < _NEAR_EXTENT
         inner, start = alpha, eps
         if not near.all():
             inner, start = np.where(near, alpha, 0.5 * radius), np.where(near, eps, 0.0)
-        slope, c, step = _balanced(solver, matrix, inner, start, radius)
+        slope, c, step = _balance_step(solver, matrix, inner, start, radius)
         here = start + step[0]
         # what the parabola in the step leaves: (d³h/dt³)/6 (step/ρ)³, h = t/sqrt(1-t²)
         square = reach * reach
@@ -217,16 +229,18 @@ def _in_balance(
     found, inside = start + step, settled
     if not settled.all():
         rows = np.flatnonzero(~settled)
-        start, inside[rows] = _by_newton(matrix[rows], alpha[rows], radius[rows], eps[rows])
+        start, inside[rows] = _far_eccentricity(matrix[rows], alpha[rows], radius[rows], eps[rows])
         inner = np.where(inside, alpha, 0.5 * radius)
-        slope[:, rows], c[:, rows], step = _balanced(solver, matrix[rows], inner[rows], start, radius[rows])
+        slope[:, rows], c[:, rows], step = _balance_step(
+            solver, matrix[rows], inner[rows], start, radius[rows]
+        )
         found[:, rows] = start + step
     load, friction = _load_and_friction(c, slope, inner, radius)
     return Contact(inner, found, c, load, friction, inside)
 
 
-def _balanced(
-    solver: Solver, matrix: Array, alpha: Array, eps: Array, radius: Array
+def _balance_step(
+    solver: LinearSolver, matrix: Array, alpha: Array, eps: Array, radius: Array
 ) -> tuple[Array, Array, Array]:
     """Slope and pressure coefficients and the step of ε that satisfy every row, to second order in the step."""
     n = matrix.shape[2]
@@ -241,36 +255,40 @@ def _balanced(
     return (slopes @ powers)[..., 0], (answers @ powers)[..., 0], step
 
 
-def _by_newton(matrix: Array, alpha: Array, radius: Array, eps: Array) -> tuple[Array, NDArray[np.bool_]]:
+def _far_eccentricity(
+    matrix: Array, alpha: Array, radius: Array, eps: Array
+) -> tuple[Array, NDArray[np.bool_]]:
     """Eccentricities by Newton where two steps do not converge; zero where there is none."""
     row = np.linalg.solve(matrix[:, 1:].swapaxes(1, 2), matrix[:, 0, :, None])[..., 0]
-    eps, inside = eccentricity(np.asarray(row, dtype=np.float64), alpha, radius, eps)
+    eps, inside = solve_eccentricity(np.asarray(row, dtype=np.float64), alpha, radius, eps)
     return np.where(inside, eps, 0.0), inside
 
 
-def nested(matrix: Array) -> tuple[Array, Array]:
+def nested_matrices(matrix: Array) -> tuple[Array, Array]:
     """Matrices of half and of three quarters of the order, leading blocks of the full one."""
     n = matrix.shape[2]
     half, most = (matrix[:, : order + 1, :order] for order in (n // 2, (3 * n) // 4))
     return half, most
 
 
-def of_orders(lower: tuple[Array, Array], contact: Contact, rho: Array | float) -> Contact:
+def lower_order_contacts(lower: tuple[Array, Array], contact: Contact, rho: Array | float) -> Contact:
     """Contacts of two lower orders, from matrices of shapes (b, l+1, l), at the half widths of a higher order.
 
-    As in `equilibrium_of_orders`, for matrices that need not be blocks of one another.
+    As in `solve_nested_equilibrium`, for matrices that need not be blocks of one another.
     """
     radius = np.zeros(contact.alpha.shape) + rho
     found = []
     for matrix in lower:
-        slope, c, step = _balanced(_alone, matrix, contact.alpha, contact.eps, radius)
+        slope, c, step = _balance_step(_solve_whole, matrix, contact.alpha, contact.eps, radius)
         found.append((contact.eps + step[0], *_load_and_friction(c[0], slope[0], contact.alpha, radius)))
     eps, pressure, friction = (np.stack(figures) for figures in zip(*found, strict=True))
     on_roll = (contact.alpha + np.abs(eps) < radius) & (pressure > 0.0)
     return Contact(contact.alpha, eps, contact.c, pressure, friction, on_roll)
 
 
-def pressed(c: Array, slope: Array, place: tuple[Array, Array], rho: Array | float) -> Contact:
+def contact_from_coefficients(
+    c: Array, slope: Array, place: tuple[Array, Array], rho: Array | float
+) -> Contact:
     """Contacts from coefficients c, shape (b, n), slopes T_0 … T_{n+1}, and place (α, ε)."""
     alpha, eps = place
     load, friction = _load_and_friction(c, slope, alpha, rho)
@@ -286,15 +304,17 @@ def _load_and_friction(c: Array, slope: Array, alpha: Array, rho: Array | float)
     return 0.25 * alpha * first, -0.5 * rho * work
 
 
-def penetration(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: float) -> Array:
+def crown_depth(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: float) -> Array:
     """Δ/R = 1 + W_0 - v_0: depth of the roll's crown below the mean line of the deformed surface, shape (b,)."""
     n = contact.c.shape[1]
-    lifted = np.einsum("bv,bv->b", level(rule, creep, contact.alpha, n), contact.c)
+    lifted = np.einsum("bv,bv->b", mean_displacement(rule, creep, contact.alpha, n), contact.c)
     depth: Array = lifted + mean_drop(contact.alpha, contact.eps, rho, 2 * n + 16)
     return depth
 
 
-def level(rule: Rule, creep: CreepSpectrum, alpha: Array, n: int, ik: ProductIK | None = None) -> Array:
+def mean_displacement(
+    rule: Rule, creep: CreepSpectrum, alpha: Array, n: int, ik: ProductIK | None = None
+) -> Array:
     """T_0 coefficient W_0 of a contact's own displacement per coefficient c_1 … c_n, shape (b, n).
 
     W_0 = Σ_v v c_v Σ_m Re[(-i)^{v-1} S_m] J_v J_0/m². The half-space's part: elastic, by the logarithmic potential,
@@ -309,6 +329,6 @@ def level(rule: Rule, creep: CreepSpectrum, alpha: Array, n: int, ik: ProductIK 
     out[:, 0] += 0.5 * compliance * alpha * logarithm
     if creep.weights.size:
         ik = ProductIK(n, alpha[:, None] / creep.times) if ik is None else ik
-        products, _ = ik.weighted(creep.weights * creep.times)
-        out += products[:, 0, 1:] * _signs(n)[2][0]
+        products, _ = ik.weighted_sums(creep.weights * creep.times)
+        out += products[:, 0, 1:] * _sign_factors(n)[2][0]
     return out

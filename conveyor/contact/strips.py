@@ -20,22 +20,22 @@ from numpy.typing import NDArray
 from scipy import special
 
 from conveyor.contact.bessel import ProductIK, bessel_j
-from conveyor.contact.circle import mean_drop, slope_expansion
-from conveyor.contact.energy import loss
-from conveyor.contact.quadrature import CHECK, SOLVE, Panels, Rule, build_rule, series_rule
-from conveyor.contact.scene import Scene
-from conveyor.contact.spectral import Contact, assemble, level, pressed
+from conveyor.contact.energy_balance import energy_loss
+from conveyor.contact.quadrature import CHECK_PANELS, SOLVE_PANELS, Panels, Rule, build_rule, series_rule
+from conveyor.contact.roll_profile import mean_drop, slope_expansion
+from conveyor.contact.solver_state import SolverState
+from conveyor.contact.spectral import Contact, assemble_matrix, contact_from_coefficients, mean_displacement
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 _ALIAS, _RAMP = 12.5, 6.5  # as in quadrature.py
 _LONGEST = 20_000  # nodes of the window: gaps below 0.008, or 0.008 of the contact's width, stay on the grid
-_FEW = 8  # order for a strip's load
+_LOAD_ORDER = 8  # order for a strip's load
 _CHUNK = 4_000_000
 _NEWTON_STEPS = 24
-_SHRINKS = 0.25  # a step of the one before; else the Jacobian is formed anew
-_STALLED = 100.0  # times the tolerance: steps that shrink no more are rounding
+_STEP_SHRINKAGE = 0.25  # a step of the one before; else the Jacobian is formed anew
+_STALL_FACTOR = 100.0  # times the tolerance: steps that shrink no more are rounding
 _DIFFERENCE = 1e-6  # of α, for the Jacobian's columns: Newton then gains six digits a step
 _LARGEST_STEP, _LARGEST_LOG, _ROOM = (
     0.5,
@@ -86,19 +86,25 @@ def smallest_gap(centre: Array, alpha: Array) -> float:
     return float(np.min(np.append(low[1:], low[0] + 2.0 * math.pi) - high))
 
 
-def _span(centre: Array, alpha: Array) -> float:
+def _outer_span(centre: Array, alpha: Array) -> float:
     """Distance X of the outer edges."""
     return float((centre + alpha).max() - (centre - alpha).min())
 
 
 def too_close(centre: Array, alpha: Array) -> bool:
     """True where strips touch, or their window would need more than some 20,000 nodes."""
-    reach = 2.0 * _RAMP * _ALIAS * min(_span(centre, alpha), 1.0)
+    reach = 2.0 * _RAMP * _ALIAS * min(_outer_span(centre, alpha), 1.0)
     return _LONGEST * smallest_gap(centre, alpha) < reach
 
 
-def settle(
-    scene: Scene, n: int, centre: Array, alpha: Array, tolerance: float, *, jacobian: Array | None = None
+def balance_strips(
+    scene: SolverState,
+    n: int,
+    centre: Array,
+    alpha: Array,
+    tolerance: float,
+    *,
+    jacobian: Array | None = None,
 ) -> Strips | None:
     """Balance strips by Newton in (X_l, ln α_l) for the load or depth; None where it does not converge.
 
@@ -121,7 +127,7 @@ def settle(
         unit = np.concatenate([a, np.ones(count)])
         steps = _DIFFERENCE * unit if jacobian is None else np.empty(0)
         places = np.vstack([place, place + np.diag(steps)]) if jacobian is None else place[None]
-        trial = _Places(scene, n, places[:, :count], np.exp(places[:, count:]))
+        trial = _TrialStrips(scene, n, places[:, :count], np.exp(places[:, count:]))
         residual = trial.residual()
         if residual is None:
             return None
@@ -129,13 +135,15 @@ def settle(
             jacobian = ((residual[1:] - residual[0]) / steps[:, None]).T
         step = np.linalg.solve(jacobian, residual[0])
         allowed = np.append(
-            np.maximum(_room(x, a, rho), _LARGEST_STEP * a.min()), np.full(count, _LARGEST_LOG)
+            np.maximum(_strip_room(x, a, rho), _LARGEST_STEP * a.min()), np.full(count, _LARGEST_LOG)
         )
         largest = float(np.abs(step / unit).max())
-        if largest <= tolerance or (largest <= _STALLED * tolerance and largest > _SHRINKS * last):
+        if largest <= tolerance or (
+            largest <= _STALL_FACTOR * tolerance and largest > _STEP_SHRINKAGE * last
+        ):
             return trial.strips(jacobian, largest)
         last = largest
-        if largest > _SHRINKS * before:
+        if largest > _STEP_SHRINKAGE * before:
             jacobian, before = None, math.inf
             continue
         before = largest
@@ -143,7 +151,7 @@ def settle(
     return None
 
 
-def _room(centre: Array, alpha: Array, rho: float) -> Array:
+def _strip_room(centre: Array, alpha: Array, rho: float) -> Array:
     """Largest step of each strip: a share of its distance from its neighbours and from the roll's end."""
     ends = np.concatenate([centre - alpha, centre + alpha, [-rho, rho]])
     away = np.abs(np.subtract.outer(centre, ends))
@@ -153,24 +161,24 @@ def _room(centre: Array, alpha: Array, rho: float) -> Array:
     return room
 
 
-def loads(scene: Scene, centre: Array, alpha: Array) -> Array:
+def strip_loads(scene: SolverState, centre: Array, alpha: Array) -> Array:
     """Parts of p̃_m carried by strips at given places, shape (k, l) like these."""
-    carried: Array = 0.25 * alpha * _Places(scene, _FEW, centre, alpha).c[:, :, 0]
+    carried: Array = 0.25 * alpha * _TrialStrips(scene, _LOAD_ORDER, centre, alpha).c[:, :, 0]
     return carried
 
 
-def at_places(scene: Scene, n: int, contact: Contact) -> Contact:
+def strips_at_places(scene: SolverState, n: int, contact: Contact) -> Contact:
     """Strips of order n at the places of those of `contact`."""
-    return _Places(scene, n, contact.eps[None], contact.alpha[None]).contact
+    return _TrialStrips(scene, n, contact.eps[None], contact.alpha[None]).contact
 
 
-class _Places:
+class _TrialStrips:
     """Strips at several trial places at once: coefficients and residuals.
 
     Shapes: k places, l strips, order n.
     """
 
-    def __init__(self, scene: Scene, n: int, centre: Array, alpha: Array) -> None:
+    def __init__(self, scene: SolverState, n: int, centre: Array, alpha: Array) -> None:
         self.scene, self.n, self.centre, self.alpha = scene, n, centre, alpha
         rho = scene.problem.rho
         k, count = alpha.shape
@@ -178,21 +186,21 @@ class _Places:
         times = scene.creep.times
         apart, same = np.unique(alpha.ravel(), return_inverse=True)  # a step of X_l leaves the own blocks
         ik = ProductIK(n, apart[:, None] / times) if times.size else None
-        own = assemble(self.rule, scene.creep, apart, n, ik)[same].reshape(k, count, n + 1, n)
+        own = assemble_matrix(self.rule, scene.creep, apart, n, ik)[same].reshape(k, count, n + 1, n)
         scene.matrices += apart.size
         slope = slope_expansion(alpha.ravel(), centre.ravel(), rho, n + 2)[..., 0]
         self.slope = slope.reshape(k, count, n + 2)
         full = np.zeros((k, count, n + 1, count, n))
         heights = np.zeros((k, count, count, n))
         if count > 1:
-            full, heights = _couple(scene, n, centre, alpha)
+            full, heights = _coupling_blocks(scene, n, centre, alpha)
         strip = np.arange(count)
         full[:, strip, :, strip, :] = np.moveaxis(own, 1, 0)
         self.first = full[:, :, 0]
         rows = full[:, :, 1:].reshape(k, count * n, count * n)
         right = self.slope[:, :, 1 : n + 1].reshape(k, count * n, 1)
         self.c = np.asarray(np.linalg.solve(rows, right), dtype=np.float64).reshape(k, count, n)
-        raised = level(self.rule, scene.creep, apart, n, ik)[same].reshape(k, count, n)
+        raised = mean_displacement(self.rule, scene.creep, apart, n, ik)[same].reshape(k, count, n)
         lifted = np.einsum("klv,klv->kl", raised, self.c)
         lifted += np.einsum("klrv,krv->kl", heights, self.c)
         drop = mean_drop(alpha.ravel(), centre.ravel(), rho, 2 * n + 16).reshape(k, count)
@@ -219,10 +227,14 @@ class _Places:
     @property
     def contact(self) -> Contact:
         """The strips at the first place."""
-        return pressed(self.c[0], self.slope[0], (self.alpha[0], self.centre[0]), self.scene.problem.rho)
+        return contact_from_coefficients(
+            self.c[0], self.slope[0], (self.alpha[0], self.centre[0]), self.scene.problem.rho
+        )
 
 
-def _window(scene: Scene, gap: float, span: float, panels: Panels = SOLVE) -> tuple[Array, ComplexArray]:
+def _gap_window(
+    scene: SolverState, gap: float, span: float, panels: Panels = SOLVE_PANELS
+) -> tuple[Array, ComplexArray]:
     """Wave numbers and χ S/m of the strips' window."""
     width = panels.window * _ALIAS / min(gap, math.pi)
     m, weights = series_rule(
@@ -231,14 +243,14 @@ def _window(scene: Scene, gap: float, span: float, panels: Panels = SOLVE) -> tu
     return m, 0.5 * special.erfc((m - _RAMP * width) / width) * weights
 
 
-def _couple(scene: Scene, n: int, centre: Array, alpha: Array) -> tuple[Array, Array]:
+def _coupling_blocks(scene: SolverState, n: int, centre: Array, alpha: Array) -> tuple[Array, Array]:
     """Slopes and heights of strip l per coefficient of strip r; shapes (k, l, n+1, l, n) and (k, l, l, n).
 
     Blocks l = r are meaningless: the slope's is replaced by the caller, the height's set to zero.
     """
     k, count = alpha.shape
     gap = min(smallest_gap(centre[i], alpha[i]) for i in range(k))
-    m, weights = _window(scene, gap, max(_span(centre[i], alpha[i]) for i in range(k)))
+    m, weights = _gap_window(scene, gap, max(_outer_span(centre[i], alpha[i]) for i in range(k)))
     i = np.arange(n + 1)
     turn = (1j) ** (i % 4)
     slopes = np.zeros((k, count * (n + 1), count * n))
@@ -263,14 +275,17 @@ def _couple(scene: Scene, n: int, centre: Array, alpha: Array) -> tuple[Array, A
     return slopes, heights
 
 
-def friction_by_loss(scene: Scene, strips: Strips) -> float:
+def friction_by_loss(scene: SolverState, strips: Strips) -> float:
     """μ from the loss compliance, with its own rule and window."""
     contact = strips.contact
-    rule = build_rule(scene.problem.layer, scene.creep, float(contact.alpha.max()), CHECK)
-    total = float(loss(rule, scene.creep, contact).sum())
+    rule = build_rule(scene.problem.layer, scene.creep, float(contact.alpha.max()), CHECK_PANELS)
+    total = float(energy_loss(rule, scene.creep, contact).sum())
     if contact.alpha.size > 1:
-        m, weights = _window(
-            scene, smallest_gap(contact.eps, contact.alpha), _span(contact.eps, contact.alpha), CHECK
+        m, weights = _gap_window(
+            scene,
+            smallest_gap(contact.eps, contact.alpha),
+            _outer_span(contact.eps, contact.alpha),
+            CHECK_PANELS,
         )
         n = strips.order
         v = np.arange(1, n + 1)

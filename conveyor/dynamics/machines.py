@@ -9,13 +9,20 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.dynamics.loop import Cells, CutLoop
-from conveyor.dynamics.wave import SPEED_POINTS, Beginning, Chain, Machines
+from conveyor.dynamics.cut_loop import Cells, CutLoop
+from conveyor.dynamics.wave import SPEED_POINTS, Chain, InitialState, Machines
 from conveyor.errors import NoSolutionError
 from conveyor.laws.motion import start_force, typical_reduced_mass
-from conveyor.laws.waves import BELT_RETARDATION, DRIVE_DRAG, MOTOR_SLIP, STEEPEST, TORQUE_LIMIT, ramp
+from conveyor.laws.waves import (
+    BELT_RETARDATION,
+    DRIVE_DRAG,
+    MOTOR_SLIP,
+    STEEPEST_SLOPE,
+    TORQUE_LIMIT,
+    ramp_speed,
+)
+from conveyor.line.drive_scenarios import ScenarioUnit, StarterUnit
 from conveyor.line.line import BeltBody, DriveUnit
-from conveyor.line.scenes import ScenarioUnit, StarterUnit
 
 Array = NDArray[np.float64]
 
@@ -24,7 +31,7 @@ _AFTER = 3.0  # wave round trips simulated after the last event
 
 
 @dataclass(frozen=True, eq=False)
-class Ride:
+class ScenarioSetup:
     """A scenario on a loaded belt, ready for simulation.
 
     Attributes
@@ -75,7 +82,7 @@ class Ride:
         rigid = self.given.steady.motions.start.time
         if rigid is None:
             raise NoSolutionError(f'drive "{drive.name}" does not reach full speed: give its starter a time')
-        time = rigid * STEEPEST[unit.ramp] if unit.kind == "inverter" else rigid
+        time = rigid * STEEPEST_SLOPE[unit.ramp] if unit.kind == "inverter" else rigid
         return replace(unit, time=time, stop_time=unit.stop_time or time, assumed=(*unit.assumed, "time"))
 
     @cached_property
@@ -126,7 +133,7 @@ class Ride:
         mass = self.loop.mass.sum() + self.rims.sum()
         coasting = mass * self.loop.line.speed / friction if friction > 0.0 else 60.0
         last = 0.0
-        for happening in self.scene.happenings:
+        for happening in self.scene.drive_events:
             starters = [self.starters[d] for d in happening.drives]
             takes = {
                 "start": max(unit.delay + (unit.time or coasting) for unit in starters),
@@ -154,7 +161,7 @@ class Ride:
         unit, force = self.starters[d], self.brakes[d]
         reference = np.full(times.size, float(self.scene.running))
         share, brake = reference, force * (1.0 - reference)
-        for told in self.scene.happenings:
+        for told in self.scene.drive_events:
             if d not in told.drives:
                 continue
             since = times - told.at - (unit.delay if told.do == "start" else 0.0)
@@ -169,13 +176,13 @@ class Ride:
                 if (
                     unit.kind == "inverter" and unit.time
                 ):  # all drives share one ramp, whenever they are switched on
-                    led = ramp((times - told.at) / unit.time, shape=unit.ramp)
+                    led = ramp_speed((times - told.at) / unit.time, shape=unit.ramp)
                 reference = np.where(now, led, reference)
-                share, brake = np.where(now, _gain(unit, since), share), np.where(now, 0.0, brake)
+                share, brake = np.where(now, _torque_share(unit, since), share), np.where(now, 0.0, brake)
             else:
                 time = self._stop_time(d)
                 led = float(np.interp(told.at, times, reference)) * (
-                    1.0 - ramp(since / time, shape=unit.ramp)
+                    1.0 - ramp_speed(since / time, shape=unit.ramp)
                 )
                 reference = np.where(now, led, reference)
                 over = since > time  # then power off and brake on
@@ -207,7 +214,7 @@ class Ride:
 
 
 @dataclass(frozen=True, eq=False)
-class Size:
+class ScenarioSize:
     """Size determined for a scenario.
 
     Attributes
@@ -224,7 +231,7 @@ class Size:
         The largest value tried that passes; None if every larger one does.
     governs, why : str
         Check that fails at the next smaller value; for a delay the one with the least margin.
-    ride : Ride
+    setup : ScenarioSetup
         The scenario at this size.
     """
 
@@ -236,10 +243,10 @@ class Size:
     most: float | None
     governs: str
     why: str
-    ride: Ride
+    setup: ScenarioSetup
 
 
-def _gain(unit: StarterUnit, since: Array) -> Array:
+def _torque_share(unit: StarterUnit, since: Array) -> Array:
     """Share of the motor's torque passed by its starter."""
     if unit.fill:
         return np.asarray(np.interp(since, *np.transpose(unit.fill)))
@@ -254,9 +261,9 @@ def _gain(unit: StarterUnit, since: Array) -> Array:
     return np.asarray((root + (1.0 - root) * x) ** 2)
 
 
-def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginning]:
+def prepare_belts(setups: list[ScenarioSetup], step: float) -> tuple[list[Cells], Chain, InitialState]:
     """Cells and chain of all scenarios, padded with idle cells, and their initial state."""
-    cells = [ride.loop.cells(step) for ride in rides]
+    cells = [setup.loop.cells(step) for setup in setups]
     most = max(one.at.size for one in cells)
 
     def filled(parts: list[Array], rest: float, size: int) -> Array:
@@ -265,9 +272,9 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
             for part in parts
         ])  # fmt: skip
 
-    line = rides[0].loop.line
-    unit, friction = line.take_up, np.array([ride.scene.friction for ride in rides])
-    begun = [_begin(ride, one) for ride, one in zip(rides, cells, strict=True)]
+    line = setups[0].loop.line
+    unit, friction = line.take_up, np.array([setup.scene.friction for setup in setups])
+    begun = [_initial_balance(setup, one) for setup, one in zip(setups, cells, strict=True)]
     held = np.array([tension[0] for _, tension, _ in begun])
     weight = (
         0.0
@@ -279,7 +286,7 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
     chain = Chain(
         mass=filled([one.mass for one in cells], 1.0, most),
         stiffness=filled([one.stiffness for one in cells], 0.0, most - 1),
-        retardation=retardation(line.belt),
+        retardation=belt_retardation(line.belt),
         weight=filled([one.weight for one in cells], 0.0, most),
         friction=np.moveaxis(filled([one.friction for one in cells], 0.0, most), 1, 0) * friction[:, None],
         sticking=filled([one.sticking(rest) for one, rest in zip(cells, friction, strict=True)], 0.0, most),
@@ -289,10 +296,10 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
             one.before * np.array([1.0, 1.0, rest, rest, rest, rest])[:, None]
             for one, rest in zip(cells, friction.tolist(), strict=True)
         ], axis=1),
-        lumps=_even(cells),
-        rim=np.array([ride.rims for ride in rides]),
-        grip=np.array([[math.expm1(drive.friction * drive.wrap_angle) for drive in ride.drives] for ride in rides]),
-        backstop=np.array([ride.backstops for ride in rides]),
+        lumps=_pad_lumps(cells),
+        rim=np.array([setup.rims for setup in setups]),
+        grip=np.array([[math.expm1(drive.friction * drive.wrap_angle) for drive in setup.drives] for setup in setups]),
+        backstop=np.array([setup.backstops for setup in setups]),
         held=held,
         carriage=np.broadcast_to(carriage, held.shape),
         winch=np.outer([speed * unit.strands, band, run_up or 1.0], np.ones(held.size)),
@@ -300,8 +307,8 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
         relaxing=line.belt.relaxing or (0.0, 1.0),
         known=line.speed,
     )  # fmt: skip
-    moving = np.array([[line.speed * ride.scene.running] for ride in rides])
-    start = Beginning(
+    moving = np.array([[line.speed * setup.scene.running] for setup in setups])
+    start = InitialState(
         speed=moving * filled([np.ones(one.at.size) for one in cells], 0.0, most),
         tension=filled([tension[1:] for _, tension, _ in begun], 0.0, most - 1),
         resisting=filled([resisting for resisting, _, _ in begun], 0.0, most),
@@ -311,7 +318,7 @@ def prepared(rides: list[Ride], step: float) -> tuple[list[Cells], Chain, Beginn
     return cells, chain, start
 
 
-def _even(cells: list[Cells]) -> NDArray[np.int_]:
+def _pad_lumps(cells: list[Cells]) -> NDArray[np.int_]:
     """Lumps of every belt, padded with its first drive, whose friction is already included."""
     most = max(one.lumps.size for one in cells)
     return np.array([
@@ -319,35 +326,35 @@ def _even(cells: list[Cells]) -> NDArray[np.int_]:
     ])  # fmt: skip
 
 
-def retardation(belt: BeltBody) -> float:
+def belt_retardation(belt: BeltBody) -> float:
     """Retardation time τ of the belt [s]: as given, 0 with a standard solid, else the default."""
     if belt.retardation is not None:
         return belt.retardation
     return BELT_RETARDATION.value if belt.relaxing is None else 0.0
 
 
-def _begin(ride: Ride, cells: Cells) -> tuple[Array, Array, Array]:
+def _initial_balance(setup: ScenarioSetup, cells: Cells) -> tuple[Array, Array, Array]:
     """Initial friction, tensions (take-up, then every cell) and drive forces in equilibrium [N].
 
     At rest friction holds the belt as far as it can, by the same share everywhere but more where the belt would be
     slack; the first drive holds the rest by its brake or backstop.
     """
-    line, friction = ride.loop.line, ride.scene.friction
-    shares = np.array([drive.share for drive in ride.drives])
-    if ride.scene.running:
+    line, friction = setup.loop.line, setup.scene.friction
+    shares = np.array([drive.share for drive in setup.drives])
+    if setup.scene.running:
         resisting = cells.resisting(line.speed, friction)
         driving = shares * float(resisting.sum() + cells.weight.sum())
     else:
         most = cells.sticking(friction)
         share = -float(cells.weight.sum()) / float(most.sum())
         resisting = most * min(1.0, max(-1.0, share))
-        resisting = _taut(ride.setting, resisting, most, cells)
+        resisting = _taut_friction(setup.setting, resisting, most, cells)
         driving = np.zeros_like(shares)
         driving[0] = float(resisting.sum() + cells.weight.sum())
     against = resisting + cells.weight
     against[cells.nodes] -= driving
     along = np.concatenate([np.zeros(1), np.cumsum(against)[:-1]])
-    tension = ride.setting + along
+    tension = setup.setting + along
     if line.take_up.keeps_length:  # it holds the mean of the loop
         length = np.diff(cells.at)
         tension = tension - float(along[1:] @ length) / float(length.sum())
@@ -355,7 +362,7 @@ def _begin(ride: Ride, cells: Cells) -> tuple[Array, Array, Array]:
     return resisting, tension, driving
 
 
-def _taut(setting: float, resisting: Array, most: Array, cells: Cells) -> Array:
+def _taut_friction(setting: float, resisting: Array, most: Array, cells: Cells) -> Array:
     """Friction at rest that keeps the belt taut as far as possible [N]."""
     weight = cells.weight
     tension = setting + np.cumsum(resisting + weight)[:-1]
@@ -367,20 +374,20 @@ def _taut(setting: float, resisting: Array, most: Array, cells: Cells) -> Array:
     return np.asarray(np.clip(held, -most, most))
 
 
-def machines(rides: list[Ride], start: Beginning, step: float, steps: int) -> Machines:
+def machines_over_time(setups: list[ScenarioSetup], start: InitialState, step: float, steps: int) -> Machines:
     """Motors and brakes of scenarios over time; running drives start in their steady state."""
-    line = rides[0].loop.line
+    line = setups[0].loop.line
     times = np.asarray(step * np.arange(steps), dtype=float)
-    tables = [ride.over_time(times) for ride in rides]
+    tables = [setup.over_time(times) for setup in setups]
     reference, share, brake = (np.stack(parts, axis=1) for parts in zip(*tables, strict=True))
-    rated = np.array([ride.rated for ride in rides])
-    slip = np.array([[unit.slip for unit in ride.starters] for ride in rides])
+    rated = np.array([setup.rated for setup in setups])
+    slip = np.array([[unit.slip for unit in setup.starters] for setup in setups])
     slope = rated / (slip * line.speed)
     steady = np.array([
-        [drive.share * ride.loop.steady.balance.settled.force for drive in ride.drives] for ride in rides
+        [drive.share * setup.loop.steady.balance.settled.force for drive in setup.drives] for setup in setups
     ])  # fmt: skip
-    running = np.array([[ride.scene.running] for ride in rides])
+    running = np.array([[setup.scene.running] for setup in setups])
     level = line.speed + np.where(running, start.driving, steady) / slope
-    limits = np.array([ride.limits() for ride in rides])
+    limits = np.array([setup.limits() for setup in setups])
     drag = DRIVE_DRAG.value * (1.0 / line.efficiency - 1.0) * rated
     return Machines(slope, reference * level, share, brake, limits, _TOP * line.speed, drag)

@@ -173,7 +173,7 @@ class Machines:
 
 
 @dataclass(frozen=True, eq=False)
-class Beginning:
+class InitialState:
     """Initial state: speeds and tensions, friction, forces of the drives on the belt, rim speeds [m/s, N]."""
 
     speed: Array
@@ -268,7 +268,7 @@ class _Extremes:
         self.first += self.count
         self.count = 0
 
-    def look_at(self, *place: int, values: Array) -> None:
+    def include_series(self, *place: int, values: Array) -> None:
         """Include a further series of one of them, from the initial state on."""
         for i, best, at, better in (
             (int(values.argmax()), self.high, self.high_at, np.greater),
@@ -347,7 +347,7 @@ class _BeltLaw:
 
 
 @dataclass(frozen=True, eq=False)
-class _Answer:
+class _ImpulseResponse:
     """Response of a belt to an impulse of 1 N s at each of several places.
 
     All speeds [m/s], shape (s, d, n + 1); impulse lacking at the take-up [N s]; speeds of the places, shape (s, d, d),
@@ -386,7 +386,9 @@ class _Answer:
         )
 
 
-def _counted(places: Integers, masses: int, first: int, count: int) -> tuple[Integers, Integers, Integers]:
+def _flat_indices(
+    places: Integers, masses: int, first: int, count: int
+) -> tuple[Integers, Integers, Integers]:
     """Flat indices, in `count` columns, of speeds of places by all impulses, by their own, and of their neighbours."""
     s, d = places.shape
     rows = masses * (count * np.arange(s)[:, None] + first + np.arange(d))
@@ -411,11 +413,11 @@ class _Solver:
         units[0, :, 0] -= 1.0
         self.units = units.reshape(len(units), -1).T
         self.answers = [
-            (part, *_counted(places[:, 1:][:, part], n + 1, part.start, places.shape[1] - 1))
+            (part, *_flat_indices(places[:, 1:][:, part], n + 1, part.start, places.shape[1] - 1))
             for part in (slice(0, self.drives), slice(self.drives, places.shape[1] - 1))
         ]
 
-    def eases(self, shares: Array) -> bool:
+    def update_damping(self, shares: Array) -> bool:
         """Factorise the system again if shares of k have changed; return true if so.
 
         A share below that of the cell would make the step unstable, one above it delays the difference by a step.
@@ -445,7 +447,7 @@ class _Solver:
         of_take_up = self.kappa[:, None] * (columns[self.rows, :, self.end] - columns[:, :, 0])
         columns = columns - self.pair[:, None] * of_take_up[:, :, None]
         self.pulleys, self.lumps = (
-            _Answer(
+            _ImpulseResponse(
                 columns[:, k], of_take_up[:, k], columns.take(mutual), columns.take(own), columns.take(near)
             )
             for k, mutual, own, near in self.answers
@@ -469,7 +471,9 @@ class _Solver:
         return change - self.pair * lacking[:, None], lacking
 
 
-def run(chain: Chain, machines: Machines, start: Beginning, *, step: float, samples: int = 300) -> Record:
+def simulate_belts(
+    chain: Chain, machines: Machines, start: InitialState, *, step: float, samples: int = 300
+) -> Record:
     """Simulate belts through time.
 
     Parameters
@@ -478,7 +482,7 @@ def run(chain: Chain, machines: Machines, start: Beginning, *, step: float, samp
         The belts.
     machines : Machines
         Motors and brakes; they set the number of steps.
-    start : Beginning
+    start : InitialState
         Initial speeds, tensions and forces.
     step : float
         Time step [s], at most `chain.longest_step`.
@@ -498,13 +502,15 @@ def run(chain: Chain, machines: Machines, start: Beginning, *, step: float, samp
 class _Motion:
     """Belts in motion: the state from step to step, and its record."""
 
-    def __init__(self, chain: Chain, machines: Machines, start: Beginning, step: float, samples: int) -> None:
+    def __init__(
+        self, chain: Chain, machines: Machines, start: InitialState, step: float, samples: int
+    ) -> None:
         self.chain, self.machines, self.dt = chain, machines, step
         self.steps = machines.reference.shape[0]
         self.every = max(1, self.steps // samples)
         self.solver, self.law = _Solver(chain, step), _BeltLaw(chain, step, start.tension)
-        self.solver.eases(self.law.eased)
-        self.ledger = _Ledger(chain, step, start, self.law)
+        self.solver.update_damping(self.law.eased)
+        self.ledger = _EnergyLedger(chain, step, start, self.law)
         self._set_up()
         self._answered()
         s, n = chain.stiffness.shape
@@ -546,12 +552,12 @@ class _Motion:
         self.winds = bool(np.any(chain.winch[0]))
         self.tau_k = chain.retardation * chain.stiffness
         self.flat = self.rows * (n + 1) + at
-        self.turns = [_Turn.of(chain, self.machines, step, k) for k in self.solver.pulleys.turns()]
+        self.turns = [_DriveGroup.of(chain, self.machines, step, k) for k in self.solver.pulleys.turns()]
 
     def _answered(self) -> None:
         """Update the responses of the pulleys after a factorisation."""
         self.half_k = 0.5 * self.tau_k * self.solver.shares
-        self.replies = [_Reply.of(self.solver, turn, self.dt) for turn in self.turns]
+        self.replies = [_GroupResponse.of(self.solver, turn, self.dt) for turn in self.turns]
 
     def followed(self) -> Record:
         """Take every step."""
@@ -595,9 +601,12 @@ class _Motion:
         chain = self.chain
         if self.winds:
             speed, band, run_up = chain.winch
-            wanted, most = speed * _winding(self.pulled / chain.held - 1.0, band), self.dt * speed / run_up
+            wanted, most = (
+                speed * _winch_direction(self.pulled / chain.held - 1.0, band),
+                self.dt * speed / run_up,
+            )
             self.winding = np.clip(wanted, self.winding - most, self.winding + most)
-        if self.solver.eases(self.law.eased):
+        if self.solver.update_damping(self.law.eased):
             self._answered()
         change, lacking = self.solver.change(self.dt * self._acting(), self.speed, self.winding)
         new, rolling = self.speed + change, chain.resisting(self.speed)
@@ -648,7 +657,7 @@ class _Motion:
             faster = new.take(turn.ahead) - new.take(turn.astern) - self.stretching.take(turn.sides)
             cells = self.tension.take(turn.sides) + self.viscous.take(turn.sides) + reply.softer * faster
             tight = (self.chain.held - lacking / self.dt)[:, None]
-            moved = _pulleys(
+            moved = _solve_pulleys(
                 turn, i, step=self.dt, answer=reply.own, rim=self.rims[:, k], free=going - reply.own * impulse[:, k],
                 sides=np.where(turn.ends, tight, cells) + turn.lying + turn.inert * (going - on)
                 - reply.yields * going,
@@ -677,7 +686,7 @@ class _Motion:
         over_force, impulse = self.dt * answer.own, np.zeros_like(most)
         free, allowed = over_force * earlier, over_force * most
         for j in range(at.shape[1]):
-            left = _rest(speed[:, j] + free[:, j], allowed[:, j], allowed[:, j])
+            left = _speed_after_friction(speed[:, j] + free[:, j], allowed[:, j], allowed[:, j])
             self.lumps_rest[:, j] = left == 0.0
             impulse[:, j] = (left - speed[:, j]) / answer.own[:, j]
             speed = speed + impulse[:, j, None] * answer.mutual[:, j]
@@ -704,11 +713,11 @@ class _Motion:
         for side, name in enumerate(("arriving", "leaving")):
             values = np.concatenate([begin[side][None], self.drives[name]])
             for row, d in np.argwhere(self.at != (self.chain.end[:, None] if side else 0)).tolist():
-                self.extremes.look_at(row, int(self.at[row, d]) - 1 + side, values=values[:, row, d])
+                self.extremes.include_series(row, int(self.at[row, d]) - 1 + side, values=values[:, row, d])
 
 
 @dataclass(frozen=True, eq=False)
-class _Turn:
+class _DriveGroup:
     """Constants of drives that are solved together; shape (2, s, d) for both sides, negative behind.
 
     Flat indices of their places and adjacent cells; `ends` is true next to the take-up.
@@ -729,7 +738,7 @@ class _Turn:
     at_rest: Array
 
     @classmethod
-    def of(cls, chain: Chain, machines: Machines, step: float, k: list[int]) -> _Turn:
+    def of(cls, chain: Chain, machines: Machines, step: float, k: list[int]) -> _DriveGroup:
         """Some drives of every belt."""
         drives: list[int] | slice = slice(None) if len(k) == chain.nodes.shape[1] else k
         (s, n), at, before = chain.stiffness.shape, chain.nodes[:, drives], chain.before[:, :, drives]
@@ -750,23 +759,23 @@ class _Turn:
             ends=np.stack([at == 0, at == chain.end[:, None]]),
             lying=np.stack([before[1], before[1] - weight]),
             inert=np.stack([before[0], before[0] - mass]) / step,
-            tau_k=chain.retardation * chain.stiffness[rows, side], stuck=stuck, at_rest=_share(before[5], stuck),
+            tau_k=chain.retardation * chain.stiffness[rows, side], stuck=stuck, at_rest=_safe_ratio(before[5], stuck),
         )  # fmt: skip
 
     def shares(self, on: Array, rolling: Array) -> Array:
         """Share of the friction on driven masses before the pulleys, and behind them negative [-]."""
         parabola, size = self.chain.before[2:5], np.minimum(np.abs(on), self.chain.known)
-        moving = _share(parabola[0] + size * (parabola[1] + size * parabola[2]), rolling)
+        moving = _safe_ratio(parabola[0] + size * (parabola[1] + size * parabola[2]), rolling)
         return np.asarray(np.where(on == 0.0, self.at_rest, moving) - _FROM)
 
 
-def _share(part: Array, whole: Array) -> Array:
+def _safe_ratio(part: Array, whole: Array) -> Array:
     """Part over whole; 0 if the whole is 0."""
     return np.divide(part, whole, out=np.zeros_like(whole), where=whole > 0.0)
 
 
 @dataclass(frozen=True, eq=False)
-class _Reply:
+class _GroupResponse:
     """Response of the belts to a group of drives: speeds by an impulse, damping and adjacent tensions by a speed.
 
     `softer` is the damping at new speeds, `yields` the tension added by a speed, before, and behind negative.
@@ -779,7 +788,7 @@ class _Reply:
     yields: Array
 
     @classmethod
-    def of(cls, solver: _Solver, turn: _Turn, step: float) -> _Reply:
+    def of(cls, solver: _Solver, turn: _DriveGroup, step: float) -> _GroupResponse:
         """Response of the present system."""
         k, pulleys = turn.drives, solver.pulleys
         softer = 0.5 * turn.tau_k * solver.shares.take(turn.sides)
@@ -790,13 +799,13 @@ class _Reply:
         return cls(own, pulleys.columns[:, k], of_take_up, softer, yields)
 
 
-def _winding(over: Array, band: Array) -> Array:
+def _winch_direction(over: Array, band: Array) -> Array:
     """1 for a winch that takes in, -1 for one that pays out, 0 within its band."""
     return np.asarray(np.where(over < -band, 1.0, np.where(over > band, -1.0, 0.0)))
 
 
 @dataclass(frozen=True, eq=False)
-class _Moved:
+class _PulleyState:
     """Driven pulleys after a step: forces on the belt, of motor, brake and friction, side tensions [N], speeds."""
 
     force: Array
@@ -809,15 +818,15 @@ class _Moved:
     grips: NDArray[np.bool_]
 
 
-def _rest(free: Array, forward: Array, backward: Array) -> Array:
+def _speed_after_friction(free: Array, forward: Array, backward: Array) -> Array:
     """Speed left by friction, which takes up to `forward` off a free speed or adds up to `backward`."""
     return free - np.minimum(np.maximum(free, -backward), forward)
 
 
-def _pulleys(
-    turn: _Turn, i: int, *, step: float, answer: Array, rim: Array, free: Array, sides: Array, yields: Array,
+def _solve_pulleys(
+    turn: _DriveGroup, i: int, *, step: float, answer: Array, rim: Array, free: Array, sides: Array, yields: Array,
     friction: Array, shares: Array, last: tuple[Array, Array], gripped: NDArray[np.bool_],
-) -> _Moved:  # fmt: skip
+) -> _PulleyState:  # fmt: skip
     """Solve motors, brakes, rims and the belt on them together; a motor on its characteristic, or at its limit.
 
     `free` is the belt's speed without the pulley, `answer` its change by an impulse; `sides` are the tensions before
@@ -843,7 +852,9 @@ def _pulleys(
         alone = (chain.rim * rim + step * (base - (1.0 - late) * slope * rim)) / mass
         together = 1.0 / answer + mass
         stop = step * (brake + friction) / together
-        common = _rest((free / answer + mass * alone) / together, stop, np.where(back, np.inf, stop))
+        common = _speed_after_friction(
+            (free / answer + mass * alone) / together, stop, np.where(back, np.inf, stop)
+        )
         against = np.sign(common) * friction
         rubbed = sides + shares * against
         force = (common - free) / (answer * step) + against
@@ -857,15 +868,17 @@ def _pulleys(
             rub = answer * step * friction / eased
             earlier = last[0] + grip * np.where(forward, -last[1][1], last[1][0])
             driven = grip * pushed + np.where(begins, 0.5 * earlier, 0.0)
-            slid = _rest((free + answer * step * driven) / eased, rub, rub)
+            slid = _speed_after_friction((free + answer * step * driven) / eased, rub, rub)
             limit = driven - grip * slack * slid
             limit = np.where(forward, np.maximum(limit, 0.0), np.minimum(limit, 0.0))
             slid = np.where(
-                limit == 0.0, _rest(free, answer * step * friction, answer * step * friction), slid
+                limit == 0.0,
+                _speed_after_friction(free, answer * step * friction, answer * step * friction),
+                slid,
             )
             force = np.where(grips, force, limit)
             stop = step * (brake + np.where(on, 0.0, machines.drag)) / mass
-            spun = _rest(alone - step * force / mass, stop, np.where(back, np.inf, stop))
+            spun = _speed_after_friction(alone - step * force / mass, stop, np.where(back, np.inf, stop))
             belt, turned = np.where(grips, common, slid), np.where(grips, common, spun)
         motor = base - slope * (late * turned + (1.0 - late) * rim)
         beyond = np.abs(motor) > most
@@ -874,16 +887,16 @@ def _pulleys(
         base, slope = np.where(beyond, np.copysign(most, motor), base), np.where(beyond, 0.0, slope)
     taken = force - (belt - free) / (answer * step)
     tensions = sides + yields * belt + shares * taken
-    return _Moved(
+    return _PulleyState(
         force, motor, mass * (alone - turned) / step - force, taken, turned, belt,
         np.where(begins, 2.0 * tensions - last[1], tensions), grips,
     )  # fmt: skip
 
 
-class _Ledger:
+class _EnergyLedger:
     """Energy balance, at the mean of old and new speeds."""
 
-    def __init__(self, chain: Chain, step: float, start: Beginning, law: _BeltLaw) -> None:
+    def __init__(self, chain: Chain, step: float, start: InitialState, law: _BeltLaw) -> None:
         self.chain, self.dt = chain, step
         self.rows = np.arange(chain.end.size)
         names = ("motors", "lift", "friction", "damping", "brakes", "slip", "take-up")

@@ -19,8 +19,8 @@ from ruamel.yaml.error import MarkedYAMLError, ReusedAnchorWarning, YAMLError
 from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from conveyor.errors import InputError
-from conveyor.files.content import file_content
-from conveyor.files.syntax import plain_json, plain_yaml
+from conveyor.files.file_bytes import file_content
+from conveyor.files.syntax_messages import json_message, yaml_message
 
 LARGEST_FILE: Final = 5_000_000
 """Bytes; a spec of 20,000 sections, the most there may be, has half of it."""
@@ -32,16 +32,16 @@ DEEPEST: Final = 50
 MOST_LINES: Final = 100
 """Errors listed of one file; the rest are counted."""
 
-_MARKS: Final = {codecs.BOM_UTF32_LE: "UTF-32", codecs.BOM_UTF32_BE: "UTF-32", codecs.BOM_UTF16_LE: "UTF-16",
+_BYTE_ORDER_MARKS: Final = {codecs.BOM_UTF32_LE: "UTF-32", codecs.BOM_UTF32_BE: "UTF-32", codecs.BOM_UTF16_LE: "UTF-16",
           codecs.BOM_UTF16_BE: "UTF-16"}  # fmt: skip
 
 _TOO_DEEP: Final = f"nested deeper than {DEEPEST} levels"
-_HALF: Final = re.compile("[\ud800-\udfff]")
-_FIRST: Final = 1000  # bytes searched for nulls
+_SURROGATES: Final = re.compile("[\ud800-\udfff]")
+_BYTES_PROBED: Final = 1000  # bytes searched for nulls
 
 Location = tuple[int | str, ...]
 T = TypeVar("T")
-_TAG = "tag:yaml.org,2002:"
+_TAG_PREFIX = "tag:yaml.org,2002:"
 
 
 class Place(NamedTuple):
@@ -64,7 +64,7 @@ class Fault:
         return f"{path}:{self.place.line}:{self.place.column} {self.field}: {self.message}"
 
 
-def first_lines(errors: Sequence[T], line: Callable[[T], str], path: str = "") -> str:
+def error_lines(errors: Sequence[T], line: Callable[[T], str], path: str = "") -> str:
     """Text of the first hundred errors, one a line; the rest are counted."""
     lines = [line(error) for error in errors[:MOST_LINES]]
     if len(errors) > MOST_LINES:
@@ -72,9 +72,9 @@ def first_lines(errors: Sequence[T], line: Callable[[T], str], path: str = "") -
     return "\n".join(lines)
 
 
-def listing(path: str, findings: Sequence[Fault]) -> str:
+def fault_lines(path: str, findings: Sequence[Fault]) -> str:
     """Text of the first hundred findings, one a line."""
-    return first_lines(findings, lambda finding: finding.line(path), path)
+    return error_lines(findings, lambda finding: finding.line(path), path)
 
 
 def yaml_text(data: Any, *, width: int) -> str:
@@ -119,8 +119,8 @@ class Document:
         nodes: list[tuple[Location, Node, Node]] = [((), self.root, self.root)]
         while nodes:
             location, key, node = nodes.pop()
-            of_key = _place(key)
-            places[location] = (_place(node) if key is node or _is_written(node) else of_key), of_key
+            of_key = _node_place(key)
+            places[location] = (_node_place(node) if key is node or _has_own_place(node) else of_key), of_key
             if isinstance(node, MappingNode):
                 written: dict[str, tuple[Node, Node]] = {}
                 for k, v in node.value:
@@ -131,12 +131,12 @@ class Document:
         return places
 
 
-def _is_written(node: Node) -> bool:
+def _has_own_place(node: Node) -> bool:
     """True for a scalar with text; YAML places empty values and blocks at the start of the next line."""
     return isinstance(node, ScalarNode) and (node.value != "" or node.style is not None)
 
 
-def _place(node: Node) -> Place:
+def _node_place(node: Node) -> Place:
     return Place(node.start_mark.line + 1, node.start_mark.column + 1)
 
 
@@ -153,29 +153,29 @@ def read_document(path: Path) -> Document:
         if path.is_dir():
             raise InputError(f"{path}: is a folder; give a file in it")
         raise InputError(f'{path}: expected a file that ends in .yaml, .yml or .json, got "{path.name}"')
-    content = _decoded(path)
+    content = _file_text(path)
     is_json = path.suffix.lower() == ".json"
-    data: Any = _json(content, path) if is_json else None
-    root = _composed(content.replace("\t", " ") if is_json else content, path)
+    data: Any = _json_data(content, path) if is_json else None
+    root = _yaml_nodes(content.replace("\t", " ") if is_json else content, path)
     if root is None:
         raise InputError(f"{path}:1:1 file: empty; expected fields (key: value)")
     if not isinstance(root, MappingNode):
         given = "a list" if isinstance(root, SequenceNode) else "a single value"
-        place = _place(root)
+        place = _node_place(root)
         raise InputError(
             f"{path}:{place.line}:{place.column} file: expected fields (key: value), got {given}"
         )
-    reader = _Reader(str(path))
+    reader = _NodeReader(str(path))
     read = reader.value(root, ())
     return Document(str(path), data if is_json else read, root, tuple(reader.findings))
 
 
-def _decoded(path: Path) -> str:
+def _file_text(path: Path) -> str:
     content = file_content(path, largest=LARGEST_FILE, expected="spec or compound file")
-    for mark, encoding in _MARKS.items():
+    for mark, encoding in _BYTE_ORDER_MARKS.items():
         if content.startswith(mark):
             raise InputError(f"{path}:1:1 file: {encoding} text, expected UTF-8; save it as UTF-8")
-    if b"\0" in content[:_FIRST]:
+    if b"\0" in content[:_BYTES_PROBED]:
         raise InputError(
             f"{path}:1:1 file: holds null bytes: UTF-16 without its mark, or no text; save it as UTF-8"
         )
@@ -189,18 +189,18 @@ def _decoded(path: Path) -> str:
         ) from None
 
 
-def _json(content: str, path: Path) -> Any:
+def _json_data(content: str, path: Path) -> Any:
     if not content.strip():
         return None
     try:
-        return json.loads(content, parse_int=lambda digits: _number(digits, "int"))
+        return json.loads(content, parse_int=lambda digits: _plain_number(digits, "int"))
     except json.JSONDecodeError as error:
-        raise InputError(f"{path}:{error.lineno}:{error.colno} syntax: {plain_json(error.msg)}") from None
+        raise InputError(f"{path}:{error.lineno}:{error.colno} syntax: {json_message(error.msg)}") from None
     except RecursionError:
         raise InputError(f"{path}:1:1 syntax: {_TOO_DEEP}") from None
 
 
-def _parsed(content: str, kind: str) -> Node | None:
+def _parse_yaml(content: str, kind: str) -> Node | None:
     parser = YAML(typ=kind, pure=True)
     parser.max_depth = DEEPEST + 1  # parsing time grows with the square of the depth
     with warnings.catch_warnings():
@@ -209,12 +209,12 @@ def _parsed(content: str, kind: str) -> Node | None:
     return node
 
 
-def _composed(content: str, path: Path) -> Node | None:
+def _yaml_nodes(content: str, path: Path) -> Node | None:
     """YAML nodes of a text; errors come from the slower round-trip parser, whose messages are better."""
     with suppress(YAMLError, ReusedAnchorWarning, RecursionError):
-        return _parsed(content, "safe")
+        return _parse_yaml(content, "safe")
     try:
-        return _parsed(content, "rt")
+        return _parse_yaml(content, "rt")
     except ReusedAnchorWarning as twice:
         line, column = map(int, re.findall(r"line (\d+), column (\d+)", str(twice))[-1])
         raise InputError(
@@ -225,19 +225,19 @@ def _composed(content: str, path: Path) -> Node | None:
         mark = (error.context_mark if unclosed else None) or error.problem_mark or error.context_mark
         line, column = (1, 1) if mark is None else (mark.line + 1, mark.column + 1)
         what = " ".join(part for part in (error.context, error.problem) if part)
-        said = _TOO_DEEP if "maximum depth" in what else plain_yaml(what)
+        said = _TOO_DEEP if "maximum depth" in what else yaml_message(what)
         raise InputError(f"{path}:{line}:{column} syntax: {said}") from None
     except YAMLError as error:
         position = getattr(error, "position", 0)
         before = content[:position]
         line, column = before.count("\n") + 1, position - before.rfind("\n")
         reason = getattr(error, "reason", str(error))
-        raise InputError(f"{path}:{line}:{column} syntax: {plain_yaml(reason)}") from None
+        raise InputError(f"{path}:{line}:{column} syntax: {yaml_message(reason)}") from None
     except RecursionError:
         raise InputError(f"{path}:1:1 syntax: {_TOO_DEEP}") from None
 
 
-class _Reader:
+class _NodeReader:
     """Turns nodes into plain data and collects findings."""
 
     def __init__(self, path: str) -> None:
@@ -248,25 +248,29 @@ class _Reader:
     def value(self, node: Node, location: Location) -> Any:
         """Return the plain data of a node."""
         self._count += 1
-        place = _place(node)
+        place = _node_place(node)
         if self._count > MOST_NODES:
             raise InputError(
                 f"{self.path}:{place.line}:{place.column} file: more than {MOST_NODES:,} values, aliases expanded"
             )
         if len(location) > DEEPEST:
             raise InputError(f"{self.path}:{place.line}:{place.column} file: {_TOO_DEEP}")
-        if isinstance(node, MappingNode) and node.tag == _TAG + "map":
+        if isinstance(node, MappingNode) and node.tag == _TAG_PREFIX + "map":
             return dict(self._pairs(node, location))
-        if isinstance(node, SequenceNode) and node.tag == _TAG + "seq":
+        if isinstance(node, SequenceNode) and node.tag == _TAG_PREFIX + "seq":
             return [self.value(item, (*location, i)) for i, item in enumerate(node.value)]
         if isinstance(node, ScalarNode):
             return self._scalar(node, location)
         return self._not_allowed(node, location)
 
     def _not_allowed(self, node: Node, location: Location) -> None:
-        tag = str(node.tag).replace(_TAG, "!!")
+        tag = str(node.tag).replace(_TAG_PREFIX, "!!")
         self.findings.append(
-            Fault(_place(node), _path(location), f"the tag {tag} is not allowed; write plain values")
+            Fault(
+                _node_place(node),
+                _location_text(location),
+                f"the tag {tag} is not allowed; write plain values",
+            )
         )
 
     def _pairs(self, node: MappingNode, location: Location) -> Iterator[tuple[str, Any]]:
@@ -275,20 +279,22 @@ class _Reader:
             if not isinstance(key, ScalarNode):
                 self.findings.append(
                     Fault(
-                        _place(key), _path(location), "expected text before the colon, got a list or fields"
+                        _node_place(key),
+                        _location_text(location),
+                        "expected text before the colon, got a list or fields",
                     )
                 )
                 continue
             name = self._whole(key)
-            field = _path((*location, name))
-            if key.tag == _TAG + "merge":
+            field = _location_text((*location, name))
+            if key.tag == _TAG_PREFIX + "merge":
                 message = "merge keys (<<) are not allowed; write the fields out"
-                self.findings.append(Fault(_place(key), field, message))
+                self.findings.append(Fault(_node_place(key), field, message))
             elif name in first:
                 message = f"given twice, first in line {first[name].line}; remove one"
-                self.findings.append(Fault(_place(key), field, message))
+                self.findings.append(Fault(_node_place(key), field, message))
             else:
-                first[name] = _place(key)
+                first[name] = _node_place(key)
                 yield name, self.value(value, (*location, name))
 
     def _whole(self, node: ScalarNode) -> str:
@@ -297,17 +303,17 @@ class _Reader:
         try:
             return (
                 content.encode("utf-16", "surrogatepass").decode("utf-16")
-                if _HALF.search(content)
+                if _SURROGATES.search(content)
                 else content
             )
         except UnicodeDecodeError:
-            line, column = _place(node)
+            line, column = _node_place(node)
             raise InputError(
                 f"{self.path}:{line}:{column} file: half of a character (a lone surrogate); remove it"
             ) from None
 
     def _scalar(self, node: ScalarNode, location: Location) -> Any:
-        content, kind = self._whole(node), str(node.tag).removeprefix(_TAG)
+        content, kind = self._whole(node), str(node.tag).removeprefix(_TAG_PREFIX)
         if kind in {"str", "timestamp"}:
             return content
         if kind == "null":
@@ -315,11 +321,11 @@ class _Reader:
         if kind == "bool":
             return content.lower() in {"true", "yes", "on", "y"}
         if kind in {"int", "float"}:
-            return _number(content, kind)
+            return _plain_number(content, kind)
         return self._not_allowed(node, location)
 
 
-def _number(content: str, kind: str) -> int | float | str:
+def _plain_number(content: str, kind: str) -> int | float | str:
     """Read a plain number; 1_000 and numbers that are too long stay text, which the models refuse."""
     try:
         if "_" in content:
@@ -331,7 +337,7 @@ def _number(content: str, kind: str) -> int | float | str:
         return content
 
 
-def _path(location: Location) -> str:
+def _location_text(location: Location) -> str:
     path = ""
     for part in location:
         path += f"[{part}]" if isinstance(part, int) else f".{part}"

@@ -13,9 +13,9 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final, Literal
 
-from conveyor.errors import InputError, shortened
+from conveyor.errors import InputError, shorten_text
 from conveyor.files.document import read_document
-from conveyor.units import in_si
+from conveyor.units import read_si
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -29,7 +29,7 @@ _FOLDER = Path(__file__).parents[1] / "_library"
 
 
 @dataclass(frozen=True)
-class Entry:
+class LibraryEntry:
     """Entry of a library.
 
     Attributes
@@ -57,7 +57,7 @@ class Entry:
 
 
 @cache
-def entries(library: Library) -> Mapping[str, Entry]:
+def library_entries(library: Library) -> Mapping[str, LibraryEntry]:
     """Return the entries of a library by name.
 
     Raises
@@ -67,14 +67,16 @@ def entries(library: Library) -> Mapping[str, Entry]:
 
     Examples
     --------
-    >>> entries("rolls")["159x465"].fields["diameter"]
+    >>> library_entries("rolls")["159x465"].fields["diameter"]
     '159 mm'
     """
     data = read_document(_FOLDER / f"{library}.yaml").data
-    return MappingProxyType({str(name): Entry(str(name), **held) for name, held in data["entries"].items()})
+    return MappingProxyType(
+        {str(name): LibraryEntry(str(name), **held) for name, held in data["entries"].items()}
+    )
 
 
-def entry(library: Library, name: str) -> Entry:
+def library_entry(library: Library, name: str) -> LibraryEntry:
     """Return one entry, its name in any case.
 
     Raises
@@ -84,37 +86,37 @@ def entry(library: Library, name: str) -> Entry:
 
     Examples
     --------
-    >>> entry("belts", "st1600").fields["mass"]
+    >>> library_entry("belts", "st1600").fields["mass"]
     '27 kg/m^2'
-    >>> entry("materials", "hard cole")
+    >>> library_entry("materials", "hard cole")
     Traceback (most recent call last):
     conveyor.errors.InputError: "hard cole" is not in the library of materials; did you mean "hard coal"? ...
     """
-    known = entries(library)
+    known = library_entries(library)
     folded = {other.casefold(): other for other in known}
     name_there = folded.get(name.casefold().strip())
     if name_there is None:
         near = difflib.get_close_matches(name.casefold(), folded, n=1)
         guess = f'; did you mean "{folded[near[0]]}"?' if near else ";"
         raise InputError(
-            f'"{shortened(name)}" is not in the library of {library}{guess} there are: {" | ".join(known)}'
+            f'"{shorten_text(name)}" is not in the library of {library}{guess} there are: {" | ".join(known)}'
         )
     return known[name_there]
 
 
 def belts() -> pd.DataFrame:
     """Return the belt classes, one a row, with sources."""
-    return _table("belts")
+    return _library_table("belts")
 
 
 def rolls() -> pd.DataFrame:
     """Return the rolls, one a row, with sources."""
-    return _table("rolls")
+    return _library_table("rolls")
 
 
 def materials() -> pd.DataFrame:
     """Return the bulk materials, one a row: values, ranges, sources."""
-    return _table("materials")
+    return _library_table("materials")
 
 
 def spacings() -> pd.DataFrame:
@@ -125,7 +127,7 @@ def spacings() -> pd.DataFrame:
     >>> spacings().loc["carry", "to"]
     '1.5 m'
     """
-    return _table("spacing")
+    return _library_table("spacing")
 
 
 def widest_spacings() -> dict[str, float]:
@@ -136,43 +138,43 @@ def widest_spacings() -> dict[str, float]:
     >>> widest_spacings()
     {'carry': 3.0, 'return': 6.0}
     """
-    guidance = entries("spacing")
+    guidance = library_entries("spacing")
     return {
-        strand: in_si(guidance[f"{strand}, overland"].fields["to"], "length")
+        strand: read_si(guidance[f"{strand}, overland"].fields["to"], "length")
         for strand in ("carry", "return")
     }
 
 
-def _table(library: Library) -> pd.DataFrame:
+def _library_table(library: Library) -> pd.DataFrame:
     import pandas as pd
 
     rows = {
         name: {
-            **flat(held.fields),
+            **flatten_fields(held.fields),
             **{f"{key}, range": span for key, span in held.range.items()},
             "note": held.note,
             "general knowledge": held.general_knowledge,
             "source": held.source,
         }
-        for name, held in entries(library).items()
+        for name, held in library_entries(library).items()
     }
     frame = pd.DataFrame(list(rows.values()), index=pd.Index(rows, name=library))
     last = ["note", "general knowledge", "source"]
     return frame[[*(column for column in frame.columns if column not in last), *last]]
 
 
-def flat(fields: Mapping[str, Any], above: str = "") -> dict[str, Any]:
+def flatten_fields(fields: Mapping[str, Any], above: str = "") -> dict[str, Any]:
     """Nested fields under dotted names.
 
     Examples
     --------
-    >>> flat({"mass": "27 kg/m^2", "carcass": {"kind": "EP"}})
+    >>> flatten_fields({"mass": "27 kg/m^2", "carcass": {"kind": "EP"}})
     {'mass': '27 kg/m^2', 'carcass.kind': 'EP'}
     """
     flattened: dict[str, Any] = {}
     for name, value in fields.items():
         if isinstance(value, Mapping):
-            flattened |= flat(value, f"{above}{name}.")
+            flattened |= flatten_fields(value, f"{above}{name}.")
         else:
             flattened[f"{above}{name}"] = value
     return flattened

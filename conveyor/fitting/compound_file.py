@@ -11,23 +11,23 @@ from numpy.typing import NDArray
 
 from conveyor.errors import InputError
 from conveyor.fitting.amplitude import FEWEST_STRAINS
+from conveyor.fitting.measured_rows import MeasuredRows, isotherm_scatter, shift_factors
 from conveyor.fitting.request import Request
-from conveyor.fitting.rows import MeasuredRows, scatter_of, shift_factors
 from conveyor.laboratory import DmaData
 from conveyor.rubber import WLF, Arrhenius, PronyFit, PronySeries, ReplicaBand, ShiftLaw, Superposition
-from conveyor.rubber.band import METHOD
+from conveyor.rubber.band import BOOTSTRAP_METHOD
 from conveyor.units.sentences import ZERO_CELSIUS, percent
 
 Array = NDArray[np.float64]
 
-DIGITS = 12
+SERIES_DIGITS = 12
 """Digits of a series in a compound file: read back, it is the fit to 1e-11."""
 _BAND_DIGITS = 6  # the band is known to one or two
 _ERROR_DECIMALS = 8  # of a relative error: an exact fit leaves rounding, which is none
-_UNKNOWN = "not stated"
+_NOT_STATED = "not stated"
 
 
-def as_fitted(
+def describe_fit(
     read: Sequence[DmaData],
     asked: tuple[Request, str | None],
     fitted: tuple[str, PronyFit],
@@ -36,21 +36,21 @@ def as_fitted(
     """Data of a compound file for a fit with its band; `asked` is the request and its strain."""
     (request, _), (band, rows) = asked, made
     reference, fit = fitted
-    described = of_series(read, asked, reference, fit.series, fit.window)
+    described = describe_series(read, asked, reference, fit.series, fit.window)
     if band is not None:
-        described["prony"]["band"] = _band(band)
+        described["prony"]["band"] = _describe_band(band)
     described["fit"] = {
-        "storage_rms": _six(round(fit.storage.rms, _ERROR_DECIMALS)),
-        "loss_rms": _six(round(fit.loss.rms, _ERROR_DECIMALS)),
-        "storage_worst": _six(round(abs(fit.storage.worst), _ERROR_DECIMALS)),
-        "loss_worst": _six(round(abs(fit.loss.worst), _ERROR_DECIMALS)),
-        "method": _method(fit, request, rows),
+        "storage_rms": _six_digits(round(fit.storage.rms, _ERROR_DECIMALS)),
+        "loss_rms": _six_digits(round(fit.loss.rms, _ERROR_DECIMALS)),
+        "storage_worst": _six_digits(round(abs(fit.storage.worst), _ERROR_DECIMALS)),
+        "loss_worst": _six_digits(round(abs(fit.loss.worst), _ERROR_DECIMALS)),
+        "method": _method_text(fit, request, rows),
     }
     described["missing"] = ["strain dependence", "density"]
     return described
 
 
-def of_series(
+def describe_series(
     read: Sequence[DmaData],
     asked: tuple[Request, str | None],
     reference: str,
@@ -61,9 +61,9 @@ def of_series(
     request, strain = asked
     stated = {key: value for each in reversed(read) for key, value in each.metadata.items()}
     prony: dict[str, Any] = {
-        "equilibrium": mega(series.equilibrium),
+        "equilibrium": modulus_text(series.equilibrium),
         "terms": [
-            {"modulus": mega(modulus), "time": f"{time:.{DIGITS}g} s"}
+            {"modulus": modulus_text(modulus), "time": f"{time:.{SERIES_DIGITS}g} s"}
             for modulus, time in zip(series.moduli, series.times, strict=True)
         ],
     }
@@ -71,45 +71,49 @@ def of_series(
         "name": request.name,
         "kind": "measured",
         "source": {
-            "origin": stated.get("origin", _UNKNOWN),
-            "licence": stated.get("licence", _UNKNOWN),
+            "origin": stated.get("origin", _NOT_STATED),
+            "licence": stated.get("licence", _NOT_STATED),
             "data": ", ".join(Path(each.source.partition("[")[0]).name for each in read),
         },
         "poisson_ratio": request.poisson_ratio,
-        "strain": strain or stated.get("strain", _UNKNOWN),
+        "strain": strain or stated.get("strain", _NOT_STATED),
         "reference_temperature": reference,
         "prony": prony,
         "range": {
-            "frequency": [f"{limit:.{DIGITS}g} Hz" for limit in window],
+            "frequency": [f"{limit:.{SERIES_DIGITS}g} Hz" for limit in window],
             "temperature": [reference] * 2,
         },
     }
 
 
-def mega(modulus: float, digits: int = DIGITS) -> str:
+def modulus_text(modulus: float, digits: int = SERIES_DIGITS) -> str:
     """Modulus [Pa] written in MPa."""
     return f"{modulus / 1e6:.{digits}g} MPa"
 
 
-def _six(value: float) -> float:
+def _six_digits(value: float) -> float:
     return float(f"{value:.6g}")
 
 
-def _band(band: ReplicaBand) -> dict[str, Any]:
+def _describe_band(band: ReplicaBand) -> dict[str, Any]:
     described: dict[str, Any] = {
-        "method": METHOD,
-        "equilibrium": [mega(modulus, _BAND_DIGITS) for modulus in band.equilibrium],
+        "method": BOOTSTRAP_METHOD,
+        "equilibrium": [modulus_text(modulus, _BAND_DIGITS) for modulus in band.equilibrium],
         "unit": "MPa",
-        "moduli": [[_six(modulus / 1e6) for modulus in row] for row in band.moduli],
+        "moduli": [[_six_digits(modulus / 1e6) for modulus in row] for row in band.moduli],
     }
     shifts = {"log10_aT": band.log10_a_T, "log10_bT": band.log10_b_T}
     described |= {
-        key: [[_six(y) for y in row] for row in rows] for key, rows in shifts.items() if rows is not None
+        key: [[_six_digits(y) for y in row] for row in rows]
+        for key, rows in shifts.items()
+        if rows is not None
     }
-    return described | ({"shift": [_law(law, _BAND_DIGITS) for law in band.laws]} if band.laws else {})
+    return described | (
+        {"shift": [_describe_law(law, _BAND_DIGITS) for law in band.laws]} if band.laws else {}
+    )
 
 
-def _law(law: ShiftLaw, digits: int) -> dict[str, Any]:
+def _describe_law(law: ShiftLaw, digits: int) -> dict[str, Any]:
     """Data of a formula of a_T."""
     if isinstance(law, WLF):
         return {"law": "wlf", "c1": float(f"{law.c1:.{digits}g}"), "c2": f"{law.c2:.{digits}g} K"}
@@ -118,8 +122,8 @@ def _law(law: ShiftLaw, digits: int) -> dict[str, Any]:
     raise TypeError(type(law).__name__)
 
 
-def _method(fit: PronyFit, request: Request, rows: MeasuredRows) -> str:
-    storage, loss = scatter_of(rows, fit)
+def _method_text(fit: PronyFit, request: Request, rows: MeasuredRows) -> str:
+    storage, loss = isotherm_scatter(rows, fit)
     equilibrium = "free" if request.equilibrium is None else "held"
     left = (
         f"leaves {percent(fit.residual, 1)} rms of both, the best positive spectrum of all "
@@ -155,24 +159,24 @@ def add_shift(
         return
     kelvin, decades, _, vertical = known
     order = np.argsort(kelvin)
-    temperatures = [f"{t - ZERO_CELSIUS:.{DIGITS}g} degC" for t in kelvin[order]]
+    temperatures = [f"{t - ZERO_CELSIUS:.{SERIES_DIGITS}g} degC" for t in kelvin[order]]
     described["range"]["temperature"] = [temperatures[0], temperatures[-1]]
     if law is not None:
-        described["shift"] = _law(law, DIGITS)
+        described["shift"] = _describe_law(law, SERIES_DIGITS)
         described["missing"].append("vertical shift (none applied)")
         return
     described["shift"] = {
         "law": "table",
         "temperature": temperatures,
-        "log10_aT": [float(f"{y:.{DIGITS}g}") for y in decades[order]],
+        "log10_aT": [float(f"{y:.{SERIES_DIGITS}g}") for y in decades[order]],
     }
     if vertical is None:
         described["missing"].append("vertical shift (none applied)")
     else:
-        described["shift"]["log10_bT"] = [float(f"{y:.{DIGITS}g}") for y in vertical[order]]
+        described["shift"]["log10_bT"] = [float(f"{y:.{SERIES_DIGITS}g}") for y in vertical[order]]
 
 
-def strain_of(reference: str | None, sweeps: DmaData) -> dict[str, Any]:
+def describe_strain(reference: str | None, sweeps: DmaData) -> dict[str, Any]:
     """Data of the strain dependence, from runs of four rows and more; shorter ones are stray rows."""
     if reference is None:
         raise InputError(
@@ -197,10 +201,10 @@ def strain_of(reference: str | None, sweeps: DmaData) -> dict[str, Any]:
             {
                 "temperature": f"{(run.temperature or 0.0) - ZERO_CELSIUS:.6g} degC",
                 "frequency": f"{run.frequency:.6g} Hz",
-                "strain": [_six(100.0 * strain) for strain in run.strain],
+                "strain": [_six_digits(100.0 * strain) for strain in run.strain],
                 "unit": "MPa",
-                "storage": [_six(modulus / 1e6) for modulus in run.storage],
-                "loss": [_six(modulus / 1e6) for modulus in run.loss],
+                "storage": [_six_digits(modulus / 1e6) for modulus in run.storage],
+                "loss": [_six_digits(modulus / 1e6) for modulus in run.loss],
             }
             for run in runs
         ],

@@ -10,9 +10,9 @@ from typing import Final
 import numpy as np
 
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.laboratory.table import FloatArray
+from conveyor.laboratory.dma_data import FloatArray
 from conveyor.rubber.fit import consistency_floor
-from conveyor.rubber.misfit import LEAST_SCATTER, scatter
+from conveyor.rubber.misfit import LEAST_SCATTER, row_scatter
 
 FINDINGS: Final = {
     "few-rows": "fewer than five frequencies, or less than a decade of them",
@@ -23,29 +23,29 @@ FINDINGS: Final = {
 FEWEST_FREQUENCIES: Final = 5
 LEAST_DECADES: Final = 1.0
 """Least span: a term spreads its loss over more than a decade, less shows no shape [decades]."""
-RUBBER: Final = (5e4, 1.2e10)
+RUBBER_RANGE: Final = (5e4, 1.2e10)
 """E' of rubber, soft gel to glass with filler, with room on both sides (general knowledge) [Pa]."""
-GLASS: Final = 5e9
+GLASS_MODULUS: Final = 5e9
 """Curves wholly above it are not of rubber (general knowledge) [Pa]."""
-DOUBTED: Final = 0.05
+DOUBTFUL_RESIDUAL: Final = 0.05
 """Residual of the best positive spectrum from which other readings of the columns are tried: measurements leave less,
 or no other reading does better [-]."""
-BETTER: Final = 0.25
+BETTER_SHARE: Final = 0.25
 """Largest share of that residual left by the right reading [-]."""
-NEAR: Final = 0.4
+NEAR_SHARE: Final = 0.4
 """The same for a reading that differs little: 0.05 to 0.3 for shelf rubbers through their glass transition with 1 % of
 noise; such a reading of right curves, measured ones too, leaves 0.85 and more [-]."""
-FEWEST_NEAR: Final = 12
+FEWEST_NEAR_ROWS: Final = 12
 """Least rows for such a reading: of right sweeps with noise, 8 of 628 with 5 to 10 rows had 0.4 and less by chance,
 none of 1,123 with 11 to 16 rows less than 0.5."""
 LEAST_DEGREES: Final = 1.0
 """Phase angle that most rows of a cover exceed (general knowledge: a tan delta of 0.02) [degrees]."""
-CONTRADICTED: Final = 0.25
+CONTRADICTION_RESIDUAL: Final = 0.25
 """Residual above that of any known measurement (S100: 13 %; a published polymer: 17 %) without equal scatter [-]."""
-OVER_SCATTER: Final = 1.5
-_UNITS: Final = (1.0, 1e3, 1e6, 1e9)
-_TANGENT: Final = (1e-4, 5.0)
-_LOGARITHM: Final = (-3.0, 12.0)
+SCATTER_MARGIN: Final = 1.5
+_MODULUS_UNITS: Final = (1.0, 1e3, 1e6, 1e9)
+_TANGENT_RANGE: Final = (1e-4, 5.0)
+_LOGARITHM_RANGE: Final = (-3.0, 12.0)
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ def check_findings(
     for name in accepted - FINDINGS.keys():
         raise InputError(f'accept: "{name}" (--accept) is not known; allowed: {", ".join(FINDINGS)}')
     seen = []
-    for finding in _findings(*curve, shear=shear):
+    for finding in _curve_findings(*curve, shear=shear):
         if finding.name not in accepted:
             raise InputError(
                 f"{place}: {finding.text}; if it is right as it stands, insist with --accept {finding.name} "
@@ -73,12 +73,12 @@ def check_findings(
     return tuple(seen)
 
 
-def _findings(
+def _curve_findings(
     frequency: FloatArray, storage: FloatArray, loss: FloatArray, *, shear: float
 ) -> Iterator[Finding]:
     count, decades = np.unique(frequency).size, float(np.log10(frequency.max() / frequency.min()))
     if count >= FEWEST_FREQUENCIES:
-        yield from _contradiction(frequency, storage, loss, shear)
+        yield from _contradiction_finding(frequency, storage, loss, shear)
     if count < FEWEST_FREQUENCIES or round(decades, 6) < LEAST_DECADES:
         span = f"{decades:.2g}"
         yield Finding(
@@ -87,36 +87,38 @@ def _findings(
             f"{LEAST_DECADES:g}: measure more frequencies, or more temperatures",
         )
     lowest, highest = float(storage.min()), float(storage.max())
-    if lowest < RUBBER[0] or highest > RUBBER[1] or lowest > GLASS:
-        seen = lowest if lowest < RUBBER[0] or highest <= RUBBER[1] else highest
+    if lowest < RUBBER_RANGE[0] or highest > RUBBER_RANGE[1] or lowest > GLASS_MODULUS:
+        seen = lowest if lowest < RUBBER_RANGE[0] or highest <= RUBBER_RANGE[1] else highest
         yield Finding(
             "modulus",
-            f"E' = {seen / 1e6:.4g} MPa at {frequency[storage == seen][0]:.3g} Hz; rubber has {RUBBER[0] / 1e6:g} to "
-            f"{RUBBER[1] / 1e6:,.0f} MPa, not all of it above {GLASS / 1e6:,.0f}: correct the unit of the moduli in "
+            f"E' = {seen / 1e6:.4g} MPa at {frequency[storage == seen][0]:.3g} Hz; rubber has "
+            f"{RUBBER_RANGE[0] / 1e6:g} to "
+            f"{RUBBER_RANGE[1] / 1e6:,.0f} MPa, not all of it above {GLASS_MODULUS / 1e6:,.0f}: correct the unit of "
+            f"the moduli in "
             "the header, or give --modulus-unit",
         )
 
 
-def _contradiction(
+def _contradiction_finding(
     frequency: FloatArray, storage: FloatArray, loss: FloatArray, shear: float
 ) -> Iterator[Finding]:
-    left = _left(frequency, storage, loss)
+    left = _spectrum_residual(frequency, storage, loss)
     if left < LEAST_SCATTER:
         return
     seen = (
         "E' and E'' contradict each other: the best of all positive spectra misses them by "
         f"{100.0 * left:.2g} % (rms)"
     )
-    near = _near_readings(frequency, storage, loss) if frequency.size >= FEWEST_NEAR else ()
-    readings = [(NEAR, *one) for one in near]
-    if left >= DOUBTED:
-        readings += [(BETTER, *one) for one in _readings(frequency, storage, loss, shear)]
-    tried = [(_left(*curve), share, advice) for share, curve, advice in readings]
+    near = _near_readings(frequency, storage, loss) if frequency.size >= FEWEST_NEAR_ROWS else ()
+    readings = [(NEAR_SHARE, *one) for one in near]
+    if left >= DOUBTFUL_RESIDUAL:
+        readings += [(BETTER_SHARE, *one) for one in _other_readings(frequency, storage, loss, shear)]
+    tried = [(_spectrum_residual(*curve), share, advice) for share, curve, advice in readings]
     found = min((one for one in tried if one[0] < one[1] * left), default=None)
-    noise = [scatter(frequency, modulus) or 0.0 for modulus in (storage, loss)]
+    noise = [row_scatter(frequency, modulus) or 0.0 for modulus in (storage, loss)]
     if found is not None:
         yield Finding("contradiction", f"{seen}, but by {100.0 * found[0]:.1f} % {found[2]}")
-    elif left > max(CONTRADICTED, OVER_SCATTER * math.sqrt(0.5) * math.hypot(*noise)):
+    elif left > max(CONTRADICTION_RESIDUAL, SCATTER_MARGIN * math.sqrt(0.5) * math.hypot(*noise)):
         yield Finding(
             "contradiction",
             f"{seen}, far more than they scatter from row to row; look for columns or units mixed up, two "
@@ -127,19 +129,19 @@ def _contradiction(
 def _near_readings(
     frequency: FloatArray, storage: FloatArray, loss: FloatArray
 ) -> Iterator[tuple[tuple[FloatArray, FloatArray, FloatArray], str]]:
-    """Other readings of the columns that differ little from their names, as `_readings`."""
+    """Other readings of the columns that differ little from their names, as `_other_readings`."""
     whole = "if what is named E' is |E*|: name the column |E*|"
     tangent = loss / storage
     if (loss < storage).all():
         yield (frequency, np.sqrt(storage**2 - loss**2), loss), whole
     share = 1.0 / np.sqrt(1.0 + tangent**2)
     yield (frequency, storage * share, loss * share), f"{whole} (E'' was made of it by tan delta)"
-    if tangent.max() < math.atan(_TANGENT[1]):
+    if tangent.max() < math.atan(_TANGENT_RANGE[1]):
         words = "if its tan delta is the phase angle in rad: name the column 'phase [rad]'"
         yield (frequency, storage, storage * np.tan(tangent)), words
 
 
-def _readings(
+def _other_readings(
     frequency: FloatArray, storage: FloatArray, loss: FloatArray, shear: float
 ) -> Iterator[tuple[tuple[FloatArray, FloatArray, FloatArray], str]]:
     """Other readings of the columns, as frequency, E' and E'', with advice."""
@@ -153,31 +155,35 @@ def _readings(
     if np.median(tangent) > LEAST_DEGREES and tangent.max() < 90.0:
         words = "if its tan delta is the phase angle in degrees: name the column 'phase [deg]'"
         yield (frequency, storage, storage * np.tan(np.radians(tangent))), words
-    for unit in {unit * factor for unit in _UNITS for factor in (1.0, shear)}:
+    for unit in {unit * factor for unit in _MODULUS_UNITS for factor in (1.0, shear)}:
         named = loss / unit
-        if _within(named, _TANGENT):
+        if _is_within(named, _TANGENT_RANGE):
             yield (
                 (frequency, storage, storage * named),
                 "if what is named E'' is tan delta: name the column 'tan delta'",
             )
         first, second = storage / unit, loss / unit
-        if np.ptp(first) > 0.0 and _within(first, _LOGARITHM) and _within(second, _LOGARITHM):
+        if (
+            np.ptp(first) > 0.0
+            and _is_within(first, _LOGARITHM_RANGE)
+            and _is_within(second, _LOGARITHM_RANGE)
+        ):
             moduli = (10.0**first, 10.0**second)
             yield (frequency, *moduli), "if the moduli are log10: name them log10 E' and log10 E''"
-            if _within(frequency, _LOGARITHM):
+            if _is_within(frequency, _LOGARITHM_RANGE):
                 yield (
                     (10.0**frequency, *moduli),
                     "if frequency and moduli are log10: name the columns log10 f, log10 E' and log10 E''",
                 )
-    if _within(frequency, _LOGARITHM):
+    if _is_within(frequency, _LOGARITHM_RANGE):
         yield (10.0**frequency, storage, loss), "if the frequency is log10: name the column log10 f"
 
 
-def _within(values: FloatArray, limits: tuple[float, float]) -> bool:
+def _is_within(values: FloatArray, limits: tuple[float, float]) -> bool:
     return bool(limits[0] <= values.min() and values.max() <= limits[1])
 
 
-def _left(frequency: FloatArray, storage: FloatArray, loss: FloatArray) -> float:
+def _spectrum_residual(frequency: FloatArray, storage: FloatArray, loss: FloatArray) -> float:
     """Residual of the best positive spectrum; infinite where none has a loss."""
     try:
         return consistency_floor(frequency, storage, loss)

@@ -9,21 +9,21 @@ from typing import Final
 import numpy as np
 
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.files import marks
+from conveyor.files import output_marks
 from conveyor.models import RubberCompound
 from conveyor.rubber import WLF, Arrhenius, ShiftTable, fit_wlf
 from conveyor.rubber.shift import GAS_CONSTANT
 from conveyor.units import text
-from conveyor.units.sentences import ZERO_CELSIUS, celsius
+from conveyor.units.sentences import ZERO_CELSIUS, to_celsius
 
-INCOMPRESSIBLE: Final = 0.4999
+INCOMPRESSIBLE_RATIO: Final = 0.4999
 """Poisson's ratio written for 0.5, at which elements with displacements alone have no solution."""
-FARTHEST: Final = 0.3
+LARGEST_LAW_MISS: Final = 0.3
 """Largest miss of a law written in place of a table: a factor of two in time (general knowledge) [decades]."""
-_PER_LINE: Final = 3  # terms of a TBDATA command: it takes six constants
+_TERMS_PER_LINE: Final = 3  # terms of a TBDATA command: it takes six constants
 
 
-def exported(compound: RubberCompound, ending: str) -> tuple[str, str]:
+def program_input(compound: RubberCompound, ending: str) -> tuple[str, str]:
     """Name of a program, and its input for a compound.
 
     Parameters
@@ -50,32 +50,37 @@ def exported(compound: RubberCompound, ending: str) -> tuple[str, str]:
     Examples
     --------
     >>> from conveyor import shelf
-    >>> exported(shelf.compound("standard-cover"), ".csv")[1].splitlines()[:2]
+    >>> program_input(shelf.compound("standard-cover"), ".csv")[1].splitlines()[:2]
     ['i,tau_i,alpha_i,E_0,E_i', '-,s,-,MPa,MPa']
     """
-    made = {".inp": ("Abaqus", _abaqus), ".mac": ("Ansys", _ansys), ".csv": ("pyvisco", _pyvisco)}
+    made = {
+        ".inp": ("Abaqus", _abaqus_lines),
+        ".mac": ("Ansys", _ansys_lines),
+        ".csv": ("pyvisco", _pyvisco_lines),
+    }
     if ending not in made:
         raise InputError(f'--export: a name ends in {", ".join(made)}, got "{ending}"')
     program, lines = made[ending]
     return program, "\n".join([*lines(compound), ""])
 
 
-def _about(compound: RubberCompound) -> list[str]:
+def _head_lines(compound: RubberCompound) -> list[str]:
     """Remarks at the head of a file."""
     lines = [
-        f"{marks.maker()}: {compound.name}, series at {text(compound.reference_temperature)}; N, mm, s: moduli in MPa",
+        f"{output_marks.program_version()}: {compound.name}, series at {text(compound.reference_temperature)}; N, "
+        f"mm, s: moduli in MPa",
         f"data: {compound.source.data or 'not stated'}; {compound.source.origin}",
     ]
     if compound.range is not None:
         low, high = (text(f) for f in compound.range.frequency)
         lines.append(f"holds from {low} to {high} at that temperature")
     if compound.poisson_ratio == 0.5:
-        lines.append(f"incompressible: Poisson's ratio written as {INCOMPRESSIBLE:g}")
+        lines.append(f"incompressible: Poisson's ratio written as {INCOMPRESSIBLE_RATIO:g}")
     lines += ["softening with strain, tests and vertical shift are not in here"]
     return [line.encode("ascii", "replace").decode() for line in lines]
 
 
-def _shares(compound: RubberCompound) -> tuple[float, list[tuple[float, float]]]:
+def _prony_shares(compound: RubberCompound) -> tuple[float, list[tuple[float, float]]]:
     """Instantaneous modulus [MPa], share and time [s] of each term by rising time."""
     series = compound.series_at_reference
     glassy = series.glassy
@@ -84,7 +89,7 @@ def _shares(compound: RubberCompound) -> tuple[float, list[tuple[float, float]]]
     return glassy / 1e6, list(terms)
 
 
-def _shift(compound: RubberCompound) -> tuple[WLF | Arrhenius | None, str]:
+def _program_shift(compound: RubberCompound) -> tuple[WLF | Arrhenius | None, str]:
     """Shift law for a program, and a remark on it."""
     law = compound.shift_law()
     if isinstance(law, ShiftTable):
@@ -92,10 +97,8 @@ def _shift(compound: RubberCompound) -> tuple[WLF | Arrhenius | None, str]:
             fit = fit_wlf(law.temperatures, law.log10_factors, law.reference)
         except (InputError, NoSolutionError) as error:
             return None, f"shift: the table follows no WLF law, none is written: {error}"
-        misses = (
-            f"rms {fit.rms:.2f}, worst {fit.worst:+.2f} decades at {celsius(fit.worst_temperature):.0f} degC"
-        )
-        if abs(fit.worst) > FARTHEST:
+        misses = f"rms {fit.rms:.2f}, worst {fit.worst:+.2f} decades at {to_celsius(fit.worst_temperature):.0f} degC"
+        if abs(fit.worst) > LARGEST_LAW_MISS:
             return None, f"shift: none written, the nearest WLF law misses the table by {misses}"
         return fit.law, f"shift: the WLF law nearest to the table, {misses}"
     if isinstance(law, WLF | Arrhenius):
@@ -103,51 +106,51 @@ def _shift(compound: RubberCompound) -> tuple[WLF | Arrhenius | None, str]:
     return None, "shift: none, for the reference temperature only"
 
 
-def _poisson(compound: RubberCompound) -> float:
-    return INCOMPRESSIBLE if compound.poisson_ratio == 0.5 else compound.poisson_ratio
+def _program_poisson_ratio(compound: RubberCompound) -> float:
+    return INCOMPRESSIBLE_RATIO if compound.poisson_ratio == 0.5 else compound.poisson_ratio
 
 
-def _abaqus(compound: RubberCompound) -> Iterator[str]:
-    law, said = _shift(compound)
-    yield from (f"** {line}" for line in (*_about(compound), said))
+def _abaqus_lines(compound: RubberCompound) -> Iterator[str]:
+    law, said = _program_shift(compound)
+    yield from (f"** {line}" for line in (*_head_lines(compound), said))
     if isinstance(law, Arrhenius):
         yield f"*PHYSICAL CONSTANTS, ABSOLUTE ZERO={-ZERO_CELSIUS:g}, UNIVERSAL GAS={GAS_CONSTANT:.12g}"
     yield f"*MATERIAL, NAME={re.sub(r'[^A-Za-z0-9_-]', '_', compound.name)[:80]}"
-    glassy, terms = _shares(compound)
+    glassy, terms = _prony_shares(compound)
     yield "*ELASTIC, MODULI=INSTANTANEOUS"
-    yield f"{glassy:.12g}, {_poisson(compound):g}"
+    yield f"{glassy:.12g}, {_program_poisson_ratio(compound):g}"
     yield "*VISCOELASTIC, TIME=PRONY"
     yield from (f"{share:.12g}, {share:.12g}, {time:.12g}" for share, time in terms)
     if isinstance(law, WLF):
         yield "*TRS, DEFINITION=WLF"
-        yield f"{celsius(law.reference):.9g}, {law.c1:.9g}, {law.c2:.9g}"
+        yield f"{to_celsius(law.reference):.9g}, {law.c1:.9g}, {law.c2:.9g}"
     if isinstance(law, Arrhenius):
         yield "*TRS, DEFINITION=ARRHENIUS"
-        yield f"{celsius(law.reference):.9g}, {law.activation_energy:.9g}"
+        yield f"{to_celsius(law.reference):.9g}, {law.activation_energy:.9g}"
 
 
-def _ansys(compound: RubberCompound) -> Iterator[str]:
-    law, said = _shift(compound)
-    yield from (f"! {line}" for line in (*_about(compound), said))
-    glassy, terms = _shares(compound)
+def _ansys_lines(compound: RubberCompound) -> Iterator[str]:
+    law, said = _program_shift(compound)
+    yield from (f"! {line}" for line in (*_head_lines(compound), said))
+    glassy, terms = _prony_shares(compound)
     yield f"MP,EX,1,{glassy:.12g}"
-    yield f"MP,PRXY,1,{_poisson(compound):g}"
+    yield f"MP,PRXY,1,{_program_poisson_ratio(compound):g}"
     for kind in ("SHEAR", "BULK"):
         yield f"TB,PRONY,1,,{len(terms)},{kind}"
-        for k in range(0, len(terms), _PER_LINE):
-            pairs = ",".join(f"{share:.12g},{time:.12g}" for share, time in terms[k : k + _PER_LINE])
+        for k in range(0, len(terms), _TERMS_PER_LINE):
+            pairs = ",".join(f"{share:.12g},{time:.12g}" for share, time in terms[k : k + _TERMS_PER_LINE])
             yield f"TBDATA,{2 * k + 1},{pairs}"
     if isinstance(law, WLF):
         yield "TB,SHIFT,1,,3,WLF"
-        yield f"TBDATA,1,{celsius(law.reference):.9g},{law.c1:.9g},{law.c2:.9g}"
+        yield f"TBDATA,1,{to_celsius(law.reference):.9g},{law.c1:.9g},{law.c2:.9g}"
     if isinstance(law, Arrhenius):
         yield f"TOFFST,{ZERO_CELSIUS:g}"
         yield "TB,SHIFT,1,,2,TN"
-        yield f"TBDATA,1,{celsius(law.reference):.9g},{law.activation_energy / GAS_CONSTANT:.9g}"
+        yield f"TBDATA,1,{to_celsius(law.reference):.9g},{law.activation_energy / GAS_CONSTANT:.9g}"
 
 
-def _pyvisco(compound: RubberCompound) -> Iterator[str]:
-    glassy, terms = _shares(compound)
+def _pyvisco_lines(compound: RubberCompound) -> Iterator[str]:
+    glassy, terms = _prony_shares(compound)
     yield "i,tau_i,alpha_i,E_0,E_i"
     yield "-,s,-,MPa,MPa"
     for number, (share, time) in enumerate(terms, start=1):

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from conveyor.errors import InputError
-from conveyor.fitting.compound import Fitted, Tabulated
-from conveyor.report.plots import colour, keyed, master_curve, stacked
-from conveyor.report.settings import own_settings
-from conveyor.rubber.superposition import STRAY
+from conveyor.fitting.fitted_compound import FittedCompound, TabulatedCompound
+from conveyor.report.matplotlib_settings import own_settings
+from conveyor.report.plots import add_legend, curve_colour, master_curve, stacked_axes
+from conveyor.rubber.time_temperature import OUTLIER_TRUST
 from conveyor.units import text
-from conveyor.units.sentences import celsius, percent
+from conveyor.units.sentences import percent, to_celsius
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -22,15 +22,15 @@ if TYPE_CHECKING:
     from conveyor.rubber import PronyFit, PronySeries
     from conveyor.rubber.arrays import FloatArray
 
-_CANDIDATES = 6  # of the criterion's table that are printed
-_STRAYS = 6  # outliers that are named
+_MOST_CANDIDATES = 6  # of the criterion's table that are printed
+_MOST_OUTLIERS = 6  # outliers that are named
 _POINTS = 400
 _SHAPE_CORRELATION = 0.5  # of neighbouring residuals beyond which isotherms differ in shape
 
 
-def lines(rubber: Fitted | Tabulated) -> list[str]:
+def summary_lines(rubber: FittedCompound | TabulatedCompound) -> list[str]:
     """Lines on reading, shift, fit, errors and doubts."""
-    if isinstance(rubber, Tabulated):
+    if isinstance(rubber, TabulatedCompound):
         series = rubber.compound.series_at_reference
         return [
             "read",
@@ -42,22 +42,22 @@ def lines(rubber: Fitted | Tabulated) -> list[str]:
     return [
         "read",
         *(f"  {line}" for line in rubber.understood),
-        *_shift(rubber),
-        *_laws(rubber),
-        *_series(rubber),
-        *_criterion(rubber),
-        *_consistency(rubber),
+        *_shift_lines(rubber),
+        *_law_lines(rubber),
+        *_series_lines(rubber),
+        *_criterion_lines(rubber),
+        *_consistency_lines(rubber),
         "not known: " + ("; ".join(rubber.compound.missing) or "nothing listed"),
     ]
 
 
-def _shift(fitted: Fitted) -> Iterator[str]:
+def _shift_lines(fitted: FittedCompound) -> Iterator[str]:
     shifted = fitted.superposition
     if shifted is None:
         return
-    yield f"shift of {shifted.temperatures.size} isotherms to {celsius(shifted.reference):.4g} degC"
+    yield f"shift of {shifted.temperatures.size} isotherms to {to_celsius(shifted.reference):.4g} degC"
     for t, shift, error in zip(shifted.temperatures, shifted.log10_a_T, shifted.log10_a_T_error, strict=True):
-        yield f"  {celsius(float(t)):8.2f} degC  log10 a_T {shift:+9.4f} +- {error:.4f}"
+        yield f"  {to_celsius(float(t)):8.2f} degC  log10 a_T {shift:+9.4f} +- {error:.4f}"
     overlaps = ((shifted.storage_residual, "E'"), (shifted.loss_residual, "E''"))
     scatter = ((shifted.storage_scatter, "E'"), (shifted.loss_scatter, "E''"))
     told = " and ".join(f"{percent(value, 1)} ({name})" for value, name in scatter if value is not None)
@@ -95,17 +95,18 @@ def _shift(fitted: Fitted) -> Iterator[str]:
         )
 
 
-def _laws(fitted: Fitted) -> Iterator[str]:
+def _law_lines(fitted: FittedCompound) -> Iterator[str]:
     if fitted.laws:
         yield "shift laws"
     for law in fitted.laws:
         yield (
-            f"  {law.name}: rms {law.rms:.2f}, worst {law.worst:+.2f} decades at {celsius(law.worst_temperature):.0f} "
+            f"  {law.name}: rms {law.rms:.2f}, worst {law.worst:+.2f} decades at "
+            f"{to_celsius(law.worst_temperature):.0f} "
             f"degC; a point left out is missed by {law.left_out:.2f} decades"
         )
 
 
-def _series(fitted: Fitted) -> Iterator[str]:
+def _series_lines(fitted: FittedCompound) -> Iterator[str]:
     fit, compound = fitted.fit, fitted.compound
     yield (
         f"{compound.name}: {fit.active_terms} terms, E_e {fit.series.equilibrium / 1e6:.4g} MPa, "
@@ -119,7 +120,7 @@ def _series(fitted: Fitted) -> Iterator[str]:
             f"  {label:>9}: rms {percent(misfit.rms, 1)}, worst {percent(misfit.worst, 1, signed=True)} at "
             f"{misfit.worst_frequency:.3g} Hz"
         )
-    yield from _outliers(fit)
+    yield from _outlier_lines(fit)
     storage, loss = fitted.noise
     if storage is not None and loss is not None:
         yield f"  scatter from row to row: {percent(storage, 1)} (E'), {percent(loss, 1)} (E'')"
@@ -128,35 +129,35 @@ def _series(fitted: Fitted) -> Iterator[str]:
         yield f"  disagreement between isotherms beyond it: {apart[0]} (E'), {apart[1]} (E'')"
 
 
-def _outliers(fit: PronyFit) -> Iterator[str]:
+def _outlier_lines(fit: PronyFit) -> Iterator[str]:
     """Lines on rows with little weight in the fit."""
     f = fit.rows.frequency
     for name, kept, error in zip(("E'", "E''"), np.split(fit.rows.trust, 2), fit.errors, strict=True):
-        stray = np.flatnonzero(kept < STRAY)
+        stray = np.flatnonzero(kept < OUTLIER_TRUST)
         if stray.size:
             rows = ", ".join(
                 f"{f[k]:.3g} Hz ({percent(1.0 / (1.0 + error[k]) - 1.0, signed=True)})"
-                for k in stray[:_STRAYS]
+                for k in stray[:_MOST_OUTLIERS]
             )
-            more = f" and {stray.size - _STRAYS} more" if stray.size > _STRAYS else ""
+            more = f" and {stray.size - _MOST_OUTLIERS} more" if stray.size > _MOST_OUTLIERS else ""
             beyond = "more than four times what the fit misses of others"
             yield f"  {name} of {stray.size} rows stands off by {beyond}: {rows}{more}:"
             yield "    a resonance, a bad contact? They hardly pull the fit, and count in its errors above"
 
 
-def _criterion(fitted: Fitted) -> Iterator[str]:
+def _criterion_lines(fitted: FittedCompound) -> Iterator[str]:
     candidates = fitted.fit.candidates
     if len(candidates) < 2:
         return
     yield "  number of terms by AICc, chosen first: per decade, penalty, terms, effective parameters, residual, score"
-    for candidate in candidates[:_CANDIDATES]:
+    for candidate in candidates[:_MOST_CANDIDATES]:
         yield (
             f"    {candidate.terms_per_decade:5.2f} {candidate.regularisation:7.3g} {candidate.terms:4d} "
             f"{candidate.freedom:7.1f} {candidate.residual:8.2%} {candidate.score:10.1f}"
         )
 
 
-def _consistency(fitted: Fitted) -> Iterator[str]:
+def _consistency_lines(fitted: FittedCompound) -> Iterator[str]:
     yield (
         f"any positive spectrum leaves at least {percent(fitted.fit.consistency_floor, 1)} rms of both: that "
         "much the data "
@@ -179,22 +180,22 @@ def _consistency(fitted: Fitted) -> Iterator[str]:
         )
 
 
-def shift_table(rubber: Fitted | Tabulated) -> str:
+def shift_table(rubber: FittedCompound | TabulatedCompound) -> str:
     """Shift factors of a fit as text of a file for `--shift`, to edit by hand."""
-    shifted = None if isinstance(rubber, Tabulated) else rubber.superposition
+    shifted = None if isinstance(rubber, TabulatedCompound) else rubber.superposition
     if shifted is None:
         raise InputError("--write-shift: shift factors are found from isotherms at two temperatures and more")
     columns = zip(shifted.temperatures, shifted.log10_a_T, shifted.log10_b_T, strict=True)
-    rows = [f"{celsius(float(t)):.6g},{a:.6f},{b:.6f}" for t, a, b in columns]
+    rows = [f"{to_celsius(float(t)):.6g},{a:.6f},{b:.6f}" for t, a, b in columns]
     return "\n".join(["temperature_degC,log10_aT,log10_bT", *rows, ""])
 
 
 @own_settings()
-def figure(rubber: Fitted | Tabulated) -> Figure:
+def band_figure(rubber: FittedCompound | TabulatedCompound) -> Figure:
     """Data, fit and band: E', E'' above, tan δ below."""
-    if isinstance(rubber, Tabulated):
+    if isinstance(rubber, TabulatedCompound):
         return master_curve(rubber.compound)
-    made, (above, below) = stacked(2, 7.0)
+    made, (above, below) = stacked_axes(2, 7.0)
     f, storage, loss = rubber.rows.curve
     low, high = rubber.fit.window
     omega = 2.0 * np.pi * np.geomspace(low, high, _POINTS)
@@ -209,13 +210,13 @@ def figure(rubber: Fitted | Tabulated) -> Figure:
     measured = (storage / 1e6, loss / 1e6, loss / storage)
     for k, (axis, label) in enumerate(((above, "E'"), (above, "E''"), (below, "tan δ"))):
         data, model = measured[k], models[k]
-        axis.plot(f, data, color=colour(k), marker="o", markersize=3, linestyle="none", alpha=0.6)
-        axis.plot(at, model(series), color=colour(k), label=label)
+        axis.plot(f, data, color=curve_colour(k), marker="o", markersize=3, linestyle="none", alpha=0.6)
+        axis.plot(at, model(series), color=curve_colour(k), label=label)
         if replicas:
             bottom, top = np.quantile(
                 [model(replica) for replica in replicas], (0.05, 0.95), axis=0, method="weibull"
             )
-            axis.fill_between(at, bottom, top, color=colour(k), alpha=0.2, linewidth=0)
+            axis.fill_between(at, bottom, top, color=curve_colour(k), alpha=0.2, linewidth=0)
     reference = text(rubber.compound.reference_temperature)
     above.set(
         xscale="log",
@@ -225,5 +226,5 @@ def figure(rubber: Fitted | Tabulated) -> Figure:
     )
     below.set(xscale="log", xlabel=f"frequency at {reference} [Hz]", ylabel="tan δ [-]")
     below.set_ylim(bottom=0.0)
-    keyed(above)
+    add_legend(above)
     return made

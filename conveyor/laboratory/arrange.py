@@ -8,16 +8,16 @@ from typing import Final
 
 import numpy as np
 
+from conveyor.laboratory.dma_data import FloatArray, IntArray
 from conveyor.laboratory.groups import SAME_SET_POINT, duplicate_runs, set_points, temperature_groups
-from conveyor.laboratory.kinds import NEEDS
-from conveyor.laboratory.layout import DataTable
-from conveyor.laboratory.table import FloatArray, IntArray
+from conveyor.laboratory.measurement_kinds import NEEDED_COLUMNS
+from conveyor.laboratory.table_layout import DataTable
 
 SAME_TEMPERATURE: Final = 0.01
 """Rows of a ramp this close are repeats [K]: the last digit printed."""
 SAME_REDUCED_FREQUENCY: Final = 1e-9
 """A master curve merges shifted isotherms: only equal frequencies, to rounding, are repeats [-]."""
-SCATTER: Final = 0.8
+WRONG_WAY_FACTOR: Final = 0.8
 """Ratio of end values above which a wrong trend may be the scatter of a flat modulus [-]."""
 
 
@@ -31,22 +31,22 @@ class Arrangement:
     duplicates: IntArray | None
 
 
-def arrange(kind: str, columns: Mapping[str, FloatArray], labels: IntArray | None) -> Arrangement:
+def arrange_rows(kind: str, columns: Mapping[str, FloatArray], labels: IntArray | None) -> Arrangement:
     """Group and sort rows, duplicate runs of one group and label apart.
 
     Examples
     --------
     >>> f = np.array([10.0, 1.0, 10.0])
-    >>> found = arrange("master curve", {"frequency": f}, None)
+    >>> found = arrange_rows("master curve", {"frequency": f}, None)
     >>> found.order, found.run
     (array([1, 0, 2]), array([0, 0, 1]))
     """
-    swept = columns[NEEDS[kind][0]]
-    group = _group(kind, columns, labels)
+    swept = columns[NEEDED_COLUMNS[kind][0]]
+    group = _sweep_groups(kind, columns, labels)
     zero = np.zeros(swept.size, dtype=np.int64)
     condition = zero if group is None else group
-    parted = condition if labels is None else _pairs(condition, labels)
-    if NEEDS[kind][0] == "temperature":
+    parted = condition if labels is None else _number_pairs(condition, labels)
+    if NEEDED_COLUMNS[kind][0] == "temperature":
         duplicates = duplicate_runs(swept, parted, tolerance=SAME_TEMPERATURE)
     else:
         merged = kind == "master curve"
@@ -58,23 +58,23 @@ def arrange(kind: str, columns: Mapping[str, FloatArray], labels: IntArray | Non
     return Arrangement(np.lexsort((swept, again, second, first)), group, run, duplicates)
 
 
-def _pairs(first: IntArray, second: IntArray) -> IntArray:
+def _number_pairs(first: IntArray, second: IntArray) -> IntArray:
     """Number the distinct pairs of two labels."""
     inverse = np.unique(np.stack([first, second]), axis=1, return_inverse=True)[1]
     return inverse.reshape(-1).astype(np.int64)
 
 
-def _group(kind: str, columns: Mapping[str, FloatArray], labels: IntArray | None) -> IntArray | None:
+def _sweep_groups(kind: str, columns: Mapping[str, FloatArray], labels: IntArray | None) -> IntArray | None:
     """Group numbers of rows measured under one condition; None for a ramp."""
     temperature, frequency = columns.get("temperature"), columns.get("frequency")
-    single = np.zeros(columns[NEEDS[kind][0]].size, dtype=np.int64)
+    single = np.zeros(columns[NEEDED_COLUMNS[kind][0]].size, dtype=np.int64)
     if kind in {"relaxation", "shift factors", "master curve", "Prony series"}:
         return single
     level = single if frequency is None else set_points(frequency)
     if kind == "temperature sweep":
         return level
     group = single if temperature is None else temperature_groups(temperature, labels)
-    return group if group is None or kind == "isotherms" else _pairs(group, level)
+    return group if group is None or kind == "isotherms" else _number_pairs(group, level)
 
 
 def check_trend(
@@ -91,13 +91,13 @@ def check_trend(
     wrong: tuple[int, tuple[str, ...], str] | None = None
     if first == last:
         return
-    if kind == "master curve" and columns["storage"][last] < SCATTER * columns["storage"][first]:
+    if kind == "master curve" and columns["storage"][last] < WRONG_WAY_FACTOR * columns["storage"][first]:
         what = (
             "E' falls as the frequency rises: a period instead of a frequency, or several temperatures in one series?"
             " add a column temperature_degC, or correct the header"
         )
         wrong = last, ("storage", "loss"), what
-    elif kind == "relaxation" and columns["modulus"][last] * SCATTER > columns["modulus"][first]:
+    elif kind == "relaxation" and columns["modulus"][last] * WRONG_WAY_FACTOR > columns["modulus"][first]:
         what = "E(t) rises with time: a creep compliance, or times in descending order? correct the header"
         wrong = last, ("relaxation",), what
     elif kind == "shift factors" and arrangement.duplicates is not None:

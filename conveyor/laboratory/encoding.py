@@ -6,8 +6,8 @@ import codecs
 import re
 from typing import Final
 
-from conveyor.laboratory.grid import refusal
-from conveyor.laboratory.names import known_names
+from conveyor.laboratory.cell_grid import cell_error
+from conveyor.laboratory.header_meanings import known_names
 
 _LONGEST_HEAD: Final = 20_000
 """Characters searched for column names, to choose the encoding."""
@@ -37,7 +37,7 @@ _FOREIGN: Final = (
 """Encodings by language and letters, tried in this order on files with known words."""
 
 
-def decoded(data: bytes, name: str) -> tuple[str, str]:
+def decode_text(data: bytes, name: str) -> tuple[str, str]:
     """Decode a text file, and name its encoding; an empty file, or one that is not text, is refused.
 
     Notes
@@ -50,21 +50,21 @@ def decoded(data: bytes, name: str) -> tuple[str, str]:
 
     Examples
     --------
-    >>> decoded("T (°C)".encode("cp1252"), "pad.csv")
+    >>> decode_text("T (°C)".encode("cp1252"), "pad.csv")
     ('T (°C)', 'encoding: cp1252 (not UTF-8)')
     """
     if not data.strip():
-        raise refusal(name, 1, 0, "the file is empty; export the table again as CSV, TXT or .xlsx")
+        raise cell_error(name, 1, 0, "the file is empty; export the table again as CSV, TXT or .xlsx")
     for magic, what in _NOT_TEXT.items():
         if data.startswith(magic):
-            raise refusal(name, 1, 0, f"this is not text but {what}")
-    text, note = _text(data, name)
+            raise cell_error(name, 1, 0, f"this is not text but {what}")
+    text, note = _decode_bytes(data, name)
     if _MARKUP.match(text):
-        raise refusal(name, 1, 0, "this is HTML or XML, whatever its name; export it as CSV or .xlsx")
+        raise cell_error(name, 1, 0, "this is HTML or XML, whatever its name; export it as CSV or .xlsx")
     return text, f"encoding: {note}"
 
 
-def _text(data: bytes, name: str) -> tuple[str, str]:
+def _decode_bytes(data: bytes, name: str) -> tuple[str, str]:
     for mark, codec, note in _BYTE_ORDER_MARKS:
         if data.startswith(mark):
             try:
@@ -72,46 +72,46 @@ def _text(data: bytes, name: str) -> tuple[str, str]:
             except UnicodeDecodeError as error:
                 row = data[: error.start].count(b"\n") + 1
                 what = f"damaged text: {note}, broken at byte {error.start}; save it as UTF-8"
-                raise refusal(name, row, 0, what) from None
+                raise cell_error(name, row, 0, what) from None
     if b"\x00" in data:
         row = data[: data.index(b"\x00")].count(b"\n") + 1
-        raise refusal(name, row, 0, "binary data, or UTF-16 without its mark; save it as UTF-8 text")
-    text = _as(data, "utf-8")
+        raise cell_error(name, row, 0, "binary data, or UTF-16 without its mark; save it as UTF-8 text")
+    text = _try_codec(data, "utf-8")
     if text is not None:
         return text, "ASCII" if data.isascii() else "UTF-8"
-    western = _as(data, "cp1252")
+    western = _try_codec(data, "cp1252")
     usual = None if western is None else (western, "cp1252 (not UTF-8)")
     for codec in ("cp949", "euc_kr"):
-        text = _as(data, codec)
+        text = _try_codec(data, codec)
         if text is not None and _is_korean(text, codec):
             usual = text, f"{codec} (not UTF-8; Korean)"
-    foreign = _foreign(data, 0 if usual is None else known_names(_head(usual[0])))
+    foreign = _foreign_text(data, 0 if usual is None else known_names(_header_text(usual[0])))
     latin = (data.decode("latin-1"), "latin-1 (neither UTF-8 nor cp1252; words may show wrong letters)")
     return foreign or usual or latin
 
 
-def _head(text: str) -> str:
+def _header_text(text: str) -> str:
     """Lines of the head of a text that are not ASCII."""
     return "\n".join(line for line in text[:_LONGEST_HEAD].splitlines() if not line.isascii())
 
 
-def _foreign(data: bytes, known: int) -> tuple[str, str] | None:
+def _foreign_text(data: bytes, known: int) -> tuple[str, str] | None:
     """Text in the encoding with the most known words, and its name; None if CP1252 has as many."""
     best: tuple[int, str, str] | None = None
     for codec, language, letters in _FOREIGN:
-        text = _as(data, codec)
+        text = _try_codec(data, codec)
         if text is None:
             continue
         runs = re.findall(r"[^\x00-\x7f]+", text)
         if not all(re.fullmatch(f"[{letters}！-～{re.escape(_SIGNS)}]+", run) for run in runs):
             continue
-        count = known_names(_head(text))
+        count = known_names(_header_text(text))
         if count > max(known, 1 if best is None else best[0]):
             best = count, text, f"{codec} (not UTF-8; {language})"
     return None if best is None else best[1:]
 
 
-def _as(data: bytes, codec: str) -> str | None:
+def _try_codec(data: bytes, codec: str) -> str | None:
     try:
         return data.decode(codec)
     except UnicodeDecodeError:

@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.laboratory.table import ISOTHERM_DRIFT, FloatArray, IntArray
+from conveyor.laboratory.dma_data import ISOTHERM_DRIFT, FloatArray, IntArray
 
 ISOTHERM_GAP: Final = 0.8
 """Temperatures further apart than this are different isotherms [K]: steps are 1 K or more, furnaces hold 0.5 K
@@ -62,10 +62,10 @@ def set_points(values: FloatArray) -> IntArray:
     >>> set_points(np.array([10.0, 1.0, 10.01]))
     array([1, 0, 1])
     """
-    return _clusters(np.log(values), SAME_SET_POINT)
+    return _cluster_numbers(np.log(values), SAME_SET_POINT)
 
 
-def _clusters(values: FloatArray, gap: float) -> IntArray:
+def _cluster_numbers(values: FloatArray, gap: float) -> IntArray:
     order = np.argsort(values, kind="stable")
     members = np.empty(values.size, dtype=np.int64)
     members[order] = np.concatenate([[0], np.cumsum(np.diff(values[order]) > gap)])
@@ -97,16 +97,18 @@ def duplicate_runs(
     run = np.zeros(values.size, dtype=np.int64)
     for number in np.unique(group):
         rows = np.flatnonzero(group == number)
-        points = _clusters(values[rows], tolerance)
-        stretch = _stretches(points)
+        points = _cluster_numbers(values[rows], tolerance)
+        stretch = _monotone_stretches(points)
         repeats = np.unique(points).size < rows.size
         shortest = _SHORTEST_RUN if repeats else _SHORTEST_OTHER_RUN
         parts = np.split(points if merged else values[rows], np.flatnonzero(np.diff(stretch)) + 1)
-        run[rows] = stretch if _swept_again(parts, shortest, exactly=merged) else _occurrence(points)
+        run[rows] = (
+            stretch if _is_swept_again(parts, shortest, exactly=merged) else _occurrence_counts(points)
+        )
     return run if run.any() else None
 
 
-def _swept_again(parts: Sequence[NDArray[Any]], shortest: int, *, exactly: bool) -> bool:
+def _is_swept_again(parts: Sequence[NDArray[Any]], shortest: int, *, exactly: bool) -> bool:
     """True if stretches are long enough, and each lies at least half on (or within) the one before."""
     if len(parts) < 2 or min(part.size for part in parts) < shortest:
         return False
@@ -116,22 +118,22 @@ def _swept_again(parts: Sequence[NDArray[Any]], shortest: int, *, exactly: bool)
     )
 
 
-def restarts(frequency: FloatArray) -> bool:
+def sweep_restarts(frequency: FloatArray) -> bool:
     """True if the frequency sweep restarts in the order of the file; False for unordered rows.
 
     Examples
     --------
-    >>> restarts(np.array([1.0, 2, 4, 1, 2, 4])), restarts(np.array([1.0, 2, 4, 3, 6, 9]))
+    >>> sweep_restarts(np.array([1.0, 2, 4, 1, 2, 4])), sweep_restarts(np.array([1.0, 2, 4, 3, 6, 9]))
     (True, False)
     """
     points = set_points(frequency)
-    stretch = _stretches(points)
+    stretch = _monotone_stretches(points)
     first = np.unique(stretch, return_index=True)[1]
     same = np.unique(points[first]).size == 1
     return bool(same and first.size > 1 and np.bincount(stretch).min() >= _SHORTEST_RUN)
 
 
-def _stretches(points: IntArray) -> IntArray:
+def _monotone_stretches(points: IntArray) -> IntArray:
     """Number the strictly monotone stretches of a sequence."""
     number = np.zeros(points.size, dtype=np.int64)
     direction = 0
@@ -146,7 +148,7 @@ def _stretches(points: IntArray) -> IntArray:
     return number
 
 
-def _occurrence(points: IntArray) -> IntArray:
+def _occurrence_counts(points: IntArray) -> IntArray:
     """Number of earlier occurrences of each point."""
     seen: dict[int, int] = {}
     counts = np.empty(points.size, dtype=np.int64)

@@ -6,28 +6,28 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
-from conveyor.laboratory.grid import TextLine
-from conveyor.laboratory.layout import DataColumn, DataTable, left_out
-from conveyor.laboratory.names import Meaning, SetPoint
+from conveyor.laboratory.cell_grid import TextLine
+from conveyor.laboratory.header_meanings import Meaning, SetPoint
 from conveyor.laboratory.numbers import is_number, why_not_a_number
+from conveyor.laboratory.table_layout import DataColumn, DataTable, exclude_advice
 
-Groups: TypeAlias = Mapping[SetPoint, Sequence[DataColumn]]
+SetPointColumns: TypeAlias = Mapping[SetPoint, Sequence[DataColumn]]
 
 
-def row_each(table: DataTable) -> DataTable:
+def split_set_points(table: DataTable) -> DataTable:
     """Split rows so that each set point of the headers, `E'(1 Hz)`, `E'(10 Hz)`, has its own; others are unchanged.
 
     Cells of a further set point move to the columns of the first one, its number to a new last column. A set point
     with empty cells only makes no row.
     """
-    groups = _groups(table)
+    groups = _set_point_columns(table)
     if not groups:
         return table
     first = next(iter(groups.values()))
     rows = [
         (each, block)
         for line, block in zip(table.rows, table.blocks, strict=True)
-        for each in _rows(table, line, groups)
+        for each in _split_row(table, line, groups)
     ]
     further = {column.index for columns in groups.values() for column in columns} - {c.index for c in first}
     quantity, _, unit = next(iter(groups))
@@ -42,7 +42,7 @@ def row_each(table: DataTable) -> DataTable:
     )
 
 
-def _groups(table: DataTable) -> Groups:
+def _set_point_columns(table: DataTable) -> SetPointColumns:
     """Columns of each set point; none if the table also has a column of that quantity."""
     groups: dict[SetPoint, list[DataColumn]] = {}
     for column in table.columns:
@@ -53,7 +53,9 @@ def _groups(table: DataTable) -> Groups:
         return {}
     first = next(iter(groups.values()))
     for point, columns in groups.items():
-        if [_bare(column) for column in columns] != [_bare(column) for column in first]:
+        if [_without_set_point(column) for column in columns] != [
+            _without_set_point(column) for column in first
+        ]:
             what = f"{point.number} {point.unit} has other columns than the first, {len(first)} from this name on"
             raise table.refusal(
                 first[0], f"{what}; give all the same, or remove those of {point.number} {point.unit}"
@@ -61,7 +63,7 @@ def _groups(table: DataTable) -> Groups:
     return groups
 
 
-def _rows(table: DataTable, line: TextLine, groups: Groups) -> Sequence[TextLine]:
+def _split_row(table: DataTable, line: TextLine, groups: SetPointColumns) -> Sequence[TextLine]:
     """Rows of one line, one for each measured set point."""
     cells = (*line.cells, *[""] * (table.width - len(line.cells)))
     first = next(iter(groups.values()))
@@ -74,21 +76,21 @@ def _rows(table: DataTable, line: TextLine, groups: Groups) -> Sequence[TextLine
                 raise table.grid.refusal(
                     line.number,
                     column.index,
-                    f"{said}, or {left_out(str(line.number))}",
+                    f"{said}, or {exclude_advice(str(line.number))}",
                     header=column.header,
                 )
         if any(values.values()):
             own = [values.get(index, cell) for index, cell in enumerate(cells)]
-            rows.append(line._replace(cells=(*own, _markless(point.number))))
+            rows.append(line._replace(cells=(*own, _without_decimal_point(point.number))))
     return rows
 
 
-def _bare(column: DataColumn) -> Meaning | None:
+def _without_set_point(column: DataColumn) -> Meaning | None:
     """Meaning of a column without its set point."""
     return column.meaning and column.meaning._replace(at=None)
 
 
-def _markless(number: str) -> str:
+def _without_decimal_point(number: str) -> str:
     """Number without decimal point, 3333e-3: a table with decimal commas may have points in its headers."""
     whole, _, decimals = number.partition(".")
     return f"{whole}{decimals}e-{len(decimals)}" if decimals else number

@@ -9,21 +9,21 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from conveyor.laboratory.columns import Question, Series
-from conveyor.laboratory.layout import DataColumn, DataTable
+from conveyor.laboratory.column_values import ColumnSeries, Question
+from conveyor.laboratory.dma_data import FloatArray
 from conveyor.laboratory.numbers import last_digit
-from conveyor.laboratory.table import FloatArray
-from conveyor.laboratory.vocabulary import deformations
+from conveyor.laboratory.table_layout import DataColumn, DataTable
+from conveyor.laboratory.vocabulary import find_deformations
 
 TAN_DELTA_AGREEMENT: Final = 0.05
 """Relative difference allowed between tan delta and E''/E' of one row: two printed digits."""
 TAN_DELTA_DIGIT: Final = 0.01
 """Additional absolute difference: tan delta printed with two decimals."""
-BETTER: Final = 0.25
+BETTER_READING: Final = 0.25
 """Largest error of the right reading of columns over that of their names [-]."""
-FEWEST_TOLD: Final = 5
+FEWEST_TELLING_ROWS: Final = 5
 """Least rows that separate two readings: with fewer, chance agrees with either."""
-MOST_TOLD: Final = 0.75
+TELLING_SHARE: Final = 0.75
 """Share of these rows that has to agree: the rest may be misprints [-]."""
 _NAMED_IN_TEXT: Final = re.compile(r"(?<!\w)([EG])(?=['′″’])|\bmodul(?:us|i|e)?\s*[:=]\s*([EG])\b")
 """A modulus in a remark: "E' and E''", "modulus: E"."""
@@ -35,13 +35,13 @@ class Moduli:
 
     storage: FloatArray
     loss: FloatArray
-    storage_from: Series
-    loss_from: Series
+    storage_from: ColumnSeries
+    loss_from: ColumnSeries
     note: str = ""
 
 
-def dynamic_moduli(table: DataTable, series: Mapping[str, Series]) -> Moduli | None:
-    r"""E' and E'', still with the letter of the file (see `to_tensile`); None if the columns do not give both.
+def dynamic_moduli(table: DataTable, series: Mapping[str, ColumnSeries]) -> Moduli | None:
+    r"""E' and E'', still with the letter of the file (see `tensile_factor`); None if the columns do not give both.
 
     Notes
     -----
@@ -52,15 +52,19 @@ def dynamic_moduli(table: DataTable, series: Mapping[str, Series]) -> Moduli | N
     angle = series.get("tan_delta") or series.get("phase")
     if loss and whole and not storage:
         note = "E' from |E*| and E'' of each row"
-        return _with_angle(table, Moduli(_beside(table, whole, loss), loss.values, whole, loss, note), angle)
+        return _check_angle(
+            table, Moduli(_storage_of_complex(table, whole, loss), loss.values, whole, loss, note), angle
+        )
     if storage and loss:
-        return _with_angle(table, Moduli(storage.values, loss.values, storage, loss), angle)
-    return None if angle is None else _by_angle(storage or whole, loss, angle)
+        return _check_angle(table, Moduli(storage.values, loss.values, storage, loss), angle)
+    return None if angle is None else _moduli_by_angle(storage or whole, loss, angle)
 
 
-def _by_angle(known: Series | None, loss: Series | None, angle: Series) -> Moduli | None:
+def _moduli_by_angle(
+    known: ColumnSeries | None, loss: ColumnSeries | None, angle: ColumnSeries
+) -> Moduli | None:
     """E' and E'' of one modulus, E', |E*| or E'', and the angle."""
-    tangent, name = _tangent(angle)
+    tangent, name = _loss_tangent(angle)
     if loss:
         return Moduli(loss.values / tangent, loss.values, angle, loss, f"E' = E''/{name} from each row")
     if known is None:
@@ -71,13 +75,13 @@ def _by_angle(known: Series | None, loss: Series | None, angle: Series) -> Modul
     return Moduli(made, made * tangent, known, angle, f"E' and E'' from |E*| and {name} of each row")
 
 
-def _tangent(angle: Series) -> tuple[FloatArray, str]:
+def _loss_tangent(angle: ColumnSeries) -> tuple[FloatArray, str]:
     if angle.meaning.quantity == "phase":
         return np.tan(angle.values), "tan(phase)"
     return angle.values, "tan delta"
 
 
-def _beside(table: DataTable, whole: Series, loss: Series) -> FloatArray:
+def _storage_of_complex(table: DataTable, whole: ColumnSeries, loss: ColumnSeries) -> FloatArray:
     """E' of |E*| and E''."""
     share = loss.values / whole.values
     row = int(np.argmax(share))
@@ -87,13 +91,13 @@ def _beside(table: DataTable, whole: Series, loss: Series) -> FloatArray:
     return np.asarray(whole.values * np.sqrt(1.0 - share**2))
 
 
-def _with_angle(table: DataTable, moduli: Moduli, angle: Series | None) -> Moduli:
+def _check_angle(table: DataTable, moduli: Moduli, angle: ColumnSeries | None) -> Moduli:
     """Moduli, refused where a given angle contradicts them beyond the printed digits."""
     if angle is None:
         return moduli
-    tangent, ratio = _tangent(angle)[0], moduli.loss / moduli.storage
+    tangent, ratio = _loss_tangent(angle)[0], moduli.loss / moduli.storage
     columns = (moduli.storage_from, moduli.loss_from, angle)
-    printed = np.sum([_digits(table, column) for column in columns], axis=0)
+    printed = np.sum([_rounding_errors(table, column) for column in columns], axis=0)
     _refuse_another_reading(table, moduli, angle, printed)
     allowed = np.maximum(TAN_DELTA_AGREEMENT * tangent + TAN_DELTA_DIGIT, printed * tangent)
     apart = np.abs(ratio - tangent) - allowed
@@ -109,21 +113,23 @@ def _with_angle(table: DataTable, moduli: Moduli, angle: Series | None) -> Modul
     return replace(moduli, note="; ".join(filter(None, (moduli.note, note))))
 
 
-def _refuse_another_reading(table: DataTable, moduli: Moduli, angle: Series, printed: FloatArray) -> None:
-    """Refuse columns that another reading fits better than their names, within digits (see `_digits`) and scatter.
+def _refuse_another_reading(
+    table: DataTable, moduli: Moduli, angle: ColumnSeries, printed: FloatArray
+) -> None:
+    """Refuse columns that another reading fits better than their names, within digits and scatter.
 
     Only rows count in which the other reading differs by more than twice what their digits allow.
     """
-    tangent = _tangent(angle)[0]
+    tangent = _loss_tangent(angle)[0]
     apart = np.log(moduli.loss / moduli.storage / tangent)
     found = []
-    for column, difference, advice in _readings(moduli, angle):
+    for column, difference, advice in _other_readings(moduli, angle):
         told = np.abs(difference) > 2.0 * printed
-        if np.count_nonzero(told) >= FEWEST_TOLD:
+        if np.count_nonzero(told) >= FEWEST_TELLING_ROWS:
             beyond = np.maximum(np.abs([apart - difference, apart]) - printed, 0.0)
-            as_read, as_named = np.quantile(beyond[:, told], MOST_TOLD, axis=1).tolist()
+            as_read, as_named = np.quantile(beyond[:, told], TELLING_SHARE, axis=1).tolist()
             row = int(np.argmax(np.where(told, np.abs(apart), 0.0)))
-            found += [(as_read, row, column, advice)] if as_read < BETTER * as_named else []
+            found += [(as_read, row, column, advice)] if as_read < BETTER_READING * as_named else []
     if found:
         _, row, column, advice = min(found, key=lambda one: one[0])
         raise table.refusal(
@@ -134,14 +140,14 @@ def _refuse_another_reading(table: DataTable, moduli: Moduli, angle: Series, pri
         )
 
 
-def _readings(moduli: Moduli, angle: Series) -> Iterator[tuple[DataColumn, FloatArray, str]]:
+def _other_readings(moduli: Moduli, angle: ColumnSeries) -> Iterator[tuple[DataColumn, FloatArray, str]]:
     """Other readings of a column: its column, the change of ln(E''/E' over tan delta), and advice."""
     value = angle.values
     if moduli.storage_from.meaning.quantity == "storage":
         letter = moduli.storage_from.meaning.letter
         named = f"|{letter}*|" if letter else "complex modulus"
         advice = f"if what is named {letter or 'E'}' is |{letter or 'E'}*|; name the column '{named}'"
-        yield moduli.storage_from.column, -np.log(np.hypot(1.0, _tangent(angle)[0])), advice
+        yield moduli.storage_from.column, -np.log(np.hypot(1.0, _loss_tangent(angle)[0])), advice
     if angle.meaning.quantity == "tan_delta":
         for unit, factor in (("rad", 1.0), ("deg", np.pi / 180.0)):
             if value.max() * factor < np.pi / 2:
@@ -149,7 +155,7 @@ def _readings(moduli: Moduli, angle: Series) -> Iterator[tuple[DataColumn, Float
                 yield angle.column, np.log(np.tan(value * factor) / value), advice
 
 
-def _digits(table: DataTable, series: Series) -> FloatArray:
+def _rounding_errors(table: DataTable, series: ColumnSeries) -> FloatArray:
     """Largest relative rounding error of each value by its printed digits, of a phase in its tangent [-]."""
     base = series.meaning.log_base
     digit = 0.5 * np.array([last_digit(line.cells[series.column.index]) for line in table.rows])
@@ -160,7 +166,7 @@ def _digits(table: DataTable, series: Series) -> FloatArray:
     return np.asarray(digit * series.unit.factor / series.values)
 
 
-class Letter(NamedTuple):
+class ModulusLetter(NamedTuple):
     """Letter of moduli, tensile E or shear G; the reason; the question if undecided."""
 
     letter: str
@@ -168,7 +174,9 @@ class Letter(NamedTuple):
     question: Question | None = None
 
 
-def letter_of(table: DataTable, used: Sequence[Series], strain: Series | None, answer: str | None) -> Letter:
+def modulus_letter(
+    table: DataTable, used: Sequence[ColumnSeries], strain: ColumnSeries | None, answer: str | None
+) -> ModulusLetter:
     """Decide between tensile and shear moduli by column names, the file's description of its test, or an answer.
 
     `answer` is "E" or "G", where the names have no letter or the described test contradicts them.
@@ -181,41 +189,43 @@ def letter_of(table: DataTable, used: Sequence[Series], strain: Series | None, a
             other, "a shear modulus beside a tensile one; keep two E or two G and rename the rest"
         )
     named = next(iter(letters), "")
-    said = dict(_evidence(table, strain, beside=not named))
+    said = dict(_letter_evidence(table, strain, beside=not named))
     against = said.get("G" if named == "E" else "E", "") if named and named not in said else ""
     if answer is not None:
         if named and named != answer and not against:
             what = f"the name says {named}, not {answer}; rename the column, or leave out letter (--moduli)"
             raise table.refusal(first, what)
-        return Letter(answer, "as given")
+        return ModulusLetter(answer, "as given")
     if against:
         what = (
             f'the name says {named}, but {against}: a tensile or a shear modulus? give letter "E" or "G" (--moduli E,'
             " --moduli G); G is converted with poisson_ratio (--poisson)"
         )
-        return Letter(named, "", Question(first, what))
+        return ModulusLetter(named, "", Question(first, what))
     if named or set(said) == {"E"}:
-        return Letter(named or "E", "" if named else said["E"])
+        return ModulusLetter(named or "E", "" if named else said["E"])
     known = said.get("G", "nothing in the file says whether tension or shear was measured")
     what = (
         f'E or G? the name has no letter and {known}; give letter "E" or "G" (--moduli E, --moduli G), or name the'
         " columns so (G is converted with poisson_ratio, --poisson)"
     )
-    return Letter("E", "", Question(first, what))
+    return ModulusLetter("E", "", Question(first, what))
 
 
-def _evidence(table: DataTable, strain: Series | None, *, beside: bool) -> Iterator[tuple[str, str]]:
+def _letter_evidence(
+    table: DataTable, strain: ColumnSeries | None, *, beside: bool
+) -> Iterator[tuple[str, str]]:
     """Letters implied by text of the file, and where; with `beside` by other columns and modulus names in text, too."""
     for line in reversed(table.grid.lines):
         before = line.number < table.rows[0].number and line.number != table.header_row
         if not (line.comment or before):
             continue
-        for one in deformations(line.text):
+        for one in find_deformations(line.text):
             yield one.letter, f"row {line.number} speaks of '{one.words}'"
         if beside and (match := _NAMED_IN_TEXT.search(line.text)):
             yield match[1] or match[2], f"row {line.number} speaks of {match[1] or match[2]}"
     for column in table.columns if beside else ():
-        for one in deformations(column.header, column=True):
+        for one in find_deformations(column.header, column=True):
             yield one.letter, f"{table.label(column)} speaks of '{one.words}'"
     if strain is not None and strain.meaning.letter:
         yield (
@@ -224,7 +234,7 @@ def _evidence(table: DataTable, strain: Series | None, *, beside: bool) -> Itera
         )
 
 
-def to_tensile(letter: Letter, poisson_ratio: float) -> tuple[float, str]:
+def tensile_factor(letter: ModulusLetter, poisson_ratio: float) -> tuple[float, str]:
     """Factor from the moduli of the file to tensile ones, and a note on it.
 
     Notes

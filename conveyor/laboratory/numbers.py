@@ -11,7 +11,7 @@ _THOUSANDS_LIKE: Final = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
 _THOUSANDS: Final = (
     r"[+-]?\d[\d,' ]*[,' ][\d,' ]*\.?\d*(?:[eE][+-]?\d+)?|[+-]?\d[\d.' ]*[.' ][\d.' ]*,\d*(?:[eE][+-]?\d+)?"
 )
-_GROUPED: Final = re.compile(r"[+-]?\d{1,3}(?:(?:[.']\d{3})+,\d*|(?:[,']\d{3})+\.\d*)")
+_GROUPED_DIGITS: Final = re.compile(r"[+-]?\d{1,3}(?:(?:[.']\d{3})+,\d*|(?:[,']\d{3})+\.\d*)")
 _DATE: Final = (
     r"\d{1,4}[./-]\d{1,2}[./-]\d{1,4}.*|\d{1,2}[-. ]{1,2}(?:[A-Za-zäÄ]{3,9})\.?.*|.*\d{1,2}:\d{2}.*"
 )
@@ -26,7 +26,7 @@ _REASONS: Final = (
 _NO_NUMBER: Final = "is not a number; delete the row, or put # in front if it is a remark"
 _LONGEST_CELL: Final = 60
 """Longer cells are no numbers; patterns with two stars would be slow on them."""
-_NOTHING: Final = frozenset({
+_NO_READINGS: Final = frozenset({
     "nan", "n/a", "na", "n.a.", "k.a.", "#n/a", "inf", "-inf", "+inf", "none", "null", "ovl", "ovf", "o.l.", "ol",
     "overload", "over load", "overrange", "over range", "overflow", "over", "err", "error", "invalid", "-", "*",
 })  # fmt: skip
@@ -37,7 +37,9 @@ PERCENT_MARK: Final = "percent-format "
 """Prefix of a workbook cell shown as a percentage."""
 
 
-_HALF: Final = {code: code - 0xFEE0 for code in range(0xFF01, 0xFF5F)} | str.maketrans("−　【】", "- []")
+_HALF_WIDTH: Final = {code: code - 0xFEE0 for code in range(0xFF01, 0xFF5F)} | str.maketrans(
+    "−　【】", "- []"
+)
 """Full-width signs of Chinese and Japanese, the minus sign, the wide blank."""
 
 
@@ -49,7 +51,7 @@ def half_width(text: str) -> str:
     >>> half_width("（ＭＰａ）　１．５")
     '(MPa) 1.5'
     """
-    return text if text.isascii() else text.translate(_HALF)
+    return text if text.isascii() else text.translate(_HALF_WIDTH)
 
 
 def is_number(cell: str) -> bool:
@@ -85,7 +87,7 @@ def looks_like_number(cell: str) -> bool:
     >>> looks_like_number("3.781,12"), looks_like_number("0,5;3.781"), looks_like_number("E' [kPa]")
     (True, False, False)
     """
-    return is_number(cell) or _GROUPED.fullmatch(cell) is not None
+    return is_number(cell) or _GROUPED_DIGITS.fullmatch(cell) is not None
 
 
 def decimal_mark(cells: Iterable[str]) -> tuple[str, str | None]:
@@ -129,7 +131,7 @@ def why_not_a_number(cell: str) -> str:
         )
     if cell.startswith(DATE_MARK):
         return f"Excel made a date of it ({cell}); restore the number and format the column as Number"
-    if cell.lower() in _NOTHING or _SIGNS.fullmatch(cell):
+    if cell.lower() in _NO_READINGS or _SIGNS.fullmatch(cell):
         return f"'{cell}' is not a finite number; delete the row, or repair the value"
     if len(cell) > _LONGEST_CELL:
         return f"'{cell[:_LONGEST_CELL]}...' {_NO_NUMBER}"

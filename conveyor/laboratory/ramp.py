@@ -7,8 +7,8 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from conveyor.laboratory.dma_data import FloatArray, IntArray
 from conveyor.laboratory.groups import set_points
-from conveyor.laboratory.table import FloatArray, IntArray
 from conveyor.rubber.monotone import MonotoneCubic
 
 LEAST_FREQUENCIES: Final = 3
@@ -18,10 +18,10 @@ FEWEST_TEMPERATURES: Final = 4
 LARGEST_STEP: Final = 5.0
 """Largest step between rows of a frequency: over 5 K near the glass transition a cubic in ln E' is some per cent off
 (general knowledge) [K]."""
-_MOVED: Final = ("storage", "loss")
+_INTERPOLATED_COLUMNS: Final = ("storage", "loss")
 
 
-class Ramp(NamedTuple):
+class RampIsotherms(NamedTuple):
     """Isotherms of a ramp: nearest rows, columns, group numbers and a note."""
 
     rows: IntArray
@@ -30,7 +30,7 @@ class Ramp(NamedTuple):
     note: str
 
 
-def isotherms_of_ramp(columns: Mapping[str, FloatArray]) -> Ramp | None:
+def isotherms_of_ramp(columns: Mapping[str, FloatArray]) -> RampIsotherms | None:
     """Isotherms of a ramp at several frequencies; None if the rows are no such ramp.
 
     Notes
@@ -49,7 +49,7 @@ def isotherms_of_ramp(columns: Mapping[str, FloatArray]) -> Ramp | None:
     >>> made.columns["temperature"].tolist()[::3], made.group.tolist()[:6]
     ([277.0, 280.0, 283.0], [0, 0, 0, 1, 1, 1])
     """
-    if not {"frequency", "temperature", *_MOVED} <= columns.keys():
+    if not {"frequency", "temperature", *_INTERPOLATED_COLUMNS} <= columns.keys():
         return None
     temperature, level = columns["temperature"], set_points(columns["frequency"])
     sweeps = []
@@ -78,7 +78,7 @@ def isotherms_of_ramp(columns: Mapping[str, FloatArray]) -> Ramp | None:
         taken.append(nearest)
         for name, values in columns.items():
             moved = values[nearest]
-            if name in _MOVED:
+            if name in _INTERPOLATED_COLUMNS:
                 moved = np.exp(MonotoneCubic(temperature[rows], np.log(values[rows]))(at))
             made[name].append(at if name == "temperature" else moved)
     group = np.tile(np.arange(at.size, dtype=np.int64), len(sweeps))
@@ -89,4 +89,4 @@ def isotherms_of_ramp(columns: Mapping[str, FloatArray]) -> Ramp | None:
         f" interpolated over at most {drift:.2g} K to the temperatures of the middle one"
     )
     joined = {name: np.concatenate(parts)[order] for name, parts in made.items()}
-    return Ramp(np.concatenate(taken)[order], joined, group[order], note)
+    return RampIsotherms(np.concatenate(taken)[order], joined, group[order], note)

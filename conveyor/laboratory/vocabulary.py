@@ -9,7 +9,7 @@ from importlib.resources import files
 from typing import Final, NamedTuple
 
 _SEPARATORS: Final = re.compile(r"[\s_.|\-]+")
-_ALONE: Final = str.maketrans({"ı": "i", "ł": "l", "ß": "ss", "ø": "o", "đ": "d"})
+_UNDIVIDED_LETTERS: Final = str.maketrans({"ı": "i", "ł": "l", "ß": "ss", "ø": "o", "đ": "d"})
 """Letters that Unicode does not take apart."""
 
 
@@ -20,15 +20,19 @@ class Deformation(NamedTuple):
     words: str
 
 
-def compact(name: str) -> str:
+def compact_name(name: str) -> str:
     """Name without capitals, accents, blanks, points, bars, hyphens and underscores.
 
     Examples
     --------
-    >>> compact("Módulo de almacenamiento"), compact("ＳＩＣＡＫＬＩＫ".lower()), compact("Sıcaklık")
+    >>> (
+    ...     compact_name("Módulo de almacenamiento"),
+    ...     compact_name("ＳＩＣＡＫＬＩＫ".lower()),
+    ...     compact_name("Sıcaklık"),
+    ... )
     ('modulodealmacenamiento', 'ｓｉｃａｋｌｉｋ', 'sicaklik')
     """
-    apart = unicodedata.normalize("NFD", name.lower().translate(_ALONE))
+    apart = unicodedata.normalize("NFD", name.lower().translate(_UNDIVIDED_LETTERS))
     plain = "".join(sign for sign in apart if unicodedata.category(sign) != "Mn")
     return _SEPARATORS.sub("", unicodedata.normalize("NFC", plain))
 
@@ -42,7 +46,7 @@ def word_lists(name: str) -> Iterator[tuple[str, list[str]]]:
             yield head.strip(), [word.strip() for word in words.split(",")]
 
 
-def _pattern(words: list[str], *, as_written: bool) -> re.Pattern[str]:
+def _word_pattern(words: list[str], *, as_written: bool) -> re.Pattern[str]:
     """Pattern of whole words; Chinese, Japanese and Korean ones match anywhere."""
     one = [
         re.escape(word).replace(r"\*", r"\w*").replace(r"\#", r"\d+").replace(r"\ ", r"\s+") for word in words
@@ -54,7 +58,7 @@ def _pattern(words: list[str], *, as_written: bool) -> re.Pattern[str]:
     return re.compile("|".join(whole), re.NOFLAG if as_written else re.IGNORECASE)
 
 
-def _deformations() -> dict[bool, list[tuple[str, re.Pattern[str]]]]:
+def _deformation_patterns() -> dict[bool, list[tuple[str, re.Pattern[str]]]]:
     """Patterns of shear and tension, for column names (True) and texts; words with capitals match as written."""
     words: dict[tuple[bool, str, bool], list[str]] = {}
     for what, listed in word_lists("deformation"):
@@ -64,21 +68,24 @@ def _deformations() -> dict[bool, list[tuple[str, re.Pattern[str]]]]:
             words.setdefault(key, []).append(word)
     made: dict[bool, list[tuple[str, re.Pattern[str]]]] = {True: [], False: []}
     for (of_column, letter, written), some in words.items():
-        made[of_column].append((letter, _pattern(some, as_written=written)))
+        made[of_column].append((letter, _word_pattern(some, as_written=written)))
     return made
 
 
-_DEFORMATIONS: Final = _deformations()
+_DEFORMATIONS: Final = _deformation_patterns()
 
 
-def deformations(text: str, *, column: bool = False) -> Iterator[Deformation]:
+def find_deformations(text: str, *, column: bool = False) -> Iterator[Deformation]:
     """Deformations that a text or column name states: E for tension, bending, compression; G for shear, torsion.
 
     Examples
     --------
-    >>> [one.letter for one in deformations("Measuring system: PP25")]
+    >>> [one.letter for one in find_deformations("Measuring system: PP25")]
     ['G']
-    >>> list(deformations("Clamp: Tension Film")), list(deformations("Laboratory Fischer, sheared off"))
+    >>> (
+    ...     list(find_deformations("Clamp: Tension Film")),
+    ...     list(find_deformations("Laboratory Fischer, sheared off")),
+    ... )
     ([Deformation(letter='E', words='Tension')], [Deformation(letter='G', words='sheared')])
     """
     for letter, pattern in _DEFORMATIONS[column]:

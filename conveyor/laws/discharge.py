@@ -24,8 +24,10 @@ EDGE_LEAST: Final = 0.023
 TIME_STEP: Final = 0.05
 """Between the points of a trajectory [s]; CEMA draws one every 1/20 s."""
 
-_FLAT: Final = 0.02  # half angle of a segment [rad] below which series are as good as the closed forms, 1e-8
-_FINE: Final = 1e-18  # of a root that may be as small as 1e-6 [rad]
+_SERIES_BELOW: Final = (
+    0.02  # half angle of a segment [rad] below which series are as good as the closed forms, 1e-8
+)
+_ROOT_TOLERANCE: Final = 1e-18  # of a root that may be as small as 1e-6 [rad]
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,24 +109,26 @@ def bulk_on_pulley(area: float, *, width: float) -> BulkOnPulley:
     require(area <= most, "area", area, f"at most {most:.4g} m², a half circle on the belt, is needed")
 
     def over(half: float) -> float:
-        return _piece(half) * (0.5 * width / math.sin(half)) ** 2 - area
+        return _segment_factor(half) * (0.5 * width / math.sin(half)) ** 2 - area
 
     # 3 A/L² < φ: a flat segment has A = L² φ/6 to its first order
     half = (
         math.pi / 2.0
         if over(math.pi / 2.0) <= 0.0
-        else brentq(over, 3.0 * area / width**2, math.pi / 2.0, xtol=_FINE)
+        else brentq(over, 3.0 * area / width**2, math.pi / 2.0, xtol=_ROOT_TOLERANCE)
     )
     height = 0.5 * width * math.tan(0.5 * half)
-    if half < _FLAT:
+    if half < _SERIES_BELOW:
         return BulkOnPulley(height, height * (0.4 + 3.0 / 350.0 * half**2))
     radius = 0.5 * width / math.sin(half)
-    return BulkOnPulley(height, radius * (2.0 * math.sin(half) ** 3 / (3.0 * _piece(half)) - math.cos(half)))
+    return BulkOnPulley(
+        height, radius * (2.0 * math.sin(half) ** 3 / (3.0 * _segment_factor(half)) - math.cos(half))
+    )
 
 
-def _piece(half: float) -> float:
+def _segment_factor(half: float) -> float:
     """φ - sin φ cos φ, by its series where the difference loses digits."""
-    if half < _FLAT:
+    if half < _SERIES_BELOW:
         return 2.0 / 3.0 * half**3 * (1.0 - half**2 / 5.0 + 2.0 * half**4 / 105.0)
     return half - math.sin(half) * math.cos(half)
 
@@ -264,7 +268,7 @@ def slipping_discharge(
 
 
 @dataclass(frozen=True, eq=False)
-class Fall:
+class FreeFall:
     """Trajectory of a free fall, arrays of shape (n,): a point every 1/20 s, the last at the end.
 
     Parameters
@@ -290,7 +294,7 @@ class Fall:
         return self.across + distance * np.sin(self.steepness), self.up + distance * np.cos(self.steepness)
 
 
-def fall(angle: float, *, speed: float, radius: float, drop: float, gravity: float) -> Fall:
+def free_fall(angle: float, *, speed: float, radius: float, drop: float, gravity: float) -> FreeFall:
     """Trajectory of bulk that leaves a pulley: x = r sin θ + v cos θ t, y = r cos θ - v sin θ t - g t²/2.
 
     Parameters
@@ -308,7 +312,7 @@ def fall(angle: float, *, speed: float, radius: float, drop: float, gravity: flo
 
     Returns
     -------
-    Fall
+    FreeFall
         Its points.
 
     Raises
@@ -318,7 +322,7 @@ def fall(angle: float, *, speed: float, radius: float, drop: float, gravity: flo
 
     Examples
     --------
-    >>> level = fall(0.0, speed=4.0, radius=0.5, drop=4.405, gravity=9.81)
+    >>> level = free_fall(0.0, speed=4.0, radius=0.5, drop=4.405, gravity=9.81)
     >>> float(level.time[-1].round(6)), float(level.across[-1].round(6)), float(level.speed[-1].round(3))
     (1.0, 4.0, 10.594)
     """
@@ -330,7 +334,7 @@ def fall(angle: float, *, speed: float, radius: float, drop: float, gravity: flo
     end = 2.0 * height / (down + math.hypot(down, math.sqrt(2.0 * gravity * height)))
     time = np.append(np.arange(0.0, end, TIME_STEP), end)
     falling = down + gravity * time
-    return Fall(
+    return FreeFall(
         time,
         radius * math.sin(angle) + forward * time,
         radius * math.cos(angle) - (down + 0.5 * gravity * time) * time,

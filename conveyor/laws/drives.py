@@ -10,14 +10,14 @@ from collections.abc import Sequence
 from typing import Final, Literal
 
 from conveyor.errors import RangeError
-from conveyor.laws.resistance.defaults import Default
+from conveyor.laws.resistance.resistance_defaults import Default
 from conveyor.require import require, require_finite, require_not_negative, require_positive
 
 Poles = Literal[2, 4, 6]
 
 HORSEPOWER: Final = 745.69987158227022  # [W]
 _POUND_FOOT: Final = 0.45359237 * 0.3048**2  # lb ft² [kg m²]
-BACKSTOP_UNEVEN: Final = Default(
+BACKSTOP_SHARE_FACTOR: Final = Default(
     1.4, 1.2, 2.0, "load of one of several backstops over an even share: 70 % of two", True
 )  # [-]
 GEAR_SERVICE: Final = Default(
@@ -39,7 +39,7 @@ _STARTS: Final = (
     (125, (2.4, 113), (4.8, 542), (5.4, 1452)), (150, (2.2, 133), (4.5, 640), (5.1, 1719)),
     (200, (2.0, 172), (4.0, 831), (4.5, 2238)), (250, (1.8, 210), (3.7, 1017), (4.2, 2744)),
 )  # fmt: skip
-_SLACK: Final = 1e-6  # of a power: 25 hp written in kW
+_SHARE_TOLERANCE: Final = 1e-6  # of a power: 25 hp written in kW
 
 
 def allowed_starts(rated_power: float, *, poles: Poles, load_inertia: float) -> float:
@@ -79,8 +79,8 @@ def allowed_starts(rated_power: float, *, poles: Poles, load_inertia: float) -> 
     require_positive(rated_power=rated_power, load_inertia=load_inertia)
     require(poles in {2, 4, 6}, "poles", poles, "2, 4 or 6 is needed")
     size = rated_power / HORSEPOWER
-    above = [row for row in _STARTS if row[0] >= size * (1.0 - _SLACK)]
-    below = [row for row in _STARTS if row[0] <= size * (1.0 + _SLACK)]
+    above = [row for row in _STARTS if row[0] >= size * (1.0 - _SHARE_TOLERANCE)]
+    below = [row for row in _STARTS if row[0] <= size * (1.0 + _SHARE_TOLERANCE)]
     if not above or not below:
         raise RangeError(
             f"{size:.4g} hp is outside NEMA's table of starts, 1 to 250 hp: ask the motor's maker"
@@ -124,10 +124,10 @@ def backstop_torque(force: float, *, radius: float, count: int) -> float:
     require_not_negative(force=force)
     require_positive(radius=radius)
     require(count >= 1, "count", count, "1 or more is needed")
-    return force * radius * min(1.0, BACKSTOP_UNEVEN.value / count)
+    return force * radius * min(1.0, BACKSTOP_SHARE_FACTOR.value / count)
 
 
-def disc_rise(heat: float, *, mass: float) -> float:
+def disc_temperature_rise(heat: float, *, mass: float) -> float:
     """Temperature rise of a brake disc in a stop, Q/(m c), without cooling (derived).
 
     Parameters
@@ -149,7 +149,7 @@ def disc_rise(heat: float, *, mass: float) -> float:
 
     Examples
     --------
-    >>> disc_rise(4.6e6, mass=100.0)
+    >>> disc_temperature_rise(4.6e6, mass=100.0)
     100.0
     """
     require_not_negative(heat=heat)
@@ -229,7 +229,7 @@ def gear_torque(rated_power: float, *, rotation: float) -> float:
     return GEAR_SERVICE.value * rated_power / (2.0 * math.pi * rotation)
 
 
-def next_preferred(value: float) -> float:
+def next_preferred_number(value: float) -> float:
     """Next larger preferred number of the series R10 (ISO 3): sizes of gears, backstops and brakes.
 
     Parameters
@@ -249,11 +249,11 @@ def next_preferred(value: float) -> float:
 
     Examples
     --------
-    >>> next_preferred(31831.0), next_preferred(950.0)
+    >>> next_preferred_number(31831.0), next_preferred_number(950.0)
     (40000.0, 1000.0)
     """
     require_positive(value=value)
-    return next(size for size in _of_its_decade(value, _R10) if size >= value * (1.0 - _SLACK))
+    return next(size for size in _decade_numbers(value, _R10) if size >= value * (1.0 - _SHARE_TOLERANCE))
 
 
 def nearest_ratio(ratio: float) -> float:
@@ -280,10 +280,10 @@ def nearest_ratio(ratio: float) -> float:
     (16.0, 25.0)
     """
     require_positive(ratio=ratio)
-    return min(_of_its_decade(ratio, _R20), key=lambda size: abs(math.log(size / ratio)))
+    return min(_decade_numbers(ratio, _R20), key=lambda size: abs(math.log(size / ratio)))
 
 
-def _of_its_decade(value: float, series: Sequence[float]) -> tuple[float, ...]:
+def _decade_numbers(value: float, series: Sequence[float]) -> tuple[float, ...]:
     """Preferred numbers of a value's decade, and the first of the next."""
     decade = 10.0 ** math.floor(math.log10(value))
     return (*(decade * step for step in series), 10.0 * decade)

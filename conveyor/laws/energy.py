@@ -57,7 +57,7 @@ class DutyStep:
 
 
 @dataclass(frozen=True, slots=True)
-class Duty:
+class DutySums:
     """Sums of a year.
 
     Parameters
@@ -83,7 +83,7 @@ class Duty:
         return self.drawn_kwh - self.fed_back_kwh
 
 
-def duty_sums(steps: Sequence[DutyStep]) -> Duty:
+def duty_sums(steps: Sequence[DutyStep]) -> DutySums:
     """Energy and mass of a year, sums of P t and Q t, drawn and fed back apart.
 
     Parameters
@@ -93,7 +93,7 @@ def duty_sums(steps: Sequence[DutyStep]) -> Duty:
 
     Returns
     -------
-    Duty
+    DutySums
         Sums of the year.
 
     Raises
@@ -117,7 +117,7 @@ def duty_sums(steps: Sequence[DutyStep]) -> Duty:
     require(
         time <= YEAR, "steps", list(steps), f"at most 8784 h are in a year, these are {time / 3600.0:.6g} h"
     )
-    return Duty(
+    return DutySums(
         time=time,
         drawn_kwh=math.fsum(step.time * step.power for step in steps if step.power > 0.0) / JOULE_PER_KWH,
         fed_back_kwh=math.fsum(-step.time * step.power for step in steps if step.power < 0.0) / JOULE_PER_KWH,
@@ -125,12 +125,12 @@ def duty_sums(steps: Sequence[DutyStep]) -> Duty:
     )
 
 
-def duty_cost(duty: Duty, *, price: float, credit: float) -> float:
+def duty_cost(duty: DutySums, *, price: float, credit: float) -> float:
     """Cost of a year's energy, drawn × price - fed back × credit.
 
     Parameters
     ----------
-    duty : Duty
+    duty : DutySums
         Sums of the year [kWh/a], see `duty_sums`.
     price : float
         For energy drawn [currency/kWh], at least 0.
@@ -149,7 +149,7 @@ def duty_cost(duty: Duty, *, price: float, credit: float) -> float:
 
     Examples
     --------
-    >>> year = Duty(time=3.6e6, drawn_kwh=300e3, fed_back_kwh=20e3, mass=1e9)
+    >>> year = DutySums(time=3.6e6, drawn_kwh=300e3, fed_back_kwh=20e3, mass=1e9)
     >>> duty_cost(year, price=0.2, credit=0.05)
     59000.0
     """
@@ -157,12 +157,12 @@ def duty_cost(duty: Duty, *, price: float, credit: float) -> float:
     return duty.drawn_kwh * price - duty.fed_back_kwh * credit
 
 
-def duty_emission(duty: Duty, *, factor: float, credit_factor: float) -> float:
+def duty_emission(duty: DutySums, *, factor: float, credit_factor: float) -> float:
     """Carbon dioxide of a year's energy, drawn × factor - fed back × credit factor.
 
     Parameters
     ----------
-    duty : Duty
+    duty : DutySums
         Sums of the year [kWh/a], see `duty_sums`.
     factor : float
         Of energy drawn [kg/kWh], at least 0, from the user with its source: it depends on grid and year.
@@ -181,7 +181,7 @@ def duty_emission(duty: Duty, *, factor: float, credit_factor: float) -> float:
 
     Examples
     --------
-    >>> year = Duty(time=3.6e6, drawn_kwh=300e3, fed_back_kwh=20e3, mass=1e9)
+    >>> year = DutySums(time=3.6e6, drawn_kwh=300e3, fed_back_kwh=20e3, mass=1e9)
     >>> duty_emission(year, factor=0.4, credit_factor=0.0)
     120000.0
     """
@@ -189,12 +189,12 @@ def duty_emission(duty: Duty, *, factor: float, credit_factor: float) -> float:
     return duty.drawn_kwh * factor - duty.fed_back_kwh * credit_factor
 
 
-def duty_specific_energy(duty: Duty, *, length: float) -> float:
+def duty_specific_energy(duty: DutySums, *, length: float) -> float:
     """Net energy of a year per mass and distance conveyed.
 
     Parameters
     ----------
-    duty : Duty
+    duty : DutySums
         Sums of the year [kWh/a, kg/a], with some mass, see `duty_sums`.
     length : float
         L of the conveyor [m], positive.
@@ -211,7 +211,7 @@ def duty_specific_energy(duty: Duty, *, length: float) -> float:
 
     Examples
     --------
-    >>> year = Duty(time=3.6e6, drawn_kwh=300e3, fed_back_kwh=20e3, mass=1e9)
+    >>> year = DutySums(time=3.6e6, drawn_kwh=300e3, fed_back_kwh=20e3, mass=1e9)
     >>> round(duty_specific_energy(year, length=2000.0), 9)
     0.14
     """

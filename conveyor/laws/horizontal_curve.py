@@ -12,8 +12,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
-from conveyor.laws.loading import NO_WING, RollLoad, Wing, roll_angles, wings
-from conveyor.laws.resistance.defaults import Default
+from conveyor.laws.loading import NO_WING, RollLoad, Wing, roll_angles, wing_pieces
+from conveyor.laws.resistance.resistance_defaults import Default
 from conveyor.require import (
     require,
     require_angle,
@@ -76,7 +76,7 @@ def guide_friction(tilt: float, *, friction: float, full_slip: float) -> float:
     return math.copysign(friction * share, tilt)
 
 
-def outward_pushes(
+def outward_force_factors(
     frictions: Sequence[float], *, trough_angle: float, banking_angle: float, inner_angle: float = 0.0
 ) -> tuple[float, ...]:
     """Outward force per weight of each roll of a set, from the inside roll outward.
@@ -114,7 +114,7 @@ def outward_pushes(
 
     Examples
     --------
-    >>> pushes = outward_pushes((0.0, 0.0, 0.0), trough_angle=math.radians(30), banking_angle=0.0)
+    >>> pushes = outward_force_factors((0.0, 0.0, 0.0), trough_angle=math.radians(30), banking_angle=0.0)
     >>> [round(push, 3) for push in pushes]
     [0.5, 0.0, -0.5]
     """
@@ -188,16 +188,16 @@ def drifted_loads(loads: Sequence[RollLoad], drift: float, *, roll_length: float
     over = drift / left.length
     bulk = left.bulk_force * (over * (2.0 - over) if left.shape == "triangular" else over)
     belt = left.belt_force * over
-    made = [_with(left, -bulk, -belt, left.length - drift)]
+    made = [_roll_with_loads(left, -bulk, -belt, left.length - drift)]
     for inner in reversed(loads[1:-1]):
         passed = drift / inner.length
         bulk_on, belt_on = inner.bulk_force * passed, inner.belt_force * passed
-        made.insert(0, _with(inner, bulk - bulk_on, belt - belt_on, inner.length))
+        made.insert(0, _roll_with_loads(inner, bulk - bulk_on, belt - belt_on, inner.length))
         bulk, belt = bulk_on, belt_on
-    return (_with(loads[0], bulk, belt, min(loads[0].length + drift, roll_length)), *made)
+    return (_roll_with_loads(loads[0], bulk, belt, min(loads[0].length + drift, roll_length)), *made)
 
 
-def _with(load: RollLoad, bulk: float, belt: float, length: float) -> RollLoad:
+def _roll_with_loads(load: RollLoad, bulk: float, belt: float, length: float) -> RollLoad:
     return replace(load, bulk_force=load.bulk_force + bulk, belt_force=load.belt_force + belt, length=length)
 
 
@@ -209,7 +209,7 @@ def outward_force(loads: Sequence[RollLoad], pushes: Sequence[float]) -> float:
     loads : sequence of RollLoad
         W on each roll, inside roll first [N], see `drifted_loads`.
     pushes : sequence of float
-        c of each roll [-], see `outward_pushes`.
+        c of each roll [-], see `outward_force_factors`.
 
     Returns
     -------
@@ -255,7 +255,7 @@ class DriftLaw:
         loads : sequence of RollLoad
             Of the centred belt, inside roll first [N].
         pushes : sequence of float
-            Of `outward_pushes` [-].
+            Of `outward_force_factors` [-].
 
         Raises
         ------
@@ -360,7 +360,7 @@ class FlatDrift:
         """Largest outward force [N]."""
         return self.weight * (math.sin(self.banking_angle) + self.friction * math.cos(self.banking_angle))
 
-    def guiding(self, drift: float) -> float:
+    def guiding_force(self, drift: float) -> float:
         """Guiding friction along the roll [N] at a drift to the inside [m]."""
         held = guide_friction(
             self.skew + drift / self.length, friction=self.friction, full_slip=self.full_slip
@@ -369,7 +369,7 @@ class FlatDrift:
 
     def force(self, drift: float) -> float:
         """Outward force [N] at a drift to the inside [m]."""
-        return self.weight * math.sin(self.banking_angle) + self.guiding(drift)
+        return self.weight * math.sin(self.banking_angle) + self.guiding_force(drift)
 
     def drift(self, pull: float) -> float:
         """Inward drift at the end of the curve [m] under a pull on one set [N]; infinite off the roll."""
@@ -396,7 +396,7 @@ def half_span(
     trough_angle : float
         λ of the outer rolls [rad], from 0 to below pi/2.
     inner_wing : Wing
-        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wings`.
+        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wing_pieces`.
 
     Returns
     -------
@@ -418,7 +418,7 @@ def half_span(
     >>> round(half_span(1.2, middle_roll_length=0.4, trough_angle=math.radians(60)), 9)
     0.4
     """
-    pieces = wings(
+    pieces = wing_pieces(
         belt_width, middle_roll_length=middle_roll_length, trough_angle=trough_angle, inner_wing=inner_wing
     )
     return 0.5 * middle_roll_length + math.fsum(wing.length * math.cos(wing.angle) for wing in pieces)

@@ -12,18 +12,22 @@ from typing import Final
 import numpy as np
 
 from conveyor.laws.horizontal_curve import FULL_SLIP_TILT
-from conveyor.laws.resistance.defaults import ROLL_ON_BELT_FRICTION, Default, Site
+from conveyor.laws.resistance.resistance_defaults import ROLL_ON_BELT_FRICTION, Default, Site
 from conveyor.require import require, require_not_negative, require_positive
 
 
-def _degrees(value: float, low: float, high: float, source: str) -> Default:
+def _angle_default(value: float, low: float, high: float, source: str) -> Default:
     return Default(math.radians(value), math.radians(low), math.radians(high), source, True)
 
 
 MISALIGNMENT: Final[dict[Site, Default]] = {
-    "overland": _degrees(0.1, 0.05, 0.38, "aligned by laser; high: CEMA 7, precise alignment procedures"),
-    "plant": _degrees(0.5, 0.38, 0.75, "CEMA 7, installed without measurement; precise, imprecise footings"),
-    "poor": _degrees(1.0, 0.75, 1.5, "CEMA 7, between imprecise footings and roof hung"),
+    "overland": _angle_default(
+        0.1, 0.05, 0.38, "aligned by laser; high: CEMA 7, precise alignment procedures"
+    ),
+    "plant": _angle_default(
+        0.5, 0.38, 0.75, "CEMA 7, installed without measurement; precise, imprecise footings"
+    ),
+    "poor": _angle_default(1.0, 0.75, 1.5, "CEMA 7, between imprecise footings and roof hung"),
 }
 """Standard deviation of the angles of the sets' axes from square to the belt [rad], by site.
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from conveyor.errors import NoSolutionError
-from conveyor.laws.resistance.defaults import Default
+from conveyor.laws.resistance.resistance_defaults import Default
 from conveyor.require import (
     require,
     require_finite,
@@ -234,7 +234,7 @@ class Stop:
     distance: float
 
 
-def stop(belt_speed: float, *, retarding_force: float, moving_mass: float) -> Stop:
+def constant_force_stop(belt_speed: float, *, retarding_force: float, moving_mass: float) -> Stop:
     """Stop under a constant force, b = F/m, t = v/b, s = v²/(2 b).
 
     Parameters
@@ -260,7 +260,7 @@ def stop(belt_speed: float, *, retarding_force: float, moving_mass: float) -> St
 
     Examples
     --------
-    >>> stop(5.0, retarding_force=25e3, moving_mass=50e3)
+    >>> constant_force_stop(5.0, retarding_force=25e3, moving_mass=50e3)
     Stop(deceleration=0.5, time=10.0, distance=25.0)
     """
     require_not_negative(belt_speed=belt_speed)

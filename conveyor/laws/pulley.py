@@ -175,11 +175,11 @@ def shaft_safety(moment: float, *, torque: float, diameter: float, steel: Steel,
     """
     require_not_negative(moment=moment, torque=torque)
     require_positive(diameter=diameter)
-    asked = _equivalent(moment, torque, diameter, steel, keyway)
+    asked = _required_modulus(moment, torque, diameter, steel, keyway)
     return math.inf if asked == 0.0 else math.pi * diameter**3 / (32.0 * asked)
 
 
-def _equivalent(moment: float, torque: float, diameter: float, steel: Steel, keyway: Keyway) -> float:
+def _required_modulus(moment: float, torque: float, diameter: float, steel: Steel, keyway: Keyway) -> float:
     """Bending and torsional moments over strength, combined [m³]."""
     require(steel in SHAFT_STEELS, "steel", steel, f"one of {', '.join(SHAFT_STEELS)} is needed")
     require(keyway in KEYWAY_FACTOR, "keyway", keyway, f"one of {', '.join(KEYWAY_FACTOR)} is needed")
@@ -230,7 +230,7 @@ def least_shaft_diameter(
         return stiff
     strong = stiff
     for _ in range(_STEPS):  # the size factor asks for the diameter
-        cubed = 32.0 * SHAFT_SAFETY / math.pi * _equivalent(moment, torque, strong, steel, keyway)
+        cubed = 32.0 * SHAFT_SAFETY / math.pi * _required_modulus(moment, torque, strong, steel, keyway)
         strong = cubed ** (1.0 / 3.0)
     return max(stiff, strong)
 

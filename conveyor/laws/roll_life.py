@@ -17,7 +17,7 @@ ROLLER_EXPONENT: Final = 10.0 / 3.0  # [-], ISO 281, roller bearings
 WEIBULL_SLOPE_BALL: Final = 10.0 / 9.0  # [-], Lundberg and Palmgren, point contact: ball bearings
 WEIBULL_SLOPE_ROLLER: Final = 9.0 / 8.0  # [-], Lundberg and Palmgren, line contact: roller bearings
 _STEPS: Final = 50  # of Newton at most; slopes of bearings take two, 0.01 beside 100 a dozen
-_CLOSED: Final = 1e-15  # of a sum of rates that is one but for rounding
+_SUM_TOLERANCE: Final = 1e-15  # of a sum of rates that is one but for rounding
 SECONDS_PER_HOUR: Final = 3600.0
 SHELL_ROUNDING: Final = 1e-12  # of the shell's length, which distance and inset give back but for rounding
 
@@ -164,7 +164,7 @@ def system_life_hours(lives: Sequence[float], *, weibull_slopes: Sequence[float]
         # Newton for the logarithm of the life, in which the sum's is convex: from above
         rates = [(together / life) ** slope for life, slope in bearings]
         total = math.fsum(rates)
-        if total <= 1.0 + _CLOSED:
+        if total <= 1.0 + _SUM_TOLERANCE:
             break
         mean = math.fsum(rate * slope for rate, (_, slope) in zip(rates, bearings, strict=True)) / total
         factor: float = total ** (-1.0 / mean)

@@ -1,7 +1,7 @@
 """Working strain of a cover under rolls and its moduli at that strain: the equivalent-linear cover of a strand.
 
-The strain is that of the rolls' contact (conveyor.contact.worked) at the loss-weighted line load of the strand;
-moduli are softened by the compound's strain sweeps (conveyor.rubber.equivalent) until both agree.
+The strain is that of the rolls' contact (conveyor.contact.working_strain) at the loss-weighted line load of the strand;
+moduli are softened by the compound's strain sweeps (conveyor.rubber.equivalent_series) until both agree.
 """
 
 from __future__ import annotations
@@ -17,17 +17,17 @@ from numpy.typing import NDArray
 
 from conveyor.contact import Status, solve_many, working_strains
 from conveyor.errors import NoSolutionError, RangeError
-from conveyor.indentation import RollContact, no_answer, to_problems
+from conveyor.indentation import RollContact, no_contact_error, to_problems
 from conveyor.require import require, require_positive
 from conveyor.rubber import (
     AmplitudeFactors,
     EquivalentLinear,
     PronySeries,
     StrainTask,
-    at_strains,
     equivalent_linear_many,
+    series_at_strains,
 )
-from conveyor.rubber.equivalent import Worked
+from conveyor.rubber.equivalent_series import WorkingPoint
 
 Array = NDArray[np.float64]
 
@@ -36,10 +36,10 @@ LOAD_EXPONENT = 4.0 / 3.0
 STRAIN_RTOL: Final = 5e-3
 """Relative tolerance of the working strain [-]; sweeps repeat to a few per cent."""
 _CONTACT_RTOL = 1e-3
-INSIDE: Final = (12, 32)
+INTERIOR_SAMPLING: Final = (12, 32)
 """Depths and points at which the strain inside a cover is sampled: relative error of strain and frequency 3e-3,
 against 28 and 96."""
-COARSE: Final = (4, 16)
+COARSE_SAMPLING: Final = (4, 16)
 """Coarse sampling: 2e-3 of the indentation at a third of the time, seen on three compounds, 0 to 40 °C."""
 
 
@@ -66,7 +66,7 @@ class WorkingStrain:
     loss_factor: float
 
 
-def losing_load(line_loads: Array, weights: Array) -> float:
+def loss_weighted_load(line_loads: Array, weights: Array) -> float:
     """Mean line load of rolls, weighted by their loss, f proportional to w^(4/3) (a Winkler layer).
 
     Parameters
@@ -88,7 +88,7 @@ def losing_load(line_loads: Array, weights: Array) -> float:
 
     Examples
     --------
-    >>> round(losing_load(np.array([8.0, 1.0]), np.array([1.0, 1.0])), 3)  # (16·8 + 1·1)/(16 + 1)
+    >>> round(loss_weighted_load(np.array([8.0, 1.0]), np.array([1.0, 1.0])), 3)  # (16·8 + 1·1)/(16 + 1)
     7.588
     """
     lost = weights * line_loads**LOAD_EXPONENT
@@ -98,7 +98,7 @@ def losing_load(line_loads: Array, weights: Array) -> float:
 
 
 @dataclass(frozen=True, eq=False)
-class WorkedCover:
+class SofteningCover:
     """A cover whose moduli depend on its working strain under the rolls.
 
     Attributes
@@ -127,7 +127,7 @@ class WorkedCover:
     >>> contact = RollContact(
     ...     radius=0.08, spacing=1.5, cover_thickness=0.006, speed=5.0, rubber=PronySeries(8e6, [3e6], [1e-3])
     ... )
-    >>> WorkedCover(contact, 3000.0, factors, 293.15).line_load
+    >>> SofteningCover(contact, 3000.0, factors, 293.15).line_load
     3000.0
     """
 
@@ -136,19 +136,19 @@ class WorkedCover:
     factors: AmplitudeFactors
     temperature: float
     swept: PronySeries | None = None
-    inside: tuple[int, int] = INSIDE
+    inside: tuple[int, int] = INTERIOR_SAMPLING
 
 
 SoftCover: TypeAlias = tuple[PronySeries, WorkingStrain]
 """Series at the working strain, and that strain."""
 
 
-def softened_each(works: Sequence[WorkedCover]) -> list[SoftCover]:
-    """Series of covers at their working strains, as `softened_many`; the first error is raised.
+def soften_or_raise(works: Sequence[SofteningCover]) -> list[SoftCover]:
+    """Series of covers at their working strains, as `soften_covers`; the first error is raised.
 
     Parameters
     ----------
-    works : sequence of WorkedCover
+    works : sequence of SofteningCover
         Covers, each with its line load [N/m] and temperature [K].
 
     Returns
@@ -174,24 +174,24 @@ def softened_each(works: Sequence[WorkedCover]) -> list[SoftCover]:
     >>> contact = RollContact(
     ...     radius=0.08, spacing=1.5, cover_thickness=0.006, speed=5.0, rubber=PronySeries(8e6, [3e6], [1e-3])
     ... )
-    >>> [(series, at)] = softened_each([WorkedCover(contact, 3000.0, factors, 293.15)])
+    >>> [(series, at)] = soften_or_raise([SofteningCover(contact, 3000.0, factors, 293.15)])
     >>> bool(abs(factors.storage(at.strain, 293.15) / at.storage_factor - 1.0) < STRAIN_RTOL)
     True
     """
     covers: list[SoftCover] = []
-    for soft in softened_many(works):
+    for soft in soften_covers(works):
         if not isinstance(soft, tuple):
             raise soft
         covers.append(soft)
     return covers
 
 
-def softened_many(works: Sequence[WorkedCover]) -> list[SoftCover | NoSolutionError | RangeError]:
+def soften_covers(works: Sequence[SofteningCover]) -> list[SoftCover | NoSolutionError | RangeError]:
     """Series of covers at their working strains, solved in a batch.
 
     Parameters
     ----------
-    works : sequence of WorkedCover
+    works : sequence of SofteningCover
         Covers, each with its line load [N/m] and temperature [K].
 
     Returns
@@ -206,12 +206,12 @@ def softened_many(works: Sequence[WorkedCover]) -> list[SoftCover | NoSolutionEr
 
     Examples
     --------
-    >>> softened_many([])
+    >>> soften_covers([])
     []
     """
     coarsely = itertools.chain([True], itertools.repeat(False))
 
-    def strains_of(asked: list[int], series: list[PronySeries]) -> list[Worked | NoSolutionError]:
+    def strains_of(asked: list[int], series: list[PronySeries]) -> list[WorkingPoint | NoSolutionError]:
         first = next(coarsely)  # the first strain is but a start
         problems = to_problems(
             [replace(works[i].contact, rubber=one) for i, one in zip(asked, series, strict=True)],
@@ -221,25 +221,28 @@ def softened_many(works: Sequence[WorkedCover]) -> list[SoftCover | NoSolutionEr
         alike: dict[tuple[int, int], list[int]] = {}
         for i, one in solved.items():
             if one.status is Status.OK:
-                alike.setdefault(COARSE if first else works[i].inside, []).append(i)
-        worked: dict[int, Worked] = {}
+                alike.setdefault(COARSE_SAMPLING if first else works[i].inside, []).append(i)
+        worked: dict[int, WorkingPoint] = {}
         for (depths, points), members in alike.items():
             strained = working_strains([solved[i] for i in members], depths=depths, points=points)
-            worked |= {i: _worked(works[i].contact, *pair) for i, pair in zip(members, strained, strict=True)}
+            worked |= {
+                i: _strain_and_frequency(works[i].contact, *pair)
+                for i, pair in zip(members, strained, strict=True)
+            }
         return [worked[i] if i in worked else NoSolutionError(solved[i].message) for i in asked]
 
-    answers = equivalent_linear_many(_tasks(works), strains_of, rtol=STRAIN_RTOL)
-    return [_cover(work, answer) for work, answer in zip(works, answers, strict=True)]
+    answers = equivalent_linear_many(_strain_tasks(works), strains_of, rtol=STRAIN_RTOL)
+    return [_soft_cover(work, answer) for work, answer in zip(works, answers, strict=True)]
 
 
-def softened_at(
-    works: Sequence[WorkedCover], worked: Sequence[Worked]
+def soften_at_strains(
+    works: Sequence[SofteningCover], worked: Sequence[WorkingPoint]
 ) -> list[SoftCover | NoSolutionError | RangeError]:
     """Series of covers at given strains; no contact is solved.
 
     Parameters
     ----------
-    works : sequence of WorkedCover
+    works : sequence of SofteningCover
         Covers, each with its line load [N/m] and temperature [K].
     worked : sequence of tuple of float
         Strain amplitude [-] and angular frequency [rad/s] of each.
@@ -267,31 +270,34 @@ def softened_at(
     >>> contact = RollContact(
     ...     radius=0.08, spacing=1.5, cover_thickness=0.006, speed=5.0, rubber=PronySeries(8e6, [3e6], [1e-3])
     ... )
-    >>> [(series, at)] = softened_at([WorkedCover(contact, 3000.0, factors, 293.15)], [(1e-4, 600.0)])
+    >>> [(series, at)] = soften_at_strains(
+    ...     [SofteningCover(contact, 3000.0, factors, 293.15)], [(1e-4, 600.0)]
+    ... )
     >>> round(at.storage_factor, 6), round(at.loss_factor, 6)
     (1.0, 1.0)
     """
     for strain, omega in worked:
         require_positive(strain=strain, angular_frequency=omega)
     return [
-        _cover(work, answer) for work, answer in zip(works, at_strains(_tasks(works), worked), strict=True)
+        _soft_cover(work, answer)
+        for work, answer in zip(works, series_at_strains(_strain_tasks(works), worked), strict=True)
     ]
 
 
-def _tasks(works: Sequence[WorkedCover]) -> list[StrainTask]:
+def _strain_tasks(works: Sequence[SofteningCover]) -> list[StrainTask]:
     return [StrainTask(work.contact.rubber, work.factors, work.temperature, work.swept) for work in works]
 
 
-def _worked(contact: RollContact, strain: float, wave_number: float) -> Worked:
+def _strain_and_frequency(contact: RollContact, strain: float, wave_number: float) -> WorkingPoint:
     """Strain [-] and angular frequency [rad/s] of a contact from its strain and wave number [-]."""
     return strain, wave_number * 2.0 * math.pi / contact.spacing * contact.speed
 
 
-def _cover(
-    work: WorkedCover, answer: EquivalentLinear | NoSolutionError | RangeError
+def _soft_cover(
+    work: SofteningCover, answer: EquivalentLinear | NoSolutionError | RangeError
 ) -> SoftCover | NoSolutionError | RangeError:
     if isinstance(answer, NoSolutionError):
-        return no_answer(work.contact, (work.line_load,), answer)
+        return no_contact_error(work.contact, (work.line_load,), answer)
     if isinstance(answer, RangeError):
         return answer
     strain = WorkingStrain(

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from conveyor.laws.resistance.defaults import Default
+from conveyor.laws.resistance.resistance_defaults import Default
 from conveyor.require import require, require_finite, require_not_negative, require_positive
 
 LOOP_STRANDS: Final = 2  # [-], strands of belt that pull at the take-up pulley
@@ -148,7 +148,7 @@ def mean_tension(tensions: Sequence[float], *, lengths: Sequence[float]) -> floa
 
 
 @dataclass(frozen=True, slots=True)
-class Travel:
+class TakeUpTravel:
     """Travel of a take-up's carriage by cause [m].
 
     Parameters
@@ -192,7 +192,7 @@ def take_up_travel(
     thermal_strain: float,
     reserve: float,
     strands: float = LOOP_STRANDS,
-) -> Travel:
+) -> TakeUpTravel:
     """Travel of the carriage, s = ΔL/strands with ΔL = ΔT L/EA (Hooke), ε L lasting and α Δθ L of temperature.
 
     Parameters
@@ -216,7 +216,7 @@ def take_up_travel(
 
     Returns
     -------
-    Travel
+    TakeUpTravel
         Travel by cause [m].
 
     Raises
@@ -255,4 +255,4 @@ def take_up_travel(
         moved * permanent_stretch,
         moved * thermal_strain,
     )
-    return Travel(*parts, reserve=reserve * math.fsum(parts))
+    return TakeUpTravel(*parts, reserve=reserve * math.fsum(parts))

@@ -140,7 +140,7 @@ def governing_tension(minima: Mapping[str, float]) -> tuple[str, float]:
 
 
 @dataclass(frozen=True, slots=True)
-class DriveTensions:
+class DriveSideTensions:
     """Tensions on both sides of the drive.
 
     Parameters
@@ -165,7 +165,7 @@ def drive_tensions(
     wrap_angle: float,
     start_factor: float = 1.0,
     slack_for_sag: float = 0.0,
-) -> DriveTensions:
+) -> DriveSideTensions:
     """Tensions at the drive: T2 = max(grip, sag), T1 = T2 + ξ |F_U| (ISO 5048, DIN 22101).
 
     Parameters
@@ -183,7 +183,7 @@ def drive_tensions(
 
     Returns
     -------
-    DriveTensions
+    DriveSideTensions
         Both tensions [N] and the governing condition.
 
     Raises
@@ -204,7 +204,9 @@ def drive_tensions(
     require(1.0 <= start_factor < math.inf, "start_factor", start_factor, "at least 1 is needed")
     grip = grip_tension(start_factor * drive_force, friction=friction, wrap_angle=wrap_angle)
     governed_by, slack = governing_tension({"grip": grip, "sag": slack_for_sag})
-    return DriveTensions(tight=slack + start_factor * abs(drive_force), slack=slack, governed_by=governed_by)
+    return DriveSideTensions(
+        tight=slack + start_factor * abs(drive_force), slack=slack, governed_by=governed_by
+    )
 
 
 def least_pulley_diameter(carcass_thickness: float, *, carcass: Carcass) -> float:

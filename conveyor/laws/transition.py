@@ -12,7 +12,7 @@ import math
 from dataclasses import dataclass
 from typing import Final
 
-from conveyor.laws.loading import NO_WING, Wing, wings
+from conveyor.laws.loading import NO_WING, Wing, wing_pieces
 from conveyor.require import require, require_positive
 
 EDGE_OVER_RATED: Final = 1.3
@@ -63,7 +63,7 @@ def transition_stretch(
         H, top of the pulley over the middle roll, over the depth of the trough w sin λ [-], from 0 (full trough) to 1;
         0.5 is half trough.
     inner_wing : Wing
-        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wings`; not steeper than λ.
+        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wing_pieces`; not steeper than λ.
 
     Returns
     -------
@@ -94,7 +94,7 @@ def transition_stretch(
     (0.02251, -0.00643, 0.00496, 0.00234)
     """
     require(0.0 <= pulley_height <= 1.0, "pulley_height", pulley_height, "0 to 1 is needed")
-    pieces = wings(
+    pieces = wing_pieces(
         belt_width, middle_roll_length=middle_roll_length, trough_angle=trough_angle, inner_wing=inner_wing
     )
     height = pulley_height * math.fsum(wing.length * math.sin(wing.angle) for wing in pieces)

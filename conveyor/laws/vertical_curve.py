@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from conveyor.laws.loading import NO_WING, Wing, wings
+from conveyor.laws.loading import NO_WING, Wing, wing_pieces
 from conveyor.require import (
     require,
     require_not_negative,
@@ -48,7 +48,7 @@ def trough_section(
     trough_angle : float
         λ of the outer rolls [rad], from 0 to below pi/2.
     inner_wing : Wing
-        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wings`.
+        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wing_pieces`.
 
     Returns
     -------
@@ -71,7 +71,7 @@ def trough_section(
     (0.1333, 0.0667)
     """
     edge = moment = 0.0
-    for length, angle in wings(
+    for length, angle in wing_pieces(
         belt_width, middle_roll_length=middle_roll_length, trough_angle=trough_angle, inner_wing=inner_wing
     ):
         rise = length * math.sin(angle)

@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from conveyor.laws.resistance.defaults import Default
+from conveyor.laws.resistance.resistance_defaults import Default
 from conveyor.require import require, require_positive, require_slope
 
 BELT_RETARDATION: Final = Default(
@@ -117,7 +117,7 @@ def wave_speed(stiffness: float, *, line_mass: float) -> float:
     return math.sqrt(stiffness / line_mass)
 
 
-def ramp(share: ArrayLike, *, shape: str) -> NDArray[np.float64]:
+def ramp_speed(share: ArrayLike, *, shape: str) -> NDArray[np.float64]:
     """Speed over full speed of a controlled start: x, (1 - cos πx)/2, or 2x² and 1 - 2(1 - x)².
 
     Parameters
@@ -139,7 +139,10 @@ def ramp(share: ArrayLike, *, shape: str) -> NDArray[np.float64]:
 
     Examples
     --------
-    >>> [ramp([0.0, 0.25, 0.5, 1.0], shape=shape).round(3).tolist() for shape in ("linear", "cosine", "S")]
+    >>> [
+    ...     ramp_speed([0.0, 0.25, 0.5, 1.0], shape=shape).round(3).tolist()
+    ...     for shape in ("linear", "cosine", "S")
+    ... ]
     [[0.0, 0.25, 0.5, 1.0], [0.0, 0.146, 0.5, 1.0], [0.0, 0.125, 0.5, 1.0]]
     """
     x = np.clip(np.asarray(share, dtype=float), 0.0, 1.0)
@@ -152,5 +155,5 @@ def ramp(share: ArrayLike, *, shape: str) -> NDArray[np.float64]:
     return np.asarray(made[shape], dtype=float)
 
 
-STEEPEST: Final = {"linear": 1.0, "cosine": 0.5 * math.pi, "S": 2.0}
+STEEPEST_SLOPE: Final = {"linear": 1.0, "cosine": 0.5 * math.pi, "S": 2.0}
 """Highest acceleration of a ramp over its mean one [-]."""

@@ -17,26 +17,26 @@ from conveyor.indentation import (
     Indentation,
     IndentationCurve,
     RollContact,
-    coarsened,
-    forgotten,
+    coarsen_rubber,
+    curve_resistances,
     indentation_curves,
-    resistances,
+    merge_equal_contacts,
     to_problems,
 )
 from conveyor.laws.loading import RollLoad
-from conveyor.laws.softening import losing_load
+from conveyor.laws.softening import loss_weighted_load
 from conveyor.line.covers import Covers, roll_contact
 from conveyor.line.line import Line
 from conveyor.line.roll_kinds import RollKind
 from conveyor.line.stretches import Strand
-from conveyor.rubber.anchor import ends
+from conveyor.rubber.rolling_test_factor import quantile_band
 
 Array = NDArray[np.float64]
 _REPLICA_RTOL = 1e-2  # contacts of a band: a tenth of the narrowest band
-_REPLICA_FELT = 1e-4  # error of merging a replica's terms, far below that
-Spans = Mapping[RollContact, tuple[float, float]]
+_REPLICA_MERGE_TOLERANCE = 1e-4  # error of merging a replica's terms, far below that
+LoadRanges = Mapping[RollContact, tuple[float, float]]
 """Range of line loads of each contact [N/m]."""
-SolvedCurves: TypeAlias = dict[tuple[RollContact, float, float, float], IndentationCurve | NoSolutionError]
+LoadCurveCache: TypeAlias = dict[tuple[RollContact, float, float, float], IndentationCurve | NoSolutionError]
 """Curves by contact, range of line loads [N/m] and relative tolerance [-], the last used at the end."""
 
 
@@ -86,7 +86,7 @@ class RollResult:
         return contacts.every[i]
 
     @property
-    def pressed_in(self) -> float:
+    def cover_penetration(self) -> float:
         """Penetration of the cover alone at the highest line load, without the carcass's deflection [m]."""
         if self.held is None:
             return float(self.peak.penetration)
@@ -101,7 +101,7 @@ class Contacts:
     ----------
     line : Line
         The conveyor.
-    covers : mapping of strand to RunningCover
+    covers : mapping of strand to CoverState
         Cover under each strand.
     curves : tuple of IndentationCurve
         Theoretical load curve of every kind of roll, `line.kinds`.
@@ -165,19 +165,19 @@ class Contacts:
         """Mean line load of a strand's rolls, weighted by energy loss [N/m]."""
         kinds = [kind for kind in self.line.kinds if kind.strand == strand]
         loads = np.concatenate([kind.line_loads for kind in kinds])
-        return losing_load(loads, np.concatenate([kind.weights * kind.sets for kind in kinds]))
+        return loss_weighted_load(loads, np.concatenate([kind.weights * kind.sets for kind in kinds]))
 
-    def level_factor(self, strand: Strand) -> float:
+    def test_factor(self, strand: Strand) -> float:
         """Test factor on a strand's indentation at its mean line load [-]; 1 without tests."""
         level = self.covers[strand].level
         return 1.0 if level is None else float(level.factor(self.losing_load(strand)))
 
-    def level_band(self, strand: Strand) -> float:
+    def test_factor_band(self, strand: Strand) -> float:
         """Half-width of the 90 % band of the logarithm of the test factor [-]; 0 without tests."""
         level = self.covers[strand].level
         return 0.0 if level is None else level.anchor.band(self.losing_load(strand), level.temperature)
 
-    def level_range(self, strand: Strand, *, own: bool = False) -> tuple[float, float]:
+    def test_factor_range(self, strand: Strand, *, own: bool = False) -> tuple[float, float]:
         """90 % range of the factor on a strand's indentation [-]; 1 and 1 without tests.
 
         It combines the band of the tests with, beyond the tested temperatures, that of the compound's replicas.
@@ -197,7 +197,7 @@ class Contacts:
         level = self.covers[strand].level
         if level is None:
             return 1.0, 1.0
-        half = level.anchor.own_half_width if own else self.level_band(strand)
+        half = level.anchor.own_half_width if own else self.test_factor_band(strand)
         low, high = (math.hypot(half, end) for end in self._replicated[strand])
         return math.exp(-low), math.exp(high)
 
@@ -222,7 +222,7 @@ class Contacts:
             )
             contact, load = roll_contact(self.line, heaviest, cover), self.losing_load(strand)
             asked[strand] = [
-                coarsened(replace(contact, rubber=rubber), load, _REPLICA_FELT)
+                coarsen_rubber(replace(contact, rubber=rubber), load, _REPLICA_MERGE_TOLERANCE)
                 for at in (level.temperature, level.anchor.nearest(level.temperature))
                 for rubber in (level.compound.series(at), *level.compound.replicas(at))
             ]
@@ -233,7 +233,7 @@ class Contacts:
         for strand, contacts in asked.items():
             friction = np.array([next(solved).friction for _ in contacts]).reshape(2, -1)
             carried = np.log(friction[0] / friction[1])
-            low, high = ends(carried[1:] - carried[0])
+            low, high = quantile_band(carried[1:] - carried[0])
             widths[strand] = max(-low, 0.0), max(high, 0.0)
         return widths
 
@@ -250,7 +250,7 @@ class Contacts:
     def error(self) -> float:
         """Largest relative error estimate of any roll's indentation [-]."""
         pairs = zip(self.line.kinds, self.curves, strict=True)
-        return max(curve.error + self.covers[kind.strand].unsure for kind, curve in pairs)
+        return max(curve.error + self.covers[kind.strand].indentation_error for kind, curve in pairs)
 
     @property
     def energy_error(self) -> float:
@@ -262,7 +262,7 @@ def solve_contacts(
     lines: Sequence[Line],
     covers: Sequence[Covers],
     rtol: float | None = None,
-    known: SolvedCurves | None = None,
+    known: LoadCurveCache | None = None,
 ) -> list[Contacts | NoSolutionError]:
     """Solve the contacts of many lines, or of many rubbers under one, in one batch.
 
@@ -283,10 +283,10 @@ def solve_contacts(
         Contacts in the order of the cases, or the error.
     """
     tolerances = [
-        (line.rtol if rtol is None else rtol) - max(cover.unsure for cover in own.values())
+        (line.rtol if rtol is None else rtol) - max(cover.indentation_error for cover in own.values())
         for line, own in zip(lines, covers, strict=True)
     ]
-    asked = [_contacts(*scene) for scene in zip(lines, covers, tolerances, strict=True)]
+    asked = [_roll_contacts(*scene) for scene in zip(lines, covers, tolerances, strict=True)]
     jobs: dict[float, dict[RollContact, tuple[float, float]]] = {}
     for line, contacts, tolerance in zip(lines, asked, tolerances, strict=True):
         spans = jobs.setdefault(tolerance, {})
@@ -294,23 +294,23 @@ def solve_contacts(
             low, high = spans.get(contact, (kind.lowest, kind.highest))
             spans[contact] = min(low, kind.lowest), max(high, kind.highest)
     before = {} if known is None else known
-    solved = {tolerance: _solved(spans, tolerance, before) for tolerance, spans in jobs.items()}
+    solved = {tolerance: _solve_load_curves(spans, tolerance, before) for tolerance, spans in jobs.items()}
     curves = [
-        _curves([solved[tolerance][contact] for contact in contacts])
+        _curves_or_error([solved[tolerance][contact] for contact in contacts])
         for contacts, tolerance in zip(asked, tolerances, strict=True)
     ]
-    return _read(lines, covers, curves)
+    return _read_contacts(lines, covers, curves)
 
 
-def _contacts(line: Line, covers: Covers, rtol: float) -> list[RollContact]:
+def _roll_contacts(line: Line, covers: Covers, rtol: float) -> list[RollContact]:
     """Contact of every kind of roll; those that differ in a spacing without influence are one."""
     contacts = [roll_contact(line, kind, covers[kind.strand]) for kind in line.kinds]
-    shared = forgotten(contacts, rtol)
+    shared = merge_equal_contacts(contacts, rtol)
     return [shared[contact] for contact in contacts]
 
 
-def _solved(
-    spans: Spans, rtol: float, known: SolvedCurves
+def _solve_load_curves(
+    spans: LoadRanges, rtol: float, known: LoadCurveCache
 ) -> dict[RollContact, IndentationCurve | NoSolutionError]:
     """Curves of all contacts: known ones reused, the others solved in one batch."""
     keys = {contact: (contact, *span, rtol) for contact, span in spans.items()}
@@ -322,7 +322,7 @@ def _solved(
     return solved
 
 
-def _curves(
+def _curves_or_error(
     solved: Sequence[IndentationCurve | NoSolutionError],
 ) -> tuple[IndentationCurve, ...] | NoSolutionError:
     """Curves of a line's rolls, or the first error."""
@@ -330,7 +330,7 @@ def _curves(
     return refused or tuple(one for one in solved if isinstance(one, IndentationCurve))
 
 
-def _read(
+def _read_contacts(
     lines: Sequence[Line],
     covers: Sequence[Covers],
     curves: Sequence[tuple[IndentationCurve, ...] | NoSolutionError],
@@ -342,14 +342,14 @@ def _read(
             asked.setdefault(curve, []).append((i, k))
     loads = [[lines[i].kinds[k].distinct for i, k in members] for members in asked.values()]
     drags: list[dict[int, Array]] = [{} for _ in lines]
-    whole = resistances(list(asked), [np.concatenate(each) for each in loads])
+    whole = curve_resistances(list(asked), [np.concatenate(each) for each in loads])
     for members, each, resistance in zip(asked.values(), loads, whole, strict=True):
         parts = np.split(resistance, np.cumsum([distinct.size for distinct in each])[:-1])
         for (i, k), part in zip(members, parts, strict=True):
             kind = lines[i].kinds[k]
             level = covers[i][kind.strand].level
             at_level = part if level is None else part * level.factor(kind.distinct)
-            drags[i][k] = along_the_rolls(kind, at_level[kind.which])
+            drags[i][k] = integrate_along_rolls(kind, at_level[kind.which])
     return [
         Contacts(line, cover, own, tuple(found[k] for k in range(len(own))))
         if isinstance(own, tuple)
@@ -358,6 +358,6 @@ def _read(
     ]
 
 
-def along_the_rolls(kind: RollKind, resistance: Array) -> Array:
+def integrate_along_rolls(kind: RollKind, resistance: Array) -> Array:
     """Integrate the resistance per width at every line load [N/m] along each roll [N]."""
     return np.asarray(np.add.reduceat(resistance * kind.weights, kind.starts))

@@ -11,32 +11,32 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from conveyor.errors import NoSolutionError, RangeError
-from conveyor.indentation import Backing, RollContact, Support, felt
+from conveyor.indentation import Backing, RollContact, Support, resolved_relaxation_times
 from conveyor.laws.softening import (
     SoftCover,
-    WorkedCover,
+    SofteningCover,
     WorkingStrain,
-    losing_load,
-    softened_at,
-    softened_many,
+    loss_weighted_load,
+    soften_at_strains,
+    soften_covers,
 )
 from conveyor.line.line import Line
 from conveyor.line.roll_kinds import RollKind
 from conveyor.line.stretches import STRANDS, Strand
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.rubber import PronySeries
-from conveyor.rubber.anchor import Anchor
-from conveyor.rubber.equivalent import Worked
+from conveyor.rubber.equivalent_series import WorkingPoint
+from conveyor.rubber.rolling_test_factor import RollingTestFactor
 from conveyor.units import si
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Level:
+class CoverTestFactor:
     """Test factor of a cover's rubber at its temperature [K]."""
 
-    anchor: Anchor
+    anchor: RollingTestFactor
     temperature: float
     compound: RubberCompound = field(compare=False, repr=False)
 
@@ -46,7 +46,7 @@ class Level:
 
 
 @dataclass(frozen=True, eq=False)
-class RunningCover:
+class CoverState:
     """A cover under rolls: thickness [m], rubber at its temperature, Poisson's ratio.
 
     `strain` is the working strain; None for that of the master curve. `level` is the test factor on indentation; None
@@ -59,19 +59,19 @@ class RunningCover:
     poisson: float
     other: tuple[float, PronySeries]
     strain: WorkingStrain | None = None
-    level: Level | None = None
+    level: CoverTestFactor | None = None
     merged: float = 0.0
     read: float = 0.0
 
     @property
-    def unsure(self) -> float:
+    def indentation_error(self) -> float:
         """Relative error of indentation by the approximated rubber [-]."""
         return self.merged + self.read
 
 
 CoverName: TypeAlias = Strand | Literal["top"]
 """Cover under the rolls of a strand, or the top cover."""
-Covers = Mapping[Strand, RunningCover]
+Covers = Mapping[Strand, CoverState]
 """Cover under each strand."""
 
 
@@ -80,7 +80,7 @@ def compounds_by_strand(conveyor: Conveyor) -> dict[Strand, RubberCompound]:
     return {"carry": conveyor.carry_compound, "return": conveyor.return_compound}
 
 
-def rubbers(
+def cover_series(
     conveyor: Conveyor, series: Callable[[RubberCompound], PronySeries]
 ) -> dict[CoverName, PronySeries]:
     """Prony series of each strand's rubber and of the top cover's; one for each compound.
@@ -100,26 +100,26 @@ def rubbers(
     }
 
 
-def covers_of(conveyor: Conveyor, rubber: Mapping[CoverName, PronySeries]) -> dict[Strand, RunningCover]:
+def covers_by_strand(conveyor: Conveyor, rubber: Mapping[CoverName, PronySeries]) -> dict[Strand, CoverState]:
     """Cover under each strand, of given rubber."""
     bottom = (si(conveyor.belt.bottom_cover.thickness), rubber["carry"])
     top = (si(conveyor.belt.top_cover.thickness), rubber["top"])
     pairs = {"carry": (bottom, top), "return": (bottom, top) if conveyor.route.turned_over else (top, bottom)}
     compounds = compounds_by_strand(conveyor)
     return {
-        strand: RunningCover(thickness, rubber[strand], compounds[strand].poisson_ratio, other)
+        strand: CoverState(thickness, rubber[strand], compounds[strand].poisson_ratio, other)
         for strand in STRANDS
         for (thickness, _), other in [pairs[strand]]
     }
 
 
 @dataclass(frozen=True, eq=False)
-class StrandAtWork:
+class CoverLoading:
     """Rolls of a strand on their cover, its rubber at the strain of the master curve."""
 
     line: Line
     strand: Strand
-    cover: RunningCover
+    cover: CoverState
     compound: RubberCompound
     temperature: float
 
@@ -144,67 +144,69 @@ class StrandAtWork:
             *(kind.bearing for kind in self.kinds),
         )
 
-    def worked(self) -> WorkedCover | None:
+    def worked(self) -> SofteningCover | None:
         """Contact that determines the working strain; None without strain dependence."""
         factors = self.compound.amplitude_factors() if self.line.softened else None
         if factors is None:
             return None
         contact = roll_contact(self.line, max(self.kinds, key=lambda kind: kind.highest), self.cover)
         swept = self.compound.swept_series(self.temperature)
-        return WorkedCover(contact, self.line_load, factors, self.temperature, swept)
+        return SofteningCover(contact, self.line_load, factors, self.temperature, swept)
 
     @property
     def line_load(self) -> float:
         """Mean line load weighted by energy loss [N/m]."""
         loads = np.concatenate([kind.line_loads for kind in self.kinds])
-        return losing_load(loads, np.concatenate([kind.weights * kind.sets for kind in self.kinds]))
+        return loss_weighted_load(loads, np.concatenate([kind.weights * kind.sets for kind in self.kinds]))
 
-    def still_at(self, cover: RunningCover) -> bool:
+    def keeps_strain_of(self, cover: CoverState) -> bool:
         """True if a cover's working strain still fits the line load; strain goes as a root of the load."""
         was = cover.strain
         return was is not None and abs(self.line_load - was.line_load) <= self.line.rtol * was.line_load
 
 
-FELT: Final = 0.02
+TERM_MERGE_SHARE: Final = 0.02
 """Share of the contacts' tolerance for merging the fast, and for merging the slow, relaxation terms [-]."""
 
 
-def told_apart(work: StrandAtWork, rtol: float) -> tuple[float, float] | None:
+def resolved_time_range(work: CoverLoading, rtol: float) -> tuple[float, float] | None:
     """Range of relaxation times that a strand's rolls resolve [s]; None unless on a rigid carcass."""
     if work.line.support != "confined" or work.cover.poisson != 0.5:
         return None
     lightest = min(work.kinds, key=lambda kind: kind.lowest * kind.radius)
-    return felt(roll_contact(work.line, lightest, work.cover), lightest.lowest, FELT * rtol)
+    return resolved_relaxation_times(
+        roll_contact(work.line, lightest, work.cover), lightest.lowest, TERM_MERGE_SHARE * rtol
+    )
 
 
-READ_FROM: Final = 5
+STRAIN_INTERPOLATION_SPEEDS: Final = 5
 """Number of speeds from which the working strain is calculated at three and interpolated between."""
-READ_SPAN: Final = 1.65
+STRAIN_INTERPOLATION_SPAN: Final = 1.65
 """Largest ratio of speeds for interpolation: ln strain is a parabola of ln speed to 5e-4 (three covers of the shelf,
 -30 to 40 °C); more nodes gain nothing, the calculated strain scatters as much."""
-READ_STRAIN: Final = 5e-4
+STRAIN_INTERPOLATION_TOLERANCE: Final = 5e-4
 """Relative interpolation error allowed of the strain, about its scatter [-]."""
-READ_ERROR: Final = 7e-5
+STRAIN_INTERPOLATION_ERROR: Final = 7e-5
 """Resulting relative error of indentation [-]: with the error of the curves at most 6e-5, in the median 8e-6, in 204
 cases against contacts of 1e-7 without interpolation (benchmarks/compare_error.py)."""
-READ_RTOL: Final = 1e-4
+STRAIN_INTERPOLATION_RTOL: Final = 1e-4
 """Finest tolerance of contacts that allows interpolation [-]."""
 
 
 def softened_covers(
-    works: Sequence[StrandAtWork],
-    tests: Sequence[WorkedCover] = (),
-    runs: Sequence[Sequence[StrandAtWork]] = (),
-) -> tuple[list[RunningCover | NoSolutionError | RangeError], list[SoftCover | NoSolutionError | RangeError]]:
+    works: Sequence[CoverLoading],
+    tests: Sequence[SofteningCover] = (),
+    runs: Sequence[Sequence[CoverLoading]] = (),
+) -> tuple[list[CoverState | NoSolutionError | RangeError], list[SoftCover | NoSolutionError | RangeError]]:
     """Covers at their working strain, where the compounds have strain sweeps, solved in one batch.
 
     Parameters
     ----------
-    works : sequence of StrandAtWork
+    works : sequence of CoverLoading
         Loaded strands.
-    tests : sequence of WorkedCover
+    tests : sequence of SofteningCover
         Covers of rolling-resistance tests, solved in the same batch.
-    runs : sequence of sequence of StrandAtWork
+    runs : sequence of sequence of CoverLoading
         Strands of `works` that differ in speed alone.
 
     Returns
@@ -214,42 +216,47 @@ def softened_covers(
         sweeps that do not reach it.
     """
     asked = {work: worked for work in works if (worked := work.worked()) is not None}
-    threes = {three: part for run in runs for part in _parts(run) for three in [_three(part)]}
+    threes = {
+        three: part for run in runs for part in _speed_groups(run) for three in [_interpolation_nodes(part)]
+    }
     between = {work for three, part in threes.items() for work in part if work not in three}
-    found = softened_many([*tests, *(worked for work, worked in asked.items() if work not in between)])
+    found = soften_covers([*tests, *(worked for work, worked in asked.items() if work not in between)])
     soft = dict(zip([work for work in asked if work not in between], found[len(tests) :], strict=True))
-    read: dict[StrandAtWork, Worked] = {}
+    read: dict[CoverLoading, WorkingPoint] = {}
     for three, part in threes.items():
         strains = [one[1] for work in three if isinstance(one := soft.get(work), tuple)]
         if len(strains) == len(three):
-            read |= _read(three, strains, [work for work in part if work in between])
-    soft |= zip(read, softened_at([asked[work] for work in read], list(read.values())), strict=True)
+            read |= _interpolate_strains(three, strains, [work for work in part if work in between])
+    soft |= zip(read, soften_at_strains([asked[work] for work in read], list(read.values())), strict=True)
     left = [work for work in asked if work not in soft]
-    soft |= zip(left, softened_many([asked[work] for work in left]), strict=True)
-    running = [_running(work.cover, soft.get(work), READ_ERROR if work in read else 0.0) for work in works]
+    soft |= zip(left, soften_covers([asked[work] for work in left]), strict=True)
+    running = [
+        _softened_cover(work.cover, soft.get(work), STRAIN_INTERPOLATION_ERROR if work in read else 0.0)
+        for work in works
+    ]
     return running, found[: len(tests)]
 
 
-def _parts(run: Sequence[StrandAtWork]) -> Iterator[list[StrandAtWork]]:
+def _speed_groups(run: Sequence[CoverLoading]) -> Iterator[list[CoverLoading]]:
     """Groups of strands within the speed ratio of interpolation, the slowest first."""
     left = sorted(dict.fromkeys(run), key=lambda work: work.line.speed)
-    while len(left) >= READ_FROM:
-        part = [work for work in left if work.line.speed <= READ_SPAN * left[0].line.speed]
+    while len(left) >= STRAIN_INTERPOLATION_SPEEDS:
+        part = [work for work in left if work.line.speed <= STRAIN_INTERPOLATION_SPAN * left[0].line.speed]
         left = left[len(part) :]
-        if len(part) >= READ_FROM:
+        if len(part) >= STRAIN_INTERPOLATION_SPEEDS:
             yield part
 
 
-def _three(part: Sequence[StrandAtWork]) -> tuple[StrandAtWork, StrandAtWork, StrandAtWork]:
+def _interpolation_nodes(part: Sequence[CoverLoading]) -> tuple[CoverLoading, CoverLoading, CoverLoading]:
     """Slowest, middle and fastest strand."""
     slowest, fastest = part[0], part[-1]
     middle = math.sqrt(slowest.line.speed * fastest.line.speed)
     return slowest, min(part[1:-1], key=lambda work: abs(math.log(work.line.speed / middle))), fastest
 
 
-def _read(
-    three: Sequence[StrandAtWork], strains: Sequence[WorkingStrain], between: Sequence[StrandAtWork]
-) -> dict[StrandAtWork, Worked]:
+def _interpolate_strains(
+    three: Sequence[CoverLoading], strains: Sequence[WorkingStrain], between: Sequence[CoverLoading]
+) -> dict[CoverLoading, WorkingPoint]:
     """Strains and angular frequencies by a parabola in ln speed; none where its error exceeds the tolerance.
 
     The error of a straight line squares with the degree, as for Chebyshev points (contact.sampling).
@@ -261,7 +268,7 @@ def _read(
     bend = known[1] - known[0] - (known[2] - known[0]) * (middle - slow) / (fast - slow)
     bend = bend * (at - slow) * (at - fast) / ((middle - slow) * (middle - fast))
     miss, span = np.abs(bend).max(axis=0), np.maximum(np.ptp(known, axis=0), np.finfo(float).tiny)
-    if np.any(np.minimum(miss, 4.0 * miss * miss / span) > READ_STRAIN):
+    if np.any(np.minimum(miss, 4.0 * miss * miss / span) > STRAIN_INTERPOLATION_TOLERANCE):
         return {}
     return {
         work: (strain, omega)
@@ -269,24 +276,22 @@ def _read(
     }
 
 
-def _running(
-    cover: RunningCover, soft: SoftCover | NoSolutionError | RangeError | None, read: float
-) -> RunningCover | NoSolutionError | RangeError:
+def _softened_cover(
+    cover: CoverState, soft: SoftCover | NoSolutionError | RangeError | None, read: float
+) -> CoverState | NoSolutionError | RangeError:
     if soft is None:
         return cover
     return replace(cover, rubber=soft[0], strain=soft[1], read=read) if isinstance(soft, tuple) else soft
 
 
-def backing(line: Line, cover: RunningCover, tension: float) -> Backing:
+def belt_backing(line: Line, cover: CoverState, tension: float) -> Backing:
     """Backing of a cover by the belt at a tension T - m' V² per width [N/m]."""
     thickness, rubber = cover.other
     body = line.belt
     return Backing(tension, body.bending, body.bending_loss, body.tensile_stiffness or 0.0, thickness, rubber)
 
 
-def roll_contact(
-    line: Line, kind: RollKind, cover: RunningCover, behind: Backing | None = None
-) -> RollContact:
+def roll_contact(line: Line, kind: RollKind, cover: CoverState, behind: Backing | None = None) -> RollContact:
     """Contact of a kind of roll with a cover; on a rigid carcass without `behind`."""
     support: Support = "confined" if line.support == "belt" else line.support
     return RollContact(

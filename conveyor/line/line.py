@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.indentation import Support
-from conveyor.laws.belt import Condition, fall_severity, least_cover
+from conveyor.laws.belt_strength import Condition, fall_severity, least_cover
 from conveyor.laws.motion import START_FACTOR, reduced_mass, typical_reduced_mass
+from conveyor.laws.preliminary_sizing import wear_addition
 from conveyor.laws.pulley import Keyway, Steel
 from conveyor.laws.resistance import (
     BULK_ON_BELT_FRICTION,
@@ -20,20 +21,19 @@ from conveyor.laws.resistance import (
     acceleration_length,
     idler_rotation_resistance,
 )
-from conveyor.laws.sizing import wear_addition
 from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
 from conveyor.laws.tension import usual_stiffness
 from conveyor.laws.wind import AIR_DENSITY, WIND_LIFT, wind_force
-from conveyor.line import defaults
+from conveyor.line import usual_parts
+from conveyor.line.drive_scenarios import StarterUnit
+from conveyor.line.loop_positions import LoopPosition, LoopPositions
 from conveyor.line.roll_drags import RollDrags, roll_drags
 from conveyor.line.roll_kinds import RollKind
-from conveyor.line.scenes import StarterUnit
-from conveyor.line.stations import Places, Spot
 from conveyor.line.strands import LoopShape, Strands
 from conveyor.line.stretches import RouteSection, Stretch
 from conveyor.models import Calculation, Conveyor, Drive, DrivePulley, Feeding, Pulley
-from conveyor.models.checks import drive_diameter
-from conveyor.models.methods import Cema
+from conveyor.models.calculation_methods import Cema
+from conveyor.models.part_conflicts import drive_diameter
 from conveyor.units import Quantity, si
 
 Array = NDArray[np.float64]
@@ -45,7 +45,7 @@ _MOST_DRIVEN_WRAP = math.radians(270.0)
 
 
 @dataclass(frozen=True)
-class CoverNeed:
+class CoverRequirement:
     """Thickness of a cover and its requirement [m]: `least` over the carcass, `wear` in addition."""
 
     cover: str
@@ -82,7 +82,7 @@ class BeltBody:
     relaxing: tuple[float, float] | None = None
     bears: tuple[float | None, float | None] = (None, None)
     """Lowest and highest temperature [K]; None not given."""
-    covers: tuple[CoverNeed, ...] = ()
+    covers: tuple[CoverRequirement, ...] = ()
     """Empty where the spec gives no wear."""
 
     @property
@@ -110,7 +110,7 @@ class LoadingPoint:
     """
 
     name: str
-    spot: Spot
+    spot: LoopPosition
     place: str
     section: int
     comes_with: int
@@ -122,7 +122,7 @@ class LoadingPoint:
     belt_friction: float
     skirt_friction: float
     lift: float | None
-    before: Spot
+    before: LoopPosition
     skirtboards: float | None
     seal_drag: float
     drop_height: float | None
@@ -173,7 +173,7 @@ class PloughBlade:
     """One or more equal ploughs: width [m], scraping factor [N/m], position."""
 
     count: int
-    spot: Spot
+    spot: LoopPosition
     place: str
     width: float
     scraping_factor: float
@@ -189,7 +189,7 @@ class BendPulley:
 
     name: str
     position: str
-    spot: Spot
+    spot: LoopPosition
     place: str
     diameter: float
     shaft_diameter: float
@@ -244,7 +244,7 @@ class DriveUnit:
     """
 
     name: str
-    spot: Spot
+    spot: LoopPosition
     share: float
     friction: float
     wrap_angle: float
@@ -268,7 +268,7 @@ class TakeUpUnit:
     """
 
     kind: str
-    spot: Spot | None
+    spot: LoopPosition | None
     tension: float | None
     reeving: float
     strands: int
@@ -361,7 +361,7 @@ class Line:
     transitions: tuple[TransitionZone, ...]
     drives: tuple[DriveUnit, ...]
     take_up: TakeUpUnit
-    places: Places
+    places: LoopPositions
     bulk_on_belt: float
     efficiency: float
     regeneration: float
@@ -402,48 +402,48 @@ class Line:
             A law of roll drag does not hold at a load.
         """
         drive, calculation = conveyor.drive, conveyor.calculation
-        places, strands = Places(conveyor), strands or Strands.of(conveyor)
+        places, strands = LoopPositions(conveyor), strands or Strands.of(conveyor)
         carry, back = drags or [roll_drags(conveyor, strand) for strand in strands.each]
         efficiency = si(drive.efficiency)
         return cls(
             strands=strands,
             roll_drags=(*carry, *back),
-            belt=_belt(conveyor),
+            belt=_belt_body(conveyor),
             speed=si(conveyor.belt.speed),
             flow=si(conveyor.material.flow),
             density=si(conveyor.material.density),
             lump=None if conveyor.belt.wear is None else si(conveyor.belt.wear.lump),
             gravity=si(calculation.gravity),
             loading=_loading_points(conveyor, places),
-            scrapers=_scrapers(conveyor),
-            carryback=(_known(conveyor.route.carryback), _known(conveyor.route.carryback_allowed)),
-            discharge=_discharge(conveyor),
-            ploughs=_ploughs(conveyor, places),
-            pulleys=_pulleys(conveyor, places),
-            transitions=_transitions(conveyor),
-            drives=_drives(conveyor, places),
-            take_up=_take_up(conveyor, places),
+            scrapers=_belt_scrapers(conveyor),
+            carryback=(_si_or_none(conveyor.route.carryback), _si_or_none(conveyor.route.carryback_allowed)),
+            discharge=_head_discharge(conveyor),
+            ploughs=_plough_blades(conveyor, places),
+            pulleys=_bend_pulleys(conveyor, places),
+            transitions=_transition_zones(conveyor),
+            drives=_drive_units(conveyor, places),
+            take_up=_take_up_unit(conveyor, places),
             places=places,
             bulk_on_belt=_belt_friction(conveyor),
             efficiency=efficiency,
-            regeneration=_given(drive.regeneration_efficiency, efficiency),
+            regeneration=_si_or_default(drive.regeneration_efficiency, efficiency),
             mains_efficiency=drive.mains_efficiency,
             start_factor=drive.start_factor,
             torque_curve=_torque_curve(drive),
             brake_delay=si(drive.brake_delay),
-            stop_deceleration=_known(drive.stop_deceleration),
-            coast_time=_known(drive.coast_time),
+            stop_deceleration=_si_or_none(drive.stop_deceleration),
+            coast_time=_si_or_none(drive.coast_time),
             least_friction=si(drive.least_friction),
             secondary=calculation.secondary,
             friction_factor=calculation.friction_factor,
-            flexure_share=_known(calculation.flexure_share),
+            flexure_share=_si_or_none(calculation.flexure_share),
             flexure_source=_flexure_source(calculation),
-            cema=_cema(calculation.cema),
+            cema=_cema_factors(calculation.cema),
             support=calculation.support,
             rtol=calculation.rtol,
             softened=calculation.strain != "off",
             us_sizes=conveyor.report.units == "US",
-            wind_speed=_known(conveyor.ambient.wind_speed),
+            wind_speed=_si_or_none(conveyor.ambient.wind_speed),
         )
 
     @property
@@ -473,7 +473,7 @@ class Line:
         return [drive.brake or 0.0 for drive in self.drives]
 
     @property
-    def tension_acts(self) -> bool:
+    def has_tension_coupling(self) -> bool:
         """True if tension changes the loads of rolls: on curves, or with a yielding belt."""
         return self.support == "belt" or any(section.curved for section in self.sections)
 
@@ -521,15 +521,15 @@ def _flexure_source(calculation: Calculation) -> str:
     return f"load x sag of the set x coefficient of one measured site, flagged default{belt}"
 
 
-def _known(value: Quantity | None) -> float | None:
+def _si_or_none(value: Quantity | None) -> float | None:
     return None if value is None else si(value)
 
 
-def _given(value: Quantity | None, default: float) -> float:
+def _si_or_default(value: Quantity | None, default: float) -> float:
     return default if value is None else si(value)
 
 
-def _belt(conveyor: Conveyor) -> BeltBody:
+def _belt_body(conveyor: Conveyor) -> BeltBody:
     belt, carcass, width = conveyor.belt, conveyor.belt.carcass, si(conveyor.belt.width)
     parts = (belt.top_cover.thickness, belt.bottom_cover.thickness, carcass.thickness)
     return BeltBody(
@@ -539,14 +539,14 @@ def _belt(conveyor: Conveyor) -> BeltBody:
         carcass=carcass.kind,
         carcass_thickness=si(carcass.thickness),
         cover_thicknesses=(si(belt.top_cover.thickness), si(belt.bottom_cover.thickness)),
-        strength=_known(carcass.strength),
-        rating=_known(carcass.rating),
-        stiffness=_known(carcass.stiffness),
-        splice_strength=_known(carcass.splice_strength),
+        strength=_si_or_none(carcass.strength),
+        rating=_si_or_none(carcass.rating),
+        stiffness=_si_or_none(carcass.stiffness),
+        splice_strength=_si_or_none(carcass.splice_strength),
         splice_making=carcass.splice_making,
         duty=carcass.duty,
-        permanent_stretch=_known(carcass.permanent_stretch),
-        retardation=_known(carcass.retardation_time),
+        permanent_stretch=_si_or_none(carcass.permanent_stretch),
+        retardation=_si_or_none(carcass.retardation_time),
         bending=CARCASS_BENDING.value
         if carcass.bending_stiffness is None
         else si(carcass.bending_stiffness) / width,
@@ -554,12 +554,12 @@ def _belt(conveyor: Conveyor) -> BeltBody:
         relaxing=None
         if carcass.relaxing_stiffness is None or carcass.relaxation_time is None
         else (si(carcass.relaxing_stiffness), si(carcass.relaxation_time)),
-        bears=(_known(belt.lowest_temperature), _known(belt.highest_temperature)),
-        covers=_cover_needs(conveyor),
+        bears=(_si_or_none(belt.lowest_temperature), _si_or_none(belt.highest_temperature)),
+        covers=_cover_requirements(conveyor),
     )
 
 
-def _cover_needs(conveyor: Conveyor) -> tuple[CoverNeed, ...]:
+def _cover_requirements(conveyor: Conveyor) -> tuple[CoverRequirement, ...]:
     """Required covers where the spec gives the wear."""
     belt = conveyor.belt
     if belt.wear is None:
@@ -575,26 +575,33 @@ def _cover_needs(conveyor: Conveyor) -> tuple[CoverNeed, ...]:
         loading=belt.wear.loading or fall_severity(drop),
     )
     return (
-        CoverNeed("top", si(belt.top_cover.thickness), least, wear),
-        CoverNeed("bottom", si(belt.bottom_cover.thickness), least, 0.0),
+        CoverRequirement("top", si(belt.top_cover.thickness), least, wear),
+        CoverRequirement("bottom", si(belt.bottom_cover.thickness), least, 0.0),
     )
 
 
-def _loading_points(conveyor: Conveyor, places: Places) -> tuple[LoadingPoint, ...]:
-    points, assumed = defaults.feeding_points(conveyor)
-    return tuple(_loading(conveyor, point, places, assumed=assumed) for point in points)
+def _loading_points(conveyor: Conveyor, places: LoopPositions) -> tuple[LoadingPoint, ...]:
+    points, assumed = usual_parts.route_feeding_points(conveyor)
+    return tuple(_loading_point(conveyor, point, places, assumed=assumed) for point in points)
 
 
-def _loading(conveyor: Conveyor, point: Feeding, places: Places, *, assumed: bool) -> LoadingPoint:
+def _loading_point(
+    conveyor: Conveyor, point: Feeding, places: LoopPositions, *, assumed: bool
+) -> LoadingPoint:
     route, flow = conveyor.route, si(conveyor.material.flow)
     spot = places.landing(point.section)
     names = [section.name for section in route.sections]
     fed = 0 if point.section is None else names.index(point.section)
-    beyond, share, lift, before = flow * route.flow_shares[names[fed]], _given(point.share, 1.0), None, spot
+    beyond, share, lift, before = (
+        flow * route.flow_shares[names[fed]],
+        _si_or_default(point.share, 1.0),
+        None,
+        spot,
+    )
     if point is not route.feeding and route.feeds_back(point):
         previous = route.sections[fed - 1]
         share = route.flow_shares[previous.name] if previous.loaded else 0.0
-        lift, before = _given(point.tripper_lift, 0.0), places.before("carry", previous.name)
+        lift, before = _si_or_default(point.tripper_lift, 0.0), places.before("carry", previous.name)
     return LoadingPoint(
         name=f", {point.section or 'first'}" if route.further_feeding else "",
         spot=spot,
@@ -610,23 +617,25 @@ def _loading(conveyor: Conveyor, point: Feeding, places: Places, *, assumed: boo
         skirt_friction=point.skirt_friction,
         lift=lift,
         before=before,
-        skirtboards=_known(point.skirtboards),
-        seal_drag=_given(point.seal_drag, 0.0),
-        drop_height=_known(point.drop_height),
-        lump_mass=_known(point.lump_mass),
-        idler_stiffness=_known(point.idler_stiffness),
-        idler_spacing=_known(point.idler_spacing),
-        idler_rating=_known(point.idler_rating),
+        skirtboards=_si_or_none(point.skirtboards),
+        seal_drag=_si_or_default(point.seal_drag, 0.0),
+        drop_height=_si_or_none(point.drop_height),
+        lump_mass=_si_or_none(point.lump_mass),
+        idler_stiffness=_si_or_none(point.idler_stiffness),
+        idler_spacing=_si_or_none(point.idler_spacing),
+        idler_rating=_si_or_none(point.idler_rating),
         assumed=assumed,
     )
 
 
-def _discharge(conveyor: Conveyor) -> HeadDischarge | None:
+def _head_discharge(conveyor: Conveyor) -> HeadDischarge | None:
     """Head discharge, by default over the first head pulley."""
     given, last = conveyor.route.discharge, conveyor.route.sections[-1]
     if given is None:
         return None
-    at_head = (pulley.diameter for pulley in defaults.pulleys(conveyor)[0] if pulley.position == "head")
+    at_head = (
+        pulley.diameter for pulley in usual_parts.route_pulleys(conveyor)[0] if pulley.position == "head"
+    )
     return HeadDischarge(
         diameter=si(given.pulley_diameter or next(at_head)),
         slope=math.asin(last.rise / si(last.length)) if given.slope is None else si(given.slope),
@@ -641,8 +650,8 @@ def _belt_friction(conveyor: Conveyor) -> float:
     return BULK_ON_BELT_FRICTION.value if feeding is None else feeding.belt_friction
 
 
-def _scrapers(conveyor: Conveyor) -> tuple[Scraper, ...]:
-    cleaners, assumed = defaults.cleaners(conveyor)
+def _belt_scrapers(conveyor: Conveyor) -> tuple[Scraper, ...]:
+    cleaners, assumed = usual_parts.route_cleaners(conveyor)
     return tuple(
         Scraper(
             kind=cleaner.kind,
@@ -658,7 +667,7 @@ def _scrapers(conveyor: Conveyor) -> tuple[Scraper, ...]:
     )
 
 
-def _ploughs(conveyor: Conveyor, places: Places) -> tuple[PloughBlade, ...]:
+def _plough_blades(conveyor: Conveyor, places: LoopPositions) -> tuple[PloughBlade, ...]:
     return tuple(
         PloughBlade(
             count=plough.count,
@@ -671,16 +680,16 @@ def _ploughs(conveyor: Conveyor, places: Places) -> tuple[PloughBlade, ...]:
     )
 
 
-def _pulleys(conveyor: Conveyor, places: Places) -> tuple[BendPulley, ...]:
-    pulleys, assumed = defaults.pulleys(conveyor)
-    driven = _driven(conveyor, pulleys)
+def _bend_pulleys(conveyor: Conveyor, places: LoopPositions) -> tuple[BendPulley, ...]:
+    pulleys, assumed = usual_parts.route_pulleys(conveyor)
+    driven = _driven_pulleys(conveyor, pulleys)
     return tuple(
-        replace(_pulley(conveyor, pulley, places, driven=i in driven), assumed=assumed)
+        replace(_bend_pulley(conveyor, pulley, places, driven=i in driven), assumed=assumed)
         for i, pulley in enumerate(pulleys)
     )
 
 
-def _driven(conveyor: Conveyor, pulleys: Sequence[Pulley]) -> frozenset[int]:
+def _driven_pulleys(conveyor: Conveyor, pulleys: Sequence[Pulley]) -> frozenset[int]:
     """Numbers of the driven pulleys: at each drive's position the most wrapped, as many as its wrap needs."""
     driven: set[int] = set()
     for place in {(drive.position, drive.section) for drive in conveyor.drive.pulleys}:
@@ -695,11 +704,11 @@ def _driven(conveyor: Conveyor, pulleys: Sequence[Pulley]) -> frozenset[int]:
     return frozenset(driven)
 
 
-def _pulley(conveyor: Conveyor, pulley: Pulley, places: Places, *, driven: bool) -> BendPulley:
+def _bend_pulley(conveyor: Conveyor, pulley: Pulley, places: LoopPositions, *, driven: bool) -> BendPulley:
     return BendPulley(
         name=pulley.name,
         position=pulley.position,
-        spot=_pulley_spot(conveyor, pulley, places, driven=driven),
+        spot=_pulley_position(conveyor, pulley, places, driven=driven),
         place=pulley.position if pulley.section is None else f"behind {pulley.section}, {pulley.position}",
         diameter=si(pulley.diameter),
         shaft_diameter=si(pulley.shaft_diameter),
@@ -707,28 +716,30 @@ def _pulley(conveyor: Conveyor, pulley: Pulley, places: Places, *, driven: bool)
         wrap_angle=si(pulley.wrap_angle),
         driven=driven,
         pull_angle=si(pulley.pull_angle),
-        bearing_centres=_known(pulley.bearing_centres),
-        hub_centres=_known(pulley.hub_centres),
-        hub_diameter=_given(pulley.hub_shaft_diameter, si(pulley.shaft_diameter)),
+        bearing_centres=_si_or_none(pulley.bearing_centres),
+        hub_centres=_si_or_none(pulley.hub_centres),
+        hub_diameter=_si_or_default(pulley.hub_shaft_diameter, si(pulley.shaft_diameter)),
         shaft_steel=pulley.shaft_steel,
         keyway=pulley.keyway,
-        bearing_rating=_known(pulley.bearing_rating),
-        bearing_life=_known(pulley.bearing_life),
-        allowed_pressure=_known(pulley.lagging_pressure),
+        bearing_rating=_si_or_none(pulley.bearing_rating),
+        bearing_life=_si_or_none(pulley.bearing_life),
+        allowed_pressure=_si_or_none(pulley.lagging_pressure),
     )
 
 
-def _transitions(conveyor: Conveyor) -> tuple[TransitionZone, ...]:
+def _transition_zones(conveyor: Conveyor) -> tuple[TransitionZone, ...]:
     """Transitions at tail and head that the spec gives."""
     given = {"tail": conveyor.route.tail_transition, "head": conveyor.route.head_transition}
     return tuple(
-        TransitionZone(end, _known(zone.length), _given(zone.pulley_height, 0.0))
+        TransitionZone(end, _si_or_none(zone.length), _si_or_default(zone.pulley_height, 0.0))
         for end, zone in given.items()
         if zone is not None
     )
 
 
-def _pulley_spot(conveyor: Conveyor, pulley: Pulley, places: Places, *, driven: bool) -> Spot:
+def _pulley_position(
+    conveyor: Conveyor, pulley: Pulley, places: LoopPositions, *, driven: bool
+) -> LoopPosition:
     """Position of a pulley; one next to a driven one is behind the drive at the head, before it elsewhere."""
     if pulley.position == "take-up":
         return places.take_up(conveyor.route.take_up)
@@ -741,7 +752,7 @@ def _pulley_spot(conveyor: Conveyor, pulley: Pulley, places: Places, *, driven: 
     return places.before(pulley.position, pulley.section)
 
 
-def _drives(conveyor: Conveyor, places: Places) -> tuple[DriveUnit, ...]:
+def _drive_units(conveyor: Conveyor, places: LoopPositions) -> tuple[DriveUnit, ...]:
     pulleys = conveyor.drive.pulleys
     names = conveyor.drive.names
     return tuple(
@@ -751,33 +762,33 @@ def _drives(conveyor: Conveyor, places: Places) -> tuple[DriveUnit, ...]:
             share=share,
             friction=pulley.friction,
             wrap_angle=si(pulley.wrap_angle),
-            power=_known(pulley.installed_power),
-            brake=_known(pulley.brake_force),
+            power=_si_or_none(pulley.installed_power),
+            brake=_si_or_none(pulley.brake_force),
             reduced_mass=_reduced_mass(conveyor, pulley),
             mass_given=pulley.reduced_mass is not None or pulley.inertia is not None,
-            radius=_radius(conveyor, pulley),
+            radius=_drive_radius(conveyor, pulley),
             starter=None if pulley.starter is None else StarterUnit.of(pulley.starter),
             backstop=pulley.backstop,
-            parts=_parts(pulley) if any(other.judged for other in pulleys) else None,
+            parts=_drive_parts(pulley) if any(other.judged for other in pulleys) else None,
         )
-        for name, pulley, share in zip(names, pulleys, _shares(pulleys), strict=True)
+        for name, pulley, share in zip(names, pulleys, _drive_shares(pulleys), strict=True)
     )
 
 
-def _parts(pulley: DrivePulley) -> DriveParts:
+def _drive_parts(pulley: DrivePulley) -> DriveParts:
     return DriveParts(
         motors=pulley.motors,
         rotation=None if pulley.motor_speed is None else si(pulley.motor_speed),
         ratio=pulley.gear_ratio,
-        backstop=_known(pulley.backstop_torque),
+        backstop=_si_or_none(pulley.backstop_torque),
         starts=pulley.starts_per_hour,
-        loss=_known(pulley.diameter_loss),
-        disc=_known(pulley.brake_disc),
-        heat=_known(pulley.brake_heat),
+        loss=_si_or_none(pulley.diameter_loss),
+        disc=_si_or_none(pulley.brake_disc),
+        heat=_si_or_none(pulley.brake_heat),
     )
 
 
-def _radius(conveyor: Conveyor, pulley: DrivePulley) -> float | None:
+def _drive_radius(conveyor: Conveyor, pulley: DrivePulley) -> float | None:
     diameter = drive_diameter(conveyor, pulley)
     return None if diameter is None else 0.5 * si(diameter)
 
@@ -786,7 +797,7 @@ def _reduced_mass(conveyor: Conveyor, pulley: DrivePulley) -> float:
     """Rotating masses of a drive at the belt [kg]; nothing of a drive of unknown power."""
     if pulley.reduced_mass is not None:
         return si(pulley.reduced_mass)
-    radius = _radius(conveyor, pulley)
+    radius = _drive_radius(conveyor, pulley)
     if pulley.inertia is not None and pulley.gear_ratio is not None and radius is not None:
         return reduced_mass(si(pulley.inertia), radius=radius, ratio=pulley.gear_ratio)
     if pulley.installed_power is None:
@@ -802,28 +813,28 @@ def _torque_curve(drive: Drive) -> tuple[tuple[float, float], ...]:
     return tuple(points if not points or points[-1][0] == 1.0 else [*points, (1.0, points[-1][1])])
 
 
-def _shares(pulleys: tuple[DrivePulley, ...]) -> list[float]:
+def _drive_shares(pulleys: tuple[DrivePulley, ...]) -> list[float]:
     """Share of each drive in the whole force: as given, else by installed power."""
     if any(pulley.share is not None for pulley in pulleys):
-        return [_given(pulley.share, 0.0) for pulley in pulleys]
+        return [_si_or_default(pulley.share, 0.0) for pulley in pulleys]
     if len(pulleys) == 1:
         return [1.0]
-    powers = [_given(pulley.installed_power, 0.0) for pulley in pulleys]
+    powers = [_si_or_default(pulley.installed_power, 0.0) for pulley in pulleys]
     return [power / math.fsum(powers) for power in powers]
 
 
-def _take_up(conveyor: Conveyor, places: Places) -> TakeUpUnit:
+def _take_up_unit(conveyor: Conveyor, places: LoopPositions) -> TakeUpUnit:
     given = conveyor.route.take_up
     if given is None:
         return TakeUpUnit("slack side", None, None, 1.0, LOOP_STRANDS, TRAVEL_RESERVE.value)
-    tension = _known(given.tension)
+    tension = _si_or_none(given.tension)
     if given.mass is not None:
         # take_up_mass solved for the tension
         tension = si(given.mass) * given.reeving * si(conveyor.calculation.gravity) / given.strands
     spot = None if given.position == "drive" else places.take_up(given)
     winch = None
     if given.winch_speed is not None:
-        winch = si(given.winch_speed), si(given.winch_band), _known(given.winch_run_up)
+        winch = si(given.winch_speed), si(given.winch_band), _si_or_none(given.winch_run_up)
     return TakeUpUnit(
         given.kind,
         spot,
@@ -833,11 +844,11 @@ def _take_up(conveyor: Conveyor, places: Places) -> TakeUpUnit:
         si(given.reserve),
         si(given.carriage_mass),
         winch,
-        _known(given.travel),
+        _si_or_none(given.travel),
     )
 
 
-def _cema(factors: Cema | None) -> CemaFactors | None:
+def _cema_factors(factors: Cema | None) -> CemaFactors | None:
     if factors is None:
         return None
     return CemaFactors(
@@ -845,11 +856,11 @@ def _cema(factors: Cema | None) -> CemaFactors | None:
         temperature=factors.temperature_factor,
         idler_friction=si(factors.idler_friction),
         skirt_factor=factors.skirt_factor or 0.0,
-        skirt_depth=_given(factors.skirt_depth, 0.0),
+        skirt_depth=_si_or_default(factors.skirt_depth, 0.0),
         seals=si(factors.skirt_seals),
         cleaner=si(factors.cleaner_friction),
         plough=si(factors.plough_friction),
-        pulleys=_known(factors.pulley_friction),
+        pulleys=_si_or_none(factors.pulley_friction),
         drive_pulleys=si(factors.drive_pulley_friction),
         accessories=si(factors.accessories),
     )

@@ -55,12 +55,12 @@ def roll_drags_many(asked: Sequence[tuple[Conveyor, OneStrand]]) -> list[StrandD
     """Drags of the rolls of many strands, each as by `roll_drags`; rolls in service in one batch."""
     drags = [np.empty(np.shape(strand.distinct_sets[0])) for _, strand in asked]
     refused: dict[int, InputError] = {}
-    served: dict[tuple[float, float], list[tuple[int, list[int], _InService]]] = {}
+    served: dict[tuple[float, float], list[tuple[int, list[int], _ServiceRoll]]] = {}
     for k, (conveyor, strand) in enumerate(asked):
         loads = np.array(strand.distinct_sets[0])
         try:
-            for places, law in _laws(conveyor, strand.strand):
-                if isinstance(law, _InService):
+            for places, law in _drag_laws(conveyor, strand.strand):
+                if isinstance(law, _ServiceRoll):
                     served.setdefault((law.diameter, law.length), []).append((k, places, law))
                 else:
                     drags[k][:, places] = law(loads[:, places])
@@ -68,37 +68,40 @@ def roll_drags_many(asked: Sequence[tuple[Conveyor, OneStrand]]) -> list[StrandD
             refused[k] = error
     for alike in served.values():
         loads_of = [np.array(asked[k][1].distinct_sets[0])[:, places] for k, places, _ in alike]
-        for (k, places, _), one in zip(alike, _in_service([law for *_, law in alike], loads_of), strict=True):
+        for (k, places, _), one in zip(
+            alike, _service_drags([law for *_, law in alike], loads_of), strict=True
+        ):
             if isinstance(one, InputError):
                 refused.setdefault(k, one)
             else:
                 drags[k][:, places] = one
     return [
-        refused[k] if k in refused else _of_stretches(strand, drags[k]) for k, (_, strand) in enumerate(asked)
+        refused[k] if k in refused else _drags_of_stretches(strand, drags[k])
+        for k, (_, strand) in enumerate(asked)
     ]
 
 
-def _of_stretches(strand: OneStrand, sets: Array) -> StrandDrags:
+def _drags_of_stretches(strand: OneStrand, sets: Array) -> StrandDrags:
     """Drags of every stretch from those of its distinct sets."""
     rows = [tuple(row) for row in sets.tolist()]
     return tuple(rows[i] for i in strand.distinct_sets[1])
 
 
-def _laws(conveyor: Conveyor, strand: Strand) -> Iterator[tuple[list[int], DragLaw | _InService]]:
+def _drag_laws(conveyor: Conveyor, strand: Strand) -> Iterator[tuple[list[int], DragLaw | _ServiceRoll]]:
     """Drag laws of a set, each with the places of its rolls."""
     idlers = conveyor.idlers.carry if strand == "carry" else conveyor.idlers.return_
     if idlers.drag is not None:
-        yield list(range(idlers.rolls)), _evenly(si(idlers.drag) / idlers.rolls)
+        yield list(range(idlers.rolls)), _constant_drag(si(idlers.drag) / idlers.rolls)
         return
     rolls = [idlers.roll_at(place) for place in range(idlers.rolls)]
     for first, roll in enumerate(rolls):
         same = [place for place, other in enumerate(rolls) if other is roll]
         if first == same[0]:
-            yield same, _law(roll, conveyor, _field(idlers, roll, strand))
+            yield same, _drag_law(roll, conveyor, _roll_field(idlers, roll, strand))
 
 
 @dataclass(frozen=True)
-class _InService:
+class _ServiceRoll:
     """A roll in service: size [m], belt speed [m/s], air temperature [K], condition factor [-], spec field."""
 
     diameter: float
@@ -109,7 +112,7 @@ class _InService:
     field: str
 
 
-def _in_service(laws: Sequence[_InService], loads: Sequence[Array]) -> list[Array | InputError]:
+def _service_drags(laws: Sequence[_ServiceRoll], loads: Sequence[Array]) -> list[Array | InputError]:
     """Drags of rolls of one size under their loads [N]; after an error each law by itself."""
     sizes = [one.size for one in loads]
     speed, air = (
@@ -126,37 +129,41 @@ def _in_service(laws: Sequence[_InService], loads: Sequence[Array]) -> list[Arra
     except InputError as error:
         if len(laws) == 1:
             return [InputError("{}: drag not given: {}", laws[0].field, error)]
-        return [_in_service([law], [one])[0] for law, one in zip(laws, loads, strict=True)]
+        return [_service_drags([law], [one])[0] for law, one in zip(laws, loads, strict=True)]
     parts = np.split(whole, np.cumsum(sizes)[:-1])
     return [
         law.condition * part.reshape(one.shape) for law, part, one in zip(laws, parts, loads, strict=True)
     ]
 
 
-def _field(idlers: IdlerSet, roll: Roll, strand: Strand) -> str:
+def _roll_field(idlers: IdlerSet, roll: Roll, strand: Strand) -> str:
     name = "roll" if roll is idlers.roll else "middle_roll"
     return f"idlers.{strand}.{name}"
 
 
-def _law(roll: Roll, conveyor: Conveyor, field: str) -> DragLaw | _InService:
+def _drag_law(roll: Roll, conveyor: Conveyor, field: str) -> DragLaw | _ServiceRoll:
     diameter, law = si(roll.diameter), roll.drag_law
     speed, air = si(conveyor.belt.speed), si(conveyor.ambient.temperature)
     if isinstance(law, MakerDrag):
-        return _named(_maker(law, roll_rotation(speed, roll_diameter=diameter)), f"{field}.drag_law")
+        return _name_error_field(
+            _maker_drag(law, roll_rotation(speed, roll_diameter=diameter)), f"{field}.drag_law"
+        )
     if isinstance(law, BearingDrag):
-        return _named(_bearing(law, diameter, speed, air, f"{field}.drag_law"), f"{field}.drag_law")
+        return _name_error_field(
+            _bearing_drag(law, diameter, speed, air, f"{field}.drag_law"), f"{field}.drag_law"
+        )
     if roll.drag is None and conveyor.calculation.roll_drag == "in service":
         condition = ROLL_CONDITION[conveyor.site].value
-        return _InService(diameter, si(roll.length), speed, air, condition, field)
-    return _evenly(acceptance_limit(roll).value if roll.drag is None else si(roll.drag))
+        return _ServiceRoll(diameter, si(roll.length), speed, air, condition, field)
+    return _constant_drag(acceptance_limit(roll).value if roll.drag is None else si(roll.drag))
 
 
-def _evenly(drag: float) -> DragLaw:
+def _constant_drag(drag: float) -> DragLaw:
     """Drag independent of the load."""
     return lambda loads: np.full(loads.shape, drag)
 
 
-def _each(law: Callable[[float], float]) -> DragLaw:
+def _law_of_loads(law: Callable[[float], float]) -> DragLaw:
     """Vectorise a law of one load; equal loads are computed once."""
 
     def drags(loads: Array) -> Array:
@@ -166,7 +173,7 @@ def _each(law: Callable[[float], float]) -> DragLaw:
     return drags
 
 
-def assumed_share(conveyor: Conveyor, idlers: IdlerSet, drags: Sequence[float]) -> float:
+def assumed_drag_share(conveyor: Conveyor, idlers: IdlerSet, drags: Sequence[float]) -> float:
     """Share of assumed drags in the drag of a set [-], from the drags of its rolls [N]."""
     if conveyor.calculation.roll_drag != "in service" or idlers.drag is not None:
         return 0.0
@@ -186,10 +193,10 @@ def acceptance_limit(roll: Roll) -> Default:
     return default_roll_drag(si(roll.diameter))
 
 
-def _maker(law: MakerDrag, rotation: float) -> DragLaw:
+def _maker_drag(law: MakerDrag, rotation: float) -> DragLaw:
     measured, slope, per_rotation = si(law.drag), law.load_slope, si(law.rotation_slope)
     at_load, at_rotation = si(law.load), si(law.rotation)
-    return _each(
+    return _law_of_loads(
         lambda load: linear_roll_drag(
             measured,
             load=load,
@@ -202,13 +209,13 @@ def _maker(law: MakerDrag, rotation: float) -> DragLaw:
     )
 
 
-def _bearing(law: BearingDrag, diameter: float, speed: float, air: float, field: str) -> DragLaw:
+def _bearing_drag(law: BearingDrag, diameter: float, speed: float, air: float, field: str) -> DragLaw:
     mean, rating, seal = si(law.mean_diameter), si(law.static_rating), si(law.seal_moment)
     try:
         viscosity = bearing_viscosity(law, air)
     except InputError as error:
         raise InputError("{}: {}", field, error) from None
-    return _each(
+    return _law_of_loads(
         lambda load: (
             bearing_roll_drag(
                 load,
@@ -243,7 +250,7 @@ def bearing_viscosity(law: BearingDrag, air: float) -> float:
     )
 
 
-def _named(law: DragLaw, field: str) -> DragLaw:
+def _name_error_field(law: DragLaw, field: str) -> DragLaw:
     """Prefix errors of the law with the field."""
 
     def drag(loads: Array) -> Array:

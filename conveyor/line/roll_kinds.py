@@ -13,7 +13,7 @@ from conveyor.line.stretches import Strand, Stretch
 
 Array = NDArray[np.float64]
 
-_CURVE_DOWN_TO = 0.25  # of the highest load: a curve worth plotting where all rolls bear the same
+_LOWEST_LOAD_SHARE = 0.25  # of the highest load: a curve worth plotting where all rolls bear the same
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +80,7 @@ def roll_kinds(stretches: tuple[Stretch, ...], points: int, first: int) -> tuple
                 which=which,
                 weights=weights.ravel(),
                 sets=np.repeat([stretches[i].sets for i, _ in rolls], points),
-                lowest=min(float(lines.min()), _CURVE_DOWN_TO * highest),
+                lowest=min(float(lines.min()), _LOWEST_LOAD_SHARE * highest),
                 highest=highest,
             )
         )

@@ -20,11 +20,11 @@ from conveyor.line.stretches import Strand, Stretch
 from conveyor.models import Roll
 from conveyor.units import si
 
-_EXPONENTS = {"ball": BALL_EXPONENT, "roller": ROLLER_EXPONENT}
-_SLOPES = {"ball": WEIBULL_SLOPE_BALL, "roller": WEIBULL_SLOPE_ROLLER}
+_LIFE_EXPONENTS = {"ball": BALL_EXPONENT, "roller": ROLLER_EXPONENT}
+_WEIBULL_SLOPES = {"ball": WEIBULL_SLOPE_BALL, "roller": WEIBULL_SLOPE_ROLLER}
 
 
-ASKED_LIFE = 30e3
+SERIES_RATED_LIFE = 30e3
 """L10 of CEMA's load ratings of series B and C at 500 rpm [h], as commonly reproduced."""
 
 
@@ -62,21 +62,21 @@ def roll_life(stretch: Stretch, place: int, belt_speed: float) -> RollLife | Non
     roll, load = stretch.idlers.roll_at(place), stretch.loads[place]
     if roll.bearing is None or load.force == 0.0:
         return None
-    heavier = _heavier(roll, load, si(roll.bearing.distance), alone=len(stretch.loads) == 1)
+    heavier = _heavier_load(roll, load, si(roll.bearing.distance), alone=len(stretch.loads) == 1)
     lighter = load.force - heavier
     rotation = roll_rotation(belt_speed, roll_diameter=si(roll.diameter))
-    rating, exponent = si(roll.bearing.dynamic_rating), _EXPONENTS[roll.bearing.kind]
+    rating, exponent = si(roll.bearing.dynamic_rating), _LIFE_EXPONENTS[roll.bearing.kind]
     lives = [
         rating_life_hours(abs(each), dynamic_rating=rating, rotation=rotation, exponent=exponent)
         for each in (heavier, lighter)
         if each != 0.0
     ]
-    slope = _SLOPES[roll.bearing.kind]
+    slope = _WEIBULL_SLOPES[roll.bearing.kind]
     both = system_life_hours(lives, weibull_slopes=[slope] * len(lives))
     return RollLife(heavier=heavier, lighter=lighter, hours=lives[0], both=both, weibull_slope=slope)
 
 
-def _heavier(roll: Roll, load: RollLoad, distance: float, *, alone: bool) -> float:
+def _heavier_load(roll: Roll, load: RollLoad, distance: float, *, alone: bool) -> float:
     """Load of the bearing nearer to the middle of the belt, half the load on a single roll [N]."""
     if alone:
         return 0.5 * load.force
@@ -117,10 +117,10 @@ class SetLife:
     @property
     def too_short(self) -> bool:
         """True if below the rated life of light series."""
-        return self.hours < ASKED_LIFE
+        return self.hours < SERIES_RATED_LIFE
 
 
-def set_life(stretch: Stretch, belt_speed: float) -> SetLife | None:
+def idler_set_life(stretch: Stretch, belt_speed: float) -> SetLife | None:
     """Life of a set of a stretch; None without known bearings."""
     lives = [(roll_life(stretch, place, belt_speed), load) for place, load in enumerate(stretch.loads)]
     known = [(life.both, load.name, life.weibull_slope) for life, load in lives if life is not None]
@@ -131,8 +131,8 @@ def set_life(stretch: Stretch, belt_speed: float) -> SetLife | None:
     return SetLife(stretch.section, together, roll, hours, len(known) == len(lives))
 
 
-def shortest_life(stretches: Sequence[Stretch], strand: Strand, belt_speed: float) -> SetLife | None:
+def shortest_set_life(stretches: Sequence[Stretch], strand: Strand, belt_speed: float) -> SetLife | None:
     """Shortest life of a strand's sets at a belt speed [m/s]; None without known bearings."""
     alike = {stretch.loads: stretch for stretch in reversed(stretches) if stretch.strand == strand}
-    lives = [set_life(stretch, belt_speed) for stretch in alike.values()]
+    lives = [idler_set_life(stretch, belt_speed) for stretch in alike.values()]
     return min((life for life in lives if life is not None), key=lambda life: life.hours, default=None)

@@ -6,17 +6,17 @@ import math
 from dataclasses import dataclass
 
 from conveyor.errors import RangeError
-from conveyor.laws.idlers import (
+from conveyor.laws.idler_sets import (
     CEMA_CLASSES,
     CemaClass,
     raised_set_load,
     rated_set_load,
 )
 from conveyor.laws.pulley import hub_moment, shaft_slope
-from conveyor.line.defaults import usual_lump_factor
 from conveyor.line.line import Line
 from conveyor.line.roll_lives import roll_life
 from conveyor.line.stretches import Stretch
+from conveyor.line.usual_parts import usual_lump_factor
 from conveyor.units import si
 
 
@@ -66,11 +66,11 @@ class SetLimits:
         given, belt_width = stretch.idlers, line.belt.width
         lumps = given.lump_factor or usual_lump_factor(line.lump, line.density)
         load = math.fsum(roll.belt_force + (lumps or 1.0) * roll.bulk_force for roll in stretch.loads)
-        load += raised_set_load(max(tension, 0.0), height=raised(stretch), spacing=stretch.spacing)
+        load += raised_set_load(max(tension, 0.0), height=raised_height(stretch), spacing=stretch.spacing)
         ratings = {
             name: rating
             for name in CEMA_CLASSES
-            if (rating := _rating(name, stretch, belt_width)) is not None
+            if (rating := _class_rating(name, stretch, belt_width)) is not None
         }
         rated = given.cema_class is not None or given.rating is not None
         own = None if given.cema_class is None else ratings.get(given.cema_class)
@@ -81,16 +81,16 @@ class SetLimits:
             lump_factor=lumps,
             load=load,
             flap_margin=None if given.flap_margin is None else si(given.flap_margin),
-            axle=_axle(stretch, line.speed),
+            axle=_steepest_axle(stretch, line.speed),
         )
 
 
-def raised(stretch: Stretch) -> float:
+def raised_height(stretch: Stretch) -> float:
     """Height by which a set of the stretch may be raised over its neighbours [m]."""
     return si(stretch.idlers.raised)
 
 
-def _rating(name: CemaClass, stretch: Stretch, belt_width: float) -> float | None:
+def _class_rating(name: CemaClass, stretch: Stretch, belt_width: float) -> float | None:
     """Rating of a class [N]; None where it has no such set."""
     try:
         return rated_set_load(
@@ -100,7 +100,7 @@ def _rating(name: CemaClass, stretch: Stretch, belt_width: float) -> float | Non
         return None
 
 
-def _axle(stretch: Stretch, belt_speed: float) -> AxleSlope | None:
+def _steepest_axle(stretch: Stretch, belt_speed: float) -> AxleSlope | None:
     """Axle closest to its limit; both bearings take the heavier load, on the safe side."""
     slopes = []
     for place, load in enumerate(stretch.loads):

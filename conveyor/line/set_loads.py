@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from conveyor.laws.loading import (
+    BulkSpread,
     Heap,
     RollLoad,
-    Spread,
     roll_loads,
     shares_by_area,
     spread_bulk,
@@ -36,8 +36,8 @@ class SetLoads:
         self._surcharge = conveyor.material.surcharge
         iso = conveyor.material.surcharge_convention == "ISO 5048"
         self._heap: Heap = "parabola" if iso else "triangle"
-        self._bulk_shares = _shares(idlers.load_shares)
-        self._belt_shares = _shares(idlers.belt_shares)
+        self._bulk_shares = _si_shares(idlers.load_shares)
+        self._belt_shares = _si_shares(idlers.belt_shares)
         self._by_area = idlers.share_rule == "cross-section" and idlers.rolls > 2
         self._found: dict[tuple[float, ...], tuple[RollLoad, ...]] = {}
         self._known_shares: dict[float, tuple[float, ...]] = {}
@@ -100,10 +100,10 @@ class SetLoads:
         wings += [0.0] * (rolls // 2 - len(wings))
         return (*reversed(wings), *([middle] * (rolls % 2)), *wings)
 
-    def spread(self, flow_mass: float) -> Spread:
+    def spread(self, flow_mass: float) -> BulkSpread:
         """Width of the belt under the bulk of a mass per length and the slope of its heap [m, rad]."""
         if flow_mass == 0.0:
-            return Spread(0.0, self._surcharge)
+            return BulkSpread(0.0, self._surcharge)
         return spread_bulk(
             flow_mass / self._density,
             belt_width=self._width,
@@ -120,5 +120,5 @@ class SetLoads:
         return max(0.5 * (self.spread(flow_mass).width - self._middle), 0.0)
 
 
-def _shares(given: tuple[Quantity, ...] | None) -> tuple[float, ...] | None:
+def _si_shares(given: tuple[Quantity, ...] | None) -> tuple[float, ...] | None:
     return None if given is None else tuple(si(share) for share in given)

@@ -9,7 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.line.roll_kinds import RollKind, roll_kinds
-from conveyor.line.stretches import STRANDS, Acting, RouteSection, Strand, Stretch, route_sections, stretches
+from conveyor.line.stretches import (
+    STRANDS,
+    CurveLoads,
+    RouteSection,
+    Strand,
+    Stretch,
+    route_sections,
+    strand_stretches,
+)
 from conveyor.models import Conveyor
 from conveyor.units import si
 
@@ -58,7 +66,7 @@ class OneStrand:
 
     @classmethod
     def of(
-        cls, conveyor: Conveyor, sections: tuple[RouteSection, ...], strand: Strand, acting: Acting
+        cls, conveyor: Conveyor, sections: tuple[RouteSection, ...], strand: Strand, acting: CurveLoads
     ) -> OneStrand:
         """Return one strand of a conveyor under the loads of tension on curves.
 
@@ -67,7 +75,7 @@ class OneStrand:
         NoSolutionError
             As `Strands.of`.
         """
-        along = stretches(conveyor, sections, strand, acting)
+        along = strand_stretches(conveyor, sections, strand, acting)
         first, calculation = 0 if strand == "carry" else len(sections), conveyor.calculation
         return cls(strand, along, first, si(calculation.gravity), calculation.gauss_points)
 
@@ -105,14 +113,14 @@ class Strands:
     each: tuple[OneStrand, OneStrand]
 
     @classmethod
-    def of(cls, conveyor: Conveyor, acting: Acting | None = None) -> Strands:
+    def of(cls, conveyor: Conveyor, acting: CurveLoads | None = None) -> Strands:
         """Return the strands of a conveyor.
 
         Parameters
         ----------
         conveyor : Conveyor
             Its belt, idlers, material, route and calculation.
-        acting : Acting, optional
+        acting : CurveLoads, optional
             Loads of tension on curves.
 
         Raises
@@ -120,7 +128,7 @@ class Strands:
         NoSolutionError
             The belt lifts off on a concave curve, or runs off its rolls on a horizontal one.
         """
-        sections, on_curves = route_sections(conveyor), acting or Acting()
+        sections, on_curves = route_sections(conveyor), acting or CurveLoads()
         carry, back = (OneStrand.of(conveyor, sections, strand, on_curves) for strand in STRANDS)
         return cls(sections, (carry, back))
 

@@ -7,31 +7,31 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
-from conveyor.errors import Amount, NoSolutionError
+from conveyor.errors import MessageQuantity, NoSolutionError
 from conveyor.laws.loading import RollLoad, bulk_line_mass, roll_angles
 from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
 from conveyor.laws.tension import sag_tension
-from conveyor.line.flexing import FlexureLaw
+from conveyor.line.curve_sets import CurveSets, HorizontalCurve, sets_on_curve
+from conveyor.line.flexure_law import FlexureLaw
 from conveyor.line.set_loads import SetLoads
-from conveyor.line.turns import HorizontalCurve, Turn, turn
 from conveyor.models import Conveyor, IdlerSet, Section
 from conveyor.units import si
 
 Strand = Literal["carry", "return"]
 STRANDS: tuple[Strand, Strand] = ("carry", "return")
-OnCurves = Mapping[tuple[str, Strand], float]
+CurveValues = Mapping[tuple[str, Strand], float]
 """Values by section and strand on curves."""
 
 
 @dataclass(frozen=True)
-class Acting:
+class CurveLoads:
     """Effect of tension on curves: mass pressing on the rolls [kg/m], inward drift of the belt [m].
 
     A negative mass lifts, a negative drift is outward.
     """
 
-    pressing: OnCurves = field(default_factory=dict)
-    drift: OnCurves = field(default_factory=dict)
+    pressing: CurveValues = field(default_factory=dict)
+    drift: CurveValues = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -115,7 +115,7 @@ class Stretch:
         Drag of each roll of a set by misalignment over its load [-].
     span_flexure : float or None
         Flexure of belt and bulk over one span [N]; None where it is a share of the main resistance.
-    turn : Turn or None
+    turn : CurveSets or None
         Sets on a horizontal curve.
     """
 
@@ -137,7 +137,7 @@ class Stretch:
     rim_mass: float
     misalignment: tuple[float, ...]
     span_flexure: float | None = None
-    turn: Turn | None = None
+    turn: CurveSets | None = None
 
     @property
     def inclination(self) -> float:
@@ -155,16 +155,18 @@ class Stretch:
         return self.belt_mass + self.bulk_mass
 
 
-def stretches(
-    conveyor: Conveyor, sections: Sequence[RouteSection], strand: Strand, acting: Acting
+def strand_stretches(
+    conveyor: Conveyor, sections: Sequence[RouteSection], strand: Strand, acting: CurveLoads
 ) -> tuple[Stretch, ...]:
     """Stretches of a strand in running direction, SI, under the loads of tension on curves."""
-    made = _Strand(conveyor, strand, acting)
+    made = _StretchBuilder(conveyor, strand, acting)
     along = sections if strand == "carry" else reversed(sections)
     return tuple(made.stretch(section) for section in along)
 
 
-def roll_masses(belt_mass: float, bulk_mass: float, pressing: float, *, where: str) -> tuple[float, float]:
+def masses_on_rolls(
+    belt_mass: float, bulk_mass: float, pressing: float, *, where: str
+) -> tuple[float, float]:
     """Masses of belt and bulk as they press on the rolls of a vertical curve [kg/m].
 
     A concave curve's negative mass relieves the belt first, then the bulk; the sum is kept.
@@ -180,7 +182,10 @@ def roll_masses(belt_mass: float, bulk_mass: float, pressing: float, *, where: s
             "the belt lifts off in {}: on a concave curve its tension pulls up like {}, belt and bulk are {}; choose a "
             "larger curve_radius or less tension",
             where,
-            *(Amount(each, "line mass", f"{each:.4g} kg/m") for each in (-pressing, belt_mass + bulk_mass)),
+            *(
+                MessageQuantity(each, "line mass", f"{each:.4g} kg/m")
+                for each in (-pressing, belt_mass + bulk_mass)
+            ),
         )
     return (belt, bulk_mass) if belt >= 0.0 else (0.0, bulk_mass + belt)
 
@@ -191,7 +196,7 @@ def misalignment_angle(conveyor: Conveyor, idlers: IdlerSet) -> float:
     return MISALIGNMENT[conveyor.site].value if given is None else si(given)
 
 
-def _misalignment(conveyor: Conveyor, idlers: IdlerSet) -> tuple[float, ...]:
+def _misalignment_frictions(conveyor: Conveyor, idlers: IdlerSet) -> tuple[float, ...]:
     """Drag of each roll of a set by misalignment over its load [-]: a wing roll turns by cos λ of the set's angle."""
     angle = misalignment_angle(conveyor, idlers)
     slopes = roll_angles(
@@ -201,10 +206,10 @@ def _misalignment(conveyor: Conveyor, idlers: IdlerSet) -> tuple[float, ...]:
     return tuple(turned[abs(slope)] for slope in slopes)
 
 
-class _Strand:
+class _StretchBuilder:
     """Builds the stretches of a strand from the data they share."""
 
-    def __init__(self, conveyor: Conveyor, strand: Strand, acting: Acting) -> None:
+    def __init__(self, conveyor: Conveyor, strand: Strand, acting: CurveLoads) -> None:
         self.strand, self.acting, self.conveyor = strand, acting, conveyor
         self.carrying = strand == "carry"
         self.idlers = conveyor.idlers.carry if self.carrying else conveyor.idlers.return_
@@ -217,7 +222,7 @@ class _Strand:
         self.trough, self.tilt = si(self.idlers.trough_angle), si(self.idlers.tilt_angle)
         self.roll_length = si(self.idlers.roll.length)
         self.radii = tuple(0.5 * si(self.idlers.roll_at(i).diameter) for i in range(self.idlers.rolls))
-        self.misalignment = _misalignment(conveyor, self.idlers)
+        self.misalignment = _misalignment_frictions(conveyor, self.idlers)
         self.set_loads = SetLoads(conveyor, self.idlers)
         share = conveyor.calculation.flexure_share
         self.flexure = FlexureLaw(conveyor, self.set_loads) if share is None else None
@@ -229,7 +234,7 @@ class _Strand:
         flow = self.full if self.carrying and section.loaded else 0.0
         flow *= self.flow_shares[section.name]
         pressing = self.acting.pressing.get((section.name, self.strand), 0.0)
-        belt_on_rolls, bulk_on_rolls = roll_masses(
+        belt_on_rolls, bulk_on_rolls = masses_on_rolls(
             self.belt_mass, flow, pressing, where=f'section "{section.name}", {self.strand}'
         )
         length = section.length
@@ -270,7 +275,9 @@ class _Strand:
             turn=turned,
         )
 
-    def _turn(self, section: RouteSection, spacing: float, inclination: float, flow: float) -> Turn | None:
+    def _turn(
+        self, section: RouteSection, spacing: float, inclination: float, flow: float
+    ) -> CurveSets | None:
         """Sets of a section on a horizontal curve; None on the straight."""
         if section.horizontal is None:
             return None
@@ -278,7 +285,7 @@ class _Strand:
             spacing=spacing, inclination=inclination, belt_mass=self.belt_mass, bulk_mass=flow, flow_mass=flow
         )
         wind, belt = self.conveyor.ambient.wind_speed, self.conveyor.belt
-        return turn(
+        return sets_on_curve(
             section.horizontal,
             self.idlers,
             self.strand,

@@ -10,15 +10,15 @@ from typing import NamedTuple
 import numpy as np
 
 from conveyor.errors import NoSolutionError
-from conveyor.forces import Force, ForceSums, by_length_coefficient
+from conveyor.forces import Force, ForceSums, length_coefficient_force
 from conveyor.laws.power import belt_power, specific_energy
 from conveyor.laws.resistance import equivalent_friction_factor
 from conveyor.line.line import Line
-from conveyor.loop.equilibrium import Settled, settle
-from conveyor.loop.estimates import CemaEstimate, Classical, cema, classical
-from conveyor.loop.frame import Frame, TakeUpSetting
-from conveyor.loop.tensions import Loops, MotionState
-from conveyor.units.sentences import figure
+from conveyor.loop.equilibrium import Equilibrium, solve_equilibria
+from conveyor.loop.estimates import CemaEstimate, ClassicalEstimate, cema_estimate, classical_estimate
+from conveyor.loop.loop_layout import LoopLayout, TakeUpSetting
+from conveyor.loop.tensions import LoopBatch, MotionState
+from conveyor.units.sentences import format_figure
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class Balance:
         Forces along the belt, and those at single places: together every resistance.
     unit_main : float
         Main resistance that DIN 22101 gives for f = 1 [N].
-    settled : Settled
+    settled : Equilibrium
         Solved loop: every drive, the take-up, the states that decide its setting.
 
     Examples
@@ -75,14 +75,15 @@ class Balance:
 
     along: tuple[Force, ...]
     unit_main: float
-    settled: Settled
+    settled: Equilibrium
 
     def __repr__(self) -> str:
         power, tensions = self.power, self.tensions
         return (
-            f"Balance(effective tension {figure(self.forces.total, 'force')}, motor {figure(power.motor, 'power')}, "
-            f"f {self.friction_factor:.4f}, tight side {figure(tensions.tight, 'force')}, slack side "
-            f"{figure(tensions.slack, 'force')})"
+            f"Balance(effective tension {format_figure(self.forces.total, 'force')}, motor "
+            f"{format_figure(power.motor, 'power')}, "
+            f"f {self.friction_factor:.4f}, tight side {format_figure(tensions.tight, 'force')}, slack side "
+            f"{format_figure(tensions.slack, 'force')})"
         )
 
     @property
@@ -91,7 +92,7 @@ class Balance:
         return self.settled.line
 
     @property
-    def frame(self) -> Frame:
+    def frame(self) -> LoopLayout:
         """Layout of the loop."""
         return self.settled.frame
 
@@ -143,34 +144,34 @@ class Balance:
         )
 
     @cached_property
-    def classical(self) -> Classical:
+    def classical(self) -> ClassicalEstimate:
         """ISO 5048 / DIN 22101 with the spec's f."""
-        return classical(self.line, self.forces, self.unit_main)
+        return classical_estimate(self.line, self.forces, self.unit_main)
 
     @cached_property
     def cema(self) -> CemaEstimate | None:
         """Classic CEMA estimate, where the spec gives its factors; its f is the one DIN 22101 would need."""
-        return cema(self.line, self.unit_main)
+        return cema_estimate(self.line, self.unit_main)
 
     @cached_property
     def points(self) -> tuple[TensionPoint, ...]:
         """Tensions round the loop in steady running, from the head back to it."""
-        return tuple(_points(self.settled, self.settled.steady))
+        return tuple(_tension_points(self.settled, self.settled.steady))
 
     def held(self, setting: float) -> Balance:
         """The loop with the take-up at a setting [N]."""
-        (found,) = held([self], self.settled.take_up._replace(tension=setting))
+        (found,) = with_take_up_at([self], self.settled.take_up._replace(tension=setting))
         return found
 
 
-def balance(
-    frame: Frame, along: tuple[Force, ...], unit_main: float, setting: float | None = None
+def close_loop(
+    frame: LoopLayout, along: tuple[Force, ...], unit_main: float, setting: float | None = None
 ) -> Balance:
     """Close the loop of tensions around the forces along the belt.
 
     Parameters
     ----------
-    frame : Frame
+    frame : LoopLayout
         Layout of the loop.
     along : tuple of Force
         Forces along the belt.
@@ -184,16 +185,18 @@ def balance(
     NoSolutionError
         The tensions do not converge (wraps that grow faster than the tension they need).
     """
-    (found,) = answers(balances([OpenLoop(frame, along, unit_main, setting)]))
+    (found,) = raise_first_error(close_loops([OpenLoop(frame, along, unit_main, setting)]))
     return found
 
 
-def held(loops: Iterable[Balance], kept: TakeUpSetting) -> list[Balance]:
+def with_take_up_at(loops: Iterable[Balance], kept: TakeUpSetting) -> list[Balance]:
     """Close the loops anew with the take-up at a setting."""
-    return answers(balances([OpenLoop.of(one.frame, one.along, one.unit_main, kept) for one in loops]))
+    return raise_first_error(
+        close_loops([OpenLoop.of(one.frame, one.along, one.unit_main, kept) for one in loops])
+    )
 
 
-def answers(found: Sequence[Balance | NoSolutionError]) -> list[Balance]:
+def raise_first_error(found: Sequence[Balance | NoSolutionError]) -> list[Balance]:
     """Raise the first error among results, else return them."""
     for one in found:
         if isinstance(one, NoSolutionError):
@@ -202,16 +205,16 @@ def answers(found: Sequence[Balance | NoSolutionError]) -> list[Balance]:
 
 
 class OpenLoop(NamedTuple):
-    """A loop to be closed, as `balance` takes it."""
+    """A loop to be closed, as `close_loop` takes it."""
 
-    frame: Frame
+    frame: LoopLayout
     along: tuple[Force, ...]
     unit_main: float
     setting: float | None = None
 
     @classmethod
     def of(
-        cls, frame: Frame, along: tuple[Force, ...], unit_main: float, kept: TakeUpSetting | None
+        cls, frame: LoopLayout, along: tuple[Force, ...], unit_main: float, kept: TakeUpSetting | None
     ) -> OpenLoop:
         """Loop with the take-up at a setting, on its side of the drives."""
         if kept is None:
@@ -219,7 +222,7 @@ class OpenLoop(NamedTuple):
         return cls(frame.standing_on(behind=kept.behind), along, unit_main, kept.tension)
 
 
-def balances(asked: Sequence[OpenLoop]) -> list[Balance | NoSolutionError]:
+def close_loops(asked: Sequence[OpenLoop]) -> list[Balance | NoSolutionError]:
     """Close many loops, those of one plan in one batch; no result depends on the others."""
     alike: dict[tuple[object, ...], list[int]] = {}
     given = [one.frame.line.take_up.tension if one.setting is None else one.setting for one in asked]
@@ -228,25 +231,27 @@ def balances(asked: Sequence[OpenLoop]) -> list[Balance | NoSolutionError]:
     found: dict[int, Balance | NoSolutionError] = {}
     for rows in alike.values():
         these = [asked[i] for i in rows]
-        further = [_further(one) for one in these]
-        loops = Loops([one.frame for one in these], [one.along for one in these], further)
+        further = [_length_coefficient_forces(one) for one in these]
+        loops = LoopBatch([one.frame for one in these], [one.along for one in these], further)
         held = [setting for i in rows if (setting := given[i]) is not None]
-        closed, refused = settle(loops, np.array(held) if held else None)
+        closed, refused = solve_equilibria(loops, np.array(held) if held else None)
         for row, (i, one) in enumerate(zip(rows, these, strict=True)):
-            settled = Settled(closed, row, (*one.frame.points, *further[row]))
+            settled = Equilibrium(closed, row, (*one.frame.points, *further[row]))
             found[i] = refused[row] if row in refused else Balance(one.along, one.unit_main, settled)
     return [found[i] for i in range(len(asked))]
 
 
-def _further(one: OpenLoop) -> tuple[Force, ...]:
+def _length_coefficient_forces(one: OpenLoop) -> tuple[Force, ...]:
     """Secondary resistance by the length coefficient, where it is not itemised."""
     frame = one.frame
     return (
-        (by_length_coefficient(frame.line, frame.landing, one.along),) if frame.line.secondary == "C" else ()
+        (length_coefficient_force(frame.line, frame.landing, one.along),)
+        if frame.line.secondary == "C"
+        else ()
     )
 
 
-def _points(settled: Settled, state: MotionState) -> Iterator[TensionPoint]:
+def _tension_points(settled: Equilibrium, state: MotionState) -> Iterator[TensionPoint]:
     """Tensions round the loop in a state, from the head back to it."""
     line, shape = settled.line, settled.line.loop
     way: list[float] = shape.way.tolist()

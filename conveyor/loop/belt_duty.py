@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from conveyor.laws.belt import (
+from conveyor.laws.belt_strength import (
     CEMA_PULLEYS,
     CLASSIC_SAFETY,
     DUTY_SAFETY,
@@ -15,9 +15,9 @@ from conveyor.laws.belt import (
     SPLICE_SAFETY,
     Group,
     belt_safety,
-    needed_strength,
     next_pulley_diameter,
     pulley_group_diameter,
+    required_strength,
     standard_pulley_diameter,
 )
 from conveyor.laws.tension import PULLEY_FACTOR, least_pulley_diameter
@@ -32,7 +32,7 @@ from conveyor.laws.vertical_curve import (
 from conveyor.line.line import BendPulley, Line, TransitionZone
 from conveyor.line.stretches import RouteSection, Strand, Stretch
 from conveyor.loop.balance import Balance
-from conveyor.loop.pulley_duty import sides
+from conveyor.loop.pulley_duty import pulley_tensions
 from conveyor.loop.tensions import MotionState
 
 SNUB_WRAP = math.radians(30.0)
@@ -198,19 +198,21 @@ def belt_duty(balance: Balance, states: Sequence[MotionState] = ()) -> BeltDuty:
         per_width_steady=steady / belt.width,
         per_width=largest / belt.width,
         rating=belt.rating,
-        strength_needed={} if belt.splice_strength is None else _splice(balance, belt.splice_strength),
-        pulleys=tuple(_pulleys(balance)),
+        strength_needed={}
+        if belt.splice_strength is None
+        else _splice_strengths(balance, belt.splice_strength),
+        pulleys=tuple(_pulley_checks(balance)),
         drive_diameter=_drive_diameter(balance.line),
-        curves=tuple(_curves(balance, states)),
-        transitions=tuple(_transition(balance.line, zone, states) for zone in balance.line.transitions),
+        curves=tuple(_curve_checks(balance, states)),
+        transitions=tuple(_transition_check(balance.line, zone, states) for zone in balance.line.transitions),
     )
 
 
-def _splice(balance: Balance, endurance: float) -> dict[str, float]:
+def _splice_strengths(balance: Balance, endurance: float) -> dict[str, float]:
     """Strength class needed for the splice [N/m], by load; a start may load it `RATED_START` times."""
     belt, steady = balance.line.belt, [balance.settled.steady]
-    zones = [_transition(balance.line, zone, steady).most for zone in balance.line.transitions]
-    curves = [curve.most for curve in _curves(balance, steady)]
+    zones = [_transition_check(balance.line, zone, steady).most for zone in balance.line.transitions]
+    curves = [curve.most for curve in _curve_checks(balance, steady)]
     strips = [most for most in (*zones, *curves) if most is not None]
     loads = {
         "steady": balance.settled.steady.largest / belt.width,
@@ -218,7 +220,7 @@ def _splice(balance: Balance, endurance: float) -> dict[str, float]:
         "starting and stopping": balance.tensions.largest / belt.width / RATED_START,
     }
     return {
-        name: needed_strength(
+        name: required_strength(
             load,
             splice_strength=endurance,
             s0=SPLICE_SAFETY[belt.splice_making],
@@ -241,7 +243,7 @@ def _drive_diameter(line: Line) -> float | None:
     return None
 
 
-def _pulleys(balance: Balance) -> Iterator[PulleyCheck]:
+def _pulley_checks(balance: Balance) -> Iterator[PulleyCheck]:
     line, allowed = balance.line, allowed_tension(balance.line)
     drive = _drive_diameter(line)
     if drive is None:
@@ -249,9 +251,11 @@ def _pulleys(balance: Balance) -> Iterator[PulleyCheck]:
     for i, pulley in enumerate(line.pulleys):
         if pulley.assumed:  # of the least diameter
             continue
-        group, used, full = _group(pulley), None, 1.0
+        group, used, full = _pulley_group(pulley), None, 1.0
         if allowed is not None:
-            used = full = max(0.0, *sides(balance, i, balance.settled.steady)) / (line.belt.width * allowed)
+            used = full = max(0.0, *pulley_tensions(balance, i, balance.settled.steady)) / (
+                line.belt.width * allowed
+            )
         least = pulley_group_diameter(drive, group=group, utilisation=full)
         size = None
         if line.us_sizes:
@@ -261,14 +265,14 @@ def _pulleys(balance: Balance) -> Iterator[PulleyCheck]:
         yield PulleyCheck(pulley.name, pulley.position, group, used, pulley.diameter, least, size)
 
 
-def _group(pulley: BendPulley) -> Group:
+def _pulley_group(pulley: BendPulley) -> Group:
     snub = pulley.wrap_angle < SNUB_WRAP
     if pulley.driven or (pulley.position == "head" and not snub):
         return "A"
     return "C" if snub else "B"
 
 
-def _curves(balance: Balance, states: Sequence[MotionState]) -> Iterator[CurveCheck]:
+def _curve_checks(balance: Balance, states: Sequence[MotionState]) -> Iterator[CurveCheck]:
     line = balance.line
     sections = {section.name: section for section in line.sections if section.curve is not None}
     for i, stretch in enumerate(line.loop.stretches):
@@ -286,7 +290,7 @@ def _curves(balance: Balance, states: Sequence[MotionState]) -> Iterator[CurveCh
                 gravity=line.gravity,
                 uplift=line.uplift,
             )
-        strips = _strips(line, stretch, section, lowest, highest)
+        strips = _strip_limits(line, stretch, section, lowest, highest)
         yield CurveCheck(
             stretch.section,
             stretch.strand,
@@ -299,7 +303,7 @@ def _curves(balance: Balance, states: Sequence[MotionState]) -> Iterator[CurveCh
         )
 
 
-def _strips(
+def _strip_limits(
     line: Line, stretch: Stretch, section: RouteSection, lowest: float, highest: float
 ) -> tuple[float | None, float | None, float | None, float | None]:
     """Least radii against overstress and slack, and highest and lowest strip tension of a vertical curve.
@@ -309,7 +313,7 @@ def _strips(
     width, allowed, stiffness = line.belt.width, allowed_tension(line), line.belt.tensile_stiffness
     if allowed is None or stiffness is None:
         return None, None, None, None
-    trough = lying(stretch, width)
+    trough = trough_of_stretch(stretch, width)
     stretched, slackened = trough.edge_above, trough.middle_below
     if section.curve == "concave":
         stretched, slackened = slackened, stretched
@@ -339,7 +343,7 @@ def allowed_tension(line: Line) -> float | None:
     return belt.rating if belt.strength is None else belt.strength / _classic_safety(line)
 
 
-def lying(stretch: Stretch, width: float) -> TroughSection:
+def trough_of_stretch(stretch: Stretch, width: float) -> TroughSection:
     """Cross-section of a belt of a width in the trough of a stretch."""
     return trough_section(
         width,
@@ -349,7 +353,7 @@ def lying(stretch: Stretch, width: float) -> TroughSection:
     )
 
 
-def _transition(line: Line, zone: TransitionZone, states: Sequence[MotionState]) -> TransitionCheck:
+def _transition_check(line: Line, zone: TransitionZone, states: Sequence[MotionState]) -> TransitionCheck:
     """Check a transition of the carry strand for the tensions there in every state."""
     width, half = line.belt.width, line.count
     if zone.end == "head":

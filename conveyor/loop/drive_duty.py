@@ -11,22 +11,22 @@ from conveyor.laws.drives import (
     Poles,
     allowed_starts,
     backstop_torque,
-    disc_rise,
+    disc_temperature_rise,
     flywheel_inertia,
     gear_torque,
     nearest_ratio,
-    next_preferred,
+    next_preferred_number,
     shared_forces,
 )
 from conveyor.laws.motion import start_force
 from conveyor.laws.waves import MOTOR_SLIP
 from conveyor.line.line import DriveParts, DriveUnit, Line
 from conveyor.loop.balance import Balance
-from conveyor.loop.starting import Motions
-from conveyor.loop.take_up import belt_stiffness
+from conveyor.loop.start_and_stop import StartAndStop
+from conveyor.loop.take_up_duty import belt_stiffness
 
 # [1/s], slowest rated speed of 2, 4 and 6 poles at 50 Hz, 8 poles at 60 Hz below it; derived
-_POLES: tuple[tuple[Poles, float], ...] = ((2, 40.0), (4, 22.5), (6, 15.2))
+_POLE_SPEEDS: tuple[tuple[Poles, float], ...] = ((2, 40.0), (4, 22.5), (6, 15.2))
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +41,7 @@ class DriveDuty:
         The drive.
     parts : DriveParts
         Its parts in the spec.
-    moving : Motions
+    moving : StartAndStop
         Start and stop of the conveyor.
     backstops : int
         Number of drives with a backstop.
@@ -52,7 +52,7 @@ class DriveDuty:
     line: Line
     drive: DriveUnit
     parts: DriveParts
-    moving: Motions
+    moving: StartAndStop
     backstops: int
     shared: float | None
 
@@ -79,7 +79,9 @@ class DriveDuty:
         """Gear size for one motor by its rated torque, of the preferred numbers [N m]; None without power."""
         if self.drive.power is None or self.rotation is None:
             return None
-        return next_preferred(gear_torque(self.drive.power / self.parts.motors, rotation=self.rotation))
+        return next_preferred_number(
+            gear_torque(self.drive.power / self.parts.motors, rotation=self.rotation)
+        )
 
     @cached_property
     def holding(self) -> float | None:
@@ -121,7 +123,7 @@ class DriveDuty:
         power, inertia, rotation = self.drive.power, self.load_inertia, self.parts.rotation
         if self.parts.starts is None or power is None or inertia is None or rotation is None:
             return None
-        poles = next((number for number, slowest in _POLES if rotation > slowest), None)
+        poles = next((number for number, slowest in _POLE_SPEEDS if rotation > slowest), None)
         if poles is None:
             return "NEMA's table of starts has 2, 4 and 6 poles: ask the motor's maker"
         try:
@@ -141,14 +143,14 @@ class DriveDuty:
         """Temperature rise of the brake disc in that stop [K]."""
         if self.heat is None or self.parts.disc is None:
             return None
-        return disc_rise(self.heat, mass=self.parts.disc)
+        return disc_temperature_rise(self.heat, mass=self.parts.disc)
 
 
-def drive_duty(balance: Balance, moving: Motions) -> tuple[DriveDuty, ...]:
+def drive_duty(balance: Balance, moving: StartAndStop) -> tuple[DriveDuty, ...]:
     """Duties of every drive whose parts the spec gives."""
     line = balance.line
     backstops = sum(_has_backstop(drive) for drive in line.drives)
-    shared = _shared(balance)
+    shared = _shared_drive_forces(balance)
     return tuple(
         DriveDuty(line, drive, drive.parts, moving, max(backstops, 1), None if shared is None else shared[i])
         for i, drive in enumerate(line.drives)
@@ -160,7 +162,7 @@ def _has_backstop(drive: DriveUnit) -> bool:
     return drive.backstop is True or (drive.parts is not None and drive.parts.backstop is not None)
 
 
-def _shared(balance: Balance) -> tuple[float, ...] | None:
+def _shared_drive_forces(balance: Balance) -> tuple[float, ...] | None:
     """Forces of several drives coupled by the belt alone [N]; None where no pulley is below nominal."""
     line, steady, stiffness = balance.line, balance.settled.steady, belt_stiffness(balance.line.belt)
     powers = [drive.power for drive in line.drives if drive.power is not None]
@@ -172,18 +174,18 @@ def _shared(balance: Balance) -> tuple[float, ...] | None:
         balance.settled.force,
         rated=[power * line.efficiency / line.speed for power in powers],
         slips=[MOTOR_SLIP.value if drive.starter is None else drive.starter.slip for drive in line.drives],
-        diameters=[_over_nominal(drive) for drive in line.drives],
+        diameters=[_diameter_ratio(drive) for drive in line.drives],
         strains=[(side.arriving - first) / stiffness for side in steady.drives],
     )
 
 
-def _over_nominal(drive: DriveUnit) -> float:
+def _diameter_ratio(drive: DriveUnit) -> float:
     if drive.parts is None or drive.parts.loss is None or drive.radius is None:
         return 1.0
     return 1.0 - drive.parts.loss / (2.0 * drive.radius)
 
 
-def coasting_flywheel(line: Line, moving: Motions) -> float | None:
+def coasting_flywheel(line: Line, moving: StartAndStop) -> float | None:
     """Flywheel inertia at the motor shafts for the required coasting time [kg m²].
 
     None where none is required, the belt does not stop by itself, or ratio or diameter of the first drive are unknown.

@@ -12,16 +12,16 @@ from conveyor.errors import NoSolutionError
 from conveyor.forces import Force
 from conveyor.laws.resistance import pulley_load
 from conveyor.line.line import Line
-from conveyor.loop.frame import Frame, TakeUpSetting
-from conveyor.loop.run_up import started
-from conveyor.loop.tensions import STEADY, Loops, MotionState, Moving, States
+from conveyor.loop.loop_layout import LoopLayout, TakeUpSetting
+from conveyor.loop.run_up import start_motion
+from conveyor.loop.tensions import STEADY, BatchTensions, LoopBatch, MotionOffsets, MotionState
 
 Array = NDArray[np.float64]
 
-_LOOP_STEPS = 200
-_LOOP_CLOSED = 1e-13  # relative change of the drive force; wraps add about 1e-3 of it per step
-_SHRINKS = 1.0 / 3.0  # |q|/(1 + |q|) at a ratio of two steps q = -1/2: within ±1/2 they converge
-_HELD = 1.0 - 1e-9  # of the tension needed; a setting typed with rounded digits still passes
+_MAX_LOOP_STEPS = 200
+_LOOP_TOLERANCE = 1e-13  # relative change of the drive force; wraps add about 1e-3 of it per step
+_SECANT_LIMIT = 1.0 / 3.0  # |q|/(1 + |q|) at a ratio of two steps q = -1/2: within ±1/2 they converge
+_SUFFICIENT_SHARE = 1.0 - 1e-9  # of the tension needed; a setting typed with rounded digits still passes
 
 START, BRAKING, LEAST, LEAST_BRAKING, BRAKES = (
     "start",
@@ -33,18 +33,18 @@ START, BRAKING, LEAST, LEAST_BRAKING, BRAKES = (
 COASTING = "drives off"
 
 
-def holds(setting: float, needed: float) -> bool:
+def tension_suffices(setting: float, needed: float) -> bool:
     """True if a tension is at least the one needed [N], within 1e-9."""
-    return setting >= needed * (_HELD if needed > 0.0 else 1.0)
+    return setting >= needed * (_SUFFICIENT_SHARE if needed > 0.0 else 1.0)
 
 
 @dataclass(frozen=True, eq=False)
-class Settled:
+class Equilibrium:
     """Equilibrium of one loop of a batch.
 
     Attributes
     ----------
-    closed : Closed
+    closed : BatchEquilibrium
         The batch.
     row : int
         Index of the loop in the batch.
@@ -52,12 +52,12 @@ class Settled:
         Forces at single places independent of tension.
     """
 
-    closed: Closed
+    closed: BatchEquilibrium
     row: int
     points: tuple[Force, ...]
 
     @property
-    def frame(self) -> Frame:
+    def frame(self) -> LoopLayout:
         """Layout of the loop."""
         return self.closed.loops.frames[self.row]
 
@@ -197,11 +197,15 @@ class Settled:
     @property
     def short(self) -> dict[str, float]:
         """Conditions that need more than the take-up's setting, and what they need [N]."""
-        return {name: needed for name, needed in self.conditions.items() if not holds(self.setting, needed)}
+        return {
+            name: needed
+            for name, needed in self.conditions.items()
+            if not tension_suffices(self.setting, needed)
+        }
 
 
 @dataclass(frozen=True, eq=False)
-class Now:
+class LoopStates:
     """States of loops at given pulley resistances; `START` is the braking of a belt that drives.
 
     `resistance` is the drive force at constant speed at the friction of each state, shape (b, m), `rubbing` the
@@ -211,17 +215,17 @@ class Now:
     names: tuple[str, ...]
     resistance: Array
     rubbing: Array
-    moving: Moving
+    moving: MotionOffsets
     occurs: NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
-class Closed:
+class BatchEquilibrium:
     """Equilibrium of a batch of loops; conveyors on the first axis, shape (b, ...).
 
     Attributes
     ----------
-    loops, now : Loops, Now
+    loops, now : LoopBatch, LoopStates
         The loops, and the states that decide the settings.
     asked : ndarray, shape (b, m, d + runs)
         Setting needed for each condition [N]; -inf for conditions that do not exist.
@@ -235,8 +239,8 @@ class Closed:
         True if the settings were given.
     """
 
-    loops: Loops
-    now: Now
+    loops: LoopBatch
+    now: LoopStates
     asked: Array
     setting: Array
     needed: Array
@@ -245,9 +249,9 @@ class Closed:
     given: bool
 
     @cached_property
-    def states(self) -> States:
+    def states(self) -> BatchTensions:
         """Tensions of all states."""
-        return States(self.now.moving, self.setting)
+        return BatchTensions(self.now.moving, self.setting)
 
     @cached_property
     def largest(self) -> Array:
@@ -255,23 +259,25 @@ class Closed:
         return np.asarray(np.where(self.now.occurs, self.states.extremes[1], -np.inf).max(axis=-1))
 
     @cached_property
-    def off(self) -> tuple[NDArray[np.bool_], States]:
+    def off(self) -> tuple[NDArray[np.bool_], BatchTensions]:
         """Mask of loops that slow down without drives and brakes, shape (b,), and that state."""
         loops, now = self.loops, self.now
         drive = now.resistance[:, 0]
-        occurs, acceleration, forces = _coasting(loops, drive, np.zeros_like(loops.standing.brakes))
+        occurs, acceleration, forces = _coasting_motion(loops, drive, np.zeros_like(loops.standing.brakes))
         states = np.ones((len(drive), 1)), acceleration[:, None], forces[:, None]
         moving = loops.moving(*states, self.bends, drive >= 0.0)
-        return occurs, States(moving, self.setting)
+        return occurs, BatchTensions(moving, self.setting)
 
 
 @np.errstate(over="ignore", invalid="ignore")  # of a row that grows until it is refused
-def settle(loops: Loops, given: Array | None = None) -> tuple[Closed, dict[int, NoSolutionError]]:
+def solve_equilibria(
+    loops: LoopBatch, given: Array | None = None
+) -> tuple[BatchEquilibrium, dict[int, NoSolutionError]]:
     """Solve the equilibrium of loops under the forces along their belts, each independently.
 
     Parameters
     ----------
-    loops : Loops
+    loops : LoopBatch
         Loops of one plan under their forces.
     given : ndarray, shape (b,), optional
         Settings of the take-ups [N]; by default the least that serves every state.
@@ -287,38 +293,38 @@ def settle(loops: Loops, given: Array | None = None) -> tuple[Closed, dict[int, 
     Where the tension comes out negative the belt bends round pulleys and loads bearings as at zero tension. Tensions
     are reported as they come out, below zero by what the take-up lacks.
     """
-    kinds, b, whole = _Kinds(loops), len(loops.frames), np.abs(loops.along[:, :2, -1].sum(axis=-1))
+    kinds, b, whole = _StateSet(loops), len(loops.frames), np.abs(loops.along[:, :2, -1].sum(axis=-1))
     bends, drive = np.zeros((b, len(loops.plan.bends))), np.full(b, np.inf)
     going, refused = np.ones(b, dtype=bool), dict[int, NoSolutionError]()
     last: tuple[Array, Array] | None = None
-    for _ in range(_LOOP_STEPS):
+    for _ in range(_MAX_LOOP_STEPS):
         before, now = drive, kinds.at(bends)
         drive = now.resistance[:, 0]
         asked = np.where(now.occurs[..., None], now.moving.asked(kinds.sagging), -np.inf)
         needed = asked.max(axis=(1, 2))
         setting = needed if given is None else given
-        going &= ~(np.abs(drive - before) <= _LOOP_CLOSED * np.maximum(np.abs(drive), whole))
-        wraps, bearings = _pulleys(loops, now.moving, setting, refused)
+        going &= ~(np.abs(drive - before) <= _LOOP_TOLERANCE * np.maximum(np.abs(drive), whole))
+        wraps, bearings = _pulley_forces(loops, now.moving, setting, refused)
         if refused:
             going[list(refused)] = False
         if not going.any():
             break
         step = (wraps + bearings, wraps + bearings - bends)
-        bends = np.where(going[:, None], step[0] if last is None else _further(last, step), bends)
+        bends = np.where(going[:, None], step[0] if last is None else _secant_step(last, step), bends)
         last = step
     else:
-        refused |= {row: _unsettled() for row in np.flatnonzero(going).tolist()}
+        refused |= {row: _divergence_error() for row in np.flatnonzero(going).tolist()}
     pulleys = np.stack([wraps, bearings], axis=-1)
-    return Closed(loops, now, asked, setting, needed, bends, pulleys, given is not None), refused
+    return BatchEquilibrium(loops, now, asked, setting, needed, bends, pulleys, given is not None), refused
 
 
-def _unsettled() -> NoSolutionError:
+def _divergence_error() -> NoSolutionError:
     return NoSolutionError(
         "the tensions round the belt do not settle: check pulley diameters and drive friction"
     )
 
 
-def _further(last: tuple[Array, Array], step: tuple[Array, Array]) -> Array:
+def _secant_step(last: tuple[Array, Array], step: tuple[Array, Array]) -> Array:
     """Secant step (Anderson mixing of depth one), or the plain last step where steps do not shrink.
 
     A step is the new resistances of the pulleys and their change.
@@ -326,13 +332,13 @@ def _further(last: tuple[Array, Array], step: tuple[Array, Array]) -> Array:
     (before, was), (here, short) = last, step
     turned = short - was
     along, whole = (turned * short).sum(axis=-1), (turned * turned).sum(axis=-1)
-    shrinks = (along > -whole) & (along < _SHRINKS * whole)
+    shrinks = (along > -whole) & (along < _SECANT_LIMIT * whole)
     share = np.divide(along, whole, out=np.zeros(len(here)), where=shrinks)
     return np.asarray(here - share[:, None] * (here - before))
 
 
-def _pulleys(
-    loops: Loops, moving: Moving, setting: Array, refused: dict[int, NoSolutionError]
+def _pulley_forces(
+    loops: LoopBatch, moving: MotionOffsets, setting: Array, refused: dict[int, NoSolutionError]
 ) -> tuple[Array, Array]:
     """Wrap and bearing resistance of every pulley in steady running [N], shape (b, pulleys).
 
@@ -344,7 +350,7 @@ def _pulleys(
     lost: NDArray[np.bool_] = ~np.all(np.isfinite(sides), axis=(1, 2))
     if lost.any():
         for row in np.flatnonzero(lost).tolist():
-            refused.setdefault(row, _unsettled())
+            refused.setdefault(row, _divergence_error())
         sides = np.where(lost[:, None, None], 0.0, sides)
     tight, slack = np.maximum(sides.max(axis=-1), 0.0), np.maximum(sides.min(axis=-1), 0.0)
     load = pulley_load(
@@ -357,10 +363,10 @@ def _pulleys(
     return standing.wrap + standing.slope * 0.5 * (tight + slack), standing.bearings * load
 
 
-class _Kinds:
+class _StateSet:
     """States in which the drives must grip: friction and motion of each."""
 
-    def __init__(self, loops: Loops) -> None:
+    def __init__(self, loops: LoopBatch) -> None:
         self.loops, standing, pull = loops, loops.standing, loops.standing.pull
         self.uncertain = standing.least_friction < 1.0
         falling = (LEAST, LEAST_BRAKING) if (self.uncertain & (loops.lift < 0.0)).any() else ()
@@ -373,7 +379,7 @@ class _Kinds:
         over[:, 1::2] = pull.factor[:, None]
         self.shares, self.pushes = over[..., None] * pull.share[:, None], (over - 1.0) / loops.mass[:, None]
 
-    def at(self, bends: Array) -> Now:
+    def at(self, bends: Array) -> LoopStates:
         """States at given pulley resistances [N], shape (b, pulleys)."""
         loops, standing = self.loops, self.loops.standing
         rubbing = loops.rubbing + bends.sum(axis=-1)
@@ -382,19 +388,23 @@ class _Kinds:
         occurs = np.ones(resistance.shape, dtype=bool)
         pulls = resistance[:, 0] > 0.0
         if pulls.any():
-            pushed, pulled = started(standing.pull, np.where(pulls, resistance[:, 0], 1.0), loops.mass)
+            pushed, pulled = start_motion(standing.pull, np.where(pulls, resistance[:, 0], 1.0), loops.mass)
             acceleration[:, 1] = np.where(pulls, pushed, acceleration[:, 1])
             forces[:, 1] = np.where(pulls[:, None], pulled, forces[:, 1])
         if LEAST in self.names:
             occurs[:, 2:4] = (self.uncertain & (resistance[:, 2] < 0.0))[:, None]
         if BRAKES in self.names:
-            slows, acceleration[:, -1], forces[:, -1] = _coasting(loops, resistance[:, -1], standing.brakes)
+            slows, acceleration[:, -1], forces[:, -1] = _coasting_motion(
+                loops, resistance[:, -1], standing.brakes
+            )
             occurs[:, -1] = slows & self.braked
         moving = loops.moving(self.friction, acceleration, forces, bends, resistance[:, 0] >= 0.0)
-        return Now(self.names, resistance, rubbing, moving, occurs)
+        return LoopStates(self.names, resistance, rubbing, moving, occurs)
 
 
-def _coasting(loops: Loops, resistance: Array, brakes: Array) -> tuple[NDArray[np.bool_], Array, Array]:
+def _coasting_motion(
+    loops: LoopBatch, resistance: Array, brakes: Array
+) -> tuple[NDArray[np.bool_], Array, Array]:
     """With drives off and brakes on [N]: mask of belts that slow down, acceleration [m/s²], drive forces [N]."""
     own = loops.standing.pull.own
     retarding = resistance + brakes.sum(axis=-1)

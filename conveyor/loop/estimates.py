@@ -34,7 +34,7 @@ _LEAST_WRAP = math.radians(150.0)  # CEMA: below it a pulley counts as "other"
 
 
 @dataclass(frozen=True)
-class Classical:
+class ClassicalEstimate:
     """An estimate with a given friction factor f, for the same spec [N]."""
 
     friction_factor: float
@@ -50,7 +50,7 @@ class Classical:
         return self.main + self.secondary + self.special + self.lift
 
 
-def classical(line: Line, forces: ForceSums, unit_main: float) -> Classical:
+def classical_estimate(line: Line, forces: ForceSums, unit_main: float) -> ClassicalEstimate:
     """F_U = C F_H + F_S + F_St; beyond the table of C with the itemised secondary resistances.
 
     Parameters
@@ -64,7 +64,7 @@ def classical(line: Line, forces: ForceSums, unit_main: float) -> Classical:
     """
     main = line.friction_factor * unit_main
     tabled = SHORTEST_FOR_FACTOR < line.length <= _LONGEST_FOR_FACTOR
-    return Classical(
+    return ClassicalEstimate(
         friction_factor=line.friction_factor,
         main=main,
         secondary=secondary_resistance(main, length=line.length) if tabled else forces.secondary,
@@ -77,7 +77,7 @@ def classical(line: Line, forces: ForceSums, unit_main: float) -> Classical:
 
 
 @dataclass(frozen=True)
-class CemaEstimate(Classical):
+class CemaEstimate(ClassicalEstimate):
     """The classic form of CEMA, by cause [N].
 
     `items` are symbol, name and force of every part of Te; `drive_pulleys` is the bearing friction of drive pulleys, in
@@ -88,7 +88,7 @@ class CemaEstimate(Classical):
     drive_pulleys: float
 
 
-def cema(line: Line, unit_main: float) -> CemaEstimate | None:
+def cema_estimate(line: Line, unit_main: float) -> CemaEstimate | None:
     """Te = L Kt (Kx + Ky Wb + 0.015 Wb) + Wm (L Ky ± H) + Tp + Tam + Tac, section by section; None without factors.
 
     Parameters
@@ -107,10 +107,12 @@ def cema(line: Line, unit_main: float) -> CemaEstimate | None:
     given = line.cema
     if given is None:
         return None
-    parts = [_section(stretch, given) for stretch in line.stretches[: line.count]]
+    parts = [_section_tension(stretch, given) for stretch in line.stretches[: line.count]]
     pulleys = given.pulleys
     if pulleys is None:
-        pulleys = cema_pulley_friction([_place(pulley) for pulley in line.pulleys if not pulley.driven])
+        pulleys = cema_pulley_friction(
+            [_pulley_place(pulley) for pulley in line.pulleys if not pulley.driven]
+        )
     over = [
         slope_resistance(point.flow / line.speed, lift=point.lift, gravity=STANDARD_GRAVITY)
         for point in line.loading
@@ -122,9 +124,9 @@ def cema(line: Line, unit_main: float) -> CemaEstimate | None:
         ("Tyr", "flexure of the belt, return", math.fsum(part.belt_return for part in parts)),
         ("Tym", "flexure of the bulk", math.fsum(part.bulk for part in parts)),
     )
-    secondary = (("Tp", "pulleys", pulleys), ("Tam", "acceleration of the bulk", _acceleration(line)))
+    secondary = (("Tp", "pulleys", pulleys), ("Tam", "acceleration of the bulk", _acceleration_force(line)))
     special = (
-        ("Tsb", "skirts", _skirts(line, given)),
+        ("Tsb", "skirts", _skirt_force(line, given)),
         ("Tbc", "cleaners", given.cleaner * math.fsum(each.count * each.width for each in line.scrapers)),
         ("Tpl", "ploughs", given.plough * math.fsum(each.count * each.width for each in line.ploughs)),
         ("Tac", "other accessories", given.accessories),
@@ -143,7 +145,7 @@ def cema(line: Line, unit_main: float) -> CemaEstimate | None:
     )
 
 
-def _skirts(line: Line, given: CemaFactors) -> float:
+def _skirt_force(line: Line, given: CemaFactors) -> float:
     """Skirt friction of all loading points; on an empty belt of the seals alone."""
     return math.fsum(
         cema_skirts(
@@ -156,7 +158,7 @@ def _skirts(line: Line, given: CemaFactors) -> float:
     )
 
 
-def _section(stretch: Stretch, factors: CemaFactors) -> CemaTension:
+def _section_tension(stretch: Stretch, factors: CemaFactors) -> CemaTension:
     kx = cema_idler_factor(
         stretch.belt_mass,
         bulk_mass=stretch.bulk_mass,
@@ -174,14 +176,14 @@ def _section(stretch: Stretch, factors: CemaFactors) -> CemaTension:
     )
 
 
-def _acceleration(line: Line) -> float:
+def _acceleration_force(line: Line) -> float:
     return math.fsum(
         cema_acceleration(point.flow, belt_speed=line.speed, initial_speed=point.speed)
         for point in line.loading
     )
 
 
-def _place(pulley: BendPulley) -> Place:
+def _pulley_place(pulley: BendPulley) -> Place:
     """CEMA place of a pulley; tight side: head and carry strand, slack side: the rest."""
     if pulley.wrap_angle < _LEAST_WRAP:
         return "other"

@@ -20,7 +20,7 @@ from conveyor.laws.roll_life import ROLLER_EXPONENT, SECONDS_PER_HOUR, rating_li
 from conveyor.line.line import BendPulley, Line
 from conveyor.loop.balance import Balance
 from conveyor.loop.tensions import STEADY, MotionState
-from conveyor.ties import largest, least
+from conveyor.ties import first_maximum, first_minimum
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ class PulleyDuty:
     @cached_property
     def largest(self) -> PulleyLoad:
         """Load of the largest resultant."""
-        return largest(self.loads, lambda load: load.resultant)
+        return first_maximum(self.loads, lambda load: load.resultant)
 
     @property
     def torque(self) -> float:
@@ -120,7 +120,7 @@ class PulleyDuty:
             )
             for load in self.loads
         ]
-        return least(safeties, lambda one: one[0])
+        return first_minimum(safeties, lambda one: one[0])
 
     @cached_property
     def least_shaft(self) -> float | None:
@@ -160,14 +160,17 @@ def pulley_duty(balance: Balance, states: Sequence[MotionState]) -> tuple[Pulley
             pulley,
             line.belt.width,
             line.speed,
-            tuple(_load(line, pulley, state.name, *sides(balance, i, state)) for state in states),
+            tuple(
+                _load_in_state(line, pulley, state.name, *pulley_tensions(balance, i, state))
+                for state in states
+            ),
         )
         for i, pulley in enumerate(line.pulleys)
         if not pulley.assumed
     )
 
 
-def _load(line: Line, pulley: BendPulley, state: str, arriving: float, leaving: float) -> PulleyLoad:
+def _load_in_state(line: Line, pulley: BendPulley, state: str, arriving: float, leaving: float) -> PulleyLoad:
     """Load of a pulley in a state; slack belt adds nothing to its weight."""
     pull = pulley_load(
         tight_tension=max(arriving, leaving, 0.0),
@@ -180,7 +183,7 @@ def _load(line: Line, pulley: BendPulley, state: str, arriving: float, leaving: 
     return PulleyLoad(state, arriving, leaving, whole, 0.5 * abs(arriving - leaving) * pulley.diameter)
 
 
-def sides(balance: Balance, i: int, state: MotionState) -> tuple[float, float]:
+def pulley_tensions(balance: Balance, i: int, state: MotionState) -> tuple[float, float]:
     """Tensions before and behind pulley i [N].
 
     Driven pulleys at one place follow in the order listed, each with the drive of its number; where a drive has several
@@ -193,11 +196,11 @@ def sides(balance: Balance, i: int, state: MotionState) -> tuple[float, float]:
         before = state.spots[balance.frame.at[pulley.spot]]
         return before, before
     met = [k for k, other in enumerate(line.pulleys) if other.driven and other.spot == pulley.spot]
-    steps = list(_steps(balance, pulley, state, len(met)))
+    steps = list(_tension_steps(balance, pulley, state, len(met)))
     return steps[met.index(i)], steps[met.index(i) + 1]
 
 
-def _steps(balance: Balance, pulley: BendPulley, state: MotionState, count: int) -> Iterator[float]:
+def _tension_steps(balance: Balance, pulley: BendPulley, state: MotionState, count: int) -> Iterator[float]:
     """Tension before the first of the driven pulleys at a place, then behind each."""
     sides = [
         side

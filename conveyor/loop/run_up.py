@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Pull:
+class StartingForces:
     """Force limits of the drives at a start; drives on the last axis, loops before it.
 
     Attributes
@@ -38,9 +38,9 @@ class Pull:
     kind: str
 
     @classmethod
-    def of(cls, line: Line) -> Pull:
+    def of(cls, line: Line) -> StartingForces:
         """Limits of a line's drives."""
-        rated, torques = _rated(line), [torque for _, torque in line.torque_curve]
+        rated, torques = _rated_forces(line), [torque for _, torque in line.torque_curve]
         least = most = unknown = np.full(len(line.drives), np.inf)
         if rated is not None and torques:
             least, most = min(torques) * np.array(rated), max(torques) * np.array(rated)
@@ -50,7 +50,7 @@ class Pull:
             least,
             most,
             np.array(line.start_over_steady),
-            "uncontrolled" if uncontrolled(line) else "asked" if least is unknown else "limited",
+            "uncontrolled" if is_start_uncontrolled(line) else "asked" if least is unknown else "limited",
         )
 
 
@@ -105,8 +105,12 @@ def run_up(line: Line, steady: float, mass: float) -> RunUp:
     Of the motor's force k η P/v each drive keeps what accelerates its own rotating masses: F = k η P/v - m a. A
     controlled start keeps the shares of the drives and is as fast as the weakest motor allows.
     """
-    rated, torques, pull = _rated(line), [torque for _, torque in line.torque_curve], Pull.of(line)
-    pushed, per_drive = started(pull, np.asarray(steady), np.asarray(mass))
+    rated, torques, pull = (
+        _rated_forces(line),
+        [torque for _, torque in line.torque_curve],
+        StartingForces.of(line),
+    )
+    pushed, per_drive = start_motion(pull, np.asarray(steady), np.asarray(mass))
     forces, acceleration = tuple(per_drive.tolist()), float(pushed)
     factor = math.fsum(forces) / steady
     together = None if rated is None else math.fsum(rated)
@@ -115,7 +119,7 @@ def run_up(line: Line, steady: float, mass: float) -> RunUp:
         standstill, least, largest = (
             torque * together for torque in (torques[0], min(torques), max(torques))
         )
-    if uncontrolled(line):
+    if is_start_uncontrolled(line):
         return RunUp(forces, acceleration, factor, None, together, standstill, least, largest)
     own = float(pull.own.sum()) / mass
 
@@ -123,42 +127,46 @@ def run_up(line: Line, steady: float, mass: float) -> RunUp:
         return factor * steady + (factor - 1.0) * steady * own
 
     if rated is not None and torques:
-        least = of_motors(float(_possible(pull, np.asarray(steady), np.asarray(mass))))
+        least = of_motors(float(_possible_start_factor(pull, np.asarray(steady), np.asarray(mass))))
     return RunUp(
         forces, acceleration, factor, of_motors(line.start_over_steady), together, standstill, least, largest
     )
 
 
-def uncontrolled(line: Line) -> bool:
+def is_start_uncontrolled(line: Line) -> bool:
     """True if a start takes the full motor force, not a multiple of the steady force."""
-    return line.start_factor is None and _rated(line) is not None and bool(line.torque_curve)
+    return line.start_factor is None and _rated_forces(line) is not None and bool(line.torque_curve)
 
 
-def started(pull: Pull, steady: Array, mass: Array) -> tuple[Array, Array]:
+def start_motion(pull: StartingForces, steady: Array, mass: Array) -> tuple[Array, Array]:
     """Acceleration [m/s²], and force of every drive [N] on a last axis, at one or many loads as `run_up` takes them."""
     if pull.kind == "uncontrolled":
         free = pull.most.sum(axis=-1) - steady
         acceleration = np.maximum(free / (mass + pull.own.sum(axis=-1)), 0.0)
         pulled = pull.most - pull.own * acceleration[..., None]
         return acceleration, np.where(acceleration[..., None] > 0.0, pulled, pull.share * steady[..., None])
-    asked = pull.factor if pull.kind == "asked" else np.minimum(pull.factor, _possible(pull, steady, mass))
+    asked = (
+        pull.factor
+        if pull.kind == "asked"
+        else np.minimum(pull.factor, _possible_start_factor(pull, steady, mass))
+    )
     factor = np.maximum(1.0, asked)
     return (factor - 1.0) * steady / mass, pull.share * (factor * steady)[..., None]
 
 
 def rated_force(line: Line) -> float | None:
     """Rated force of all motors at the belt [N]; None if a power is unknown."""
-    rated = _rated(line)
+    rated = _rated_forces(line)
     return None if rated is None else math.fsum(rated)
 
 
-def asked_over_given(pull: Pull, steady: Array, mass: Array) -> Array:
+def start_force_ratio(pull: StartingForces, steady: Array, mass: Array) -> Array:
     """Needed over available motor force of a controlled start of kind "limited" [-]; the weakest motor limits."""
-    own, possible = pull.own.sum() / mass, _possible(pull, steady, mass)
+    own, possible = pull.own.sum() / mass, _possible_start_factor(pull, steady, mass)
     return np.asarray((pull.factor + (pull.factor - 1.0) * own) / (possible + (possible - 1.0) * own))
 
 
-def _possible(pull: Pull, steady: Array, mass: Array) -> Array:
+def _possible_start_factor(pull: StartingForces, steady: Array, mass: Array) -> Array:
     """Largest start factor at which the weakest motor at its least torque keeps its share; infinite if unknown."""
     own = pull.own / mass[..., None]
     asked, given = pull.share + own, pull.least / steady[..., None] + own
@@ -166,7 +174,7 @@ def _possible(pull: Pull, steady: Array, mass: Array) -> Array:
     return np.asarray(factors.min(axis=-1))
 
 
-def _rated(line: Line) -> list[float] | None:
+def _rated_forces(line: Line) -> list[float] | None:
     """Rated force of every drive's motors at the belt [N]; None if a power is unknown."""
     powers = [drive.power for drive in line.drives if drive.power is not None]
     if len(powers) < len(line.drives):

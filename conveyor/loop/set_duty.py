@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 
-from conveyor.laws.idlers import flap_frequency, resonance_distance, still_spacing
-from conveyor.line.roll_lives import SetLife, set_life
+from conveyor.laws.idler_sets import flap_frequency, resonance_free_spacing, resonance_margin
+from conveyor.line.roll_lives import SetLife, idler_set_life
 from conveyor.line.set_limits import SetLimits
 from conveyor.line.stretches import Stretch
 from conveyor.loop.balance import Balance
@@ -52,7 +52,7 @@ class SetDuty:
     def distance(self) -> float:
         """Distance of the rolls' rotation from resonance [-]; 0 where a span of the stretch resonates."""
         low, high = self.frequencies
-        return min(resonance_distance(each, lowest=low, highest=high) for each in self.rotations)
+        return min(resonance_margin(each, lowest=low, highest=high) for each in self.rotations)
 
     @cached_property
     def still_spacing(self) -> float | None:
@@ -60,7 +60,7 @@ class SetDuty:
         margin = self.limits.flap_margin
         if margin is None or self.frequencies[0] == 0.0:
             return None
-        return still_spacing(
+        return resonance_free_spacing(
             self.rotations[1], lowest=self.frequencies[0], spacing=self.stretch.spacing, margin=margin
         )
 
@@ -76,20 +76,20 @@ def set_duty(balance: Balance) -> tuple[SetDuty, ...]:
     """Set duties of every stretch whose spec gives set limits, in loop order."""
     line, steady = balance.line, balance.settled.steady
     return tuple(
-        _duty(balance, stretch, float(start), float(end))
+        _stretch_duty(balance, stretch, float(start), float(end))
         for stretch, start, end in zip(line.loop.stretches, steady.starts, steady.ends, strict=True)
         if stretch.idlers.judged
     )
 
 
-def _duty(balance: Balance, stretch: Stretch, start: float, end: float) -> SetDuty:
+def _stretch_duty(balance: Balance, stretch: Stretch, start: float, end: float) -> SetDuty:
     line = balance.line
     limits = SetLimits.of(stretch, line, tension=max(start, end))
-    swings = (_swing(stretch, start, line.speed), _swing(stretch, end, line.speed))
-    return SetDuty(stretch, limits, set_life(stretch, line.speed), line.speed, swings)
+    swings = (_natural_frequency(stretch, start, line.speed), _natural_frequency(stretch, end, line.speed))
+    return SetDuty(stretch, limits, idler_set_life(stretch, line.speed), line.speed, swings)
 
 
-def _swing(stretch: Stretch, tension: float, belt_speed: float) -> float:
+def _natural_frequency(stretch: Stretch, tension: float, belt_speed: float) -> float:
     """First natural frequency between two sets at a tension [Hz]; 0 at tensions up to m' v²."""
     if tension <= stretch.line_mass * belt_speed**2:
         return 0.0

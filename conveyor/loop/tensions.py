@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.forces import Force
-from conveyor.loop.frame import Frame, Standing
+from conveyor.loop.loop_layout import LoopConstants, LoopLayout
 
 Array = NDArray[np.float64]
 
@@ -23,7 +23,7 @@ STEADY = "steady"
 
 
 @dataclass(frozen=True)
-class DriveSide:
+class DriveTensions:
     """A drive pulley in a state: its force on the belt, and the tensions before and behind it [N]."""
 
     name: str
@@ -56,7 +56,7 @@ class MotionState:
         Acceleration of belt and bulk [m/s²].
     friction : float
         Friction over the computed one [-].
-    drives : tuple of DriveSide
+    drives : tuple of DriveTensions
         Every drive pulley.
     starts, ends : Array
         Tension at both ends of every stretch, in loop order [N], shape (2n,).
@@ -74,7 +74,7 @@ class MotionState:
     force: float
     acceleration: float
     friction: float
-    drives: tuple[DriveSide, ...]
+    drives: tuple[DriveTensions, ...]
     starts: Array
     ends: Array
     leaving: float
@@ -94,12 +94,12 @@ class MotionState:
         return self.smallest < 0.0
 
 
-class Loops:
+class LoopBatch:
     """Loops of one plan, each under the forces of one analysis.
 
     Parameters
     ----------
-    frames : sequence of Frame
+    frames : sequence of LoopLayout
         Layout of each loop.
     along : sequence of sequence of Force
         Forces along each belt.
@@ -108,11 +108,14 @@ class Loops:
     """
 
     def __init__(
-        self, frames: Sequence[Frame], along: Sequence[Sequence[Force]], further: Sequence[Sequence[Force]]
+        self,
+        frames: Sequence[LoopLayout],
+        along: Sequence[Sequence[Force]],
+        further: Sequence[Sequence[Force]],
     ) -> None:
         self.frames, self.plan, count = frames, frames[0].plan, frames[0].line.count
-        self.standing = Standing.side_by_side([frame.standing for frame in frames])
-        forces = np.roll([_summed(each, count) for each in along], count, axis=-1)
+        self.standing = LoopConstants.side_by_side([frame.standing for frame in frames])
+        forces = np.roll([_force_sums(each, count) for each in along], count, axis=-1)
         self.along = np.zeros((len(frames), 3, 2 * count + 1))
         """Running sums of the forces along the belt without and with friction [N], and of the mass [kg]."""
         np.cumsum(forces, axis=-1, out=self.along[:, :2, 1:])
@@ -146,7 +149,7 @@ class Loops:
 
     def moving(
         self, friction: Array, acceleration: Array, forces: Array, bends: Array, driving: NDArray[np.bool_]
-    ) -> Moving:
+    ) -> MotionOffsets:
         """Tension offsets of states with given drive forces, which balance resistances and inertia.
 
         Parameters
@@ -161,36 +164,39 @@ class Loops:
             True if the drives pull in steady running, which sets the side of a slack-side take-up.
         """
         plan = self.plan
-        steps = _in_state(self.met, friction, acceleration)
+        steps = _totals_in_state(self.met, friction, acceleration)
         steps[..., plan.bends] = friction[..., None] * bends[:, None]
         steps[..., plan.drives] = -forces
         offsets = np.zeros((*friction.shape, plan.count + 1))
         np.cumsum(steps, axis=-1, out=offsets[..., 1:])
         if plan.keeps_length:
             begun = offsets[..., plan.runs] * self._shares[:, None]
-            anchor = _in_state(self._means, friction, acceleration)[..., 0] + begun.sum(axis=-1)
+            anchor = _totals_in_state(self._means, friction, acceleration)[..., 0] + begun.sum(axis=-1)
         elif plan.held is not None:
             anchor = offsets[..., plan.held]
         else:
             before, behind = plan.station
             anchor = np.where(driving[:, None], offsets[..., behind], offsets[..., before])
-        return Moving(self, friction, acceleration, forces, offsets, anchor)
+        return MotionOffsets(self, friction, acceleration, forces, offsets, anchor)
 
     def sagging(self, friction: Array) -> Array:
         """Tension needed for the sag of each run at its start, at constant speed [N], shape (b, m, runs)."""
-        along, begins = _in_state(self.along, friction, np.zeros_like(friction)), self.plan.boundaries[:-1]
+        along, begins = (
+            _totals_in_state(self.along, friction, np.zeros_like(friction)),
+            self.plan.boundaries[:-1],
+        )
         needed = self.standing.least[:, None] - np.minimum(along[..., :-1], along[..., 1:])
         return np.maximum.reduceat(needed, begins, axis=-1) + along[..., begins]
 
 
 @dataclass(frozen=True, eq=False)
-class Moving:
+class MotionOffsets:
     """Tension offsets of states of motion, before the take-up's setting is known.
 
     `offsets` are those of every place [N], shape (b, m, count + 1), `anchor` that of the tension the take-up fixes.
     """
 
-    loops: Loops
+    loops: LoopBatch
     friction: Array
     acceleration: Array
     forces: Array
@@ -212,14 +218,14 @@ class Moving:
     @cached_property
     def along(self) -> Array:
         """Offsets along the belt without point forces [N], shape (b, m, 2n + 1)."""
-        return _in_state(self.loops.along, self.friction, self.acceleration)
+        return _totals_in_state(self.loops.along, self.friction, self.acceleration)
 
 
 @dataclass(frozen=True, eq=False)
-class States:
+class BatchTensions:
     """States of motion at a setting of each take-up [N], shape (b,)."""
 
-    moving: Moving
+    moving: MotionOffsets
     setting: Array
 
     @cached_property
@@ -257,7 +263,7 @@ class States:
             acceleration=float(moving.acceleration[i, k]),
             friction=float(moving.friction[i, k]),
             drives=tuple(
-                DriveSide(drive.name, force, *pair)
+                DriveTensions(drive.name, force, *pair)
                 for drive, force, pair in zip(line.drives, forces, sides, strict=True)
             ),
             starts=self.ends[0, i, k],
@@ -271,7 +277,7 @@ class States:
         )
 
 
-def _summed(along: Sequence[Force], count: int) -> Array:
+def _force_sums(along: Sequence[Force], count: int) -> Array:
     """Sums of the forces along a belt of n sections without and with friction, shape (2, 2n)."""
     sums = np.zeros((2, 2 * count))
     for force in along:
@@ -279,7 +285,7 @@ def _summed(along: Sequence[Force], count: int) -> Array:
     return sums
 
 
-def _in_state(parts: Array, friction: Array, acceleration: Array) -> Array:
+def _totals_in_state(parts: Array, friction: Array, acceleration: Array) -> Array:
     """Sum of certain, friction and inertia forces in states, from shape (b, 3, n) to (b, m, n)."""
     certain, uncertain, mass = (parts[:, None, k] for k in range(3))
     return certain + friction[..., None] * uncertain + acceleration[..., None] * mass

@@ -20,33 +20,33 @@ from numpy.typing import NDArray
 
 from conveyor.errors import NoSolutionError
 from conveyor.laws.motion import bulk_slip_limits
-from conveyor.laws.resistance.defaults import ROLL_DRAG_STANDSTILL_FACTOR
+from conveyor.laws.resistance.resistance_defaults import ROLL_DRAG_STANDSTILL_FACTOR
 from conveyor.laws.tension import grip_tension
-from conveyor.line.set_limits import raised
+from conveyor.line.set_limits import raised_height
 from conveyor.line.stretches import STRANDS
 from conveyor.loop.equilibrium import BRAKES, BRAKING, COASTING, LEAST, LEAST_BRAKING, START
-from conveyor.loop.run_up import asked_over_given, rated_force, uncontrolled
-from conveyor.loop.superposition import Array, Loading, Loadings
+from conveyor.loop.load_superposition import Array, Loading, SectionLoadings
+from conveyor.loop.run_up import is_start_uncontrolled, rated_force, start_force_ratio
 from conveyor.loop.tensions import STEADY
 
-EVERY: Final = 10
+EXHAUSTIVE_SECTIONS: Final = 10
 """Number of sections up to which every loading is tried."""
-ONE_BY_ONE: Final = 40
+SINGLE_CHANGE_SECTIONS: Final = 40
 """Number of sections up to which they are changed one by one and every curve and raised set is evaluated."""
-_TRIED: Final = 3  # sections whose bulk slips first
-_ROUNDS: Final = 20  # of changes; every one makes a figure worse, and few take more than five
-_CORNERS: Final = (
+_SLIP_CANDIDATES: Final = 3  # sections whose bulk slips first
+_MAX_ROUNDS: Final = 20  # of changes; every one makes a figure worse, and few take more than five
+_MAX_CORNERS: Final = (
     64  # of each pair of sums on a long route; a sixty-fourth of a turn costs 1e-3 of their range
 )
-_ALIKE: Final = 1e-9  # of a figure: rounding
+_ROUNDING: Final = 1e-9  # of a figure: rounding
 
-Flags = NDArray[np.bool_]
+LoadingRows = NDArray[np.bool_]
 """Loadings, one in a row, shape (m, n)."""
-Figures = dict[str, Array]
+CriterionFigures = dict[str, Array]
 """Values of each figure under loadings, shape (m,): the higher the worse, -inf for none."""
 
 
-class CriterionLoadings(Loadings):
+class CriterionLoadings(SectionLoadings):
     """Loadings of one conveyor between empty and full, and the worst of each criterion."""
 
     def worst_of_each(self) -> dict[str, tuple[float, Loading]]:
@@ -54,55 +54,55 @@ class CriterionLoadings(Loadings):
         best: dict[str, tuple[float, Loading]] = {}
         known: set[bytes] = set()
         flags = self._first_tried()
-        for _ in range(_ROUNDS):
+        for _ in range(_MAX_ROUNDS):
             known |= {row.tobytes() for row in flags}
             before = dict(best)
             for name, values in self.criterion_figures(flags).items():
                 most = float(values.max())
-                slack = _ALIKE * abs(most)
+                slack = _ROUNDING * abs(most)
                 if most > -np.inf and (name not in best or most > best[name][0] + slack):
                     best[name] = (most, flags[int(np.argmax(values >= most - slack))])
-            if best == before or not EVERY < self.count <= ONE_BY_ONE:
+            if best == before or not EXHAUSTIVE_SECTIONS < self.count <= SINGLE_CHANGE_SECTIONS:
                 break
             single = np.eye(self.count, dtype=bool)
             near = np.concatenate([loading ^ single for _, loading in best.values()])
-            flags = np.array([row for row in _distinct(near) if row.tobytes() not in known])
+            flags = np.array([row for row in _distinct_rows(near) if row.tobytes() not in known])
             if not flags.size:
                 break
         return best
 
-    def _first_tried(self) -> Flags:
+    def _first_tried(self) -> LoadingRows:
         """All loadings of a short route, the standard ones first; on a long one those by signs."""
         standard = np.array(self.standard)
-        if self.count <= EVERY:
+        if self.count <= EXHAUSTIVE_SECTIONS:
             every = np.array(list(itertools.product([True, False], repeat=self.count)))
-            return _distinct(np.concatenate([standard, every]))
+            return _distinct_rows(np.concatenate([standard, every]))
         of_drives = np.array(list(self.worst().values()))
-        return _distinct(
+        return _distinct_rows(
             np.concatenate([standard, of_drives, self._corners(), np.array(list(self._by_signs()))])
         )
 
-    def _corners(self) -> Flags:
+    def _corners(self) -> LoadingRows:
         """Loadings at corners of the sums of resistance and mass, with sections that slip first."""
-        mass, rows = self._masses[1], list[Flags]()
+        mass, rows = self._masses[1], list[LoadingRows]()
         steady, least = (self.resistance(friction)[1] for friction in (1.0, self.line.least_friction))
         for more in (steady, least, steady + self._sticking[1]):
             square = 0.5 * np.pi
             turns = np.sort(np.concatenate([np.arctan2(mass, more) + s * square for s in (-1.0, 1.0)]))
             between = 0.5 * (turns + np.append(turns[1:], turns[0] + 4.0 * square))
-            if self.count > ONE_BY_ONE:  # neighbouring corners differ by a section or two
-                between = between[:: math.ceil(between.size / _CORNERS)]
+            if self.count > SINGLE_CHANGE_SECTIONS:  # neighbouring corners differ by a section or two
+                between = between[:: math.ceil(between.size / _MAX_CORNERS)]
             rows.append(np.outer(np.cos(between), more) + np.outer(np.sin(between), mass) > 0.0)
         corners = np.concatenate(rows)
         *limits, slides = self._slip_limits
-        first = [np.arange(self.count) == k for limit in limits for k in np.argsort(limit)[:_TRIED]]
+        first = [np.arange(self.count) == k for limit in limits for k in np.argsort(limit)[:_SLIP_CANDIDATES]]
         return np.concatenate([corners, *((corners | one) & ~slides for one in first)])
 
     def _by_signs(self) -> Iterator[Loading]:
         """Loadings with the highest and the lowest tension at constant speed, at every place evaluated."""
         events = self.events
         everywhere = range(events.force.size + 1)
-        places = everywhere if self.count <= ONE_BY_ONE else sorted(self._places)
+        places = everywhere if self.count <= SINGLE_CHANGE_SECTIONS else sorted(self._places)
         for friction in (1.0, self.line.least_friction):
             step = events.more_certain + friction * (events.more_force - events.more_certain)
             whole = self.resistance(friction)[1]
@@ -139,13 +139,13 @@ class CriterionLoadings(Loadings):
     def _stretches(self) -> tuple[int, ...]:
         """Stretches with curves or raised sets, in loop order."""
         line = self.line
-        if self.count > ONE_BY_ONE:
+        if self.count > SINGLE_CHANGE_SECTIONS:
             return ()
         curved = {section.name for section in line.sections if section.curve is not None}
         return tuple(
             k
             for k, one in enumerate(line.loop.stretches)
-            if one.section in curved or one.turn is not None or raised(one) > 0.0
+            if one.section in curved or one.turn is not None or raised_height(one) > 0.0
         )
 
     @cached_property
@@ -177,7 +177,7 @@ class CriterionLoadings(Loadings):
             slowing[i], starting[i] = -low, high
         return slowing, starting, slides
 
-    def criterion_figures(self, flags: Flags) -> Figures:
+    def criterion_figures(self, flags: LoadingRows) -> CriterionFigures:
         """Figures of the criteria under loadings.
 
         Parameters
@@ -192,52 +192,52 @@ class CriterionLoadings(Loadings):
         """
         return self._of_motion(flags) | self._of_tension(flags)
 
-    def _sums(self, linear: tuple[float, Array], flags: Flags) -> Array:
+    def _sums(self, linear: tuple[float, Array], flags: LoadingRows) -> Array:
         """A sum over the sections under loadings, shape (m,)."""
         return np.asarray(linear[0] + flags @ linear[1])
 
-    def _of_motion(self, flags: Flags) -> Figures:
+    def _of_motion(self, flags: LoadingRows) -> CriterionFigures:
         """Figures that depend on resistance and mass alone."""
-        line, figures = self.line, Figures()
+        line, figures = self.line, CriterionFigures()
         steady, least = (self._sums(self.resistance(f), flags) for f in (1.0, line.least_friction))
         mass = self._sums(self._masses, flags)
         whole, brakes = mass + self.rotating.sum(), float(self.brakes.sum())
         if line.stop_deceleration is not None:
             figures["stopping brake"] = line.stop_deceleration * whole - least
-        figures["coast-down stop"] = _where(least > 0.0, whole / np.where(least > 0.0, least, 1.0))
+        figures["coast-down stop"] = _where_present(least > 0.0, whole / np.where(least > 0.0, least, 1.0))
         slowing = figures["coasting"] = np.maximum(steady, 0.0) / whole
         if brakes > 0.0:
             gripping = np.maximum(0.0, line.speed - least / whole * line.brake_delay)
             braked = np.where(gripping > 0.0, least + brakes, least) / whole
             stops = (braked > 0.0) & (gripping > 0.0)
             after = gripping / np.where(stops, braked, 1.0)
-            figures["brake heat"] = _where(stops, 0.5 * brakes * gripping * after)
+            figures["brake heat"] = _where_present(stops, 0.5 * brakes * gripping * after)
             unbraked = line.speed * whole / np.where(least > 0.0, least, 1.0)
             figures["stop with brakes"] = np.where(
-                stops, line.brake_delay + after, _where((gripping == 0.0) & (least > 0.0), unbraked)
+                stops, line.brake_delay + after, _where_present((gripping == 0.0) & (least > 0.0), unbraked)
             )
             slowing = np.maximum(slowing, braked)
         start, pushing = self._motion(self._states[1], steady, mass)
         *limits, slides = self._slip_limits
         hard, fast = (np.where(flags, limit, np.inf).min(axis=-1) for limit in limits)
         rests = np.asarray(~(flags & slides).any(axis=-1))
-        figures["slip on stopping"] = _where(rests, np.maximum(slowing, -start) / hard)
-        figures["slip on starting"] = _where(rests, np.maximum(start, 0.0) / fast)
+        figures["slip on stopping"] = _where_present(rests, np.maximum(slowing, -start) / hard)
+        figures["slip on starting"] = _where_present(rests, np.maximum(start, 0.0) / fast)
         pulls, pull = steady > 0.0, self.full.frame.standing.pull
         if pull.kind == "limited":
-            asked = asked_over_given(pull, np.where(pulls, steady, 1.0), mass)
-            figures["start of the motors"] = _where(pulls, asked)
+            asked = start_force_ratio(pull, np.where(pulls, steady, 1.0), mass)
+            figures["start of the motors"] = _where_present(pulls, asked)
         at_rest, rated = np.ones_like(steady), rated_force(line)  # motors not given are one for every load
-        if uncontrolled(line):
+        if is_start_uncontrolled(line):
             at_rest = steady + (line.torque_curve[0][1] * (rated or 0.0) - steady) * mass / whole
         elif rated is not None:
             at_rest = np.maximum(pushing.sum(axis=0), rated)
-        figures["breakaway"] = _where(pulls, -at_rest / (steady + self._sums(self._sticking, flags)))
+        figures["breakaway"] = _where_present(pulls, -at_rest / (steady + self._sums(self._sticking, flags)))
         return figures
 
-    def _of_tension(self, flags: Flags) -> Figures:
+    def _of_tension(self, flags: LoadingRows) -> CriterionFigures:
         """Figures that depend on tensions, in every state of motion that occurs under each loading."""
-        line, figures = self.line, Figures()
+        line, figures = self.line, CriterionFigures()
         steady, least = (self._sums(self.resistance(f), flags) for f in (1.0, line.least_friction))
         mass, brakes = self._sums(self._masses, flags), float(self.brakes.sum())
         occurs = {
@@ -264,7 +264,7 @@ class CriterionLoadings(Loadings):
             if state.over == 1.0:
                 found |= self._of_sag(ends.min(axis=0), flags)
             for name, everywhere in found.items():
-                values = _where(here, everywhere)
+                values = _where_present(here, everywhere)
                 figures[name] = np.maximum(figures.get(name, values), values)
                 if state.name == STEADY:
                     figures[f"{name}, steady"] = values
@@ -275,14 +275,16 @@ class CriterionLoadings(Loadings):
                 slack = np.minimum(tensions[:, d], tensions[:, d + 1])
                 pulls = asked > 0.0
                 over = -slack / np.where(pulls, asked, 1.0)
-                for name, there in _called(state.name, here, steady):
-                    figures[f"grip of {drive.name}, {name}"] = _where(there & pulls, over)
-                    figures[f"slack at {drive.name}, {name}"] = _where(there & ~pulls, -slack)
+                for name, there in _state_names(state.name, here, steady):
+                    figures[f"grip of {drive.name}, {name}"] = _where_present(there & pulls, over)
+                    figures[f"slack at {drive.name}, {name}"] = _where_present(there & ~pulls, -slack)
             if state.name == START:
                 figures["speed of the carriage"] = np.abs((means[START] - means[STEADY]) * acceleration)
         return figures
 
-    def _over_the_take_up(self, friction: float, flags: Flags, acceleration: Array, forces: Array) -> Array:
+    def _over_the_take_up(
+        self, friction: float, flags: LoadingRows, acceleration: Array, forces: Array
+    ) -> Array:
         """Tension before and behind every event over the take-up's [N], shape (m, e + 1)."""
         events = self.events
         step = events.certain + friction * (events.force - events.certain)
@@ -293,7 +295,7 @@ class CriterionLoadings(Loadings):
         offsets = np.concatenate([np.zeros((len(flags), 1)), np.cumsum(steps, axis=-1)], axis=-1)
         return np.asarray(offsets - (offsets @ self._anchor)[:, None])
 
-    def _of_places(self, tensions: Array, flags: Flags) -> Iterator[tuple[str, Array]]:
+    def _of_places(self, tensions: Array, flags: LoadingRows) -> Iterator[tuple[str, Array]]:
         """Tensions of one state that criteria use; the lowest with reversed sign."""
         yield "tension", tensions.max(axis=-1)
         yield "slack", -tensions.min(axis=-1)
@@ -308,15 +310,15 @@ class CriterionLoadings(Loadings):
             yield f"least of stretch {k}", -low
             if k >= self.count:  # its bulk holds a curve and bears on its sets
                 for words, on in (("loaded", flags[:, k - self.count]), ("empty", ~flags[:, k - self.count])):
-                    yield f"stretch {k}, {words}", _where(on, high)
-                    yield f"least of stretch {k}, {words}", _where(on, -low)
+                    yield f"stretch {k}, {words}", _where_present(on, high)
+                    yield f"least of stretch {k}, {words}", _where_present(on, -low)
         if self.line.transitions:
             tail, head = tensions[:, self.stretch_at[self.count]], tensions[:, self.stretch_at[-1] + 1]
             for end, there in (("tail", tail), ("head", head)):
                 yield f"transition, {end}", there
                 yield f"least of transition, {end}", -there
 
-    def _of_sag(self, low: Array, flags: Flags) -> Iterator[tuple[str, Array]]:
+    def _of_sag(self, low: Array, flags: LoadingRows) -> Iterator[tuple[str, Array]]:
         """Lowest tension of each strand over that needed for the sag, with reversed sign."""
         on = np.column_stack([np.ones_like(flags), flags])
         over = low / (self.least + on * self.more_least)
@@ -328,7 +330,9 @@ class CriterionLoadings(Loadings):
             )
 
 
-def _called(state: str, here: NDArray[np.bool_], steady: Array) -> Iterator[tuple[str, NDArray[np.bool_]]]:
+def _state_names(
+    state: str, here: NDArray[np.bool_], steady: Array
+) -> Iterator[tuple[str, NDArray[np.bool_]]]:
     """Names of a state and masks of the loadings that have them: a belt that drives brakes instead of starting."""
     if state != START:
         yield state, here
@@ -337,11 +341,11 @@ def _called(state: str, here: NDArray[np.bool_], steady: Array) -> Iterator[tupl
         yield BRAKING, here & (steady < 0.0)
 
 
-def _where(there: NDArray[np.bool_], values: Array) -> Array:
+def _where_present(there: NDArray[np.bool_], values: Array) -> Array:
     """Values where the mask is true, else -inf."""
     return np.where(there, values, -np.inf)
 
 
-def _distinct(flags: Flags) -> Flags:
+def _distinct_rows(flags: LoadingRows) -> LoadingRows:
     """Distinct loadings in their order."""
     return np.array(list({row.tobytes(): row for row in flags}.values()))

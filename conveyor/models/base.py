@@ -16,15 +16,15 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 from pydantic_core.core_schema import ModelSchema
 
 from conveyor.errors import InputError, SpecError
-from conveyor.models.wording import Location, message
-from conveyor.units import System, is_quantity, written
-from conveyor.units.sentences import told
+from conveyor.models.validation_messages import Location, error_message
+from conveyor.units import System, is_quantity, spec_value
+from conveyor.units.sentences import error_in_units
 
 _SMALLEST, _LARGEST = 1e-30, 1e30
 """Smallest and largest size of a plain number other than zero: products of a few stay finite."""
 
 
-def _sized(value: float) -> float:
+def _check_magnitude(value: float) -> float:
     """Refuse a number too small or too large to compute with."""
     if value == 0.0 or _SMALLEST <= abs(value) <= _LARGEST:
         return value
@@ -35,7 +35,7 @@ def _sized(value: float) -> float:
     )
 
 
-Number = Annotated[float, Strict(), AfterValidator(_sized)]
+Number = Annotated[float, Strict(), AfterValidator(_check_magnitude)]
 Count = Annotated[int, Strict()]
 Switch = Annotated[bool, Strict()]
 Name = Annotated[str, StringConstraints(min_length=1, max_length=100, pattern=r"^\S(.*\S)?$")]
@@ -48,7 +48,7 @@ class Problem(NamedTuple):
     message: str | InputError
 
 
-def refuse(title: str, problems: Iterable[Problem], system: System = "SI") -> None:
+def raise_problems(title: str, problems: Iterable[Problem], system: System = "SI") -> None:
     """Raise one pydantic error with all problems, each at its own field; return where there are none.
 
     Raises
@@ -58,7 +58,7 @@ def refuse(title: str, problems: Iterable[Problem], system: System = "SI") -> No
     """
     details = [
         InitErrorDetails(
-            type=PydanticCustomError("conflict", "{message}", {"message": _told(message, system)}),
+            type=PydanticCustomError("conflict", "{message}", {"message": _problem_text(message, system)}),
             loc=location,
             input=None,
         )
@@ -68,8 +68,8 @@ def refuse(title: str, problems: Iterable[Problem], system: System = "SI") -> No
         raise ValidationError.from_exception_data(title, details)
 
 
-def _told(message: str | InputError, system: System) -> str:
-    return message if isinstance(message, str) else str(told(message, system))
+def _problem_text(message: str | InputError, system: System) -> str:
+    return message if isinstance(message, str) else str(error_in_units(message, system))
 
 
 def real_errors(error: ValidationError) -> list[dict[str, Any]]:
@@ -107,11 +107,11 @@ def field_docs(model: type[BaseModel]) -> dict[str, str]:
     for owner in reversed(model.__mro__):
         if issubclass(owner, BaseModel) and owner is not BaseModel:
             (written_down,) = ast.parse(dedent(inspect.getsource(owner))).body
-            docs |= _docs_below(written_down.body if isinstance(written_down, ast.ClassDef) else [])
+            docs |= _docs_after_fields(written_down.body if isinstance(written_down, ast.ClassDef) else [])
     return {name: docs[name] for name in model.model_fields if name in docs}
 
 
-def _docs_below(statements: list[ast.stmt]) -> dict[str, str]:
+def _docs_after_fields(statements: list[ast.stmt]) -> dict[str, str]:
     """String literals that follow annotated assignments, by field name."""
     docs = {}
     for field, after in pairwise(statements):
@@ -136,7 +136,7 @@ class _SchemaWriter(GenerateJsonSchema):
             return dft.as_data()
         if isinstance(dft, tuple):
             return [self.encode_default(each) for each in dft]
-        return written(dft) if is_quantity(dft) else super().encode_default(dft)
+        return spec_value(dft) if is_quantity(dft) else super().encode_default(dft)
 
 
 class Model(BaseModel):
@@ -245,7 +245,7 @@ class Model(BaseModel):
     @classmethod
     def refusal(cls, error: ValidationError) -> SpecError:
         """Error of a failed validation, every refusal on its own line."""
-        return SpecError((field_path(item["loc"]), message(item, cls)) for item in real_errors(error))
+        return SpecError((field_path(item["loc"]), error_message(item, cls)) for item in real_errors(error))
 
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
@@ -258,9 +258,9 @@ class Model(BaseModel):
 
     def _repr_html_(self) -> str:
         """Field list for notebooks, as entered."""
-        from conveyor.markup import listing
+        from conveyor.markup import name_value_table
 
-        return listing(type(self).__name__, self.as_data().items())
+        return name_value_table(type(self).__name__, self.as_data().items())
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle the given fields as plain data: pint quantities do not survive another process's registry."""
@@ -271,7 +271,7 @@ class Model(BaseModel):
 M = TypeVar("M", bound=BaseModel)
 
 
-def validate(model: type[M], data: object, context: dict[str, Any] | None = None) -> M:
+def validate_model(model: type[M], data: object, context: dict[str, Any] | None = None) -> M:
     """Make a model from plain data; errors keep their pydantic locations, to be looked up in a file.
 
     Parameters

@@ -6,10 +6,10 @@ from typing import Annotated, ClassVar, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
-from conveyor.laws.sizing import Severity
-from conveyor.models.base import Model, Number, Problem, refuse
+from conveyor.laws.preliminary_sizing import Severity
+from conveyor.models.base import Model, Number, Problem, raise_problems
 from conveyor.models.compound import CompoundReference, RubberCompound
-from conveyor.models.listed import Listed, ListedName
+from conveyor.models.library_items import EntryName, LibraryItem
 from conveyor.units import (
     AreaMass,
     BeltMass,
@@ -23,22 +23,22 @@ from conveyor.units import (
     Temperature,
     Thickness,
     Time,
-    display,
+    format_si,
     is_kind,
     si,
-    system_of,
     text,
+    unit_system,
 )
 
 RUBBER_DENSITY: Final = 1150.0
 """Density of cover rubber where the compound states none [kg/m³]: about 1.15 kg/m² per mm of cover."""
-LISTED_TO: Final = 0.5e-3
+THICKNESS_TOLERANCE: Final = 0.5e-3
 """Precision of listed belt thicknesses [m]: a larger mismatch is a slip."""
 
 CoverThickness = Annotated[Thickness, Bounds(gt="0 mm", le="50 mm")]
 
 
-def _density(compound: RubberCompound | None) -> float:
+def _rubber_density(compound: RubberCompound | None) -> float:
     return RUBBER_DENSITY if compound is None or compound.density is None else si(compound.density)
 
 
@@ -53,7 +53,7 @@ class Cover(Model):
     @property
     def area_mass(self) -> float:
         """Mass per area [kg/m²]."""
-        return si(self.thickness) * _density(self.compound)
+        return si(self.thickness) * _rubber_density(self.compound)
 
 
 class TopCover(Model):
@@ -67,7 +67,7 @@ class TopCover(Model):
     @property
     def area_mass(self) -> float:
         """Mass per area [kg/m²]."""
-        return si(self.thickness) * _density(self.compound)
+        return si(self.thickness) * _rubber_density(self.compound)
 
 
 class BulkWear(Model):
@@ -135,11 +135,11 @@ class Carcass(Model):
             names = ("relaxing_stiffness", "relaxation_time")
             missing, other = names if self.relaxing_stiffness is None else names[::-1]
             problems.append(Problem((missing,), f"missing: {other} is given and needs it, or remove {other}"))
-        refuse("Carcass", problems)
+        raise_problems("Carcass", problems)
         return self
 
 
-class Belt(Listed):
+class Belt(LibraryItem):
     """A belt as listed by its maker, and its speed."""
 
     library: ClassVar = "belts"
@@ -161,25 +161,25 @@ class Belt(Listed):
     """Lowest temperature that covers and carcass bear, by the belt's maker."""
     highest_temperature: Annotated[Temperature, Bounds(ge="-100 degC", le="400 degC")] | None = None
     """Highest temperature that they bear."""
-    listed: ListedName | None = None
+    listed: EntryName | None = None
     """Entry of the belt library that gives what is not given here."""
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
-        refuse("Belt", self._problems())
+        raise_problems("Belt", self._problems())
         return self
 
     def _problems(self) -> list[Problem]:
         problems = []
         parts = (self.top_cover.thickness, self.bottom_cover.thickness, self.carcass.thickness)
         total = sum(si(part) for part in parts)
-        if self.thickness is not None and abs(total - si(self.thickness)) > LISTED_TO:
+        if self.thickness is not None and abs(total - si(self.thickness)) > THICKNESS_TOLERANCE:
             listed = " + ".join(text(part) for part in parts)
             problems.append(
                 Problem(
                     ("thickness",),
                     f"got {text(self.thickness)}, but top cover + bottom cover + carcass are {listed} = "
-                    f"{display(total, 'thickness', system_of(self.thickness))}; correct belt.thickness or the "
+                    f"{format_si(total, 'thickness', unit_system(self.thickness))}; correct belt.thickness or the "
                     "part that is wrong",
                 )
             )
@@ -214,10 +214,10 @@ class Belt(Listed):
 
     def _in_words(self, line_mass: float) -> str:
         """Mass per length as text; per area where the belt's mass is given so; units of the width."""
-        system = system_of(self.width)
+        system = unit_system(self.width)
         if self.mass is None or is_kind(self.mass, "line mass"):
-            return display(line_mass, "line mass", system)
-        return display(line_mass / si(self.width), "area mass", system)
+            return format_si(line_mass, "line mass", system)
+        return format_si(line_mass / si(self.width), "area mass", system)
 
     @property
     def _cover_line_mass(self) -> float:

@@ -7,7 +7,7 @@ from typing import Annotated, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
-from conveyor.models.base import Model, Name, Problem, refuse
+from conveyor.models.base import Model, Name, Problem, raise_problems
 from conveyor.models.operation import BeltSpeed, EarthTemperature
 from conveyor.units import Bounds, Fraction, Quantity, text
 
@@ -50,7 +50,7 @@ class LoadCase(Model):
                     f'got {len(self.sections)} names with loading "{self.loading}"; set loading to "sections"'
                 )
             problems.append(Problem(("sections",), message))
-        refuse("LoadCase", problems)
+        raise_problems("LoadCase", problems)
         return self
 
 
@@ -82,7 +82,7 @@ def standard_cases(
     )
 
 
-def named_once(cases: Iterable[LoadCase]) -> Iterator[Problem]:
+def duplicate_case_names(cases: Iterable[LoadCase]) -> Iterator[Problem]:
     """Refuse load cases that share a name."""
     first: dict[str, int] = {}
     for i, case in enumerate(cases):

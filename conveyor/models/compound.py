@@ -12,9 +12,9 @@ from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, Validati
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from conveyor.arguments import checked
-from conveyor.errors import Amount, InputError, RangeError
-from conveyor.models.base import Model, Name, Number, Problem, refuse
+from conveyor.arguments import check_arguments
+from conveyor.errors import InputError, MessageQuantity, RangeError
+from conveyor.models.base import Model, Name, Number, Problem, raise_problems
 from conveyor.models.rolling_tests import RollingTest
 from conveyor.models.rubber_data import (
     AbsoluteTemperature,
@@ -31,7 +31,7 @@ from conveyor.units import (
     Bounds,
     Density,
     Quantity,
-    display,
+    format_si,
     from_si,
     quantity,
     si,
@@ -106,22 +106,22 @@ class RubberCompound(Model):
             problems.append(
                 Problem(("tests",), "missing; with a carrier's spectrum the tests are all that is known")
             )
-        refuse("RubberCompound", problems)
+        raise_problems("RubberCompound", problems)
         return self
 
     def __repr__(self) -> str:
         prony, shift = self.prony, "no shift" if self.shift is None else f"shift {self.shift.law}"
         return (
             f'RubberCompound("{self.name}": {self.kind}, {len(prony.terms)} terms at '
-            f"{display(self.reference, 'temperature')}, equilibrium modulus "
-            f"{display(si(prony.equilibrium), 'pressure')}, {shift})"
+            f"{format_si(self.reference, 'temperature')}, equilibrium modulus "
+            f"{format_si(si(prony.equilibrium), 'pressure')}, {shift})"
         )
 
     def __str__(self) -> str:
         return repr(self)
 
     @classmethod
-    @checked
+    @check_arguments
     def from_series(
         cls,
         series: PronySeries,
@@ -192,12 +192,12 @@ class RubberCompound(Model):
         ... )
         RubberCompound("mine": illustrative, 2 terms at 20 degC, equilibrium modulus 4 MPa, shift wlf)
         """
-        at = _temperature(reference_temperature)
+        at = _temperature_quantity(reference_temperature)
         if shift is not None and not math.isclose(shift.reference, si(at), rel_tol=CONVERSION_ROUNDING):
             raise InputError(
                 "shift: its reference is {}, that of the series {}; give both at one temperature",
-                _asked(shift.reference),
-                _asked(si(at)),
+                _temperature_amount(shift.reference),
+                _temperature_amount(si(at)),
             )
         if (frequencies is None) != (temperatures is None):
             raise InputError(
@@ -218,15 +218,15 @@ class RubberCompound(Model):
                 "poisson_ratio": poisson_ratio,
                 "density": None if density is None else from_si(density, "density"),
                 "reference_temperature": at,
-                "prony": _prony(series),
-                "shift": _shift(shift, log10_b_T),
+                "prony": _prony_data(series),
+                "shift": _shift_data(shift, log10_b_T),
                 "range": None
                 if frequencies is None or temperatures is None
                 else {
                     "frequency": [from_si(limit, "frequency", "Hz") for limit in frequencies],
-                    "temperature": list(map(_temperature, temperatures)),
+                    "temperature": list(map(_temperature_quantity, temperatures)),
                 },
-                "strain_dependence": None if strain is None else _strain_dependence(strain),
+                "strain_dependence": None if strain is None else _strain_data(strain),
                 "missing": [what for what, known in unknown.items() if known is None],
             }
         )
@@ -298,8 +298,8 @@ class RubberCompound(Model):
                 'compound "{}" is known from {} to {} (its range.temperature), not at {}; calculate inside this range '
                 "or extend its data",
                 self.name,
-                *map(_given, (low, high)),
-                _asked(temperature),
+                *map(_stated_amount, (low, high)),
+                _temperature_amount(temperature),
             )
 
     def series(self, temperature: float) -> PronySeries:
@@ -371,7 +371,7 @@ class RubberCompound(Model):
         return tuple(
             self.replace(
                 shift=shift,
-                prony=_prony(series),
+                prony=_prony_data(series),
             )
             for series, shift in zip(self._reference_replicas(), self._replica_shifts(), strict=True)
         )
@@ -393,8 +393,8 @@ class RubberCompound(Model):
                 'compound "{}" has no temperature shift: it is known at {} only, not at {}; give it a shift law, or '
                 "calculate at its reference temperature",
                 self.name,
-                _given(self.reference_temperature),
-                _asked(temperature),
+                _stated_amount(self.reference_temperature),
+                _temperature_amount(temperature),
             )
 
     def _at(
@@ -409,15 +409,15 @@ class RubberCompound(Model):
 
     def _shifted(self, series: PronySeries, shift: Shift | None, temperature: float) -> PronySeries:
         """One series shifted to a temperature [K]."""
-        from conveyor.rubber import shifted
+        from conveyor.rubber import shift_series
 
         if shift is None:
             return series
         b_T = shift.vertical(temperature) if isinstance(shift, TableShift) else 1.0
-        return shifted(series, shift.at(self.reference), temperature, b_T=b_T)
+        return shift_series(series, shift.at(self.reference), temperature, b_T=b_T)
 
 
-def _temperature(given: float | str | Quantity) -> Quantity:
+def _temperature_quantity(given: float | str | Quantity) -> Quantity:
     """Temperature as a quantity; a plain number is in kelvin."""
     return (
         from_si(given, "temperature", "K")
@@ -426,7 +426,7 @@ def _temperature(given: float | str | Quantity) -> Quantity:
     )
 
 
-def _prony(series: PronySeries) -> dict[str, Any]:
+def _prony_data(series: PronySeries) -> dict[str, Any]:
     """Compound-file data of a series."""
     return {
         "equilibrium": from_si(series.equilibrium, "pressure", "Pa"),
@@ -437,7 +437,7 @@ def _prony(series: PronySeries) -> dict[str, Any]:
     }
 
 
-def _shift(
+def _shift_data(
     law: WLF | Arrhenius | ShiftTable | None, log10_b_T: Sequence[float] | NDArray[np.float64] | None
 ) -> dict[str, Any] | None:
     """Compound-file data of a shift law."""
@@ -447,7 +447,7 @@ def _shift(
         vertical = None if log10_b_T is None else list(map(float, log10_b_T))
         return {
             "law": "table",
-            "temperature": list(map(_temperature, law.temperatures.tolist())),
+            "temperature": list(map(_temperature_quantity, law.temperatures.tolist())),
             "log10_aT": law.log10_factors.tolist(),
             "log10_bT": vertical,
         }
@@ -463,13 +463,13 @@ def _shift(
     return {"law": "arrhenius", "activation_energy": energy}
 
 
-def _strain_dependence(factors: AmplitudeFactors) -> dict[str, Any]:
+def _strain_data(factors: AmplitudeFactors) -> dict[str, Any]:
     """Compound-file data of strain factors."""
     return {
         "reference_strain": from_si(factors.reference_strain, "fraction"),
         "sweeps": [
             {
-                "temperature": _temperature(sweep.temperature),
+                "temperature": _temperature_quantity(sweep.temperature),
                 "frequency": from_si(sweep.frequency, "frequency", "Hz"),
                 "strain": (100.0 * sweep.strain).tolist(),
                 "unit": "Pa",
@@ -481,17 +481,19 @@ def _strain_dependence(factors: AmplitudeFactors) -> dict[str, Any]:
     }
 
 
-def _asked(temperature: float) -> Amount:
+def _temperature_amount(temperature: float) -> MessageQuantity:
     """Temperature [K] for a message."""
-    return Amount(temperature, "temperature", display(temperature, "temperature", digits=6), digits=6)
+    return MessageQuantity(
+        temperature, "temperature", format_si(temperature, "temperature", digits=6), digits=6
+    )
 
 
-def _given(temperature: Quantity) -> Amount:
+def _stated_amount(temperature: Quantity) -> MessageQuantity:
     """Temperature for a message, as written in the compound file."""
-    return Amount(si(temperature), "temperature", text(temperature), digits=6)
+    return MessageQuantity(si(temperature), "temperature", text(temperature), digits=6)
 
 
-def _resolved(value: Any, info: ValidationInfo) -> Any:
+def _resolve_compound(value: Any, info: ValidationInfo) -> Any:
     """Look up a compound given by name or path with the resolver of the context."""
     if not isinstance(value, str):
         return value
@@ -505,13 +507,13 @@ def _resolved(value: Any, info: ValidationInfo) -> Any:
         raise PydanticCustomError("compound", "{message}", {"message": str(error)}) from None
 
 
-class _Resolved:
+class _CompoundMarker:
     """Annotation of a compound that may be given by name or path."""
 
     wanted = "a compound by its name or path"
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.with_info_before_validator_function(_resolved, handler(source))
+        return core_schema.with_info_before_validator_function(_resolve_compound, handler(source))
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
@@ -519,5 +521,5 @@ class _Resolved:
         return {"anyOf": [{"type": "string"}, handler(schema)]}
 
 
-CompoundReference = Annotated[RubberCompound, _Resolved()]
+CompoundReference = Annotated[RubberCompound, _CompoundMarker()]
 """A compound, or its shelf name or path where the validation context has a resolver."""

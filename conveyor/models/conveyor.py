@@ -7,13 +7,13 @@ from typing import Annotated, Any, Final, Self
 
 from pydantic import Field, ValidationError, model_validator
 
-from conveyor.models.base import Model, Problem, refuse
-from conveyor.models.cases import LoadCase, named_once
-from conveyor.models.checks import CONFLICTS, flooded_section, largest_section
+from conveyor.models.base import Model, Problem, raise_problems
+from conveyor.models.cases import LoadCase, duplicate_case_names
+from conveyor.models.part_conflicts import CONFLICTS, flooded_section, largest_section
 from conveyor.models.parts import ConveyorParts
 from conveyor.models.report import Report
 from conveyor.models.scenarios import Scenario, scenario_problems
-from conveyor.models.uncertainty import Uncertainty
+from conveyor.models.uncertain_inputs import Uncertainty
 from conveyor.units import si, text
 
 
@@ -50,7 +50,9 @@ class Conveyor(ConveyorParts):
 
     @model_validator(mode="after")
     def _parts_fit(self) -> Self:
-        refuse("Conveyor", [problem for check in CHECKS for problem in check(self)], self.report.units)
+        raise_problems(
+            "Conveyor", [problem for check in CHECKS for problem in check(self)], self.report.units
+        )
         return self
 
     def with_parts(
@@ -79,7 +81,7 @@ class Conveyor(ConveyorParts):
             if (key := (check, *(numbers.get(name, 0) for name in reads))) not in fit
         }
         try:
-            refuse(
+            raise_problems(
                 "Conveyor", [problem for check in new.values() for problem in check(made)], made.report.units
             )
         except ValidationError as error:
@@ -89,7 +91,7 @@ class Conveyor(ConveyorParts):
 
     def _case_names(self) -> Iterator[Problem]:
         """Refuse load cases that share a name."""
-        yield from named_once(self.cases)
+        yield from duplicate_case_names(self.cases)
 
     def _case_problems(self) -> Iterator[Problem]:
         """Refuse cases and scenarios that name sections or drives the conveyor does not have."""

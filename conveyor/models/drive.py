@@ -10,10 +10,10 @@ from typing import Annotated, Any, Final, Self
 from pydantic import ConfigDict, Field, model_validator
 
 from conveyor.laws.resistance import FRICTION_FACTOR, FRICTION_FACTOR_DOWNHILL
-from conveyor.models.base import Model, Name, Number, Problem, Switch, refuse
+from conveyor.models.base import Model, Name, Number, Problem, Switch, raise_problems
+from conveyor.models.drive_train import PRODUCT_TOLERANCE, DrivePart, train_efficiency, with_efficiency
+from conveyor.models.motor_starter import Starter
 from conveyor.models.route import SHARE_SUM_TOLERANCE, Position, position_problem
-from conveyor.models.starter import Starter
-from conveyor.models.train import PRODUCT_TOLERANCE, DrivePart, product, with_efficiency
 from conveyor.units import (
     Acceleration,
     Angle,
@@ -108,7 +108,7 @@ class DrivePulley(Model):
         if self.backstop is False and self.backstop_torque is not None:
             message = f"got {text(self.backstop_torque)} of a drive without a backstop (backstop: false); remove one"
             problems.append(Problem(("backstop_torque",), message))
-        refuse(type(self).__name__, problems)
+        raise_problems(type(self).__name__, problems)
         return self
 
     @property
@@ -137,7 +137,7 @@ class FurtherDrive(DrivePulley):
     """What it is called in reports."""
 
 
-def _train_instead(schema: dict[str, Any]) -> None:
+def _efficiency_or_train(schema: dict[str, Any]) -> None:
     """JSON schema: either the efficiency or the parts of the drive train."""
     schema["required"] = [name for name in schema["required"] if name != "efficiency"]
     schema["anyOf"] = [{"required": ["efficiency"]}, {"required": ["train"]}]
@@ -146,7 +146,7 @@ def _train_instead(schema: dict[str, Any]) -> None:
 class Drive(DrivePulley):
     """The drive pulley and its motor; further drives beside it."""
 
-    model_config = ConfigDict(json_schema_extra=_train_instead)
+    model_config = ConfigDict(json_schema_extra=_efficiency_or_train)
 
     efficiency: Annotated[Fraction, Bounds(gt="0 %", le="100 %")]
     """From the motor's shaft to the belt; may be left out where train is given: then the product of its parts there."""
@@ -179,7 +179,7 @@ class Drive(DrivePulley):
 
     @model_validator(mode="after")
     def _shared(self) -> Self:
-        refuse("Drive", [*self._share_problems(), *self._train_problems(), *self._torque_problems()])
+        raise_problems("Drive", [*self._share_problems(), *self._train_problems(), *self._torque_problems()])
         return self
 
     @property
@@ -200,7 +200,7 @@ class Drive(DrivePulley):
     @property
     def mains_efficiency(self) -> float:
         """Efficiency from mains to motor shaft [-]; 1 where the drive train has no part there."""
-        return product(self.train, "mains")
+        return train_efficiency(self.train, "mains")
 
     def _torque_problems(self) -> Iterator[Problem]:
         speeds = [si(point.speed) for point in self.torque_curve]
@@ -218,7 +218,7 @@ class Drive(DrivePulley):
                 yield Problem(("torque_curve", i, "speed"), message)
 
     def _train_problems(self) -> list[Problem]:
-        whole = product(self.train, "belt")
+        whole = train_efficiency(self.train, "belt")
         if not any(part.side == "belt" for part in self.train):
             return []
         if abs(si(self.efficiency) - whole) <= PRODUCT_TOLERANCE:

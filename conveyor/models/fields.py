@@ -15,15 +15,15 @@ from conveyor.models.compound import RubberCompound
 from conveyor.models.conveyor import Conveyor
 from conveyor.units import is_quantity
 
-Resolve: TypeAlias = Callable[[str], RubberCompound]
+CompoundResolver: TypeAlias = Callable[[str], RubberCompound]
 """Function that looks up a compound by name or path."""
 Change = TypeVar("Change")
-Made = TypeVar("Made")
-_PART: Final = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
-_WHOLE: Final = re.compile(r"[^.\[\]]+(?:\.[^.\[\]]+|\[\d+\])*")
+Outcome = TypeVar("Outcome")
+_PATH_PART: Final = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
+_FIELD_PATH: Final = re.compile(r"[^.\[\]]+(?:\.[^.\[\]]+|\[\d+\])*")
 
 
-class KnownParts:
+class PartCache:
     """Cache of the parts of one conveyor's variants, and of the checks between parts that they passed."""
 
     MOST: Final = 2048
@@ -51,8 +51,8 @@ def with_fields(
     conveyor: Conveyor,
     changes: Mapping[str, Any],
     *,
-    resolve: Resolve | None = None,
-    known: KnownParts | None = None,
+    resolve: CompoundResolver | None = None,
+    known: PartCache | None = None,
 ) -> Conveyor:
     """Copy of a conveyor with changed fields, checked like a new spec.
 
@@ -65,7 +65,7 @@ def with_fields(
         brackets, or by their `name` (`route.sections.incline.lift`).
     resolve : callable, optional
         Looks up compounds given by name or path.
-    known : KnownParts, optional
+    known : PartCache, optional
         Cache kept from call to call with one conveyor: parts shared by variants are one object, checked once.
 
     Raises
@@ -83,17 +83,17 @@ def with_fields(
     tree: dict[str, Any] = {}
     refused: list[str] = []
     try:
-        _gathered(changes.items(), lambda change: _plant(tree, *change))
+        _collect_results(changes.items(), lambda change: _insert_change(tree, *change))
     except InputError as error:
         refused.append(str(error))
-    parts = known or KnownParts()
+    parts = known or PartCache()
 
     def changed(change: tuple[str, Any]) -> tuple[str, tuple[int, Any]]:
-        name, below = _name(conveyor, change[0], ""), change[1]
-        make = partial(_changed, getattr(conveyor, name), below, name, resolve)
-        return name, parts.once((name, _frozen(below)), make)
+        name, below = _field_name(conveyor, change[0], ""), change[1]
+        make = partial(_apply_changes, getattr(conveyor, name), below, name, resolve)
+        return name, parts.once((name, _change_key(below)), make)
 
-    new = dict(_gathered(tree.items(), changed, refused))
+    new = dict(_collect_results(tree.items(), changed, refused))
     numbers = {name: number for name, (number, _) in new.items()}
     made = {name: part for name, (_, part) in new.items()}
     if not made:
@@ -101,10 +101,10 @@ def with_fields(
     alike = all(
         isinstance(part, Model) and type(part) is type(getattr(conveyor, name)) for name, part in made.items()
     )
-    return conveyor.with_parts(made, numbers, parts.fit) if alike else _replaced(conveyor, made, "")
+    return conveyor.with_parts(made, numbers, parts.fit) if alike else _replace_with_path(conveyor, made, "")
 
 
-def field(conveyor: Conveyor, path: str) -> Any:
+def field_value(conveyor: Conveyor, path: str) -> Any:
     """Value of a field by its path; None where a part on the way is not given.
 
     Raises
@@ -114,27 +114,27 @@ def field(conveyor: Conveyor, path: str) -> Any:
     """
     value: Any = conveyor
     way = ""
-    for part in _parts(path):
+    for part in _path_parts(path):
         if value is None:
             return None
         if isinstance(value, tuple):
-            value = value[_item(value, part, way)]
+            value = value[_item_number(value, part, way)]
         elif isinstance(value, Model):
-            value = getattr(value, _name(value, part, way))
+            value = getattr(value, _field_name(value, part, way))
         else:
             raise InputError(f"{path}: {way} has no parts")
         way = f"{way}.{part}" if way else part
     return value
 
 
-class _Leaf:
+class _NewValue:
     """New value at the end of a path."""
 
     def __init__(self, value: Any) -> None:
         self.value = value
 
 
-def check_path(path: str) -> None:
+def check_field_path(path: str) -> None:
     """Refuse text that is not the path of a field; the field need not exist.
 
     Raises
@@ -142,67 +142,67 @@ def check_path(path: str) -> None:
     InputError
         The text is no path.
     """
-    _parts(path)
+    _path_parts(path)
 
 
 @lru_cache(maxsize=1024)
-def _parts(path: str) -> tuple[str, ...]:
-    if _WHOLE.fullmatch(path) is None:
+def _path_parts(path: str) -> tuple[str, ...]:
+    if _FIELD_PATH.fullmatch(path) is None:
         raise InputError(f'{path}: no path of a field; expected names joined by points, as in "belt.speed"')
-    return tuple(name or number for name, number in _PART.findall(path))
+    return tuple(name or number for name, number in _PATH_PART.findall(path))
 
 
-def _plant(tree: dict[str, Any], path: str, value: Any) -> None:
+def _insert_change(tree: dict[str, Any], path: str, value: Any) -> None:
     """Insert a value at its path into the tree of changes."""
-    *way, last = _parts(path)
+    *way, last = _path_parts(path)
     for part in way:
         tree = tree.setdefault(part, {})
-        if isinstance(tree, _Leaf):
+        if isinstance(tree, _NewValue):
             raise InputError(f"{path}: a part of it is changed as a whole, too; give one of both")
     if last in tree:
         raise InputError(f"{path}: changed twice, or a field below it is; give one of both")
-    tree[last] = _Leaf(value)
+    tree[last] = _NewValue(value)
 
 
-def _changed(old: Any, below: Any, path: str, resolve: Resolve | None) -> Any:
-    if isinstance(below, _Leaf):
+def _apply_changes(old: Any, below: Any, path: str, resolve: CompoundResolver | None) -> Any:
+    if isinstance(below, _NewValue):
         if resolve is not None and isinstance(old, RubberCompound) and isinstance(below.value, str):
             return resolve(below.value)
         return below.value
     if isinstance(old, Model):
-        return _with_changed(old, below, path, resolve)
+        return _replace_fields(old, below, path, resolve)
     if isinstance(old, tuple):
         items = list(old)
 
         def item(change: tuple[str, Any]) -> None:
-            i = _item(old, change[0], path)
-            items[i] = _changed(items[i], change[1], f"{path}[{i}]", resolve)
+            i = _item_number(old, change[0], path)
+            items[i] = _apply_changes(items[i], change[1], f"{path}[{i}]", resolve)
 
-        _gathered(below.items(), item)
+        _collect_results(below.items(), item)
         return tuple(items)
     if old is None:
-        return _plain(below)
+        return _plain_changes(below)
     raise InputError(f"{path}: is a single value, it has no {', '.join(below)}")
 
 
-def _with_changed(old: Model, below: Mapping[str, Any], path: str, resolve: Resolve | None) -> Any:
+def _replace_fields(old: Model, below: Mapping[str, Any], path: str, resolve: CompoundResolver | None) -> Any:
     """Part with changed fields; all refusals in one error."""
     made, refused, wrong = {}, [], {}
     for key, lower in below.items():
         name = key
         try:
-            name = _name(old, key, path)
-            made[name] = _changed(getattr(old, name), lower, f"{path}.{name}", resolve)
+            name = _field_name(old, key, path)
+            made[name] = _apply_changes(getattr(old, name), lower, f"{path}.{name}", resolve)
         except InputError as error:
             refused.append(str(error))
             wrong[name] = object()
     if not wrong:
-        return _replaced(old, made, path)
+        return _replace_with_path(old, made, path)
     try:
         # the placeholders fail field validation, so checks between fields do not run
         old.replace(**made, **wrong)
     except InputError as error:
-        known = {*wrong, *(alias for alias, name in _aliases(type(old)).items() if name in wrong)}
+        known = {*wrong, *(alias for alias, name in _names_by_alias(type(old)).items() if name in wrong)}
         said = str(error).splitlines()
         refused += [
             f"{path}.{line}" for line in said if re.split(r"[.:\[]", line, maxsplit=1)[0] not in known
@@ -210,9 +210,9 @@ def _with_changed(old: Model, below: Mapping[str, Any], path: str, resolve: Reso
     raise InputError("\n".join(refused))
 
 
-def _gathered(
-    changes: Iterable[Change], make: Callable[[Change], Made], refused: Sequence[str] = ()
-) -> list[Made]:
+def _collect_results(
+    changes: Iterable[Change], make: Callable[[Change], Outcome], refused: Sequence[str] = ()
+) -> list[Outcome]:
     """Results of all changes; one error with all refusals, after those known already."""
     made, every = [], [*refused]
     for change in changes:
@@ -225,9 +225,9 @@ def _gathered(
     return made
 
 
-def _name(old: Model, key: str, path: str) -> str:
+def _field_name(old: Model, key: str, path: str) -> str:
     """Python name of a field by its name in specs."""
-    aliases = _aliases(type(old))
+    aliases = _names_by_alias(type(old))
     if key not in aliases:
         near = difflib.get_close_matches(key, aliases, n=1)
         guess = f"did you mean {near[0]}?" if near else f"there are {', '.join(aliases)}"
@@ -236,12 +236,12 @@ def _name(old: Model, key: str, path: str) -> str:
 
 
 @lru_cache(maxsize=128)
-def _aliases(model: type[Model]) -> dict[str, str]:
+def _names_by_alias(model: type[Model]) -> dict[str, str]:
     """Python names of a model's fields by their names in specs."""
     return {info.alias or name: name for name, info in model.model_fields.items()}
 
 
-def _item(items: tuple[Any, ...], part: str, path: str) -> int:
+def _item_number(items: tuple[Any, ...], part: str, path: str) -> int:
     """Index of an item given by index or name."""
     names = [getattr(item, "name", None) for item in items]
     if part in names:
@@ -252,7 +252,7 @@ def _item(items: tuple[Any, ...], part: str, path: str) -> int:
     raise InputError(f"{path}: has no item {part}; it has {known}")
 
 
-def _replaced(old: Model, made: Mapping[str, Any], path: str) -> Any:
+def _replace_with_path(old: Model, made: Mapping[str, Any], path: str) -> Any:
     try:
         return old.replace(**made)
     except InputError as error:
@@ -260,14 +260,18 @@ def _replaced(old: Model, made: Mapping[str, Any], path: str) -> Any:
         raise InputError("\n".join(map(placed, str(error).splitlines()))) from None
 
 
-def _plain(below: Any) -> Any:
-    return below.value if isinstance(below, _Leaf) else {key: _plain(lower) for key, lower in below.items()}
+def _plain_changes(below: Any) -> Any:
+    return (
+        below.value
+        if isinstance(below, _NewValue)
+        else {key: _plain_changes(lower) for key, lower in below.items()}
+    )
 
 
-def _frozen(below: Any) -> object:
+def _change_key(below: Any) -> object:
     """Hashable key of a tree of changes."""
-    if isinstance(below, _Leaf):
+    if isinstance(below, _NewValue):
         value = below.value
         told = (value.magnitude, value.units) if is_quantity(value) else repr(value)
         return type(value).__name__, told
-    return tuple(sorted((key, _frozen(lower)) for key, lower in below.items()))
+    return tuple(sorted((key, _change_key(lower)) for key, lower in below.items()))

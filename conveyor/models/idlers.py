@@ -8,9 +8,9 @@ from typing import Annotated, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
-from conveyor.laws.idlers import CemaClass
+from conveyor.laws.idler_sets import CemaClass
 from conveyor.laws.loading import NO_WING, Wing
-from conveyor.models.base import Model, Number, Problem, refuse
+from conveyor.models.base import Model, Number, Problem, raise_problems
 from conveyor.models.rolls import Roll
 from conveyor.units import (
     Angle,
@@ -146,7 +146,7 @@ class IdlerSet(Model):
         if self.rating is not None and self.cema_class is not None:
             message = f"got {text(self.rating)} beside cema_class {self.cema_class}; give one of the two"
             problems.append(Problem(("rating",), message))
-        refuse("IdlerSet", problems)
+        raise_problems("IdlerSet", problems)
         return self
 
     def _roll_problems(self) -> list[Problem]:

@@ -6,11 +6,11 @@ from typing import Annotated, ClassVar, Literal
 
 from conveyor.laws.loading import surcharge_from_slope
 from conveyor.models.base import Name
-from conveyor.models.listed import Listed, ListedName
+from conveyor.models.library_items import EntryName, LibraryItem
 from conveyor.units import Angle, Bounds, Density, MassFlow, si
 
 
-class BulkMaterial(Listed):
+class BulkMaterial(LibraryItem):
     """What the belt carries."""
 
     library: ClassVar = "materials"
@@ -25,7 +25,7 @@ class BulkMaterial(Listed):
     """Slope of the moving heap."""
     surcharge_convention: Literal["ISO 5048", "DIN 22101"] = "ISO 5048"
     """ISO 5048: of a parabola at its edge, θ; DIN 22101: of a triangle of the same area, tan β = 2/3 tan θ."""
-    listed: ListedName | None = None
+    listed: EntryName | None = None
     """Entry of the library of materials that gives what is not given here."""
 
     @property

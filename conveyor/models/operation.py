@@ -11,7 +11,7 @@ from typing import Annotated, Any, Final, Self
 from pydantic import BeforeValidator, Field, PlainSerializer, WithJsonSchema, model_validator
 from pydantic_core import PydanticCustomError
 
-from conveyor.models.base import Model, Problem, refuse
+from conveyor.models.base import Model, Problem, raise_problems
 from conveyor.units import Bounds, Duration, Fraction, Speed, Temperature, si, text
 
 EarthTemperature = Annotated[Temperature, Bounds(ge="-100 degC", le="200 degC")]
@@ -22,10 +22,10 @@ YEAR_HOURS: Final = 8784.0
 """Hours of a leap year, the longest duty."""
 HOURS_TOLERANCE: Final = 1e-9
 """Relative tolerance of a sum of hours typed as decimals."""
-_LONGEST: Final = 80
-PRICE: Final = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?)\s*([A-Z]{3})\s*/\s*kWh\s*")
+_LONGEST_TEXT: Final = 80
+PRICE_PATTERN: Final = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?)\s*([A-Z]{3})\s*/\s*kWh\s*")
 """Energy price in specs: amount and currency."""
-_EMISSION = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?)\s*(kg|g|t)\s*/\s*(kWh|MWh)\s*")
+_EMISSION_PATTERN = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?)\s*(kg|g|t)\s*/\s*(kWh|MWh)\s*")
 _KILOGRAMS: Final = {"g": 1e-3, "kg": 1.0, "t": 1e3}
 _KILOWATT_HOURS: Final = {"kWh": 1.0, "MWh": 1e3}
 
@@ -59,35 +59,39 @@ class EmissionFactor:
         return f"{self.number!r}".removesuffix(".0") + f" {self.unit}"
 
 
-def _parsed(pattern: re.Pattern[str], value: Any, kind: str, wanted: str) -> re.Match[str]:
-    match = pattern.fullmatch(value) if isinstance(value, str) and len(value) <= _LONGEST else None
+def _match_pattern(pattern: re.Pattern[str], value: Any, kind: str, wanted: str) -> re.Match[str]:
+    match = pattern.fullmatch(value) if isinstance(value, str) and len(value) <= _LONGEST_TEXT else None
     if match is None:
-        message = f'got "{str(value)[:_LONGEST]}", expected {wanted}'
+        message = f'got "{str(value)[:_LONGEST_TEXT]}", expected {wanted}'
         raise PydanticCustomError(kind, "{message}", {"message": message})
     return match
 
 
-def _price(value: Any) -> Any:
+def _read_price(value: Any) -> Any:
     if isinstance(value, EnergyPrice):
         return value
-    match = _parsed(PRICE, value, "price", 'a price with the currency\'s code such as "0.12 EUR/kWh"')
+    match = _match_pattern(
+        PRICE_PATTERN, value, "price", 'a price with the currency\'s code such as "0.12 EUR/kWh"'
+    )
     return EnergyPrice(float(match[1]), match[2])
 
 
-def _emission(value: Any) -> Any:
+def _read_emission(value: Any) -> Any:
     if isinstance(value, EmissionFactor):
         return value
-    match = _parsed(_EMISSION, value, "price", 'a mass of carbon dioxide per energy such as "0.35 kg/kWh"')
+    match = _match_pattern(
+        _EMISSION_PATTERN, value, "price", 'a mass of carbon dioxide per energy such as "0.35 kg/kWh"'
+    )
     return EmissionFactor(float(match[1]), f"{match[2]}/{match[3]}")
 
 
-def _written(read: Callable[[Any], Any], pattern: re.Pattern[str], example: str) -> tuple[Any, ...]:
+def _text_annotation(read: Callable[[Any], Any], pattern: re.Pattern[str], example: str) -> tuple[Any, ...]:
     schema = {"type": "string", "pattern": f"^{pattern.pattern}$", "examples": [example]}
     return BeforeValidator(read), PlainSerializer(str, when_used="json"), WithJsonSchema(schema)
 
 
-Price = Annotated[EnergyPrice, *_written(_price, PRICE, "0.12 EUR/kWh")]
-Emission = Annotated[EmissionFactor, *_written(_emission, _EMISSION, "0.35 kg/kWh")]
+Price = Annotated[EnergyPrice, *_text_annotation(_read_price, PRICE_PATTERN, "0.12 EUR/kWh")]
+Emission = Annotated[EmissionFactor, *_text_annotation(_read_emission, _EMISSION_PATTERN, "0.35 kg/kWh")]
 
 
 class DutyEntry(Model):
@@ -159,7 +163,7 @@ class Operation(Model):
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
-        refuse("Operation", self._problems())
+        raise_problems("Operation", self._problems())
         return self
 
     def _problems(self) -> Iterator[Problem]:

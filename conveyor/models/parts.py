@@ -7,13 +7,13 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from conveyor.laws.resistance import FRICTION_FACTOR, Site
-from conveyor.models.base import Model, Name, Number, Problem, refuse
+from conveyor.models.base import Model, Name, Number, Problem, raise_problems
 from conveyor.models.belt import Belt
+from conveyor.models.calculation_methods import Calibration, Cema, Flexure
 from conveyor.models.compound import RubberCompound
 from conveyor.models.drive import Drive
 from conveyor.models.idlers import Idlers
 from conveyor.models.material import BulkMaterial
-from conveyor.models.methods import Calibration, Cema, Flexure
 from conveyor.models.operation import DutyEntry, EarthTemperature, Operation
 from conveyor.models.route import Route
 from conveyor.units import Acceleration, Bounds, Fraction, Quantity, WindSpeed, quantity, si, text
@@ -71,13 +71,13 @@ class Calculation(Model):
     def _one_flexure(self) -> Self:
         if self.flexure is not None and self.flexure_share is not None:
             message = f"given beside flexure_share {text(self.flexure_share)}; give one of the two, remove the other"
-            refuse("Calculation", [Problem(("flexure",), message)])
+            raise_problems("Calculation", [Problem(("flexure",), message)])
         if self.support == "belt" and self.flexure_share is not None:
             message = (
                 f"got {text(self.flexure_share)}: it holds the flexure of the belt, which support "
                 '"belt" computes with the indentation; remove it, or give flexure.bulk'
             )
-            refuse("Calculation", [Problem(("flexure_share",), message)])
+            raise_problems("Calculation", [Problem(("flexure_share",), message)])
         return self
 
 

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from conveyor.laws.resistance import SCRAPING_FACTOR
-from conveyor.models.base import Model, Name, Problem, refuse
+from conveyor.models.base import Model, Name, Problem, raise_problems
 from conveyor.units import Bounds, Length, LineForce, quantity
 
 
@@ -31,8 +31,8 @@ class Plough(Model):
     def _placed(self) -> Self:
         if self.position == "carry" and self.section is None:
             message = 'missing: position "carry" stands behind a section; give its name'
-            refuse("Plough", [Problem(("section",), message)])
+            raise_problems("Plough", [Problem(("section",), message)])
         if self.position == "head" and self.section is not None:
             message = f'got "{self.section}" with position "head"; remove section, or set position to "carry"'
-            refuse("Plough", [Problem(("section",), message)])
+            raise_problems("Plough", [Problem(("section",), message)])
         return self

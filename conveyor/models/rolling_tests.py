@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
-from conveyor.models.base import Model, Number, Problem, refuse
+from conveyor.models.base import Model, Number, Problem, raise_problems
 from conveyor.models.rubber_data import AbsoluteTemperature
 from conveyor.units import Bounds, Fraction, Length, LineForce, Speed, si, text
 
@@ -109,7 +109,7 @@ class RollingTest(Model):
             problems.append(
                 Problem(("shared_uncertainty",), f"is a part of uncertainty, at most as much; {whole}")
             )
-        refuse("RollingTest", problems)
+        raise_problems("RollingTest", problems)
         return self
 
     def points(self) -> RollingPoints:

@@ -13,8 +13,8 @@ from conveyor.laws.resistance import (
     TEST_LOAD,
     TEST_ROTATION,
 )
-from conveyor.models.base import Model, Number, Problem, refuse
-from conveyor.models.listed import Listed, ListedName
+from conveyor.models.base import Model, Number, Problem, raise_problems
+from conveyor.models.library_items import EntryName, LibraryItem
 from conveyor.units import (
     Angle,
     Bounds,
@@ -88,13 +88,13 @@ class BearingDrag(Model):
         first, second = si(self.first_temperature), si(self.second_temperature)
         if first == second:
             message = f"got {text(self.second_temperature)}, that of the first viscosity; two are needed"
-            refuse("BearingDrag", [Problem(("second_temperature",), message)])
+            raise_problems("BearingDrag", [Problem(("second_temperature",), message)])
         if (second - first) * (si(self.first_viscosity) - si(self.second_viscosity)) <= 0.0:
             message = (
                 f"got {text(self.second_viscosity)} at {text(self.second_temperature)} and "
                 f"{text(self.first_viscosity)} at {text(self.first_temperature)}; the hotter oil is the thinner"
             )
-            refuse("BearingDrag", [Problem(("second_viscosity",), message)])
+            raise_problems("BearingDrag", [Problem(("second_viscosity",), message)])
         return self
 
 
@@ -120,17 +120,17 @@ class RollBearing(Model):
             names = ("axle_diameter", "support_distance")
             missing, other = names if self.axle_diameter is None else names[::-1]
             message = f"missing: {other} is given and needs it, or remove {other}"
-            refuse("RollBearing", [Problem((missing,), message)])
+            raise_problems("RollBearing", [Problem((missing,), message)])
         if self.support_distance is not None and si(self.support_distance) <= si(self.distance):
             message = (
                 f"got {text(self.support_distance)}, but the bearings stand {text(self.distance)} apart between them; "
                 "correct one of the two"
             )
-            refuse("RollBearing", [Problem(("support_distance",), message)])
+            raise_problems("RollBearing", [Problem(("support_distance",), message)])
         return self
 
 
-class Roll(Listed):
+class Roll(LibraryItem):
     """One roll."""
 
     library: ClassVar = "rolls"
@@ -147,7 +147,7 @@ class Roll(Listed):
     """Law of the drag over load, speed and temperature, instead of one figure."""
     bearing: RollBearing | None = None
     """Bearings, for the rating life; without them no life is computed."""
-    listed: ListedName | None = None
+    listed: EntryName | None = None
     """Entry of the roll library that gives what is not given here."""
 
     @model_validator(mode="after")
@@ -168,5 +168,5 @@ class Roll(Listed):
                 "the bearings sit inside: correct one of the two"
             )
             problems.append(Problem(("drag_law", "mean_diameter"), message))
-        refuse("Roll", problems)
+        raise_problems("Roll", problems)
         return self

@@ -19,10 +19,10 @@ from conveyor.laws.resistance import (
 )
 from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
 from conveyor.laws.transfer import CLEANER_EFFICIENCY
-from conveyor.models.base import Model, Name, Number, Problem, Switch, refuse
+from conveyor.models.base import Model, Name, Number, Problem, Switch, raise_problems
 from conveyor.models.idlers import Spacing
 from conveyor.models.ploughs import Plough
-from conveyor.models.wording import Location
+from conveyor.models.validation_messages import Location
 from conveyor.units import (
     Angle,
     AreaMass,
@@ -50,8 +50,8 @@ Friction = Annotated[Number, Field(gt=0, le=2)]
 Position = Literal["head", "tail", "carry", "return"]
 Banking = Annotated[Angle, Bounds(ge="0 deg", le="20 deg")]
 Skew = Annotated[Angle, Bounds(ge="0 deg", le="5 deg")]
-_MOST_TURN = math.pi  # [rad] of horizontal turn in a section
-_TURNED = math.radians(90.0)  # wrap angle above which bulk falls off the carry strand [rad]
+_LARGEST_TURN = math.pi  # [rad] of horizontal turn in a section
+_LARGEST_HOLDING_WRAP = math.radians(90.0)  # wrap angle above which bulk falls off the carry strand [rad]
 SHARE_SUM_TOLERANCE = 1e-9
 """Tolerance of a sum of shares typed as decimals."""
 
@@ -120,7 +120,7 @@ class Section(Model):
                     "the lift must be less than the length: correct lift or length",
                 )
             )
-        refuse("Section", problems)
+        raise_problems("Section", problems)
         return self
 
     def _curve_problems(self) -> list[Problem]:
@@ -153,8 +153,10 @@ class Section(Model):
             missing, given = ("horizontal_curve", "horizontal_radius")[:: 1 if side is None else -1]
             message = f"missing: {given} is given; a horizontal curve needs both, or remove {given}"
             yield Problem((missing,), message)
-        elif radius is not None and (turn := si(self.length) / si(radius)) > _MOST_TURN:
-            least = from_si(float(f"{si(self.length) / _MOST_TURN:.6g}"), "length", text(radius).split()[1])
+        elif radius is not None and (turn := si(self.length) / si(radius)) > _LARGEST_TURN:
+            least = from_si(
+                float(f"{si(self.length) / _LARGEST_TURN:.6g}"), "length", text(radius).split()[1]
+            )
             yield Problem(
                 ("horizontal_radius",),
                 f"got {text(radius)}, with which {text(self.length)} turn by {math.degrees(turn):.0f} deg, more than "
@@ -223,7 +225,7 @@ class Feeding(Model):
             "idler_stiffness": self.idler_stiffness,
             "idler_rating": self.idler_rating,
         }
-        refuse("Feeding", [
+        raise_problems("Feeding", [
             Problem((name,), "given without drop_height; give how far the bulk falls, or remove it")
             for name, value in needs.items()
             if value is not None and self.drop_height is None
@@ -251,7 +253,7 @@ class Discharge(Model):
             message = (
                 f"got {self.sliding_friction:g}, more than friction {self.friction:g}; correct one of the two"
             )
-            refuse("Discharge", [Problem(("sliding_friction",), message)])
+            raise_problems("Discharge", [Problem(("sliding_friction",), message)])
         return self
 
 
@@ -329,7 +331,7 @@ class Pulley(Model):
         if bearings is not None and hubs is not None and si(hubs) >= si(bearings):
             message = f"got {text(hubs)}, but the bearings stand outside the hubs, {text(bearings)} apart; correct one"
             problems.append(Problem(("hub_centres",), message))
-        refuse("Pulley", [*problems, *position_problem(self.position, self.section)])
+        raise_problems("Pulley", [*problems, *position_problem(self.position, self.section)])
         return self
 
 
@@ -391,7 +393,7 @@ class TakeUp(Model):
             problems.append(
                 Problem(("winch_run_up",), "given without winch_speed; give the speed too, or remove it")
             )
-        refuse("TakeUp", problems)
+        raise_problems("TakeUp", problems)
         return self
 
 
@@ -434,7 +436,7 @@ class Route(Model):
                 )
                 problems.append(Problem(("sections", i, "name"), message))
             first.setdefault(section.name, i)
-        refuse("Route", [*problems, *self._place_problems(), *self._feeding_problems()])
+        raise_problems("Route", [*problems, *self._place_problems(), *self._feeding_problems()])
         return self
 
     def _place_problems(self) -> Iterator[Problem]:
@@ -488,7 +490,11 @@ class Route(Model):
             return True
         if point.share is None or si(point.share) != 1.0:
             return False
-        turns = {p.section for p in self.pulleys if p.position == "carry" and si(p.wrap_angle) > _TURNED}
+        turns = {
+            p.section
+            for p in self.pulleys
+            if p.position == "carry" and si(p.wrap_angle) > _LARGEST_HOLDING_WRAP
+        }
         return any(
             section.name in turns and after.name == point.section
             for section, after in itertools.pairwise(self.sections)

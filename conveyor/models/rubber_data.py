@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, Self
 import numpy as np
 from pydantic import Field, model_validator
 
-from conveyor.models.base import Model, Number, Problem, refuse
+from conveyor.models.base import Model, Number, Problem, raise_problems
 from conveyor.units import (
     Bounds,
     Fraction,
@@ -32,7 +32,7 @@ PositiveFrequency = Annotated[Frequency, Bounds(gt="0 Hz")]
 Positive = Annotated[Number, Field(gt=0)]
 RelativeError = Annotated[Fraction, Bounds(ge="0 %")]
 
-_PASCALS = {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
+_PASCALS_PER_UNIT = {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
 
 
 class Source(Model):
@@ -73,7 +73,7 @@ class TableShift(Model):
         count = len(self.temperature)
         if self.log10_b_t is not None and len(self.log10_b_t) != count:
             message = f"got {len(self.log10_b_t)} values, {count} are needed, one per temperature"
-            refuse("TableShift", [Problem(("log10_bT",), message)])
+            raise_problems("TableShift", [Problem(("log10_bT",), message)])
         return self
 
     def vertical(self, temperature: float) -> float:
@@ -150,7 +150,7 @@ class Band(Model):
         lists: dict[str, Sequence[object] | None] = {
             "moduli": self.moduli, "log10_aT": self.log10_a_t, "log10_bT": self.log10_b_t, "shift": self.shift
         }  # fmt: skip
-        refuse(
+        raise_problems(
             "Band",
             [
                 Problem(
@@ -179,7 +179,7 @@ class Band(Model):
         """
         from conveyor.rubber import PronySeries
 
-        tau, scale = np.array(times), _PASCALS[self.unit]
+        tau, scale = np.array(times), _PASCALS_PER_UNIT[self.unit]
         lists = []
         for equilibrium, row in zip(self.equilibrium, self.moduli, strict=True):
             moduli = np.array(row) * scale
@@ -200,7 +200,7 @@ class Prony(Model):
     @model_validator(mode="after")
     def _one_modulus_per_term(self) -> Self:
         count = len(self.terms)
-        refuse(
+        raise_problems(
             "Prony",
             [
                 Problem(("band", "moduli", i), f"got {len(row)} moduli, {count} are needed, one per term")
@@ -222,7 +222,7 @@ class MeasuredRange(Model):
     @model_validator(mode="after")
     def _ordered(self) -> Self:
         pairs = {"frequency": self.frequency, "temperature": self.temperature}
-        refuse(
+        raise_problems(
             "MeasuredRange",
             [
                 Problem((name,), f"got {text(low)} to {text(high)}, expected the lower value first")
@@ -259,7 +259,7 @@ class SweptStrain(Model):
         """Return the sweep in SI."""
         from conveyor.rubber import StrainSweep
 
-        scale = _PASCALS[self.unit]
+        scale = _PASCALS_PER_UNIT[self.unit]
         return StrainSweep(
             si(self.temperature),
             si(self.frequency),

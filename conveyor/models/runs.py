@@ -6,7 +6,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import StringConstraints, model_validator
 
-from conveyor.models.base import Model, Problem, refuse
+from conveyor.models.base import Model, Problem, raise_problems
 from conveyor.models.operation import BeltSpeed, EarthTemperature
 from conveyor.units import Bounds, MassFlow, Power, si
 
@@ -68,5 +68,5 @@ class MeasuredRun(Model):
     def _covers_before_air(self) -> Self:
         if self.air_temperature is not None and self.temperature is None:
             message = "missing: give the belt's temperature beside the air's, or only `temperature` for both"
-            refuse("MeasuredRun", [Problem(("temperature",), message)])
+            raise_problems("MeasuredRun", [Problem(("temperature",), message)])
         return self

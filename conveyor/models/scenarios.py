@@ -7,10 +7,10 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from conveyor.models.base import Model, Name, Problem, refuse
+from conveyor.models.base import Model, Name, Problem, raise_problems
 from conveyor.models.cases import Loading
+from conveyor.models.motor_starter import Starter
 from conveyor.models.operation import EarthTemperature
-from conveyor.models.starter import Starter
 from conveyor.units import Bounds, Fraction, Time, quantity, si, text
 
 Action = Literal["start", "ramp down", "power off", "brake"]
@@ -35,7 +35,7 @@ class Event(Model):
         given = {"over": si(self.over) != 0.0, "share": si(self.share) != 1.0}
         if self.do != "brake":
             message = f'given with do "{self.do}"; it is of brakes, remove it'
-            refuse("Event", [Problem((name,), message) for name, differs in given.items() if differs])
+            raise_problems("Event", [Problem((name,), message) for name, differs in given.items() if differs])
         return self
 
 
@@ -78,7 +78,7 @@ class Scenario(Model):
             problems.append(
                 Problem(("sections",), 'loading "sections" needs names, and names need loading "sections"')
             )
-        refuse("Scenario", problems)
+        raise_problems("Scenario", problems)
         return self
 
 

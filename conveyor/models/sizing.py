@@ -10,10 +10,10 @@ from typing import Annotated, Any, Final, Literal, Self
 from pydantic import Field, model_validator
 
 from conveyor.files import libraries
-from conveyor.laws.idlers import CemaClass
+from conveyor.laws.idler_sets import CemaClass
+from conveyor.laws.preliminary_sizing import Severity
 from conveyor.laws.resistance import Site
-from conveyor.laws.sizing import Severity
-from conveyor.models.base import Model, Name, Number, Problem, refuse
+from conveyor.models.base import Model, Name, Number, Problem, raise_problems
 from conveyor.models.compound import CompoundReference
 from conveyor.models.material import BulkMaterial
 from conveyor.models.operation import EarthTemperature, Operation
@@ -21,7 +21,7 @@ from conveyor.models.parts import Ambient, Calculation
 from conveyor.models.prices import Prices
 from conveyor.models.report import Report
 from conveyor.models.route import Route
-from conveyor.models.wording import Location
+from conveyor.models.validation_messages import Location
 from conveyor.units import (
     Angle,
     AreaMass,
@@ -45,10 +45,10 @@ from conveyor.units import (
 Carcasses = Literal["EP", "steel cord"]
 Series = Literal["metric", "US"]
 DriveLayout = Literal["head", "head, two pulleys", "head and tail", "head, two pulleys, and tail", "tail"]
-Wide = Annotated[Length, Bounds(gt="100 mm", le="5 m")]
-Fast = Annotated[Speed, Bounds(gt="0 m/s", le="20 m/s")]
-Trough = Annotated[Angle, Bounds(ge="0 deg", le="60 deg")]
-Apart = Annotated[Distance, Bounds(gt="0.2 m", le="20 m")]
+DesignWidth = Annotated[Length, Bounds(gt="100 mm", le="5 m")]
+DesignSpeed = Annotated[Speed, Bounds(gt="0 m/s", le="20 m/s")]
+TroughAngle = Annotated[Angle, Bounds(ge="0 deg", le="60 deg")]
+SetSpacing = Annotated[Distance, Bounds(gt="0.2 m", le="20 m")]
 
 
 _SAME_SIZE: Final = 1e-9
@@ -60,7 +60,7 @@ def same_width(one: float, other: float) -> bool:
     return math.isclose(one, other, rel_tol=_SAME_SIZE)
 
 
-def within(size: float, most: float) -> bool:
+def within_limit(size: float, most: float) -> bool:
     """True if a size is at most a limit, but for the rounding of unit conversion."""
     return size <= most * (1.0 + _SAME_SIZE)
 
@@ -68,13 +68,13 @@ def within(size: float, most: float) -> bool:
 class WidthRow(Model):
     """A belt width and the lengths of its rolls."""
 
-    belt: Wide
+    belt: DesignWidth
     """Width."""
-    one: Wide
+    one: DesignWidth
     """Roll of a flat set."""
-    two: Wide
+    two: DesignWidth
     """Rolls of a set of two."""
-    three: Wide
+    three: DesignWidth
     """Rolls of a set of three."""
 
 
@@ -111,12 +111,12 @@ class CarcassRow(Model):
 class Sizes(Model):
     """The series that parts are chosen from."""
 
-    speeds: tuple[Fast, ...]
-    trough_angles: tuple[Trough, ...]
-    carry_spacings: tuple[Apart, ...]
-    return_spacings: tuple[Apart, ...]
+    speeds: tuple[DesignSpeed, ...]
+    trough_angles: tuple[TroughAngle, ...]
+    carry_spacings: tuple[SetSpacing, ...]
+    return_spacings: tuple[SetSpacing, ...]
     cover_step: Annotated[Thickness, Bounds(gt="0 mm", le="5 mm")]
-    vee_from: Wide
+    vee_from: DesignWidth
     widths: tuple[WidthRow, ...]
     rolls: tuple[RollRow, ...]
     textile: tuple[CarcassRow, ...]
@@ -124,9 +124,9 @@ class Sizes(Model):
 
 
 @cache
-def sizes(series: Series) -> Sizes:
+def size_series(series: Series) -> Sizes:
     """Series of sizes from the library."""
-    entries = libraries.entries("sizes_us" if series == "US" else "sizes").values()
+    entries = libraries.library_entries("sizes_us" if series == "US" else "sizes").values()
     return Sizes.from_data({name: value for entry in entries for name, value in entry.fields.items()})
 
 
@@ -135,23 +135,23 @@ class SiteRules(Model):
 
     series: Series | None = None
     """Library of sizes that parts are chosen from; that of report.units without it."""
-    widths: tuple[Wide, ...] = ()
+    widths: tuple[DesignWidth, ...] = ()
     """Belt widths to choose from; all of the library without."""
-    speeds: tuple[Fast, ...] = ()
+    speeds: tuple[DesignSpeed, ...] = ()
     """Belt speeds to choose from; all of the library without."""
-    fastest: Fast | None = None
+    fastest: DesignSpeed | None = None
     """Highest speed of the belt; without it that which CEMA recommends for width and material."""
     filling: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity("90 %")
     """Most of the cross-section of ISO 5048 that the bulk may take."""
     least_filling: Annotated[Fraction, Bounds(ge="0 %", lt="100 %")] = quantity("40 %")
     """Least of it, but for the narrowest belt that takes the lumps: emptier ones are not looked at."""
-    trough_angles: tuple[Trough, ...] = ()
+    trough_angles: tuple[TroughAngle, ...] = ()
     """Of sets of three rolls; all of the library without."""
     carcasses: Annotated[tuple[Carcasses, ...], Field(min_length=1)] = ("EP", "steel cord")
     """Kinds of belt."""
-    carry_spacings: tuple[Apart, ...] = ()
+    carry_spacings: tuple[SetSpacing, ...] = ()
     """Distances of carry sets to choose from; without it those in use, from 1 km on overland ones."""
-    return_spacings: tuple[Apart, ...] = ()
+    return_spacings: tuple[SetSpacing, ...] = ()
     """The same of return sets."""
     graduated: bool = True
     """Whether the distance of carry sets may differ from section to section."""
@@ -224,7 +224,7 @@ class SizingDuty(Model):
 
     @model_validator(mode="after")
     def _whole(self) -> Self:
-        refuse("SizingDuty", self._problems())
+        raise_problems("SizingDuty", self._problems())
         return self
 
     def _problems(self) -> Iterator[Problem]:
@@ -240,7 +240,7 @@ class SizingDuty(Model):
             yield from self._sized_problems(self.route)
         if si(self.material.flow) == 0.0:
             yield Problem(("material", "flow"), "got 0: an empty belt has no duty; give what is conveyed")
-        rows = sizes(self.series).widths
+        rows = size_series(self.series).widths
         listed = ", ".join(text(row.belt) for row in rows)
         for i, width in enumerate(self.rules.widths):
             if not any(same_width(si(width), si(row.belt)) for row in rows):

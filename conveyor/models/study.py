@@ -12,17 +12,17 @@ from typing import Annotated, Any, Literal, Self, TypeAlias, TypeVar
 from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from conveyor.errors import InputError, PlacedError
-from conveyor.models.base import Model, Name, Problem, refuse
+from conveyor.errors import InputError, PlanError
+from conveyor.models.base import Model, Name, Problem, raise_problems
 from conveyor.models.conveyor import Conveyor
-from conveyor.models.fields import check_path
-from conveyor.models.operation import PRICE
+from conveyor.models.fields import check_field_path
+from conveyor.models.operation import PRICE_PATTERN
 from conveyor.models.prices import Prices
-from conveyor.models.variants import scaled
-from conveyor.models.wording import Location, shown
-from conveyor.ranges import spaced, why_not_spaced
-from conveyor.units import between, quantity, si, text
-from conveyor.units.presentation import MONEY, unit
+from conveyor.models.validation_messages import Location, shown_value
+from conveyor.models.variants import scale_quantity
+from conveyor.ranges import range_error, range_values
+from conveyor.units import interpolate_quantity, quantity, si, text
+from conveyor.units.presentation import MONEY, display_unit
 
 Value: TypeAlias = str | float | int | bool
 """Value of a field, as in specs."""
@@ -31,42 +31,44 @@ Changes: TypeAlias = Mapping[str, Value]
 MOST_SAMPLES = 2**20
 MOST_POINTS = 10_000_000
 """Most points of a study: more take weeks on a hundred cores."""
-STEPS = 1000
+SEARCH_STEPS = 1000
 """Steps of a searched range."""
-HOURS = "hours"
+HOURS_KEY = "hours"
 """Key of the hours among the field paths of a state."""
-DUTY = "duty"
+DUTY_STATES = "duty"
 """Value of `states` that takes those of the spec's duty."""
 
 
-_LIKE = 'from:to:step with a unit, such as "-20:40:5 degC"'
+_RANGE_EXAMPLE = 'from:to:step with a unit, such as "-20:40:5 degC"'
 
 
-def _listed(given: Any) -> Any:
+def _axis_values(given: Any) -> Any:
     """Values of `from:to:step unit`; lists unchanged."""
     if isinstance(given, list | tuple):
         for value in given:
             if not isinstance(value, Value) or (isinstance(value, float) and not math.isfinite(value)):
-                raise _no_axis(f"got {shown(value)} among the values, expected numbers, texts, true or false")
+                raise _axis_error(
+                    f"got {shown_value(value)} among the values, expected numbers, texts, true or false"
+                )
         return given
     numbers, _, sign = str(given).strip().partition(" ")
     if not isinstance(given, str) or numbers.count(":") != 2:
-        raise _no_axis(f"got {shown(given)}, expected a list, or {_LIKE}")
+        raise _axis_error(f"got {shown_value(given)}, expected a list, or {_RANGE_EXAMPLE}")
     try:
-        why = why_not_spaced(numbers)
+        why = range_error(numbers)
     except ValueError:
-        why = f"expected {_LIKE}"
+        why = f"expected {_RANGE_EXAMPLE}"
     if why:
-        raise _no_axis(f"got {shown(given)}: {why}")
-    values = [f"{value:.12g}" for value in spaced(numbers)]
+        raise _axis_error(f"got {shown_value(given)}: {why}")
+    values = [f"{value:.12g}" for value in range_values(numbers)]
     return [f"{value} {sign.strip()}" for value in values] if sign else [float(value) for value in values]
 
 
-def _no_axis(message: str) -> PydanticCustomError:
+def _axis_error(message: str) -> PydanticCustomError:
     return PydanticCustomError("conflict", "{message}", {"message": message})
 
 
-Axis = Annotated[tuple[Value, ...], BeforeValidator(_listed), Field(min_length=1)]
+Axis = Annotated[tuple[Value, ...], BeforeValidator(_axis_values), Field(min_length=1)]
 
 
 def hours_of(given: Value) -> float | None:
@@ -78,22 +80,22 @@ def hours_of(given: Value) -> float | None:
     return time if 0.0 < time < math.inf else None
 
 
-Listed = TypeVar("Listed")
+Listable = TypeVar("Listable")
 
 
-def _again(given: Sequence[Listed]) -> list[Listed]:
+def _repeated_items(given: Sequence[Listable]) -> list[Listable]:
     """Items listed more than once."""
     return [one for one, times in Counter(given).items() if times > 1]
 
 
-def alike_as_one(rows: Iterable[Mapping[str, Value]]) -> tuple[dict[str, Value], ...]:
+def merge_equal_states(rows: Iterable[Mapping[str, Value]]) -> tuple[dict[str, Value], ...]:
     """Merge states of equal field values; their hours add up."""
     hours: dict[tuple[tuple[str, Value], ...], float | None] = {}
     for row in rows:
-        alike = tuple((path, value) for path, value in row.items() if path != HOURS)
-        time = hours_of(row[HOURS]) if HOURS in row else None
+        alike = tuple((path, value) for path, value in row.items() if path != HOURS_KEY)
+        time = hours_of(row[HOURS_KEY]) if HOURS_KEY in row else None
         hours[alike] = time if time is None else time + (hours.get(alike) or 0.0)
-    return tuple(dict(alike) | ({} if time is None else {HOURS: time}) for alike, time in hours.items())
+    return tuple(dict(alike) | ({} if time is None else {HOURS_KEY: time}) for alike, time in hours.items())
 
 
 class SampledRange(Model):
@@ -109,11 +111,11 @@ class SampledRange(Model):
         try:
             ends = self.at(0.0), self.at(1.0)
         except InputError as error:
-            refuse("SampledRange", [Problem((), str(error))])
+            raise_problems("SampledRange", [Problem((), str(error))])
         if ends[0] == ends[1]:
-            refuse("SampledRange", [Problem((), f"both ends are {ends[0]}; change the base instead")])
+            raise_problems("SampledRange", [Problem((), f"both ends are {ends[0]}; change the base instead")])
         if self.falls:
-            refuse("SampledRange", [Problem((), f"low is {ends[0]}, above high, which is {ends[1]}")])
+            raise_problems("SampledRange", [Problem((), f"low is {ends[0]}, above high, which is {ends[1]}")])
         return self
 
     @property
@@ -121,7 +123,7 @@ class SampledRange(Model):
         """True if low is above high."""
         if isinstance(self.low, float) and isinstance(self.high, float):
             return self.low > self.high
-        low, high, _ = _ends(*self._written)
+        low, high, _ = _range_ends(*self._written)
         return low > high
 
     @property
@@ -139,17 +141,17 @@ class SampledRange(Model):
         """
         if isinstance(self.low, float) and isinstance(self.high, float):
             return self.low + share * (self.high - self.low)
-        ends = _ends(*self._written)
+        ends = _range_ends(*self._written)
         return f"{ends[0] + share * (ends[1] - ends[0]):.9g} {ends[2]}".strip()
 
 
 @cache
-def _ends(low: str, high: str) -> tuple[float, float, str]:
+def _range_ends(low: str, high: str) -> tuple[float, float, str]:
     """Both ends in the unit of the lower one, and that unit."""
-    least, most = PRICE.fullmatch(low), PRICE.fullmatch(high)
+    least, most = PRICE_PATTERN.fullmatch(low), PRICE_PATTERN.fullmatch(high)
     if least and most and least[2] == most[2]:
         return float(least[1]), float(most[1]), f"{least[2]}/kWh"
-    one, other = quantity(low), between(quantity(low), quantity(high), 1.0)
+    one, other = quantity(low), interpolate_quantity(quantity(low), quantity(high), 1.0)
     return float(one.magnitude), float(other.magnitude), text(one).partition(" ")[2]
 
 
@@ -195,7 +197,7 @@ class Limit(Model):
     @model_validator(mode="after")
     def _any(self) -> Self:
         if self.least is None and self.most is None:
-            refuse("Limit", [Problem((), "missing: give least, most or both")])
+            raise_problems("Limit", [Problem((), "missing: give least, most or both")])
         return self
 
     def ends(self, name: str, kind: str) -> tuple[float | None, float | None]:
@@ -206,14 +208,14 @@ class Limit(Model):
         InputError
             The limits are of another kind.
         """
-        least, most = _limit(self.least, name, kind), _limit(self.most, name, kind)
+        least, most = _limit_value(self.least, name, kind), _limit_value(self.most, name, kind)
         if least is not None and most is not None and least > most:
             raise InputError(f"limits: {name}: least, {self.least}, is above most, {self.most}")
         return least, most
 
 
-def _limit(end: str | float | None, name: str, kind: str) -> float | None:
-    shown = None if kind.startswith(MONEY) or kind == "money" else unit(kind).label
+def _limit_value(end: str | float | None, name: str, kind: str) -> float | None:
+    shown = None if kind.startswith(MONEY) or kind == "money" else display_unit(kind).label
     plain = shown in {None, "-"}
     if end is None or (isinstance(end, int | float) and plain):
         return None if end is None else float(end)
@@ -266,7 +268,9 @@ class VariedSpec(Model):
                 yield (*self._ranged, path, name), path, end
         for name, rows in (("together", self.together), ("states", self.rows)):
             for i, row in enumerate(rows):
-                yield from (((name, i, path), path, value) for path, value in row.items() if path != HOURS)
+                yield from (
+                    ((name, i, path), path, value) for path, value in row.items() if path != HOURS_KEY
+                )
 
     @property
     def _ranged(self) -> Location:
@@ -276,7 +280,7 @@ class VariedSpec(Model):
     @model_validator(mode="after")
     def _distinct(self) -> Self:
         problems, rows = [], self.rows
-        states = tuple(path for row in rows for path in row if path != HOURS)
+        states = tuple(path for row in rows for path in row if path != HOURS_KEY)
         for path in (
             *self.axes,
             *itertools.chain.from_iterable(self.together),
@@ -284,38 +288,38 @@ class VariedSpec(Model):
             *dict.fromkeys(states),
         ):
             try:
-                check_path(path)
+                check_field_path(path)
             except InputError as error:
                 problems.append(Problem((), str(error)))
         for name, given in (("together", self.together), ("states", rows)):
             if len({frozenset(row) for row in given}) > 1:
                 problems.append(Problem((name,), "every row has to change the same fields"))
         problems += self._repeated()
-        if any(set(row) <= {HOURS} for row in rows):
+        if any(set(row) <= {HOURS_KEY} for row in rows):
             problems.append(Problem(("states",), "every state has to change a field"))
-        if rows and HOURS in rows[0]:
+        if rows and HOURS_KEY in rows[0]:
             problems += [
-                Problem(("states", i, HOURS), f'got "{row[HOURS]}", expected a time such as "2200 h"')
-                for i, row in enumerate(rows) if HOURS in row and hours_of(row[HOURS]) is None
+                Problem(("states", i, HOURS_KEY), f'got "{row[HOURS_KEY]}", expected a time such as "2200 h"')
+                for i, row in enumerate(rows) if HOURS_KEY in row and hours_of(row[HOURS_KEY]) is None
             ]  # fmt: skip
         told = [*self.axes, *(self.together[0] if self.together else ()), *self.drawn]
-        met = [path for path in (rows[0] if rows else ()) if path != HOURS]
+        met = [path for path in (rows[0] if rows else ()) if path != HOURS_KEY]
         twice = sorted({path for path in (*told, *met) if [*told, *met].count(path) > 1})
         if twice:
             problems.append(Problem((), f"{', '.join(twice)}: varied twice; leave one of both"))
         if not told:
             problems.append(Problem((), f"nothing varies; give {self._ways}"))
-        refuse(type(self).__name__, problems)
+        raise_problems(type(self).__name__, problems)
         return self
 
     def _repeated(self) -> Iterator[Problem]:
         """Refuse values and rows listed twice."""
         for path, values in self.axes.items():
-            for value in _again(values):
+            for value in _repeated_items(values):
                 yield Problem(("axes", path), f'"{value}" is given twice; leave one of both')
         for name, rows in (("together", self.together), ("states", self.rows)):
-            changes = [tuple((path, row[path]) for path in sorted(row) if path != HOURS) for row in rows]
-            for row in _again(changes):
+            changes = [tuple((path, row[path]) for path in sorted(row) if path != HOURS_KEY) for row in rows]
+            for row in _repeated_items(changes):
                 said = ", ".join(f"{path}: {value}" for path, value in row)
                 more = "; add its hours" if name == "states" else ""
                 yield Problem((name,), f"{{{said}}} is given twice; leave one of both{more}")
@@ -332,9 +336,9 @@ class VariedSpec(Model):
     @property
     def hours(self) -> tuple[float, ...] | None:
         """Hours of each state in a year [h]; None where the states have none."""
-        if not self.rows or HOURS not in self.rows[0]:
+        if not self.rows or HOURS_KEY not in self.rows[0]:
             return None
-        return tuple(hours_of(row[HOURS]) or 0.0 for row in self.rows)
+        return tuple(hours_of(row[HOURS_KEY]) or 0.0 for row in self.rows)
 
     def currency(self, base: Conveyor) -> str:
         """Currency of all costs: of the energy price in the spec, else of the prices."""
@@ -342,27 +346,27 @@ class VariedSpec(Model):
         return self.prices.currency if energy is None else energy.currency
 
     @property
-    def designed(self) -> tuple[str, ...]:
+    def design_fields(self) -> tuple[str, ...]:
         """Fields that distinguish designs, the slowest varying first."""
         return (*(self.together[0] if self.together else ()), *self.drawn, *self.axes)
 
     @property
     def paths(self) -> tuple[str, ...]:
         """All varying fields, the slowest first: of designs, then of states."""
-        return (*self.designed, *self.met)
+        return (*self.design_fields, *self.met)
 
     @property
     def met(self) -> tuple[str, ...]:
         """Fields of states."""
-        return tuple(path for path in (self.rows[0] if self.rows else ()) if path != HOURS)
+        return tuple(path for path in (self.rows[0] if self.rows else ()) if path != HOURS_KEY)
 
     def points_of(self, design: Changes) -> Iterator[dict[str, Value]]:
         """Points of a design, one for each state."""
         for row in self.rows or ({},):
-            yield {**design, **{path: value for path, value in row.items() if path != HOURS}}
+            yield {**design, **{path: value for path, value in row.items() if path != HOURS_KEY}}
 
 
-Given = TypeVar("Given", bound=VariedSpec)
+Plan = TypeVar("Plan", bound=VariedSpec)
 
 
 class StudyPlan(VariedSpec):
@@ -405,7 +409,7 @@ class StudyPlan(VariedSpec):
     def _countable(self) -> Self:
         if self.count > MOST_POINTS:
             message = f"{self.count:,} points, at most {MOST_POINTS:,}; take coarser steps, or samples"
-            refuse("StudyPlan", [Problem((), message)])
+            raise_problems("StudyPlan", [Problem((), message)])
         return self
 
     @property
@@ -445,7 +449,7 @@ class SearchPlan(VariedSpec):
             problems.append(Problem(("best",), "expected one figure, such as {motor_power: least}"))
         if len(self.together) == 1:
             problems.append(Problem(("together",), "one row leaves no choice; give more, or change the base"))
-        refuse("SearchPlan", problems)
+        raise_problems("SearchPlan", problems)
         return self
 
     @property
@@ -458,13 +462,13 @@ class SearchPlan(VariedSpec):
         """Design from the share of each range and the index in each list."""
         values: dict[str, Value] = {}
         for (path, span), share in zip(self.ranges.items(), shares, strict=False):
-            values[path] = span.at(round(share * STEPS) / STEPS)
+            values[path] = span.at(round(share * SEARCH_STEPS) / SEARCH_STEPS)
         for listed, number in zip(self.choices, shares[len(self.ranges) :], strict=True):
             values |= listed[round(number)]
-        return {path: values[path] for path in self.designed}
+        return {path: values[path] for path in self.design_fields}
 
 
-def with_states(plan: Given, base: Conveyor) -> Given:
+def with_states(plan: Plan, base: Conveyor) -> Plan:
     """Plan with the spec's duty as its states, where `states` is "duty".
 
     Raises
@@ -474,16 +478,16 @@ def with_states(plan: Given, base: Conveyor) -> Given:
     """
     if not isinstance(plan.states, str):
         return plan
-    if plan.states != DUTY:
+    if plan.states != DUTY_STATES:
         said = f'states: "{plan.states}" was not read; read_plan reads a study with its files'
-        raise PlacedError([(("states",), said)])
+        raise PlanError([(("states",), said)])
     if not base.duty:
-        raise PlacedError([(("states",), "states: duty: the spec has no operation.duty")])
+        raise PlanError([(("states",), "states: duty: the spec has no operation.duty")])
     ambient, rows = base.ambient, []
     for entry in base.duty:
         row: dict[str, Value] = {
-            HOURS: text(entry.hours),
-            "material.flow": text(scaled(base.material.flow, entry.load)),
+            HOURS_KEY: text(entry.hours),
+            "material.flow": text(scale_quantity(base.material.flow, entry.load)),
         }
         if any(one.speed is not None for one in base.duty):
             row["belt.speed"] = text(base.belt.speed if entry.speed is None else entry.speed)
@@ -494,4 +498,4 @@ def with_states(plan: Given, base: Conveyor) -> Given:
                 air = si(ambient.temperature) + si(at) - si(ambient.belt)
                 row |= {"ambient.temperature": f"{air:.9g} K", "ambient.belt_temperature": text(at)}
         rows.append(row)
-    return plan.replace(states=alike_as_one(rows))
+    return plan.replace(states=merge_equal_states(rows))

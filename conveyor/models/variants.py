@@ -10,7 +10,7 @@ from conveyor.errors import ConveyorError, InputError, RangeError
 from conveyor.models.cases import LoadCase
 from conveyor.models.compound import RubberCompound
 from conveyor.models.conveyor import Conveyor
-from conveyor.models.fields import KnownParts, with_fields
+from conveyor.models.fields import PartCache, with_fields
 from conveyor.models.route import Route, Section
 from conveyor.models.runs import MeasuredRun
 from conveyor.units import Quantity, from_si, si
@@ -28,7 +28,7 @@ class Setting:
     conveyor: Conveyor | ConveyorError
 
 
-def scaled(value: Quantity, factor: float) -> Quantity:
+def scale_quantity(value: Quantity, factor: float) -> Quantity:
     """Quantity times a factor, in its own unit."""
     changed: Quantity = value * factor
     return changed
@@ -62,18 +62,20 @@ def with_case(conveyor: Conveyor, case: LoadCase, *, speed: Quantity | None = No
         changes["belt"] = conveyor.belt.replace(speed=speed)
     if case.loading in {"empty", "part load"}:
         share = 0.0 if case.share is None else si(case.share)
-        changes["material"] = conveyor.material.replace(flow=scaled(conveyor.material.flow, share))
+        changes["material"] = conveyor.material.replace(flow=scale_quantity(conveyor.material.flow, share))
     if case.loading in {"full", "inclines only", "declines only", "sections"}:
         named = frozenset(case.sections)
-        sections = [_loaded(section, case, named) for section in conveyor.route.sections]
+        sections = [_load_section(section, case, named) for section in conveyor.route.sections]
         if any(new is not old for new, old in zip(sections, conveyor.route.sections, strict=True)):
-            changes["route"] = _fed(conveyor, sections, conveyor.belt.speed if speed is None else speed)
+            changes["route"] = _feed_sections(
+                conveyor, sections, conveyor.belt.speed if speed is None else speed
+            )
     return conveyor.replace(**changes) if changes else conveyor
 
 
-def slowed(conveyor: Conveyor, share: float) -> Conveyor:
+def at_reduced_speed(conveyor: Conveyor, share: float) -> Conveyor:
     """Conveyor at a share of its belt speed [-], with the bulk line mass of full speed."""
-    speed = scaled(conveyor.belt.speed, share)
+    speed = scale_quantity(conveyor.belt.speed, share)
     points = [
         point if si(point.speed) <= si(speed) else point.replace(speed=speed)
         for point in conveyor.route.feeding_points
@@ -83,12 +85,12 @@ def slowed(conveyor: Conveyor, share: float) -> Conveyor:
         route = route.replace(feeding=points[0], further_feeding=points[1:])
     return conveyor.replace(
         belt=conveyor.belt.replace(speed=speed),
-        material=conveyor.material.replace(flow=scaled(conveyor.material.flow, share)),
+        material=conveyor.material.replace(flow=scale_quantity(conveyor.material.flow, share)),
         route=route,
     )
 
 
-def _loaded(section: Section, case: LoadCase, named: Collection[str]) -> Section:
+def _load_section(section: Section, case: LoadCase, named: Collection[str]) -> Section:
     loaded = {
         "full": True,
         "inclines only": section.rise > 0.0,
@@ -98,7 +100,7 @@ def _loaded(section: Section, case: LoadCase, named: Collection[str]) -> Section
     return section if section.loaded is loaded else section.replace(loaded=loaded)
 
 
-def _fed(conveyor: Conveyor, sections: Sequence[Section], speed: Quantity) -> Route:
+def _feed_sections(conveyor: Conveyor, sections: Sequence[Section], speed: Quantity) -> Route:
     """Route with new sections; loading points at empty sections have no resistance, except trippers."""
     route = conveyor.route
     bearing = {section.name: section.loaded for section in sections}
@@ -123,11 +125,11 @@ def with_temperature(conveyor: Conveyor, temperature: Quantity) -> Conveyor:
     InputError
         A compound is not known there.
     """
-    warmth = _warmth(conveyor, temperature)
+    warmth = _temperature_changes(conveyor, temperature)
     return conveyor.replace(ambient=conveyor.ambient.replace(**warmth)) if warmth else conveyor
 
 
-def _warmth(conveyor: Conveyor, temperature: Quantity) -> dict[str, Quantity]:
+def _temperature_changes(conveyor: Conveyor, temperature: Quantity) -> dict[str, Quantity]:
     """Changed ambient fields for a temperature of the covers."""
     ambient = conveyor.ambient
     change = si(temperature) - si(ambient.belt)
@@ -139,7 +141,7 @@ def _warmth(conveyor: Conveyor, temperature: Quantity) -> dict[str, Quantity]:
     return {"temperature": air, "belt_temperature": temperature}
 
 
-def distinct(values: Iterable[Quantity]) -> list[Quantity]:
+def distinct_values(values: Iterable[Quantity]) -> list[Quantity]:
     """Values without duplicates in another unit."""
     return list({si(value): value for value in values}.values())
 
@@ -153,7 +155,7 @@ def case_settings(conveyor: Conveyor, case: LoadCase) -> Iterator[Setting]:
         except ConveyorError as error:
             loaded = error
         for temperature in case.temperatures or (conveyor.ambient.belt,):
-            yield _setting(loaded, temperature, speed)
+            yield _temperature_setting(loaded, temperature, speed)
 
 
 def crossed_settings(
@@ -164,23 +166,26 @@ def crossed_settings(
     Otherwise nothing but the rubber changes with the temperature, and the conveyors of one speed are one.
     """
     air = conveyor.idlers.drag_follows_air
-    given = [(si(at), _fields("ambient", _warmth(conveyor, at)) if air else {}) for at in temperatures]
-    known = KnownParts()
+    given = [
+        (si(at), _field_changes("ambient", _temperature_changes(conveyor, at)) if air else {})
+        for at in temperatures
+    ]
+    known = PartCache()
     for speed in speeds:
-        running = _with_fields_or_why(conveyor, {"belt.speed": speed}, known)
+        running = _with_fields_or_error(conveyor, {"belt.speed": speed}, known)
         for temperature, warmth in given:
             made = running
             if warmth and isinstance(running, Conveyor):
-                made = _with_fields_or_why(conveyor, {"belt.speed": speed, **warmth}, known)
+                made = _with_fields_or_error(conveyor, {"belt.speed": speed, **warmth}, known)
             yield Setting(temperature, si(speed), made)
 
 
-def _fields(part: str, changes: Mapping[str, Quantity]) -> dict[str, Quantity]:
+def _field_changes(part: str, changes: Mapping[str, Quantity]) -> dict[str, Quantity]:
     return {f"{part}.{name}": value for name, value in changes.items()}
 
 
-def _with_fields_or_why(
-    conveyor: Conveyor, changes: Mapping[str, Quantity], known: KnownParts
+def _with_fields_or_error(
+    conveyor: Conveyor, changes: Mapping[str, Quantity], known: PartCache
 ) -> Conveyor | InputError:
     try:
         return with_fields(conveyor, changes, known=known)
@@ -188,7 +193,7 @@ def _with_fields_or_why(
         return error
 
 
-def _setting(loaded: Conveyor | ConveyorError, temperature: Quantity, speed: Quantity) -> Setting:
+def _temperature_setting(loaded: Conveyor | ConveyorError, temperature: Quantity, speed: Quantity) -> Setting:
     if isinstance(loaded, Conveyor):
         try:
             loaded = with_temperature(loaded, temperature)
@@ -254,13 +259,13 @@ def with_runs(conveyor: Conveyor, runs: Sequence[MeasuredRun]) -> list[Conveyor]
     for number, run in enumerate(runs, start=1):
         if run.state not in known:
             try:
-                known[run.state] = _as_run(conveyor, run)
+                known[run.state] = _as_measured(conveyor, run)
             except (InputError, RangeError) as error:
                 raise error.at(f"run {number}") from None
     return [known[run.state] for run in runs]
 
 
-def _as_run(conveyor: Conveyor, run: MeasuredRun) -> Conveyor:
+def _as_measured(conveyor: Conveyor, run: MeasuredRun) -> Conveyor:
     made = conveyor.replace(material=conveyor.material.replace(flow=run.flow))
     if run.speed is not None:
         made = made.replace(belt=made.belt.replace(speed=run.speed))

@@ -16,16 +16,25 @@ from numpy.typing import NDArray
 from conveyor.contact import solve
 from conveyor.errors import InputError
 from conveyor.indentation import to_problem
-from conveyor.laws.loading import Wing, spread_bulk, wings
+from conveyor.laws.loading import Wing, spread_bulk, wing_pieces
 from conveyor.laws.tension import grip_tension
 from conveyor.line.contacts import Contacts, RollResult
 from conveyor.line.stretches import STRANDS
-from conveyor.loop.equilibrium import holds
-from conveyor.report.columns import FAILS
-from conveyor.report.plots import Over, colour, finished, keyed, master_curve, placed, stacked, titled
-from conveyor.report.settings import own_settings
+from conveyor.loop.equilibrium import tension_suffices
+from conveyor.report.matplotlib_settings import own_settings
+from conveyor.report.plots import (
+    PowerAxis,
+    add_legend,
+    condition_text,
+    curve_colour,
+    finish_figure,
+    master_curve,
+    set_title,
+    stacked_axes,
+)
+from conveyor.report.table_model import FAILS
 from conveyor.units import System
-from conveyor.units.presentation import unit
+from conveyor.units.presentation import display_unit
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -33,40 +42,40 @@ if TYPE_CHECKING:
     from conveyor.line.line import Line
     from conveyor.line.stretches import RouteSection, Strand, Stretch
     from conveyor.loop.balance import Balance
-    from conveyor.loop.estimates import Classical
-    from conveyor.loop.horizontal import HorizontalCheck
-    from conveyor.loop.starting import Motions
+    from conveyor.loop.estimates import ClassicalEstimate
+    from conveyor.loop.horizontal_curve_duty import HorizontalCurveCheck
+    from conveyor.loop.start_and_stop import StartAndStop
     from conveyor.loop.tensions import MotionState
     from conveyor.models import Conveyor, RubberCompound
     from conveyor.pipeline import CalculatedConveyor
-    from conveyor.studies.cases import CalculatedCases, CaseResult
+    from conveyor.studies.input_ranges import CalculatedRanges
+    from conveyor.studies.load_cases import CalculatedCases, CaseResult
     from conveyor.studies.monte_carlo import MonteCarlo
-    from conveyor.studies.uncertainty import CalculatedRanges
 
 
 _SUMS = ("main", "secondary", "special", "lift", "total")
-_BAR = 0.8  # of the distance of two rows
+_BAR_HEIGHT = 0.8  # of the distance of two rows
 _HATCH = ("", "////", "\\\\\\\\")
 _BAND, _BAND_LINES = (0.5, 0.5, 0.5, 0.15), (0.3, 0.3, 0.3, 0.45)
 _POINTS = 300
-_BESIDE = 1.25  # half widths drawn on either side of a contact
+_HALF_WIDTHS = 1.25  # half widths drawn on either side of a contact
 _PRESSURE_RTOL = 1e-6  # of friction; the pressure is then good to about 1 % at the edges
-_TORNADO = 12  # inputs drawn, those that matter most
+_TORNADO_INPUTS = 12  # inputs drawn, those that matter most
 
 
 @own_settings()
 def resistance_breakdown(balance: Balance, *, system: System = "SI") -> Figure:
     """Bars of every resistance [kN, lbf], and the classical estimates of their sums; numbers at the bars."""
-    force = unit("force", system, large=True)
-    figure, (axis,) = stacked(1, 4.4)
-    estimates: list[tuple[str, Classical]] = [
+    force = display_unit("force", system, large=True)
+    figure, (axis,) = stacked_axes(1, 4.4)
+    estimates: list[tuple[str, ClassicalEstimate]] = [
         (f"ISO 5048 / DIN 22101, f = {balance.classical.friction_factor:g}", balance.classical)
     ]
     if balance.cema is not None:
         estimates.append(("CEMA classic, given Ky", balance.cema))
     parts = [name for name in balance.forces.parts if name not in _SUMS]
     names = [*parts, *_SUMS]
-    width = _BAR / (1 + len(estimates))
+    width = _BAR_HEIGHT / (1 + len(estimates))
     sums_here = balance.forces
     forces = force(
         [*(sums_here.parts[name] for name in parts), *(getattr(sums_here, name) for name in _SUMS)]
@@ -76,27 +85,27 @@ def resistance_breakdown(balance: Balance, *, system: System = "SI") -> Figure:
     columns += [(label, sums, force([getattr(made, name) for name in _SUMS])) for label, made in estimates]
     for k, (label, rows, values) in enumerate(columns):
         at = [row + (width * k if row in sums else 0.0) for row in rows]
-        bars = axis.barh(at, values, height=width, label=label, **_bar_look(k))
+        bars = axis.barh(at, values, height=width, label=label, **_bar_style(k))
         axis.bar_label(bars, fmt="{:,.1f}" if system == "SI" else "{:,.0f}", padding=3, fontsize=9)
     middle = 0.5 * width * len(estimates)
     axis.set_yticks(
         [row + (middle if row in sums else 0.0) for row in range(len(names))],
-        [_worded(name) for name in names],
+        [_resistance_label(name) for name in names],
     )
     axis.axhline(len(parts) - 0.5, color="0.75", linewidth=0.8)
     axis.axvline(0.0, color="0.3", linewidth=0.8)
     axis.invert_yaxis()
     axis.margins(x=0.12)
     axis.grid(visible=False, axis="y")
-    return finished(figure, force.beside("force"), title="Resistances", group="x")
+    return finish_figure(figure, force.beside("force"), title="Resistances", group="x")
 
 
-def _bar_look(k: int) -> dict[str, Any]:
+def _bar_style(k: int) -> dict[str, Any]:
     """Style of the bars of the k-th calculation: the first filled, the others hatched."""
-    return {"color": colour(0) if k == 0 else "white", "edgecolor": colour(k), "hatch": _HATCH[k]}
+    return {"color": curve_colour(0) if k == 0 else "white", "edgecolor": curve_colour(k), "hatch": _HATCH[k]}
 
 
-def _worded(name: str) -> str:
+def _resistance_label(name: str) -> str:
     words = {"total": "effective tension", "main": "main resistance"}
     return words.get(name, name.replace("_", " "))
 
@@ -120,8 +129,10 @@ def pressure_under_rolls(contacts: Contacts, *, system: System = "SI") -> Figure
     NoSolutionError
         A contact that was interpolated between others has no answer of its own.
     """
-    figure, (axis,) = stacked(1, 3.6)
-    stress, way, line = (unit(kind, system, large=True) for kind in ("pressure", "thickness", "line force"))
+    figure, (axis,) = stacked_axes(1, 3.6)
+    stress, way, line = (
+        display_unit(kind, system, large=True) for kind in ("pressure", "thickness", "line force")
+    )
     strands: tuple[Strand, ...] = ("carry", "return")
     for k, strand in enumerate(strands):
         roll = governing_roll(contacts, strand)
@@ -129,15 +140,15 @@ def pressure_under_rolls(contacts: Contacts, *, system: System = "SI") -> Figure
         problem = to_problem(contact, load)
         solution = solve(problem, _PRESSURE_RTOL)
         pascal = load / (contact.spacing * problem.pressure)
-        reach = _BESIDE * solution.half_width
+        reach = _HALF_WIDTHS * solution.half_width
         x = np.linspace(solution.eccentricity - reach, solution.eccentricity + reach, _POINTS)
         edges = solution.patches.ravel()  # the curve meets zero at the edges, whatever the grid
         x = np.sort(np.concatenate([x, edges]))
         axis.plot(
             way(contact.radius * x),
             stress(pascal * solution.pressure(x)),
-            color=colour(k),
-            label=f"{strand}: {_figures(float(line(load)))} {line.sign}, "
+            color=curve_colour(k),
+            label=f"{strand}: {_load_text(float(line(load)))} {line.sign}, "
             f"roll {way(2.0 * contact.radius):.4g} {way.sign}, "
             f"cover {way(contact.cover_thickness):.3g} {way.sign}",
         )
@@ -149,16 +160,16 @@ def pressure_under_rolls(contacts: Contacts, *, system: System = "SI") -> Figure
     )
     axis.margins(y=0.4)  # room for the legend above the curves
     axis.set_ylim(bottom=0.0)
-    keyed(axis)
+    add_legend(axis)
     return figure
 
 
-def _figures(value: float) -> str:
+def _load_text(value: float) -> str:
     return f"{value:,.0f}" if value >= 100.0 else f"{value:.4g}"
 
 
 @own_settings()
-def rubber_at_work(
+def excited_master_curve(
     compound: RubberCompound,
     temperature: float,
     contacts: Contacts,
@@ -175,13 +186,13 @@ def rubber_at_work(
         for axis in figure.axes:
             shaded = axis.axvspan(*band, facecolor=_BAND, hatch=_HATCH[k + 1][:2], edgecolor=_BAND_LINES)
             shaded.set(linewidth=0, label=f"{strand} rolls: 90 % loss band")
-    keyed(figure.axes[-1])
+    add_legend(figure.axes[-1])
     return figure
 
 
 @own_settings()
 def case_power(
-    study: CalculatedCases, over: Over, at: float | None = None, *, system: System = "SI"
+    study: CalculatedCases, over: PowerAxis, at: float | None = None, *, system: System = "SI"
 ) -> Figure:
     """Motor power [kW, hp] of every load case over temperature at one speed [m/s], or over speed at a temperature [K].
 
@@ -202,15 +213,15 @@ def case_power(
         listed = ", ".join(f"{known:g}" for known in sorted(set(values)))
         raise InputError(f"{name} = {chosen!r} {sign}: no load case has it, there are {listed}")
     figure, (low, high) = _power_lines(results, over, system), study.friction_band
-    title = f"{study.conveyor.name}, {placed(name, chosen, system)}"
-    titled(figure, title, f"shaded: friction factor {low:g}-{high:g}")
+    title = f"{study.conveyor.name}, {condition_text(name, chosen, system)}"
+    set_title(figure, title, f"shaded: friction factor {low:g}-{high:g}")
     return figure
 
 
 @own_settings()
 def _power_lines(cases: list[CaseResult], over: str, system: System) -> Figure:
-    figure, (axis,) = stacked(1, 3.8)
-    power, along = unit("power", system, large=True), unit(over, system, large=True)
+    figure, (axis,) = stacked_axes(1, 3.8)
+    power, along = display_unit("power", system, large=True), display_unit(over, system, large=True)
     covered = [result for result in cases if result.covered]
     names = [result.case.name for result in covered]
     lines = [name for name in dict.fromkeys(names) if names.count(name) > 1]  # one point makes no line
@@ -218,54 +229,56 @@ def _power_lines(cases: list[CaseResult], over: str, system: System) -> Figure:
         rows = sorted((r for r in covered if r.case.name == case), key=lambda r: float(getattr(r, over)))
         at = along([getattr(r, over) for r in rows])
         motor = power([r.found.balance.power.motor for r in rows])
-        axis.plot(at, motor, color=colour(k), marker="o", markersize=4, label=case)
+        axis.plot(at, motor, color=curve_colour(k), marker="o", markersize=4, label=case)
         low, high = (power([r.motors[end] for r in rows]) for end in (0, 1))
-        axis.fill_between(at, low, high, color=colour(k), alpha=0.12, linewidth=0)
+        axis.fill_between(at, low, high, color=curve_colour(k), alpha=0.12, linewidth=0)
     beyond = [result for result in cases if not result.covered]
     if beyond:
         at, shafts = zip(*((getattr(r, over), r.found.balance.power.motor) for r in beyond), strict=True)
         label = "beyond the rubber data: not for design"
         axis.plot(along(at), power(shafts), color="grey", linestyle="none", marker="x", label=label)
-    return finished(figure, along.beside(f"belt {over}"), power.beside("motor power"), group="y")
+    return finish_figure(figure, along.beside(f"belt {over}"), power.beside("motor power"), group="y")
 
 
 @own_settings()
-def tornado(study: CalculatedRanges, *, system: System = "SI") -> Figure:
+def tornado_chart(study: CalculatedRanges, *, system: System = "SI") -> Figure:
     """Change of the motor power [kW, hp] at both ends of every input's range, the most influential input on top."""
-    effects, power = study.effects[:_TORNADO], unit("power", system, large=True)
-    figure, (axis,) = stacked(1, 1.2 + 0.32 * len(effects))
+    effects, power = study.effects[:_TORNADO_INPUTS], display_unit("power", system, large=True)
+    figure, (axis,) = stacked_axes(1, 1.2 + 0.32 * len(effects))
     rows = range(len(effects))
     for label, k, ends in (
         ("at the low end", 0, [effect.motor_low for effect in effects]),
         ("at the high end", 1, [effect.motor_high for effect in effects]),
     ):
         changes = power([end - study.motor for end in ends])
-        axis.barh(rows, changes, label=label, height=0.6, **_bar_look(k))
+        axis.barh(rows, changes, label=label, height=0.6, **_bar_style(k))
     axis.set_yticks(list(rows), [effect.name for effect in effects], parse_math=False)
     axis.axvline(0.0, color="0.3", linewidth=0.8)
     axis.invert_yaxis()
     axis.grid(visible=False, axis="y")
-    return finished(figure, power.beside("change of the motor power"), title=study.conveyor.name)
+    return finish_figure(figure, power.beside("change of the motor power"), title=study.conveyor.name)
 
 
 @own_settings()
-def settling(exact: MonteCarlo, first_order: tuple[float, float], *, system: System = "SI") -> Figure:
+def interval_convergence(
+    exact: MonteCarlo, first_order: tuple[float, float], *, system: System = "SI"
+) -> Figure:
     """Ends of the 90 % interval of the motor power [kW, hp] over the number of draws, and those of first order."""
-    figure, (axis,) = stacked(1, 3.6)
-    power, rows = unit("power", system, large=True), exact.convergence
+    figure, (axis,) = stacked_axes(1, 3.6)
+    power, rows = display_unit("power", system, large=True), exact.convergence
     draws = [row.draws for row in rows]
     for k, (name, end) in enumerate((("low", first_order[0]), ("high", first_order[1]))):
         values = power([getattr(row, name) for row in rows])
         between = [power([getattr(row, f"{name}_between")[side] for row in rows]) for side in (0, 1)]
-        axis.fill_between(draws, *between, color=colour(k), alpha=0.15, linewidth=0)
+        axis.fill_between(draws, *between, color=curve_colour(k), alpha=0.15, linewidth=0)
         axis.plot(
-            draws, values, color=colour(k), marker="o", markersize=4, label=f"{name} end, draws in full"
+            draws, values, color=curve_colour(k), marker="o", markersize=4, label=f"{name} end, draws in full"
         )
-        axis.axhline(float(power(end)), color=colour(k), linestyle=":", linewidth=1.2)
+        axis.axhline(float(power(end)), color=curve_colour(k), linestyle=":", linewidth=1.2)
     axis.plot([], [], ":", color="0.3", label="first order")
     axis.set_xscale("log", base=2)
     axis.set_xticks(draws, [f"{n:,}" for n in draws], minor=False)
-    return finished(figure, "draws", power.beside("motor power"), group="y")
+    return finish_figure(figure, "draws", power.beside("motor power"), group="y")
 
 
 Array = NDArray[np.float64]
@@ -273,15 +286,15 @@ _HEIGHT = 4.4
 _MARKERS = {"feeding": ("v", 10, "#2E8B57"), "drive": ("o", 9, "#C55A11"), "take-up": ("s", 14, "#8064A2")}
 """Marker, size and colour of equipment along the route."""
 _FAILS = "#B3261E"
-_WAY = "distance from the head along the belt, return strand first"
-_PIECES = 24  # chords of a curve in plan
-_BEYOND = 1.5  # of the free roll width: drawn length of an unbounded drift
-_HEAP = 41  # points of its outline
-_ROOM = 0.05  # of the length, above and below a level route
+_LOOP_DISTANCE = "distance from the head along the belt, return strand first"
+_CURVE_CHORDS = 24  # chords of a curve in plan
+_OFF_ROLLS = 1.5  # of the free roll width: drawn length of an unbounded drift
+_HEAP_POINTS = 41  # points of its outline
+_LEVEL_MARGIN = 0.05  # of the length, above and below a level route
 _ASPECT = 5.0  # a height that is less than a fifth of the length is drawn larger
 
 
-def places(conveyor: Conveyor, line: Line) -> dict[str, tuple[int, ...]]:
+def route_markers(conveyor: Conveyor, line: Line) -> dict[str, tuple[int, ...]]:
     """Section boundaries, counted from the tail, of feeding points, drives and the take-up."""
     names = [section.name for section in conveyor.route.sections]
     feeding = [0 if at.section is None else names.index(at.section) for at in conveyor.route.feeding_points]
@@ -298,10 +311,12 @@ def _from_tail(boundary: int, sections: int) -> int:
     return abs(sections - boundary)
 
 
-def fault(line: Line, state: MotionState) -> str:
+def tension_fault(line: Line, state: MotionState) -> str:
     """Suffix for the name of a motion state whose belt is slack or slips; else empty."""
     slips = any(
-        not holds(side.slack, grip_tension(side.force, friction=drive.friction, wrap_angle=drive.wrap_angle))
+        not tension_suffices(
+            side.slack, grip_tension(side.force, friction=drive.friction, wrap_angle=drive.wrap_angle)
+        )
         for drive, side in zip(line.drives, state.drives, strict=True)
     )
     wrong = [what for what, so in (("slack belt", state.slack), ("belt slips", slips)) if so]
@@ -313,11 +328,11 @@ def route_profile(
     conveyor: Conveyor, line: Line, boundaries: Sequence[tuple[float, float]], *, system: System = "SI"
 ) -> Figure:
     """Height over horizontal distance from the tail [m], with feeding points, drives and take-up marked."""
-    figure, (axis,) = stacked(1, _HEIGHT)
-    length = unit("length", system, large=True)
+    figure, (axis,) = stacked_axes(1, _HEIGHT)
+    length = display_unit("length", system, large=True)
     x, z = length(np.transpose(boundaries))
     axis.plot(x, z, color="#1F4E79", marker=".", zorder=2)
-    for what, at in places(conveyor, line).items():
+    for what, at in route_markers(conveyor, line).items():
         marker, size, ink = _MARKERS[what]
         axis.plot(
             x[list(at)], z[list(at)], marker, color=ink, markersize=size, fillstyle="none", markeredgewidth=1.8,
@@ -329,27 +344,27 @@ def route_profile(
                 x[i : i + 2], z[i : i + 2], color="#A61C3C", linewidth=3, label=f"{section.curve} curve"
             )
     if np.ptp(z) == 0.0:
-        axis.set_ylim(-_ROOM * np.ptp(x), _ROOM * np.ptp(x))
+        axis.set_ylim(-_LEVEL_MARGIN * np.ptp(x), _LEVEL_MARGIN * np.ptp(x))
     elif np.ptp(x) < _ASPECT * np.ptp(z):
         axis.set_aspect("equal", adjustable="datalim")
     across, up = length.beside("horizontal distance"), length.beside("height over the tail")
-    return finished(figure, across, up, conveyor.name, group="x")
+    return finish_figure(figure, across, up, conveyor.name, group="x")
 
 
 @own_settings()
 def cross_section(conveyor: Conveyor, line: Line, *, system: System = "SI") -> Figure:
     """An idler set of each strand with its belt and bulk, to scale; the belt is centred."""
-    figure, axes = stacked(2, 1.4 * _HEIGHT)
-    size, width = unit("size", system), line.belt.width
+    figure, axes = stacked_axes(2, 1.4 * _HEIGHT)
+    size, width = display_unit("size", system), line.belt.width
     for axis, strand in zip(axes, STRANDS, strict=True):
         stretch = max((s for s in line.stretches if s.strand == strand), key=lambda s: s.bulk_mass)
         middle, angle = stretch.idlers.middle_belt(width), stretch.trough_angle
         trough = partial(
-            wings, middle_roll_length=middle, trough_angle=angle, inner_wing=stretch.idlers.inner_wing
+            wing_pieces, middle_roll_length=middle, trough_angle=angle, inner_wing=stretch.idlers.inner_wing
         )
-        for x, y in _rolls(stretch, 0.5 * middle, trough(width)):
+        for x, y in _roll_outlines(stretch, 0.5 * middle, trough(width)):
             axis.fill(size(x), size(y), color="0.85", edgecolor="0.4")
-        x, y = _mirrored(0.5 * middle, trough(width))
+        x, y = _symmetric_belt(0.5 * middle, trough(width))
         axis.plot(size(x), size(y), color="#1F4E79", linewidth=3, zorder=3)
         if stretch.bulk_mass > 0.0:
             covered, slope = spread_bulk(
@@ -361,25 +376,25 @@ def cross_section(conveyor: Conveyor, line: Line, *, system: System = "SI") -> F
                 inner_wing=stretch.idlers.inner_wing,
             )
             lying = 0.5 * min(middle, covered)
-            x, y = _mirrored(lying, trough(covered) if covered > middle else ())
-            over = np.linspace(x[-1], x[0], _HEAP)
+            x, y = _symmetric_belt(lying, trough(covered) if covered > middle else ())
+            over = np.linspace(x[-1], x[0], _HEAP_POINTS)
             heap = y[-1] + math.tan(slope) * (x[-1] ** 2 - over**2) / (2.0 * x[-1])
             axis.fill(size(np.append(x, over)), size(np.append(y, heap)), color="#C9A66B", zorder=2)
         axis.set_aspect("equal", adjustable="datalim")
         axis.set_ylabel(size.beside(f"{strand}, up"))
     axes[1].set_xlabel(size.beside("across the belt"))
-    titled(figure, "Sets, belt and bulk")
+    set_title(figure, "Sets, belt and bulk")
     return figure
 
 
-def _mirrored(flat: float, half: Sequence[Wing]) -> tuple[Array, Array]:
+def _symmetric_belt(flat: float, half: Sequence[Wing]) -> tuple[Array, Array]:
     """Outline of a belt (across, up) [m], from left to right: level to `flat` on both sides, then along the wings."""
     x = np.cumsum([flat, *(wing.length * math.cos(wing.angle) for wing in half)])
     y = np.cumsum([0.0, *(wing.length * math.sin(wing.angle) for wing in half)])
     return np.concatenate([-x[::-1], x]), np.concatenate([y[::-1], y])
 
 
-def _rolls(stretch: Stretch, flat: float, half: Sequence[Wing]) -> Iterator[tuple[Array, Array]]:
+def _roll_outlines(stretch: Stretch, flat: float, half: Sequence[Wing]) -> Iterator[tuple[Array, Array]]:
     """Outlines of the rolls [m]; a wing roll begins at the bend before it."""
     count, long = len(stretch.radii), stretch.roll_length
     if count % 2:
@@ -395,24 +410,24 @@ def _rolls(stretch: Stretch, flat: float, half: Sequence[Wing]) -> Iterator[tupl
         x, y = x + wing.length * math.cos(wing.angle), y + wing.length * math.sin(wing.angle)
 
 
-def _drawn(section: RouteSection, heading: float) -> tuple[Array, float]:
+def _plan_steps(section: RouteSection, heading: float) -> tuple[Array, float]:
     """Steps of a section in plan (x, y) from its tail end [m], shape (k, 2), and the heading behind it [rad]."""
     level = math.sqrt(section.length**2 - section.rise**2)
     bend = section.horizontal
     turned = 0.0 if bend is None else level / bend.radius * (1.0 if bend.side == "left" else -1.0)
-    pieces = 1 if bend is None else _PIECES
+    pieces = 1 if bend is None else _CURVE_CHORDS
     middles = heading + turned * (np.arange(pieces) + 0.5) / pieces
     return level / pieces * np.stack([np.cos(middles), np.sin(middles)], axis=1), heading + turned
 
 
 @own_settings()
-def plan(line: Line, *, system: System = "SI") -> Figure:
+def plan_view(line: Line, *, system: System = "SI") -> Figure:
     """Plan of the route from the tail, which heads along x; horizontal curves in red."""
-    figure, (axis,) = stacked(1, _HEIGHT)
-    length = unit("length", system, large=True)
+    figure, (axis,) = stacked_axes(1, _HEIGHT)
+    length = display_unit("length", system, large=True)
     at, heading = np.zeros(2), 0.0
     for section in line.sections:
-        steps, heading = _drawn(section, heading)
+        steps, heading = _plan_steps(section, heading)
         points = np.concatenate([[at], at + np.cumsum(steps, axis=0)])
         x, y = length(points.T)
         label = "straight" if section.horizontal is None else "horizontal curve"
@@ -424,14 +439,16 @@ def plan(line: Line, *, system: System = "SI") -> Figure:
     axis.plot(*length(at[:, None]), "o", color="#C55A11", fillstyle="none", label="head")
     axis.set_aspect("equal", adjustable="datalim")
     along, across = length.beside("along, from the tail"), length.beside("across")
-    return finished(figure, along, across, "Plan of the route", group="xy")
+    return finish_figure(figure, along, across, "Plan of the route", group="xy")
 
 
 @own_settings()
-def drift(loads: Sequence[tuple[str, Sequence[HorizontalCheck]]], *, system: System = "SI") -> Figure:
+def drift_diagram(
+    loads: Sequence[tuple[str, Sequence[HorizontalCurveCheck]]], *, system: System = "SI"
+) -> Figure:
     """Range of belt drift over all states of each load in every horizontal curve; the free roll width in grey."""
-    bends, size = loads[0][1], unit("size", system)
-    figure, (axis,) = stacked(1, 1.4 + 0.7 * len(bends))
+    bends, size = loads[0][1], display_unit("size", system)
+    figure, (axis,) = stacked_axes(1, 1.4 + 0.7 * len(bends))
     axis.use_sticky_edges = False  # the grey ends within the picture
     thick = 0.8 / len(loads)
     for i, bend in enumerate(bends):
@@ -441,11 +458,11 @@ def drift(loads: Sequence[tuple[str, Sequence[HorizontalCheck]]], *, system: Sys
             outside, inside = turns[i].farthest_out.outside, turns[i].farthest_in.inside
             y, ends = i - 0.4 + (k + 0.5) * thick, (outside, inside)
             low, high = (
-                math.copysign(_BEYOND * room, end) if math.isinf(end) else float(size(end)) for end in ends
+                math.copysign(_OFF_ROLLS * room, end) if math.isinf(end) else float(size(end)) for end in ends
             )
             runs_off = any(map(math.isinf, ends))
             axis.plot(
-                [low, high], [y, y], color=colour(k), linewidth=max(1.5, 14.0 * thick), label=name,
+                [low, high], [y, y], color=curve_colour(k), linewidth=max(1.5, 14.0 * thick), label=name,
                 linestyle=":" if runs_off else "-", solid_capstyle="butt", zorder=3,
             )  # fmt: skip
             if runs_off:
@@ -454,23 +471,25 @@ def drift(loads: Sequence[tuple[str, Sequence[HorizontalCheck]]], *, system: Sys
     axis.set_yticks(range(len(bends)), [f"{bend.section}, {bend.strand}" for bend in bends])
     axis.invert_yaxis()
     words = size.beside("drift, outside negative, inside positive")
-    return finished(figure, words, title="Drift in the horizontal curves")
+    return finish_figure(figure, words, title="Drift in the horizontal curves")
 
 
 @own_settings()
-def tension_diagram(balance: Balance, moving: Motions | None = None, *, system: System = "SI") -> Figure:
+def tension_diagram(balance: Balance, moving: StartAndStop | None = None, *, system: System = "SI") -> Figure:
     """Tension round the loop from the head, one line per motion state; the minimum for sag in grey."""
-    figure, (axis,) = stacked(1, _HEIGHT)
+    figure, (axis,) = stacked_axes(1, _HEIGHT)
     settled = balance.settled
     shape = balance.line.loop
-    force, length = unit("force", system, large=True), unit("length", system, large=True)
+    force, length = display_unit("force", system, large=True), display_unit("length", system, large=True)
     way = length(np.repeat(shape.way, 2)[1:-1])
     states = settled.states | ({} if moving is None else moving.states)
     for k, state in enumerate(states.values()):
         tensions = np.stack([state.starts, state.ends], axis=1).ravel()
         x = np.concatenate([[0.0], way, way[-1:]])
         y = np.concatenate([[state.leaving], tensions, [state.arriving]])
-        axis.plot(x, force(y), color=colour(k), label=f"{state.name}{fault(balance.line, state)}")
+        axis.plot(
+            x, force(y), color=curve_colour(k), label=f"{state.name}{tension_fault(balance.line, state)}"
+        )
         if state.slack:
             low = force(np.minimum(y, 0.0))
             axis.fill_between(x, low, 0.0, color=_FAILS, alpha=0.35, linewidth=0, zorder=0)
@@ -482,16 +501,20 @@ def tension_diagram(balance: Balance, moving: Motions | None = None, *, system: 
     axis.annotate(
         "tail", (tail, 0.0), xycoords=("data", "axes fraction"), color="0.4", ha="center", va="bottom"
     )
-    return finished(
-        figure, length.beside(_WAY), force.beside("tension"), "Tension round the loop", group="xy"
+    return finish_figure(
+        figure, length.beside(_LOOP_DISTANCE), force.beside("tension"), "Tension round the loop", group="xy"
     )
 
 
 @own_settings()
 def flap_diagram(result: CalculatedConveyor, *, system: System = "SI") -> Figure:
     """Natural frequencies of the belt between the idler sets in steady running, and the rotation of the rolls."""
-    figure, (axis,) = stacked(1, _HEIGHT)
-    length, frequency, shape = unit("length", system, large=True), unit("swing", system), result.line.loop
+    figure, (axis,) = stacked_axes(1, _HEIGHT)
+    length, frequency, shape = (
+        display_unit("length", system, large=True),
+        display_unit("swing", system),
+        result.line.loop,
+    )
     places = {(s.section, s.strand): shape.way[i : i + 2] for i, s in enumerate(shape.stretches)}
     lines: dict[str, tuple[str, str, list[float], list[float]]] = {}
 
@@ -503,7 +526,7 @@ def flap_diagram(result: CalculatedConveyor, *, system: System = "SI") -> Figure
     for duty in result.set_duty:
         x = length(np.asarray(places[duty.stretch.section, duty.stretch.strand])).tolist()
         strand, margin = duty.stretch.strand, duty.limits.flap_margin or 0.0
-        ink = colour(STRANDS.index(strand))
+        ink = curve_colour(STRANDS.index(strand))
         drawn(f"belt, {strand}", ink, "-", x, duty.swings)
         drawn(f"belt, {strand}, second mode", ink, "--", x, [2.0 * swing for swing in duty.swings])
         for each in dict.fromkeys(duty.rotations):
@@ -515,4 +538,6 @@ def flap_diagram(result: CalculatedConveyor, *, system: System = "SI") -> Figure
         axis.plot(ways, values, line, color=ink, label=label)
     axis.set_ylim(bottom=0.0)
     title = "Belt between the idlers and rotation of the rolls"
-    return finished(figure, length.beside(_WAY), frequency.beside("frequency"), title, group="x")
+    return finish_figure(
+        figure, length.beside(_LOOP_DISTANCE), frequency.beside("frequency"), title, group="x"
+    )

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-from conveyor.report.columns import Column, Contents, Table
-from conveyor.report.tables import document, provenance
+from conveyor.report.analysis_tables import provenance_table, report_head
+from conveyor.report.table_model import Column, Contents, Table
 from conveyor.spec import fingerprint
 from conveyor.units import System
-from conveyor.units.presentation import unit
+from conveyor.units.presentation import display_unit
 
 if TYPE_CHECKING:
     from conveyor.studies.calibration import CalculatedCalibration
@@ -16,18 +16,18 @@ if TYPE_CHECKING:
 SHEET: Final = "Calibration"
 
 
-def of_calibration(calibration: CalculatedCalibration, system: System) -> Contents:
+def calibration_contents(calibration: CalculatedCalibration, system: System) -> Contents:
     """Contents of the calibration report in a unit system."""
-    facts = (("runs", str(len(calibration.runs))), ("error", error_words(calibration)))
+    facts = (("runs", str(len(calibration.runs))), ("error", error_text(calibration)))
     parts = (
-        factors(calibration), runs(calibration), correlation(calibration), notes(calibration),
-        provenance(fingerprint(calibration.conveyor), SHEET),
+        factor_table(calibration), run_table(calibration), correlation_table(calibration), note_table(calibration),
+        provenance_table(fingerprint(calibration.conveyor), SHEET),
     )  # fmt: skip
-    about = document(calibration.conveyor, "Calibration to measured power", system, facts)
+    about = report_head(calibration.conveyor, "Calibration to measured power", system, facts)
     return Contents(about, parts, system)
 
 
-def factors(calibration: CalculatedCalibration) -> Table:
+def factor_table(calibration: CalculatedCalibration) -> Table:
     """Calibration factors with their 90 % intervals, one row each."""
     columns = (
         Column("factor on", "text", "name"),
@@ -42,7 +42,7 @@ def factors(calibration: CalculatedCalibration) -> Table:
     )
 
 
-def runs(calibration: CalculatedCalibration) -> Table:
+def run_table(calibration: CalculatedCalibration) -> Table:
     """Power of every run: measured, calculated without factors and with them."""
     columns = (
         Column("run", "count", "0"),
@@ -63,7 +63,7 @@ def runs(calibration: CalculatedCalibration) -> Table:
     return Table("runs", SHEET, "Runs: measured, calculated without factors and with them", numbered, rows)
 
 
-def correlation(calibration: CalculatedCalibration) -> Table:
+def correlation_table(calibration: CalculatedCalibration) -> Table:
     """Correlation matrix of the factors; no rows for a single factor."""
     names = [factor.name for factor in calibration.factors]
     rows = list(zip(names, calibration.correlation.tolist(), strict=True)) if len(names) > 1 else []
@@ -74,32 +74,32 @@ def correlation(calibration: CalculatedCalibration) -> Table:
     return Table("correlation", SHEET, "Correlation of the factors", columns, rows)
 
 
-def notes(calibration: CalculatedCalibration) -> Table:
+def note_table(calibration: CalculatedCalibration) -> Table:
     """Basis and limitations of the calibration."""
     columns = (Column("note", "text", lambda row: row),)
-    return Table("notes", SHEET, "Basis and limitations", columns, lines(calibration))
+    return Table("notes", SHEET, "Basis and limitations", columns, note_lines(calibration))
 
 
-def lines(calibration: CalculatedCalibration) -> tuple[str, ...]:
+def note_lines(calibration: CalculatedCalibration) -> tuple[str, ...]:
     """Sentences on the basis and limitations of the calibration."""
     return (
         *calibration.notes,
         f"chi square {calibration.chi_square:.3g} at {calibration.freedom} degrees of freedom; "
-        f"errors: {error_words(calibration)}",
+        f"errors: {error_text(calibration)}",
         "lift, tilt, secondary resistances and the efficiencies of the drive are taken as the spec says: "
         "what they lack is in the factors",
     )
 
 
-def error_words(calibration: CalculatedCalibration) -> str:
+def error_text(calibration: CalculatedCalibration) -> str:
     """Relative error of a power, and its origin."""
     if calibration.error is None:
         return "as the runs state"
     source = "from the differences" if calibration.estimated else "as given"
-    return f"{unit('share').written(calibration.error)} of each power, {source}"
+    return f"{display_unit('share').written(calibration.error)} of each power, {source}"
 
 
-def plain(calibration: CalculatedCalibration) -> dict[str, Any]:
+def calibration_json(calibration: CalculatedCalibration) -> dict[str, Any]:
     """Plain numbers for JSON; units in the keys."""
     return {
         "calibration": calibration.calibration.factors | {"source": calibration.calibration.source},
@@ -116,7 +116,7 @@ def plain(calibration: CalculatedCalibration) -> dict[str, Any]:
         "runs": [
             {
                 "at": one.run.at,
-                "flow_t_per_h": unit("mass flow").shown(one.run.mass_flow),
+                "flow_t_per_h": display_unit("mass flow").shown(one.run.mass_flow),
                 "measured_kW": one.measured / 1e3,
                 "calculated_kW": one.before / 1e3,
                 "calibrated_kW": one.after / 1e3,

@@ -17,10 +17,10 @@ from openpyxl.worksheet.header_footer import HeaderFooterItem, _HeaderFooterPart
 from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
-from conveyor.printable import printable
-from conveyor.report.columns import NAMED, OF_ROW, Table
+from conveyor.printable import escape_controls
+from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Table
 from conveyor.units import System
-from conveyor.units.presentation import NEVER, unit
+from conveyor.units.presentation import NEVER, display_unit
 
 ACCENT = "1F4E79"
 TITLE = Font(name="Calibri", size=16, bold=True, color=ACCENT)
@@ -31,64 +31,66 @@ GREY = Font(name="Calibri", italic=True, color="666666")
 LINK = Font(name="Calibri", underline="single", color=ACCENT)
 PALE = PatternFill("solid", fgColor="E8EEF5")
 TOTAL = Border(top=Side(style="thin", color=ACCENT))
-ASKED = PatternFill("solid", fgColor="FFF9DB")
+INPUT_FILL = PatternFill("solid", fgColor="FFF9DB")
 _LINE = Side(style="thin", color="B5A55A")
 _BOX = Border(left=_LINE, right=_LINE, top=_LINE, bottom=_LINE)
 _HEADER = Font(name="Calibri", bold=True, color="FFFFFF")
 _FILL = PatternFill("solid", fgColor=ACCENT)
-_GAP = Border(left=Side(style="thin", color="FFFFFF"), right=Side(style="thin", color="FFFFFF"))
+_HEADER_GAP = Border(left=Side(style="thin", color="FFFFFF"), right=Side(style="thin", color="FFFFFF"))
 _LEFT = Alignment(horizontal="left", indent=1)
 _CENTRE = Alignment(horizontal="center")
 
 
 @dataclass(frozen=True)
-class Look:
+class CellStyle:
     """Font and fill of a verdict."""
 
     font: Font
     fill: PatternFill
 
 
-_GOOD = Look(Font(name="Calibri", color="1E6B34"), PatternFill("solid", fgColor="E2F0E5"))
-_BAD = Look(Font(name="Calibri", bold=True, color="FFFFFF"), PatternFill("solid", fgColor="B3261E"))
-_OPEN = Look(Font(name="Calibri", italic=True, color="7A5200"), PatternFill("solid", fgColor="FFF3D6"))
-VERDICTS = {"pass": _GOOD, "yes": _GOOD, "FAIL": _BAD, "NO": _BAD, "not checked": _OPEN}
+_GOOD = CellStyle(Font(name="Calibri", color="1E6B34"), PatternFill("solid", fgColor="E2F0E5"))
+_BAD = CellStyle(Font(name="Calibri", bold=True, color="FFFFFF"), PatternFill("solid", fgColor="B3261E"))
+_OPEN = CellStyle(Font(name="Calibri", italic=True, color="7A5200"), PatternFill("solid", fgColor="FFF3D6"))
+VERDICT_STYLES = {"pass": _GOOD, "yes": _GOOD, "FAIL": _BAD, "NO": _BAD, "not checked": _OPEN}
 """Bold on dark is a failure without colours, too."""
-INFINITE = "∞"
+INFINITY_SIGN = "∞"
 """A cell cannot hold infinity as a number."""
 
 _UNSAFE = ("=", "+", "-", "@", "\t", "\r", "\n")
-LONGEST = 32_767
+CELL_CHARACTERS = 32_767
 """Characters a cell can hold (Excel specifications and limits)."""
 _NARROWEST, _WIDEST = 10, 60
-_FILLED = 1.1  # characters of text on the width of one digit
-_BOLD = 1.1  # of the width of plain text
+_LETTERS_PER_DIGIT = 1.1  # characters of text on the width of one digit
+_BOLD_WIDTH = 1.1  # of the width of plain text
 _PAGE_ROWS = {"landscape": 45, "portrait": 75}  # that a page still shows legibly
-_HIGHEST = 409.0
+_ROW_HEIGHT_LIMIT = 409.0
 """Height of a row at most [pt] (Excel specifications and limits)."""
 
 
-def legible(words: str) -> str:
+def cell_text(words: str) -> str:
     r"""Return text that a cell can hold: printable, cut to the length Excel allows.
 
     Examples
     --------
-    >>> legible("bell\x07")
+    >>> cell_text("bell\x07")
     'bell\\x07'
     """
-    shown = printable(words)
-    if len(shown) <= LONGEST:
+    shown = escape_controls(words)
+    if len(shown) <= CELL_CHARACTERS:
         return shown
     mark = f" ... (cut here: {len(words)} characters)"
-    return shown[: LONGEST - len(mark)] + mark
+    return shown[: CELL_CHARACTERS - len(mark)] + mark
 
 
-def put(cell: Cell | MergedCell, value: Any, font: Font | None = None, shown: str | None = None) -> None:
+def write_value(
+    cell: Cell | MergedCell, value: Any, font: Font | None = None, shown: str | None = None
+) -> None:
     """Write one value: text always as text, numbers as numbers, nothing for None."""
     if isinstance(cell, MergedCell) or value is None or (isinstance(value, float) and math.isnan(value)):
         return  # pandas writes a missing number of a mixed column as NaN
     if isinstance(value, str):
-        cell.value = legible(value)
+        cell.value = cell_text(value)
         cell.data_type = "s"
         if value.startswith(_UNSAFE):
             cell.quotePrefix = True
@@ -102,7 +104,7 @@ def put(cell: Cell | MergedCell, value: Any, font: Font | None = None, shown: st
         cell.font = font
 
 
-def table(
+def write_table(
     sheet: Worksheet, shown: Table, system: System, row: int, column: int = 1, *, widest: int = _WIDEST
 ) -> int:
     """Write a table with its header at (row, column); returns its last row.
@@ -116,32 +118,34 @@ def table(
     """
     names = [shown.head(each, system) for each in shown.columns]
     for j, (each, name) in enumerate(zip(shown.columns, names, strict=True), start=column):
-        cells = shown.names(system) if each.kind == NAMED else shown.cells(each, system)
-        values = [_worded(value, NEVER if each.kind == "years" else INFINITE) for value in cells]
-        number = each.kind == OF_ROW or (each.kind != NAMED and unit(each.kind, system).label is not None)
+        cells = shown.names(system) if each.kind == FIGURE_NAME else shown.cells(each, system)
+        values = [_cell_value(value, NEVER if each.kind == "years" else INFINITY_SIGN) for value in cells]
+        number = each.kind == ROW_KIND or (
+            each.kind != FIGURE_NAME and display_unit(each.kind, system).label is not None
+        )
         text = not number and all(v is None or isinstance(v, str) for v in values)
-        _head(sheet.cell(row, j), name, right=not text)
+        _header_cell(sheet.cell(row, j), name, right=not text)
         at = row + 1, j
         patterns = [shown.unit(each, item, system).pattern for item in shown.rows]
         longest = (
             _text_column(sheet, at, values, widest) if text else _number_column(sheet, at, values, patterns)
         )
         if each.kind == "verdict":
-            _judge(sheet, at, values)
+            _colour_verdicts(sheet, at, values)
         if each.asked:
-            _ask(sheet, at, len(values))
+            _mark_inputs(sheet, at, len(values))
         letter = get_column_letter(j)
         known = sheet.column_dimensions[letter].width if letter in sheet.column_dimensions else 0.0
-        wanted = min(widest, max(_NARROWEST, longest, round(_BOLD * _two_lines(name)) + 3))
+        wanted = min(widest, max(_NARROWEST, longest, round(_BOLD_WIDTH * _two_line_width(name)) + 3))
         sheet.column_dimensions[letter].width = max(known, wanted)
-    _tops(sheet, (row + 1, row + len(shown.rows)), (column, column + len(names) - 1))
-    wrapped = any(len(name) + 2 > _width(sheet, j) for j, name in enumerate(names, start=column))
+    _align_tops(sheet, (row + 1, row + len(shown.rows)), (column, column + len(names) - 1))
+    wrapped = any(len(name) + 2 > _column_width(sheet, j) for j, name in enumerate(names, start=column))
     known_height = sheet.row_dimensions[row].height or 0.0
     sheet.row_dimensions[row].height = max(known_height, 31.0 if wrapped else 16.0)
     return row + len(shown.rows)
 
 
-def _tops(sheet: Worksheet, rows: tuple[int, int], columns: tuple[int, int]) -> None:
+def _align_tops(sheet: Worksheet, rows: tuple[int, int], columns: tuple[int, int]) -> None:
     """Align the cells of rows of several lines to the top."""
     for i in range(rows[0], rows[1] + 1):
         if (sheet.row_dimensions[i].height if i in sheet.row_dimensions else None) is None:
@@ -161,16 +165,16 @@ def _text_column(sheet: Worksheet, at: tuple[int, int], values: list[Any], wides
         if value is None:
             continue
         cell = sheet.cell(i, at[1])
-        lines = lines_of(value, widest - 2)
+        lines = line_count(value, widest - 2)
         if lines > 1:
             cell.alignment = Alignment(horizontal="left", indent=1, wrap_text=True, vertical="top")
             known = sheet.row_dimensions[i].height if i in sheet.row_dimensions else None
-            sheet.row_dimensions[i].height = min(_HIGHEST, max(15.0 * lines, known or 0.0))
+            sheet.row_dimensions[i].height = min(_ROW_HEIGHT_LIMIT, max(15.0 * lines, known or 0.0))
         elif model is None:
             cell.alignment, model = _LEFT, cell
         else:
-            _dress_like(cell, model)
-        put(cell, value)
+            _copy_style(cell, model)
+        write_value(cell, value)
         longest = max(longest, len(value) + 3)
     return longest
 
@@ -182,47 +186,47 @@ def _number_column(sheet: Worksheet, at: tuple[int, int], values: list[Any], for
     for i, (value, shown) in enumerate(zip(values, formats, strict=True), start=at[0]):
         cell = sheet.cell(i, at[1])
         if shown in models:
-            _dress_like(cell, models[shown])
+            _copy_style(cell, models[shown])
         else:
             cell.number_format, models[shown] = shown, cell
-        put(cell, value)
+        write_value(cell, value)
         if isinstance(value, str):
             cell.alignment = Alignment(horizontal="right")
-        longest = max(longest, _length(cell.value, shown))
+        longest = max(longest, _number_width(cell.value, shown))
     return longest
 
 
-def lines_of(words: str, width: float) -> int:
+def line_count(words: str, width: float) -> int:
     """Number of lines of a text at a column width [digits]."""
-    return max(1, len(wrap(words, int(_FILLED * width))))
+    return max(1, len(wrap(words, int(_LETTERS_PER_DIGIT * width))))
 
 
-def _dress_like(cell: Any, model: Any) -> None:
+def _copy_style(cell: Any, model: Any) -> None:
     """Copy the style of a cell: ten times as fast as setting its parts."""
     cell._style = copy(model._style)  # noqa: SLF001 openpyxl's own way to copy a look
 
 
-def _judge(sheet: Worksheet, at: tuple[int, int], values: list[Any]) -> None:
+def _colour_verdicts(sheet: Worksheet, at: tuple[int, int], values: list[Any]) -> None:
     """Colour the verdicts of a column."""
     for i, value in enumerate(values, start=at[0]):
-        if value in VERDICTS:
-            look = VERDICTS[value]
+        if value in VERDICT_STYLES:
+            look = VERDICT_STYLES[value]
             cell = sheet.cell(i, at[1])
             cell.font, cell.fill, cell.alignment = look.font, look.fill, _CENTRE
 
 
-def _ask(sheet: Worksheet, at: tuple[int, int], count: int) -> None:
+def _mark_inputs(sheet: Worksheet, at: tuple[int, int], count: int) -> None:
     """Mark a column of cells for the reader to fill in."""
     for i in range(at[0], at[0] + count):
-        ask(sheet.cell(i, at[1]))
+        mark_input(sheet.cell(i, at[1]))
 
 
-def ask(cell: Cell | MergedCell) -> None:
+def mark_input(cell: Cell | MergedCell) -> None:
     """Mark a cell that the reader may fill in or change."""
-    cell.fill, cell.border, cell.protection = ASKED, _BOX, Protection(locked=False)
+    cell.fill, cell.border, cell.protection = INPUT_FILL, _BOX, Protection(locked=False)
 
 
-def _worded(value: Any, infinite: str = INFINITE) -> Any:
+def _cell_value(value: Any, infinite: str = INFINITY_SIGN) -> Any:
     """Yes/no as text, infinity as a symbol, NaN as empty."""
     if isinstance(value, bool):
         return "yes" if value else "NO"
@@ -231,11 +235,11 @@ def _worded(value: Any, infinite: str = INFINITE) -> Any:
     return value
 
 
-def _head(cell: Cell | MergedCell, name: str, *, right: bool) -> None:
-    put(cell, name, _HEADER)
+def _header_cell(cell: Cell | MergedCell, name: str, *, right: bool) -> None:
+    write_value(cell, name, _HEADER)
     cell.fill = _FILL
     if name:
-        cell.border = _GAP
+        cell.border = _HEADER_GAP
     side, indent = ("right", 0) if right else ("left", 1)
     cell.alignment = Alignment(wrap_text=True, vertical="center", horizontal=side, indent=indent)
 
@@ -243,17 +247,17 @@ def _head(cell: Cell | MergedCell, name: str, *, right: bool) -> None:
 def header_row(sheet: Worksheet, row: int, column: int, names: Iterable[str]) -> None:
     """Write the header of a table of text from a cell to the right."""
     for j, name in enumerate(names, start=column):
-        _head(sheet.cell(row, j), name, right=False)
+        _header_cell(sheet.cell(row, j), name, right=False)
 
 
-def _two_lines(name: str) -> int:
+def _two_line_width(name: str) -> int:
     """Smallest width at which a name takes at most two lines [characters]."""
     words = name.split()
     breaks = [(" ".join(words[:i]), " ".join(words[i:])) for i in range(len(words))]
     return min(max(map(len, lines)) for lines in breaks)
 
 
-def _length(value: Any, shown: str) -> int:
+def _number_width(value: Any, shown: str) -> int:
     """Characters a number takes, with a margin."""
     if not isinstance(value, int | float):
         return 0
@@ -262,24 +266,24 @@ def _length(value: Any, shown: str) -> int:
     return 13 if shown == "General" else 10
 
 
-def _width(sheet: Worksheet, column: int) -> float:
+def _column_width(sheet: Worksheet, column: int) -> float:
     return float(sheet.column_dimensions[get_column_letter(column)].width)
 
 
-def total(sheet: Worksheet, row: int, shown: Table, system: System, first: int = 1) -> None:
+def write_totals(sheet: Worksheet, row: int, shown: Table, system: System, first: int = 1) -> None:
     """Write a table's line of totals from a first column, a rule above it."""
     for j, (column, value) in enumerate(zip(shown.columns, shown.totals(), strict=True), start=first):
         cell = sheet.cell(row, j)
         if isinstance(value, str):
-            put(cell, value, BOLD)
+            write_value(cell, value, BOLD)
             cell.alignment = Alignment(horizontal="left", indent=1)
         else:
-            written = unit(column.kind, system)
-            put(cell, written.shown(value), BOLD, written.pattern)
+            written = display_unit(column.kind, system)
+            write_value(cell, written.shown(value), BOLD, written.pattern)
         cell.border = TOTAL
 
 
-def print_set_up(
+def set_up_print(
     sheet: Worksheet, name: str, last: int, *, paper: str = "A4", portrait: bool = False
 ) -> None:
     """Set up printing: fit to the paper's width, to one page where legible, with the project's name as header."""
@@ -294,7 +298,7 @@ def print_set_up(
     margins = sheet.page_margins
     margins.left = margins.right = 0.5
     margins.top, margins.bottom = 0.9, 0.75
-    left = _HeaderFooterPart(text=legible(name).replace("&", "&&"))
+    left = _HeaderFooterPart(text=cell_text(name).replace("&", "&&"))
     sheet.oddHeader = HeaderFooterItem(left=left, right=_HeaderFooterPart(text="&A"))
     sheet.oddFooter = HeaderFooterItem(right=_HeaderFooterPart(text="&P / &N"))
     sheet.sheet_view.showGridLines = False

@@ -17,46 +17,46 @@ from openpyxl.drawing.line import LineProperties
 from openpyxl.drawing.text import CharacterProperties, Paragraph, ParagraphProperties, RegularTextRun
 from openpyxl.worksheet.worksheet import Worksheet
 
-from conveyor.report.cells import ACCENT, legible
-from conveyor.report.columns import FAILS, Table
-from conveyor.report.places import TablePlace
+from conveyor.report.cells import ACCENT, cell_text
+from conveyor.report.sheet_writer import TablePlace
+from conveyor.report.table_model import FAILS, Table
 from conveyor.units import System
-from conveyor.units.presentation import spelled, unit
+from conveyor.units.presentation import display_unit, label_for_people
 
 _WIDTH, _HEIGHT, _WIDE = 17.0, 9.0, 24.0  # [cm]
 _PALETTE = (ACCENT, "C55A11", "7F7F7F", "2E8B57", "8064A2", "B8860B")
 _DASHES = ("solid", "dash", "sysDot", "dashDot")
 _RED = "B3261E"
 _STREAM = ("centre", "lower_edge", "upper_edge", "lower_edge_after_booth")
-_TALL = 13.0  # highest area of a chart that is drawn to scale [cm]
-_STEPS = 6.0  # of the longer axis of a chart that is drawn to scale, at most
+_HIGHEST_AREA = 13.0  # highest area of a chart that is drawn to scale [cm]
+_MOST_STEPS = 6.0  # of the longer axis of a chart that is drawn to scale, at most
 # room for axis labels, legend and frame of a chart that is drawn to scale [cm]
-_BESIDE, _KEY, _AROUND = 2.4, 6.4, 3.2
+_AXIS_ROOM, _LEGEND_ROOM, _FRAME_ROOM = 2.4, 6.4, 3.2
 _SYMBOLS = ("triangle", "circle", "square")
 _GRID = "D9D9D9"
 _LINE_WIDTH = 22_000  # width of a series' line [EMU]: 1.7 pt
 
 
-def _title(words: str, *, size: int) -> Title:
+def _chart_title(words: str, *, size: int) -> Title:
     title = Title(overlay=False)
     look = CharacterProperties(sz=100 * size, b=size > 10, solidFill="404040")
-    run = RegularTextRun(t=legible(words), rPr=look)
+    run = RegularTextRun(t=cell_text(words), rPr=look)
     title.tx = Text(rich=RichText(p=[Paragraph(pPr=ParagraphProperties(defRPr=look), r=[run])]))
     return title
 
 
-def _head(sheet: Worksheet, header: int, column: int) -> str:
+def _column_header(sheet: Worksheet, header: int, column: int) -> str:
     """Header of a column, with its unit."""
     return str(sheet.cell(header, column).value)
 
 
 def axis_title(words: str) -> Title:
     """Title of an axis."""
-    return _title(words, size=10)
+    return _chart_title(words, size=10)
 
 
-def _dress(chart: Any, title: str, x: str, y: str) -> None:
-    chart.title = _title(title, size=12)
+def _style_chart(chart: Any, title: str, x: str, y: str) -> None:
+    chart.title = _chart_title(title, size=12)
     for axis, words in ((chart.x_axis, x), (chart.y_axis, y)):
         axis.title = axis_title(words) if words else None
         axis.delete = False  # recent Excel hides axes otherwise
@@ -64,17 +64,17 @@ def _dress(chart: Any, title: str, x: str, y: str) -> None:
     chart.width, chart.height = _WIDTH, _HEIGHT
 
 
-def sized(chart: Any, width: float, height: float = _HEIGHT) -> None:
+def resize_chart(chart: Any, width: float, height: float = _HEIGHT) -> None:
     """Set the size of a chart [cm]."""
     chart.width, chart.height = width, height
 
 
-def bars(sheet: Worksheet, title: str, rows: tuple[int, int], *, label: int, value: int) -> BarChart:
+def bar_chart(sheet: Worksheet, title: str, rows: tuple[int, int], *, label: int, value: int) -> BarChart:
     """Bar chart of two columns of a table, labels and values; `rows` are its header and its last row."""
     header, last = rows
     chart = BarChart()
     chart.type = "bar"
-    _dress(chart, title, "", _head(sheet, header, value))
+    _style_chart(chart, title, "", _column_header(sheet, header, value))
     chart.add_data(Reference(sheet, min_col=value, min_row=header, max_row=last), titles_from_data=True)
     chart.set_categories(Reference(sheet, min_col=label, min_row=header + 1, max_row=last))
     chart.series[0].graphicalProperties.solidFill = ACCENT
@@ -88,17 +88,17 @@ def bars(sheet: Worksheet, title: str, rows: tuple[int, int], *, label: int, val
     return chart
 
 
-def forces(axis: Any, name: str, system: System) -> None:
+def force_axis(axis: Any, name: str, system: System) -> None:
     """Title and format an axis of forces: kN for cells in N."""
-    large = unit("force", system, large=True)
+    large = display_unit("force", system, large=True)
     axis.title = axis_title(large.beside(name))
-    axis.number_format = "#,##0" if large.size == unit("force", system).size else "#,##0,"
+    axis.number_format = "#,##0" if large.size == display_unit("force", system).size else "#,##0,"
 
 
-def differences(sheet: Worksheet, title: str, place: TablePlace, last: int) -> LineChart:
+def difference_chart(sheet: Worksheet, title: str, place: TablePlace, last: int) -> LineChart:
     """Difference of every compound to the base, with its band where known."""
     chart = LineChart()
-    _dress(chart, title, "", "difference")
+    _style_chart(chart, title, "", "difference")
     for key, symbol, size in (
         ("motor_power_against_base", "circle", 9),
         ("difference_low", "dash", 7),
@@ -125,13 +125,16 @@ def power_over_temperature(sheet: Worksheet, place: TablePlace, shown: Table, sy
 
     The power axis begins below the least, at a round figure: differences between compounds are what is looked for.
     """
-    chart = _curves(
+    chart = _column_curves(
         sheet,
         place,
         "temperature",
         place.keys[1:],
         title=f"Motor power at {shown.note}",
-        words=(f"belt {_head(sheet, place.header, 1)}", spelled("motor power", "power", system)),
+        words=(
+            f"belt {_column_header(sheet, place.header, 1)}",
+            label_for_people("motor power", "power", system),
+        ),
     )
     chart.x_axis.number_format, chart.y_axis.number_format = "0", "#,##0"
     chart.x_axis.tickLblPos = "low"
@@ -144,33 +147,35 @@ def power_over_temperature(sheet: Worksheet, place: TablePlace, shown: Table, sy
     return chart
 
 
-def tension(sheet: Worksheet, place: TablePlace, system: System) -> ScatterChart:
+def tension_chart(sheet: Worksheet, place: TablePlace, system: System) -> ScatterChart:
     """Tension round the loop in every state, and the minimum for sag; states that fail in red."""
     states = [key for key in place.keys[1:] if key != "distance_from_head"]
     title = "Tension round the loop, from the head along the return strand and back"
     words = (
-        _head(sheet, place.header, place.column("distance_from_head")),
-        spelled("tension", "force", system),
+        _column_header(sheet, place.header, place.column("distance_from_head")),
+        label_for_people("tension", "force", system),
     )
-    chart = _curves(sheet, place, "distance_from_head", states, title=title, words=words)
+    chart = _column_curves(sheet, place, "distance_from_head", states, title=title, words=words)
     for series, key in zip(chart.series, states, strict=True):
-        if FAILS in _head(sheet, place.header, place.column(key)):
+        if FAILS in _column_header(sheet, place.header, place.column(key)):
             line = series.graphicalProperties.line
             line.solidFill, line.dashStyle, line.width = _RED, "solid", 2 * _LINE_WIDTH
     chart.x_axis.number_format = "#,##0"
-    forces(chart.y_axis, "tension", system)
+    force_axis(chart.y_axis, "tension", system)
     chart.x_axis.tickLblPos = "low"
     chart.x_axis.scaling.min = 0.0
-    sized(chart, _WIDE)
+    resize_chart(chart, _WIDE)
     return chart
 
 
-def profile(sheet: Worksheet, place: TablePlace, system: System) -> ScatterChart:
+def profile_chart(sheet: Worksheet, place: TablePlace, system: System) -> ScatterChart:
     """Profile of the route, with feeding points, drives and take-up."""
-    words = tuple(spelled(name, "length", system) for name in ("horizontal distance from the tail", "height"))
+    words = tuple(
+        label_for_people(name, "length", system) for name in ("horizontal distance from the tail", "height")
+    )
     first = place.keys.index("height")
     what = place.keys[first:]
-    chart = _curves(sheet, place, "horizontal", what, title="Profile of the route", words=words)
+    chart = _column_curves(sheet, place, "horizontal", what, title="Profile of the route", words=words)
     for series, symbol in zip(chart.series[1:], _SYMBOLS, strict=False):
         ink = series.graphicalProperties.line.solidFill
         series.graphicalProperties.line.noFill = True
@@ -183,10 +188,12 @@ def profile(sheet: Worksheet, place: TablePlace, system: System) -> ScatterChart
     return chart
 
 
-def trajectory(sheet: Worksheet, place: TablePlace, outline: TablePlace, system: System) -> ScatterChart:
+def trajectory_chart(
+    sheet: Worksheet, place: TablePlace, outline: TablePlace, system: System
+) -> ScatterChart:
     """Discharge trajectory and belt at the head pulley, both axes to one scale."""
-    words = [spelled(name, "spacing", system) for name in ("forward of the axis", "over the axis")]
-    chart = _scatter("Discharge over the head pulley, to scale", *words)
+    words = [label_for_people(name, "spacing", system) for name in ("forward of the axis", "over the axis")]
+    chart = _scatter_chart("Discharge over the head pulley, to scale", *words)
     drawn = [(outline, "belt", "belt"), *((place, name, name.replace("_", " ")) for name in _STREAM)]
     spans: list[list[float]] = [[], []]
     for at, name, title in drawn:
@@ -194,33 +201,38 @@ def trajectory(sheet: Worksheet, place: TablePlace, outline: TablePlace, system:
         across, up = (
             Reference(sheet, min_col=column, min_row=at.header + 1, max_row=at.last) for column in columns
         )
-        _line(chart, up, across, title.replace("booth", "Booth"))
+        _add_line(chart, up, across, title.replace("booth", "Booth"))
         for span, column in zip(spans, columns, strict=True):
             cells = (sheet.cell(row, column).value for row in range(at.header + 1, at.last + 1))
             span += [float(value) for value in cells if isinstance(value, int | float)]
-    least = max(max(span) - min(span) for span in spans) / _STEPS
+    least = max(max(span) - min(span) for span in spans) / _MOST_STEPS
     decade = 10.0 ** math.floor(math.log10(least))
     step = decade * next(part for part in (1.0, 2.0, 5.0, 10.0) if part * decade >= least)
     ends = [(step * math.floor(min(span) / step), step * math.ceil(max(span) / step)) for span in spans]
     wide, high = (end - begin for begin, end in ends)
-    scale = min(_WIDTH / wide, _TALL / high)  # [cm] for one unit
+    scale = min(_WIDTH / wide, _HIGHEST_AREA / high)  # [cm] for one unit
     for axis, (begin, end) in zip((chart.x_axis, chart.y_axis), ends, strict=True):
         axis.scaling.min, axis.scaling.max = begin, end
         axis.majorUnit = step  # type: ignore[union-attr]
         axis.number_format, axis.tickLblPos = "General", "low"
-    width, height = scale * wide + _BESIDE + _KEY, scale * high + _AROUND
+    width, height = scale * wide + _AXIS_ROOM + _LEGEND_ROOM, scale * high + _FRAME_ROOM
     chart.legend = Legend(legendPos="r")
-    sized(chart, width, height)
-    inside = (_BESIDE - 0.6) / width, 1.2 / height, scale * wide / width, scale * high / height
+    resize_chart(chart, width, height)
+    inside = (_AXIS_ROOM - 0.6) / width, 1.2 / height, scale * wide / width, scale * high / height
     x, y, w, h = inside
     chart.layout = Layout(ManualLayout(xMode="edge", yMode="edge", layoutTarget="inner", x=x, y=y, w=w, h=h))
     return chart
 
 
-def moduli(sheet: Worksheet, name: str, place: TablePlace, system: System) -> ScatterChart:
+def moduli_chart(sheet: Worksheet, name: str, place: TablePlace, system: System) -> ScatterChart:
     """E' and E'' against frequency, both axes logarithmic."""
-    words = spelled("frequency", "frequency", system), spelled("modulus", "pressure", system)
-    chart = _curves(sheet, place, "frequency", ("storage", "loss"), title=f"Moduli of {name}", words=words)
+    words = (
+        label_for_people("frequency", "frequency", system),
+        label_for_people("modulus", "pressure", system),
+    )
+    chart = _column_curves(
+        sheet, place, "frequency", ("storage", "loss"), title=f"Moduli of {name}", words=words
+    )
     chart.x_axis.scaling.logBase = chart.y_axis.scaling.logBase = 10
     chart.x_axis.number_format, chart.y_axis.number_format = "0E+0", "General"
     chart.x_axis.tickLblPos = chart.y_axis.tickLblPos = "low"
@@ -228,7 +240,7 @@ def moduli(sheet: Worksheet, name: str, place: TablePlace, system: System) -> Sc
     return chart
 
 
-def _curves(
+def _column_curves(
     sheet: Worksheet,
     place: TablePlace,
     across: str,
@@ -239,24 +251,24 @@ def _curves(
 ) -> ScatterChart:
     """Columns of a table plotted over another; axes are titled as the columns by default."""
     x, y = place.column(across), [place.column(key) for key in up]
-    named = words or (_head(sheet, place.header, x), _head(sheet, place.header, y[0]))
-    chart = _scatter(title, *named)
+    named = words or (_column_header(sheet, place.header, x), _column_header(sheet, place.header, y[0]))
+    chart = _scatter_chart(title, *named)
     at = Reference(sheet, min_col=x, min_row=place.header + 1, max_row=place.last)
     for column in y:
-        _line(chart, Reference(sheet, min_col=column, min_row=place.header, max_row=place.last), at)
+        _add_line(chart, Reference(sheet, min_col=column, min_row=place.header, max_row=place.last), at)
     return chart
 
 
-def _scatter(title: str, x: str, y: str) -> ScatterChart:
+def _scatter_chart(title: str, x: str, y: str) -> ScatterChart:
     chart = ScatterChart()
     chart.style, chart.scatterStyle = 2, "lineMarker"
-    _dress(chart, title, x, y)
+    _style_chart(chart, title, x, y)
     chart.x_axis.majorGridlines = None
     chart.legend = Legend(legendPos="b")
     return chart
 
 
-def _line(chart: ScatterChart, values: Reference, at: Reference, title: str | None = None) -> None:
+def _add_line(chart: ScatterChart, values: Reference, at: Reference, title: str | None = None) -> None:
     series = Series(values, at, title=title, title_from_data=title is None)
     k = len(chart.series)
     series.marker.symbol = "none"

@@ -7,21 +7,21 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Final
 
-from conveyor.laws.energy import Duty, duty_emission
+from conveyor.laws.energy import DutySums, duty_emission
 from conveyor.laws.power import JOULE_PER_KWH
-from conveyor.loop.year import earns_nothing, year_cost
+from conveyor.loop.annual_energy import annual_cost, lacks_feed_in_price
 from conveyor.markup import Html
 from conveyor.report import plots, what_if
-from conveyor.report.columns import Column, Contents, Drawing, OnPage, Remark, Table, figures
-from conveyor.report.page import notebook
+from conveyor.report.analysis_tables import band_columns, provenance_table, report_head
+from conveyor.report.page_elements import notebook_html
 from conveyor.report.result_schema import SCHEMA_VERSION
-from conveyor.report.tables import bands, document, provenance
-from conveyor.rubber.anchor import UNANCHORED
+from conveyor.report.table_model import Column, Contents, Drawing, PagePlacement, Remark, Table, figure_table
+from conveyor.rubber.rolling_test_factor import UNTESTED_FACTOR
 from conveyor.spec import fingerprint
 from conveyor.studies.comparison import RankedPower
 from conveyor.units import System
-from conveyor.units.presentation import MONEY, NEVER, unit
-from conveyor.units.sentences import celsius, degrees
+from conveyor.units.presentation import MONEY, NEVER, display_unit
+from conveyor.units.sentences import degree_signs, to_celsius
 
 if TYPE_CHECKING:
     from conveyor.models import Operation
@@ -41,57 +41,64 @@ _COSTS = (
     "energy_per_year", "cost_per_year", "saving_per_year", "carbon_dioxide_per_year", "extra_cost_of_the_belt",
     "payback", "energy_drawn", "energy_fed_back",
 )  # fmt: skip
-_ON_PAPER = "paper"  # a view that no page has: columns of the workbook that it prints
+_PAPER_VIEW = "paper"  # a view that no page has: columns of the workbook that it prints
 _COMPOUND = Column("compound", "text", "compound")
 _TEMPERATURE = Column("temperature", "temperature", "temperature")
 _SPEED = Column("belt speed", "speed", "speed", key="speed")
 
 
-def of_comparison(comparison: CalculatedComparison, system: System) -> Contents:
+def comparison_contents(comparison: CalculatedComparison, system: System) -> Contents:
     """Contents of the comparison report in a unit system."""
-    ranked, every = ranking(comparison), scenes(comparison)
+    ranked, every = ranking_table(comparison), scene_table(comparison)
     parts = (
         replace(ranked, columns=tuple(c for c in ranked.columns if c.key not in _COSTS)),
-        costs(ranked),
-        to_change(comparison),
-        *powers(comparison, system),
+        cost_table(ranked),
+        what_if_table(comparison),
+        *power_tables(comparison, system),
         every,
-        coverage(comparison),
-        refused(comparison),
-        remarks_table(comparison, system),
-        compounds(comparison),
-        provenance(fingerprint(comparison.conveyor), "Notes"),
+        coverage_table(comparison),
+        refused_scenes(comparison),
+        comparison_remarks(comparison, system),
+        compound_table(comparison),
+        provenance_table(fingerprint(comparison.conveyor), "Notes"),
     )
     facts = (
         ("compounds", ", ".join(compound.name for compound in comparison.compounds)),
         ("savings against", comparison.base),
         ("cover", comparison.cover),
         *(
-            (f"belt {name}s", _span([getattr(scene, name) for scene in comparison.scenes], name, system))
+            (
+                f"belt {name}s",
+                _value_range([getattr(scene, name) for scene in comparison.scenes], name, system),
+            )
             for name in ("temperature", "speed")
         ),
     )
-    about = document(comparison.conveyor, "Comparison of belt covers", system, facts)
-    return Contents(about, parts, system, tuple(drawings(comparison, system)), PARTS, "comparison")
+    about = report_head(comparison.conveyor, "Comparison of belt covers", system, facts)
+    return Contents(about, parts, system, tuple(comparison_drawings(comparison, system)), PARTS, "comparison")
 
 
-def _span(values: list[float], kind: str, system: System) -> str:
-    ends = [unit(kind, system).brief(value) for value in (min(values), max(values))] if values else []
+def _value_range(values: list[float], kind: str, system: System) -> str:
+    ends = (
+        [display_unit(kind, system).four_digits(value) for value in (min(values), max(values))]
+        if values
+        else []
+    )
     return " to ".join(dict.fromkeys(ends)) or "none answered"
 
 
-def _money(comparison: CalculatedComparison) -> str:
+def _money_kind(comparison: CalculatedComparison) -> str:
     operation = comparison.conveyor.operation
     return MONEY + ("-" if operation is None or operation.price is None else operation.price.currency)
 
 
-def scenes(comparison: CalculatedComparison) -> Table:
+def scene_table(comparison: CalculatedComparison) -> Table:
     """One row per scene, by compound, speed and temperature; no cost where the rubber data do not reach."""
-    money = _money(comparison)
-    covered = {_key(scene) for scene in comparison.covered}
+    money = _money_kind(comparison)
+    covered = {_scene_key(scene) for scene in comparison.covered}
 
     def known(row: ComparedScene, figure: float | None) -> float | None:
-        return figure if _key(row) in covered else None
+        return figure if _scene_key(row) in covered else None
 
     columns = (
         _COMPOUND,
@@ -105,26 +112,27 @@ def scenes(comparison: CalculatedComparison) -> Table:
         Column("motor power, high", "power", "motor_high", sparse=True),
         Column("largest tension", "force", "largest_tension"),
         Column("energy", "specific energy", "energy_per_tonne_km", sparse=True),
-        Column("energy per year", "energy", lambda row: _joule(known(row, row.energy_per_year)), None, sparse=True),
+        Column("energy per year", "energy", lambda row: _kwh_in_joules(known(row, row.energy_per_year)), None,
+        sparse=True),
         Column("cost per year", money, lambda row: known(row, row.cost_per_year), None, sparse=True),
         Column("error estimate", "error", "error"),
-        Column("covered", "verdict", lambda row: "yes" if _key(row) in covered else "NO"),
+        Column("covered", "verdict", lambda row: "yes" if _scene_key(row) in covered else "NO"),
     )  # fmt: skip
-    page = (OnPage("scenes", "One row a compound, speed and temperature"),)
+    page = (PagePlacement("scenes", "One row a compound, speed and temperature"),)
     return Table("scenes", "Scenes", "Every scene that has an answer", columns, comparison.scenes, page)
 
 
-def _key(scene: ComparedScene) -> tuple[str, float, float]:
+def _scene_key(scene: ComparedScene) -> tuple[str, float, float]:
     """Sort key of a scene."""
     return scene.compound, scene.speed, scene.temperature
 
 
-def _joule(kwh: float | None) -> float | None:
+def _kwh_in_joules(kwh: float | None) -> float | None:
     return None if kwh is None else kwh * JOULE_PER_KWH
 
 
 @dataclass(frozen=True)
-class Ranked:
+class RankedCompound:
     """Mean results of a compound at a speed over all temperatures, SI; energies of a year [kWh].
 
     Attributes
@@ -141,7 +149,7 @@ class Ranked:
         Means [N, W], ends of the band [W], peak power [W]; None where its data do not reach.
     base : float or None
         Mean power of the base [W]; None if not comparable.
-    year : Duty or None
+    year : DutySums or None
         Energy drawn and fed back.
     cost, before, emission, extra : float or None
         Cost of a year [currency]; the base's; carbon dioxide [kg]; extra cost of its belt [currency].
@@ -161,7 +169,7 @@ class Ranked:
     high: float | None
     peak: float | None
     base: float | None
-    year: Duty | None
+    year: DutySums | None
     cost: float | None
     before: float | None
     emission: float | None
@@ -196,7 +204,7 @@ class Ranked:
         return self.extra / saved if saved > 0.0 else math.inf
 
 
-def ranking(comparison: CalculatedComparison) -> Table:
+def ranking_table(comparison: CalculatedComparison) -> Table:
     """Ranking by mean motor power, one row per compound and speed.
 
     Means are over the temperatures that the data of every compound reach at that speed, equally weighted; the peak is
@@ -204,7 +212,7 @@ def ranking(comparison: CalculatedComparison) -> Table:
     differ significantly have one rank.
     """
     speeds = dict.fromkeys(scene.speed for scene in comparison.scenes)
-    rows = tuple(row for speed in speeds for row in _ranked(comparison, speed))
+    rows = tuple(row for speed in speeds for row in _rank_compounds(comparison, speed))
     columns = (
         _COMPOUND,
         Column("rank", "count", "rank", sparse=True),
@@ -225,30 +233,30 @@ def ranking(comparison: CalculatedComparison) -> Table:
     )  # fmt: skip
     heading, page = (
         "Ranking by mean motor power, lowest first at each speed",
-        (OnPage("ranking", "Ranking by mean motor power, lowest first"),),
+        (PagePlacement("ranking", "Ranking by mean motor power, lowest first"),),
     )
     return Table("ranking", "Ranking", heading, columns, rows, page)
 
 
-def _year_columns(comparison: CalculatedComparison, rows: tuple[Ranked, ...]) -> Iterator[Column]:
+def _year_columns(comparison: CalculatedComparison, rows: tuple[RankedCompound, ...]) -> Iterator[Column]:
     """Energy, cost, saving, carbon dioxide and payback, as formulas of hours and prices."""
     money, bases = (
-        _money(comparison),
+        _money_kind(comparison),
         {row.speed: i for i, row in enumerate(rows) if row.compound == comparison.base},
     )
     of = "[energy_drawn]", "[energy_fed_back]"
     shown = "" if comparison.extra_costs else None
 
-    def where(known: str, formula: str) -> Callable[[Ranked], str]:
+    def where(known: str, formula: str) -> Callable[[RankedCompound], str]:
         """Formula of rows whose figure is known."""
         return lambda row: "" if getattr(row, known) is None else formula
 
-    def saving(row: Ranked) -> str:
+    def saving(row: RankedCompound) -> str:
         return "" if row.saving is None else f"[cost_per_year:{bases[row.speed]}]-[cost_per_year]"
 
     yield Column(
-        "energy per year", "energy", _energy("net_kwh"), sparse=True,
-        formula=where("year", f"({of[0]}-{of[1]}){what_if.OF_HOURS}"),
+        "energy per year", "energy", _energy_getter("net_kwh"), sparse=True,
+        formula=where("year", f"({of[0]}-{of[1]}){what_if.HOURS_RATIO}"),
     )  # fmt: skip
     yield Column(
         "cost per year", money, "cost", sparse=True, formula=where("cost", what_if.cost_formula(*of))
@@ -263,28 +271,28 @@ def _year_columns(comparison: CalculatedComparison, rows: tuple[Ranked, ...]) ->
         formula = f'IF({extra}="","",IF({saved}>0,{extra}/{saved},"{NEVER}"))'
         yield Column("extra cost of the belt", money, "extra", shown, asked=True)
         yield Column("payback", "years", "payback", shown, formula=where("saving", formula))
-    yield Column("energy drawn", "energy", _energy("drawn_kwh"), None, sparse=True)
-    yield Column("energy fed back", "energy", _energy("fed_back_kwh"), None, sparse=True)
+    yield Column("energy drawn", "energy", _energy_getter("drawn_kwh"), None, sparse=True)
+    yield Column("energy fed back", "energy", _energy_getter("fed_back_kwh"), None, sparse=True)
 
 
-def _energy(name: str) -> Callable[[Ranked], float | None]:
+def _energy_getter(name: str) -> Callable[[RankedCompound], float | None]:
     """Getter of an energy of the year [J]."""
-    return lambda row: None if row.year is None else _joule(getattr(row.year, name))
+    return lambda row: None if row.year is None else _kwh_in_joules(getattr(row.year, name))
 
 
-def to_change(comparison: CalculatedComparison) -> Table:
+def what_if_table(comparison: CalculatedComparison) -> Table:
     """Hours, prices and emission factors, for the reader to change."""
     operation = comparison.conveyor.operation
     rows = (
-        () if operation is None else what_if.to_change(operation, operation.seconds_per_year, emission=True)
+        () if operation is None else what_if.year_inputs(operation, operation.seconds_per_year, emission=True)
     )
-    return figures(
+    return figure_table(
         "what_if", "Ranking", "What if: change the yellow cells, extra costs of the belts too", rows,
         note="Energy, cost, saving, carbon dioxide and payback follow; power does not.", prefix="what_if_",
     )  # fmt: skip
 
 
-def costs(ranked: Table) -> Table:
+def cost_table(ranked: Table) -> Table:
     """Energy, cost and saving of a year; no rows where the ranking has none of them."""
     heading = "Energy, cost and saving of a year"
     columns = ranked.only("compound", "speed", *_COSTS).columns
@@ -292,7 +300,7 @@ def costs(ranked: Table) -> Table:
     return Table("costs", "Ranking", heading, columns, rows, "ranking")
 
 
-def _ranked(comparison: CalculatedComparison, speed: float) -> list[Ranked]:
+def _rank_compounds(comparison: CalculatedComparison, speed: float) -> list[RankedCompound]:
     common = comparison.common(speed)
     known: dict[str, dict[float, ComparedScene]] = {
         scene.compound: {} for scene in comparison.scenes if scene.speed == speed
@@ -302,46 +310,46 @@ def _ranked(comparison: CalculatedComparison, speed: float) -> list[Ranked]:
             known[scene.compound][scene.temperature] = scene
     means = {name: [scenes[t] for t in common] if scenes else [] for name, scenes in known.items()}
     base = means.get(comparison.base, [])
-    rows = [_row(comparison, (name, speed), known[name], means[name], base) for name in known]
-    places = _places(comparison, [means[row.compound] for row in rows if row.why is None])
+    rows = [_ranking_row(comparison, (name, speed), known[name], means[name], base) for name in known]
+    places = _mean_ranks(comparison, [means[row.compound] for row in rows if row.why is None])
     rows = [replace(row, rank=places.get(row.compound)) for row in rows]
     return sorted(rows, key=lambda row: (row.motor is None, row.why is not None, row.motor or 0.0))
 
 
-def _row(
+def _ranking_row(
     comparison: CalculatedComparison,
     key: tuple[str, float],
     scenes: dict[float, ComparedScene],
     at: list[ComparedScene],
     base: list[ComparedScene],
-) -> Ranked:
+) -> RankedCompound:
     name, speed = key
-    why = _not_compared(comparison, name, at, base)
+    why = _why_not_compared(comparison, name, at, base)
     operation = comparison.conveyor.operation
-    year = None if why else _year(comparison, name, speed, at)
-    before = None if why else _year(comparison, comparison.base, speed, base)
+    year = None if why else _year_energies(comparison, name, speed, at)
+    before = None if why else _year_energies(comparison, comparison.base, speed, base)
     peak = max(scenes.values(), key=lambda scene: scene.motor) if scenes else None
-    return Ranked(
+    return RankedCompound(
         compound=name,
         speed=speed,
         temperature=None if peak is None else peak.temperature,
         averaged=len(at),
-        indentation=_mean([s.indentation for s in at]),
-        motor=_mean([s.motor for s in at]),
-        low=_mean([s.motor_low for s in at]),
-        high=_mean([s.motor_high for s in at]),
+        indentation=_mean_or_none([s.indentation for s in at]),
+        motor=_mean_or_none([s.motor for s in at]),
+        low=_mean_or_none([s.motor_low for s in at]),
+        high=_mean_or_none([s.motor_high for s in at]),
         peak=None if peak is None else peak.motor,
-        base=None if why else _mean([s.motor for s in base]),
+        base=None if why else _mean_or_none([s.motor for s in base]),
         year=year,
-        cost=_cost(operation, year),
-        before=_cost(operation, before),
-        emission=_emission(operation, year),
+        cost=_energy_cost(operation, year),
+        before=_energy_cost(operation, before),
+        emission=_year_emission(operation, year),
         extra=comparison.extra_costs.get(name),
         why=why,
     )
 
 
-def _places(comparison: CalculatedComparison, scenes: Sequence[list[ComparedScene]]) -> dict[str, int]:
+def _mean_ranks(comparison: CalculatedComparison, scenes: Sequence[list[ComparedScene]]) -> dict[str, int]:
     """Rank of each compound by the mean of its scenes; equal where they do not differ significantly."""
     places: dict[str, int] = {}
     for group in comparison.groups(map(RankedPower.of, scenes)):
@@ -349,7 +357,7 @@ def _places(comparison: CalculatedComparison, scenes: Sequence[list[ComparedScen
     return places
 
 
-def _not_compared(
+def _why_not_compared(
     comparison: CalculatedComparison, name: str, at: list[ComparedScene], base: list[ComparedScene]
 ) -> str | None:
     """Reason why a compound is not compared with the base; None if it is."""
@@ -357,12 +365,14 @@ def _not_compared(
         return "its data do not reach"
     if not base:
         return "the base's data do not reach"
-    if comparison.level_differs(name):
+    if comparison.test_basis_differs(name):
         return "one level tested, one not"
     return None
 
 
-def _year(comparison: CalculatedComparison, name: str, speed: float, at: list[ComparedScene]) -> Duty | None:
+def _year_energies(
+    comparison: CalculatedComparison, name: str, speed: float, at: list[ComparedScene]
+) -> DutySums | None:
     """Energies of a year: from the duty at the spec's speed if there is one, else from all hours."""
     operation = comparison.conveyor.operation
     if comparison.conveyor.duty:
@@ -372,15 +382,15 @@ def _year(comparison: CalculatedComparison, name: str, speed: float, at: list[Co
     if operation is None or not net:
         return None
     drawn, fed_back = (math.fsum(max(sign * kwh, 0.0) for kwh in net) / len(net) for sign in (1.0, -1.0))
-    return Duty(operation.seconds_per_year, drawn, fed_back, 0.0)
+    return DutySums(operation.seconds_per_year, drawn, fed_back, 0.0)
 
 
-def _cost(operation: Operation | None, year: Duty | None) -> float | None:
+def _energy_cost(operation: Operation | None, year: DutySums | None) -> float | None:
     """Cost of a year's energy [currency]; None without hours or price."""
-    return None if operation is None or year is None else year_cost(operation, year)
+    return None if operation is None or year is None else annual_cost(operation, year)
 
 
-def _emission(operation: Operation | None, year: Duty | None) -> float | None:
+def _year_emission(operation: Operation | None, year: DutySums | None) -> float | None:
     """Carbon dioxide of a year [kg]; None without hours or factor."""
     if operation is None or year is None or operation.emission is None:
         return None
@@ -389,37 +399,42 @@ def _emission(operation: Operation | None, year: Duty | None) -> float | None:
     return duty_emission(year, factor=operation.emission.amount, credit_factor=credit)
 
 
-def _mean(values: list[float] | list[float | None]) -> float | None:
+def _mean_or_none(values: list[float] | list[float | None]) -> float | None:
     """Mean; None if empty or if a value is not known."""
     known = [value for value in values if value is not None]
     return math.fsum(known) / len(known) if known and len(known) == len(values) else None
 
 
-def coverage(comparison: CalculatedComparison) -> Table:
+def coverage_table(comparison: CalculatedComparison) -> Table:
     """Excitation band of the rolls and data range of each compound at each temperature."""
     columns = (
         _COMPOUND,
         _TEMPERATURE,
         *(
-            replace(column, page=_ON_PAPER if column.page is None else column.page)
-            for column in bands("excited", "data")
+            replace(column, page=_PAPER_VIEW if column.page is None else column.page)
+            for column in band_columns("excited", "data")
         ),
         Column("covered", "verdict", lambda row: "yes" if row.covered else "NO"),
     )
     heading = "90 % loss band of the rolls against the data of the compounds"
-    page = (OnPage("coverage", "Excitation band of the rolls, and range of the data"),)
+    page = (PagePlacement("coverage", "Excitation band of the rolls, and range of the data"),)
     note = "NO: the excitation band reaches beyond the data."
     return Table("coverage", "Coverage", heading, columns, comparison.coverage, page, note)
 
 
-def refused(comparison: CalculatedComparison) -> Table:
+def refused_scenes(comparison: CalculatedComparison) -> Table:
     """Scenes without a solution, with the reason."""
-    columns = (_COMPOUND, _TEMPERATURE, _SPEED, Column("reason", "text", lambda row: degrees(row.reason)))
+    columns = (
+        _COMPOUND,
+        _TEMPERATURE,
+        _SPEED,
+        Column("reason", "text", lambda row: degree_signs(row.reason)),
+    )
     heading, rows = "Scenes without an answer", tuple(dict.fromkeys(comparison.refused))
     return Table("refused", "Coverage", heading, columns, rows, "refused")
 
 
-def powers(comparison: CalculatedComparison, system: System) -> Iterator[Table]:
+def power_tables(comparison: CalculatedComparison, system: System) -> Iterator[Table]:
     """Motor power over temperature, one column per compound, one table per speed.
 
     Cells without a solution, or beyond the data, are empty: lines of charts break there.
@@ -431,54 +446,56 @@ def powers(comparison: CalculatedComparison, system: System) -> Iterator[Table]:
         rows = tuple(sorted({scene.temperature for scene in at}))
         columns = (
             Column("temperature", "temperature", lambda t: t),
-            *(Column(name, "power", _power(name, power)) for name in names),
+            *(Column(name, "power", _power_getter(name, power)) for name in names),
         )
-        said = unit("speed", system).brief(speed)
+        said = display_unit("speed", system).four_digits(speed)
         yield Table(
             f"power_{number}", "Power", f"Motor power over temperature at {said}", columns, rows, note=said
         )
 
 
-def _power(name: str, powers: dict[tuple[str, float], float]) -> Any:
+def _power_getter(name: str, powers: dict[tuple[str, float], float]) -> Any:
     return lambda temperature: powers.get((name, temperature))
 
 
-def compounds(comparison: CalculatedComparison) -> Table:
+def compound_table(comparison: CalculatedComparison) -> Table:
     """Kind, origin and gaps of the data of each compound."""
     columns = (
         Column("compound", "text", "name"),
         Column("kind", "text", "kind"),
         Column("strain", "text", lambda compound: compound.strain or "not stated"),
-        Column("origin", "text", lambda c: degrees(c.source.origin)),
+        Column("origin", "text", lambda c: degree_signs(c.source.origin)),
         Column("licence", "text", "source.licence"),
-        Column("unknown", "text", lambda c: degrees("; ".join(c.missing)) or "nothing listed"),
+        Column("unknown", "text", lambda c: degree_signs("; ".join(c.missing)) or "nothing listed"),
     )
     return Table("compounds", "Notes", "Compounds", columns, comparison.compounds)
 
 
-def remarks_table(comparison: CalculatedComparison, system: System) -> Table:
+def comparison_remarks(comparison: CalculatedComparison, system: System) -> Table:
     """Table of the notes of a comparison."""
     columns = (Column("remark", "text", "text"),)
-    rows = tuple(Remark("warning", line) for line in remarks(comparison, system))
+    rows = tuple(Remark("warning", line) for line in comparison_notes(comparison, system))
     return Table("remarks", "Notes", "Remarks", columns, rows)
 
 
-def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawing]:
+def comparison_drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawing]:
     """Drawings of the page."""
     if not comparison.scenes:
         return
-    ranked = [row for row in ranking(comparison).rows if row.change is not None]
+    ranked = [row for row in ranking_table(comparison).rows if row.change is not None]
     if len(ranked) > 1:
-        shown = [(_named(row, comparison, system), row.change, row.band) for row in ranked]
+        shown = [(_compound_label(row, comparison, system), row.change, row.band) for row in ranked]
         yield Drawing(
             "differences",
             f"Difference of the mean motor power to {comparison.base}, with the 90 % band where it is known.",
-            lambda: plots.differences(shown, comparison.base),
+            lambda: plots.power_differences(shown, comparison.base),
             "ranking",
         )
-    speeds, warmth = {scene.speed for scene in comparison.scenes}, plots.drawn_at(comparison, "speed")
+    speeds, warmth = {scene.speed for scene in comparison.scenes}, plots.fixed_condition(comparison, "speed")
     if len({scene.temperature for scene in comparison.scenes}) > 1:
-        at = unit("speed", system).brief(plots.drawn_at(comparison, "temperature") or 0.0)
+        at = display_unit("speed", system).four_digits(
+            plots.fixed_condition(comparison, "temperature") or 0.0
+        )
         yield Drawing(
             "power-temperature",
             f"Motor power over the belt's temperature at {at}, dotted beyond the data; shaded: bands.",
@@ -486,8 +503,10 @@ def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawi
             "power",
         )
     if len(speeds) > 1 and warmth is not None:
-        at = unit("temperature", system).brief(warmth)
-        turning = " The ranking changes with temperature: see the notes." if turned(comparison) else ""
+        at = display_unit("temperature", system).four_digits(warmth)
+        turning = (
+            " The ranking changes with temperature: see the notes." if ranking_changes(comparison) else ""
+        )
         yield Drawing(
             "power-speed",
             f"Motor power over belt speed at {at}, next to the spec's of those every compound has an answer for."
@@ -503,25 +522,28 @@ def drawings(comparison: CalculatedComparison, system: System) -> Iterator[Drawi
     )
 
 
-def _named(row: Ranked, comparison: CalculatedComparison, system: System) -> str:
+def _compound_label(row: RankedCompound, comparison: CalculatedComparison, system: System) -> str:
     """Label of a ranked compound, with its speed if there are several."""
     several = len({scene.speed for scene in comparison.scenes}) > 1
-    return f"{row.compound}, {unit('speed', system).brief(row.speed)}" if several else row.compound
+    return (
+        f"{row.compound}, {display_unit('speed', system).four_digits(row.speed)}" if several else row.compound
+    )
 
 
-def _unequal_levels(comparison: CalculatedComparison) -> Iterator[str]:
+def _untested_notes(comparison: CalculatedComparison) -> Iterator[str]:
     """Note on comparing compounds with rolling-resistance tests and without."""
     bare = [compound.name for compound in comparison.compounds if not compound.tests]
-    if any(comparison.level_differs(compound.name) for compound in comparison.compounds):
+    if any(comparison.test_basis_differs(compound.name) for compound in comparison.compounds):
         told = ", ".join(f'"{name}"' for name in bare)
         yield (
-            f"{told}: no rolling-resistance tests, which the others have: the indentation may be up to {UNANCHORED:g} "
+            f"{told}: no rolling-resistance tests, which the others have: the indentation may be up to "
+            f"{UNTESTED_FACTOR:g} "
             "times as much; no saving, price or rank beside tested compounds (compare by theory alone: "
             "calculation.anchor: off)"
         )
 
 
-def _calibrated(comparison: CalculatedComparison) -> Iterator[str]:
+def _calibration_notes(comparison: CalculatedComparison) -> Iterator[str]:
     """Note on the calibration factor of the indentation, applied to all compounds."""
     given = comparison.conveyor.calculation.calibration
     factor = 1.0 if given is None else given.factors.get("indentation", 1.0)
@@ -533,31 +555,35 @@ def _calibrated(comparison: CalculatedComparison) -> Iterator[str]:
         )
 
 
-def _where(comparison: CalculatedComparison, system: System) -> Iterator[str]:
+def _temperature_notes(comparison: CalculatedComparison, system: System) -> Iterator[str]:
     """Notes on the temperatures compared at each speed."""
     asked = {s.temperature for s in comparison.scenes} | {row.temperature for row in comparison.refused}
     for speed in sorted({scene.speed for scene in comparison.scenes}):
-        run = unit("speed", system).brief(speed)
+        run = display_unit("speed", system).four_digits(speed)
         common, known = comparison.common(speed), {s.compound for s in comparison.covered if s.speed == speed}
         if comparison.base not in known or (len(known) < 2 < 1 + len(comparison.compounds)):
             yield f"at {run} nothing is compared: the data of the base, or of all others, do not reach"
         elif not common:
             yield f"at {run} nothing is compared: no temperature that the data of all compounds reach"
         elif len(common) < len(asked):
-            at = _listed(common, system)
+            at = _temperature_list(common, system)
             yield f"at {run} the comparison stands at {at}, which the data of all compounds in it reach"
 
 
-def remarks(comparison: CalculatedComparison, system: System = "SI") -> tuple[str, ...]:
+def comparison_notes(comparison: CalculatedComparison, system: System = "SI") -> tuple[str, ...]:
     """Notes of a comparison in a system of units: conditions and assumptions."""
-    lines = [*_where(comparison, system), *_unequal_levels(comparison), *_calibrated(comparison)]
+    lines = [
+        *_temperature_notes(comparison, system),
+        *_untested_notes(comparison),
+        *_calibration_notes(comparison),
+    ]
     for compound in comparison.compounds:
         if compound.kind == "illustrative":
             said = "is illustrative, not measured: compare with it, do not design with it"
             lines.append(f'compound "{compound.name}" {said}')
         rows = [row for row in comparison.coverage if row.compound == compound.name and not row.covered]
         if rows:
-            at = _listed([row.temperature for row in rows], system)
+            at = _temperature_list([row.temperature for row in rows], system)
             lacking = (
                 "do not cover what the rolls excite"
                 if compound.range
@@ -568,7 +594,7 @@ def remarks(comparison: CalculatedComparison, system: System = "SI") -> tuple[st
             )
         reasons = {row.reason: row for row in comparison.refused if row.compound == compound.name}
         lines.extend(f'compound "{compound.name}": no answer for some scenes: {reason}' for reason in reasons)
-    lines += turned(comparison, system)
+    lines += ranking_changes(comparison, system)
     price = comparison.conveyor.operation is not None and comparison.conveyor.operation.price is not None
     if not price:
         lines.append("operation.price not given: no cost, saving or payback")
@@ -579,7 +605,7 @@ def remarks(comparison: CalculatedComparison, system: System = "SI") -> tuple[st
     fed_back = any(scene.motor < 0.0 for scene in comparison.scenes) or any(
         study.year.fed_back_kwh > 0.0 for study in comparison.years.values()
     )
-    if fed_back and earns_nothing(comparison.conveyor.operation):
+    if fed_back and lacks_feed_in_price(comparison.conveyor.operation):
         lines.append("operation.feed_in_price not given: energy that is fed back earns nothing")
     if comparison.conveyor.duty:
         lines.append("energy, cost and saving of a year are those of operation.duty, at the spec's own speed")
@@ -592,10 +618,10 @@ def remarks(comparison: CalculatedComparison, system: System = "SI") -> tuple[st
     lines.append(
         "means over temperatures give each the same weight; only indentation follows the temperature"
     )
-    return (*lines, *_bands(comparison))
+    return (*lines, *_band_notes(comparison))
 
 
-def _bands(comparison: CalculatedComparison) -> Iterator[str]:
+def _band_notes(comparison: CalculatedComparison) -> Iterator[str]:
     """Note on the bands, which are narrower than the interval of `conveyor power`."""
     if any(scene.motor_low is not None for scene in comparison.scenes):
         yield (
@@ -605,13 +631,13 @@ def _bands(comparison: CalculatedComparison) -> Iterator[str]:
         )
 
 
-def turned(comparison: CalculatedComparison, system: System = "SI") -> list[str]:
+def ranking_changes(comparison: CalculatedComparison, system: System = "SI") -> list[str]:
     """Notes on speeds whose ranking changes with temperature or has ties, with the order at each."""
     lines = []
     for speed in sorted({scene.speed for scene in comparison.scenes}):
         shared: dict[float, list[ComparedScene]] = {t: [] for t in comparison.common(speed)}
         for scene in comparison.covered:
-            if scene.speed != speed or comparison.level_differs(scene.compound):
+            if scene.speed != speed or comparison.test_basis_differs(scene.compound):
                 continue
             if scene.temperature in shared:
                 shared[scene.temperature].append(scene)
@@ -626,8 +652,11 @@ def turned(comparison: CalculatedComparison, system: System = "SI") -> list[str]
             ).append(warmth)
         together = any(len(group) > 1 for groups in grouped.values() for group in groups)
         if len(by_order) > 1 or together:
-            run = unit("speed", system).brief(speed)
-            orders = (f"{_listed(warm, system)}: {_in_order(grouped[warm[0]])}" for warm in by_order.values())
+            run = display_unit("speed", system).four_digits(speed)
+            orders = (
+                f"{_temperature_list(warm, system)}: {_order_text(grouped[warm[0]])}"
+                for warm in by_order.values()
+            )
             said = (
                 "the ranking changes with temperature"
                 if len(by_order) > 1
@@ -637,7 +666,7 @@ def turned(comparison: CalculatedComparison, system: System = "SI") -> list[str]
     return lines
 
 
-def _in_order(groups: Sequence[Sequence[RankedPower]]) -> str:
+def _order_text(groups: Sequence[Sequence[RankedPower]]) -> str:
     """Order of the compounds in words, ties named."""
     return ", then ".join(
         group[0].compound
@@ -647,15 +676,13 @@ def _in_order(groups: Sequence[Sequence[RankedPower]]) -> str:
     )
 
 
-def _listed(temperatures: Sequence[float], system: System) -> str:
+def _temperature_list(temperatures: Sequence[float], system: System) -> str:
     """List of temperatures [K] as text, the unit at the end."""
-    shown = unit("temperature", system)
-    return (
-        f"{', '.join(f'{value:.4g}' for value in shown(temperatures).tolist())} {degrees(shown.label or '')}"
-    )
+    shown = display_unit("temperature", system)
+    return f"{', '.join(f'{value:.4g}' for value in shown(temperatures).tolist())} {degree_signs(shown.label or '')}"
 
 
-def plain(comparison: CalculatedComparison) -> dict[str, Any]:
+def comparison_json(comparison: CalculatedComparison) -> dict[str, Any]:
     """Plain numbers for JSON; units in the keys."""
     return {
         "schema_version": SCHEMA_VERSION,
@@ -663,22 +690,22 @@ def plain(comparison: CalculatedComparison) -> dict[str, Any]:
         "base": comparison.base,
         "cover": comparison.cover,
         "compared": [
-            {"speed_m_per_s": speed, "temperatures_degC": [celsius(t) for t in comparison.common(speed)]}
+            {"speed_m_per_s": speed, "temperatures_degC": [to_celsius(t) for t in comparison.common(speed)]}
             for speed in sorted({scene.speed for scene in comparison.scenes})
         ],
-        "ranking": ranking(comparison).records(),
-        "scenes": scenes(comparison).records(),
-        "coverage": coverage(comparison).records(),
-        "refused": refused(comparison).records(),
-        "warnings": list(remarks(comparison)),
+        "ranking": ranking_table(comparison).records(),
+        "scenes": scene_table(comparison).records(),
+        "coverage": coverage_table(comparison).records(),
+        "refused": refused_scenes(comparison).records(),
+        "warnings": list(comparison_notes(comparison)),
     }
 
 
-def notebook_of_comparison(comparison: CalculatedComparison) -> Html:
+def comparison_notebook(comparison: CalculatedComparison) -> Html:
     """Ranking and notes for a notebook."""
-    tables = [(comparison.conveyor.name, ranking(comparison))]
-    return notebook(
+    tables = [(comparison.conveyor.name, ranking_table(comparison))]
+    return notebook_html(
         comparison.conveyor.report.units,
         tables,
-        {"notes": remarks(comparison, comparison.conveyor.report.units)},
+        {"notes": comparison_notes(comparison, comparison.conveyor.report.units)},
     )

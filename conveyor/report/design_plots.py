@@ -9,50 +9,50 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 import numpy as np
 
-from conveyor.report.plots import colour, grouped, keyed, stacked
-from conveyor.report.point_tables import priced
-from conveyor.report.settings import own_settings
+from conveyor.report.matplotlib_settings import own_settings
+from conveyor.report.plots import add_legend, curve_colour, group_thousands, stacked_axes
+from conveyor.report.point_tables import money_kind
 from conveyor.units import System
-from conveyor.units.presentation import Unit, unit
+from conveyor.units.presentation import Unit, display_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
     from matplotlib.figure import Figure
 
-    from conveyor.studies.evaluation import Explored, VariedField
+    from conveyor.studies.evaluation import StudySummary, VariedField
 
 _COLUMNS: Final = 2  # panels side by side
-_MOST: Final = 2000  # dots; of more designs every n-th, and the front
-_LINES: Final = 300
-_CELLS: Final = 16  # a side of a heat map with numbers
-_CALLED: Final = 12  # designs of the front with their number
-_SHORT: Final = 16  # letters of a name on an axis before it is broken
+_MOST_DOTS: Final = 2000  # dots; of more designs every n-th, and the front
+_MOST_LINES: Final = 300
+_NUMBERED_CELLS: Final = 16  # a side of a heat map with numbers
+_NUMBERED_DESIGNS: Final = 12  # designs of the front with their number
+_LINE_LETTERS: Final = 16  # letters of a name on an axis before it is broken
 _SHADES: Final = "viridis_r"
 _LEVELS: Final = 20  # of them in a map
 Array: TypeAlias = "np.ndarray[Any, Any]"
 
 
-class Shown:
+class DesignPlots:
     """Figures of a study's designs in a system of units.
 
     Parameters
     ----------
-    study : Explored
+    study : StudySummary
         The designs; at least one has a solution.
     system : {"SI", "US"}
         Unit system of the figures.
     """
 
-    def __init__(self, study: Explored, system: System) -> None:
+    def __init__(self, study: StudySummary, system: System) -> None:
         self.found, self.system = study, system
-        figures = [study.figures[name] for name in study.sought]
+        figures = [study.figures[name] for name in study.objectives]
         self.labels = [figure.label for figure in figures]
         self.units: list[Unit] = [
-            unit(priced(figure.kind, study.currency), system, large=True) for figure in figures
+            display_unit(money_kind(figure.kind, study.currency), system, large=True) for figure in figures
         ]
 
-    def sought(self, k: int) -> Any:
+    def objectives(self, k: int) -> Any:
         """Values of the k-th objective, shape `(n,)`."""
         return self.units[k](self.found.found[:, k])
 
@@ -81,17 +81,17 @@ class Shown:
                 self.units[0]([getattr(effect, name) for effect in effects])
                 for name in ("least", "mean", "most")
             )
-            axis.fill_between(at, low, high, color=colour(0), alpha=0.12, linewidth=0)
-            axis.plot(at, middle, color=colour(0), marker="o", markersize=4)
+            axis.fill_between(at, low, high, color=curve_colour(0), alpha=0.12, linewidth=0)
+            axis.plot(at, middle, color=curve_colour(0), marker="o", markersize=4)
             bars = [(one.at, one.mean, 2.0 * one.error) for one in effects if one.error is not None]
             if bars:
                 places, means, spread = zip(*bars, strict=True)
                 mean, error = self.units[0](means), self.units[0](spread)
-                axis.errorbar(places, mean, error, fmt="none", ecolor=colour(0), capsize=3)
+                axis.errorbar(places, mean, error, fmt="none", ecolor=curve_colour(0), capsize=3)
             axis.grid(visible=True, color="0.9")
             axis.spines[["top", "right"]].set_visible(False)
-            grouped(axis.yaxis)
-            _named(axis.xaxis, self.found.fields[field])
+            group_thousands(axis.yaxis)
+            _label_axis(axis.xaxis, self.found.fields[field])
             axis.margins(x=0.15 if self.found.fields[field].words else 0.05)
             if place % _COLUMNS == 0:
                 axis.set_ylabel(self.axis(0), fontsize=9)
@@ -105,18 +105,18 @@ class Shown:
 
         figures, shades = self.found, colormaps[_SHADES].resampled(_LEVELS)
         across, up = figures.ordered[:2]
-        figure, (axis,) = stacked(1, 4.4)
-        x, y, shown = figures.values[:, across], figures.values[:, up], self.sought(0)
-        if max(len(np.unique(x)), len(np.unique(y))) <= _CELLS:
+        figure, (axis,) = stacked_axes(1, 4.4)
+        x, y, shown = figures.values[:, across], figures.values[:, up], self.objectives(0)
+        if max(len(np.unique(x)), len(np.unique(y))) <= _NUMBERED_CELLS:
             shaded = self._cells(axis, (x, y), shown, (figures.fields[across], figures.fields[up]))
             shaded.set_cmap(shades)
         else:
             shaded = axis.scatter(x, y, c=shown, cmap=shades, s=14)
-            _named(axis.xaxis, figures.fields[across])
-            _named(axis.yaxis, figures.fields[up])
+            _label_axis(axis.xaxis, figures.fields[across])
+            _label_axis(axis.yaxis, figures.fields[up])
         axis.grid(visible=False)
         beside = axis.inset_axes((1.02, 0.0, 0.03, 1.0))  # no axes of its own: those bind the figure's layout
-        grouped(figure.colorbar(shaded, cax=beside, label=self.axis(0)).ax.yaxis)
+        group_thousands(figure.colorbar(shaded, cax=beside, label=self.axis(0)).ax.yaxis)
         return figure
 
     def _number(self, k: int, value: float) -> str:
@@ -128,7 +128,7 @@ class Shown:
     ) -> Any:
         """Draw one cell per pair of values, with its number."""
         columns, rows = (np.unique(values) for values in at)
-        least = next(iter(self.found.sought.values())) == "least"
+        least = next(iter(self.found.objectives.values())) == "least"
         best = np.ma.array(np.zeros((len(rows), len(columns))), mask=True)
         kept = np.zeros(best.shape, dtype=bool)
         for i, j in np.ndindex(best.shape):
@@ -145,30 +145,32 @@ class Shown:
             words = number if kept[i, j] else f"({number})"
             axis.text(j + 0.5, i + 0.5, words, ha="center", va="center", fontsize=8, color=ink)
         for scale, field, values in ((axis.xaxis, fields[0], columns), (axis.yaxis, fields[1], rows)):
-            scale.set_ticks(np.arange(len(values)) + 0.5, [_word(field, value) for value in values])
-            scale.set_label_text(_head(field))
+            scale.set_ticks(np.arange(len(values)) + 0.5, [_value_label(field, value) for value in values])
+            scale.set_label_text(_field_heading(field))
         return shaded
 
     @own_settings()
     def front(self) -> Figure:
         """First two objectives of every design, and the Pareto front."""
         figures = self.found
-        figure, (axis,) = stacked(1, 4.4)
-        x, y = self.sought(1), self.sought(0)
-        some = _some(len(x), _MOST)
-        for keeps, ink, label in ((True, colour(0), "keeps the limits"), (False, "0.7", "does not")):
+        figure, (axis,) = stacked_axes(1, 4.4)
+        x, y = self.objectives(1), self.objectives(0)
+        some = _spread_indices(len(x), _MOST_DOTS)
+        for keeps, ink, label in ((True, curve_colour(0), "keeps the limits"), (False, "0.7", "does not")):
             rows = some[figures.keeps[some] == keeps]
             axis.plot(x[rows], y[rows], ".", color=ink, markersize=5, label=label)
         on = np.flatnonzero(figures.front)
         on = on[np.argsort(x[on], kind="stable")]
-        axis.plot(x[on], y[on], "-o", color=colour(1), markersize=5, linewidth=1.0, label="beaten by none")
-        for row in on[:_CALLED]:
+        axis.plot(
+            x[on], y[on], "-o", color=curve_colour(1), markersize=5, linewidth=1.0, label="beaten by none"
+        )
+        for row in on[:_NUMBERED_DESIGNS]:
             number = f"{figures.numbers[row]}"
             axis.annotate(number, (x[row], y[row]), textcoords="offset points", xytext=(5, 4), fontsize=8)
         axis.set(xlabel=self.axis(1), ylabel=self.axis(0))
-        grouped(axis.xaxis)
-        grouped(axis.yaxis)
-        keyed(axis)
+        group_thousands(axis.xaxis)
+        group_thousands(axis.yaxis)
+        add_legend(axis)
         return figure
 
     @own_settings()
@@ -177,27 +179,35 @@ class Shown:
         from matplotlib import colormaps
 
         figures = self.found
-        figure, (axis,) = stacked(1, 4.6)
-        heads = [_head(field) for field in figures.fields] + [self.axis(k) for k in range(len(self.units))]
-        columns = [*figures.values.T, *(self.sought(k) for k in range(len(self.units)))]
+        figure, (axis,) = stacked_axes(1, 4.6)
+        heads = [_field_heading(field) for field in figures.fields] + [
+            self.axis(k) for k in range(len(self.units))
+        ]
+        columns = [*figures.values.T, *(self.objectives(k) for k in range(len(self.units)))]
         ends = [(float(column.min()), float(column.max())) for column in columns]
         level = [
             (column - low) / ((high - low) or 1.0) for column, (low, high) in zip(columns, ends, strict=True)
         ]
         order = np.argsort(figures.costs[:, 0], kind="stable")[::-1]
         share = np.linspace(0.0, 1.0, len(order))
-        for k in _some(len(order), _LINES):
+        for k in _spread_indices(len(order), _MOST_LINES):
             row = order[k]
             shade = colormaps[_SHADES](1.0 - share[k]) if figures.keeps[row] else "0.85"
             axis.plot([one[row] for one in level], color=shade, linewidth=0.8, alpha=0.7)
-        axis.set_xticks(range(len(heads)), [_broken(head) for head in heads], fontsize=8, parse_math=False)
+        axis.set_xticks(
+            range(len(heads)), [_wrap_label(head) for head in heads], fontsize=8, parse_math=False
+        )
         axis.set_yticks([])
         for k, (low, high) in enumerate(ends):
             axis.axvline(k, color="0.3", linewidth=0.8)
             field = figures.fields[k] if k < len(figures.fields) else None
             named = range(len(field.words)) if field is not None and field.words else (low, high)
             for value in named:
-                words = self._number(k - len(figures.fields), value) if field is None else _word(field, value)
+                words = (
+                    self._number(k - len(figures.fields), value)
+                    if field is None
+                    else _value_label(field, value)
+                )
                 place = (value - low) / ((high - low) or 1.0)
                 axis.annotate(
                     words, (k, place), textcoords="offset points", xytext=(4, 2), fontsize=8, parse_math=False
@@ -219,31 +229,31 @@ class Shown:
         return made
 
 
-def _some(count: int, most: int) -> Array:
+def _spread_indices(count: int, most: int) -> Array:
     """Indices spread evenly, the last always among them."""
     return np.unique(np.linspace(0, count - 1, min(count, most)).astype(int))
 
 
-def _head(field: VariedField) -> str:
+def _field_heading(field: VariedField) -> str:
     return f"{field.label} [{field.unit}]" if field.unit else field.label
 
 
-def _word(field: VariedField, value: float) -> str:
-    return _broken(field.words[int(value)]) if field.words else f"{value:,.5g}"
+def _value_label(field: VariedField, value: float) -> str:
+    return _wrap_label(field.words[int(value)]) if field.words else f"{value:,.5g}"
 
 
-def _broken(words: str) -> str:
+def _wrap_label(words: str) -> str:
     """Break long text into lines."""
     lines = [""]
     for part in re.split(r"(?<=[-. ])", words):
-        if lines[-1] and len(lines[-1]) + len(part) > _SHORT:
+        if lines[-1] and len(lines[-1]) + len(part) > _LINE_LETTERS:
             lines.append("")
         lines[-1] += part
     return "\n".join(lines)
 
 
-def _named(axis: Axis, field: VariedField) -> None:
+def _label_axis(axis: Axis, field: VariedField) -> None:
     """Label the axis of a field, with its words if it has no numbers."""
-    axis.set_label_text(_head(field), fontsize=9, parse_math=False)
+    axis.set_label_text(_field_heading(field), fontsize=9, parse_math=False)
     if field.words:
-        axis.set_ticks(range(len(field.words)), [_broken(word) for word in field.words], fontsize=8)
+        axis.set_ticks(range(len(field.words)), [_wrap_label(word) for word in field.words], fontsize=8)

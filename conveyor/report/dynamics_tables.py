@@ -9,30 +9,36 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from conveyor.checks import Check, deciding
-from conveyor.dynamics.criteria import at_pulley, checks_of, peaks
-from conveyor.dynamics.follow import CalculatedDynamics, Followed
-from conveyor.laws.belt import DUTY_SAFETY, SPLICE_SAFETY, belt_safety, needed_strength
-from conveyor.report.animation import Panel, moving
-from conveyor.report.columns import (
-    NAMED,
-    OF_ROW,
+from conveyor.checks import Check, governing_by_subject
+from conveyor.dynamics.criteria import dynamics_checks, pulley_peak, tension_peaks
+from conveyor.dynamics.simulation import CalculatedDynamics, ScenarioResult
+from conveyor.laws.belt_strength import DUTY_SAFETY, SPLICE_SAFETY, belt_safety, required_strength
+from conveyor.report.analysis_tables import (
+    ReportAdditions,
+    check_json,
+    check_table,
+    provenance_table,
+    report_head,
+)
+from conveyor.report.animation import Panel, animated_curves
+from conveyor.report.matplotlib_settings import own_settings
+from conveyor.report.plots import curve_colour, label_axes, set_title, stacked_axes
+from conveyor.report.result_schema import SCHEMA_VERSION
+from conveyor.report.table_model import (
+    FIGURE_NAME,
+    ROW_KIND,
     Column,
     Contents,
     Drawing,
     Figure,
-    OnPage,
+    PagePlacement,
     Table,
-    noted,
+    remark_table,
     slug,
 )
-from conveyor.report.plots import colour, named, stacked, titled
-from conveyor.report.result_schema import SCHEMA_VERSION
-from conveyor.report.settings import own_settings
-from conveyor.report.tables import Further, checked, document, provenance, told
 from conveyor.spec import fingerprint
 from conveyor.units import System
-from conveyor.units.presentation import unit
+from conveyor.units.presentation import display_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -53,28 +59,31 @@ _SAMPLES = 200  # rows of histories of a scenario
 _SCENARIO = Column("scenario", "text", "0", json="scenario")
 
 
-def of_dynamics(dynamics: CalculatedDynamics, system: System) -> Contents:
+def dynamics_contents(dynamics: CalculatedDynamics, system: System) -> Contents:
     """Contents of the report on starts and stops in a unit system."""
-    every = checks_of(dynamics)
+    every = dynamics_checks(dynamics)
     parts = (
-        *tables(dynamics), checked(deciding(every), system), _remarks(dynamics, every, system),
-        provenance(fingerprint(dynamics.conveyor)),
+        *scenario_tables(dynamics), check_table(governing_by_subject(every), system),
+        _dynamics_remarks(dynamics, every, system),
+        provenance_table(fingerprint(dynamics.conveyor)),
     )  # fmt: skip
     names = ", ".join(one.name for one in dynamics.followed)
-    about = document(dynamics.conveyor, "Starting and stopping", system, (("scenarios", names),))
-    return Contents(about, parts, system, tuple(drawings(dynamics, system)), PARTS)
+    about = report_head(dynamics.conveyor, "Starting and stopping", system, (("scenarios", names),))
+    return Contents(about, parts, system, tuple(dynamics_drawings(dynamics, system)), PARTS)
 
 
-def further(dynamics: CalculatedDynamics, system: System) -> Further:
+def report_additions(dynamics: CalculatedDynamics, system: System) -> ReportAdditions:
     """Checks, tables and drawings of the scenarios for the report of the conveyor."""
-    shown, drawn = tuple(tables(dynamics)), tuple(drawings(dynamics, system))
-    return Further(checks_of(dynamics), shown, drawn, dynamics.assumptions, of_scenarios(dynamics))
+    shown, drawn = tuple(scenario_tables(dynamics)), tuple(dynamics_drawings(dynamics, system))
+    return ReportAdditions(
+        dynamics_checks(dynamics), shown, drawn, dynamics.assumptions, scenarios_json(dynamics)
+    )
 
 
-def tables(dynamics: CalculatedDynamics) -> Iterator[Table]:
+def scenario_tables(dynamics: CalculatedDynamics) -> Iterator[Table]:
     """Tables of the scenarios that have rows."""
     for made in (
-        scenarios, sizes, scenario_drives, scenario_pulleys, scenario_tensions, splice_tensions, histories
+        scenario_table, size_table, scenario_drives, scenario_pulleys, scenario_tensions, splice_tensions, history_table
     ):  # fmt: skip
         table = made(dynamics)
         if table.rows:
@@ -89,10 +98,10 @@ _PEAKS: Final = (
 )
 
 
-def scenarios(dynamics: CalculatedDynamics) -> Table:
+def scenario_table(dynamics: CalculatedDynamics) -> Table:
     """Extremes of every scenario."""
 
-    def peak(one: Followed, *, high: bool) -> tuple[float, str]:
+    def peak(one: ScenarioResult, *, high: bool) -> tuple[float, str]:
         i = int(one.record.highest.argmax() if high else one.record.lowest.argmin())
         return float((one.record.highest_at if high else one.record.lowest_at)[i]), one.place(i)
 
@@ -117,32 +126,32 @@ def scenarios(dynamics: CalculatedDynamics) -> Table:
     return Table("scenarios", "Scenarios", caption, columns, dynamics.followed, "dynamics")
 
 
-def sizes(dynamics: CalculatedDynamics) -> Table:
+def size_table(dynamics: CalculatedDynamics) -> Table:
     """Sizes that keep every criterion: value, error, governing check."""
     columns = (
-        Column("sought", NAMED, "label", json="sought"),
+        Column("sought", FIGURE_NAME, "label", json="sought"),
         Column("scenario", "text", "value.scenario", json="scenario"),
-        Column("found", OF_ROW, "value.value", json="value"),
+        Column("found", ROW_KIND, "value.value", json="value"),
         Column("to", "share", "value.error", json="error"),
-        Column("serves up to", OF_ROW, "value.most", json="most"),
+        Column("serves up to", ROW_KIND, "value.most", json="most"),
         Column("governing check", "text", "value.governs", json="governs"),
         Column("what fails with less", "text", "value.why", json="fails_with_less"),
     )
     rows = [Figure(size.label, size.kind, size) for size in dynamics.sized]
     caption = "What was sought so that every criterion is kept, and which one decides"
-    return Table("scenario_sizes", "Scenarios", "Sizes", columns, rows, (OnPage("dynamics", caption),))
+    return Table("scenario_sizes", "Scenarios", "Sizes", columns, rows, (PagePlacement("dynamics", caption),))
 
 
 def scenario_drives(dynamics: CalculatedDynamics) -> Table:
     """Extremes of every drive in every scenario, with the take-up."""
-    rows = [(one.name, one, d) for one in dynamics.followed for d in range(len(one.ride.drives))]
+    rows = [(one.name, one, d) for one in dynamics.followed for d in range(len(one.setup.drives))]
 
     def drive(name: str, of: Any) -> Any:
         return lambda row: float(of(row[1].record.drives[name][:, row[2]]))
 
     def held(of: Any, there: Any) -> Any:
         """Force held by a brake or a backstop; None where there is none."""
-        return lambda row: drive("holding", of)(row) if there(row[1].ride)[row[2]] else None
+        return lambda row: drive("holding", of)(row) if there(row[1].setup)[row[2]] else None
 
     def torque(of: Any) -> Any:
         return lambda row: float(of(row[1].torque[:, row[2]]))
@@ -157,7 +166,7 @@ def scenario_drives(dynamics: CalculatedDynamics) -> Table:
     pull = lambda one: one.record.take_up["tension"]  # noqa: E731 two words for one figure
     columns = (
         _SCENARIO,
-        Column("drive", "text", lambda row: row[1].ride.drives[row[2]].name, json="drive"),
+        Column("drive", "text", lambda row: row[1].setup.drives[row[2]].name, json="drive"),
         Column("highest torque over rated", "ratio", torque(np.max), json="torque_max"),
         Column("lowest torque over rated", "ratio", torque(np.min), json="torque_min"),
         Column("highest force on the belt", "force", drive("force", np.max), json="force_max_N"),
@@ -165,10 +174,10 @@ def scenario_drives(dynamics: CalculatedDynamics) -> Table:
         Column("highest power at the rim", "power", power, json="power_kW"),
         Column("slip", "length", lambda row: float(row[1].record.slipped[row[2]]), json="slip_m"),
         Column("heat of slip", "heat", lambda row: float(row[1].record.heat[row[2]]), json="slip_heat_MJ"),
-        Column("brake", "force", held(np.max, lambda ride: ride.brakes), json="brake_N"),
-        Column("backstop", "force", held(lambda force: max(0.0, -np.min(force)), lambda ride: ride.backstops),
+        Column("brake", "force", held(np.max, lambda setup: setup.brakes), json="brake_N"),
+        Column("backstop", "force", held(lambda force: max(0.0, -np.min(force)), lambda setup: setup.backstops),
                json="backstop_N"),
-        Column("take-up, setting", "force", "1.ride.setting", json="take_up_setting_N"),
+        Column("take-up, setting", "force", "1.setup.setting", json="take_up_setting_N"),
         Column("take-up, lowest", "force", take_up(pull, np.min), json="take_up_min_N"),
         Column("take-up, highest", "force", take_up(pull, np.max), json="take_up_max_N"),
         Column("carriage, out", "length", take_up(attrgetter("travel"), np.max), json="carriage_out_m"),
@@ -191,7 +200,7 @@ def scenario_pulleys(dynamics: CalculatedDynamics) -> Table:
         (one.name, peak)
         for one in dynamics.followed
         for i in range(len(one.line.pulleys))
-        for peak in (at_pulley(one, i),)
+        for peak in (pulley_peak(one, i),)
     ]
     columns = (_SCENARIO, Column("pulley", "text", "1.section", json="pulley"), *_PEAKS,
                Column("safety of the belt", "ratio", safety, json="safety", sparse=True))  # fmt: skip
@@ -203,10 +212,10 @@ def splice_tensions(dynamics: CalculatedDynamics) -> Table:
     """Range of tension that a splice sees in every scenario."""
     belt = dynamics.given.line.belt
 
-    def needed(one: Followed) -> float | None:
+    def needed(one: ScenarioResult) -> float | None:
         if belt.splice_strength is None:
             return None
-        return needed_strength(
+        return required_strength(
             one.highest / belt.width, splice_strength=belt.splice_strength,
             s0=SPLICE_SAFETY[belt.splice_making], s1=DUTY_SAFETY[belt.duty],
         )  # fmt: skip
@@ -223,7 +232,7 @@ def splice_tensions(dynamics: CalculatedDynamics) -> Table:
 
 def scenario_tensions(dynamics: CalculatedDynamics) -> Table:
     """Highest and lowest tension of every section and strand in every scenario, with their times."""
-    rows = [(one.name, peak) for one in dynamics.followed for peak in peaks(one)]
+    rows = [(one.name, peak) for one in dynamics.followed for peak in tension_peaks(one)]
     columns = (
         _SCENARIO,
         Column("section", "text", "1.section", json="section"),
@@ -236,12 +245,12 @@ def scenario_tensions(dynamics: CalculatedDynamics) -> Table:
     return Table("scenario_tensions", "Scenarios", caption, columns, rows, "dynamics", named=3)
 
 
-def histories(dynamics: CalculatedDynamics) -> Table:
+def history_table(dynamics: CalculatedDynamics) -> Table:
     """Speeds and tensions over time."""
     rows = [
         (one.name, one, int(i), d)
         for one in dynamics.followed
-        for d in range(len(one.ride.drives))
+        for d in range(len(one.setup.drives))
         for i in np.unique(np.linspace(0, one.times.size - 1, _SAMPLES).astype(int))
     ]
 
@@ -250,7 +259,7 @@ def histories(dynamics: CalculatedDynamics) -> Table:
 
     columns = (
         _SCENARIO,
-        Column("drive", "text", lambda row: row[1].ride.drives[row[3]].name),
+        Column("drive", "text", lambda row: row[1].setup.drives[row[3]].name),
         Column("time", "duration", lambda row: float(row[1].times[row[2]])),
         Column("speed of the belt", "speed", of("belt")),
         Column("speed of the rim", "speed", of("rim")),
@@ -266,17 +275,17 @@ def histories(dynamics: CalculatedDynamics) -> Table:
     return Table("histories", "Histories", "Drives and take-up over time", columns, rows, named=2)
 
 
-def _remarks(dynamics: CalculatedDynamics, every: tuple[Check, ...], system: System) -> Table:
+def _dynamics_remarks(dynamics: CalculatedDynamics, every: tuple[Check, ...], system: System) -> Table:
     """Failed checks and assumptions."""
     warned = [
         f"{check.case.text(system)}: {check.why.text(system)}"
         for check in every
         if check.failed and check.why is not None and check.case is not None
     ]
-    return noted({"warning": warned, "assumption": dynamics.assumptions})
+    return remark_table({"warning": warned, "assumption": dynamics.assumptions})
 
 
-def drawings(dynamics: CalculatedDynamics, system: System) -> Iterator[Drawing]:
+def dynamics_drawings(dynamics: CalculatedDynamics, system: System) -> Iterator[Drawing]:
     """Five drawings per scenario, the first animated."""
     for one in dynamics.followed:
         for name, words in (
@@ -286,58 +295,60 @@ def drawings(dynamics: CalculatedDynamics, system: System) -> Iterator[Drawing]:
             ("speeds", "speeds at drives and tail"),
             ("forces", "tensions at drives, tail and take-up, forces of the motors"),
         ):
-            draw = partial(profile, one) if name == "profile" else partial(picture, one, name)
+            draw = (
+                partial(tension_animation, one) if name == "profile" else partial(scenario_figure, one, name)
+            )
             draw = partial(draw, system=system)
             yield Drawing(f"{slug(one.name)}_{name}", f"{one.name}: {words}.", draw, "through-time")
 
 
-def of_scenarios(dynamics: CalculatedDynamics) -> dict[str, Any]:
+def scenarios_json(dynamics: CalculatedDynamics) -> dict[str, Any]:
     """Plain numbers of every scenario; units in the keys."""
     return {
         table.key.removeprefix("scenario_"): table.plain()
-        for table in tables(dynamics)
+        for table in scenario_tables(dynamics)
         if table.key != "histories"
     }
 
 
-def plain(dynamics: CalculatedDynamics) -> dict[str, Any]:
+def dynamics_json(dynamics: CalculatedDynamics) -> dict[str, Any]:
     """Plain numbers for JSON, as `result_schema` describes them."""
-    every = checks_of(dynamics)
-    governing = deciding(every)
+    every = dynamics_checks(dynamics)
+    governing = governing_by_subject(every)
     return {
         "schema_version": SCHEMA_VERSION,
         "conveyor": dynamics.conveyor.name,
-        **of_scenarios(dynamics),
-        "checks": [told(check, governs=any(check is one for one in governing)) for check in every],
+        **scenarios_json(dynamics),
+        "checks": [check_json(check, governs=any(check is one for one in governing)) for check in every],
         "assumptions": list(dynamics.assumptions),
     }
 
 
-_LEVELS, _MOST = 14, 80  # shades, and points a side, of the map
+_LEVELS, _MAP_POINTS = 14, 80  # shades, and points a side, of the map
 _POINTS = 1500  # of a history
-_FRAMES, _PLACES = 45, 60  # times and points of an animation
-_WHERE: Final = "distance from the head, return strand first"
-_HEIGHT, _LOW, _WHOLE = 4.4, 3.0, 13.0
+_FRAMES, _FRAME_POINTS = 45, 60  # times and points of an animation
+_LOOP_DISTANCE: Final = "distance from the head, return strand first"
+_HEIGHT, _LOW_HEIGHT, _WHOLE_HEIGHT = 4.4, 3.0, 13.0
 
 
-def profile(scenario: Followed, *, system: System = "SI") -> Html:
+def tension_animation(scenario: ScenarioResult, *, system: System = "SI") -> Html:
     """Animation of tension and speed round the loop."""
     force, length, speed = (
-        unit("force", system, large=True),
-        unit("length", system, large=True),
-        unit("speed", system),
+        display_unit("force", system, large=True),
+        display_unit("length", system, large=True),
+        display_unit("speed", system),
     )
     order, distance = scenario.round_loop
     record = scenario.record
     kept = np.unique(np.linspace(0, record.times.size - 1, _FRAMES).astype(int))
-    cells = np.unique(np.linspace(0, order.size - 1, _PLACES).astype(int))
+    cells = np.unique(np.linspace(0, order.size - 1, _FRAME_POINTS).astype(int))
     ends = record.lowest[order][cells], record.highest[order][cells]
     tension = record.tensions[np.ix_(kept, order[cells])].astype(float)
     going = record.speeds[:, order[cells]].astype(float)
-    where = length.beside(_WHERE)
-    return moving(
+    where = length.beside(_LOOP_DISTANCE)
+    return animated_curves(
         f"moving_{slug(scenario.name)}", (where, length(distance[cells])),
-        (unit("duration", system).beside("time"), record.times[kept]),
+        (display_unit("duration", system).beside("time"), record.times[kept]),
         (Panel(force.beside("tension"), force(tension), (force(ends[0]), force(ends[1]))),
          Panel(speed.beside("speed"), speed(going[kept]), (speed(going.min(axis=0)), speed(going.max(axis=0))))),
         mark=float(length(scenario.line.loop.way[scenario.line.count])),
@@ -345,25 +356,26 @@ def profile(scenario: Followed, *, system: System = "SI") -> Html:
 
 
 @own_settings()
-def picture(scenario: Followed, *names: str, system: System = "SI") -> Picture:
+def scenario_figure(scenario: ScenarioResult, *names: str, system: System = "SI") -> Picture:
     """Figure of a scenario: tension map, envelope, speeds and forces, or those named."""
-    drawn = {"tension_map": (_map, _HEIGHT), "envelope": (_envelope, _HEIGHT), "speeds": (_speeds, _LOW),
-             "forces": (_forces, _HEIGHT)}  # fmt: skip
+    drawn = {"tension_map": (_draw_tension_map, _HEIGHT), "envelope": (_draw_envelope, _HEIGHT),
+    "speeds": (_draw_speeds, _LOW_HEIGHT),
+             "forces": (_draw_forces, _HEIGHT)}  # fmt: skip
     shown = [drawn[name] for name in names or drawn]
-    figure, axes = stacked(len(shown), sum(height for _, height in shown) if names else _WHOLE)
+    figure, axes = stacked_axes(len(shown), sum(height for _, height in shown) if names else _WHOLE_HEIGHT)
     for axis, (draw, _) in zip(axes, shown, strict=True):
         draw(axis, scenario, system)
     if not names:
-        titled(figure, scenario.name)
+        set_title(figure, scenario.name)
     return figure
 
 
-def _map(axis: Axes, scenario: Followed, system: System) -> None:
-    force, length = unit("force", system, large=True), unit("length", system, large=True)
+def _draw_tension_map(axis: Axes, scenario: ScenarioResult, system: System) -> None:
+    force, length = display_unit("force", system, large=True), display_unit("length", system, large=True)
     order, distance = scenario.round_loop
     record = scenario.record
-    kept = np.unique(np.linspace(0, record.times.size - 1, _MOST).astype(int))
-    cells = np.unique(np.linspace(0, order.size - 1, _MOST).astype(int))
+    kept = np.unique(np.linspace(0, record.times.size - 1, _MAP_POINTS).astype(int))
+    cells = np.unique(np.linspace(0, order.size - 1, _MAP_POINTS).astype(int))
     tension = force(record.tensions[np.ix_(kept, order[cells])])
     shaded = axis.contourf(
         length(distance[cells]), record.times[kept], tension, levels=_LEVELS, cmap="viridis"
@@ -375,13 +387,15 @@ def _map(axis: Axes, scenario: Followed, system: System) -> None:
         )
     axis.axvline(float(length(scenario.line.loop.way[scenario.line.count])), color="white", linewidth=0.8)
     axis.grid(visible=False)
-    named(axis, length.beside(_WHERE), unit("duration", system).beside("time"), group="x")
+    label_axes(
+        axis, length.beside(_LOOP_DISTANCE), display_unit("duration", system).beside("time"), group="x"
+    )
     beside = axis.inset_axes((1.02, 0.0, 0.03, 1.0))  # no axes of its own: those bind the figure's layout
     axis.figure.colorbar(shaded, cax=beside, label=force.beside("tension"))
 
 
-def _envelope(axis: Axes, scenario: Followed, system: System) -> None:
-    force, length = unit("force", system, large=True), unit("length", system, large=True)
+def _draw_envelope(axis: Axes, scenario: ScenarioResult, system: System) -> None:
+    force, length = display_unit("force", system, large=True), display_unit("length", system, large=True)
     order, distance = scenario.round_loop
     x, record = length(distance), scenario.record
     axis.fill_between(
@@ -390,50 +404,62 @@ def _envelope(axis: Axes, scenario: Followed, system: System) -> None:
     for k, (name, values) in enumerate(
         (("highest", record.highest), ("lowest", record.lowest), ("at the start", record.tensions[0]))
     ):
-        axis.plot(x, force(values[order]), color=colour(k), label=name)
+        axis.plot(x, force(values[order]), color=curve_colour(k), label=name)
     axis.axhline(0.0, color="0.6", linewidth=0.8)
     axis.axvline(float(length(scenario.line.loop.way[scenario.line.count])), color="0.8", zorder=0)
-    named(axis, length.beside(_WHERE), force.beside("tension"), group="xy")
+    label_axes(axis, length.beside(_LOOP_DISTANCE), force.beside("tension"), group="xy")
 
 
-def _speeds(axis: Axes, scenario: Followed, system: System) -> None:
-    speed, time = unit("speed", system), unit("duration", system)
+def _draw_speeds(axis: Axes, scenario: ScenarioResult, system: System) -> None:
+    speed, time = display_unit("speed", system), display_unit("duration", system)
     kept = np.unique(np.linspace(0, scenario.times.size - 1, _POINTS).astype(int))
     drives = scenario.record.drives
-    for d, drive in enumerate(scenario.ride.drives):
+    for d, drive in enumerate(scenario.setup.drives):
         belt = speed(drives["belt"][kept, d])
-        axis.plot(scenario.times[kept], belt, color=colour(2 * d), label=f"belt at {drive.name}")
+        axis.plot(scenario.times[kept], belt, color=curve_colour(2 * d), label=f"belt at {drive.name}")
         if scenario.record.slipped[d]:
             rim = speed(drives["rim"][kept, d])
             axis.plot(
-                scenario.times[kept], rim, color=colour(2 * d), linestyle=":", label=f"rim of {drive.name}"
+                scenario.times[kept],
+                rim,
+                color=curve_colour(2 * d),
+                linestyle=":",
+                label=f"rim of {drive.name}",
             )
-    tail = speed(scenario.record.speeds[:, _tail(scenario)])
+    tail = speed(scenario.record.speeds[:, _tail_cell(scenario)])
     axis.plot(scenario.record.times, tail, color="0.4", linewidth=0.9, label="belt at the tail")
-    named(axis, time.beside("time"), speed.beside("speed"))
+    label_axes(axis, time.beside("time"), speed.beside("speed"))
 
 
-def _forces(axis: Axes, scenario: Followed, system: System) -> None:
-    force, time = unit("force", system, large=True), unit("duration", system)
+def _draw_forces(axis: Axes, scenario: ScenarioResult, system: System) -> None:
+    force, time = display_unit("force", system, large=True), display_unit("duration", system)
     kept = np.unique(np.linspace(0, scenario.times.size - 1, _POINTS).astype(int))
     drives, times = scenario.record.drives, scenario.times[kept]
-    for d, drive in enumerate(scenario.ride.drives):
+    for d, drive in enumerate(scenario.setup.drives):
         for k, name in enumerate(("arriving", "leaving")):
             axis.plot(
-                times, force(drives[name][kept, d]), color=colour(2 * d + k), label=f"{name} at {drive.name}"
+                times,
+                force(drives[name][kept, d]),
+                color=curve_colour(2 * d + k),
+                label=f"{name} at {drive.name}",
             )
         motor = force(drives["motor"][kept, d])
         axis.plot(
-            times, motor, color=colour(2 * d), linestyle="--", linewidth=0.9, label=f"motor of {drive.name}"
+            times,
+            motor,
+            color=curve_colour(2 * d),
+            linestyle="--",
+            linewidth=0.9,
+            label=f"motor of {drive.name}",
         )
-    tail = force(scenario.record.tensions[:, _tail(scenario)])
+    tail = force(scenario.record.tensions[:, _tail_cell(scenario)])
     axis.plot(scenario.record.times, tail, color="0.4", linewidth=0.9, label="at the tail")
     held = force(scenario.record.take_up["tension"][kept])
-    axis.plot(times, held, color=colour(6), linewidth=0.9, label="at the take-up")
-    named(axis, time.beside("time"), force.beside("tension, force"), group="y")
+    axis.plot(times, held, color=curve_colour(6), linewidth=0.9, label="at the take-up")
+    label_axes(axis, time.beside("time"), force.beside("tension, force"), group="y")
 
 
-def _tail(scenario: Followed) -> int:
+def _tail_cell(scenario: ScenarioResult) -> int:
     """Index of the cell at the tail."""
     order, known = scenario.round_loop
     return int(order[int(np.argmin(np.abs(known - scenario.line.loop.way[scenario.line.count])))])

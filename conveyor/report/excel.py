@@ -16,61 +16,61 @@ from openpyxl import Workbook
 from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.errors import InputError
-from conveyor.files import marks
-from conveyor.files.saving import naming, save, writable
-from conveyor.report import cover, sheets
-from conveyor.report.cells import legible, print_set_up
-from conveyor.report.columns import CHECKS_AND_NOTES, Contents
-from conveyor.report.files import csv
-from conveyor.report.places import MOST_ROWS, Page, TablePlace, file_name
+from conveyor.files import output_marks
+from conveyor.files.atomic_write import check_writable, name_write_errors, save_files
+from conveyor.report import sheets, summary_sheet
+from conveyor.report.cells import cell_text, set_up_print
+from conveyor.report.sheet_writer import MOST_ROWS, SheetWriter, TablePlace, long_table_file
+from conveyor.report.table_files import csv_bytes
+from conveyor.report.table_model import CHECKS_AND_NOTES, Contents
 
-FRONT: Final = "Summary"
+SUMMARY_SHEET: Final = "Summary"
 """The first sheet of the workbook of a conveyor."""
-Fills: TypeAlias = Mapping[str, Callable[[Page], None]]
-SHEETS: Final[Fills] = {
-    "Results": sheets.beside,
-    "Given": partial(sheets.stacked, widest=110),
-    "Inputs": sheets.single,
-    "Sections": sheets.wide,
-    "Resistances": sheets.stacked,
-    "Rolls": sheets.wide,
-    "Tension diagram": sheets.tensions,
-    "Tensions": sheets.single,
-    "States": sheets.stacked,
-    "Loop": sheets.beside,
-    "Pulleys": sheets.noted,
-    "Curves": sheets.noted,
-    "Transfer": sheets.transfer,
-    "Load cases": partial(sheets.stacked, widest=40),
-    "Case checks": sheets.single,
-    "Duty": sheets.beside,
-    "Scenarios": sheets.stacked,
-    "Histories": sheets.single,
-    "Uncertainty": sheets.uncertainty,
-    "Indentation": sheets.stacked,
-    "Rubber": sheets.rubber,
-    CHECKS_AND_NOTES: sheets.notes,
+SheetFillers: TypeAlias = Mapping[str, Callable[[SheetWriter], None]]
+SHEETS: Final[SheetFillers] = {
+    "Results": sheets.figures_sheet,
+    "Given": partial(sheets.stacked_sheet, widest=110),
+    "Inputs": sheets.single_table_sheet,
+    "Sections": sheets.wide_table_sheet,
+    "Resistances": sheets.stacked_sheet,
+    "Rolls": sheets.wide_table_sheet,
+    "Tension diagram": sheets.tension_sheet,
+    "Tensions": sheets.single_table_sheet,
+    "States": sheets.stacked_sheet,
+    "Loop": sheets.figures_sheet,
+    "Pulleys": sheets.narrow_sheet,
+    "Curves": sheets.narrow_sheet,
+    "Transfer": sheets.transfer_sheet,
+    "Load cases": partial(sheets.stacked_sheet, widest=40),
+    "Case checks": sheets.single_table_sheet,
+    "Duty": sheets.figures_sheet,
+    "Scenarios": sheets.stacked_sheet,
+    "Histories": sheets.single_table_sheet,
+    "Uncertainty": sheets.uncertainty_sheet,
+    "Indentation": sheets.stacked_sheet,
+    "Rubber": sheets.rubber_sheet,
+    CHECKS_AND_NOTES: sheets.notes_sheet,
 }
 """Functions that fill the sheets, in order; on all other sheets tables are stacked."""
-COMPARISON_SHEETS: Final[Fills] = {
-    "Ranking": sheets.ranking,
-    "Power": sheets.power,
-    "Scenes": sheets.scenes,
-    "Coverage": sheets.coverage,
-    "Notes": sheets.compounds,
+COMPARISON_SHEETS: Final[SheetFillers] = {
+    "Ranking": sheets.ranking_sheet,
+    "Power": sheets.power_sheet,
+    "Scenes": sheets.scenes_sheet,
+    "Coverage": sheets.coverage_sheet,
+    "Notes": sheets.compounds_sheet,
 }
-VERIFICATION_SHEETS: Final[Fills] = {
-    "About": sheets.about,
-    "N per width": sheets.to_compare,
-    "Idler set": sheets.to_compare,
+VERIFICATION_SHEETS: Final[SheetFillers] = {
+    "About": sheets.about_sheet,
+    "N per width": sheets.fill_in_sheet,
+    "Idler set": sheets.fill_in_sheet,
 }
-_LAYOUTS: Final[Mapping[str, Fills]] = {
+_LAYOUTS: Final[Mapping[str, SheetFillers]] = {
     "conveyor": SHEETS,
     "comparison": COMPARISON_SHEETS,
     "verification": VERIFICATION_SHEETS,
 }
 """By the layout of a report; in others the tables of a sheet are stacked."""
-_WHERE_ASKED: Final = (
+_OPTIONAL_SHEETS: Final = (
     *VERIFICATION_SHEETS,
     "Pulleys",
     "Curves",
@@ -95,7 +95,7 @@ _PORTRAIT: Final = (
 )
 
 
-def write(contents: Contents, path: Path) -> Path:
+def write_workbook(contents: Contents, path: Path) -> Path:
     """Write the workbook of a report, under a temporary name first.
 
     Parameters
@@ -119,26 +119,29 @@ def write(contents: Contents, path: Path) -> Path:
     """
     if path.suffix.lower() != ".xlsx":
         raise InputError(f'{path}: a workbook\'s name ends in .xlsx, got "{path.suffix}"')
-    writable(path)
-    save(files(contents, path))
+    check_writable(path)
+    save_files(workbook_files(contents, path))
     return path
 
 
-def files(contents: Contents, path: Path) -> dict[Path, bytes]:
+def workbook_files(contents: Contents, path: Path) -> dict[Path, bytes]:
     """Contents of the files of a report, by path: the workbook, and the tables too long for it."""
     live: dict[tuple[str, str], float | str] = {}
-    with _uncollected():
-        book, content = build(contents, path.stem, live), BytesIO()
-        with naming(path):
+    with _pause_collector():
+        book, content = build_workbook(contents, path.stem, live), BytesIO()
+        with name_write_errors(path):
             book.save(content)  # by way of temporary files
     long = [part for part in contents.tables if len(part.rows) > MOST_ROWS]
-    beside = {path.with_name(file_name(path.stem, part)): csv(part.frame(contents.system)) for part in long}
+    beside = {
+        path.with_name(long_table_file(path.stem, part)): csv_bytes(part.frame(contents.system))
+        for part in long
+    }
     values = {(book.sheetnames.index(sheet) + 1, cell): value for (sheet, cell), value in live.items()}
-    return beside | {path: with_values(content.getvalue(), values)}
+    return beside | {path: add_formula_values(content.getvalue(), values)}
 
 
 @contextmanager
-def _uncollected() -> Iterator[None]:
+def _pause_collector() -> Iterator[None]:
     """Pause the cyclic garbage collector, which would take a third of the time."""
     was = gc.isenabled()
     gc.disable()
@@ -149,39 +152,41 @@ def _uncollected() -> Iterator[None]:
             gc.enable()
 
 
-def build(
+def build_workbook(
     contents: Contents, stem: str = "", live: dict[tuple[str, str], float | str] | None = None
 ) -> Workbook:
     """Build the workbook of a report; `stem` names further files, `live` receives the values of its formulas."""
     about, fills = contents.document, _LAYOUTS.get(contents.layout, {})
     book = Workbook()
     book.remove(book.worksheets[0])
-    book.properties.title = legible(about.title)
-    book.properties.creator, book.properties.category = marks.maker(), marks.CATEGORY
+    book.properties.title = cell_text(about.title)
+    book.properties.creator, book.properties.category = output_marks.program_version(), output_marks.CATEGORY
     header = ", ".join(filter(None, (about.said.get("project"), about.title)))
     placed: dict[str, tuple[Worksheet, TablePlace]] = {}
     front = "governing_figures" in contents
     if front:
-        book.create_sheet(FRONT)
+        book.create_sheet(SUMMARY_SHEET)
     for title in dict.fromkeys((*fills, *contents.sheets)):
-        if title in contents.sheets or title not in _WHERE_ASKED:
-            page = Page(book.create_sheet(title), contents, stem, placed, {} if live is None else live)
-            fills.get(title, sheets.stacked)(page)
+        if title in contents.sheets or title not in _OPTIONAL_SHEETS:
+            page = SheetWriter(book.create_sheet(title), contents, stem, placed, {} if live is None else live)
+            fills.get(title, sheets.stacked_sheet)(page)
             last = page.print_only()
-            print_set_up(page.sheet, header, last, paper=about.paper, portrait=title in _PORTRAIT)
+            set_up_print(page.sheet, header, last, paper=about.paper, portrait=title in _PORTRAIT)
     if front:  # its charts refer to tables of the other sheets
-        cover.summary(Page(book[FRONT], contents, stem), placed)
-        print_set_up(book[FRONT], header, book[FRONT].max_row, paper=about.paper, portrait=True)
+        summary_sheet.write_summary(SheetWriter(book[SUMMARY_SHEET], contents, stem), placed)
+        set_up_print(
+            book[SUMMARY_SHEET], header, book[SUMMARY_SHEET].max_row, paper=about.paper, portrait=True
+        )
     return book
 
 
-Values = Mapping[tuple[int, str], float | str]
+FormulaValues = Mapping[tuple[int, str], float | str]
 """Values of formulas, by the number of their sheet, from 1, and their cell."""
 
-_SHEET: Final = "xl/worksheets/sheet{}.xml"
+_SHEET_PATH: Final = "xl/worksheets/sheet{}.xml"
 
 
-def with_values(workbook: bytes, values: Values) -> bytes:
+def add_formula_values(workbook: bytes, values: FormulaValues) -> bytes:
     """Return a workbook whose formulas have cached values, as a spreadsheet saves them.
 
     Parameters
@@ -198,13 +203,13 @@ def with_values(workbook: bytes, values: Values) -> bytes:
         for part in old.infolist():
             content = old.read(part)
             for (number, cell), value in values.items():
-                if part.filename == _SHEET.format(number):
-                    content = _valued(content, cell, value)
+                if part.filename == _SHEET_PATH.format(number):
+                    content = _insert_value(content, cell, value)
             new.writestr(part, content)
     return made.getvalue()
 
 
-def _valued(sheet: bytes, cell: str, value: float | str) -> bytes:
+def _insert_value(sheet: bytes, cell: str, value: float | str) -> bytes:
     pattern = rf'(<c r="{cell}"[^>]*)(><f>[^<]*</f>)<v\s*/?>(?:</v>)?'.encode()
     kind, shown = (' t="str"', value) if isinstance(value, str) else ("", repr(value))
     written, count = re.subn(pattern, rf"\g<1>{kind}\g<2><v>{shown}</v>".encode(), sheet)

@@ -8,18 +8,28 @@ from pathlib import Path
 from typing import Final
 
 from conveyor.errors import InputError
-from conveyor.files.marks import version
-from conveyor.files.saving import save, writable
-from conveyor.markup import Html, element, joined
-from conveyor.report.columns import HEADINGS, Contents, Drawing, Table, ordered
-from conveyor.report.page import Part, bullets, facts, folded, listed, page, table, tiles, verdict
-from conveyor.report.svg import figure, inline
+from conveyor.files.atomic_write import check_writable, save_files
+from conveyor.files.output_marks import package_version
+from conveyor.markup import Html, element, join_html
+from conveyor.report.page_elements import (
+    PagePart,
+    bullet_list,
+    fact_list,
+    figure_list,
+    fold_away,
+    key_figure_tiles,
+    page_html,
+    table_html,
+    verdict_mark,
+)
+from conveyor.report.svg import captioned_drawing, figure_svg
+from conveyor.report.table_model import NOTE_HEADINGS, Contents, Drawing, Table, sort_notes
 from conveyor.units import System
 
 _ENDINGS = (".html", ".htm")
 
 
-def write(contents: Contents, path: Path) -> Path:
+def write_page(contents: Contents, path: Path) -> Path:
     """Write the page of a report, under a temporary name first.
 
     Parameters
@@ -42,61 +52,63 @@ def write(contents: Contents, path: Path) -> Path:
     """
     if path.suffix.lower() not in _ENDINGS:
         raise InputError(f'{path}: a page\'s name ends in .html, got "{path.suffix}"')
-    writable(path)
-    save({path: build(contents).encode()})
+    check_writable(path)
+    save_files({path: build_page(contents).encode()})
     return path
 
 
-def build(contents: Contents) -> Html:
+def build_page(contents: Contents) -> Html:
     """Build the page of a report."""
     about = contents.document
-    made = f"conveyor {version('conveyor')}, {date.today().isoformat()}"
+    made = f"conveyor {package_version('conveyor')}, {date.today().isoformat()}"
     if about.fingerprint:
         made += f", spec SHA-256 {about.fingerprint[:16]}"
-    document = facts(about.said.items(), "facts document") if about.said else Html("")
-    parts = [part for named in contents.page if (part := _part(contents, *named)).content]
-    kind, top = f"{about.kind}, {date.today().isoformat()}", joined([document, _top(contents)])
-    return page(about.title, kind, top, parts, made, paper=about.paper)
+    document = fact_list(about.said.items(), "facts document") if about.said else Html("")
+    parts = [part for named in contents.page if (part := _page_part(contents, *named)).content]
+    kind, top = f"{about.kind}, {date.today().isoformat()}", join_html([document, _page_top(contents)])
+    return page_html(about.title, kind, top, parts, made, paper=about.paper)
 
 
-def _top(contents: Contents) -> Html:
+def _page_top(contents: Contents) -> Html:
     """Facts of the report, and the notes of the spec."""
     said = contents.document.facts
     if not said:
         rows = contents["identity"].rows
-        said = tuple((row.label, row.unit(contents.system).brief(row.value)) for row in rows)
-    return joined([facts(said), *(element("p", line) for line in contents.lines("note of the spec"))])
+        said = tuple((row.label, row.unit(contents.system).four_digits(row.value)) for row in rows)
+    return join_html([fact_list(said), *(element("p", line) for line in contents.lines("note of the spec"))])
 
 
-def _part(contents: Contents, name: str, heading: str) -> Part:
+def _page_part(contents: Contents, name: str, heading: str) -> PagePart:
     """Part of the page: its own content, drawings, tables with their notes."""
-    content = [_OWN[name](contents)] if name in _OWN else []
-    content += [_drawn(drawing) for drawing in contents.drawings if drawing.above == name]
+    content = [_PART_CONTENT[name](contents)] if name in _PART_CONTENT else []
+    content += [_page_drawing(drawing) for drawing in contents.drawings if drawing.above == name]
     for shown in contents.parts:
         places = [place for place in shown.places if place.part == name]
         for place in places:
             if place == shown.places[0] and shown.key != name:
-                content += [_drawn(drawing) for drawing in contents.drawings if drawing.above == shown.key]
-            made = _table(shown.on_page(place), place.caption, contents.system)
-            content.append(made if place.printed else folded(place.caption, made))
+                content += [
+                    _page_drawing(drawing) for drawing in contents.drawings if drawing.above == shown.key
+                ]
+            made = _page_table(shown.on_page(place), place.caption, contents.system)
+            content.append(made if place.printed else fold_away(place.caption, made))
         if any(place.printed for place in places) and shown.note and shown.key != "defaults":
             content.append(element("p", shown.note, class_="note"))
     every = [place for shown in contents.parts for place in shown.places if place.part == name]
     drawn = any(drawing.above == name for drawing in contents.drawings)
-    shown_on_paper = not every or any(place.printed for place in every) or name in _OWN or drawn
-    return Part(name, heading, joined(content), printed=shown_on_paper)
+    shown_on_paper = not every or any(place.printed for place in every) or name in _PART_CONTENT or drawn
+    return PagePart(name, heading, join_html(content), printed=shown_on_paper)
 
 
-def _table(shown: Table, caption: str, system: System) -> Html:
+def _page_table(shown: Table, caption: str, system: System) -> Html:
     if shown.key == "checks":
-        return table(shown, caption, system, kind="checks")
-    return listed(shown, caption, system) if shown.figures else table(shown, caption, system)
+        return table_html(shown, caption, system, kind="checks")
+    return figure_list(shown, caption, system) if shown.figures else table_html(shown, caption, system)
 
 
-def _drawn(drawing: Drawing) -> Html:
+def _page_drawing(drawing: Drawing) -> Html:
     made = drawing.draw()
-    return figure(
-        made if isinstance(made, Html) else inline(made, drawing.name, drawing.caption), drawing.caption
+    return captioned_drawing(
+        made if isinstance(made, Html) else figure_svg(made, drawing.name, drawing.caption), drawing.caption
     )
 
 
@@ -104,34 +116,36 @@ def _key_figures(contents: Contents) -> Html:
     """Verdict, governing figures and key figures."""
     checks, warned = contents["checks"].rows, len(contents.lines("warning"))
     count = {word: sum(check.verdict == word for check in checks) for word in ("pass", "FAIL", "not checked")}
-    counted = joined(
-        part for word, n in count.items() if n for part in (f"{n} ", verdict(word), Html("&ensp;"))
+    counted = join_html(
+        part for word, n in count.items() if n for part in (f"{n} ", verdict_mark(word), Html("&ensp;"))
     )
     link, governs = element("a", f"{warned} warnings", href="#warnings"), contents["governing_figures"]
     content = [
         element("p", governs.note, class_=f"stands {'fail' if count['FAIL'] else 'pass'}"),
         element("p", "Checks: ", counted, " ", link),
-        table(governs, governs.heading, contents.system),
-        tiles(contents.marked("tile"), contents.system),
+        table_html(governs, governs.heading, contents.system),
+        key_figure_tiles(contents.figures_for("tile"), contents.system),
     ]
     if "defaults" in contents:
         content.append(element("p", contents["defaults"].note))
-    return joined(content)
+    return join_html(content)
 
 
-def _warnings(contents: Contents) -> Html:
+def _warning_lists(contents: Contents) -> Html:
     """Lists of warnings: action required, then basis and limitations."""
-    lists = zip(HEADINGS, ordered(contents.lines("warning")), strict=True)
+    lists = zip(NOTE_HEADINGS, sort_notes(contents.lines("warning")), strict=True)
     shown = [
-        (element("h3", heading.capitalize()), bullets(lines, "warnings")) for heading, lines in lists if lines
+        (element("h3", heading.capitalize()), bullet_list(lines, "warnings"))
+        for heading, lines in lists
+        if lines
     ]
-    return joined(part for pair in shown for part in pair) if shown else bullets(())
+    return join_html(part for pair in shown for part in pair) if shown else bullet_list(())
 
 
-_OWN: Final[dict[str, Callable[[Contents], Html]]] = {
+_PART_CONTENT: Final[dict[str, Callable[[Contents], Html]]] = {
     "key-figures": _key_figures,
-    "method": lambda contents: bullets(contents.lines("method")),
-    "warnings": _warnings,
-    "assumptions": lambda contents: bullets(contents.lines("assumption")),
+    "method": lambda contents: bullet_list(contents.lines("method")),
+    "warnings": _warning_lists,
+    "assumptions": lambda contents: bullet_list(contents.lines("assumption")),
 }
 """Content of parts of the page besides tables and drawings."""

@@ -8,24 +8,26 @@ from typing import Any, Literal
 
 from conveyor.models import Conveyor, Model, RubberCompound
 from conveyor.models.base import field_path
-from conveyor.models.listed import Listed
+from conveyor.models.library_items import LibraryItem
 from conveyor.units import System, is_quantity, si_with_unit, text
-from conveyor.units.sentences import figure
+from conveyor.units.sentences import format_figure
 
 Origin = Literal["spec", "library", "default"]
-Row = tuple[str, str, float | None, str, Origin]
+InputRow = tuple[str, str, float | None, str, Origin]
 
 
-def _written(value: Any) -> Any:
+def _entered_text(value: Any) -> Any:
     return text(value) if is_quantity(value) else value
 
 
-def inputs(conveyor: Conveyor) -> tuple[Row, ...]:
+def input_rows(conveyor: Conveyor) -> tuple[InputRow, ...]:
     """Rows of all fields that have a value: field, text as entered, SI value, SI unit, origin; compounds by name."""
-    return tuple(_rows((), conveyor, "spec"))
+    return tuple(_value_rows((), conveyor, "spec"))
 
 
-def _rows(place: tuple[str | int, ...], value: Any, origin: Origin, entry: Any = None) -> Iterator[Row]:
+def _value_rows(
+    place: tuple[str | int, ...], value: Any, origin: Origin, entry: Any = None
+) -> Iterator[InputRow]:
     """Rows of a value; `entry` is the value of the library entry that is named, if any."""
     field = field_path(place)
     if value is None:
@@ -33,10 +35,10 @@ def _rows(place: tuple[str | int, ...], value: Any, origin: Origin, entry: Any =
     if isinstance(value, RubberCompound):
         yield field, value.name, None, "", origin
     elif isinstance(value, Model):
-        yield from _fields(place, value, origin, entry)
+        yield from _field_rows(place, value, origin, entry)
     elif isinstance(value, tuple):
         for i, item in enumerate(value):
-            yield from _rows((*place, i), item, origin)
+            yield from _value_rows((*place, i), item, origin)
     elif is_quantity(value):
         yield field, text(value), *si_with_unit(value), origin
     elif isinstance(value, bool):
@@ -47,25 +49,32 @@ def _rows(place: tuple[str | int, ...], value: Any, origin: Origin, entry: Any =
         yield field, str(value), None, "", origin
 
 
-def _fields(place: tuple[str | int, ...], model: Model, origin: Origin, entry: Any) -> Iterator[Row]:
-    named = model.entry if isinstance(model, Listed) else None
+def _field_rows(place: tuple[str | int, ...], model: Model, origin: Origin, entry: Any) -> Iterator[InputRow]:
+    named = model.entry if isinstance(model, LibraryItem) else None
     known = entry if named is None else named.fields
     held = known if isinstance(known, Mapping) else {}
     for name, info in type(model).model_fields.items():
         key, value = info.alias or name, getattr(model, name)
         given = origin == "spec" and name in model.model_fields_set
-        listed = key in held and _written(value) == held[key]
+        listed = key in held and _entered_text(value) == held[key]
         came: Origin = "library" if listed else "spec" if given else "default"
-        yield from _rows((*place, key), value, came, held.get(key))
+        yield from _value_rows((*place, key), value, came, held.get(key))
 
 
 _ITEM = re.compile(r"\[\d+\]")
 _DEGREES = re.compile(r"\bdeg(?=[CF]?\b)")
-_KINDS = {"m": "length", "m/s": "speed", "m/s²": "acceleration", "Pa": "pressure", "N": "force", "kg": "mass"}
+_SI_KINDS = {
+    "m": "length",
+    "m/s": "speed",
+    "m/s²": "acceleration",
+    "Pa": "pressure",
+    "N": "force",
+    "kg": "mass",
+}
 """Kinds of the SI units of defaults."""
 
 
-def _worded(entered: str) -> str:
+def _readable_entry(entered: str) -> str:
     """Value as entered, with its unit in the usual spelling."""
     if entered in {"true", "false"}:
         return "yes" if entered == "true" else "no"
@@ -73,8 +82,8 @@ def _worded(entered: str) -> str:
     return spelled.removesuffix(" °") + "°" if spelled.endswith(" °") else spelled
 
 
-def gathered(
-    rows: Iterable[Row], system: System = "SI", *, alike: bool = False
+def group_inputs(
+    rows: Iterable[InputRow], system: System = "SI", *, alike: bool = False
 ) -> tuple[tuple[str, str], ...]:
     """Rows grouped by part of the spec: part, fields with their values; with `alike`, list items merged."""
     parts: dict[str, dict[str, list[str]]] = {}
@@ -83,9 +92,9 @@ def gathered(
         if alike:
             of = _ITEM.sub("", of)
         known = parts.setdefault(of, {}).setdefault(_ITEM.sub("", name).replace("_", " "), [])
-        shown = "0" if value == 0.0 else _worded(entered)
-        if system == "US" and origin == "default" and value and sign in _KINDS:
-            shown = figure(value, _KINDS[sign], system)
+        shown = "0" if value == 0.0 else _readable_entry(entered)
+        if system == "US" and origin == "default" and value and sign in _SI_KINDS:
+            shown = format_figure(value, _SI_KINDS[sign], system)
         if not alike or shown not in known:
             known.append(shown)
     return tuple(

@@ -1,6 +1,7 @@
 """The page of a report as it prints: its elements, set by Typst.
 
-A page is made of a few elements of `conveyor.report.page` alone; each has its form on paper here and in ``page.typ``.
+A page is made of a few elements of `conveyor.report.page_elements` alone; each has its form on paper here and in
+``page.typ``.
 """
 
 from __future__ import annotations
@@ -16,26 +17,26 @@ from pathlib import Path
 from typing import Final
 
 from conveyor.errors import InputError
-from conveyor.files.saving import save, writable
+from conveyor.files.atomic_write import check_writable, save_files
 from conveyor.markup import Html
-from conveyor.report.columns import Contents
-from conveyor.report.html import build
-from conveyor.report.page import COLOURS
-from conveyor.report.settings import matplotlib
+from conveyor.report.html import build_page
+from conveyor.report.matplotlib_settings import load_matplotlib
+from conveyor.report.page_elements import COLOURS
+from conveyor.report.table_model import Contents
 
-_FORMS: Final = Path(__file__).with_name("page.typ")
+_TYPST_FORMS: Final = Path(__file__).with_name("page.typ")
 _FONT: Final = "DejaVu Sans"  # comes with matplotlib; missing letters are from the fonts of the machine
 _PAPERS: Final = {"A4": "a4", "Letter": "us-letter"}
 _PAPER: Final = re.compile(r"@page { size: (\w+); }")
 _DRAWING: Final = re.compile(r"<svg\b.*?</svg>", re.DOTALL)
-_SPACE: Final = "http://www.w3.org/2000/svg"
-_ROOM: Final = 521.0  # between the margins of A4 [pt]
+_SVG_NAMESPACE: Final = "http://www.w3.org/2000/svg"
+_PAGE_WIDTH: Final = 521.0  # between the margins of A4 [pt]
 _SIZE, _SMALL = 6.8, 6.0  # letters of tables, and of those of many columns [pt]
 _SHORT: Final = 9  # characters up to which a text ("> 100 %") stays on one line
 _LONGEST: Final = 40  # characters of a word beyond which a column is not made wider for it
 _LETTER, _GAP = 0.62, 1.8  # width of a letter over its size; letters that the room between columns takes
-_VOID: Final = frozenset({"meta", "br"})
-_NOT_PRINTED: Final = frozenset({"head", "nav", "details", "button", "footer"})
+_VOID_TAGS: Final = frozenset({"meta", "br"})
+_SCREEN_TAGS: Final = frozenset({"head", "nav", "details", "button", "footer"})
 _INKS: Final = {"pass": "good", "fail": "bad", "open": "open"}
 
 
@@ -68,7 +69,7 @@ class _Element:
             yield from one.every()
 
 
-class _Reader(HTMLParser):
+class _PageReader(HTMLParser):
     """Parser of a page into elements."""
 
     def __init__(self) -> None:
@@ -78,7 +79,7 @@ class _Reader(HTMLParser):
     def handle_starttag(self, tag: str, attrs: Sequence[tuple[str, str | None]]) -> None:
         made = _Element(tag, frozenset((dict(attrs).get("class") or "").split()))
         self.open[-1].content.append(made)
-        if tag not in _VOID:
+        if tag not in _VOID_TAGS:
             self.open.append(made)
 
     def handle_endtag(self, tag: str) -> None:
@@ -91,7 +92,7 @@ class _Reader(HTMLParser):
         self.open[-1].content.append(data)
 
 
-def write(contents: Contents, path: Path) -> Path:
+def write_pdf(contents: Contents, path: Path) -> Path:
     """Write the page of a report as PDF, under a temporary name first.
 
     Parameters
@@ -113,13 +114,13 @@ def write(contents: Contents, path: Path) -> Path:
     """
     if path.suffix.lower() != ".pdf":
         raise InputError(f'{path}: a PDF\'s name ends in .pdf, got "{path.suffix}"')
-    require()
-    writable(path)
-    save({path: printed(build(contents))})
+    require_typst()
+    check_writable(path)
+    save_files({path: page_pdf(build_page(contents))})
     return path
 
 
-def require() -> None:
+def require_typst() -> None:
     """Check that the package typst is installed.
 
     Raises
@@ -133,23 +134,23 @@ def require() -> None:
         )
 
 
-def printed(page: Html) -> bytes:
-    """Return a page of `conveyor.report.page` as PDF; the same page gives the same bytes.
+def page_pdf(page: Html) -> bytes:
+    """Return a page of `conveyor.report.page_elements` as PDF; the same page gives the same bytes.
 
     Raises
     ------
     InputError
         The package typst is not installed.
     """
-    require()
+    require_typst()
     import typst
 
-    fonts = Path(matplotlib().get_data_path()) / "fonts" / "ttf"
+    fonts = Path(load_matplotlib().get_data_path()) / "fonts" / "ttf"
     known = typst.Fonts(font_paths=sorted(fonts.glob("DejaVuSans*.ttf")))
-    return typst.compile(source(page).encode(), format="pdf", font_paths=known)
+    return typst.compile(typst_source(page).encode(), format="pdf", font_paths=known)
 
 
-def source(page: Html) -> str:
+def typst_source(page: Html) -> str:
     """Return a page as Typst source."""
     drawings: list[str] = []
 
@@ -157,20 +158,20 @@ def source(page: Html) -> str:
         drawings.append(found[0])
         return f'<svg class="{len(drawings) - 1}"></svg>'
 
-    reader = _Reader()
+    reader = _PageReader()
     reader.feed(_DRAWING.sub(apart, page))
     whole, paper = reader.open[0], _PAPER.search(page)
     said = {"title": whole.first("h1"), "kind": whole.first("p"), "foot": whole.first("footer")}
     given = [
         *(f'#let {name} = rgb("{value}")' for name, value in COLOURS.items()),
-        *(f"#let page-{name} = {_string(element.text)}" for name, element in said.items()),
+        *(f"#let page-{name} = {_typst_string(element.text)}" for name, element in said.items()),
         f'#set page(paper: "{_PAPERS[paper[1] if paper else "A4"]}")',
         f'#set text(font: "{_FONT}")',
     ]
-    return "\n".join([*given, _FORMS.read_text("utf-8"), _Setter(drawings).flow(whole)])
+    return "\n".join([*given, _TYPST_FORMS.read_text("utf-8"), _TypstWriter(drawings).flow(whole)])
 
 
-class _Setter:
+class _TypstWriter:
     """Writer of elements as Typst; `drawings` are the SVG texts of the page."""
 
     def __init__(self, drawings: Sequence[str]) -> None:
@@ -191,7 +192,7 @@ class _Setter:
     def flow(self, element: _Element) -> str:
         """Content of an element; consecutive figures side by side."""
         parts: list[str] = []
-        for figures, group in groupby(filter(_prints, element.content), _is_figure):
+        for figures, group in groupby(filter(_is_printed, element.content), _is_figure):
             made = map(self.one, list(group))
             parts += [f"\n#drawings({', '.join(made)},)\n"] if figures else made
         return "".join(parts)
@@ -199,7 +200,7 @@ class _Setter:
     def one(self, part: _Element | str) -> str:
         """An element or text."""
         if isinstance(part, str):
-            return f"#{_string(part)}" if part.strip() else " "
+            return f"#{_typst_string(part)}" if part.strip() else " "
         return self.by_tag.get(part.tag, self.flow)(part)
 
     def heading(self, level: int, element: _Element) -> str:
@@ -210,13 +211,13 @@ class _Setter:
         """A paragraph, a note, or the overall verdict."""
         form = "stands" if "stands" in element.classes else "muted-text" if element.classes else ""
         words = self.flow(element)
-        return f"\n#{form}{_inked(element)}[{words}]\n\n" if form else f"\n{words}\n\n"
+        return f"\n#{form}{_verdict_colours(element)}[{words}]\n\n" if form else f"\n{words}\n\n"
 
     def span(self, element: _Element) -> str:
         """Inline text: the verdict of a check, or a unit, which is not broken."""
         form = "verdict" if "verdict" in element.classes else "box" if "unit" in element.classes else ""
         words = self.flow(element)
-        return f"#{form}{_inked(element)}[{words}]" if form else words
+        return f"#{form}{_verdict_colours(element)}[{words}]" if form else words
 
     def named(self, element: _Element) -> str:
         """A definition list: key figures, facts, or terms."""
@@ -238,7 +239,7 @@ class _Setter:
         caption, head, *parts = element.elements
         (heads,) = head.elements
         rows = [(row, part.tag == "tfoot") for part in parts for row in part.elements]
-        size, columns = _laid([heads, *(row for row, _ in rows)], wide="wide" in kinds)
+        size, columns = _column_layout([heads, *(row for row, _ in rows)], wide="wide" in kinds)
         name = f"{'hide' if 'further' in caption.classes else 'muted-text'}[{self.flow(caption)}]"
         cells = [f"table.header({self.cells(heads)})", *(self.cells(row, strong=foot) for row, foot in rows)]
         given = ",\n".join([str("keep" in kinds).lower(), f"{size:.2f}pt", columns, name, *cells])
@@ -258,18 +259,18 @@ class _Setter:
         """A drawing and its caption."""
         svg = self.drawings[int(next(iter(element.first("svg").classes)))].replace("sans-serif", _FONT)
         if "xmlns=" not in svg[: svg.index(">")]:
-            svg = svg.replace("<svg", f'<svg xmlns="{_SPACE}"', 1)
-        return f"({_string(svg)}, [{self.flow(element.first('figcaption'))}])"
+            svg = svg.replace("<svg", f'<svg xmlns="{_SVG_NAMESPACE}"', 1)
+        return f"({_typst_string(svg)}, [{self.flow(element.first('figcaption'))}])"
 
 
-def _laid(rows: Sequence[_Element], *, wide: bool) -> tuple[float, str]:
+def _column_layout(rows: Sequence[_Element], *, wide: bool) -> tuple[float, str]:
     """Letter size [pt] and column widths of a table: as wide as the text where all fit.
 
     Else each is as wide as its longest word, name, number or short text, and the rest is shared in proportion to the
     remaining text; letters shrink where even these do not fit.
     """
     size = _SMALL if wide else _SIZE
-    room = _ROOM / (size * _LETTER)
+    room = _PAGE_WIDTH / (size * _LETTER)
     whole, least = [], []
     for cells in zip(*(row.elements for row in rows), strict=True):
         head, *below = cells
@@ -285,26 +286,26 @@ def _laid(rows: Sequence[_Element], *, wide: bool) -> tuple[float, str]:
     return size * min(1.0, room / sum(least)), f"({', '.join(f'{width:.1f}fr' for width in widths)})"
 
 
-def _prints(part: _Element | str) -> bool:
-    return isinstance(part, str) or not (part.tag in _NOT_PRINTED or "unprinted" in part.classes)
+def _is_printed(part: _Element | str) -> bool:
+    return isinstance(part, str) or not (part.tag in _SCREEN_TAGS or "unprinted" in part.classes)
 
 
 def _is_figure(part: _Element | str) -> bool:
     return isinstance(part, _Element) and part.tag == "figure"
 
 
-def _inked(element: _Element) -> str:
+def _verdict_colours(element: _Element) -> str:
     """Arguments for the colours of a verdict; empty for other text."""
     ink = next((ink for kind, ink in _INKS.items() if kind in element.classes), None)
     return "" if ink is None else f"({ink}, {ink}-pale)"
 
 
-def _string(text: str) -> str:
+def _typst_string(text: str) -> str:
     r"""Return text as a Typst string, so that nothing of it is markup.
 
     Examples
     --------
-    >>> print(_string('a "b" #c' + "\\"))
+    >>> print(_typst_string('a "b" #c' + "\\"))
     "a \"b\" #c\\"
     """
     quoted = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Final, Literal, Protocol, TypeAlias
 import numpy as np
 
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.files import marks, saving
-from conveyor.printable import printable
-from conveyor.report.settings import own_settings, refuse_no_date
+from conveyor.files import atomic_write, output_marks
+from conveyor.printable import escape_controls
+from conveyor.report.matplotlib_settings import own_settings, refuse_wrong_date
 from conveyor.units import System
-from conveyor.units.presentation import unit
+from conveyor.units.presentation import display_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,15 +31,15 @@ _NO_GLYPH = "Glyph .* missing from font"  # a letter that our font lacks is no f
 _COLOURS = ("#1F4E79", "#C55A11", "#2E8B57", "#8064A2", "#B8860B", "#7F7F7F", "#A61C3C", "#008B8B")
 _SIZE = (8.0, 4.8)
 _POINTS = 400
-_KEY_COLUMNS, _KEY_BELOW = 3, -0.19  # of the legend; its top, of the height of the axis
+_LEGEND_COLUMNS, _LEGEND_TOP = 3, -0.19  # of the legend; its top, of the height of the axis
 _DECADES_BEYOND = 1.0  # of the data's window, drawn dashed
-_WIDEST = (1e-6, 1e12)  # frequencies drawn where a compound states no window [Hz]
+_WIDEST_BAND = (1e-6, 1e12)  # frequencies drawn where a compound states no window [Hz]
 
 
-_OTHER: Final = {"temperature": "speed", "speed": "temperature"}
+_OTHER_AXIS: Final = {"temperature": "speed", "speed": "temperature"}
 
 
-def stacked(rows: int = 1, height: float = _SIZE[1]) -> tuple[Figure, list[Axes]]:
+def stacked_axes(rows: int = 1, height: float = _SIZE[1]) -> tuple[Figure, list[Axes]]:
     """Figure with axes under one another, made without pyplot: safe in threads and servers."""
     from matplotlib.figure import Figure
 
@@ -52,19 +52,19 @@ def stacked(rows: int = 1, height: float = _SIZE[1]) -> tuple[Figure, list[Axes]
     return figure, axes
 
 
-def colour(k: int) -> str:
+def curve_colour(k: int) -> str:
     """Colour of the k-th curve."""
     return _COLOURS[k % len(_COLOURS)]
 
 
-def grouped(axis: Axis) -> None:
+def group_thousands(axis: Axis) -> None:
     """Group the thousands of an axis: 12,000."""
     from matplotlib.ticker import FuncFormatter
 
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.10g}"))
 
 
-def titled(figure: Figure, title: str, note: str = "") -> None:
+def set_title(figure: Figure, title: str, note: str = "") -> None:
     """Set the title of a figure, with a note below it; a "$" is a dollar, no formula."""
     axis = figure.axes[0]
     axis.set_title(title, parse_math=False, pad=20.0 if note else None)
@@ -75,38 +75,38 @@ def titled(figure: Figure, title: str, note: str = "") -> None:
         words.set_parse_math(False)
 
 
-def keyed(axis: Axes) -> None:
+def add_legend(axis: Axes) -> None:
     """Add a legend below the axis, where it covers no point; a "$" is a dollar, no formula."""
     handles, labels = axis.get_legend_handles_labels()
     once = dict(zip(labels, handles, strict=True))
     if once:
         legend = axis.legend(
-            once.values(), once.keys(), fontsize=8, frameon=False, ncols=_KEY_COLUMNS, loc="upper center",
-            bbox_to_anchor=(0.5, _KEY_BELOW),
+            once.values(), once.keys(), fontsize=8, frameon=False, ncols=_LEGEND_COLUMNS, loc="upper center",
+            bbox_to_anchor=(0.5, _LEGEND_TOP),
         )  # fmt: skip
         for text in legend.get_texts():
             text.set_parse_math(False)
 
 
-def finished(
+def finish_figure(
     figure: Figure, x: str = "", y: str = "", title: str = "", *, note: str = "", group: str = ""
 ) -> Figure:
-    """Label the axes as `named`, set the title, and return the figure."""
-    named(figure.axes[0], x, y, group=group)
+    """Label the axes as `label_axes`, set the title, and return the figure."""
+    label_axes(figure.axes[0], x, y, group=group)
     if title:
-        titled(figure, title, note)
+        set_title(figure, title, note)
     return figure
 
 
-def named(axis: Axes, x: str = "", y: str = "", *, group: str = "") -> None:
+def label_axes(axis: Axes, x: str = "", y: str = "", *, group: str = "") -> None:
     """Label both axes, group the thousands of those in `group` ("x", "y"), add a legend."""
     axis.set(xlabel=x, ylabel=y)
     for name in group:
-        grouped(axis.xaxis if name == "x" else axis.yaxis)
-    keyed(axis)
+        group_thousands(axis.xaxis if name == "x" else axis.yaxis)
+    add_legend(axis)
 
 
-def save(figure: Figure, path: str | Path) -> Path:
+def save_figure(figure: Figure, path: str | Path) -> Path:
     """Write a figure as .png, .svg or .pdf.
 
     Raises
@@ -115,12 +115,12 @@ def save(figure: Figure, path: str | Path) -> Path:
         An unknown ending, or a path that cannot be written; an older file is then untouched.
     """
     where = Path(path)
-    saving.writable(where)
-    saving.save({where: drawn(figure, where)})
+    atomic_write.check_writable(where)
+    atomic_write.save_files({where: figure_bytes(figure, where)})
     return where
 
 
-def drawn(figure: Figure, path: Path) -> bytes:
+def figure_bytes(figure: Figure, path: Path) -> bytes:
     """Encode a figure in the format of a file's name; the same figure gives the same bytes.
 
     Raises
@@ -128,7 +128,7 @@ def drawn(figure: Figure, path: Path) -> bytes:
     InputError
         An unknown ending, or settings or variables of the user that keep matplotlib from drawing.
     """
-    maker = marks.maker()
+    maker = output_marks.program_version()
     about: dict[str, dict[str, str | None]] = {
         ".png": {"Software": maker},
         ".svg": {"Creator": maker, "Date": None},
@@ -138,13 +138,13 @@ def drawn(figure: Figure, path: Path) -> bytes:
     if ending not in about:
         raise InputError(f'{path}: a figure\'s name ends in .png, .svg or .pdf, got "{path.suffix}"')
     content = BytesIO()
-    with drawing():
+    with drawing_settings():
         figure.savefig(content, format=ending[1:], dpi=150, metadata=about[ending])
-    return printable(content.getvalue().decode()).encode() if ending == ".svg" else content.getvalue()
+    return escape_controls(content.getvalue().decode()).encode() if ending == ".svg" else content.getvalue()
 
 
 @contextmanager
-def drawing(*, letters: Literal["path", "none"] = "path") -> Iterator[None]:
+def drawing_settings(*, letters: Literal["path", "none"] = "path") -> Iterator[None]:
     """Draw one figure at a time, as settings and warnings are global; letters of SVG as paths or as text.
 
     Raises
@@ -152,13 +152,13 @@ def drawing(*, letters: Literal["path", "none"] = "path") -> Iterator[None]:
     InputError
         Settings or variables of the user keep matplotlib from drawing.
     """
-    refuse_no_date()
+    refuse_wrong_date()
     with own_settings(svg__fonttype=letters, svg__hashsalt="conveyor"), warnings.catch_warnings():
         warnings.filterwarnings("ignore", _NO_GLYPH, UserWarning)
         yield
 
 
-class Scenes(Protocol):
+class PowerScenes(Protocol):
     """Results over temperature and speed: a `conveyor.Comparison`, or one compound alone."""
 
     @property
@@ -178,11 +178,11 @@ class Scenes(Protocol):
         """Coverage of the excited band by the data."""
 
 
-Over: TypeAlias = Literal["temperature", "speed"]
+PowerAxis: TypeAlias = Literal["temperature", "speed"]
 """Variable of the abscissa; the other is fixed."""
 
 
-def drawn_at(comparison: Scenes, over: Over) -> float | None:
+def fixed_condition(comparison: PowerScenes, over: PowerAxis) -> float | None:
     """Speed [m/s] or temperature [K] at which power is drawn over the other: the solved one nearest to the spec's.
 
     A temperature must be solved for every compound.
@@ -199,39 +199,43 @@ def drawn_at(comparison: Scenes, over: Over) -> float | None:
 
 
 @own_settings()
-def power_over(comparison: Scenes, over: Over, at: float | None = None, *, system: System = "SI") -> Figure:
+def power_over(
+    comparison: PowerScenes, over: PowerAxis, at: float | None = None, *, system: System = "SI"
+) -> Figure:
     """Motor power of every compound over temperature at one speed [m/s], or over belt speed at one temperature [K].
 
-    By default that of `drawn_at`. Bands of the fit's replicas are shaded; dotted beyond the rubber's data.
+    By default that of `fixed_condition`. Bands of the fit's replicas are shaded; dotted beyond the rubber's data.
 
     Raises
     ------
     InputError
         No scene is solved there, or no temperature for all compounds.
     """
-    chosen, other = drawn_at(comparison, over) if at is None else at, _OTHER[over]
+    chosen, other = fixed_condition(comparison, over) if at is None else at, _OTHER_AXIS[over]
     if chosen is None:
         raise InputError("no temperature that every compound has an answer for: nothing to draw")
     scenes = [scene for scene in comparison.scenes if getattr(scene, other) == chosen]
-    where = unit(other, system, large=True)
+    where = display_unit(other, system, large=True)
     if not scenes:
         raise InputError(f"no scene has an answer at {where(chosen):g} {where.sign}: nothing to draw")
-    figure = _power(comparison, scenes, over, system)
-    titled(figure, f"{comparison.conveyor.name}, {placed(other, chosen, system)}")
+    figure = _power_lines(comparison, scenes, over, system)
+    set_title(figure, f"{comparison.conveyor.name}, {condition_text(other, chosen, system)}")
     return figure
 
 
-def placed(name: str, value: float, system: System) -> str:
+def condition_text(name: str, value: float, system: System) -> str:
     """Speed or temperature as text for titles."""
-    written = unit(name, system, large=True)
-    return written.brief(value) if name == "speed" else f"{written(value):g} {written.sign}"
+    written = display_unit(name, system, large=True)
+    return written.four_digits(value) if name == "speed" else f"{written(value):g} {written.sign}"
 
 
 @own_settings()
-def _power(comparison: Scenes, scenes: Sequence[ComparedScene], over: str, system: System) -> Figure:
+def _power_lines(
+    comparison: PowerScenes, scenes: Sequence[ComparedScene], over: str, system: System
+) -> Figure:
     """Power of scenes over temperature or speed, one line per compound."""
-    figure, (axis,) = stacked(1, 4.0)
-    power, along = unit("power", system, large=True), unit(over, system, large=True)
+    figure, (axis,) = stacked_axes(1, 4.0)
+    power, along = display_unit("power", system, large=True), display_unit(over, system, large=True)
     beyond = {(row.compound, row.temperature) for row in comparison.coverage if not row.covered}
     dotted = False
     for k, compound in enumerate(comparison.compounds):
@@ -243,29 +247,31 @@ def _power(comparison: Scenes, scenes: Sequence[ComparedScene], over: str, syste
         at, motor = along([getattr(scene, over) for scene in mine]), power([scene.motor for scene in mine])
         inside = np.ma.masked_array(motor, outside)
         if any(outside):
-            axis.plot(at, motor, color=colour(k), linestyle=":", linewidth=1)
+            axis.plot(at, motor, color=curve_colour(k), linestyle=":", linewidth=1)
             dotted = True
-        axis.plot(at, inside, color=colour(k), marker=".", label=compound.name)
+        axis.plot(at, inside, color=curve_colour(k), marker=".", label=compound.name)
         low = [s.motor_low for s in mine if s.motor_low is not None]
         high = [s.motor_high for s in mine if s.motor_high is not None]
         if mine and len(low) == len(mine):
             where = ~np.array(outside)
             axis.fill_between(
-                at, power(low), power(high), where=where, color=colour(k), alpha=0.15, linewidth=0
+                at, power(low), power(high), where=where, color=curve_colour(k), alpha=0.15, linewidth=0
             )
     if dotted:
         axis.plot([], [], ":", color="0.3", linewidth=1, label="beyond the data")
-    return finished(figure, along.beside(f"belt {over}"), power.beside("motor power"), group="y")
+    return finish_figure(figure, along.beside(f"belt {over}"), power.beside("motor power"), group="y")
 
 
 @own_settings()
-def differences(rows: Sequence[tuple[str, float, tuple[float | None, float | None]]], base: str) -> Figure:
+def power_differences(
+    rows: Sequence[tuple[str, float, tuple[float | None, float | None]]], base: str
+) -> Figure:
     """Difference of motor power to a base in per cent, one dot per compound with its band."""
-    figure, (axis,) = stacked(1, 1.4 + 0.36 * len(rows))
+    figure, (axis,) = stacked_axes(1, 1.4 + 0.36 * len(rows))
     for i, (_, change, (low, high)) in enumerate(rows):
         if low is not None and high is not None:
-            axis.plot([100.0 * low, 100.0 * high], [i, i], color=colour(0), linewidth=2.5, alpha=0.5)
-        axis.plot(100.0 * change, i, "o", color=colour(0), markersize=7)
+            axis.plot([100.0 * low, 100.0 * high], [i, i], color=curve_colour(0), linewidth=2.5, alpha=0.5)
+        axis.plot(100.0 * change, i, "o", color=curve_colour(0), markersize=7)
     axis.set_yticks(range(len(rows)), [name for name, *_ in rows], parse_math=False)
     axis.axvline(0.0, color="0.3", linewidth=0.8)
     axis.invert_yaxis()
@@ -295,27 +301,27 @@ def loss_tangents(
     system : {"SI", "US"}
         Unit system of the temperature in the label.
     """
-    figure, (axis,) = stacked()
-    warmth = unit("temperature", system, large=True)
+    figure, (axis,) = stacked_axes()
+    warmth = display_unit("temperature", system, large=True)
     for k, compound in enumerate(compounds):
         series = compound.series(temperature)
         data = compound.frequencies(temperature)
-        low, high = _WIDEST if data is None else data
+        low, high = _WIDEST_BAND if data is None else data
         wide = np.geomspace(low / 10.0**_DECADES_BEYOND, high * 10.0**_DECADES_BEYOND, _POINTS)
         inside = np.ma.masked_array(wide, (wide < low) | (wide > high) | (data is None))
         tangent = series.tan_delta(2.0 * np.pi * wide)
-        axis.plot(wide, tangent, color=colour(k), linestyle=":", linewidth=1)
-        axis.plot(inside, tangent, color=colour(k), label=compound.name)
+        axis.plot(wide, tangent, color=curve_colour(k), linestyle=":", linewidth=1)
+        axis.plot(inside, tangent, color=curve_colour(k), label=compound.name)
     for k, (name, (low, high)) in enumerate((excited or {}).items()):
         axis.axvspan(low, high, color="0.55", alpha=0.18 if k == 0 else 0.10, linewidth=0, label=name)
     axis.set(
         xscale="log",
-        xlabel=unit("frequency").beside(f"frequency at {warmth(temperature):g} {warmth.sign}"),
-        ylabel=unit("friction").beside("tan δ"),
+        xlabel=display_unit("frequency").beside(f"frequency at {warmth(temperature):g} {warmth.sign}"),
+        ylabel=display_unit("friction").beside("tan δ"),
         title="Loss tangent (dotted: beyond the data)",
     )
     axis.set_ylim(bottom=0.0)
-    keyed(axis)
+    add_legend(axis)
     return figure
 
 
@@ -351,11 +357,14 @@ def master_curve(
     compound: RubberCompound, temperature: float | None = None, *, system: System = "SI"
 ) -> Figure:
     """E', E'' and tan δ of a compound at a temperature [K], by default its reference temperature."""
-    figure, (above, below) = stacked(2, 7.0)
-    modulus, warmth = unit("pressure", system, large=True), unit("temperature", system, large=True)
+    figure, (above, below) = stacked_axes(2, 7.0)
+    modulus, warmth = (
+        display_unit("pressure", system, large=True),
+        display_unit("temperature", system, large=True),
+    )
     at = compound.reference if temperature is None else temperature
     series, data = compound.series(at), compound.frequencies(at)
-    low, high = _WIDEST if data is None else data
+    low, high = _WIDEST_BAND if data is None else data
     f = np.geomspace(low, high, _POINTS)
     omega = 2.0 * np.pi * f
     drawn = "-" if data is not None else ":"  # no data are stated: nothing is solid
@@ -370,10 +379,10 @@ def master_curve(
                 (above, modulus(series.loss(past)), 1),
                 (below, series.tan_delta(past), 2),
             ):
-                axis.plot(beyond, values, color=colour(k), linestyle=":", linewidth=1)
-    above.plot(f, modulus(series.storage(omega)), drawn, color=colour(0), label="E'")
-    above.plot(f, modulus(series.loss(omega)), drawn, color=colour(1), label="E''")
-    below.plot(f, series.tan_delta(omega), drawn, color=colour(2), label="tan δ")
+                axis.plot(beyond, values, color=curve_colour(k), linestyle=":", linewidth=1)
+    above.plot(f, modulus(series.storage(omega)), drawn, color=curve_colour(0), label="E'")
+    above.plot(f, modulus(series.loss(omega)), drawn, color=curve_colour(1), label="E''")
+    below.plot(f, series.tan_delta(omega), drawn, color=curve_colour(2), label="tan δ")
     replicas = compound.replicas(at)
     if replicas:
         for axis, figures, k in (
@@ -382,15 +391,15 @@ def master_curve(
             (below, [r.tan_delta(omega) for r in replicas], 2),
         ):
             bottom, top = np.quantile(np.array(figures), (0.05, 0.95), axis=0, method="weibull")
-            axis.fill_between(f, bottom, top, color=colour(k), alpha=0.2, linewidth=0)
+            axis.fill_between(f, bottom, top, color=curve_colour(k), alpha=0.2, linewidth=0)
     above.set(xscale="log", yscale="log", ylabel=modulus.beside("modulus"))
-    titled(figure, f"{compound.name} ({compound.kind})")
+    set_title(figure, f"{compound.name} ({compound.kind})")
     where = f"{warmth(at):g} {warmth.sign}"
     below.set(
         xscale="log",
-        xlabel=unit("frequency").beside(f"frequency at {where}"),
-        ylabel=unit("friction").beside("tan δ"),
+        xlabel=display_unit("frequency").beside(f"frequency at {where}"),
+        ylabel=display_unit("friction").beside("tan δ"),
     )
     below.set_ylim(bottom=0.0)
-    keyed(above)
+    add_legend(above)
     return figure

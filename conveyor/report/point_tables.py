@@ -12,31 +12,31 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from conveyor.errors import InputError
-from conveyor.files import marks
-from conveyor.files.saving import growing
-from conveyor.report.files import plain
-from conveyor.studies.evaluation import varied
-from conveyor.studies.points import OUTPUTS, kept
+from conveyor.files import output_marks
+from conveyor.files.atomic_write import partial_file
+from conveyor.report.table_files import csv_cell
+from conveyor.studies.evaluation import varied_fields
+from conveyor.studies.points import OUTPUTS, round_for_storage
 from conveyor.units import System
-from conveyor.units.presentation import MONEY, Unit, labelled, unit
+from conveyor.units.presentation import MONEY, Unit, display_unit, label_with_unit
 
 if TYPE_CHECKING:
     from conveyor.models.study import Value
-    from conveyor.studies.campaign import Campaign, Keyed
-    from conveyor.studies.designs import Design
-    from conveyor.studies.evaluation import Explored, VariedField
+    from conveyor.studies.design_figures import Design
+    from conveyor.studies.evaluation import StudySummary, VariedField
+    from conveyor.studies.parametric_study import KeyedPoint, ParametricStudy
 
-PART: Final = 1024
+PART_POINTS: Final = 1024
 """Points per part of a table that is written while its study runs."""
-_ROWS: Final = 10_000  # of a group of a Parquet file
+_GROUP_ROWS: Final = 10_000  # of a group of a Parquet file
 _PART_NAME: Final = re.compile(r"part-\d+\.(csv|parquet)")
 
 Cells = tuple[Any, ...]
-Row: TypeAlias = "tuple[int, tuple[Value, ...], Sequence[Any] | str]"
+PointRow: TypeAlias = "tuple[int, tuple[Value, ...], Sequence[Any] | str]"
 """Number, values of the varied fields, SI figures or the reason why there are none."""
 
 
-class CampaignTable:
+class StudyTable:
     """Headings and cells of a table of a study, one row per point or design, in a system of units.
 
     Parameters
@@ -62,14 +62,16 @@ class CampaignTable:
         currency: str,
     ) -> None:
         self._fields = fields
-        self._shown = [unit(priced(kind, currency), system) for _, kind in figures]
-        headed = [labelled(label, sign.label) for (label, _), sign in zip(figures, self._shown, strict=True)]
-        inputs = (labelled(field.path, field.unit) for field in fields)
-        self.headings = (row, *inputs, *headed, marks.UNANSWERED)
+        self._shown = [display_unit(money_kind(kind, currency), system) for _, kind in figures]
+        headed = [
+            label_with_unit(label, sign.label) for (label, _), sign in zip(figures, self._shown, strict=True)
+        ]
+        inputs = (label_with_unit(field.path, field.unit) for field in fields)
+        self.headings = (row, *inputs, *headed, output_marks.NO_ANSWER_COLUMN)
         given = ("text" if field.words else "number" for field in fields)
-        self._kinds = ("count", *given, *(_STORED.get(kind, "number") for _, kind in figures), "text")
+        self._kinds = ("count", *given, *(_STORAGE_TYPES.get(kind, "number") for _, kind in figures), "text")
 
-    def cells(self, row: Row) -> Cells:
+    def cells(self, row: PointRow) -> Cells:
         """Cells of a row."""
         number, values, answer = row
         given = [
@@ -79,10 +81,12 @@ class CampaignTable:
         if isinstance(answer, str):
             return (number, *given, *(None for _ in self._shown), answer)
         stored = self._kinds[1 + len(given) : -1]
-        shown = (_shown(x, sign, kind) for x, sign, kind in zip(answer, self._shown, stored, strict=True))
+        shown = (
+            _storage_value(x, sign, kind) for x, sign, kind in zip(answer, self._shown, stored, strict=True)
+        )
         return (number, *given, *shown, None)
 
-    def write(self, path: Path, points: Iterable[Row]) -> int:
+    def write(self, path: Path, points: Iterable[PointRow]) -> int:
         """Write the table as `.csv` or `.parquet`, by the ending of its name; the file appears when it is complete.
 
         Returns
@@ -96,15 +100,15 @@ class CampaignTable:
             The file cannot be written.
         """
         rows = map(self.cells, points)
-        with growing(path) as temporary:
+        with partial_file(path) as temporary:
             return self._parquet(temporary, rows) if path.suffix == ".parquet" else self._csv(temporary, rows)
 
     def _csv(self, path: Path, rows: Iterator[Cells]) -> int:
         count = 0
         with path.open("w", encoding="utf-8-sig", newline="") as file:
-            file.write(_line(self.headings))
+            file.write(_csv_line(self.headings))
             for count, row in enumerate(rows, start=1):  # noqa: B007 the number of rows
-                file.write(_line(row))
+                file.write(_csv_line(row))
         return count
 
     def _parquet(self, path: Path, rows: Iterator[Cells]) -> int:
@@ -113,30 +117,30 @@ class CampaignTable:
 
         stored = {"count": pa.int64(), "number": pa.float64(), "text": pa.string()}
         columns = [(name, stored[kind]) for name, kind in zip(self.headings, self._kinds, strict=True)]
-        schema, count = pa.schema(columns, {marks.PARQUET: marks.maker()}), 0
+        schema, count = pa.schema(columns, {output_marks.PARQUET: output_marks.program_version()}), 0
         with parquet.ParquetWriter(path, schema) as writer:
-            while part := list(islice(rows, _ROWS)):
+            while part := list(islice(rows, _GROUP_ROWS)):
                 cells = dict(zip(self.headings, zip(*part, strict=True), strict=True))
                 writer.write_table(pa.table(cells, schema=schema))
                 count += len(part)
         return count
 
 
-def _shown(value: Any, sign: Unit, kind: str) -> Any:
-    shown = kept(sign.shown(value))
+def _storage_value(value: Any, sign: Unit, kind: str) -> Any:
+    shown = round_for_storage(sign.shown(value))
     return int(shown) if kind == "count" and shown is not None else shown
 
 
-_STORED: Final = {"count": "count", "text": "text", "verdict": "text"}
+_STORAGE_TYPES: Final = {"count": "count", "text": "text", "verdict": "text"}
 """Storage types in a Parquet file by kind; others are numbers."""
 
 
 class PartedTable:
-    """A table in a folder, one file per `PART` points, each written once they are all solved.
+    """A table in a folder, one file per `PART_POINTS` points, each written once they are all solved.
 
     Parameters
     ----------
-    table : CampaignTable
+    table : StudyTable
         Table of the points.
     folder : Path
         Created if missing; parts of an older run are removed.
@@ -152,11 +156,11 @@ class PartedTable:
     """
 
     def __init__(
-        self, table: CampaignTable, folder: Path, count: int, row: Callable[[int, Keyed], Row]
+        self, table: StudyTable, folder: Path, count: int, row: Callable[[int, KeyedPoint], PointRow]
     ) -> None:
         self._table, self._folder, self._count, self._row = table, folder, count, row
         self._ending = ".csv" if find_spec("pyarrow") is None else ".parquet"
-        self._waiting: dict[int, dict[int, Keyed]] = {}
+        self._waiting: dict[int, dict[int, KeyedPoint]] = {}
         try:
             folder.mkdir(exist_ok=True)
             older = sorted(folder.iterdir())
@@ -165,7 +169,10 @@ class PartedTable:
                     raise InputError(
                         f"{path}: is no part of such a table; give an empty folder, or a new one"
                     )
-                if marks.mark(path.read_bytes()) not in {marks.TABLE, marks.STUDY}:
+                if output_marks.output_kind(path.read_bytes()) not in {
+                    output_marks.TABLE,
+                    output_marks.STUDY,
+                }:
                     raise InputError(
                         f"{path}: is damaged, or no table that conveyor wrote; remove it, or give another folder"
                     )
@@ -174,7 +181,7 @@ class PartedTable:
         except OSError as error:
             raise InputError(f"{folder}: cannot be written ({error.strerror or error})") from None
 
-    def take(self, points: Iterable[tuple[int, Keyed]]) -> None:
+    def take(self, points: Iterable[tuple[int, KeyedPoint]]) -> None:
         """Add solved points by number; write the parts that are now complete.
 
         Raises
@@ -184,38 +191,38 @@ class PartedTable:
         """
         touched = set()
         for number, keyed in points:
-            part = (number - 1) // PART
+            part = (number - 1) // PART_POINTS
             self._waiting.setdefault(part, {})[number] = keyed
             touched.add(part)
         for part in sorted(touched):
-            if len(self._waiting[part]) == min(PART, self._count - part * PART):
+            if len(self._waiting[part]) == min(PART_POINTS, self._count - part * PART_POINTS):
                 held = self._waiting.pop(part)
                 path = self._folder / f"part-{part + 1:05}{self._ending}"
                 self._table.write(path, (self._row(number, held[number]) for number in sorted(held)))
 
 
-def _line(cells: Iterable[Any]) -> str:
+def _csv_line(cells: Iterable[Any]) -> str:
     line = io.StringIO()
-    csv.writer(line).writerow(["" if cell is None else plain(cell) for cell in cells])
+    csv.writer(line).writerow(["" if cell is None else csv_cell(cell) for cell in cells])
     return line.getvalue()
 
 
-def of_points(campaign: Campaign, system: System) -> CampaignTable:
+def point_table(campaign: ParametricStudy, system: System) -> StudyTable:
     """Table of a study's points."""
     figures = [(OUTPUTS[key].label, OUTPUTS[key].kind) for key in campaign.outputs]
-    return CampaignTable(
-        "point", varied(campaign.listed, campaign.plan.paths), figures, system, campaign.currency
+    return StudyTable(
+        "point", varied_fields(campaign.listed, campaign.plan.paths), figures, system, campaign.currency
     )
 
 
-def of_designs(campaign: Campaign, system: System) -> CampaignTable:
+def design_table(campaign: ParametricStudy, system: System) -> StudyTable:
     """Table of a study's designs; its rows come from `design_rows`."""
     figures = [(figure.label, figure.kind) for figure in campaign.figures.values()]
     shown = (*figures, ("breaks", "text"), ("on the front", "verdict"))
-    return CampaignTable("design", varied(campaign.listed), shown, system, campaign.currency)
+    return StudyTable("design", varied_fields(campaign.listed), shown, system, campaign.currency)
 
 
-def design_rows(study: Explored, designs: Iterable[Design]) -> Iterator[Row]:
+def design_rows(study: StudySummary, designs: Iterable[Design]) -> Iterator[PointRow]:
     """Rows of the table of designs."""
     front = set(study.numbers[study.front].tolist())
     for one in designs:
@@ -228,6 +235,6 @@ def design_rows(study: Explored, designs: Iterable[Design]) -> Iterator[Row]:
         yield one.number, values, one.why or figures
 
 
-def priced(kind: str, currency: str) -> str:
+def money_kind(kind: str, currency: str) -> str:
     """Kind of quantity; money gets its currency."""
     return f"{MONEY}{currency}" if kind == "money" else kind

@@ -7,20 +7,27 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from conveyor.checks import checks
-from conveyor.remarks import assumptions
-from conveyor.report.columns import Column, Contents, Drawing, OnPage, Table, noted
-from conveyor.report.plots import colour, finished, grouped, keyed, stacked, titled
+from conveyor.checks import run_checks
+from conveyor.remarks import analysis_assumptions
+from conveyor.report.analysis_tables import check_table, provenance_table, report_head
+from conveyor.report.matplotlib_settings import own_settings
+from conveyor.report.plots import (
+    add_legend,
+    curve_colour,
+    finish_figure,
+    group_thousands,
+    set_title,
+    stacked_axes,
+)
 from conveyor.report.result_schema import SCHEMA_VERSION
-from conveyor.report.settings import own_settings
-from conveyor.report.tables import checked, document, provenance
-from conveyor.sizing.around import VariedChoice, around
-from conveyor.sizing.designs import CalculatedSizing
-from conveyor.sizing.sized import SizedDesign
+from conveyor.report.table_model import Column, Contents, Drawing, PagePlacement, Table, remark_table
+from conveyor.sizing.design_search import CalculatedSizing
+from conveyor.sizing.sensitivity import VariedChoice, vary_choices
+from conveyor.sizing.sized_design import SizedDesign
 from conveyor.sizing.spacing import section_spacings
 from conveyor.spec import fingerprint
 from conveyor.units import System
-from conveyor.units.presentation import MONEY, unit
+from conveyor.units.presentation import MONEY, display_unit
 from conveyor.units.sentences import percent
 
 if TYPE_CHECKING:
@@ -37,38 +44,40 @@ PARTS: Final = (
 )
 """Parts of the page."""
 _TABLES: Final = ("designs", "costs", "around", "spacing")
-_WHY: Final = (
+_CANDIDATES: Final = (
     "of {calculated} candidates calculated exactly, chosen by a closed estimate out of {possible} that the series can "
     "build"
 )
 
 
-def of_sizing(sizing: CalculatedSizing, system: System, *, vary: bool = True) -> Contents:
+def sizing_contents(sizing: CalculatedSizing, system: System, *, vary: bool = True) -> Contents:
     """Contents of the sizing report in a unit system; with `vary` also variations of the best design."""
-    sweeps = around(sizing.task, sizing.best) if vary else ()
+    sweeps = vary_choices(sizing.task, sizing.best) if vary else ()
     best = sizing.best
     parts = (
-        designs(sizing), costs(sizing), *([swept(sizing, sweeps)] if sweeps else []), spacing(sizing),
-        checked(checks(best.found), system), _remarks(sizing), provenance(fingerprint(best.conveyor)),
+        design_table(sizing), cost_table(sizing), *([sweep_table(sizing, sweeps)] if sweeps else []),
+        spacing_table(sizing),
+        check_table(run_checks(best.found), system), _sizing_remarks(sizing),
+        provenance_table(fingerprint(best.conveyor)),
     )  # fmt: skip
-    about = document(best.conveyor, "Sizing", system, (("candidates", f"{sizing.candidates}"),))
+    about = report_head(best.conveyor, "Sizing", system, (("candidates", f"{sizing.candidates}"),))
     drawn = [Drawing("shares", "What a year costs, by part, of every design.",
                      partial(cost_shares, sizing, system=system), "costs"),
              Drawing("spacing", "Distances of the idler sets of the best design along its profile.",
-                     partial(spacing_drawn, sizing, system=system), "spacing")]  # fmt: skip
+                     partial(spacing_diagram, sizing, system=system), "spacing")]  # fmt: skip
     if sweeps:
         words = "Cost of a year around the best design: one choice varied, belt class and motors sized again."
         drawn.append(Drawing("around", words, partial(cost_lines, sizing, sweeps, system=system), "around"))
     return Contents(about, parts, system, tuple(drawn), PARTS)
 
 
-def _money(sizing: CalculatedSizing) -> str:
+def _money_kind(sizing: CalculatedSizing) -> str:
     return f"{MONEY}{sizing.duty.prices.currency}"
 
 
-def designs(sizing: CalculatedSizing) -> Table:
+def design_table(sizing: CalculatedSizing) -> Table:
     """Designs, the lowest yearly cost first."""
-    money, saved = _money(sizing), sizing.best.year
+    money, saved = _money_kind(sizing), sizing.best.year
 
     columns = (
         Column("rank", "count", "0", json="rank"),
@@ -76,13 +85,13 @@ def designs(sizing: CalculatedSizing) -> Table:
         Column("trough", "angle", "1.choice.trough.angle", json="trough_deg"),
         Column("speed", "speed", "1.choice.speed", json="speed_m_per_s"),
         Column("filling", "share", "1.choice.filling", json="filling"),
-        Column("belt", "text", lambda row: _belt(row[1]), json="belt"),
+        Column("belt", "text", lambda row: _belt_name(row[1]), json="belt"),
         Column("top cover", "size", "1.chosen.top", json="top_cover_mm"),
         Column("bottom cover", "size", "1.chosen.bottom", json="bottom_cover_mm"),
         Column("compound", "text", "1.conveyor.carry_compound.name", json="compound"),
         Column("rolls", "size", "1.choice.roll.diameter", json="roll_diameter_mm"),
         Column("CEMA class", "text", "1.choice.roll.cema_class", json="cema_class", sparse=True),
-        Column("carry sets", "spacing", lambda row: _widest(row[1]), json="carry_spacing_m"),
+        Column("carry sets", "spacing", lambda row: _widest_spacing(row[1]), json="carry_spacing_m"),
         Column("return sets", "spacing", "1.choice.back", json="return_spacing_m"),
         Column("drives", "text", "1.choice.drives", json="drives"),
         Column("motors", "power", lambda row: sum(row[1].chosen.motors), json="motors_kW"),
@@ -94,7 +103,7 @@ def designs(sizing: CalculatedSizing) -> Table:
         Column("energy a year", money, "1.costs.yearly.energy", json="energy_per_year"),
         Column("cost a year", money, "1.year", json="cost_per_year"),
         Column("over the best", "share", lambda row: row[1].year / saved - 1.0, json="over_the_best"),
-        Column("why", "text", lambda row: _why(sizing, row[0] - 1), json="why"),
+        Column("why", "text", lambda row: _cost_reason(sizing, row[0] - 1), json="why"),
     )  # fmt: skip
     caption = (
         "Designs, the cheapest in a year first; every one calculated exactly at its own belt class and motors"
@@ -103,15 +112,15 @@ def designs(sizing: CalculatedSizing) -> Table:
     return Table("designs", "Designs", caption, columns, rows, "designs")
 
 
-def _belt(design: SizedDesign) -> str:
+def _belt_name(design: SizedDesign) -> str:
     return design.chosen.carcass.name
 
 
-def _widest(design: SizedDesign) -> float:
+def _widest_spacing(design: SizedDesign) -> float:
     return max(design.choice.graduated or (design.choice.carry,))
 
 
-def _why(sizing: CalculatedSizing, rank: int) -> str:
+def _cost_reason(sizing: CalculatedSizing, rank: int) -> str:
     """Largest cost shares of the best design, or largest differences to it."""
     if rank == 0:
         shares = {name: value / sizing.best.year for name, value in sizing.best.costs.yearly.items()}
@@ -124,9 +133,9 @@ def _why(sizing: CalculatedSizing, rank: int) -> str:
     return f"{told} a year" if told else "as cheap as the first"
 
 
-def costs(sizing: CalculatedSizing) -> Table:
+def cost_table(sizing: CalculatedSizing) -> Table:
     """Capital and yearly cost of every design by part."""
-    money = _money(sizing)
+    money = _money_kind(sizing)
     rows = [
         (rank, name, design.costs.capital.get(name), float(value))
         for rank, design in enumerate(sizing.designs, start=1)
@@ -140,12 +149,14 @@ def costs(sizing: CalculatedSizing) -> Table:
     )
     caption = "Capital and cost of a year by part: annuity over its life, upkeep, energy"
     note = "prices are general knowledge, known to a factor of two, unless the duty gives them"
-    return Table("costs", "Costs", caption, columns, rows, (OnPage("costs", caption, printed=False),), note)
+    return Table(
+        "costs", "Costs", caption, columns, rows, (PagePlacement("costs", caption, printed=False),), note
+    )
 
 
-def swept(sizing: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
+def sweep_table(sizing: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
     """Variations of one choice around the best design."""
-    money = _money(sizing)
+    money = _money_kind(sizing)
     rows = [
         (
             sweep,
@@ -163,7 +174,7 @@ def swept(sizing: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
         Column("size", "size", "1.size", json="size_mm"),
         Column("speed", "speed", "1.speed", json="speed_m_per_s"),
         Column("motor power", "power", "2.found.balance.power.motor", json="motor_power_kW"),
-        Column("belt", "text", lambda row: row[2] and _belt(row[2]), json="belt"),
+        Column("belt", "text", lambda row: row[2] and _belt_name(row[2]), json="belt"),
         Column("energy a year", money, "2.costs.yearly.energy", json="energy_per_year"),
         Column("idlers a year", money, lambda row: row[2] and idler_cost(row[2]), json="idlers_per_year"),
         Column("belt a year", money, "2.costs.yearly.belt", json="belt_per_year"),
@@ -174,7 +185,7 @@ def swept(sizing: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
     return Table("around", "Around the best", caption, columns, rows, "around")
 
 
-def spacing(sizing: CalculatedSizing) -> Table:
+def spacing_table(sizing: CalculatedSizing) -> Table:
     """Idler spacing of every section, of the best design and of those with graduated spacing."""
     rows = [
         (rank, one)
@@ -201,9 +212,9 @@ def spacing(sizing: CalculatedSizing) -> Table:
     return Table("spacing", "Spacing", caption, columns, rows, "spacing", note)
 
 
-def _remarks(sizing: CalculatedSizing) -> Table:
+def _sizing_remarks(sizing: CalculatedSizing) -> Table:
     best = sizing.best
-    told = _WHY.format(calculated=sizing.calculated, possible=f"{sizing.possible:,}")
+    told = _CANDIDATES.format(calculated=sizing.calculated, possible=f"{sizing.possible:,}")
     lines = [
         f"the ranks are exact: {told}; a candidate that was not calculated may be better by what the estimate is off",
         f"the estimate's cost of a year was off by at most {percent(sizing.estimate_error, 1)} where it was calculated",
@@ -212,12 +223,12 @@ def _remarks(sizing: CalculatedSizing) -> Table:
         "duty (prices, rules)",
         "carry and return compounds are those of the duty; covers by DIN 22101's points for wear (general knowledge)",
         *(f"{count} calculated candidates are no designs: {why}" for why, count in sizing.refused.items()),
-        *assumptions(best.conveyor),
+        *analysis_assumptions(best.conveyor),
     ]
-    return noted({"assumption": lines}, page="remarks")
+    return remark_table({"assumption": lines}, page="remarks")
 
 
-def plain(contents: Contents, sizing: CalculatedSizing) -> dict[str, Any]:
+def sizing_json(contents: Contents, sizing: CalculatedSizing) -> dict[str, Any]:
     """Plain numbers for JSON; units in the keys, money in `currency`."""
     return {
         "schema_version": SCHEMA_VERSION,
@@ -233,7 +244,7 @@ def plain(contents: Contents, sizing: CalculatedSizing) -> dict[str, Any]:
     }
 
 
-_HEIGHT, _TALL = 3.0, 2.7
+_HEIGHT, _PANEL_HEIGHT = 3.0, 2.7
 _OVER_SERIES = 1.5  # of the widest distance in the series: limits far above it say no more
 
 
@@ -245,17 +256,17 @@ def idler_cost(design: SizedDesign) -> float:
 @own_settings()
 def cost_shares(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
     """Yearly cost by part, one bar per design."""
-    money = unit(f"{MONEY}{sizing.duty.prices.currency}", system, large=True)
-    figure, (axis,) = stacked(1, _HEIGHT + 0.22 * len(sizing.designs))
+    money = display_unit(f"{MONEY}{sizing.duty.prices.currency}", system, large=True)
+    figure, (axis,) = stacked_axes(1, _HEIGHT + 0.22 * len(sizing.designs))
     ranks = np.arange(1, len(sizing.designs) + 1)
     start = np.zeros(len(ranks))
     for k, name in enumerate(sizing.best.costs.yearly):
         cost = money(np.array([max(0.0, float(design.costs.yearly[name])) for design in sizing.designs]))
-        axis.barh(ranks, cost, left=start, color=colour(k), label=name)
+        axis.barh(ranks, cost, left=start, color=curve_colour(k), label=name)
         start = start + cost
     axis.set(yticks=ranks)
     axis.invert_yaxis()
-    return finished(figure, money.beside("cost of a year"), "rank", sizing.duty.name, group="x")
+    return finish_figure(figure, money.beside("cost of a year"), "rank", sizing.duty.name, group="x")
 
 
 @own_settings()
@@ -263,10 +274,10 @@ def cost_lines(
     sizing: CalculatedSizing, varied: tuple[VariedChoice, ...], *, system: System = "SI"
 ) -> Figure:
     """Yearly cost of energy, idlers, belt and the rest, one choice varied around the best design."""
-    money = unit(f"{MONEY}{sizing.duty.prices.currency}", system, large=True)
-    figure, axes = stacked(len(varied), _TALL * len(varied))
+    money = display_unit(f"{MONEY}{sizing.duty.prices.currency}", system, large=True)
+    figure, axes = stacked_axes(len(varied), _PANEL_HEIGHT * len(varied))
     for axis, sweep in zip(axes, varied, strict=True):
-        kind = unit(sweep.kind, system)
+        kind = display_unit(sweep.kind, system)
         points = [
             (x, one)
             for x, one in zip(sweep.values, sweep.designs, strict=True)
@@ -281,21 +292,21 @@ def cost_lines(
         whole = np.array([one.year for _, one in points])
         parts["the rest"] = list(whole - np.sum(list(parts.values()), axis=0))
         for k, (name, cost) in enumerate(parts.items()):
-            axis.plot(at, money(np.array(cost)), color=colour(k), marker="o", markersize=3, label=name)
+            axis.plot(at, money(np.array(cost)), color=curve_colour(k), marker="o", markersize=3, label=name)
         axis.plot(at, money(whole), color="black", marker="o", linewidth=2.0, markersize=4, label="whole")
         axis.axvline(float(kind(sweep.at)), color="0.6", linestyle="--", linewidth=1.0)
         axis.set(xlabel=kind.beside(sweep.name), ylabel=money.beside("a year"), ylim=(0.0, None))
-        grouped(axis.yaxis)
-    keyed(axes[-1])
-    titled(figure, f"{sizing.duty.name}: around the best design")
+        group_thousands(axis.yaxis)
+    add_legend(axes[-1])
+    set_title(figure, f"{sizing.duty.name}: around the best design")
     return figure
 
 
 @own_settings()
-def spacing_drawn(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
+def spacing_diagram(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
     """Idler spacing of the best design along its profile, and the widest that sag and bearings allow."""
-    figure, (profile, axis) = stacked(2, _HEIGHT + _TALL)
-    large, apart = unit("length", system, large=True), unit("spacing", system)
+    figure, (profile, axis) = stacked_axes(2, _HEIGHT + _PANEL_HEIGHT)
+    large, apart = display_unit("length", system, large=True), display_unit("spacing", system)
     ends = np.vstack([(0.0, 0.0), np.cumsum(sizing.task.sections, axis=0)])
     along = large(ends[:, 0])
     profile.plot(along, large(ends[:, 1]), color="#1F4E79", marker=".")
@@ -309,7 +320,7 @@ def spacing_drawn(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
             ([row.bearings for row in mine], ":", 1.0, f"{strand}, widest by L10 of the bearings"),
         ):
             axis.stairs(
-                apart(np.array(values)), along, baseline=None, color=colour(k), linestyle=style, linewidth=wide,
+                apart(np.array(values)), along, baseline=None, color=curve_colour(k), linestyle=style, linewidth=wide,
                 label=label,
             )  # fmt: skip
     most = max(*sizing.task.spacings[0], *sizing.task.spacings[1])
@@ -318,7 +329,7 @@ def spacing_drawn(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
         ylim=(0.0, float(apart(_OVER_SERIES * most))),
     )  # fmt: skip
     for each in (profile, axis):
-        grouped(each.xaxis)
-    keyed(axis)
-    titled(figure, f"{sizing.duty.name}: idler sets along the profile")
+        group_thousands(each.xaxis)
+    add_legend(axis)
+    set_title(figure, f"{sizing.duty.name}: idler sets along the profile")
     return figure

@@ -11,23 +11,23 @@ from typing import TYPE_CHECKING, Any
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.markup import Html
 from conveyor.report import analysis_plots
-from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, Table, figures
-from conveyor.report.page import notebook
-from conveyor.report.plots import Over
-from conveyor.studies.loads import asked_of_take_up
+from conveyor.report.page_elements import notebook_html
+from conveyor.report.plots import PowerAxis
+from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Column, Drawing, Figure, Table, figure_table
+from conveyor.studies.loads import take_up_demand
 from conveyor.units import System
-from conveyor.units.presentation import MONEY, unit
-from conveyor.units.sentences import Said, degrees
+from conveyor.units.presentation import MONEY, display_unit
+from conveyor.units.sentences import Message, degree_signs
 
 if TYPE_CHECKING:
-    from conveyor.loop.take_up import TakeUpDuty
+    from conveyor.loop.take_up_duty import TakeUpDuty
     from conveyor.studies import CalculatedStudies
-    from conveyor.studies.cases import CalculatedCases, Governing
     from conveyor.studies.duty import CalculatedYear
-    from conveyor.studies.flooded import FloodedBelt
+    from conveyor.studies.flooding import FloodedBelt
+    from conveyor.studies.input_ranges import CalculatedRanges
+    from conveyor.studies.load_cases import CalculatedCases, GoverningLoad
     from conveyor.studies.monte_carlo import Percentiles
     from conveyor.studies.states import CalculatedStates, LoadState
-    from conveyor.studies.uncertainty import CalculatedRanges
 
 _FLOODED = (
     "Bulk heaped from edge to edge of the belt at its surcharge angle, on the whole route, at the take-up's setting: "
@@ -40,13 +40,15 @@ _TENSIONS = (
     "largest_roll_load", "governed_by", "at_roll",
 )  # fmt: skip
 _STATE_KEYS = ("empty", "full", "inclines", "declines", "worst")
-_AT = (
+_CONDITIONS = (
     Column("temperature", "temperature", "temperature"),
     Column("belt speed", "speed", "speed", key="speed"),
 )
 
 
-def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[Table], list[Drawing]]:
+def tables_and_drawings(
+    studies: CalculatedStudies | None, system: System
+) -> tuple[list[Table], list[Drawing]]:
     """Tables and drawings of the studies of a conveyor."""
     if studies is None:
         return [], []
@@ -55,17 +57,17 @@ def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[
     if studies.states is not None:
         tables += [load_states(studies.states), refused_states(studies.states)]
     if studies.flooded is not None:
-        tables.append(flooded(studies.flooded))
+        tables.append(flooded_belt(studies.flooded))
     if studies.cases is not None:
-        tables += _of_cases(studies, studies.cases, system)
+        tables += _case_tables(studies, studies.cases, system)
         drawn += _case_drawings(studies.cases, system)
     if studies.duty is not None:
-        tables += [year(studies.duty), duty(studies.duty)]
+        tables += [year_table(studies.duty), duty_table(studies.duty)]
     if studies.uncertainty is not None:
         study = studies.uncertainty
-        tables += [band(study), convergence_of_draws(study), sensitivity(study)]
+        tables += [power_bands(study), draw_convergence(study), sensitivity_table(study)]
         caption = "Sensitivity of motor power: its change at both ends of the range of every input."
-        draw = partial(analysis_plots.tornado, study, system=system)
+        draw = partial(analysis_plots.tornado_chart, study, system=system)
         drawn.append(Drawing("tornado", caption, draw, "sensitivity"))
         exact = study.monte_carlo
         if exact is not None:
@@ -73,7 +75,7 @@ def of_studies(studies: CalculatedStudies | None, system: System) -> tuple[list[
                 "Ends of the 90 % interval of the inputs' ranges alone after ever more draws; shaded: between "
                 "which each lies with 90 %."
             )
-            draw = partial(analysis_plots.settling, exact, study.sampled, system=system)
+            draw = partial(analysis_plots.interval_convergence, exact, study.sampled, system=system)
             drawn.append(Drawing("settling", caption, draw, "convergence_of_draws"))
     return tables, drawn
 
@@ -109,15 +111,15 @@ def refused_states(study: CalculatedStates) -> Table:
     columns = (
         Column("state", "text", "name"),
         Column("temperature", "temperature", "temperature"),
-        Column("reason", "text", lambda row: degrees(row.reason)),
+        Column("reason", "text", lambda row: degree_signs(row.reason)),
     )
     heading = "Load states without an answer"
     return Table("refused_states", "Load cases", heading, columns, study.refused, _STATES)
 
 
-def _of_cases(studies: CalculatedStudies, study: CalculatedCases, system: System) -> Iterator[Table]:
-    yield governing(study, studies.governing)
-    every = cases(study)
+def _case_tables(studies: CalculatedStudies, study: CalculatedCases, system: System) -> Iterator[Table]:
+    yield governing_cases(study, studies.governing)
+    every = case_table(study)
     kept = tuple(column.key for column in every.columns if column.key not in _TENSIONS)
     yield replace(every.only(*kept), page=_CASES)
     order = ("case", "temperature", "speed", "covered", *_TENSIONS)
@@ -125,17 +127,17 @@ def _of_cases(studies: CalculatedStudies, study: CalculatedCases, system: System
     columns = tuple(sorted(tensions.columns, key=lambda column: order.index(column.key)))
     heading = "Tensions and roll loads of the cases"
     yield replace(tensions, key="case_tensions", heading=heading, columns=columns, page=_CASES)
-    yield motors(studies, system)
-    yield refused(study)
+    yield motor_table(studies, system)
+    yield refused_cases(study)
 
 
-def cases(study: CalculatedCases) -> Table:
+def case_table(study: CalculatedCases) -> Table:
     """Load cases, one row per case, speed and temperature."""
     low, high = study.friction_band
     columns = (
         Column("case", "text", "case.name"),
         Column("loading", "text", "case.loading", page=None),
-        *_AT,
+        *_CONDITIONS,
         Column("covered", "verdict", lambda row: "yes" if row.covered else "NO"),
         Column("mass flow", "mass flow", "found.line.flow"),
         Column("indentation", "force", "found.balance.forces.indentation"),
@@ -170,14 +172,14 @@ def cases(study: CalculatedCases) -> Table:
     )
 
 
-def governing(study: CalculatedCases, governing: Sequence[Governing]) -> Table:
+def governing_cases(study: CalculatedCases, governing: Sequence[GoverningLoad]) -> Table:
     """Governing value of every figure, with its load case or load state."""
     low, high = study.friction_band
     columns = (
-        Column("figure", NAMED, "label"),
+        Column("figure", FIGURE_NAME, "label"),
         Column("case", "text", "value.result.name"),
-        Column("value", OF_ROW, "value.value"),
-        *(column.of("value.result") for column in _AT),
+        Column("value", ROW_KIND, "value.value"),
+        *(column.of("value.result") for column in _CONDITIONS),
     )
     rows = tuple(Figure(row.figure, row.kind, row, key=f"governing_{row.key}") for row in governing)
     left_out = [row.label.text() for row in study.results if not row.covered]
@@ -188,18 +190,18 @@ def governing(study: CalculatedCases, governing: Sequence[Governing]) -> Table:
     return Table("governing_cases", "Load cases", "Governing cases", columns, rows, _CASES, note, links=True)
 
 
-def refused(study: CalculatedCases) -> Table:
+def refused_cases(study: CalculatedCases) -> Table:
     """Cases without a solution, with the reason."""
     columns = (
         Column("case", "text", "case"),
-        *_AT,
-        Column("reason", "text", lambda row: degrees(row.reason)),
+        *_CONDITIONS,
+        Column("reason", "text", lambda row: degree_signs(row.reason)),
     )
     heading = "Cases without an answer"
     return Table("refused_cases", "Load cases", heading, columns, study.refused, _CASES)
 
 
-def motors(studies: CalculatedStudies, system: System) -> Table:
+def motor_table(studies: CalculatedStudies, system: System) -> Table:
     """Required power of every drive pulley over all cases and load states, and standard motors."""
     columns = (
         Column("drive", "text", "drive"),
@@ -217,14 +219,14 @@ def motors(studies: CalculatedStudies, system: System) -> Table:
 
 
 def _case_drawings(study: CalculatedCases, system: System) -> Iterator[Drawing]:
-    overs: tuple[Over, ...] = ("temperature", "speed")
+    overs: tuple[PowerAxis, ...] = ("temperature", "speed")
     for over, words in zip(overs, ("temperature", "belt speed"), strict=True):
         if len({getattr(result, over) for result in study.results}) > 1:
             draw = partial(analysis_plots.case_power, study, over, system=system)
             yield Drawing(f"case-{over}", f"Motor power of the load cases over {words}.", draw, "load_cases")
 
 
-def plain_take_up(duty: TakeUpDuty, governed_by: Said) -> dict[str, Any]:
+def take_up_json(duty: TakeUpDuty, governed_by: Message) -> dict[str, Any]:
     """Plain numbers of the take-up for JSON."""
     return {
         "kind": duty.unit.kind,
@@ -237,12 +239,12 @@ def plain_take_up(duty: TakeUpDuty, governed_by: Said) -> dict[str, Any]:
     }
 
 
-def duty(study: CalculatedYear) -> Table:
+def duty_table(study: CalculatedYear) -> Table:
     """Hours at load, temperature and speed: bars of the yearly histogram."""
     columns = (
         Column("hours", "life", lambda row: 3600.0 * row.hours),
         Column("load share", "share", "share"),
-        *_AT,
+        *_CONDITIONS,
         Column("mass flow", "mass flow", "flow"),
         Column("effective tension", "force", "effective"),
         Column("motor power", "power", "shaft"),
@@ -254,7 +256,7 @@ def duty(study: CalculatedYear) -> Table:
     return Table("duty", "Duty", heading, columns, study.rows, _DUTY)
 
 
-def year(study: CalculatedYear) -> Table:
+def year_table(study: CalculatedYear) -> Table:
     """Sums of the year; cost and emission only if price and factor are given."""
     sums = study.year
     rows = (
@@ -268,10 +270,10 @@ def year(study: CalculatedYear) -> Table:
         Figure("carbon dioxide", "carbon dioxide", study.emission),
     )
     note = f"Carbon dioxide: {study.emission_source}." if study.emission_source else ""
-    return figures("duty_year", "Duty", "The year", rows, page=_DUTY, note=note, prefix="year_")
+    return figure_table("duty_year", "Duty", "The year", rows, page=_DUTY, note=note, prefix="year_")
 
 
-def sensitivity(study: CalculatedRanges) -> Table:
+def sensitivity_table(study: CalculatedRanges) -> Table:
     """Sensitivity of the motor power to every input, the most influential first."""
     columns = (
         Column("input", "text", "0.name"),
@@ -290,7 +292,7 @@ def sensitivity(study: CalculatedRanges) -> Table:
     return Table("sensitivity", "Uncertainty", heading, columns, rows, _UNCERTAINTY, note)
 
 
-def band(study: CalculatedRanges) -> Table:
+def power_bands(study: CalculatedRanges) -> Table:
     """Motor power with its band, one row per method of combining the inputs."""
     columns = (
         Column("combined by", "text", "0"),
@@ -304,15 +306,15 @@ def band(study: CalculatedRanges) -> Table:
     if exact is not None:
         rows.append((f"Monte Carlo, {len(exact.power)} draws in full", exact.band))
     note = ""
-    if study.left_open:
-        names = "; ".join(effect.name for effect in study.left_open)
+    if study.uncovered_defaults:
+        names = "; ".join(effect.name for effect in study.uncovered_defaults)
         rows.append((f"root sum of squares, with the defaults in use: {names}", study.band_with_defaults))
         note = "The last row alone has the defaults in use that no range covers; the others leave them out."
     heading = "Motor power, 90 % interval of the inputs' ranges"
     return Table("power_band", "Uncertainty", heading, columns, rows, _UNCERTAINTY, note)
 
 
-def flooded(study: FloodedBelt) -> Table:
+def flooded_belt(study: FloodedBelt) -> Table:
     """Loads of a belt with bulk from edge to edge on drives, belt and structure."""
     found, heading = study.found, "Flooded belt"
     rows: list[Figure] = [
@@ -336,10 +338,10 @@ def flooded(study: FloodedBelt) -> Table:
             Figure("safety, steady", "ratio", duty.safety_steady),
             Figure("required take-up tension", "force", balance.settled.needed),
         ]
-    return figures("flooded", "Load cases", heading, rows, page=_STATES, note=note, prefix="flooded_")
+    return figure_table("flooded", "Load cases", heading, rows, page=_STATES, note=note, prefix="flooded_")
 
 
-def convergence_of_draws(study: CalculatedRanges) -> Table:
+def draw_convergence(study: CalculatedRanges) -> Table:
     """Ends of the interval over the number of draws, with their own intervals; no rows without draws."""
 
     def end(name: str, k: int) -> Callable[[Percentiles], float]:
@@ -362,48 +364,50 @@ def convergence_of_draws(study: CalculatedRanges) -> Table:
     return Table("convergence_of_draws", "Uncertainty", heading, columns, rows, _UNCERTAINTY, note)
 
 
-def plain(studies: CalculatedStudies) -> dict[str, Any]:
+def studies_json(studies: CalculatedStudies) -> dict[str, Any]:
     """Plain numbers of the existing studies for JSON; units in the keys."""
     parts: dict[str, Any] = {}
     if studies.states is not None:
-        named = {key: _plain_state(state) for state in studies.states.states for key in state.keys}
+        named = {key: _state_json(state) for state in studies.states.states for key in state.keys}
         parts["states"] = {key: named[key] for key in _STATE_KEYS if key in named}
-        parts["worst_states"] = [_plain_state(state) for state in studies.states.states if state.worst_for]
-        parts["flooded"] = None if studies.flooded is None else flooded(studies.flooded).series("").to_dict()
-        parts["take_up"] = plain_take_up(*asked_of_take_up(studies.states.own, studies.states, studies.cases))
+        parts["worst_states"] = [_state_json(state) for state in studies.states.states if state.worst_for]
+        parts["flooded"] = (
+            None if studies.flooded is None else flooded_belt(studies.flooded).series("").to_dict()
+        )
+        parts["take_up"] = take_up_json(*take_up_demand(studies.states.own, studies.states, studies.cases))
     study = studies.cases
     if study is not None:
         parts["load_cases"] = {
             "conveyor": study.conveyor.name,
             "friction_band": list(study.friction_band),
-            "cases": cases(study).records(),
-            "governing": governing(study, studies.governing).records(),
-            "motors": motors(studies, "SI").records(),
-            "refused": refused(study).records(),
+            "cases": case_table(study).records(),
+            "governing": governing_cases(study, studies.governing).records(),
+            "motors": motor_table(studies, "SI").records(),
+            "refused": refused_cases(study).records(),
         }
     if studies.duty is not None:
         parts["duty"] = {
             "conveyor": studies.duty.conveyor.name,
-            "year": year(studies.duty).series("").to_dict(),
+            "year": year_table(studies.duty).series("").to_dict(),
             "emission_source": studies.duty.emission_source,
-            "duty": duty(studies.duty).records(),
+            "duty": duty_table(studies.duty).records(),
         }
     if studies.uncertainty is not None:
         parts["uncertainty"] = {
             "conveyor": studies.uncertainty.conveyor.name,
-            "band": band(studies.uncertainty).records(),
-            "tornado": sensitivity(studies.uncertainty).records(),
+            "band": power_bands(studies.uncertainty).records(),
+            "tornado": sensitivity_table(studies.uncertainty).records(),
             "notes": list(studies.uncertainty.notes),
         }
     return parts
 
 
-def _plain_state(state: LoadState) -> dict[str, Any]:
+def _state_json(state: LoadState) -> dict[str, Any]:
     """Plain numbers of a load state for JSON."""
     balance = state.balance
     return {
         "loaded_sections": list(state.loaded),
-        "temperature_degC": unit("temperature", "SI").shown(state.temperature),
+        "temperature_degC": display_unit("temperature", "SI").shown(state.temperature),
         "power_kW": {"belt": balance.power.belt / 1e3, "motor": balance.power.motor / 1e3},
         "effective_tension_N": balance.forces.total,
         "tensions_N": asdict(balance.tensions),
@@ -412,30 +416,30 @@ def _plain_state(state: LoadState) -> dict[str, Any]:
     }
 
 
-def notebook_of_states(study: CalculatedStates) -> Html:
+def states_notebook(study: CalculatedStates) -> Html:
     """Load states for a notebook, and those without a solution."""
     refusals = [f"{row.name}: {row.reason}" for row in study.refused]
     tables = [(f"{study.conveyor.name}: load states", load_states(study))]
-    return notebook(study.conveyor.report.units, tables, {"without an answer": refusals})
+    return notebook_html(study.conveyor.report.units, tables, {"without an answer": refusals})
 
 
-def notebook_of_cases(study: CalculatedCases) -> Html:
+def cases_notebook(study: CalculatedCases) -> Html:
     """Governing cases for a notebook, and those without a solution."""
     refusals = [f"{row.case}: {row.reason}" for row in study.refused]
-    tables = [(f"{study.conveyor.name}: governing load cases", governing(study, study.governing))]
-    return notebook(study.conveyor.report.units, tables, {"without an answer": refusals})
+    tables = [(f"{study.conveyor.name}: governing load cases", governing_cases(study, study.governing))]
+    return notebook_html(study.conveyor.report.units, tables, {"without an answer": refusals})
 
 
-def notebook_of_duty(study: CalculatedYear) -> Html:
+def duty_notebook(study: CalculatedYear) -> Html:
     """Sums and bars of the year for a notebook."""
-    tables = [(f"{study.conveyor.name}: the year", year(study)), ("bars", duty(study))]
-    return notebook(study.conveyor.report.units, tables)
+    tables = [(f"{study.conveyor.name}: the year", year_table(study)), ("bars", duty_table(study))]
+    return notebook_html(study.conveyor.report.units, tables)
 
 
-def notebook_of_uncertainty(study: CalculatedRanges) -> Html:
+def uncertainty_notebook(study: CalculatedRanges) -> Html:
     """Bands and sensitivity of the motor power for a notebook."""
     tables = [
-        (f"{study.conveyor.name}: motor power", band(study)),
-        ("sensitivity ranking", sensitivity(study)),
+        (f"{study.conveyor.name}: motor power", power_bands(study)),
+        ("sensitivity ranking", sensitivity_table(study)),
     ]
-    return notebook(study.conveyor.report.units, tables, {"notes": study.notes})
+    return notebook_html(study.conveyor.report.units, tables, {"notes": study.notes})

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING
 from xml.etree import ElementTree as ET
 
 from conveyor.markup import Html, element
-from conveyor.printable import printable
-from conveyor.report.plots import colour, drawing
-from conveyor.units.sentences import RAISED
+from conveyor.printable import escape_controls
+from conveyor.report.plots import curve_colour, drawing_settings
+from conveyor.units.sentences import SUPERSCRIPTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_SPACE = "{http://www.w3.org/2000/svg}"
-_LINK = "{http://www.w3.org/1999/xlink}href"
+_SVG_NAMESPACE = "{http://www.w3.org/2000/svg}"
+_LINK_ATTRIBUTE = "{http://www.w3.org/1999/xlink}href"
 _REFERENCE = re.compile(r"url\(#([^)]+)\)")
 _FONT = re.compile(r"font-family:[^;\"]*;?\s*|(font: [^;']*?\d+px )[^;\"]*")
 _NUMBER = re.compile(r"-?\d+\.\d{2,}")
@@ -27,18 +27,18 @@ _WIDTH = 6.9
 """Width of every figure [in]: its 9 pt letters stay legible on A4 and on a phone."""
 _LETTERS, _HANDLE = 90, 8  # that stand side by side above a figure; as wide as a line in a legend
 _PAD = 0.06  # [in] about the labels
-_HIGHEST = 4.6
+_MOST_HEIGHT = 4.6
 """Maximum height of a figure of up to two rows [in]; of more in proportion."""
 _DASHES = ("-", (0, (6, 2)), (0, (2, 2)), (0, (8, 2, 2, 2)), (0, (4, 1, 1, 1, 1, 1)), (0, (12, 3)))
-_HOUSE = {colour(k) for k in range(8)}
+_OWN_COLOURS = {curve_colour(k) for k in range(8)}
 _GUIDE = "#5F6670"
-_PLAIN = 3  # decades about 1 that are written out
-_LEFT_OUT = {f"{_SPACE}metadata", f"{_SPACE}style"}
-_SIMPLER = 0.5
+_WRITTEN_DECADES = 3  # decades about 1 that are written out
+_REMOVED_TAGS = {f"{_SVG_NAMESPACE}metadata", f"{_SVG_NAMESPACE}style"}
+_SIMPLIFY_THRESHOLD = 0.5
 """Deviation below which a point of a line is left out [px]."""
 
 
-def inline(figure: Figure, name: str, label: str) -> Html:
+def figure_svg(figure: Figure, name: str, label: str) -> Html:
     """Draw a figure as an SVG element.
 
     Parameters
@@ -50,19 +50,19 @@ def inline(figure: Figure, name: str, label: str) -> Html:
     label : str
         Text alternative.
     """
-    with drawing(letters="none"):
-        restyle(figure)
-        drawn = _drawn(figure)
-    return Html(_cleaned(printable(drawn.decode()), name, label))
+    with drawing_settings(letters="none"):
+        restyle_figure(figure)
+        drawn = _svg_bytes(figure)
+    return Html(_clean_svg(escape_controls(drawn.decode()), name, label))
 
 
-def restyle(figure: Figure) -> None:
+def restyle_figure(figure: Figure) -> None:
     """Set the page's width, remove the title (the caption is one), and give curves different dashes."""
     from matplotlib.ticker import NullLocator
 
-    rows, _ = _grid(figure)
+    rows, _ = _axes_grid(figure)
     height = min(
-        _HIGHEST * max(1.0, rows / 2.0), figure.get_figheight() * min(1.0, _WIDTH / figure.get_figwidth())
+        _MOST_HEIGHT * max(1.0, rows / 2.0), figure.get_figheight() * min(1.0, _WIDTH / figure.get_figwidth())
     )
     figure.set_size_inches(_WIDTH, height)
     for axis in figure.axes:
@@ -71,7 +71,7 @@ def restyle(figure: Figure) -> None:
         axis.set_axisbelow(True)
         for words in (axis.xaxis.label, axis.yaxis.label):
             words.set_fontsize(9)
-        _tell_apart(axis)
+        _distinguish_curves(axis)
         for scale in (axis.xaxis, axis.yaxis):
             if scale.get_scale() == "log":
                 scale.set_major_formatter(_power_of_ten)
@@ -79,10 +79,10 @@ def restyle(figure: Figure) -> None:
         legend = axis.get_legend()
         for text in (*axis.texts, *(legend.get_texts() if legend is not None else ())):
             text.set_parse_math(False)  # a user's "$" is a dollar
-    _fit(figure)
+    _fit_margins(figure)
 
 
-def _fit(figure: Figure) -> None:
+def _fit_margins(figure: Figure) -> None:
     """Set margins that hold the labels; matplotlib's own layouts measure them several times."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
@@ -101,7 +101,7 @@ def _fit(figure: Figure) -> None:
     gaps = [
         (ends := first + last) / max(1.0, (whole - count * ends) / count)
         for whole, first, last, count in zip(
-            (height, width), (below, left), (above, right), _grid(figure), strict=True
+            (height, width), (below, left), (above, right), _axes_grid(figure), strict=True
         )
     ]
     figure.subplots_adjust(
@@ -114,7 +114,7 @@ def _fit(figure: Figure) -> None:
     )
 
 
-def _grid(figure: Figure) -> tuple[int, int]:
+def _axes_grid(figure: Figure) -> tuple[int, int]:
     """Rows and columns of a figure's axes."""
     placed = figure.axes[0].get_subplotspec()
     if placed is None:
@@ -126,17 +126,17 @@ def _grid(figure: Figure) -> tuple[int, int]:
 def _power_of_ten(value: float, _: object = None) -> str:
     """Power of ten as text: matplotlib's own formulas are slow, and not text in SVG."""
     exponent = round(math.log10(value))
-    return f"{value:g}" if abs(exponent) <= _PLAIN else "10" + str(exponent).translate(RAISED)
+    return f"{value:g}" if abs(exponent) <= _WRITTEN_DECADES else "10" + str(exponent).translate(SUPERSCRIPTS)
 
 
-def _tell_apart(axis: Axes) -> None:
+def _distinguish_curves(axis: Axes) -> None:
     handles, labels = axis.get_legend_handles_labels()
     lines = [line for line in axis.lines if line.get_label() in labels and line.get_linestyle() != "None"]
     curves = [line for line in lines if line.get_linestyle() == "-" and line.get_linewidth() < 2.5]
     for k, line in enumerate(curves):
         line.set_linestyle(_DASHES[k % len(_DASHES)])  # type: ignore[arg-type]
-        if line.get_color() not in _HOUSE:
-            line.set_color(colour(k))
+        if line.get_color() not in _OWN_COLOURS:
+            line.set_color(curve_colour(k))
         line.set_linewidth(1.6)
     for line in lines:
         if line.get_linestyle() == ":":
@@ -150,24 +150,24 @@ def _tell_apart(axis: Axes) -> None:
         )  # fmt: skip
 
 
-def _drawn(figure: Figure) -> bytes:
+def _svg_bytes(figure: Figure) -> bytes:
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 
     for line in (line for axis in figure.axes for line in axis.lines):
-        line.get_path().simplify_threshold = _SIMPLER
+        line.get_path().simplify_threshold = _SIMPLIFY_THRESHOLD
     content = BytesIO()  # savefig draws twice, the canvas once
     FigureCanvasSVG(figure).print_svg(content, metadata={"Date": None})  # type: ignore[no-untyped-call]
     return content.getvalue()
 
 
-def _cleaned(drawn: str, name: str, label: str) -> str:
+def _clean_svg(drawn: str, name: str, label: str) -> str:
     root = ET.fromstring(drawn.encode())  # noqa: S314 drawn here
-    used = {_link(node) for node in root.iter()} | {
+    used = {_link_target(node) for node in root.iter()} | {
         mark for node in root.iter() for value in node.attrib.values() for mark in _REFERENCE.findall(value)
     }
-    _without(root)
+    _remove_metadata(root)
     for node in root.iter():
-        node.tag = node.tag.removeprefix(_SPACE)
+        node.tag = node.tag.removeprefix(_SVG_NAMESPACE)
         if node.text is not None and node.tag not in {"text", "tspan", "title"}:
             node.text = None
         node.tail = None
@@ -176,34 +176,34 @@ def _cleaned(drawn: str, name: str, label: str) -> str:
         else:
             node.attrib.pop("id", None)
         for key, value in list(node.attrib.items()):
-            node.set(key, _shortened(key, value, name))
-        link = node.attrib.pop(_LINK, None)
+            node.set(key, _shorten_value(key, value, name))
+        link = node.attrib.pop(_LINK_ATTRIBUTE, None)
         if link is not None:
             node.set("href", f"#{name}-{link[1:]}")
     for key in ("width", "height", "version"):
         root.attrib.pop(key, None)
     root.set("role", "img")
     root.set("aria-label", label)
-    _flatten(root)
+    _inline_groups(root)
     return ET.tostring(root, encoding="unicode")
 
 
-def _link(node: ET.Element) -> str:
-    return node.get(_LINK, "#")[1:]
+def _link_target(node: ET.Element) -> str:
+    return node.get(_LINK_ATTRIBUTE, "#")[1:]
 
 
-def _without(node: ET.Element) -> None:
+def _remove_metadata(node: ET.Element) -> None:
     for child in list(node):
-        if child.tag in _LEFT_OUT:
+        if child.tag in _REMOVED_TAGS:
             node.remove(child)
         else:
-            _without(child)
+            _remove_metadata(child)
 
 
-def _flatten(node: ET.Element) -> None:
+def _inline_groups(node: ET.Element) -> None:
     """Replace empty groups by their content."""
     for child in list(node):
-        _flatten(child)
+        _inline_groups(child)
     kept: list[ET.Element] = []
     for child in list(node):
         bare = child.tag in {"g", "defs"} and not child.attrib and (child.tag == "g" or len(child) == 0)
@@ -211,7 +211,7 @@ def _flatten(node: ET.Element) -> None:
     node[:] = kept
 
 
-def _shortened(key: str, value: str, name: str) -> str:
+def _shorten_value(key: str, value: str, name: str) -> str:
     value = _REFERENCE.sub(lambda match: f"url(#{name}-{match[1]})", value)
     if key == "style":
         return _FONT.sub(lambda match: f"{match[1]}sans-serif" if match[1] else "", value).strip(" ;")
@@ -223,7 +223,7 @@ def _shortened(key: str, value: str, name: str) -> str:
     return value
 
 
-def figure(drawing: Html, caption: str) -> Html:
+def captioned_drawing(drawing: Html, caption: str) -> Html:
     """Return a drawing with its caption; it scrolls by itself on a narrow screen."""
     return element(
         "figure",

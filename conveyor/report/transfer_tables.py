@@ -10,29 +10,44 @@ import numpy as np
 
 from conveyor.laws.transfer import CLEANER_EFFICIENCY
 from conveyor.pipeline import CalculatedConveyor
-from conveyor.report.columns import NAMED, OF_ROW, Column, Drawing, Figure, Table, at, figures
-from conveyor.report.plots import colour, finished, stacked
-from conveyor.report.settings import own_settings
+from conveyor.report.matplotlib_settings import own_settings
+from conveyor.report.plots import curve_colour, finish_figure, stacked_axes
+from conveyor.report.table_model import (
+    FIGURE_NAME,
+    ROW_KIND,
+    Column,
+    Drawing,
+    Figure,
+    Table,
+    figure_table,
+    path_getter,
+)
 from conveyor.units import System
-from conveyor.units.presentation import unit
+from conveyor.units.presentation import display_unit
 from conveyor.units.sentences import percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Picture
 
-    from conveyor.loop.transfer import Landing, Trajectory
+    from conveyor.loop.transfer_points import LoadingPointDuty, Trajectory
 
 SHEET: Final = "Transfer"
 _PAGE: Final = "transfer"
 _CIRCLE_POINTS: Final = 49
 
 
-def of_transfer(a: CalculatedConveyor) -> tuple[Table, ...]:
+def material_flow_tables(a: CalculatedConveyor) -> tuple[Table, ...]:
     """Tables of loading, cleaning and discharge."""
-    return (landings(a), cleaners(a), discharge(a), trajectory(a), pulley_outline(a))
+    return (
+        loading_point_table(a),
+        cleaner_table(a),
+        discharge_table(a),
+        trajectory_table(a),
+        pulley_outline(a),
+    )
 
 
-def _asked(landing: Landing) -> bool:
+def _is_detailed(landing: LoadingPointDuty) -> bool:
     """True if the spec gives drop height, skirtboards or seal drag of a loading point."""
     point = landing.point
     if point.assumed:
@@ -40,9 +55,9 @@ def _asked(landing: Landing) -> bool:
     return point.drop_height is not None or point.skirtboards is not None or point.seal_drag > 0.0
 
 
-def landings(a: CalculatedConveyor) -> Table:
+def loading_point_table(a: CalculatedConveyor) -> Table:
     """Skirtboards and impact of the loading points, one column each."""
-    shown = tuple(each for each in a.landings if _asked(each))
+    shown = tuple(each for each in a.loading_point_duty if _is_detailed(each))
     every = (
         ("mass flow", "mass flow", "point.flow"),
         ("length of acceleration", "spacing", "acceleration"),
@@ -58,10 +73,10 @@ def landings(a: CalculatedConveyor) -> Table:
     )
     points = [each.point.name.removeprefix(", ") or each.point.place for each in shown]
     columns = (
-        Column("quantity", NAMED, "label"),
-        *(Column(name, OF_ROW, f"value.{i}", key=f"point_{i}") for i, name in enumerate(points)),
+        Column("quantity", FIGURE_NAME, "label"),
+        *(Column(name, ROW_KIND, f"value.{i}", key=f"point_{i}") for i, name in enumerate(points)),
     )
-    found = [(label, kind, tuple(map(at(path), shown))) for label, kind, path in every]
+    found = [(label, kind, tuple(map(path_getter(path), shown))) for label, kind, path in every]
     known = tuple(
         Figure(label, kind, each) for label, kind, each in found if any(value is not None for value in each)
     )
@@ -73,7 +88,7 @@ def landings(a: CalculatedConveyor) -> Table:
     return Table("landings", SHEET, heading, columns, known, _PAGE, note)
 
 
-def cleaners(a: CalculatedConveyor) -> Table:
+def cleaner_table(a: CalculatedConveyor) -> Table:
     """Drag of the belt cleaners and carryback behind them."""
     columns = (
         Column("cleaner", "text", lambda row: row[1].scraper.kind or f"cleaner {row[0]}"),
@@ -85,7 +100,7 @@ def cleaners(a: CalculatedConveyor) -> Table:
         Column("carried back", "carryback", "1.lost"),
     )
     given = a.line.carryback[0] is not None
-    rows = tuple(enumerate(a.cleanings, start=1)) if given else ()
+    rows = tuple(enumerate(a.cleaner_duty, start=1)) if given else ()
     note = "Every cleaner takes the same share of what reaches it; over the width of its blade."
     if any("efficiency" not in each.model_fields_set for each in a.conveyor.route.cleaners or ()):
         note += f" Efficiency not given: {percent(CLEANER_EFFICIENCY.value)} (general knowledge)."
@@ -93,7 +108,7 @@ def cleaners(a: CalculatedConveyor) -> Table:
     return Table("cleaners", SHEET, heading, columns, rows, _PAGE, note)
 
 
-def discharge(a: CalculatedConveyor) -> Table:
+def discharge_table(a: CalculatedConveyor) -> Table:
     """Discharge over the head pulley: point of leaving, speeds, arrival."""
     stream = a.trajectory
     rows: tuple[Figure, ...] = ()
@@ -120,12 +135,12 @@ def discharge(a: CalculatedConveyor) -> Table:
                    key="forward_speed"),
             Figure("down from the level on arrival", "angle", float(end.steepness[-1]), key="arrival_angle"),
         )  # fmt: skip
-    note = "" if stream is None else _way(stream)
+    note = "" if stream is None else _discharge_note(stream)
     heading = "Discharge over the head pulley"
-    return figures("discharge", SHEET, heading, rows, page=_PAGE, note=note, prefix="discharge_")
+    return figure_table("discharge", SHEET, heading, rows, page=_PAGE, note=note, prefix="discharge_")
 
 
-def _way(stream: Trajectory) -> str:
+def _discharge_note(stream: Trajectory) -> str:
     leaves = "is carried round part of the pulley" if stream.wraps else "leaves as the belt meets the pulley"
     return (
         f"The bulk {leaves}. Centre after CEMA, edges at right angles to it; Booth: lower edge, with slip on the belt. "
@@ -133,13 +148,13 @@ def _way(stream: Trajectory) -> str:
     )
 
 
-def trajectory(a: CalculatedConveyor) -> Table:
+def trajectory_table(a: CalculatedConveyor) -> Table:
     """Points of the trajectory from the pulley axis, every 1/20 s, the last at the given drop."""
     stream = a.trajectory
     rows: tuple[tuple[Any, ...], ...] = ()
     if stream is not None:
         centre = stream.fall
-        lower, upper = _edges(stream)
+        lower, upper = _stream_edges(stream)
         paths = [(centre.across, centre.up), lower, upper, (stream.lower.across, stream.lower.up)]
         points = [[*zip(*(axis.tolist() for axis in path), strict=True)] for path in paths]
         of_centre = zip(centre.time.tolist(), centre.speed.tolist(), strict=True)
@@ -164,7 +179,7 @@ def trajectory(a: CalculatedConveyor) -> Table:
     )
 
 
-def _edges(stream: Trajectory) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
+def _stream_edges(stream: Trajectory) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
     """Lower and upper edge of the stream after CEMA [m]."""
     bulk = stream.bulk
     return stream.fall.beside(-bulk.centroid), stream.fall.beside(bulk.height - bulk.centroid)
@@ -175,12 +190,12 @@ def pulley_outline(a: CalculatedConveyor) -> Table:
     stream = a.trajectory
     rows: tuple[tuple[float, ...], ...] = ()
     if stream is not None:
-        rows = tuple(zip(*(axis.tolist() for axis in _outline(stream)), strict=True))
+        rows = tuple(zip(*(axis.tolist() for axis in _belt_outline(stream)), strict=True))
     columns = (Column("belt, forward", "spacing", "0"), Column("belt, up", "spacing", "1"))
     return Table("pulley_outline", SHEET, "Belt round the head pulley", columns, rows, printed=False)
 
 
-def _outline(stream: Trajectory) -> tuple[Any, Any]:
+def _belt_outline(stream: Trajectory) -> tuple[Any, Any]:
     """Outline of the belt from two radii before the pulley, once round it [m]."""
     radius, slope = stream.belt_radius, stream.head.slope
     turn = np.linspace(-slope, 2.0 * math.pi - slope, _CIRCLE_POINTS)
@@ -189,34 +204,38 @@ def _outline(stream: Trajectory) -> tuple[Any, Any]:
     return np.append(before[0], x), np.append(before[1], y)
 
 
-def drawing(a: CalculatedConveyor, system: System) -> tuple[Drawing, ...]:
+def discharge_drawing(a: CalculatedConveyor, system: System) -> tuple[Drawing, ...]:
     """Drawing of the discharge trajectory, if the spec has one."""
     if a.trajectory is None:
         return ()
     words = "The stream over the head pulley, to scale: centre and edges after CEMA, lower edge after Booth."
-    return (Drawing("trajectory", words, lambda: picture(a, system=system), "discharge"),)
+    return (Drawing("trajectory", words, lambda: discharge_figure(a, system=system), "discharge"),)
 
 
 @own_settings()
-def picture(a: CalculatedConveyor, *, system: System = "SI") -> Picture:
+def discharge_figure(a: CalculatedConveyor, *, system: System = "SI") -> Picture:
     """Discharge trajectory over the head pulley, to scale."""
     flight = a.trajectory
     if flight is None:
         raise ValueError("no discharge to draw")
-    sheet, (axis,) = stacked(1, 5.6)
-    length = unit("spacing", system)
-    lower, upper = _edges(flight)
-    axis.plot(*(length(each) for each in _outline(flight)), color="0.35", linewidth=2, label="belt")
+    sheet, (axis,) = stacked_axes(1, 5.6)
+    length = display_unit("spacing", system)
+    lower, upper = _stream_edges(flight)
+    axis.plot(*(length(each) for each in _belt_outline(flight)), color="0.35", linewidth=2, label="belt")
     axis.plot(0.0, 0.0, "+", color="0.35")
     stream = [np.concatenate([one, other[::-1]]) for one, other in zip(lower, upper, strict=True)]
-    axis.fill(length(stream[0]), length(stream[1]), color=colour(0), alpha=0.15, linewidth=0)
-    axis.plot(length(flight.fall.across), length(flight.fall.up), color=colour(0), label="centre")
+    axis.fill(length(stream[0]), length(stream[1]), color=curve_colour(0), alpha=0.15, linewidth=0)
+    axis.plot(length(flight.fall.across), length(flight.fall.up), color=curve_colour(0), label="centre")
     for path, name in ((lower, "edges"), (upper, "edges")):
-        axis.plot(length(path[0]), length(path[1]), color=colour(0), linewidth=0.8, label=name)
+        axis.plot(length(path[0]), length(path[1]), color=curve_colour(0), linewidth=0.8, label=name)
     booth = flight.lower
     axis.plot(
-        length(booth.across), length(booth.up), color=colour(1), linestyle="--", label="lower edge (Booth)"
+        length(booth.across),
+        length(booth.up),
+        color=curve_colour(1),
+        linestyle="--",
+        label="lower edge (Booth)",
     )
     axis.set_aspect("equal", adjustable="datalim")
     across, up = length.beside("forward of the axis"), length.beside("over the axis")
-    return finished(sheet, across, up, "Discharge over the head pulley")
+    return finish_figure(sheet, across, up, "Discharge over the head pulley")

@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, Final
 
-from conveyor.files.marks import version
-from conveyor.measured.rolling_tests import FORM
+from conveyor.files.output_marks import package_version
+from conveyor.measured.rolling_test_table import FORM_SHEET
 from conveyor.models import Report
-from conveyor.report.columns import Column, Contents, OnPage, ReportHead, Table, noted
+from conveyor.report.table_model import Column, Contents, PagePlacement, ReportHead, Table, remark_table
 from conveyor.units import System
-from conveyor.units.presentation import unit
+from conveyor.units.presentation import display_unit
 
 if TYPE_CHECKING:
     from conveyor.studies.verification import CalculatedVerification
 
 ABOUT: Final = "About"
-PER_WIDTH: Final = FORM
+PER_WIDTH: Final = FORM_SHEET
 PER_SET: Final = "Idler set"
 PARTS: Final = (
     ("assumptions", "What these figures are"),
@@ -30,23 +30,23 @@ _TO_FILL_IN: Final = (
 )  # fmt: skip
 
 
-def of_verification(sheet: CalculatedVerification, system: System) -> Contents:
+def verification_contents(sheet: CalculatedVerification, system: System) -> Contents:
     """Contents of a verification sheet in a unit system."""
     names = ", ".join(compound.name for compound in sheet.compounds)
     facts = (
         ("compounds", names),
-        ("calculated by", f"conveyor {version('conveyor')}"),
+        ("calculated by", f"conveyor {package_version('conveyor')}"),
         ("conveyor of the idler set", "none" if sheet.conveyor is None else sheet.conveyor.name),
     )
     title = f"Rolling resistance of {names}"
     report = Report() if sheet.conveyor is None else sheet.conveyor.report
     about = ReportHead(title, "Verification sheet", {}, "", report.sheet(system), facts)
-    what = noted({"assumption": lines(sheet)}, ABOUT, "What these figures are")
-    parts = (what, to_fill_in(), per_width(sheet, system), per_set(sheet))
+    what = remark_table({"assumption": basis_lines(sheet)}, ABOUT, "What these figures are")
+    parts = (what, fill_in_table(), resistance_per_width(sheet, system), resistance_per_set(sheet))
     return Contents(about, parts, system, page=PARTS, layout="verification")
 
 
-def lines(sheet: CalculatedVerification) -> Iterator[str]:
+def basis_lines(sheet: CalculatedVerification) -> Iterator[str]:
     """Sentences on the basis of the figures."""
     yield (
         "Indentation rolling resistance of the cover alone, of one rigid roll in steady running: force per width "
@@ -57,7 +57,7 @@ def lines(sheet: CalculatedVerification) -> Iterator[str]:
         "the line load is even over the width."
     )
     for compound in sheet.compounds:
-        yield f'Compound "{compound.name}" ({compound.kind}): {_strain(compound, softened=sheet.softened)}.'
+        yield f'Compound "{compound.name}" ({compound.kind}): {_strain_text(compound, softened=sheet.softened)}.'
     yield (
         "Figures follow from the compound's small-sample dynamic moduli. Those of a compound that holds tests of "
         "rolling resistance stand at their level; others are not scaled, and published tests of belts lie above them."
@@ -73,7 +73,7 @@ def lines(sheet: CalculatedVerification) -> Iterator[str]:
     )
 
 
-def _strain(compound: Any, *, softened: bool) -> str:
+def _strain_text(compound: Any, *, softened: bool) -> str:
     known = compound.strain_dependence
     if known is None:
         return "linear, its moduli at the strain they were measured at"
@@ -82,20 +82,20 @@ def _strain(compound: Any, *, softened: bool) -> str:
     return "linear, moduli at the strain of its master curve; its strain sweeps are not used here"
 
 
-def to_fill_in() -> Table:
+def fill_in_table() -> Table:
     """Details of the maker's test, to fill in."""
     columns = (
         Column("of the test", "text", lambda row: row),
         Column("maker", "text", lambda _: None, asked=True),
     )
     return Table(
-        "to_fill_in", ABOUT, "To fill in", columns, _TO_FILL_IN, (OnPage("to-fill-in", "Of the test"),)
+        "to_fill_in", ABOUT, "To fill in", columns, _TO_FILL_IN, (PagePlacement("to-fill-in", "Of the test"),)
     )
 
 
-def per_width(sheet: CalculatedVerification, system: System) -> Table:
+def resistance_per_width(sheet: CalculatedVerification, system: System) -> Table:
     """Indentation resistance per width; two columns per line load, ours and the maker's."""
-    strength = unit("strength", system)
+    strength = display_unit("strength", system)
     pairs: list[Column] = []
     for k, load in enumerate(sheet.line_loads):
         said = f"{strength.shown(load):.4g} {strength.sign}"
@@ -116,7 +116,7 @@ def per_width(sheet: CalculatedVerification, system: System) -> Table:
     return Table("per_width", PER_WIDTH, heading, columns, sheet.rows, "per-width", named=5)
 
 
-def per_set(sheet: CalculatedVerification) -> Table:
+def resistance_per_set(sheet: CalculatedVerification) -> Table:
     """Indentation resistance of the most loaded carry set, by compound and temperature."""
     columns = (
         Column("compound", "text", "compound"),
@@ -131,7 +131,7 @@ def per_set(sheet: CalculatedVerification) -> Table:
     return Table("per_set", PER_SET, heading, columns, sheet.sets, "per-set", named=3)
 
 
-def plain(sheet: CalculatedVerification) -> dict[str, Any]:
+def verification_json(sheet: CalculatedVerification) -> dict[str, Any]:
     """Plain numbers for JSON; units in the keys."""
     return {
         "compounds": [compound.name for compound in sheet.compounds],
@@ -160,5 +160,5 @@ def plain(sheet: CalculatedVerification) -> dict[str, Any]:
             }
             for row in sheet.sets
         ],
-        "what": list(lines(sheet)),
+        "what": list(basis_lines(sheet)),
     }

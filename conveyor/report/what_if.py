@@ -8,25 +8,25 @@ from typing import Final
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.models import Operation
 from conveyor.pipeline import CalculatedConveyor
-from conveyor.report.columns import Figure, Table, figures
-from conveyor.studies.cases import MOTOR_RESERVE
+from conveyor.report.table_model import Figure, Table, figure_table
 from conveyor.studies.duty import CalculatedYear
+from conveyor.studies.load_cases import MOTOR_RESERVE
 from conveyor.units.presentation import MONEY
 
 _PREFIX: Final = "what_if_"
-OF_HOURS: Final = "*what_if_operating_hours/what_if_hours_calculated"
+HOURS_RATIO: Final = "*what_if_operating_hours/what_if_hours_calculated"
 _TONNE: Final = 1000.0
 
 
-def what_if(a: CalculatedConveyor, duty: CalculatedYear | None, motor: float) -> Table:
+def what_if_table(a: CalculatedConveyor, duty: CalculatedYear | None, motor: float) -> Table:
     """Table of inputs to change and their results; `motor` is the maximum motor power of all loads [W]."""
     heading = "What if: change the yellow cells"
-    rows = (*_energy(a, duty), *_motor(motor))
+    rows = (*_energy_figures(a, duty), *_motor_figures(motor))
     note = "Formulas over the energy and power calculated; forces and power do not follow from these cells."
-    return figures("what_if", "Results", heading, rows, note=note, prefix=_PREFIX)
+    return figure_table("what_if", "Results", heading, rows, note=note, prefix=_PREFIX)
 
 
-def _motor(motor: float) -> Iterator[Figure]:
+def _motor_figures(motor: float) -> Iterator[Figure]:
     needed = abs(motor)
     yield Figure("maximum motor power, driving or braking", "power", needed, key="maximum_motor_power")
     yield Figure("motor reserve", "ratio", MOTOR_RESERVE, on="input")
@@ -34,7 +34,7 @@ def _motor(motor: float) -> Iterator[Figure]:
     yield Figure("required rated power", "power", needed * MOTOR_RESERVE, formula=formula)
 
 
-def _energy(a: CalculatedConveyor, duty: CalculatedYear | None) -> Iterator[Figure]:
+def _energy_figures(a: CalculatedConveyor, duty: CalculatedYear | None) -> Iterator[Figure]:
     """Energy, cost and carbon dioxide of a year: of the duty, else at even load."""
     operation = a.conveyor.operation
     if operation is None:
@@ -49,7 +49,7 @@ def _energy(a: CalculatedConveyor, duty: CalculatedYear | None) -> Iterator[Figu
         return
     yield Figure("energy drawn", "energy", drawn * JOULE_PER_KWH)
     yield Figure("energy fed back", "energy", fed_back * JOULE_PER_KWH)
-    yield from to_change(operation, hours, emission=emission is not None)
+    yield from year_inputs(operation, hours, emission=emission is not None)
     of = "what_if_energy_drawn", "what_if_energy_fed_back"
     if operation.price is not None:
         yield Figure("cost", f"{MONEY}{operation.price.currency}", cost, formula=cost_formula(*of))
@@ -57,7 +57,7 @@ def _energy(a: CalculatedConveyor, duty: CalculatedYear | None) -> Iterator[Figu
         yield Figure("carbon dioxide", "carbon dioxide", emission, formula=emission_formula(*of))
 
 
-def to_change(operation: Operation, hours: float, *, emission: bool) -> Iterator[Figure]:
+def year_inputs(operation: Operation, hours: float, *, emission: bool) -> Iterator[Figure]:
     """Hours [s], prices and emission factors of a year, for the reader to change."""
     yield Figure("hours calculated", "life", hours)
     yield Figure("operating hours", "life", hours, on="input")
@@ -76,10 +76,10 @@ def to_change(operation: Operation, hours: float, *, emission: bool) -> Iterator
 def cost_formula(drawn: str, fed_back: str) -> str:
     """Formula of the cost of a year, from the cells of its energies [MWh]."""
     credit = f"{_TONNE:g}*{fed_back}*what_if_feed_in_price"
-    return f"({_TONNE:g}*{drawn}*what_if_energy_price-{credit}){OF_HOURS}"
+    return f"({_TONNE:g}*{drawn}*what_if_energy_price-{credit}){HOURS_RATIO}"
 
 
 def emission_formula(drawn: str, fed_back: str) -> str:
     """Formula of the carbon dioxide of a year [t], from the cells of its energies [MWh]."""
     less = f"{fed_back}*what_if_emission_factor_of_energy_fed_back"
-    return f"({drawn}*what_if_emission_factor-{less}){OF_HOURS}"
+    return f"({drawn}*what_if_emission_factor-{less}){HOURS_RATIO}"

@@ -3,26 +3,26 @@
 from __future__ import annotations
 
 from conveyor.rubber.band import ReplicaBand, bootstrap
-from conveyor.rubber.equivalent import (
+from conveyor.rubber.equivalent_series import (
     EquivalentLinear,
     StrainTask,
-    at_strains,
     equivalent_linear,
     equivalent_linear_many,
-    softened,
+    series_at_strains,
+    soften_series,
 )
 from conveyor.rubber.fit import PronyFit, fit_prony
 from conveyor.rubber.interconversion import equivalent_sweep
-from conveyor.rubber.kramers_kronig import KramersKronig, kramers_kronig, testable
+from conveyor.rubber.kramers_kronig import KramersKronig, kramers_kronig, kramers_kronig_applicable
 from conveyor.rubber.kraus import KrausFit, KrausLaw, fit_kraus
 from conveyor.rubber.misfit import Misfit
-from conveyor.rubber.prony import CreepSeries, PronySeries, creeps
-from conveyor.rubber.shift import WLF, Arrhenius, ShiftLaw, ShiftTable, entropic_b_T, shifted
+from conveyor.rubber.prony import CreepSeries, PronySeries, creep_forms
+from conveyor.rubber.shift import WLF, Arrhenius, ShiftLaw, ShiftTable, entropic_b_T, shift_series
 from conveyor.rubber.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
 from conveyor.rubber.shift_laws import ShiftComparison, compare_shift_laws
 from conveyor.rubber.strain import AmplitudeFactors, StrainSweep
-from conveyor.rubber.superposition import Isotherm, Superposition, superpose
 from conveyor.rubber.term_count import Candidate
+from conveyor.rubber.time_temperature import Isotherm, Superposition, superpose
 
 __all__ = [
     "WLF",
@@ -46,10 +46,9 @@ __all__ = [
     "StrainSweep",
     "StrainTask",
     "Superposition",
-    "at_strains",
     "bootstrap",
     "compare_shift_laws",
-    "creeps",
+    "creep_forms",
     "entropic_b_T",
     "equivalent_linear",
     "equivalent_linear_many",
@@ -59,8 +58,9 @@ __all__ = [
     "fit_prony",
     "fit_wlf",
     "kramers_kronig",
-    "shifted",
-    "softened",
+    "kramers_kronig_applicable",
+    "series_at_strains",
+    "shift_series",
+    "soften_series",
     "superpose",
-    "testable",
 ]

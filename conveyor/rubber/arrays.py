@@ -13,7 +13,7 @@ FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 
-def positive(name: str, value: float, unit: str, advice: str = "") -> float:
+def positive_number(name: str, value: float, unit: str, advice: str = "") -> float:
     """Number, refused unless finite and > 0."""
     number = float(value)
     if not (math.isfinite(number) and number > 0.0):
@@ -41,7 +41,7 @@ def positive_vector(name: str, values: ArrayLike, unit: str) -> FloatArray:
     return array
 
 
-def non_negative(name: str, values: ArrayLike, unit: str) -> FloatArray:
+def non_negative_array(name: str, values: ArrayLike, unit: str) -> FloatArray:
     """Numbers of any shape, refused unless finite and >= 0."""
     array = np.asarray(values, dtype=np.float64)
     bad = array[~(np.isfinite(array) & (array >= 0.0))]
@@ -50,19 +50,19 @@ def non_negative(name: str, values: ArrayLike, unit: str) -> FloatArray:
     return array
 
 
-def spectrum(
+def checked_spectrum(
     weight_name: str, weights: ArrayLike, unit: str, times: ArrayLike
 ) -> tuple[FloatArray, FloatArray]:
     """Weights and times [s] of a discrete spectrum, checked, by ascending time, read-only."""
     w, t = np.array(weights, dtype=np.float64), np.array(times, dtype=np.float64)
-    if not _plain(w, t):
-        w, t = _sorted(weight_name, weights, unit, times)
+    if not _is_ascending_spectrum(w, t):
+        w, t = _sort_spectrum(weight_name, weights, unit, times)
     w.setflags(write=False)
     t.setflags(write=False)
     return w, t
 
 
-def _plain(w: FloatArray, t: FloatArray) -> bool:
+def _is_ascending_spectrum(w: FloatArray, t: FloatArray) -> bool:
     """True for a valid spectrum by ascending time, as most are."""
     return (
         w.ndim == 1
@@ -75,7 +75,7 @@ def _plain(w: FloatArray, t: FloatArray) -> bool:
     )
 
 
-def _sorted(
+def _sort_spectrum(
     weight_name: str, weights: ArrayLike, unit: str, times: ArrayLike
 ) -> tuple[FloatArray, FloatArray]:
     w = positive_vector(weight_name, weights, unit)

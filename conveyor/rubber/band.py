@@ -13,19 +13,19 @@ from conveyor.rubber.arrays import FloatArray, positive_vector
 from conveyor.rubber.fit import PronyFit
 from conveyor.rubber.prony import PronySeries
 from conveyor.rubber.shift import ShiftLaw
-from conveyor.rubber.superposition import Superposition
-from conveyor.rubber.term_count import Penalised
+from conveyor.rubber.term_count import PenalisedFit
+from conveyor.rubber.time_temperature import Superposition
 
-METHOD = (
+BOOTSTRAP_METHOD = (
     "block bootstrap of the relative residuals; penalty, weights of E' and E'' and shifts drawn too; moduli refitted at"
     " the same times"
 )
-CALIBRATION = 1.1
+RESIDUAL_WIDENING = 1.1
 """Widening of the residuals: with it the 90 % band covers the truth as `bootstrap` says (benchmarks/families.py).
 Without it some 3 % less: times and penalty, chosen from the same data, stay fixed in the replicas [-]."""
-BARE = 1.3
+UNPENALISED_WIDENING = 1.3
 """The same without penalty: the times of few lines are parameters too, at most as many as moduli, sqrt(2) [-]."""
-LEANING = 0.5
+WEIGHT_SCATTER = 0.5
 """Standard deviation of ln of the factor that weighs E' against E'' in a replica: 1.6 (general knowledge; at two the
 band of friction covers the truth too often). It moves a fit where the two contradict each other [-]."""
 LEVERAGE_LIMIT = 0.9
@@ -178,7 +178,8 @@ def bootstrap(
     -----
     The data of a replica are the rows times ratios data/fit, drawn with their neighbours in circular blocks,
     E' and E'' of one frequency together. In logarithms the ratios are freed of their leverage h, by
-    1/sqrt(1 - L h), and widened by `CALIBRATION` or `BARE`; their mean is brought to 1. A block has
+    1/sqrt(1 - L h), and widened by `RESIDUAL_WIDENING` or `UNPENALISED_WIDENING`; their mean is brought to 1. A
+    block has
     L = (1 + c)/(1 - c) rows, the time constant of a first-order process whose neighbours correlate by c;
     L = 1 where c cannot be told from noise. Residuals of outliers count by their trust only.
 
@@ -186,7 +187,7 @@ def bootstrap(
     determine, in gaps and beyond the window, scatters as the spectrum does elsewhere. Such bands of a penalised curve
     cover the truth, bias included, at their nominal rate on the mean over the window.
 
-    Each replica weighs E' against E'' anew, by `LEANING`: where they contradict each other, which no scatter of
+    Each replica weighs E' against E'' anew, by `WEIGHT_SCATTER`: where they contradict each other, which no scatter of
     rows shows, the band covers how far the compromise moves with their weights.
 
     Of isotherms, each replica first draws the shifts from their covariance, in pairs of both signs, vertical ones
@@ -227,26 +228,28 @@ def bootstrap(
         raise InputError(f"replicas = {replicas} must be >= 1")
     series, rows = fit.series, fit.rows
     times = series.times
-    problem = Penalised(rows, times, fit.held)
+    problem = PenalisedFit(rows, times, fit.held)
     moduli = np.concatenate([[series.equilibrium], series.moduli])
     fitted = rows.matrix(times) @ moduli
-    ratio, block = _ratios(
+    ratio, block = _resampling_ratios(
         1.0 + (rows.target / fitted - 1.0) * rows.trust,
         problem.leverage(moduli, fit.regularisation),
-        CALIBRATION if fit.regularisation else BARE,
+        RESIDUAL_WIDENING if fit.regularisation else UNPENALISED_WIDENING,
     )
     size = rows.frequency.size
-    spread = CALIBRATION * fit.residual * float(np.sqrt(2 * size / max(2 * size - fit.freedom, 1.0)))
+    spread = RESIDUAL_WIDENING * fit.residual * float(np.sqrt(2 * size / max(2 * size - fit.freedom, 1.0)))
     generator = np.random.default_rng(seed)
     fits: list[FloatArray] = []
-    kept: list[_Shifted] = []
+    kept: list[_ReplicaShift] = []
     draws = None
     if superposition is not None:
-        draws = _drawn(superposition, _temperatures(superposition, temperature, size), law, generator)
+        draws = _draw_shifts(
+            superposition, _row_temperatures(superposition, temperature, size), law, generator
+        )
     for _ in range(DRAWS_PER_REPLICA * replicas):
         starts = generator.integers(0, size, -(-size // block))
         taken = ((starts[:, None] + np.arange(block)) % size).ravel()[:size]
-        lean = np.repeat(np.exp(LEANING * np.array([1.0, -1.0]) * generator.standard_normal()), size)
+        lean = np.repeat(np.exp(WEIGHT_SCATTER * np.array([1.0, -1.0]) * generator.standard_normal()), size)
         drawn = replace(rows, scale=rows.scale * lean)
         target = drawn.target * ratio[:, taken].ravel()
         shift = None if draws is None else next(draws)
@@ -255,7 +258,7 @@ def bootstrap(
         if shift is not None:
             drawn = replace(drawn, frequency=rows.frequency * 10.0 ** shift.moved[0])
             target = target * np.tile(10.0 ** -shift.moved[1], 2)
-        problem = Penalised(drawn, times, fit.held)
+        problem = PenalisedFit(drawn, times, fit.held)
         bends = spread * generator.standard_normal(len(problem.bends))
         moduli = problem.solve(target, fit.regularisation, bends)
         if moduli[0] > 0.0:
@@ -282,7 +285,7 @@ def bootstrap(
 
 
 @dataclass(frozen=True, eq=False)
-class _Shifted:
+class _ReplicaShift:
     """log10 a_T and log10 b_T of a replica, shape `(2, t)`, the move of each row, and their law [decades]."""
 
     shifts: FloatArray
@@ -290,7 +293,7 @@ class _Shifted:
     law: ShiftLaw | None
 
 
-def _temperatures(superposition: Superposition, temperature: ArrayLike | None, size: int) -> FloatArray:
+def _row_temperatures(superposition: Superposition, temperature: ArrayLike | None, size: int) -> FloatArray:
     """Temperature of every fitted row [K]."""
     at = (
         superposition.temperatures[superposition.isotherm]
@@ -302,12 +305,12 @@ def _temperatures(superposition: Superposition, temperature: ArrayLike | None, s
     return at
 
 
-def _drawn(
+def _draw_shifts(
     superposition: Superposition,
     at: FloatArray,
     maker: Callable[[FloatArray], ShiftLaw] | None,
     generator: np.random.Generator,
-) -> Iterator[_Shifted | None]:
+) -> Iterator[_ReplicaShift | None]:
     """Draw shifts from their covariance, endlessly; None where no law follows or they rise."""
     known = superposition.temperatures
     laid = superposition.shifts
@@ -325,10 +328,12 @@ def _drawn(
                     continue
                 shifts = np.array([law.log10_a_T(known), drawn[1]])
             moved = [np.interp(at, known, change) for change in shifts - laid]
-            yield None if np.any(np.diff(shifts[0]) >= 0.0) else _Shifted(shifts, moved, law)
+            yield None if np.any(np.diff(shifts[0]) >= 0.0) else _ReplicaShift(shifts, moved, law)
 
 
-def _ratios(ratio: FloatArray, leverage: FloatArray, widened: float = CALIBRATION) -> tuple[FloatArray, int]:
+def _resampling_ratios(
+    ratio: FloatArray, leverage: FloatArray, widened: float = RESIDUAL_WIDENING
+) -> tuple[FloatArray, int]:
     """Ratios data/fit of E' and E'' to draw from, `(2, n)`, mean 1 each [-], and the block length [rows]."""
     error = (ratio - 1.0).reshape(2, -1)
     size = error.shape[1]

@@ -8,9 +8,9 @@ import numpy as np
 
 from conveyor.rubber.arrays import FloatArray
 
-DEGREE = 3
+SPLINE_DEGREE = 3
 """Cubic: continuous curvature, so that the slope, which places an isotherm, is smooth."""
-ORDER = 3
+PENALTY_ORDER = 3
 """Order of the penalised differences: a parabola in log-log is free, and bends cost."""
 KNOT_SPACING = 0.2
 """Distance of the knots [decades]. A Debye peak in ln E'' has a fourth derivative below 50 per decade^4:
@@ -20,14 +20,14 @@ MAX_KNOTS = 300
 STIFFNESS = np.arange(-7.0, 7.01, 1.0)
 """Offered log10 of the stiffness; beyond the lower end the curve interpolates, beyond the upper it is a
 parabola."""
-FINE = np.array([-0.5, -0.25, 0.0, 0.25, 0.5])
+STIFFNESS_REFINEMENT = np.array([-0.5, -0.25, 0.0, 0.25, 0.5])
 """Refinement about the best of `STIFFNESS`: the likelihood is flat over such steps."""
 
 LN10 = float(np.log(10.0))
 
 
 @dataclass(frozen=True, eq=False)
-class Basis:
+class SplineBasis:
     """Cubic B-splines on knots at whole multiples of a spacing, so that a shift moves data, not knots.
 
     Parameters
@@ -48,24 +48,24 @@ class Basis:
     penalty: FloatArray
 
 
-def basis(x: FloatArray, spacing: float) -> Basis:
+def spline_basis(x: FloatArray, spacing: float) -> SplineBasis:
     """Splines over log10 of the reduced frequency, shape `(n,)`, with knots at a distance [decades]."""
     from scipy.interpolate import BSpline
 
     first, last = int(np.floor(x.min() / spacing)), int(np.floor(x.max() / spacing)) + 1
-    knots = spacing * np.arange(first - DEGREE, last + DEGREE + 1, dtype=np.float64)
-    count = knots.size - DEGREE - 1
-    matrix = BSpline.design_matrix(x, knots, DEGREE).toarray()
-    lower = BSpline.design_matrix(x, knots[1:-1], DEGREE - 1).toarray() / spacing
+    knots = spacing * np.arange(first - SPLINE_DEGREE, last + SPLINE_DEGREE + 1, dtype=np.float64)
+    count = knots.size - SPLINE_DEGREE - 1
+    matrix = BSpline.design_matrix(x, knots, SPLINE_DEGREE).toarray()
+    lower = BSpline.design_matrix(x, knots[1:-1], SPLINE_DEGREE - 1).toarray() / spacing
     slope = np.zeros_like(matrix)
     slope[:, 1:] += lower
     slope[:, :-1] -= lower
-    bends = np.asarray(np.diff(np.eye(count), ORDER, axis=0), dtype=np.float64)
-    return Basis(knots, matrix, slope, _banded(bends, bends))
+    bends = np.asarray(np.diff(np.eye(count), PENALTY_ORDER, axis=0), dtype=np.float64)
+    return SplineBasis(knots, matrix, slope, _lower_diagonals(bends, bends))
 
 
 @dataclass(frozen=True, eq=False)
-class Curve:
+class SmoothCurve:
     """One smooth curve through one modulus of all isotherms.
 
     Parameters
@@ -101,7 +101,7 @@ class Smoother:
 
     Parameters
     ----------
-    splines : Basis
+    splines : SplineBasis
         Splines at the data.
     y : numpy.ndarray
         ln of the modulus, shape `(n,)` [-].
@@ -109,16 +109,16 @@ class Smoother:
         Weight of each row, shape `(n,)` [-].
     """
 
-    def __init__(self, splines: Basis, y: FloatArray, weight: FloatArray) -> None:
+    def __init__(self, splines: SplineBasis, y: FloatArray, weight: FloatArray) -> None:
         self.splines, self.weight = splines, weight
         self.y = y - np.mean(y)  # constants are free of penalty; without the mean fewer digits are lost
         b = splines.matrix
         weighted = weight[:, None] * b
-        self.normal = _banded(b, weighted)
+        self.normal = _lower_diagonals(b, weighted)
         self.penalty = splines.penalty
         self.right = weighted.T @ self.y
 
-    def curve(self, stiffness: float) -> Curve:
+    def curve(self, stiffness: float) -> SmoothCurve:
         """Fit at a stiffness, log10 of the factor on the penalty [-]."""
         from scipy.linalg import cho_solve_banded, cholesky_banded
 
@@ -126,16 +126,16 @@ class Smoother:
         factor = cholesky_banded(self.normal + strength * self.penalty, lower=True)
         coefficients = cho_solve_banded((factor, True), self.right)
         residual = self.y - splines.matrix @ coefficients
-        bends = np.diff(coefficients, ORDER)
+        bends = np.diff(coefficients, PENALTY_ORDER)
         cost = float(self.weight @ residual**2 + strength * bends @ bends)
         determinant = 2.0 * float(np.sum(np.log(factor[0])))
-        occam = determinant - (coefficients.size - ORDER) * LN10 * stiffness
-        return Curve(factor, residual, splines.slope @ coefficients, cost, occam)
+        occam = determinant - (coefficients.size - PENALTY_ORDER) * LN10 * stiffness
+        return SmoothCurve(factor, residual, splines.slope @ coefficients, cost, occam)
 
     def likelihood(self, stiffness: float) -> float:
         """-2 log of the restricted likelihood at a stiffness, up to a constant [-]."""
         one = self.curve(stiffness)
-        free = self.y.size - ORDER
+        free = self.y.size - PENALTY_ORDER
         return free * float(np.log(max(one.cost, np.finfo(np.float64).tiny))) + one.occam
 
     def best_stiffness(self) -> float:
@@ -145,14 +145,14 @@ class Smoother:
         B. D. Marx, Statist. Sci. 11 (1996) 89-121 (penalised B-splines).
         """
         coarse = STIFFNESS[int(np.argmin([self.likelihood(float(s)) for s in STIFFNESS]))]
-        near = coarse + FINE
+        near = coarse + STIFFNESS_REFINEMENT
         return float(near[int(np.argmin([self.likelihood(float(s)) for s in near]))])
 
 
-def _banded(left: FloatArray, right: FloatArray) -> FloatArray:
+def _lower_diagonals(left: FloatArray, right: FloatArray) -> FloatArray:
     """Lower diagonals of left^T right, of bandwidth 3, shape `(4, k)`; only those are formed."""
     size = left.shape[1]
-    lower = np.zeros((DEGREE + 1, size))
-    for d in range(DEGREE + 1):
+    lower = np.zeros((SPLINE_DEGREE + 1, size))
+    for d in range(SPLINE_DEGREE + 1):
         lower[d, : size - d] = np.einsum("ij,ij->j", right[:, : size - d], left[:, d:])
     return lower

@@ -9,20 +9,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.rubber.arrays import FloatArray, positive
-from conveyor.rubber.misfit import Misfit, misfit, neighbour_correlation, scatter
-from conveyor.rubber.prony import PronySeries
-from conveyor.rubber.rows import (
+from conveyor.rubber.arrays import FloatArray, positive_number
+from conveyor.rubber.fit_rows import (
     NO_TERM,
-    Rows,
+    FitRows,
     checked_rows,
     even_times,
+    fit_moduli,
     given_times,
     held_equilibrium,
-    plain,
-    relative_to_fit,
+    scale_to_fit,
 )
-from conveyor.rubber.term_count import REACH, Candidate, Penalised, choose
+from conveyor.rubber.misfit import Misfit, neighbour_correlation, relative_misfit, row_scatter
+from conveyor.rubber.prony import PronySeries
+from conveyor.rubber.term_count import REACH, Candidate, PenalisedFit, choose_terms
 
 __all__ = ["Misfit", "PronyFit", "fit_prony"]
 
@@ -76,7 +76,7 @@ class PronyFit:
         Correlation of each residual with its neighbour in frequency, the larger of E' and E'' [-].
     candidates : tuple of Candidate
         The criterion's table, the chosen line first; empty if the times were given.
-    rows : Rows
+    rows : FitRows
         The measurements as they were fitted, for `bootstrap`.
     held : float or None
         Equilibrium modulus held; None if fitted [Pa].
@@ -106,7 +106,7 @@ class PronyFit:
     loss_noise: float | None
     correlation: float
     candidates: tuple[Candidate, ...]
-    rows: Rows = field(repr=False, compare=False)
+    rows: FitRows = field(repr=False, compare=False)
     held: float | None
 
     @property
@@ -132,7 +132,7 @@ class PronyFit:
 
     def _repr_html_(self) -> str:
         """For notebooks: the series, and how far it is from the data."""
-        from conveyor.markup import Html, joined, listing
+        from conveyor.markup import Html, join_html, name_value_table
 
         rows = [
             ("data", f"{self.window[0]:.4g} to {self.window[1]:.4g} Hz"),
@@ -146,7 +146,7 @@ class PronyFit:
             ),
             ("any positive spectrum leaves", f"{100.0 * self.consistency_floor:.1f} %"),
         ]
-        return joined([listing("PronyFit", rows), Html(self.series._repr_html_())])
+        return join_html([name_value_table("PronyFit", rows), Html(self.series._repr_html_())])
 
 
 def fit_prony(
@@ -181,7 +181,7 @@ def fit_prony(
     equilibrium : float, optional
         Equilibrium modulus to hold, below every E'; fitted when left out [Pa].
     regularisation : float, optional
-        Strength of the penalty on the curvature of the spectrum, >= 0, see `Penalised`. Left out: chosen by
+        Strength of the penalty on the curvature of the spectrum, >= 0, see `PenalisedFit`. Left out: chosen by
         the criterion together with the density; 0 where density or times are given [-].
     relative_to : {"fit", "data"}, optional
         What the minimised errors are divided by. Left out: the fit; the data where density or times are
@@ -216,14 +216,14 @@ def fit_prony(
     are not determined by the data: with them a free E_e of the shelf's S120 fell from 3 MPa to 0 at nearly the same
     residual.
     A decade loses it 13 %, and the penalty holds the spectrum there to the slope that E'' has at the end of the
-    window (see `Penalised`). So E_e is what does not relax within ten times the slowest measured period.
+    window (see `PenalisedFit`). So E_e is what does not relax within ten times the slowest measured period.
 
     There, too, a row that stands off by more than four robust standard deviations of its modulus loses its
-    pull (`conveyor.rubber.misfit.trust`); it still counts in the misfits.
+    pull (`conveyor.rubber.misfit.hampel_weights`); it still counts in the misfits.
 
     The number of terms: densities of 2 to 8 a decade and seven strengths of the penalty are fitted, spectra of few
     lines on finer ones, and of those that AICc cannot tell from the best the one with the fewest terms is taken
-    (see `choose`).
+    (see `choose_terms`).
 
     A dense grid (2 a decade and more) returns twins: neighbours that together stand for one time between
     them. They are not merged: the pair is the least-squares answer on its grid, and a merged line would
@@ -258,45 +258,45 @@ def fit_prony(
     """
     rows = checked_rows(frequency, storage, loss, storage_error=storage_error, loss_error=loss_error)
     held = None if equilibrium is None else held_equilibrium(equilibrium, rows.storage)
-    asked = None if regularisation is None else _strength(regularisation)
-    tau = _asked_times(rows, terms_per_decade, times, held)
-    if _relative(relative_to, chosen=tau is None) == "fit":
+    asked = None if regularisation is None else _penalty_strength(regularisation)
+    tau = _chosen_times(rows, terms_per_decade, times, held)
+    if _error_reference(relative_to, chosen=tau is None) == "fit":
         first = even_times(rows.omega, REFERENCE_TERMS_PER_DECADE, REACH) if tau is None else tau
-        rows = relative_to_fit(rows, first, held)
+        rows = scale_to_fit(rows, first, held)
     candidates: tuple[Candidate, ...] = ()
     strength = 0.0 if asked is None else asked
     if tau is None:
-        tau, strength, candidates = choose(rows, held, *([] if asked is None else [(asked,)]))
-    return _judged(rows, tau, strength, held, candidates)
+        tau, strength, candidates = choose_terms(rows, held, *([] if asked is None else [(asked,)]))
+    return _fit_on_times(rows, tau, strength, held, candidates)
 
 
-def _asked_times(
-    rows: Rows, density: float | None, times: ArrayLike | None, held: float | None
+def _chosen_times(
+    rows: FitRows, density: float | None, times: ArrayLike | None, held: float | None
 ) -> FloatArray | None:
     if density is not None:
-        positive("terms_per_decade", density, "1/decade")
+        positive_number("terms_per_decade", density, "1/decade")
     if times is not None:
         return given_times(times, rows.omega, held)
     return None if density is None else even_times(rows.omega, density)
 
 
-def _strength(regularisation: float) -> float:
+def _penalty_strength(regularisation: float) -> float:
     if not (np.isfinite(regularisation) and regularisation >= 0.0):
         raise InputError(f"regularisation = {regularisation:g} must be finite and >= 0; 0 is none")
     return float(regularisation)
 
 
-def _relative(relative_to: str | None, *, chosen: bool) -> str:
+def _error_reference(relative_to: str | None, *, chosen: bool) -> str:
     if relative_to not in {"fit", "data", None}:
         raise InputError(f'relative_to = {relative_to!r} must be "fit" or "data"')
     return relative_to or ("fit" if chosen else "data")
 
 
-def _judged(
-    rows: Rows, tau: FloatArray, strength: float, held: float | None, candidates: tuple[Candidate, ...]
+def _fit_on_times(
+    rows: FitRows, tau: FloatArray, strength: float, held: float | None, candidates: tuple[Candidate, ...]
 ) -> PronyFit:
     """Fit on given times, and collect the statistics."""
-    problem = Penalised(rows, tau, held)
+    problem = PenalisedFit(rows, tau, held)
     solution = problem.judged(rows.target, strength)
     moduli = solution.moduli
     terms = moduli[1:] > 0.0
@@ -314,9 +314,9 @@ def _judged(
     error1, error2 = series.storage(omega) / rows.storage - 1.0, series.loss(omega) / rows.loss - 1.0
     return PronyFit(
         series=series,
-        storage=misfit(error1, f),
-        loss=misfit(error2, f),
-        tan_delta=misfit((1.0 + error2) / (1.0 + error1) - 1.0, f),
+        storage=relative_misfit(error1, f),
+        loss=relative_misfit(error2, f),
+        tan_delta=relative_misfit((1.0 + error2) / (1.0 + error1) - 1.0, f),
         window=(float(f[0]), float(f[-1])),
         grid_terms=int(tau.size),
         condition=float(np.linalg.cond(columns / np.linalg.norm(columns, axis=0))),
@@ -325,8 +325,8 @@ def _judged(
         best_errors=(best / rows.target).reshape(2, -1),
         regularisation=strength,
         freedom=solution.freedom,
-        storage_noise=scatter(f, rows.storage),
-        loss_noise=scatter(f, rows.loss),
+        storage_noise=row_scatter(f, rows.storage),
+        loss_noise=row_scatter(f, rows.loss),
         correlation=max(neighbour_correlation(error1), neighbour_correlation(error2)),
         candidates=candidates,
         rows=rows,
@@ -337,13 +337,11 @@ def _judged(
 def consistency_floor(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike) -> float:
     """Residual of the best of all positive spectra [-], see `PronyFit.consistency_floor`."""
     rows = checked_rows(frequency, storage, loss, storage_error=None, loss_error=None)
-    best = _best_errors(
-        relative_to_fit(rows, even_times(rows.omega, REFERENCE_TERMS_PER_DECADE, REACH), None)
-    )
+    best = _best_errors(scale_to_fit(rows, even_times(rows.omega, REFERENCE_TERMS_PER_DECADE, REACH), None))
     return float(np.sqrt(np.mean(best**2)))
 
 
-def _best_errors(rows: Rows) -> FloatArray:
+def _best_errors(rows: FitRows) -> FloatArray:
     """Errors of the best of all positive spectra over the scale of the rows, shape `(2n,)` [-]."""
     tau = even_times(rows.omega, FLOOR_TERMS_PER_DECADE, FLOOR_EXTRA_DECADES)
-    return np.asarray(rows.matrix(tau) @ plain(rows, tau, None) - rows.target)
+    return np.asarray(rows.matrix(tau) @ fit_moduli(rows, tau, None) - rows.target)

@@ -7,9 +7,9 @@ from numpy.typing import ArrayLike
 
 from conveyor.errors import InputError
 from conveyor.rubber.arrays import FloatArray, positive_vector
-from conveyor.rubber.non_negative import non_negative
-from conveyor.rubber.rows import Rows, even_times, kernel
-from conveyor.rubber.term_count import Penalised, choose
+from conveyor.rubber.fit_rows import FitRows, debye_kernel, even_times
+from conveyor.rubber.non_negative import non_negative_least_squares
+from conveyor.rubber.term_count import PenalisedFit, choose_terms
 
 LINES_PER_DECADE = 2.0
 """Density of the first estimate: E'' ripples by 0.08 % (`conveyor.rubber.fit_prony`) [1/decade]."""
@@ -44,7 +44,8 @@ def equivalent_sweep(time: ArrayLike, modulus: ArrayLike) -> tuple[FloatArray, F
     Notes
     -----
     A series is fitted to E(t), relative errors, moduli >= 0, its times and the penalty on its curvature chosen as those
-    of a frequency sweep (`conveyor.rubber.term_count.choose`), and evaluated at omega = 1/t (Park and Schapery 1999, by
+    of a frequency sweep (`conveyor.rubber.term_count.choose_terms`), and evaluated at omega = 1/t (Park and Schapery
+    1999, by
     a Prony series). One per cent of E(t) is many per cent of a small E'': of a tan delta of 0.2 two, of one of 0.05
     eight. The rows are no independent measurements: they carry the smoothness of the series.
 
@@ -71,27 +72,29 @@ def equivalent_sweep(time: ArrayLike, modulus: ArrayLike) -> tuple[FloatArray, F
             "end says nothing certain of E' and E''"
         )
     order = np.argsort(-t, kind="stable")
-    rows = _Relaxation.of(t[order], e[order])
-    tau, strength, _ = choose(rows, None)
-    solution = Penalised(rows, tau, None).solve(rows.target, strength)
+    rows = _RelaxationRows.of(t[order], e[order])
+    tau, strength, _ = choose_terms(rows, None)
+    solution = PenalisedFit(rows, tau, None).solve(rows.target, strength)
     inside = high - low - 2.0 * MARGIN
     omega = np.logspace(MARGIN - high, -low - MARGIN, round(ROWS_PER_DECADE * inside) + 1)
-    storage, loss = np.split(kernel(omega, tau) @ solution, 2)
+    storage, loss = np.split(debye_kernel(omega, tau) @ solution, 2)
     return omega / (2.0 * np.pi), storage, loss
 
 
-class _Relaxation(Rows):
+class _RelaxationRows(FitRows):
     """E(t) as rows of a fit, each at omega = 1/t; `loss` is a first estimate of E'' there."""
 
     @classmethod
-    def of(cls, t: FloatArray, e: FloatArray) -> _Relaxation:
+    def of(cls, t: FloatArray, e: FloatArray) -> _RelaxationRows:
         """Rows of times that fall [s] and E(t) [Pa]."""
         frequency, scale, trust = 0.5 / (np.pi * t), np.concatenate([e, e]), np.ones(2 * t.size)
         plain = cls(frequency, e, e, scale, trust)
         tau = even_times(plain.omega, LINES_PER_DECADE)
         unit = float(e.min())
         loss = (
-            kernel(plain.omega, tau)[t.size :] @ non_negative(plain.matrix(tau) * unit, plain.target) * unit
+            debye_kernel(plain.omega, tau)[t.size :]
+            @ non_negative_least_squares(plain.matrix(tau) * unit, plain.target)
+            * unit
         )
         if not np.all(loss > 0.0):
             raise InputError("relaxation: E(t) does not fall, no loss modulus follows from it")

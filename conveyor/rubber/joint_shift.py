@@ -10,14 +10,22 @@ from numpy.typing import NDArray
 
 from conveyor.errors import NoSolutionError
 from conveyor.rubber.arrays import FloatArray
-from conveyor.rubber.common_curve import KNOT_SPACING, MAX_KNOTS, ORDER, Basis, Curve, Smoother, basis
-from conveyor.rubber.misfit import trust
-from conveyor.rubber.overlap import LogIsotherm, reach
+from conveyor.rubber.common_curve import (
+    KNOT_SPACING,
+    MAX_KNOTS,
+    PENALTY_ORDER,
+    SmoothCurve,
+    Smoother,
+    SplineBasis,
+    spline_basis,
+)
+from conveyor.rubber.misfit import hampel_weights
+from conveyor.rubber.overlap import LogIsotherm, shift_limits
 
-Curves = tuple[Curve, ...]
+ModulusCurves = tuple[SmoothCurve, ...]
 """Common curve of each modulus that counts."""
 
-CHOICES = 6
+CHOICE_ROUNDS = 6
 """Rounds in which stiffness, noise and weights are chosen anew; afterwards they stay, so that the objective
 is one and its minimum is reached even where isotherms of different shape let the choice wander."""
 ROUNDS = 15
@@ -28,24 +36,24 @@ HALVINGS = 12
 """Halvings of a step that does not descend."""
 LONGEST_STEP = 0.5
 """Longest move of an isotherm in one step: the slope of the curve holds about so far [decades]."""
-ARRIVED = 1.0e-2
+STEP_TOLERANCE = 1.0e-2
 """A step this small against the standard error is the minimum [-]."""
-UNEVEN = 0.5
+RATE_SCATTER = 0.5
 """Standard deviation, over their mean, of the change of the decades per kelvin from one pair of neighbours to the
 next. The law of Williams, Landel and Ferry changes them by a tenth to a fifth in 7 K; a measured slope outweighs this
 at once, a curve without slope leaves nothing else [-]."""
 LEAST_RATE = 0.005
 """Smallest mean shift for this: an activation energy of 8 kJ/mol, below any rubber's [decades/K]."""
-ROUNDING = 1.0e-9
+ROUNDING_STEP = 1.0e-9
 """A step this small is rounding [decades]."""
-SINGULAR = 1.0e-11
+SINGULAR_RATIO = 1.0e-11
 """Smallest eigenvalue, over the largest, of normal equations that can be solved [-]."""
-FLOOR = 1.0e-9
+SCATTER_FLOOR = 1.0e-9
 """Scatter of ln E below which the digits of the data, not their noise, are seen [-]."""
 
 
 @dataclass(frozen=True, eq=False)
-class Placed:
+class JointMinimum:
     """Shifts at the least-squares minimum.
 
     Parameters
@@ -76,7 +84,7 @@ class Placed:
 
 
 @dataclass(frozen=True, eq=False)
-class _State:
+class _RoundState:
     """Spacing, stiffness, variance and weights held during a round, for each modulus that counts."""
 
     spacing: float
@@ -101,7 +109,7 @@ class JointShift:
     Notes
     -----
     The unknowns are the steps between neighbours, cold less hot: log10 a_T of all pairs, then ln b_T. A step
-    stays within the limits of `reach`: isotherms of different shape would otherwise be torn apart, since
+    stays within the limits of `shift_limits`: isotherms of different shape would otherwise be torn apart, since
     without an overlap nothing contradicts.
     """
 
@@ -117,24 +125,26 @@ class JointShift:
         self.vertical = vertical
         kelvin = np.diff([s.temperature for s in sheets])
         self.rates = np.pad(np.diag(1.0 / kelvin), ((0, 0), (0, len(kelvin) if vertical else 0)))
-        limits = np.array([reach(cold, hot) for cold, hot in pairwise(sheets)])
+        limits = np.array([shift_limits(cold, hot) for cold, hot in pairwise(sheets)])
         free = np.full((self.count - 1 if vertical else 0, 2), [-np.inf, np.inf])
         self.lower, self.upper = np.vstack([limits, free]).T
 
-    def minimum(self, start: FloatArray) -> Placed:
+    def minimum(self, start: FloatArray) -> JointMinimum:
         """Solve for steps of log10 a_T and ln b_T between neighbours, stiffness and weights re-estimated each round."""
         place = np.clip(start.ravel() if self.vertical else start[0], self.lower, self.upper)
         share, weight = np.zeros(len(self.y)), np.ones_like(self.y)
-        state = self._choose(place, weight, share)
+        state = self._choose_smoothing(place, weight, share)
         for turn in range(ROUNDS):
             moved, covariance, share, curves = self._descend(place, state)
-            far = np.abs(moved - place) > np.maximum(ARRIVED * np.sqrt(np.diagonal(covariance)), ROUNDING)
+            far = np.abs(moved - place) > np.maximum(
+                STEP_TOLERANCE * np.sqrt(np.diagonal(covariance)), ROUNDING_STEP
+            )
             place = moved
             if not far.any():
                 return self._placed(place, covariance, state, curves)
-            if turn < CHOICES:
-                weight = np.array([trust(c.residual) for c in curves])
-                state = self._choose(place, weight, share)
+            if turn < CHOICE_ROUNDS:
+                weight = np.array([hampel_weights(c.residual) for c in curves])
+                state = self._choose_smoothing(place, weight, share)
         raise NoSolutionError(
             f"the shifts do not settle in {ROUNDS} rounds: the isotherms do not determine them; look for one"
             " that is flat or of another shape, and leave it out"
@@ -147,59 +157,68 @@ class JointShift:
         ----------
         C. R. Rao, Proc. Camb. Phil. Soc. 44 (1948) 50-57.
         """
-        state = self._choose(place, np.array([trust(one) for one in residual]), np.zeros(len(self.y)))
-        parts, gradient = self._normal(*self._fit(place, state), state)
+        state = self._choose_smoothing(
+            place, np.array([hampel_weights(one) for one in residual]), np.zeros(len(self.y))
+        )
+        parts, gradient = self._normal_equations(*self._fit(place, state), state)
         down = gradient - state.evenness @ place
-        return float(down @ _inverse(parts.sum(axis=0) + state.evenness) @ down)
+        return float(down @ _invert_normal_matrix(parts.sum(axis=0) + state.evenness) @ down)
 
-    def _choose(self, place: FloatArray, weight: FloatArray, share: FloatArray) -> _State:
+    def _choose_smoothing(self, place: FloatArray, weight: FloatArray, share: FloatArray) -> _RoundState:
         x, y = self._moved(place)
         spacing = max(KNOT_SPACING, float(np.ptp(x)) / MAX_KNOTS)
-        splines = basis(x, spacing)
+        splines = spline_basis(x, spacing)
         smoothers = [Smoother(splines, one, w) for one, w in zip(y, weight, strict=True)]
         best = tuple(s.best_stiffness() for s in smoothers)
         cost = np.array([s.curve(b).cost for s, b in zip(smoothers, best, strict=True)])
-        freedom = np.maximum(weight.sum(axis=1) - ORDER - share, 1.0)
+        freedom = np.maximum(weight.sum(axis=1) - PENALTY_ORDER - share, 1.0)
         rates = self.rates @ place
-        uneven = np.diff(self.rates, axis=0) / (UNEVEN * max(float(np.mean(np.abs(rates))), LEAST_RATE))
-        return _State(spacing, best, np.maximum(cost / freedom, FLOOR**2), weight, uneven.T @ uneven)
+        uneven = np.diff(self.rates, axis=0) / (RATE_SCATTER * max(float(np.mean(np.abs(rates))), LEAST_RATE))
+        return _RoundState(
+            spacing, best, np.maximum(cost / freedom, SCATTER_FLOOR**2), weight, uneven.T @ uneven
+        )
 
-    def _descend(self, place: FloatArray, state: _State) -> tuple[FloatArray, FloatArray, FloatArray, Curves]:
+    def _descend(
+        self, place: FloatArray, state: _RoundState
+    ) -> tuple[FloatArray, FloatArray, FloatArray, ModulusCurves]:
         """Projected Gauss-Newton steps; place, covariance, effective parameters of each modulus, curves."""
         splines, curves = self._fit(place, state)
         for _ in range(STEPS):
-            parts, gradient = self._normal(splines, curves, state)
+            parts, gradient = self._normal_equations(splines, curves, state)
             whole = parts.sum(axis=0) + state.evenness
             gradient -= state.evenness @ place
             held = ((place <= self.lower) & (gradient < 0.0)) | ((place >= self.upper) & (gradient > 0.0))
             move = np.zeros_like(place)
             free = ~held
-            inner = _inverse(whole[np.ix_(free, free)])
+            inner = _invert_normal_matrix(whole[np.ix_(free, free)])
             move[free] = inner @ gradient[free]
             move /= max(1.0, float(np.max(np.abs(move))) / LONGEST_STEP)
-            small = np.maximum(ARRIVED * np.sqrt(np.diagonal(inner)) / 2.0, ROUNDING)
+            small = np.maximum(STEP_TOLERANCE * np.sqrt(np.diagonal(inner)) / 2.0, ROUNDING_STEP)
             if np.all(np.abs(move[free]) <= small):
                 break
-            before = _total(curves, state) + place @ state.evenness @ place
+            before = _total_cost(curves, state) + place @ state.evenness @ place
             for halving in range(HALVINGS):
                 trial = np.clip(place + move / 2.0**halving, self.lower, self.upper)
                 splines, curves = self._fit(trial, state)
-                if _total(curves, state) + trial @ state.evenness @ trial < before:
+                if _total_cost(curves, state) + trial @ state.evenness @ trial < before:
                     place = trial
                     break
             else:
                 splines, curves = self._fit(place, state)
                 break
-        inverse = _inverse(whole)
+        inverse = _invert_normal_matrix(whole)
         wide = [
-            _widening(c.residual * np.sqrt(w), self.of) for c, w in zip(curves, state.weight, strict=True)
+            _variance_widening(c.residual * np.sqrt(w), self.of)
+            for c, w in zip(curves, state.weight, strict=True)
         ]
         told = np.einsum("k,kij->ij", np.array(wide), parts) + state.evenness
         covariance = inverse @ told @ inverse
         share = np.array([float(np.sum(inverse * part)) for part in parts])
         return place, covariance, share, curves
 
-    def _normal(self, splines: Basis, curves: Curves, state: _State) -> tuple[FloatArray, FloatArray]:
+    def _normal_equations(
+        self, splines: SplineBasis, curves: ModulusCurves, state: _RoundState
+    ) -> tuple[FloatArray, FloatArray]:
         """Normal matrices of the steps of each modulus, curves eliminated; downward gradient."""
         parts, gradient = [], np.zeros(self.lower.size)
         for one, weight, variance in zip(curves, state.weight, state.variance, strict=True):
@@ -213,9 +232,9 @@ class JointShift:
             gradient[: self.count - 1] -= turning @ self.to_rows
         return np.array(parts), gradient
 
-    def _fit(self, place: FloatArray, state: _State) -> tuple[Basis, Curves]:
+    def _fit(self, place: FloatArray, state: _RoundState) -> tuple[SplineBasis, ModulusCurves]:
         x, y = self._moved(place)
-        splines = basis(x, state.spacing)
+        splines = spline_basis(x, state.spacing)
         rows = zip(y, state.weight, state.stiffness, strict=True)
         return splines, tuple(Smoother(splines, one, w).curve(stiffness) for one, w, stiffness in rows)
 
@@ -225,53 +244,55 @@ class JointShift:
         x = self.x + self.to_rows @ place[:steps]
         return x, self.y - self.to_rows @ place[steps:] if self.vertical else self.y
 
-    def _placed(self, place: FloatArray, covariance: FloatArray, state: _State, curves: Curves) -> Placed:
+    def _placed(
+        self, place: FloatArray, covariance: FloatArray, state: _RoundState, curves: ModulusCurves
+    ) -> JointMinimum:
         n = self.count
         full, each = np.zeros((2 * n, 2 * n)), np.zeros(2 * n)
         size = len(self.sums)
         each[:size] = self.sums @ place
         full[:size, :size] = self.sums @ covariance @ self.sums.T
         at_limit = (place <= self.lower) | (place >= self.upper)
-        return Placed(
+        return JointMinimum(
             shift=each[:n],
             offset=each[n:],
             covariance=full,
             held=at_limit[: n - 1],
             scatter=tuple(np.sqrt(state.variance).tolist()),
-            correlation=max(_together(c.residual, self.of) for c in curves),
+            correlation=max(_isotherm_correlation(c.residual, self.of) for c in curves),
             residual=np.array([c.residual for c in curves]),
         )
 
 
-def _total(curves: Curves, state: _State) -> float:
+def _total_cost(curves: ModulusCurves, state: _RoundState) -> float:
     return float(sum(c.cost / v + c.occam for c, v in zip(curves, state.variance, strict=True)))
 
 
-def _together(residual: FloatArray, of: NDArray[np.intp]) -> float:
+def _isotherm_correlation(residual: FloatArray, of: NDArray[np.intp]) -> float:
     """Correlation of neighbouring rows of the same isotherm [-]."""
     total = float(residual @ residual)
     same = of[1:] == of[:-1]
     return float((residual[1:] * residual[:-1])[same].sum()) / total if total > 0.0 else 0.0
 
 
-def _widening(residual: FloatArray, of: NDArray[np.intp]) -> float:
+def _variance_widening(residual: FloatArray, of: NDArray[np.intp]) -> float:
     """Variance of a mean of correlated rows over that of independent ones [-]."""
-    c = _together(residual, of)
+    c = _isotherm_correlation(residual, of)
     return (1.0 + c) / (1.0 - c) if c > 2.0 / np.sqrt(residual.size) else 1.0
 
 
-def _inverse(matrix: FloatArray) -> FloatArray:
+def _invert_normal_matrix(matrix: FloatArray) -> FloatArray:
     """Inverse of the normal matrix, refused where a combination of shifts is not determined."""
     scale = np.sqrt(np.diagonal(matrix))
     if not np.all(scale > 0.0):
-        raise NoSolutionError(UNDETERMINED)
+        raise NoSolutionError(UNDETERMINED_SHIFTS)
     values, vectors = np.linalg.eigh(matrix / np.outer(scale, scale))
-    if values[0] < SINGULAR * values[-1]:
-        raise NoSolutionError(UNDETERMINED)
+    if values[0] < SINGULAR_RATIO * values[-1]:
+        raise NoSolutionError(UNDETERMINED_SHIFTS)
     return np.asarray((vectors / values) @ vectors.T / np.outer(scale, scale))
 
 
-UNDETERMINED = (
+UNDETERMINED_SHIFTS = (
     "the isotherms do not determine their shifts: a curve without slope can be moved sideways, and with"
     " vertical=True a straight line in log-log along itself; leave such isotherms out, or vertical=False"
 )

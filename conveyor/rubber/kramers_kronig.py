@@ -9,9 +9,9 @@ from numpy.typing import ArrayLike
 
 from conveyor.errors import InputError
 from conveyor.rubber.arrays import FloatArray
-from conveyor.rubber.misfit import Misfit, misfit
-from conveyor.rubber.rows import Rows, checked_rows, even_times, kernel
-from conveyor.rubber.term_count import Penalised, aicc
+from conveyor.rubber.fit_rows import FitRows, checked_rows, debye_kernel, even_times
+from conveyor.rubber.misfit import Misfit, relative_misfit
+from conveyor.rubber.term_count import PenalisedFit, aicc
 
 LINES_PER_DECADE = 4.0
 """Lines d apart in ln(time) ripple by 4 exp(-pi^2/d): here 1e-7 for a smooth spectrum. A spectrum of few sharp
@@ -22,10 +22,10 @@ MARGIN = 1.0
 """Ends of the window that are not judged: a line a decade outside, unseen by the data, moves E'' there by a tenth of
 its modulus [decades]."""
 STRENGTHS = (1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0)
-"""Offered penalties on the curvature of the spectrum, see `Penalised`; AICc chooses [-]."""
+"""Offered penalties on the curvature of the spectrum, see `PenalisedFit`; AICc chooses [-]."""
 LEAST_ROWS = 6
 """Rows in the judged window: a slope and a curvature, each twice over."""
-IGNORED = 1.0e150
+IGNORED_SCALE = 1.0e150
 """Scale that gives a row no weight: its square is still finite, its reciprocal's square is nothing."""
 
 
@@ -95,7 +95,7 @@ class KramersKronig:
     predicted_storage: FloatArray = field(repr=False)
 
 
-def testable(frequency: ArrayLike) -> bool:
+def kramers_kronig_applicable(frequency: ArrayLike) -> bool:
     """True if enough rows lie a decade and more from both ends of the window for `kramers_kronig`.
 
     Parameters
@@ -105,7 +105,7 @@ def testable(frequency: ArrayLike) -> bool:
 
     Examples
     --------
-    >>> testable(np.logspace(0, 2, 30)), testable(np.logspace(-2, 4, 30))
+    >>> kramers_kronig_applicable(np.logspace(0, 2, 30)), kramers_kronig_applicable(np.logspace(-2, 4, 30))
     (False, True)
     """
     f = np.asarray(frequency, dtype=float)
@@ -174,10 +174,10 @@ def kramers_kronig(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike) ->
             " superpose isotherms"
         )
     tau = even_times(omega, LINES_PER_DECADE, REACH)
-    unit = kernel(omega, tau)
+    unit = debye_kernel(omega, tau)
     n = f.size
-    by_storage, storage_fit = _one_sided(rows, tau, slice(n, None))
-    by_loss, loss_fit = _one_sided(rows, tau, slice(0, n))
+    by_storage, storage_fit = _one_sided_spectrum(rows, tau, slice(n, None))
+    by_loss, loss_fit = _one_sided_spectrum(rows, tau, slice(0, n))
     predicted_loss = unit[n:] @ by_storage
     level = unit[:n, 1:] @ by_loss[1:]
     # constant of least squares of the relative errors: E' = level + constant
@@ -188,25 +188,25 @@ def kramers_kronig(frequency: ArrayLike, storage: ArrayLike, loss: ArrayLike) ->
     share = (unit[n:, 1:][:, beyond] @ by_storage[1:][beyond]) / predicted_loss
     error_loss, error_storage = predicted_loss / rows.loss - 1.0, predicted_storage / rows.storage - 1.0
     return KramersKronig(
-        loss=misfit(error_loss[inside], f[inside]),
-        storage=misfit(error_storage[inside], f[inside]),
+        loss=relative_misfit(error_loss[inside], f[inside]),
+        storage=relative_misfit(error_storage[inside], f[inside]),
         judged=(float(low), float(high)),
         storage_fit=storage_fit,
         loss_fit=loss_fit,
         outside=float(share[inside].max()),
-        decades=_decades(f[inside], error_loss[inside], error_storage[inside]),
+        decades=_errors_by_decade(f[inside], error_loss[inside], error_storage[inside]),
         frequency=f,
         predicted_loss=predicted_loss,
         predicted_storage=predicted_storage,
     )
 
 
-def _one_sided(rows: Rows, tau: FloatArray, ignored: slice) -> tuple[FloatArray, float]:
+def _one_sided_spectrum(rows: FitRows, tau: FloatArray, ignored: slice) -> tuple[FloatArray, float]:
     """Spectrum of one modulus, equilibrium first [Pa], and its misfit to that modulus [-]."""
     scale = rows.scale.copy()
-    scale[ignored] = IGNORED
+    scale[ignored] = IGNORED_SCALE
     blind = replace(rows, scale=scale)
-    problem = Penalised(blind, tau, None)
+    problem = PenalisedFit(blind, tau, None)
     n = rows.frequency.size
     candidates = [problem.judged(blind.target, strength) for strength in STRENGTHS]
     judged = [one for one in candidates if n - one.freedom - 2.0 > 0.0] or candidates[-1:]
@@ -218,7 +218,7 @@ def _one_sided(rows: Rows, tau: FloatArray, ignored: slice) -> tuple[FloatArray,
     return judged[best].moduli, rms[best]
 
 
-def _decades(f: FloatArray, loss: FloatArray, storage: FloatArray) -> tuple[DecadeError, ...]:
+def _errors_by_decade(f: FloatArray, loss: FloatArray, storage: FloatArray) -> tuple[DecadeError, ...]:
     """Mean errors by decade, counted from the lowest frequency."""
     number = np.minimum(
         np.floor(np.log10(f / f[0])).astype(int), max(0, int(np.ceil(np.log10(f[-1] / f[0]))) - 1)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from conveyor.rubber.arrays import FloatArray
-from conveyor.rubber.non_negative import non_negative
+from conveyor.rubber.non_negative import non_negative_least_squares
 from conveyor.rubber.strain import StrainSweep
 
 _KRAUS_STARTS = (0.3, 0.6, 0.9)  # about the exponents of carbon blacks, 0.5 to 0.6 (Kraus)
@@ -115,20 +115,23 @@ def fit_kraus(sweep: StrainSweep, *, shared: bool = False) -> KrausFit:
     """
     strain = sweep.strain
     if shared:
-        both = _searched(
+        both = _search_best_start(
             strain,
             lambda place: np.concatenate(
-                [_moduli(strain, sweep.storage, 0, place)[1], _moduli(strain, sweep.loss, 1, place)[1]]
+                [
+                    _branch_moduli(strain, sweep.storage, 0, place)[1],
+                    _branch_moduli(strain, sweep.loss, 1, place)[1],
+                ]
             ),
         )
         places = (both, both)
     else:
         places = (
-            _searched(strain, lambda place: _moduli(strain, sweep.storage, 0, place)[1]),
-            _searched(strain, lambda place: _moduli(strain, sweep.loss, 1, place)[1]),
+            _search_best_start(strain, lambda place: _branch_moduli(strain, sweep.storage, 0, place)[1]),
+            _search_best_start(strain, lambda place: _branch_moduli(strain, sweep.loss, 1, place)[1]),
         )
-    (plateau, far), missed = _moduli(strain, sweep.storage, 0, places[0])
-    (far_loss, peak_loss), missed_loss = _moduli(strain, sweep.loss, 1, places[1])
+    (plateau, far), missed = _branch_moduli(strain, sweep.storage, 0, places[0])
+    (far_loss, peak_loss), missed_loss = _branch_moduli(strain, sweep.loss, 1, places[1])
     law = KrausLaw(
         plateau, far, peak_loss, far_loss, *np.exp(places[0]).tolist(), *np.exp(places[1]).tolist()
     )
@@ -140,18 +143,18 @@ def fit_kraus(sweep: StrainSweep, *, shared: bool = False) -> KrausFit:
     )
 
 
-def _moduli(
+def _branch_moduli(
     strain: FloatArray, measured: FloatArray, which: int, place: FloatArray
 ) -> tuple[tuple[float, float], FloatArray]:
     """Moduli of one branch of the law at ln critical strain and ln m, and their relative errors."""
     share = _kraus_shapes(strain, math.exp(place[0]), math.exp(place[1]))[which]
     unit = float(measured.max())
     columns = np.stack([1.0 - share, share], axis=1) * (unit / measured)[:, None]
-    scaled = non_negative(columns, np.ones(measured.size))
+    scaled = non_negative_least_squares(columns, np.ones(measured.size))
     return (unit * float(scaled[0]), unit * float(scaled[1])), np.asarray(columns @ scaled - 1.0)
 
 
-def _searched(strain: FloatArray, missed: Callable[[FloatArray], FloatArray]) -> FloatArray:
+def _search_best_start(strain: FloatArray, missed: Callable[[FloatArray], FloatArray]) -> FloatArray:
     """Least squares in ln critical strain and ln m, the best of several starts."""
     from scipy.optimize import least_squares
 

@@ -10,7 +10,7 @@ from conveyor.rubber.arrays import FloatArray
 
 MAD_TO_SIGMA = 1.4826
 """Standard deviation of a normal distribution over its median absolute deviation [-]."""
-BEND, FALL, OUT = 2.5, 4.0, 8.0
+HAMPEL_BEND, HAMPEL_FALL, HAMPEL_OUT = 2.5, 4.0, 8.0
 """Robust standard deviations from which a residual pulls no harder, pulls less, and pulls no more [-]."""
 LEAST_SCATTER = 0.005
 """Relative scatter taken at least: closer than this no instrument repeats a modulus, and what a curve or a series
@@ -36,20 +36,20 @@ class Misfit:
     worst_frequency: float
 
 
-def misfit(error: FloatArray, frequency: FloatArray) -> Misfit:
+def relative_misfit(error: FloatArray, frequency: FloatArray) -> Misfit:
     """Root mean square and worst of relative errors.
 
     Examples
     --------
     >>> import numpy as np
-    >>> misfit(np.array([0.03, -0.04]), np.array([1.0, 10.0])).worst_frequency
+    >>> relative_misfit(np.array([0.03, -0.04]), np.array([1.0, 10.0])).worst_frequency
     10.0
     """
     k = int(np.argmax(np.abs(error)))
     return Misfit(float(np.sqrt(np.mean(error**2))), float(error[k]), float(frequency[k]))
 
 
-def trust(error: FloatArray) -> FloatArray:
+def hampel_weights(error: FloatArray) -> FloatArray:
     """Weights of residuals, 1 to 0, by Hampel's three-part loss.
 
     References
@@ -59,15 +59,15 @@ def trust(error: FloatArray) -> FloatArray:
     Examples
     --------
     >>> import numpy as np
-    >>> trust(np.array([0.01, -0.01, 0.01, -0.01, 0.05, 1.0])).round(2)
+    >>> hampel_weights(np.array([0.01, -0.01, 0.01, -0.01, 0.05, 1.0])).round(2)
     array([1.  , 1.  , 1.  , 1.  , 0.74, 0.  ])
     """
     size = np.abs(error) / max(MAD_TO_SIGMA * float(np.median(np.abs(error))), LEAST_SCATTER)
-    pull = BEND * np.clip((OUT - size) / (OUT - FALL), 0.0, 1.0)
-    return np.divide(pull, size, out=np.ones_like(size), where=size > BEND)
+    pull = HAMPEL_BEND * np.clip((HAMPEL_OUT - size) / (HAMPEL_OUT - HAMPEL_FALL), 0.0, 1.0)
+    return np.divide(pull, size, out=np.ones_like(size), where=size > HAMPEL_BEND)
 
 
-def scatter(frequency: FloatArray, modulus: FloatArray) -> float | None:
+def row_scatter(frequency: FloatArray, modulus: FloatArray) -> float | None:
     r"""Relative standard deviation of a row from the line through its neighbours [-]; None below three rows.
 
     Gasser, Sroka, Jennen-Steinmetz, Biometrika 73 (1986) 625-633: with
@@ -83,17 +83,17 @@ def scatter(frequency: FloatArray, modulus: FloatArray) -> float | None:
     --------
     >>> import numpy as np
     >>> f = np.logspace(0, 4, 9)
-    >>> scatter(f, 1e6 * f**0.1) < 1e-12
+    >>> row_scatter(f, 1e6 * f**0.1) < 1e-12
     True
     """
-    squares = _squares(frequency, modulus)
+    squares = _scatter_squares(frequency, modulus)
     return float(np.sqrt(np.mean(squares))) if squares.size else None
 
 
 def scatter_within(frequency: FloatArray, modulus: FloatArray, group: FloatArray) -> float | None:
     """Relative standard deviation of a row from the line through its neighbours in its own group [-].
 
-    As `scatter` of each group of three rows and more, squares averaged over all; None without such a group.
+    As `row_scatter` of each group of three rows and more, squares averaged over all; None without such a group.
     Differences between groups, isotherms on a master curve, do not count.
 
     Examples
@@ -101,18 +101,19 @@ def scatter_within(frequency: FloatArray, modulus: FloatArray, group: FloatArray
     >>> import numpy as np
     >>> f, group = np.logspace(0, 4, 9), np.arange(9.0) % 2
     >>> moduli = 1e6 * f**0.1 * (1.0 + 0.1 * group)
-    >>> scatter(f, moduli) > 0.05, scatter_within(f, moduli, group) < 1e-12
+    >>> row_scatter(f, moduli) > 0.05, scatter_within(f, moduli, group) < 1e-12
     (True, True)
     """
     squares = [
-        _squares(frequency[rows], modulus[rows]) for rows in (group == each for each in np.unique(group))
+        _scatter_squares(frequency[rows], modulus[rows])
+        for rows in (group == each for each in np.unique(group))
     ]
     joined = np.concatenate(squares)
     return float(np.sqrt(np.mean(joined))) if joined.size else None
 
 
-def _squares(frequency: FloatArray, modulus: FloatArray) -> FloatArray:
-    """Squares of the residuals of `scatter`, shape `(n - 2,)`."""
+def _scatter_squares(frequency: FloatArray, modulus: FloatArray) -> FloatArray:
+    """Squares of the residuals of `row_scatter`, shape `(n - 2,)`."""
     if frequency.size < 3:
         return np.zeros(0)
     x, y = np.log(frequency), np.log(modulus)

@@ -41,8 +41,8 @@ class MonotoneCubic:
             rising = secant[:-1] * secant[1:] > 0.0
             safe = np.where(rising, secant[:-1], 1.0), np.where(rising, secant[1:], 1.0)
             slope[1:-1] = np.where(rising, (left + right) / (right / safe[0] + left / safe[1]), 0.0)
-            slope[0] = _end(step[0], step[1], secant[0], secant[1])
-            slope[-1] = _end(step[-1], step[-2], secant[-1], secant[-2])
+            slope[0] = _end_slope(step[0], step[1], secant[0], secant[1])
+            slope[-1] = _end_slope(step[-1], step[-2], secant[-1], secant[-2])
         self._slope = slope
 
     def __call__(self, at: ArrayLike) -> FloatArray:
@@ -58,7 +58,7 @@ class MonotoneCubic:
         )
 
 
-def _end(near: float, far: float, secant: float, next_secant: float) -> float:
+def _end_slope(near: float, far: float, secant: float, next_secant: float) -> float:
     """Slope at an end from the steps and secants next to it."""
     slope = ((2.0 * near + far) * secant - near * next_secant) / (near + far)
     if slope * secant <= 0.0:

@@ -7,17 +7,18 @@ import numpy as np
 from conveyor.rubber.arrays import FloatArray
 
 ROUNDING = float(np.finfo(np.float64).eps)
-SLACK = 10.0
+SLOPE_SLACK = 10.0
 """Slopes within this many roundings of the cancelling terms count as 0 [-]."""
 
 
-def non_negative(matrix: FloatArray, target: FloatArray) -> FloatArray:
+def non_negative_least_squares(matrix: FloatArray, target: FloatArray) -> FloatArray:
     r"""Weights >= 0 of least \|matrix weights - target\|.
 
     Notes
     -----
     The answer of `scipy.optimize.nnls` is taken where it meets the Kuhn-Tucker conditions to rounding
-    (see `slope`). On columns that are nearly dependent, as those of a dense spectrum are, it cycles among sets whose
+    (see `largest_slope`). On columns that are nearly dependent, as those of a dense spectrum are, it cycles among
+    sets whose
     errors differ by rounding and gives up; there an active set is followed that never returns: a column
     enters only if the error, as computed, falls.
 
@@ -27,7 +28,7 @@ def non_negative(matrix: FloatArray, target: FloatArray) -> FloatArray:
 
     Examples
     --------
-    >>> non_negative(np.array([[1.0, 1.0], [0.0, 1.0]]), np.array([2.0, -1.0]))
+    >>> non_negative_least_squares(np.array([[1.0, 1.0], [0.0, 1.0]]), np.array([2.0, -1.0]))
     array([2., 0.])
     """
     from scipy.optimize import nnls
@@ -36,12 +37,16 @@ def non_negative(matrix: FloatArray, target: FloatArray) -> FloatArray:
         solution = np.asarray(nnls(matrix, target)[0])
     except (RuntimeError, np.linalg.LinAlgError):
         return active_set(matrix, target)
-    return solution if slope(matrix, target, solution) <= SLACK * ROUNDING else active_set(matrix, target)
+    return (
+        solution
+        if largest_slope(matrix, target, solution) <= SLOPE_SLACK * ROUNDING
+        else active_set(matrix, target)
+    )
 
 
-def slope(matrix: FloatArray, target: FloatArray, weights: FloatArray) -> float:
+def largest_slope(matrix: FloatArray, target: FloatArray, weights: FloatArray) -> float:
     r"""Violation of the Kuhn-Tucker conditions by weights >= 0: the largest slope that should be 0 [-]."""
-    length = _lengths(matrix)
+    length = _column_lengths(matrix)
     falls = (target - matrix @ weights) @ matrix / length
     steepest = float(np.where(weights > 0.0, np.abs(falls), falls).max())
     size = float(np.sqrt(target @ target) + length @ weights)
@@ -62,11 +67,11 @@ def active_set(matrix: FloatArray, target: FloatArray) -> FloatArray:
     >>> active_set(np.array([[1.0, 1.0], [0.0, 1.0]]), np.array([2.0, -1.0]))
     array([2., 0.])
     """
-    length = _lengths(matrix)
+    length = _column_lengths(matrix)
     columns = np.asfortranarray(matrix / length)
     weights = np.zeros(length.size)
     left, least = target, float(np.linalg.norm(target))
-    limit = SLACK * ROUNDING * least
+    limit = SLOPE_SLACK * ROUNDING * least
     refused = np.zeros(length.size, dtype=np.bool_)
     known = {(weights > 0.0).tobytes()}
     while True:
@@ -75,11 +80,11 @@ def active_set(matrix: FloatArray, target: FloatArray) -> FloatArray:
         enters = int(np.argmax(falls))
         if falls[enters] <= limit:
             return weights / length
-        tried = _entered(columns, target, weights, enters)
+        tried = _enter_column(columns, target, weights, enters)
         error = target - columns @ tried
         size = float(np.linalg.norm(error))
         key = (tried > 0.0).tobytes()
-        if key in known or size > least * (1.0 + SLACK * ROUNDING):
+        if key in known or size > least * (1.0 + SLOPE_SLACK * ROUNDING):
             refused[enters] = True
             continue
         known.add(key)
@@ -87,7 +92,7 @@ def active_set(matrix: FloatArray, target: FloatArray) -> FloatArray:
         refused[:] = False
 
 
-def _entered(columns: FloatArray, target: FloatArray, weights: FloatArray, enters: int) -> FloatArray:
+def _enter_column(columns: FloatArray, target: FloatArray, weights: FloatArray, enters: int) -> FloatArray:
     """Least squares of the weights > 0 and one more column; weights that fall below 0 leave."""
     from scipy.linalg.lapack import dgels
 
@@ -107,7 +112,7 @@ def _entered(columns: FloatArray, target: FloatArray, weights: FloatArray, enter
     return at
 
 
-def _lengths(matrix: FloatArray) -> FloatArray:
+def _column_lengths(matrix: FloatArray) -> FloatArray:
     """Euclidean length of each column; 1 for a column of zeros, which then has no slope."""
     length = np.sqrt(np.einsum("ij,ij->j", matrix, matrix))
     length[length == 0.0] = 1.0

@@ -8,9 +8,9 @@ import numpy as np
 
 from conveyor.errors import InputError
 from conveyor.rubber.arrays import FloatArray
-from conveyor.rubber.shift import celsius
+from conveyor.rubber.shift import celsius_in_message
 
-STEP = 0.05
+GUESS_STEP = 0.05
 """Grid of the first guess [decades]; the joint fit refines it."""
 LEAST_OVERLAP = 0.1
 """Least share of the shorter isotherm in the overlap: ten rows are a ninth of it apart, with less nothing is
@@ -74,7 +74,7 @@ class Overlap:
     loss: float
 
 
-def differences(cold: LogIsotherm, hot: LogIsotherm, shift: FloatArray) -> FloatArray:
+def modulus_differences(cold: LogIsotherm, hot: LogIsotherm, shift: FloatArray) -> FloatArray:
     """Cold less hot of ln E' and ln E'' at `m` shifts [decades], `(2, m, rows)`; NaN outside the overlap."""
     on_hot, on_cold = cold.x + shift[:, None], hot.x - shift[:, None]
     outside = {"left": np.nan, "right": np.nan}
@@ -91,7 +91,7 @@ def differences(cold: LogIsotherm, hot: LogIsotherm, shift: FloatArray) -> Float
     )
 
 
-def reach(cold: LogIsotherm, hot: LogIsotherm, share: float = LEAST_OVERLAP) -> tuple[float, float]:
+def shift_limits(cold: LogIsotherm, hot: LogIsotherm, share: float = LEAST_OVERLAP) -> tuple[float, float]:
     """Least and largest shift [decades] at which a share of the shorter isotherm lies in the overlap."""
     least = share * min(float(np.ptp(cold.x)), float(np.ptp(hot.x)))
     return float(hot.x[0] - cold.x[-1]) + least, float(hot.x[-1] - cold.x[0]) - least
@@ -102,10 +102,10 @@ def first_guess(
 ) -> tuple[float, float]:
     """Shift [decades] and ln b_T [-] of the least mean square difference in the overlap, on a grid."""
     _check_common_modulus(cold, hot)
-    nearest, farthest = reach(cold, hot, FIRST_OVERLAP)
+    nearest, farthest = shift_limits(cold, hot, FIRST_OVERLAP)
     nearest = min(max(0.0, nearest), farthest)
-    grid = np.linspace(nearest, farthest, max(2, round((farthest - nearest) / STEP)))
-    error = differences(cold, hot, grid)[list(moduli)]
+    grid = np.linspace(nearest, farthest, max(2, round((farthest - nearest) / GUESS_STEP)))
+    error = modulus_differences(cold, hot, grid)[list(moduli)]
     known = np.isfinite(error)
     count = np.maximum(known.sum(axis=(0, 2)), 1)
     error = np.where(known, error, 0.0)
@@ -116,10 +116,12 @@ def first_guess(
     return float(grid[best]), float(offset[best])
 
 
-def overlap(cold: LogIsotherm, hot: LogIsotherm, shift: float, offset: float, *, held: bool) -> Overlap:
-    """Length and differences at a shift [decades] and offset of ln b_T; `held`: at a limit of `reach`."""
+def measure_overlap(
+    cold: LogIsotherm, hot: LogIsotherm, shift: float, offset: float, *, held: bool
+) -> Overlap:
+    """Length and differences at a shift [decades] and offset of ln b_T; `held`: at a limit of `shift_limits`."""
     decades = min(cold.x[-1] + shift, hot.x[-1]) - max(cold.x[0] + shift, hot.x[0])
-    error = differences(cold, hot, np.array([shift])) - offset
+    error = modulus_differences(cold, hot, np.array([shift])) - offset
     rms = np.sqrt(np.nanmean(error[:, 0] ** 2, axis=1))
     return Overlap(cold.temperature, hot.temperature, float(decades), held, float(rms[0]), float(rms[1]))
 
@@ -132,12 +134,13 @@ def _check_common_modulus(cold: LogIsotherm, hot: LogIsotherm) -> None:
             up, down = np.argsort(low.y[0])[-END_ROWS:], np.argsort(high.y[0])[:END_ROWS]
             slopes = [abs(np.polyfit(s.x[i], s.y[0][i], 1)[0]) for s, i in ((low, up), (high, down))]
             slope = float(np.mean(slopes))
-            raise _gap(cold, hot, gap / slope if slope > 0.0 else float("inf"))
+            raise _gap_error(cold, hot, gap / slope if slope > 0.0 else float("inf"))
 
 
-def _gap(cold: LogIsotherm, hot: LogIsotherm, missing: float) -> InputError:
+def _gap_error(cold: LogIsotherm, hot: LogIsotherm, missing: float) -> InputError:
     return InputError(
-        f"the isotherms at {celsius(cold.temperature)} and {celsius(hot.temperature)} do not overlap: no E' is"
+        f"the isotherms at {celsius_in_message(cold.temperature)} and {celsius_in_message(hot.temperature)} do not "
+        f"overlap: no E' is"
         f" common to both, about {missing:.2g} decades of frequency are missing between them; measure a"
         " temperature between, or a wider range of frequency"
     )

@@ -9,26 +9,32 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from conveyor.rubber.arrays import ComplexArray, FloatArray, non_negative, positive, spectrum
-from conveyor.rubber.spectrum_inversion import interlaced
+from conveyor.rubber.arrays import (
+    ComplexArray,
+    FloatArray,
+    checked_spectrum,
+    non_negative_array,
+    positive_number,
+)
+from conveyor.rubber.spectrum_inversion import invert_spectrum
 
 _FLUID_ADVICE = (
     ": without an equilibrium modulus the series is a fluid and the belt would creep without end;"
     " fit again with the equilibrium modulus held at a measured value"
 )
 
-_CHUNK: Final = 16  # spectra inverted at once: few enough for the cache
+_SPECTRA_AT_ONCE: Final = 16  # spectra inverted at once: few enough for the cache
 
 
-def _debye(omega: ArrayLike, times: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _debye_functions(omega: ArrayLike, times: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """x^2/(1+x^2), x/(1+x^2), 1/(1+x^2) of x = omega*times, on a new last axis, without overflow."""
-    x = non_negative("omega", omega, "rad/s")[..., None] * times
+    x = non_negative_array("omega", omega, "rad/s")[..., None] * times
     h = np.hypot(1.0, x)
     cosine, sine = 1.0 / h, x / h
     return sine * sine, sine * cosine, cosine * cosine
 
 
-def _one_per_time(weights: FloatArray, times: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _merge_equal_times(weights: FloatArray, times: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Merge terms of equal time, which a pole within 1e-16 of a root of the others leaves."""
     distinct, index = np.unique(times, return_inverse=True)
     return np.bincount(index, weights, distinct.size).astype(np.float64, copy=False), distinct
@@ -77,16 +83,16 @@ class PronySeries:
 
     def __post_init__(self) -> None:
         """Check, copy, sort, freeze."""
-        moduli, times = spectrum("moduli", self.moduli, "Pa", self.times)
+        moduli, times = checked_spectrum("moduli", self.moduli, "Pa", self.times)
         object.__setattr__(
-            self, "equilibrium", positive("equilibrium", self.equilibrium, "Pa", _FLUID_ADVICE)
+            self, "equilibrium", positive_number("equilibrium", self.equilibrium, "Pa", _FLUID_ADVICE)
         )
         object.__setattr__(self, "moduli", moduli)
         object.__setattr__(self, "times", times)
 
     def _repr_html_(self) -> str:
         """For notebooks: moduli and times, the terms folded away."""
-        from conveyor.markup import listing
+        from conveyor.markup import name_value_table
 
         terms = [
             {"modulus [MPa]": f"{modulus / 1e6:.6g}", "relaxation time [s]": f"{time:.6g}"}
@@ -97,7 +103,7 @@ class PronySeries:
             ("glassy modulus", f"{self.glassy / 1e6:.6g} MPa"),
             ("terms", terms or "none: an elastic solid"),
         ]
-        return listing("PronySeries", rows)
+        return name_value_table("PronySeries", rows)
 
     @property
     def glassy(self) -> float:
@@ -117,7 +123,7 @@ class PronySeries:
         numpy.ndarray
             E(t), shape of `t` [Pa].
         """
-        decay = np.exp(-non_negative("t", t, "s")[..., None] / self.times)
+        decay = np.exp(-non_negative_array("t", t, "s")[..., None] / self.times)
         return np.asarray(self.equilibrium + decay @ self.moduli)[()]
 
     def storage(self, omega: ArrayLike) -> FloatArray:
@@ -133,7 +139,7 @@ class PronySeries:
         numpy.ndarray
             E', shape of `omega` [Pa].
         """
-        return np.asarray(self.equilibrium + _debye(omega, self.times)[0] @ self.moduli)[()]
+        return np.asarray(self.equilibrium + _debye_functions(omega, self.times)[0] @ self.moduli)[()]
 
     def loss(self, omega: ArrayLike) -> FloatArray:
         """Loss modulus ``E'' = sum E_i x/(1+x^2)``, x = omega tau_i.
@@ -148,7 +154,7 @@ class PronySeries:
         numpy.ndarray
             E'', shape of `omega` [Pa].
         """
-        return np.asarray(_debye(omega, self.times)[1] @ self.moduli)[()]
+        return np.asarray(_debye_functions(omega, self.times)[1] @ self.moduli)[()]
 
     def tan_delta(self, omega: ArrayLike) -> FloatArray:
         """Loss tangent E''/E'.
@@ -179,7 +185,7 @@ class PronySeries:
         numpy.ndarray
             E*, complex, shape of `omega` [Pa].
         """
-        storage, loss, _ = _debye(omega, self.times)
+        storage, loss, _ = _debye_functions(omega, self.times)
         return np.asarray(self.equilibrium + storage @ self.moduli + 1j * (loss @ self.moduli))[()]
 
     def creep(self) -> CreepSeries:
@@ -198,9 +204,9 @@ class PronySeries:
 
         Notes
         -----
-        J*E* = 1 to 1e-14 for times over 24 decades, moduli over 24 decades and 60 terms. See `interlaced`.
+        J*E* = 1 to 1e-14 for times over 24 decades, moduli over 24 decades and 60 terms. See `invert_spectrum`.
         """
-        return creeps([self])[0]
+        return creep_forms([self])[0]
 
     def scaled(self, *, a_T: float = 1.0, b_T: float = 1.0) -> PronySeries:
         """Shift to another temperature: times times `a_T`, all moduli times `b_T`.
@@ -222,7 +228,7 @@ class PronySeries:
         InputError
             If a factor is not finite and > 0.
         """
-        a, b = positive("a_T", a_T, "-"), positive("b_T", b_T, "-")
+        a, b = positive_number("a_T", a_T, "-"), positive_number("b_T", b_T, "-")
         return PronySeries(self.equilibrium * b, self.moduli * b, self.times * a)
 
     def merged(self, *, fastest: float, slowest: float) -> PronySeries:
@@ -284,8 +290,10 @@ class CreepSeries:
 
     def __post_init__(self) -> None:
         """Check, copy, sort, freeze."""
-        compliances, times = spectrum("compliances", self.compliances, "1/Pa", self.times)
-        object.__setattr__(self, "instantaneous", positive("instantaneous", self.instantaneous, "1/Pa"))
+        compliances, times = checked_spectrum("compliances", self.compliances, "1/Pa", self.times)
+        object.__setattr__(
+            self, "instantaneous", positive_number("instantaneous", self.instantaneous, "1/Pa")
+        )
         object.__setattr__(self, "compliances", compliances)
         object.__setattr__(self, "times", times)
 
@@ -307,7 +315,7 @@ class CreepSeries:
         numpy.ndarray
             J(t), shape of `t` [1/Pa].
         """
-        rise = -np.expm1(-non_negative("t", t, "s")[..., None] / self.times)
+        rise = -np.expm1(-non_negative_array("t", t, "s")[..., None] / self.times)
         return np.asarray(self.instantaneous + rise @ self.compliances)[()]
 
     def compliance(self, omega: ArrayLike) -> ComplexArray:
@@ -323,7 +331,7 @@ class CreepSeries:
         numpy.ndarray
             J*, complex with imaginary part <= 0, shape of `omega` [1/Pa].
         """
-        _, loss, storage = _debye(omega, self.times)
+        _, loss, storage = _debye_functions(omega, self.times)
         return np.asarray(self.instantaneous + storage @ self.compliances - 1j * (loss @ self.compliances))[
             ()
         ]
@@ -341,11 +349,13 @@ class CreepSeries:
         NoSolutionError
             If the compliances are beyond the range of double precision.
         """
-        excess, moduli = interlaced(self.instantaneous, self.compliances, self.times, reciprocal=True)
-        return PronySeries(1.0 / self.equilibrium, *_one_per_time(moduli, self.times[::-1] / (1.0 + excess)))
+        excess, moduli = invert_spectrum(self.instantaneous, self.compliances, self.times, reciprocal=True)
+        return PronySeries(
+            1.0 / self.equilibrium, *_merge_equal_times(moduli, self.times[::-1] / (1.0 + excess))
+        )
 
 
-def creeps(series: Iterable[PronySeries]) -> list[CreepSeries]:
+def creep_forms(series: Iterable[PronySeries]) -> list[CreepSeries]:
     """Convert many series to creep form, as `PronySeries.creep`; a repeated series is converted once.
 
     Parameters
@@ -369,13 +379,13 @@ def creeps(series: Iterable[PronySeries]) -> list[CreepSeries]:
         alike.setdefault(one.times.size, []).append(one)
     creep_of: dict[PronySeries, CreepSeries] = {}
     for same in alike.values():
-        for start in range(0, len(same), _CHUNK):
-            chosen = same[start : start + _CHUNK]
+        for start in range(0, len(same), _SPECTRA_AT_ONCE):
+            chosen = same[start : start + _SPECTRA_AT_ONCE]
             moduli, times = (
                 np.stack(part) for part in zip(*((s.moduli, s.times) for s in chosen), strict=True)
             )
-            excess, compliances = interlaced([s.equilibrium for s in chosen], moduli, times)
+            excess, compliances = invert_spectrum([s.equilibrium for s in chosen], moduli, times)
             for one, over, weights in zip(chosen, excess, compliances, strict=True):
-                terms = _one_per_time(weights, one.times * (1.0 + over))
+                terms = _merge_equal_times(weights, one.times * (1.0 + over))
                 creep_of[one] = CreepSeries(1.0 / one.glassy, *terms)
     return [creep_of[one] for one in given]

@@ -9,8 +9,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from conveyor.errors import Amount, InputError, RangeError
-from conveyor.rubber.arrays import FloatArray, finite_vector, positive, positive_vector
+from conveyor.errors import InputError, MessageQuantity, RangeError
+from conveyor.rubber.arrays import FloatArray, finite_vector, positive_number, positive_vector
 from conveyor.rubber.monotone import MonotoneCubic
 from conveyor.rubber.prony import PronySeries
 
@@ -24,12 +24,12 @@ MAX_DECADES = 100.0
 """No measured shift comes near; beyond it times leave the range of double precision."""
 
 
-def celsius(temperature: float) -> Amount:
+def celsius_in_message(temperature: float) -> MessageQuantity:
     """Temperature [K] for a message."""
-    return Amount(temperature, "temperature", f"{temperature - _ZERO_CELSIUS:.2f} degC", digits=6)
+    return MessageQuantity(temperature, "temperature", f"{temperature - _ZERO_CELSIUS:.2f} degC", digits=6)
 
 
-def _kelvin(temperature: ArrayLike) -> FloatArray:
+def _check_kelvin(temperature: ArrayLike) -> FloatArray:
     """Refuse a temperature [K] that is not finite and > 0."""
     array = np.asarray(temperature, dtype=np.float64)
     bad = array[~(np.isfinite(array) & (array > 0.0))]
@@ -108,20 +108,20 @@ class WLF:
 
     def __post_init__(self) -> None:
         """Check."""
-        positive("c1", self.c1, "-")
-        positive("c2", self.c2, "K")
-        positive("reference", self.reference, "K")
+        positive_number("c1", self.c1, "-")
+        positive_number("c2", self.c2, "K")
+        positive_number("reference", self.reference, "K")
 
     def log10_a_T(self, temperature: ArrayLike) -> FloatArray:  # noqa: N802
         """As `ShiftLaw`; at or below the pole ``reference - c2`` there is none (RangeError)."""
-        difference = _kelvin(temperature) - self.reference
+        difference = _check_kelvin(temperature) - self.reference
         if np.any(difference <= -self.c2):
             coldest, pole = self.reference + float(difference.min()), self.reference - self.c2
             raise RangeError(
                 "temperature {} is at or below the pole of the WLF law at {}; it holds only well above that: use a "
                 "shift table or Arrhenius",
-                celsius(coldest),
-                celsius(pole),
+                celsius_in_message(coldest),
+                celsius_in_message(pole),
             )
         return np.asarray(-self.c1 * difference / (self.c2 + difference))[()]
 
@@ -161,12 +161,12 @@ class Arrhenius:
 
     def __post_init__(self) -> None:
         """Check."""
-        positive("activation_energy", self.activation_energy, "J/mol")
-        positive("reference", self.reference, "K")
+        positive_number("activation_energy", self.activation_energy, "J/mol")
+        positive_number("reference", self.reference, "K")
 
     def log10_a_T(self, temperature: ArrayLike) -> FloatArray:  # noqa: N802
         """As `ShiftLaw`."""
-        t = _kelvin(temperature)
+        t = _check_kelvin(temperature)
         slope = self.activation_energy / (GAS_CONSTANT * math.log(10.0))
         return np.asarray(slope * (self.reference - t) / (t * self.reference))[()]
 
@@ -219,37 +219,37 @@ class ShiftTable:
         if np.any(np.diff(t) == 0.0):
             repeated = float(t[:-1][np.diff(t) == 0.0][0])
             raise InputError(
-                f"temperatures of a shift table must be distinct; {celsius(repeated)} occurs twice"
+                f"temperatures of a shift table must be distinct; {celsius_in_message(repeated)} occurs twice"
             )
         rising = np.flatnonzero(np.diff(y) >= 0.0)
         if rising.size:
             i = int(rising[0])
             raise InputError(
-                f"log10 a_T must fall with rising temperature; it goes from {y[i]:g} at {celsius(t[i])}"
-                f" to {y[i + 1]:g} at {celsius(t[i + 1])} (reversed sign, or log of 1/a_T?)"
+                f"log10 a_T must fall with rising temperature; it goes from {y[i]:g} at {celsius_in_message(t[i])}"
+                f" to {y[i + 1]:g} at {celsius_in_message(t[i + 1])} (reversed sign, or log of 1/a_T?)"
             )
         for array in (t, y):
             array.setflags(write=False)
         object.__setattr__(self, "temperatures", t)
         object.__setattr__(self, "log10_factors", y)
         object.__setattr__(self, "_curve", MonotoneCubic(t, y))
-        at_reference = float(self.log10_a_T(positive("reference", self.reference, "K")))
+        at_reference = float(self.log10_a_T(positive_number("reference", self.reference, "K")))
         if abs(at_reference) > REFERENCE_TOLERANCE:
             raise InputError(
-                f"log10 a_T at the reference {celsius(self.reference)} is {at_reference:.4f};"
+                f"log10 a_T at the reference {celsius_in_message(self.reference)} is {at_reference:.4f};"
                 f" it must be 0 to {REFERENCE_TOLERANCE} decade: state the temperature at which a_T = 1"
             )
 
     def log10_a_T(self, temperature: ArrayLike) -> FloatArray:  # noqa: N802
         """As `ShiftLaw`; outside the table there is none (RangeError)."""
-        t = _kelvin(temperature)
+        t = _check_kelvin(temperature)
         low, high = float(self.temperatures[0]), float(self.temperatures[-1])
         outside = t[(t < low) | (t > high)]
         if outside.size:
             raise RangeError(
                 "temperature {} is outside the shift table, {} to {}; it is not extrapolated: extend the measurement, "
                 "or choose a WLF or Arrhenius law knowingly",
-                *map(celsius, (float(outside.flat[0]), low, high)),
+                *map(celsius_in_message, (float(outside.flat[0]), low, high)),
             )
         return np.asarray(self._curve(t))[()]
 
@@ -289,10 +289,10 @@ def entropic_b_T(temperature: float, reference: float) -> float:  # noqa: N802
     >>> entropic_b_T(330.0, reference=300.0)
     1.1
     """
-    return positive("temperature", temperature, "K") / positive("reference", reference, "K")
+    return positive_number("temperature", temperature, "K") / positive_number("reference", reference, "K")
 
 
-def shifted(series: PronySeries, law: ShiftLaw, temperature: float, *, b_T: float = 1.0) -> PronySeries:
+def shift_series(series: PronySeries, law: ShiftLaw, temperature: float, *, b_T: float = 1.0) -> PronySeries:
     """Series at another temperature: every relaxation time times a_T, every modulus times b_T.
 
     Parameters
@@ -325,7 +325,7 @@ def shifted(series: PronySeries, law: ShiftLaw, temperature: float, *, b_T: floa
     Examples
     --------
     >>> series = PronySeries(1e6, [9e6], [1e-3])
-    >>> cold = shifted(series, WLF(c1=10.0, c2=100.0, reference=300.0), 290.0)
+    >>> cold = shift_series(series, WLF(c1=10.0, c2=100.0, reference=300.0), 290.0)
     >>> round(float(cold.times[0] / series.times[0]), 3)
     12.915
     """
@@ -334,7 +334,7 @@ def shifted(series: PronySeries, law: ShiftLaw, temperature: float, *, b_T: floa
         raise RangeError(
             f"the shift law gives {decades:.0f} decades at {{}}, above {MAX_DECADES:.0f}: too far from the reference "
             "{}",
-            celsius(temperature),
-            celsius(law.reference),
+            celsius_in_message(temperature),
+            celsius_in_message(law.reference),
         )
     return series.scaled(a_T=10.0**decades, b_T=b_T)

@@ -8,7 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.rubber.arrays import FloatArray, finite_vector, non_negative, positive, positive_vector
+from conveyor.rubber.arrays import (
+    FloatArray,
+    finite_vector,
+    non_negative_array,
+    positive_number,
+    positive_vector,
+)
 from conveyor.rubber.shift import GAS_CONSTANT, WLF, Arrhenius
 
 POLE_DISTANCE = (0.1, 1.0e4)
@@ -81,8 +87,8 @@ def fit_wlf(
     """
     from scipy.optimize import minimize_scalar
 
-    t, y, x = _table(temperatures, log10_a_T, reference, minimum=3)
-    weight = _weights(x, error)
+    t, y, x = _check_table(temperatures, log10_a_T, reference, minimum=3)
+    weight = _shift_weights(x, error)
     floor = max(0.0, -float(x.min()))
 
     def slope(v: float) -> tuple[float, FloatArray]:
@@ -105,7 +111,7 @@ def fit_wlf(
     c1, _ = slope(float(least.x))
     if c1 <= 0.0:
         raise NoSolutionError("the shifts rise with temperature: no WLF law; reversed sign, or log of 1/a_T?")
-    return _judge(WLF(c1, floor + float(np.exp(least.x)), float(reference)), t, y)
+    return _with_residuals(WLF(c1, floor + float(np.exp(least.x)), float(reference)), t, y)
 
 
 def fit_arrhenius(
@@ -145,37 +151,37 @@ def fit_arrhenius(
     >>> round(fit.law.activation_energy)
     120000
     """
-    t, y, x = _table(temperatures, log10_a_T, reference, minimum=1)
-    weight = _weights(x, error)
+    t, y, x = _check_table(temperatures, log10_a_T, reference, minimum=1)
+    weight = _shift_weights(x, error)
     basis = -x / (t * reference * GAS_CONSTANT * np.log(10.0))
     energy = float((weight * basis) @ y / ((weight * basis) @ basis))
     if energy <= 0.0:
         raise NoSolutionError(
             "the shifts rise with temperature: no Arrhenius law; reversed sign, or log of 1/a_T?"
         )
-    return _judge(Arrhenius(energy, float(reference)), t, y)
+    return _with_residuals(Arrhenius(energy, float(reference)), t, y)
 
 
-def _table(
+def _check_table(
     temperatures: ArrayLike, shifts: ArrayLike, reference: float, *, minimum: int
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     t = positive_vector("temperatures", temperatures, "K")
     y = finite_vector("log10_a_T", shifts, "decades")
     if t.shape != y.shape:
         raise InputError(f"temperatures and log10_a_T must have one length; got {t.size} and {y.size}")
-    x = t - positive("reference", reference, "K")
+    x = t - positive_number("reference", reference, "K")
     distinct = int(np.unique(x[x != 0.0]).size)
     if distinct < minimum:
         raise InputError(f"the fit needs >= {minimum} temperatures apart from the reference; got {distinct}")
     return t, y, x
 
 
-def _weights(x: FloatArray, error: ArrayLike | None) -> FloatArray:
+def _shift_weights(x: FloatArray, error: ArrayLike | None) -> FloatArray:
     """Weights of the rows, 1 for the smallest uncertainty; 0 at the reference, where no law can differ."""
     away = x != 0.0
     if error is None:
         return np.asarray(away, dtype=np.float64)
-    sigma = non_negative("error", error, "decades")
+    sigma = non_negative_array("error", error, "decades")
     if sigma.shape != x.shape:
         raise InputError(
             f"error must hold one standard uncertainty per shift, shape {x.shape}; got {sigma.shape}"
@@ -187,7 +193,7 @@ def _weights(x: FloatArray, error: ArrayLike | None) -> FloatArray:
     return weight
 
 
-def _judge(law: WLF | Arrhenius, t: FloatArray, y: FloatArray) -> ShiftFit:
+def _with_residuals(law: WLF | Arrhenius, t: FloatArray, y: FloatArray) -> ShiftFit:
     residual = law.log10_a_T(t) - y
     k = int(np.argmax(np.abs(residual)))
     return ShiftFit(law, float(np.sqrt(np.mean(residual**2))), float(residual[k]), float(t[k]))

@@ -8,14 +8,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from conveyor.errors import InputError, NoSolutionError, RangeError
-from conveyor.rubber.arrays import FloatArray, finite_vector, non_negative, positive, positive_vector
+from conveyor.rubber.arrays import (
+    FloatArray,
+    finite_vector,
+    non_negative_array,
+    positive_number,
+    positive_vector,
+)
 from conveyor.rubber.shift import WLF, Arrhenius, ShiftLaw, ShiftTable
 from conveyor.rubber.shift_fit import fit_arrhenius, fit_wlf
 
 LEAST_TEMPERATURES = 5
 """Least number of temperatures: two ends that no table predicts when left out, and three between them."""
-PARAMETERS = {"WLF": 2, "Arrhenius": 1}
-REMARKS = {
+LAW_PARAMETERS = {"WLF": 2, "Arrhenius": 1}
+LAW_REMARKS = {
     "WLF": "two parameters, smooth; above the glass transition, not near its pole",
     "Arrhenius": "one parameter; a glass, or far above the glass transition",
     "table": (
@@ -68,7 +74,7 @@ class ShiftComparison:
 
 
 @dataclass(frozen=True, eq=False)
-class _Shifts:
+class _CheckedShifts:
     """Checked rows by ascending temperature, zero at the row nearest the reference; weights 1/error^2 of the others."""
 
     t: FloatArray
@@ -137,20 +143,20 @@ def compare_shift_laws(
     >>> [one.name for one in found]
     ['WLF', 'table', 'Arrhenius']
     """
-    shifts = _checked(temperatures, log10_a_T, reference, error)
-    judged = [_judged(shifts, name) for name in ("WLF", "Arrhenius", "table")]
+    shifts = _check_shifts(temperatures, log10_a_T, reference, error)
+    judged = [_compare_law(shifts, name) for name in ("WLF", "Arrhenius", "table")]
     return tuple(sorted(judged, key=lambda one: one.left_out))
 
 
-def _checked(
+def _check_shifts(
     temperatures: ArrayLike, shifts: ArrayLike, reference: float, error: ArrayLike | None
-) -> _Shifts:
+) -> _CheckedShifts:
     t, y = positive_vector("temperatures", temperatures, "K"), finite_vector("log10_a_T", shifts, "decades")
     if t.shape != y.shape or t.size < LEAST_TEMPERATURES:
         raise InputError(
             f"comparing laws needs >= {LEAST_TEMPERATURES} temperatures and a shift for each; got {t.size} and {y.size}"
         )
-    t_ref = positive("reference", reference, "K")
+    t_ref = positive_number("reference", reference, "K")
     if not t.min() <= t_ref <= t.max():
         raise RangeError(
             f"reference {t_ref:g} K is outside the shifts, {t.min():g} to {t.max():g} K: choose one inside"
@@ -161,7 +167,7 @@ def _checked(
     sigma = None
     weight = np.ones_like(t)
     if error is not None:
-        sigma = non_negative("error", error, "decades")
+        sigma = non_negative_array("error", error, "decades")
         if sigma.shape != t.shape:
             raise InputError(f"error must hold one uncertainty per shift, shape {t.shape}; got {sigma.shape}")
         if np.any(sigma[t != t_ref] == 0.0):
@@ -173,21 +179,21 @@ def _checked(
         weight = np.zeros_like(t)
         weight[away] = 1.0 / np.square(sigma[away])
     weight[t[order] == t_ref] = 0.0
-    return _Shifts(t[order], y[order], t_ref, sigma, weight)
+    return _CheckedShifts(t[order], y[order], t_ref, sigma, weight)
 
 
-def _judged(shifts: _Shifts, name: str) -> ShiftComparison:
+def _compare_law(shifts: _CheckedShifts, name: str) -> ShiftComparison:
     t, y, weight = shifts.t, shifts.y, shifts.weight
     low, high = float(t[0]), float(t[-1])
     try:
         law = shifts.law(name)
-        left_out = _left_out(shifts, name)
+        left_out = _left_out_error(shifts, name)
     except NoSolutionError as refused:
         infinite = float("inf")
         return ShiftComparison(name, None, infinite, infinite, low, infinite, None, low, high, str(refused))
-    residual = _at(law, t) - y
+    residual = _law_shifts(law, t) - y
     k = int(np.argmax(np.abs(residual)))
-    freedom = int(np.count_nonzero(weight)) - PARAMETERS.get(name, t.size)
+    freedom = int(np.count_nonzero(weight)) - LAW_PARAMETERS.get(name, t.size)
     chi2 = float(weight @ residual**2) / freedom if shifts.error is not None and freedom > 0 else None
     return ShiftComparison(
         name=name,
@@ -199,20 +205,20 @@ def _judged(shifts: _Shifts, name: str) -> ShiftComparison:
         chi2_per_freedom=chi2,
         low=low,
         high=high,
-        remark=REMARKS[name],
+        remark=LAW_REMARKS[name],
     )
 
 
-def _left_out(shifts: _Shifts, name: str) -> float:
+def _left_out_error(shifts: _CheckedShifts, name: str) -> float:
     """Weighted error of each inner shift, predicted without it [decades]."""
     rows = [i for i in range(1, shifts.t.size - 1) if shifts.weight[i] > 0.0]
     errors = []
     for i in rows:
         keep = np.arange(shifts.t.size) != i
-        errors.append(float(_at(shifts.law(name, keep), shifts.t[i : i + 1])[0]) - float(shifts.y[i]))
+        errors.append(float(_law_shifts(shifts.law(name, keep), shifts.t[i : i + 1])[0]) - float(shifts.y[i]))
     weight = shifts.weight[rows]
     return float(np.sqrt(weight @ np.square(errors) / weight.sum()))
 
 
-def _at(law: ShiftLaw, t: FloatArray) -> FloatArray:
+def _law_shifts(law: ShiftLaw, t: FloatArray) -> FloatArray:
     return np.asarray(law.log10_a_T(t), dtype=np.float64)

@@ -14,7 +14,7 @@ ROUNDING_PER_TERM = 4.0
 """A sum of n terms of one sign, each with a few roundings, is right to about 4 n machine epsilons."""
 
 
-def interlaced(
+def invert_spectrum(
     constant: ArrayLike, weights: FloatArray, times: FloatArray, *, reciprocal: bool = False
 ) -> tuple[FloatArray, FloatArray]:
     r"""Zeros and residues of the inverse of ``constant + sum_j weights_j s t_j/(1 + s t_j)``, vectorised.
@@ -48,7 +48,7 @@ def interlaced(
     n = weights.shape[-1]
     g = ratio * (weights / whole)[..., None, :]
     lower = np.tri(n, dtype=np.bool_)
-    offset, span, z, w = _start(ratio, gap, g, lower)
+    offset, span, z, w = _start_values(ratio, gap, g, lower)
     g_low, g_up = np.where(lower, g, 0.0), np.where(lower, 0.0, g)
     g_low_offset, g_up_offset = g_low * offset, g_up * offset
     tolerance = ROUNDING_PER_TERM * n * float(np.finfo(np.float64).eps)
@@ -58,7 +58,7 @@ def interlaced(
         p, low = (g_low_offset * inverse_square).sum(-1), (g_low * inverse_square).sum(-1) * z
         s, up = (g_up_offset * inverse_square).sum(-1), (g_up * inverse_square).sum(-1) * w
         residual, size = (1.0 + s + up) - (p + low), (1.0 + s + up) + (p + low)
-        nearer = _quadratic(1.0 + s - p, low * z, up * w, span)
+        nearer = _solve_quadratic(1.0 + s - p, low * z, up * w, span)
         z, w = (np.where(settled, old, new) for old, new in zip((z, w), nearer, strict=True))
         settled = settled | np.all(np.abs(residual) <= tolerance * size, axis=-1, keepdims=True)
         if settled.all():
@@ -68,7 +68,7 @@ def interlaced(
             f"the spectrum could not be inverted in {MAX_ITERATIONS} steps; the weights span"
             f" {np.log10(weights.max() / weights.min()):.0f} decades: drop the terms that do not matter"
         )
-    return z, _residues(np.where(lower, z[..., None], w[..., None]) + offset, z, ratio, lower) / whole
+    return z, _root_residues(np.where(lower, z[..., None], w[..., None]) + offset, z, ratio, lower) / whole
 
 
 def _pole_geometry(times: FloatArray, *, reciprocal: bool) -> tuple[FloatArray, FloatArray]:
@@ -80,7 +80,7 @@ def _pole_geometry(times: FloatArray, *, reciprocal: bool) -> tuple[FloatArray, 
     return poles / own, (poles - own) / own
 
 
-def _start(
+def _start_values(
     ratio: FloatArray, gap: FloatArray, g: FloatArray, lower: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Offsets of all poles from the near end of each interval; widths; geometric mid-points as (z, w)."""
@@ -97,7 +97,7 @@ def _start(
     return offset, span, z, w
 
 
-def _residues(
+def _root_residues(
     distance: FloatArray,
     z: FloatArray,
     ratio: FloatArray,
@@ -112,7 +112,7 @@ def _residues(
     return np.asarray(np.prod(distance / roots, axis=-1))
 
 
-def _quadratic(
+def _solve_quadratic(
     c: FloatArray, q: FloatArray, t: FloatArray, span: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Solve c + t/w = q/z, z + w = span: both unknowns by the form of the formula without cancellation."""

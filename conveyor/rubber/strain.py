@@ -12,8 +12,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from conveyor.errors import Amount, InputError, RangeError
-from conveyor.rubber.arrays import FloatArray, positive, positive_vector
+from conveyor.errors import InputError, MessageQuantity, RangeError
+from conveyor.rubber.arrays import FloatArray, positive_number, positive_vector
 from conveyor.rubber.monotone import MonotoneCubic
 
 SAME_TEMPERATURE = 0.5
@@ -66,8 +66,8 @@ class StrainSweep:
 
     def __post_init__(self) -> None:
         """Check, copy, freeze."""
-        object.__setattr__(self, "temperature", positive("temperature", self.temperature, "K"))
-        object.__setattr__(self, "frequency", positive("frequency", self.frequency, "Hz"))
+        object.__setattr__(self, "temperature", positive_number("temperature", self.temperature, "K"))
+        object.__setattr__(self, "frequency", positive_number("frequency", self.frequency, "Hz"))
         for name, unit in (("strain", "-"), ("storage", "Pa"), ("loss", "Pa")):
             values = positive_vector(name, getattr(self, name), unit)
             values.setflags(write=False)
@@ -92,7 +92,7 @@ class StrainSweep:
 
 
 @dataclass(frozen=True, eq=False)
-class _Run:
+class _RelativeSweep:
     """One sweep relative to its modulus at the reference strain."""
 
     strain: FloatArray
@@ -101,14 +101,14 @@ class _Run:
     plateau: bool
 
     @classmethod
-    def of(cls, sweep: StrainSweep, name: str, reference: float) -> _Run:
+    def of(cls, sweep: StrainSweep, name: str, reference: float) -> _RelativeSweep:
         values = getattr(sweep, name)
         curve = MonotoneCubic(np.log(sweep.strain), values)
         head = values[sweep.strain <= PLATEAU_SPAN * sweep.strain[0]]
         flat = head.size >= _PLATEAU_POINTS and float(np.ptp(head)) <= PLATEAU_SPREAD * float(head.mean())
         run = cls(sweep.strain, curve, 1.0, flat)
         label, amplitude = f"reference_strain at {{}} ({name})", np.array([reference])
-        at = Amount(sweep.temperature, "temperature", f"{sweep.temperature:.2f} K", digits=6)
+        at = MessageQuantity(sweep.temperature, "temperature", f"{sweep.temperature:.2f} K", digits=6)
         if reference > sweep.strain[-1]:
             raise RangeError(
                 f"{label}: a strain of {reference:.4g} is above the largest measured, {sweep.strain[-1]:.4g}; "
@@ -122,7 +122,7 @@ class _Run:
 
         Refusals have the label, with {} for the temperature [K].
         """
-        at = Amount(temperature, "temperature", f"{temperature:.2f} K", digits=6)
+        at = MessageQuantity(temperature, "temperature", f"{temperature:.2f} K", digits=6)
         low, high = float(self.strain[0]), float(self.strain[-1])
         least = float(strain.min())
         if least < low and not self.plateau:
@@ -178,13 +178,15 @@ class AmplitudeFactors:
     def __post_init__(self) -> None:
         """Check and freeze; evaluate the sweeps, so that a bad reference strain is refused here."""
         object.__setattr__(self, "sweeps", tuple(sorted(self.sweeps, key=lambda s: s.temperature)))
-        object.__setattr__(self, "reference_strain", positive("reference_strain", self.reference_strain, "-"))
+        object.__setattr__(
+            self, "reference_strain", positive_number("reference_strain", self.reference_strain, "-")
+        )
         if not self.sweeps:
             raise InputError("sweeps: at least one strain sweep is needed")
         _ = self._runs
 
     @cached_property
-    def _levels(self) -> list[list[StrainSweep]]:
+    def _sweeps_by_temperature(self) -> list[list[StrainSweep]]:
         levels: list[list[StrainSweep]] = []
         for sweep in self.sweeps:
             if levels and sweep.temperature - levels[-1][0].temperature <= SAME_TEMPERATURE:
@@ -194,16 +196,21 @@ class AmplitudeFactors:
         return levels
 
     @cached_property
-    def _runs(self) -> dict[str, list[list[_Run]]]:
+    def _runs(self) -> dict[str, list[list[_RelativeSweep]]]:
         return {
-            name: [[_Run.of(sweep, name, self.reference_strain) for sweep in level] for level in self._levels]
+            name: [
+                [_RelativeSweep.of(sweep, name, self.reference_strain) for sweep in level]
+                for level in self._sweeps_by_temperature
+            ]
             for name in ("storage", "loss")
         }
 
     @cached_property
     def temperatures(self) -> FloatArray:
         """Temperatures of the sweeps, mean over runs, ascending, shape `(t,)` [K]."""
-        return np.array([float(np.mean([sweep.temperature for sweep in level])) for level in self._levels])
+        return np.array(
+            [float(np.mean([sweep.temperature for sweep in level])) for level in self._sweeps_by_temperature]
+        )
 
     def known_at(self, temperature: float) -> bool:
         """True if the sweeps reach a temperature [K], half a kelvin beyond the last ones included."""
@@ -214,7 +221,9 @@ class AmplitudeFactors:
         """Largest strain amplitude measured by all runs that give the factors at a temperature [K] [-]."""
         used = [
             level
-            for level, weight in zip(self._levels, self._between(np.array([temperature])), strict=True)
+            for level, weight in zip(
+                self._sweeps_by_temperature, self._temperature_weights(np.array([temperature])), strict=True
+            )
             if weight[0]
         ]
         return min(float(sweep.strain[-1]) for level in used for sweep in level)
@@ -277,7 +286,7 @@ class AmplitudeFactors:
         at = positive_vector("temperature", np.broadcast_to(temperature, array.shape).ravel(), "K")
         out = np.zeros(flat.shape)
         for level, runs, weight in zip(
-            self.temperatures.tolist(), self._runs[name], self._between(at), strict=True
+            self.temperatures.tolist(), self._runs[name], self._temperature_weights(at), strict=True
         ):
             near = np.flatnonzero(weight)
             label = f"factor of the {name} modulus at {{}}"
@@ -285,7 +294,7 @@ class AmplitudeFactors:
                 out[near] += (weight[near] / len(runs)) * run.at(flat[near], label, level)
         return out.reshape(array.shape)[()]
 
-    def _between(self, temperature: FloatArray) -> FloatArray:
+    def _temperature_weights(self, temperature: FloatArray) -> FloatArray:
         """Linear interpolation weights of the sweep temperatures, shape (t, n), held beyond the last ones."""
         return np.array(
             [np.interp(temperature, self.temperatures, one) for one in np.eye(self.temperatures.size)]

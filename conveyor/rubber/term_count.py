@@ -8,8 +8,8 @@ import numpy as np
 
 from conveyor.errors import InputError
 from conveyor.rubber.arrays import FloatArray
-from conveyor.rubber.non_negative import non_negative
-from conveyor.rubber.rows import DUST, Rows, even_times
+from conveyor.rubber.fit_rows import ZERO_MODULUS, FitRows, even_times
+from conveyor.rubber.non_negative import non_negative_least_squares
 
 DENSITIES = (2.0, 3.0, 4.0, 8.0)
 """Offered terms per decade. Lines d apart in ln(time) ripple by 4 exp(-pi^2/d), 0.08 % at two; twins stand for a line
@@ -19,13 +19,13 @@ REACH = 1.0
 a constant and a loss ~ 1/omega on the slow side, a loss ~ omega on the fast one, to 1 % [decades]."""
 HALVINGS = 4
 """Halvings of the spacing about the lines of a spectrum of few: 0.018 in ln(time), (0.018)^2/8 = 4e-5."""
-BARE_DENSITY = 8.0
+UNPENALISED_DENSITY = 8.0
 """Density from which no penalty is offered: a smooth spectrum needs fewer lines [1/decade]."""
 STRENGTHS = (0.0, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0)
 """Offered strengths of the penalty; at 10 the spectrum follows E'' smoothed over a decade."""
-SUPPORT = 2.0
+AICC_SUPPORT = 2.0
 """Candidates within this of the best have substantial support: Burnham & Anderson (2002), section 2.6 [-]."""
-NO_SUPPORT = 10.0
+AICC_NO_SUPPORT = 10.0
 """Candidates farther than this from the best have essentially none: the same section [-]."""
 ROUNDING = 1e-13
 """Relative errors below this are rounding, not information [-]."""
@@ -62,7 +62,7 @@ class Candidate:
 
 
 @dataclass(frozen=True, eq=False)
-class Solution:
+class PenalisedSolution:
     """Moduli of one penalised fit, effective parameters and residual.
 
     Parameters
@@ -80,12 +80,12 @@ class Solution:
     residual: float
 
 
-class Penalised:
+class PenalisedFit:
     """Penalised fit on given times, factorised once for any penalty and data.
 
     Parameters
     ----------
-    rows : Rows
+    rows : FitRows
         The measurements.
     tau : numpy.ndarray
         Relaxation times, shape `(m,)`, ascending [s].
@@ -110,7 +110,7 @@ class Penalised:
     (H0, first approximation).
     """
 
-    def __init__(self, rows: Rows, tau: FloatArray, held: float | None) -> None:
+    def __init__(self, rows: FitRows, tau: FloatArray, held: float | None) -> None:
         self.tau, self.held = tau, held
         u = np.log(tau)
         cell = np.gradient(u) if tau.size > 1 else np.ones(1)
@@ -124,7 +124,7 @@ class Penalised:
         length = float(np.log(rows.frequency[-1] / rows.frequency[0]))
         bends = _second_derivative(u) * np.sqrt(self.count / length)
         self.bends = np.column_stack([np.zeros(len(bends)), bends]) if held is None else bends
-        self.dust = DUST * float(rows.storage.min()) / self.unit
+        self.dust = ZERO_MODULUS * float(rows.storage.min()) / self.unit
 
     def solve(self, target: FloatArray, strength: float, bend: FloatArray | None = None) -> FloatArray:
         """Moduli, equilibrium first, shape `(1 + m,)`, for data over scale `target`, shape `(2n,)` [Pa].
@@ -137,7 +137,7 @@ class Penalised:
         """Moduli as `solve`, from the matrix of its strength."""
         right = self.basis.T @ (target - self.fixed)
         bend = np.zeros(len(matrix) - right.size) if bend is None else bend[: len(matrix) - right.size]
-        solution = non_negative(matrix, np.concatenate([right, bend]))
+        solution = non_negative_least_squares(matrix, np.concatenate([right, bend]))
         full = solution if self.held is None else np.concatenate([[self.held / self.unit[0]], solution])
         return np.asarray(np.where(full > self.dust, full, 0.0) * self.unit)
 
@@ -148,7 +148,7 @@ class Penalised:
         factor, _ = np.linalg.qr(np.vstack([self.columns[:, active], penalty]))
         return np.asarray(np.sum(factor[: self.count] ** 2, axis=1))
 
-    def judged(self, target: FloatArray, strength: float) -> Solution:
+    def judged(self, target: FloatArray, strength: float) -> PenalisedSolution:
         """Solve, with effective parameters and residual."""
         matrix = self._stacked(strength)
         moduli = self._solved(target, matrix)
@@ -159,7 +159,7 @@ class Penalised:
             freedom = float(np.sum(factor[: len(self.triangle)] ** 2))
         weights = moduli / self.unit if self.held is None else (moduli / self.unit)[1:]
         error = self.columns @ weights + self.fixed - target
-        return Solution(moduli, freedom, float(np.sqrt(np.mean(error**2))))
+        return PenalisedSolution(moduli, freedom, float(np.sqrt(np.mean(error**2))))
 
     def _stacked(self, strength: float) -> FloatArray:
         if strength == 0.0:
@@ -167,7 +167,7 @@ class Penalised:
         return np.vstack([self.triangle, np.sqrt(strength) * self.bends])
 
 
-def _smoothed_loss(rows: Rows, tau: FloatArray) -> FloatArray:
+def _smoothed_loss(rows: FitRows, tau: FloatArray) -> FloatArray:
     """E'' at omega = 1/tau, ln E'' smoothed by a Gaussian-weighted mean over ln omega [Pa].
 
     Beyond the window a power law goes on, of the slope at its end: between 0 and 1 on the slow side, where a loss that
@@ -209,44 +209,46 @@ def aicc(count: int, freedom: float, residual: float) -> float:
     return float(count * (2.0 * np.log(s) + 1.0 + 2.0 * (freedom + 1.0) / (count - freedom - 2.0)))
 
 
-def choose(
-    rows: Rows, held: float | None, strengths: tuple[float, ...] = STRENGTHS
+def choose_terms(
+    rows: FitRows, held: float | None, strengths: tuple[float, ...] = STRENGTHS
 ) -> tuple[FloatArray, float, tuple[Candidate, ...]]:
     """Choose the fit with the fewest terms that the data support: times [s], strength and table.
 
     Notes
     -----
-    Of all candidates within `SUPPORT` of the smallest AICc, the one with the fewest active terms is taken,
+    Of all candidates within `AICC_SUPPORT` of the smallest AICc, the one with the fewest active terms is taken,
     among equals the smoothest (fewest effective parameters). Candidates without an equilibrium modulus
     (fluids) count only if all others have essentially no support: a cover is a solid.
     """
-    offers: list[_Offer] = []
+    offers: list[_ScoredFit] = []
     for density in DENSITIES:
         tau = even_times(rows.omega, density, REACH)
-        problem = Penalised(rows, tau, held)
-        for strength in strengths if density < BARE_DENSITY else strengths[:1]:
-            offers += _offer(rows, problem, density, strength)
+        problem = PenalisedFit(rows, tau, held)
+        for strength in strengths if density < UNPENALISED_DENSITY else strengths[:1]:
+            offers += _score_candidate(rows, problem, density, strength)
     if offers and offers[-1][0].regularisation == 0.0:
-        offers += _closer(rows, held, offers[-1])
+        offers += _refine_lines(rows, held, offers[-1])
     if not offers:
         raise InputError(
             f"{rows.frequency.size} rows are too few to choose the number of terms: measure more frequencies,"
             " or give terms_per_decade= or times="
         )
     best = min(one[0].score for one in offers)
-    solid = [one for one in offers if one[2][0] > 0.0 and one[0].score <= best + NO_SUPPORT]
+    solid = [one for one in offers if one[2][0] > 0.0 and one[0].score <= best + AICC_NO_SUPPORT]
     least = min(one[0].score for one in solid or offers)
-    supported = [one for one in solid or offers if one[0].score <= least + SUPPORT]
+    supported = [one for one in solid or offers if one[0].score <= least + AICC_SUPPORT]
     chosen = min(supported, key=lambda one: (one[0].terms, one[0].freedom))
     others = sorted((c[0] for c in offers if c is not chosen), key=lambda line: line.score)
     return chosen[1], chosen[0].regularisation, (chosen[0], *others)
 
 
-_Offer = tuple[Candidate, FloatArray, FloatArray]
+_ScoredFit = tuple[Candidate, FloatArray, FloatArray]
 """A candidate, its times [s], and its moduli, equilibrium first [Pa]."""
 
 
-def _offer(rows: Rows, problem: Penalised, density: float, strength: float) -> list[_Offer]:
+def _score_candidate(
+    rows: FitRows, problem: PenalisedFit, density: float, strength: float
+) -> list[_ScoredFit]:
     """Fit and score one candidate; none where the criterion does not exist."""
     target = rows.target
     one = problem.judged(target, strength)
@@ -257,9 +259,9 @@ def _offer(rows: Rows, problem: Penalised, density: float, strength: float) -> l
     return [(Candidate(density, strength, terms, one.freedom, one.residual, score), problem.tau, one.moduli)]
 
 
-def _closer(rows: Rows, held: float | None, last: _Offer) -> list[_Offer]:
+def _refine_lines(rows: FitRows, held: float | None, last: _ScoredFit) -> list[_ScoredFit]:
     """Candidates of halved spacing about the lines of a discrete spectrum, while each is better."""
-    offers: list[_Offer] = []
+    offers: list[_ScoredFit] = []
     for _ in range(HALVINGS):
         line, tau, moduli = last
         if 2 * line.terms > tau.size:
@@ -268,9 +270,9 @@ def _closer(rows: Rows, held: float | None, last: _Offer) -> list[_Offer]:
         u = np.log(tau[near])
         step = np.log(10.0) / line.terms_per_decade
         between = 0.5 * (u[1:] + u[:-1])[np.diff(u) < 1.5 * step]
-        problem = Penalised(rows, np.exp(np.sort(np.concatenate([u, between]))), held)
-        closer = _offer(rows, problem, 2.0 * line.terms_per_decade, 0.0)
-        if not closer or closer[0][0].score > line.score - SUPPORT:
+        problem = PenalisedFit(rows, np.exp(np.sort(np.concatenate([u, between]))), held)
+        closer = _score_candidate(rows, problem, 2.0 * line.terms_per_decade, 0.0)
+        if not closer or closer[0][0].score > line.score - AICC_SUPPORT:
             break
         last = closer[0]
         offers.append(last)

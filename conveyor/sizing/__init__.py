@@ -1,6 +1,6 @@
 """Sizing: ranked designs of a conveyor from its duty."""
 
-from conveyor.sizing.designs import CalculatedSizing, size
-from conveyor.sizing.sized import SizedDesign
+from conveyor.sizing.design_search import CalculatedSizing, size_conveyor
+from conveyor.sizing.sized_design import SizedDesign
 
-__all__ = ["CalculatedSizing", "SizedDesign", "size"]
+__all__ = ["CalculatedSizing", "SizedDesign", "size_conveyor"]

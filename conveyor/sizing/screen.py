@@ -19,24 +19,26 @@ from numpy.typing import NDArray
 
 from conveyor.laws.loading import middle_share_belt, middle_share_bulk
 from conveyor.laws.power import JOULE_PER_KWH
-from conveyor.laws.resistance.defaults import CLEANER_PRESSURE
 from conveyor.laws.resistance.flexure import FLEXURE_COEFFICIENT
+from conveyor.laws.resistance.resistance_defaults import CLEANER_PRESSURE
 from conveyor.laws.roll_life import BALL_EXPONENT, RATED_REVOLUTIONS
-from conveyor.line.task import Choice, RollSize, SizingTask, Trough, spread
+from conveyor.line.sizing_task import DesignChoice, RollSize, SizingTask, TroughSize, drive_powers
 from conveyor.models.belt import RUBBER_DENSITY
 from conveyor.models.sizing import DriveLayout
-from conveyor.studies.costs import Parts, costs
+from conveyor.studies.costs import Parts, conveyor_costs
 
 Array = NDArray[np.float64]
 
-_LOAD: Final = 4.0 / 3.0  # exponent of the line load
-_WING: Final = 2.0**_LOAD / (_LOAD + 1.0)  # a triangular load over an even one
+_LOAD_EXPONENT: Final = 4.0 / 3.0  # exponent of the line load
+_WING_LOAD_FACTOR: Final = 2.0**_LOAD_EXPONENT / (_LOAD_EXPONENT + 1.0)  # a triangular load over an even one
 _CLEANERS: Final = 2.0 * 0.008 * CLEANER_PRESSURE.value * 0.6  # [N/m] of belt width: `line.defaults`
 _SKIRTS: Final = (
     2.0 * 0.7 * 9.81 / 0.625**2
 )  # [m/s²]: both zones of the usual skirts, over (Q/v)²/(ρ B²) and 1 m
-_SET: Final = 0.5  # bearing life of a set over that of its most loaded bearing
-_STARTED: Final = 0.375  # mean round the loop of a start's extra force, over it; 1/4 of the mass returns
+_SET_LIFE_SHARE: Final = 0.5  # bearing life of a set over that of its most loaded bearing
+_START_MEAN_SHARE: Final = (
+    0.375  # mean round the loop of a start's extra force, over it; 1/4 of the mass returns
+)
 _ROUNDS: Final = 4  # of belt class, mass and tensions
 
 
@@ -45,7 +47,7 @@ Limit = Literal["belt strength", "motor power", "take-up travel", "bearings", "s
 
 
 @dataclass(frozen=True)
-class Levels:
+class EstimateCalibration:
     """Calibration factors of the estimate.
 
     Attributes
@@ -67,16 +69,16 @@ class Levels:
     uses: Mapping[Limit, float] = field(default_factory=dict)
 
 
-def first_levels(covers: int) -> Levels:
+def first_calibration(covers: int) -> EstimateCalibration:
     """Initial calibration: Jonkers at E' 10 MPa and tan δ 0.12; it selects what is calculated first."""
     jonkers = 1.138 * 0.12 / 1e7 ** (1.0 / 3.0)
-    return Levels((jonkers,) * covers, (jonkers,) * covers, 2.5, 1.0)
+    return EstimateCalibration((jonkers,) * covers, (jonkers,) * covers, 2.5, 1.0)
 
 
-class Running(NamedTuple):
+class TroughAtSpeed(NamedTuple):
     """A trough with a speed [m/s], its filling [-], and rolls that turn slowly enough."""
 
-    trough: Trough
+    trough: TroughSize
     speed: float
     filling: float
     roll: RollSize
@@ -88,21 +90,21 @@ class Candidates:
 
     Attributes
     ----------
-    running : tuple of Running
+    running : tuple of TroughAtSpeed
         Troughs with a speed and suitable rolls.
     numbers : ndarray of int, shape (n, 6)
         Indices of each candidate: running combination, carry and return spacing, cover, kind of carcass, drive layout.
     """
 
     task: SizingTask
-    running: tuple[Running, ...]
+    running: tuple[TroughAtSpeed, ...]
     numbers: NDArray[np.int64]
 
     @classmethod
     def of(cls, task: SizingTask) -> Candidates:
         """Combine the free choices of a duty."""
         running = tuple(
-            Running(trough, speed, filling, roll)
+            TroughAtSpeed(trough, speed, filling, roll)
             for trough, speed in itertools.product(task.troughs, task.speeds)
             if (filling := task.filling(trough, speed)) is not None
             for roll in task.rolls
@@ -121,22 +123,22 @@ class Candidates:
         """Subset of the candidates."""
         return Candidates(self.task, self.running, self.numbers[rows])
 
-    def taken_up(self) -> Candidates:
+    def within_travel(self) -> Candidates:
         """Candidates whose permanent stretch is within the take-up's travel, whatever the tensions."""
         task = self.task
         travel = [task.lasting_strain(kind) < task.take_up_strain for kind in task.kinds]
         return self.only(np.array(travel)[self.numbers[:, 4]])
 
-    def __getitem__(self, i: int) -> Choice:
+    def __getitem__(self, i: int) -> DesignChoice:
         ran, carry, back, cover, kind, drives = self.numbers[i].tolist()
         task = self.task
         trough, speed, filling, roll = self.running[ran]
         apart = task.spacings[0][carry], task.spacings[1][back]
-        return Choice(
+        return DesignChoice(
             trough, speed, filling, roll, *apart, cover, task.kinds[kind], task.rules.drives[drives]
         )
 
-    def runs(self, get: Callable[[Running], float]) -> Array:
+    def runs(self, get: Callable[[TroughAtSpeed], float]) -> Array:
         """Figure of trough, speed and rolls for each candidate."""
         return np.array([get(one) for one in self.running])[self.numbers[:, 0]]
 
@@ -151,7 +153,7 @@ class Candidates:
 
 
 @dataclass(frozen=True, eq=False)
-class Screened:
+class Estimates:
     """The estimate of every candidate, shape (n,).
 
     Attributes
@@ -182,12 +184,12 @@ class Screened:
     uses: Mapping[Limit, Array]
 
     @property
-    def farthest(self) -> Array:
+    def largest_use(self) -> Array:
         """Largest use of a limit by each candidate [-]."""
         return np.asarray(np.max(list(self.uses.values()), axis=0))
 
 
-class _Series(NamedTuple):
+class _BeltSeries(NamedTuple):
     """Belt classes by kind and index; beyond the last of a kind like its last, but infinitely strong.
 
     Strength and stiffness [N/m], mass of the carcass [kg/m²], pulleys per belt width [kg/m]; `covers` also by running
@@ -204,7 +206,7 @@ class _Series(NamedTuple):
     stiffest: Array
 
     @classmethod
-    def of(cls, task: SizingTask, wear: Sequence[float]) -> _Series:
+    def of(cls, task: SizingTask, wear: Sequence[float]) -> _BeltSeries:
         """Tables of a duty; `wear` is the addition to the covers [m]."""
         kinds = [task.carcasses[kind] for kind in task.kinds]
         most = max(map(len, kinds))
@@ -228,7 +230,7 @@ class _Series(NamedTuple):
         )
 
 
-class _Loop(NamedTuple):
+class _LoopEstimate(NamedTuple):
     """Estimate of candidates with a belt class each.
 
     Covers [m], load of the middle roll and of carry and return sets, indentation, force of all drives, tension behind
@@ -247,7 +249,7 @@ class _Loop(NamedTuple):
     travel: Array
 
 
-def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
+def screen_candidates(task: SizingTask, every: Candidates, levels: EstimateCalibration) -> Estimates:
     """Estimate every candidate."""
     length, numbers = task.length, every.numbers
     cover, kind = numbers[:, 3], numbers[:, 4]
@@ -258,17 +260,20 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
     rest = levels.rest * (task.flow * speed + _CLEANERS * width + skirts)
     per_metre = np.array([3.0 / carry, every.runs(lambda on: on.trough.width.return_rolls[0]) / back])
     steel = np.array([one == "steel cord" for one in task.kinds])[kind]
-    series = _Series.of(task, wear)
+    series = _BeltSeries.of(task, wear)
     carcass = np.zeros(len(every), dtype=np.int64)
-    around = _around(every, levels, series, carcass, rest)
+    around = _estimate_loop(every, levels, series, carcass, rest)
     for _ in range(_ROUNDS - 1):
         rows = np.flatnonzero(around.carcass != carcass)  # the others no longer change
         carcass = around.carcass.copy()
-        again = _around(every.only(rows), levels, series, carcass[rows], rest[rows])
+        again = _estimate_loop(every.only(rows), levels, series, carcass[rows], rest[rows])
         for figure, value in zip(around, again, strict=True):
             figure[rows] = value
     (top, bottom), carcass, force = around.covers.T, around.carcass, around.force
-    power, drives = np.abs(force) * speed / task.efficiency, every.driven(lambda one: len(spread(1.0, one)))
+    power, drives = (
+        np.abs(force) * speed / task.efficiency,
+        every.driven(lambda one: len(drive_powers(1.0, one))),
+    )
     life = _roll_life(every, around.middle)
     uses: dict[Limit, Array] = {
         "belt strength": around.strength,
@@ -278,7 +283,7 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
         "bearings": task.roll_life / life,
         "set rating": np.max(around.sets.T / every.ratings(), axis=0),
     }
-    pushed = (every.driven(_at_tail) == 1.0) & (force >= 0.0)  # a drive at the tail pushes the belt
+    pushed = (every.driven(_tail_share) == 1.0) & (force >= 0.0)  # a drive at the tail pushes the belt
     possible = np.max(list(uses.values()), axis=0) <= 1.0
     if (possible & ~pushed).any():
         possible &= ~pushed
@@ -286,22 +291,26 @@ def screen(task: SizingTask, every: Candidates, levels: Levels) -> Screened:
     parts = Parts(
         width=width, length=length, strength=series.strengths[kind, carcass], steel_cord=steel.astype(float),
         cover=top + first * bottom, special_cover=(1.0 - first) * bottom, sets=length / carry + length / back,
-        rolls=length * per_metre.sum(axis=0), roll_mass=length * _turning(every, carry, back),
+        rolls=length * per_metre.sum(axis=0), roll_mass=length * _rotating_mass(every, carry, back),
         roll_life=life, drives=drives, power=power * task.rules.motor_reserve,
         pulley_mass=series.pulleys[kind, carcass] * width, take_up=around.slack,
     )  # fmt: skip
     drawn, fed_back = np.maximum(0.0, force) / task.efficiency, np.maximum(0.0, -force) * task.efficiency
     worth = (task.energy_price * drawn - task.feed_in_price * fed_back) * speed * task.seconds / JOULE_PER_KWH
-    cost = costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=worth)
+    cost = conveyor_costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=worth)
     yearly = np.asarray(cost.year)
     year = np.where(possible, yearly, np.inf)
     rolls = length * per_metre.sum(axis=0)
-    return Screened(yearly, year, carcass, force, around.indentation, rolls, rest, uses)
+    return Estimates(yearly, year, carcass, force, around.indentation, rolls, rest, uses)
 
 
-def _around(
-    every: Candidates, levels: Levels, series: _Series, carcass: NDArray[np.int64], rest: Array
-) -> _Loop:
+def _estimate_loop(
+    every: Candidates,
+    levels: EstimateCalibration,
+    series: _BeltSeries,
+    carcass: NDArray[np.int64],
+    rest: Array,
+) -> _LoopEstimate:
     """Friction and tensions with a belt class, and the class that they require."""
     task, numbers = every.task, every.numbers
     g, length, sections = task.gravity, task.length, np.array(task.sections)
@@ -319,10 +328,13 @@ def _around(
     belt = width * (series.masses[kind, carcass] + RUBBER_DENSITY * (top + bottom))
     middle = (of_bulk * bulk + of_belt * belt) * g * carry
     wing = 0.5 * ((1.0 - of_bulk) * bulk + (1.0 - of_belt) * belt) * g * carry
-    per_set = three * (middle / three) ** _LOAD + 2.0 * _WING * on_wing * (wing / on_wing) ** _LOAD
+    per_set = (
+        three * (middle / three) ** _LOAD_EXPONENT
+        + 2.0 * _WING_LOAD_FACTOR * on_wing * (wing / on_wing) ** _LOAD_EXPONENT
+    )
     indentation = np.array([
         np.array(levels.carry)[cover] * np.cbrt(bottom / diameter**2) * per_set * length / carry,
-        np.array(levels.back)[cover] * np.cbrt(top / diameter**2) * wide * (belt * g * back / wide) ** _LOAD
+        np.array(levels.back)[cover] * np.cbrt(top / diameter**2) * wide * (belt * g * back / wide) ** _LOAD_EXPONENT
         * length / back,
     ])  # fmt: skip
     sags = np.array(task.sags)[:, None]
@@ -337,7 +349,7 @@ def _around(
     up[:, 0] += rest
     force = up.sum(axis=1) + down.sum(axis=1)
     spans = belt * g * back, (belt + bulk) * g * carry
-    slack, largest, mean = _tensions(every, force, (down[:, ::-1], up), spans)
+    slack, largest, mean = _loop_tensions(every, force, (down[:, ::-1], up), spans)
     strength = safety * largest / width
     lasting = np.array([task.lasting_strain(one) for one in task.kinds])[kind]
     travel = levels.uses.get("take-up travel", 1.0) / task.take_up_strain
@@ -349,19 +361,19 @@ def _around(
     travel = travel * (mean / width / series.stiffest[kind] + lasting)
     sets = np.array([(belt + task.lump_factor * bulk) * g * carry, spans[0]]).T
     chosen = np.minimum(asked, last)
-    return _Loop(covers, middle, sets, indentation.T, force, slack, chosen, strength, travel)
+    return _LoopEstimate(covers, middle, sets, indentation.T, force, slack, chosen, strength, travel)
 
 
 def _roll_life(every: Candidates, middle: Array) -> Array:
     """L10 of the bearings of a carry set by the load of its middle roll [s]."""
     turns = RATED_REVOLUTIONS * (every.runs(lambda on: on.roll.rating) / (0.5 * middle)) ** BALL_EXPONENT
-    return np.asarray(_SET * turns * math.pi * every.runs(lambda on: on.roll.diameter / on.speed))
+    return np.asarray(_SET_LIFE_SHARE * turns * math.pi * every.runs(lambda on: on.roll.diameter / on.speed))
 
 
-def _turning(every: Candidates, carry: Array, back: Array) -> Array:
+def _rotating_mass(every: Candidates, carry: Array, back: Array) -> Array:
     """Rotating mass of the rolls of both strands per length of conveyor [kg/m]."""
 
-    def return_set(on: Running) -> float:
+    def return_set(on: TroughAtSpeed) -> float:
         count, length, _ = on.trough.width.return_rolls
         return count * on.roll.mass(length)
 
@@ -369,7 +381,7 @@ def _turning(every: Candidates, carry: Array, back: Array) -> Array:
     return np.asarray(carry_set / carry + every.runs(return_set) / back)
 
 
-def _tensions(
+def _loop_tensions(
     every: Candidates, force: Array, along: tuple[Array, Array], spans: tuple[Array, Array]
 ) -> tuple[Array, Array, Array]:
     """Tension right behind the head, the largest, and the highest mean round the loop at a start, by grip and sag [N].
@@ -378,7 +390,7 @@ def _tensions(
     return and carry strand between two sets [N].
     """
     (down, up), (span_back, span_carry) = along, spans
-    task, at_tail = every.task, every.driven(_at_tail)
+    task, at_tail = every.task, every.driven(_tail_share)
     friction, wrap = task.grip
     grips = 1.0 / np.expm1(
         friction * wrap * every.driven(lambda one: 2.0 if one.startswith("head, two pulleys") else 1.0)
@@ -398,9 +410,9 @@ def _tensions(
     highest = np.maximum(np.maximum(0.0, returning.max(axis=1)), np.maximum(after_tail, carrying.max(axis=1)))
     lengths = np.array([length for length, _ in task.sections]) / (2.0 * task.length)
     mean = slack + (returning - 0.5 * down) @ lengths[::-1] + (carrying - 0.5 * up) @ lengths
-    return slack, slack + highest, mean + (start - 1.0) * np.abs(force) * _STARTED
+    return slack, slack + highest, mean + (start - 1.0) * np.abs(force) * _START_MEAN_SHARE
 
 
-def _at_tail(drives: DriveLayout) -> float:
+def _tail_share(drives: DriveLayout) -> float:
     """Share of the drive force at the tail."""
-    return (1.0 / len(spread(1.0, drives))) if "tail" in drives else 0.0
+    return (1.0 / len(drive_powers(1.0, drives))) if "tail" in drives else 0.0

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.laws.roll_life import BALL_EXPONENT
-from conveyor.line.roll_lives import set_life
-from conveyor.line.task import SizingTask
+from conveyor.line.roll_lives import idler_set_life
+from conveyor.line.sizing_task import SizingTask
 from conveyor.pipeline import CalculatedConveyor
-from conveyor.sizing.sized import SizedDesign
+from conveyor.sizing.sized_design import SizedDesign
 
 
 @dataclass(frozen=True)
@@ -83,9 +83,9 @@ def section_spacings(task: SizingTask, design: SizedDesign) -> Iterator[SectionS
         for i, (length, _) in enumerate(task.sections):
             at = i if strand == "carry" else 2 * count - 1 - i
             stretch, forces = line.stretches[at], design.found.stretches[at].forces
-            now, lowest = stretch.spacing, min(_lowest(one, at) for one in design.pair)
+            now, lowest = stretch.spacing, min(_lowest_tension(one, at) for one in design.pair)
             per_spacing = stretch.line_mass * line.gravity / (8.0 * task.sags[k])
-            life = set_life(stretch, line.speed)
+            life = idler_set_life(stretch, line.speed)
             yield SectionSpacing(
                 section=stretch.section,
                 strand=strand,
@@ -101,7 +101,7 @@ def section_spacings(task: SizingTask, design: SizedDesign) -> Iterator[SectionS
             )
 
 
-def _lowest(one: CalculatedConveyor, at: int) -> float:
+def _lowest_tension(one: CalculatedConveyor, at: int) -> float:
     """Lowest steady tension of a stretch [N]; `at` counts as in the line, the loop begins at the head."""
     steady, i = one.balance.settled.steady, (at + one.line.count) % (2 * one.line.count)
     return float(min(steady.starts[i], steady.ends[i]))
@@ -115,20 +115,22 @@ def graduated_spacings(task: SizingTask, design: SizedDesign) -> Iterator[tuple[
     """
     carry = [one for one in section_spacings(task, design) if one.strand == "carry"]
     slackest = min(carry, key=lambda one: one.sag / one.built)
-    spare, per_metre = _set_by_sag(design), slackest.tension_per_spacing
+    spare, per_metre = _sag_reserve(design), slackest.tension_per_spacing
     closer = (min(spare, (slackest.sag - a) * per_metre) for a in task.spacings[0] if a < slackest.built)
     for let_down in dict.fromkeys((0.0, *(closer if spare > 0.0 else ()))):
-        yield tuple(min(_borne(task, design, one, let_down), key=one.cost) for one in carry)
+        yield tuple(min(_allowed_spacings(task, design, one, let_down), key=one.cost) for one in carry)
 
 
-def _borne(task: SizingTask, design: SizedDesign, one: SectionSpacing, let_down: float) -> tuple[float, ...]:
+def _allowed_spacings(
+    task: SizingTask, design: SizedDesign, one: SectionSpacing, let_down: float
+) -> tuple[float, ...]:
     """Spacings of the series allowed in a section; the present one is allowed at its own tensions."""
     widest = min(one.sag - let_down / one.tension_per_spacing, one.bearings, design.choice.back)
     borne = tuple(a for a in task.spacings[0] if a <= widest or (a == one.built and let_down == 0.0))
     return borne or (min(task.spacings[0]),)
 
 
-def _set_by_sag(design: SizedDesign) -> float:
+def _sag_reserve(design: SizedDesign) -> float:
     """Take-up tension required by carry sag beyond all other conditions, the least of both calculations [N]."""
     return max(
         0.0,

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from conveyor.starter.examples import EXAMPLES, example
-from conveyor.starter.values import KINDS, Kind, values
-from conveyor.starter.write import quoted, written
+from conveyor.starter.full_examples import EXAMPLES, example_files
+from conveyor.starter.starter_data import KINDS, Kind, starter_values
+from conveyor.starter.starter_writer import quote_path, starter_text
 
-__all__ = ["EXAMPLES", "KINDS", "Kind", "example", "quoted", "values", "written"]
+__all__ = ["EXAMPLES", "KINDS", "Kind", "example_files", "quote_path", "starter_text", "starter_values"]

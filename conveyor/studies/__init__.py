@@ -8,20 +8,20 @@ from functools import cached_property, partial
 
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor
-from conveyor.studies.cases import (
+from conveyor.studies.duty import CalculatedYear, analyse_duty
+from conveyor.studies.flooding import FloodedBelt, flooded_belt
+from conveyor.studies.input_ranges import CalculatedRanges, analyse_ranges
+from conveyor.studies.load_cases import (
     MOTOR_RESERVE,
     CalculatedCases,
-    Governing,
+    GoverningLoad,
     Load,
     MotorChoice,
-    governing,
+    governing_loads,
     recommended_motors,
 )
-from conveyor.studies.duty import CalculatedYear, analyse_duty
-from conveyor.studies.flooded import FloodedBelt, flooded_belt
-from conveyor.studies.loads import Progress, designing, every_load
+from conveyor.studies.loads import Progress, design_loads, every_load
 from conveyor.studies.states import CalculatedStates
-from conveyor.studies.uncertainty import CalculatedRanges, study
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -53,9 +53,9 @@ class CalculatedStudies:
         return f"Studies({', '.join(held) or 'none requested'})"
 
     @cached_property
-    def governing(self) -> tuple[Governing, ...]:
+    def governing(self) -> tuple[GoverningLoad, ...]:
         """Governing load of every design figure: as given, a load case or a load state."""
-        return governing(self._loads)
+        return governing_loads(self._loads)
 
     @property
     def motors(self) -> tuple[MotorChoice, ...]:
@@ -68,10 +68,10 @@ class CalculatedStudies:
         if self.cases is None or not self.cases.designing:
             return ()
         of, states = self.cases, self.states
-        return of.designing if states is None else designing(states.own, states, of)
+        return of.designing if states is None else design_loads(states.own, states, of)
 
 
-def studies(
+def calculate_studies(
     conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: Progress | None = None
 ) -> CalculatedStudies:
     """Calculate the load states and the studies that the spec requests.
@@ -104,6 +104,6 @@ def studies(
         else None,
         uncertainty=None
         if conveyor.uncertainty is None
-        else study(conveyor, take_up=loads.states.take_up, progress=told("ranges of the inputs")),
+        else analyse_ranges(conveyor, take_up=loads.states.take_up, progress=told("ranges of the inputs")),
         flooded=flooded_belt(loads.own),
     )

@@ -20,14 +20,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import chdtrc, stdtrit
 
-from conveyor.arguments import checked
-from conveyor.errors import Amount, InputError, NoSolutionError
-from conveyor.forces import along_the_belt
-from conveyor.loop.balance import OpenLoop, answers, balances
-from conveyor.models import CALIBRATED, Calibration, Conveyor, MeasuredRun
+from conveyor.arguments import check_arguments
+from conveyor.errors import InputError, MessageQuantity, NoSolutionError
+from conveyor.forces import forces_along_belt
+from conveyor.loop.balance import OpenLoop, close_loops, raise_first_error
+from conveyor.models import CALIBRATED_FORCES, Calibration, Conveyor, MeasuredRun
 from conveyor.models.variants import with_runs
-from conveyor.pipeline import CalculatedConveyor, NoAnswer, Progress, Variant, calculate_many
-from conveyor.rubber.anchor import COVERED
+from conveyor.pipeline import CalculatedConveyor, NoAnswer, ProgressCallback, Variant, calculate_many
+from conveyor.rubber.rolling_test_factor import BAND_COVERAGE
 
 Array = NDArray[np.float64]
 Group = tuple[str, ...]
@@ -36,9 +36,9 @@ Grouping = tuple[Group, ...]
 TYPICAL_ERROR: Final = 0.02
 """Relative standard deviation of a measured power assumed until residuals are known: general knowledge (a power meter
 of 0.5 to 1 % and a belt scale of 1 to 2 %)."""
-TOLD_APART: Final = 0.25
+WIDEST_BAND: Final = 0.25
 """Widest half band of a factor that is reported: a wider one says less than a guess (general knowledge)."""
-UNLIKE: Final = 0.2
+JOINED_SPREAD: Final = 0.2
 """Standard deviation of joined factors about their mean: general knowledge (friction factors of like conveyors spread
 as much). It enters the bands of the other factors."""
 POOR_FIT: Final = 0.01
@@ -49,8 +49,8 @@ _DIGITS: Final = 6
 _STEP: Final = (
     1e-3  # of a factor for derivatives; the power is linear but for wraps and the take-up's conditions
 )
-_SETTLED: Final = 1e-7
-_MOST: Final = 30
+_STEP_TOLERANCE: Final = 1e-7
+_MOST_ITERATIONS: Final = 30
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ class FittedFactor:
     @property
     def name(self) -> str:
         """Names of its forces."""
-        return _words(self.forces)
+        return _force_names(self.forces)
 
 
 @dataclass(frozen=True)
@@ -147,15 +147,15 @@ class CalculatedCalibration:
         return f'CalibrationStudy("{self.conveyor.name}": {told}; {len(self.runs)} runs)'
 
 
-@checked
-def calibrate(
+@check_arguments
+def fit_factors(
     conveyor: Conveyor,
     runs: Sequence[MeasuredRun],
     *,
     error: float | None = None,
     factors: Sequence[str] | None = None,
     rtol: float | None = None,
-    progress: Progress | None = None,
+    progress: ProgressCallback | None = None,
 ) -> CalculatedCalibration:
     """Fit factors on forces to measured power.
 
@@ -194,31 +194,31 @@ def calibrate(
     that is improbable (below 1 %), or from the residuals, with Student's t. The forces that have no factor (lift, tilt,
     secondary resistances) and the efficiencies are taken as the spec says.
     """
-    _check(conveyor, runs, error, factors)
+    _check_runs(conveyor, runs, error, factors)
     plain = conveyor.replace(calculation=conveyor.calculation.replace(calibration=None))
     solve = partial(calculate_many, rtol=rtol, progress=progress)
-    scene = _Scene.of(plain, runs, Calibration(), error, solve)
+    scene = _SolvedRuns.of(plain, runs, Calibration(), error, solve)
     before = scene.power(Calibration())
     _check_direction(runs, before, "as calculated")
-    free, notes = _free(scene, factors)
-    for _ in range(_MOST):
-        chosen, solved = _chosen(scene, free, wanted=factors is not None)
+    free, notes = _free_factors(scene, factors)
+    for _ in range(_MOST_ITERATIONS):
+        chosen, solved = _select_grouping(scene, free, wanted=factors is not None)
         if not scene.curved or scene.solved_with(solved.calibration):
             break
-        scene = _Scene.of(plain, runs, solved.calibration, error, solve)
+        scene = _SolvedRuns.of(plain, runs, solved.calibration, error, solve)
     else:
         raise NoSolutionError("the factors and the loads on vertical curves do not settle: fit fewer factors")
     _check_direction(runs, solved.power, "with the factors")
     source = f"{len(runs)} measured run{'s'[: len(runs) > 1]}, conveyor calibrate {version('conveyor')}"
     made = solved.calibration.replace(source=source)
     calibrated = conveyor.replace(calculation=conveyor.calculation.replace(calibration=made))
-    relations = [*notes, *_not_told(runs, chosen), *solved.notes]
+    relations = [*notes, *_unresolved_groups(runs, chosen), *solved.notes]
     figures = (each.tolist() for each in (scene.measured, before, solved.power, solved.sigma))
     columns = zip(runs, *figures, strict=True)
     return CalculatedCalibration(
         conveyor=calibrated,
         factors=solved.factors,
-        held=tuple(name for name in CALIBRATED if not any(name in group for group in chosen)),
+        held=tuple(name for name in CALIBRATED_FORCES if not any(name in group for group in chosen)),
         correlation=solved.correlation,
         runs=tuple(CalibratedRun(*column) for column in columns),
         chi_square=solved.chi_square,
@@ -229,13 +229,15 @@ def calibrate(
     )
 
 
-def _check(
+def _check_runs(
     conveyor: Conveyor, runs: Sequence[MeasuredRun], error: float | None, factors: Sequence[str] | None
 ) -> None:
     """Reject runs that cannot be fitted."""
-    unknown = [name for name in factors or () if name not in CALIBRATED]
+    unknown = [name for name in factors or () if name not in CALIBRATED_FORCES]
     if unknown or (factors is not None and not factors):
-        raise InputError(f"factors: got {', '.join(unknown) or 'none'}, allowed: {', '.join(CALIBRATED)}")
+        raise InputError(
+            f"factors: got {', '.join(unknown) or 'none'}, allowed: {', '.join(CALIBRATED_FORCES)}"
+        )
     if error is not None and not 0.0 < error < 1.0:
         raise InputError(
             f"error = {error:g}: a standard deviation over the power, between 0 and 1, is needed"
@@ -269,12 +271,12 @@ def _check_direction(runs: Sequence[MeasuredRun], power: Array, how: str) -> Non
             raise InputError(
                 f"run {number}: measured {{}}, {how} {{}}: one drives, the other brakes, and the drive's efficiency "
                 "counts either way; leave the run out, or look at route and flow",
-                *(Amount(each, "power", f"{each / 1e3:.4g} kW") for each in (run.watts, watts)),
+                *(MessageQuantity(each, "power", f"{each / 1e3:.4g} kW") for each in (run.watts, watts)),
             )
 
 
 @dataclass(frozen=True, eq=False)
-class _Scene:
+class _SolvedRuns:
     """The runs with their contacts solved at given factors (which on vertical curves load the rolls)."""
 
     found: tuple[CalculatedConveyor, ...]
@@ -292,7 +294,7 @@ class _Scene:
         under: Calibration,
         error: float | None,
         solve: Callable[[list[Variant]], list[CalculatedConveyor | NoAnswer]],
-    ) -> _Scene:
+    ) -> _SolvedRuns:
         """Solve the runs, each distinct state once."""
         made = conveyor.replace(calculation=conveyor.calculation.replace(calibration=under))
         states = dict(zip((run.state for run in runs), with_runs(made, runs), strict=True))
@@ -314,7 +316,7 @@ class _Scene:
     @property
     def curved(self) -> bool:
         """True if tensions load the rolls."""
-        return self.found[0].line.tension_acts
+        return self.found[0].line.has_tension_coupling
 
     @property
     def estimated(self) -> bool:
@@ -332,12 +334,14 @@ class _Scene:
         loops = [
             OpenLoop(
                 one.balance.frame,
-                along_the_belt(one.line, one.fixed, one.contacts.indentation, calibration=calibration),
+                forces_along_belt(one.line, one.fixed, one.contacts.indentation, calibration=calibration),
                 one.balance.unit_main,
             )
             for one in runs
         ]
-        power = {one: made.power for one, made in zip(runs, answers(balances(loops)), strict=True)}
+        power = {
+            one: made.power for one, made in zip(runs, raise_first_error(close_loops(loops)), strict=True)
+        }
         pairs = zip(self.found, self.at, strict=True)
         return np.array([power[one].mains if at == "mains" else power[one].motor for one, at in pairs])
 
@@ -346,7 +350,7 @@ class _Scene:
         columns = []
         for k in range(len(grouping)):
             moved = [value * (1.0 + _STEP * (i == k)) for i, value in enumerate(values)]
-            columns.append((self.power(_calibration(grouping, moved)) - power) / (_STEP * values[k]))
+            columns.append((self.power(_grouped_calibration(grouping, moved)) - power) / (_STEP * values[k]))
         return np.array(columns).T
 
     def sigma(self, power: Array) -> Array:
@@ -354,20 +358,20 @@ class _Scene:
         return self.stated if self.stated is not None else (self.error or 1.0) * abs(power)
 
 
-def _calibration(grouping: Grouping, values: Sequence[float]) -> Calibration:
+def _grouped_calibration(grouping: Grouping, values: Sequence[float]) -> Calibration:
     return Calibration(
         **{name: value for group, value in zip(grouping, values, strict=True) for name in group}
     )
 
 
-def _free(scene: _Scene, factors: Sequence[str] | None) -> tuple[Grouping, list[str]]:
+def _free_factors(scene: _SolvedRuns, factors: Sequence[str] | None) -> tuple[Grouping, list[str]]:
     """Factors that affect the power, and notes on the others; those that no power can separate are joined.
 
     Flexure and misalignment are both proportional to the load, at any flow, speed and temperature.
     """
     notes = []
-    forces = {name: max(abs(_total(one, name)) for one in scene.found) for name in CALIBRATED}
-    free = [name for name in CALIBRATED if forces[name] > 0.0]
+    forces = {name: max(abs(_total_force(one, name)) for one in scene.found) for name in CALIBRATED_FORCES}
+    free = [name for name in CALIBRATED_FORCES if forces[name] > 0.0]
     if "flexure" in free and scene.found[0].fixed.flexure is None:
         if factors is None:
             free.remove("flexure")
@@ -378,8 +382,8 @@ def _free(scene: _Scene, factors: Sequence[str] | None) -> tuple[Grouping, list[
     if factors is not None:
         idle = [name for name in factors if forces[name] == 0.0]
         if idle:
-            raise InputError(f"factors: {_words(idle)} is no force of this conveyor: leave it out")
-        return tuple((name,) for name in CALIBRATED if name in factors), notes
+            raise InputError(f"factors: {_force_names(idle)} is no force of this conveyor: leave it out")
+        return tuple((name,) for name in CALIBRATED_FORCES if name in factors), notes
     groups: list[Group] = [(name,) for name in free if name not in _BY_LOAD]
     if (
         "flexure" in free
@@ -388,7 +392,7 @@ def _free(scene: _Scene, factors: Sequence[str] | None) -> tuple[Grouping, list[
     return tuple(groups), notes
 
 
-def _total(one: CalculatedConveyor, name: str) -> float:
+def _total_force(one: CalculatedConveyor, name: str) -> float:
     return next(force.total for force in one.balance.along if force.key == name)
 
 
@@ -407,7 +411,7 @@ class _Fit:
     notes: tuple[str, ...]
 
 
-def _groupings(free: Grouping) -> Iterator[list[Grouping]]:
+def _possible_groupings(free: Grouping) -> Iterator[list[Grouping]]:
     """Groupings of the factors, from most to fewest: each for itself, two joined, all joined."""
     yield [free]
     if len(free) == 3:
@@ -417,7 +421,7 @@ def _groupings(free: Grouping) -> Iterator[list[Grouping]]:
         yield [(sum(free, ()),)]
 
 
-def _chosen(scene: _Scene, free: Grouping, *, wanted: bool) -> tuple[Grouping, _Fit]:
+def _select_grouping(scene: _SolvedRuns, free: Grouping, *, wanted: bool) -> tuple[Grouping, _Fit]:
     """Grouping and fit with the most factors whose bands are narrow enough.
 
     Raises
@@ -426,22 +430,22 @@ def _chosen(scene: _Scene, free: Grouping, *, wanted: bool) -> tuple[Grouping, _
         No factor, or not those requested, can be fitted.
     """
     reasons = []
-    for ways in _groupings(free):
+    for ways in _possible_groupings(free):
         judged = sorted(((_expected_width(scene, way), way) for way in ways), key=lambda pair: pair[0])
         for width, way in judged:
             fewest = len(way) + scene.estimated
             if len(scene.measured) < fewest:
                 stated = "; with a stated error one less" if scene.estimated else ""
-                reasons.append(f"{_said(way)}: {fewest} runs at least are needed{stated}")
+                reasons.append(f"{_grouping_text(way)}: {fewest} runs at least are needed{stated}")
                 continue
-            if width > TOLD_APART:
-                wide = f"a band wider than ±{TOLD_APART:g} is to be expected"
-                reasons.append(f"{_said(way)}: the runs do not tell, {wide}")
+            if width > WIDEST_BAND:
+                wide = f"a band wider than ±{WIDEST_BAND:g} is to be expected"
+                reasons.append(f"{_grouping_text(way)}: the runs do not tell, {wide}")
                 continue
-            fit = _fit(scene, way)
+            fit = _fit_grouping(scene, way)
             if isinstance(fit, _Fit):
                 return way, fit
-            reasons.append(f"{_said(way)}: {fit}")
+            reasons.append(f"{_grouping_text(way)}: {fit}")
         if wanted:
             break
     too_few = all("runs at least are needed" in reason for reason in reasons)
@@ -451,7 +455,7 @@ def _chosen(scene: _Scene, free: Grouping, *, wanted: bool) -> tuple[Grouping, _
     )
 
 
-def _expected_width(scene: _Scene, grouping: Grouping) -> float:
+def _expected_width(scene: _SolvedRuns, grouping: Grouping) -> float:
     """Widest half band of a grouping's factors expected before the fit [-]; infinite if they are dependent."""
     ones = [1.0] * len(grouping)
     power = scene.power(Calibration())
@@ -460,77 +464,80 @@ def _expected_width(scene: _Scene, grouping: Grouping) -> float:
     if np.linalg.matrix_rank(weighed) < len(grouping):
         return math.inf
     spread = np.sqrt(np.diag(np.linalg.inv(weighed.T @ weighed)))
-    return float(_normal() * spread.max())
+    return float(_normal_quantile() * spread.max())
 
 
-def _normal() -> float:
-    return _student(10**9)
+def _normal_quantile() -> float:
+    return _student_quantile(10**9)
 
 
-def _student(freedom: int) -> float:
+def _student_quantile(freedom: int) -> float:
     """Student's t quantile at the end of a 90 % band [-]."""
-    return float(stdtrit(freedom, 0.5 + 0.5 * COVERED))
+    return float(stdtrit(freedom, 0.5 + 0.5 * BAND_COVERAGE))
 
 
-def _fit(scene: _Scene, grouping: Grouping) -> _Fit | str:
+def _fit_grouping(scene: _SolvedRuns, grouping: Grouping) -> _Fit | str:
     """Gauss-Newton fit on the closed loop, or the reason why its factors are unusable."""
     values = [1.0] * len(grouping)
-    for _ in range(_MOST):
-        power = scene.power(_calibration(grouping, values))
+    for _ in range(_MOST_ITERATIONS):
+        power = scene.power(_grouped_calibration(grouping, values))
         slopes, sigma = scene.slopes(grouping, values, power), scene.sigma(power)
         step = np.linalg.lstsq(slopes / sigma[:, None], (scene.measured - power) / sigma, rcond=None)[0]
         values = [value + float(change) for value, change in zip(values, step, strict=True)]
         for group, value in zip(grouping, values, strict=True):
             if not 0.0 < value <= LARGEST_FACTOR:
-                return f"the factor of {_words(group)} comes out as {value:.3g}"
-        if float(abs(step).max()) <= _SETTLED:
+                return f"the factor of {_force_names(group)} comes out as {value:.3g}"
+        if float(abs(step).max()) <= _STEP_TOLERANCE:
             break
     else:
         return "does not settle"
     values = [float(f"{value:.{_DIGITS}g}") for value in values]
-    calibration = _calibration(grouping, values)
+    calibration = _grouped_calibration(grouping, values)
     power = scene.power(calibration)
-    return _judged(scene, grouping, values, power, scene.slopes(grouping, values, power))
+    return _fit_with_bands(scene, grouping, values, power, scene.slopes(grouping, values, power))
 
 
-def _judged(
-    scene: _Scene, grouping: Grouping, values: list[float], power: Array, slopes: Array
+def _fit_with_bands(
+    scene: _SolvedRuns, grouping: Grouping, values: list[float], power: Array, slopes: Array
 ) -> _Fit | str:
     """Fit with the bands of its factors, or the reason why one band is too wide."""
     sigma, freedom = scene.sigma(power), len(power) - len(values)
     chi_square = float((((scene.measured - power) / sigma) ** 2).sum())
-    error, ends, notes = scene.error, _normal(), []
+    error, ends, notes = scene.error, _normal_quantile(), []
     if scene.estimated:
         error = math.sqrt(chi_square / freedom)
-        sigma, chi_square, ends = error * sigma, float(freedom), _student(freedom)
+        sigma, chi_square, ends = error * sigma, float(freedom), _student_quantile(freedom)
     elif freedom > 0 and chdtrc(freedom, chi_square) < POOR_FIT:
         wider = math.sqrt(chi_square / freedom)
-        sigma, ends = sigma * wider, _student(freedom)
+        sigma, ends = sigma * wider, _student_quantile(freedom)
         notes.append(
             f"the differences are {wider:.2g} times the errors stated (probability below {100.0 * POOR_FIT:.0f} %): "
             "the errors are larger, or something else than these factors differs; the bands are widened by it"
         )
     weighed = slopes / sigma[:, None]
     covariance = np.linalg.inv(weighed.T @ weighed)
-    covariance += _of_joined(scene, grouping, values, power, covariance @ (weighed / sigma[:, None]).T)
+    covariance += _joined_covariance(
+        scene, grouping, values, power, covariance @ (weighed / sigma[:, None]).T
+    )
     spread = np.sqrt(np.diag(covariance))
     factors = tuple(
         FittedFactor(group, value, value - ends * one, value + ends * one)
         for group, value, one in zip(grouping, values, spread.tolist(), strict=True)
     )
     for factor in factors:
-        if factor.high - factor.value > TOLD_APART:
+        if factor.high - factor.value > WIDEST_BAND:
             return f"the factor of {factor.name} has a band of ±{factor.high - factor.value:.2g}"
     correlation = covariance / np.outer(spread, spread)
     stated = None if scene.stated is not None else error
     return _Fit(
-        _calibration(grouping, values), factors, correlation, power, sigma if scene.estimated else scene.sigma(power),
+        _grouped_calibration(grouping, values), factors, correlation, power,
+        sigma if scene.estimated else scene.sigma(power),
         chi_square, freedom, stated, tuple(notes),
     )  # fmt: skip
 
 
-def _of_joined(
-    scene: _Scene, grouping: Grouping, values: Sequence[float], power: Array, solved: Array
+def _joined_covariance(
+    scene: _SolvedRuns, grouping: Grouping, values: Sequence[float], power: Array, solved: Array
 ) -> Array:
     """Covariance of the factors from the differences within joined ones, which are means weighted by the runs.
 
@@ -546,16 +553,17 @@ def _of_joined(
             slopes = scene.slopes((*apart, *others), [*[value] * len(group), *fixed], power)[:, : len(group)]
             moved = solved @ slopes
             moved[k] = 0.0
-            joined += UNLIKE**2 * moved @ moved.T
+            joined += JOINED_SPREAD**2 * moved @ moved.T
     return joined
 
 
-def _not_told(runs: Sequence[MeasuredRun], grouping: Grouping) -> Iterator[str]:
+def _unresolved_groups(runs: Sequence[MeasuredRun], grouping: Grouping) -> Iterator[str]:
     """Notes on the joined factors, and the runs that would separate them."""
     for group in grouping:
         if len(group) > 1:
             yield (
-                f"{_kind_of_runs(runs)}: {_words(group)} cannot be told apart; one factor for them. Empty and full "
+                f"{_kind_of_runs(runs)}: {_force_names(group)} cannot be told apart; one factor for them. Empty and "
+                f"full "
                 "runs tell losses under load from constant ones, several temperatures rubber from rolls"
             )
 
@@ -570,12 +578,12 @@ def _kind_of_runs(runs: Sequence[MeasuredRun]) -> str:
     return ", ".join(alike) or "these runs"
 
 
-def _said(grouping: Grouping) -> str:
+def _grouping_text(grouping: Grouping) -> str:
     if len(grouping) == 1:
-        return f"one factor for {_words(grouping[0])}"
-    return "; ".join(_words(group) for group in grouping)
+        return f"one factor for {_force_names(grouping[0])}"
+    return "; ".join(_force_names(group) for group in grouping)
 
 
-def _words(forces: Sequence[str]) -> str:
+def _force_names(forces: Sequence[str]) -> str:
     *others, last = [force.replace("_", " ") for force in forces]
     return f"{', '.join(others)} and {last}" if others else last

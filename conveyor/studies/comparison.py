@@ -18,22 +18,22 @@ from typing import Final, NamedTuple, get_args
 from pydantic import TypeAdapter, ValidationError
 
 from conveyor import shelf
-from conveyor.arguments import checked
+from conveyor.arguments import check_arguments
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.operation import BeltSpeed
-from conveyor.models.variants import CoverChoice, distinct, with_compound
-from conveyor.pipeline import Kept, Progress
+from conveyor.models.variants import CoverChoice, distinct_values, with_compound
+from conveyor.pipeline import ProgressCallback, ReuseCache
 from conveyor.studies.comparison_scenes import (
     ComparedScene,
     CompoundStudy,
     Coverage,
     Refusal,
-    of_compound,
-    strands_of,
+    affected_strands,
+    calculate_compound,
 )
 from conveyor.studies.duty import CalculatedYear, analyse_duty
-from conveyor.studies.workers import workers_of
+from conveyor.studies.worker_failures import report_lost_worker
 from conveyor.units import Quantity, quantity, text
 
 __all__ = [
@@ -110,7 +110,7 @@ class CalculatedComparison:
         tests = {compound.name: {test.conditions for test in compound.tests} for compound in self.compounds}
         return bool(tests[one]) and tests[one] == tests[other]
 
-    def told_apart(self, less: RankedPower, more: RankedPower) -> bool:
+    def differs_clearly(self, less: RankedPower, more: RankedPower) -> bool:
         """True if `more` exceeds `less` by more than the root of the squares of both errors, without common ones."""
         alike = self.tested_alike(less.compound, more.compound)
         (_, up), (down, _) = (less.own, more.own) if alike else (less.whole, more.whole)
@@ -120,13 +120,13 @@ class CalculatedComparison:
         """Compounds by power, the least first, grouped where they do not clearly differ from the first of the group."""
         grouped: list[list[RankedPower]] = []
         for one in sorted(standings, key=lambda standing: standing.motor):
-            if grouped and not self.told_apart(grouped[-1][0], one):
+            if grouped and not self.differs_clearly(grouped[-1][0], one):
                 grouped[-1].append(one)
             else:
                 grouped.append([one])
         return grouped
 
-    def level_differs(self, name: str) -> bool:
+    def test_basis_differs(self, name: str) -> bool:
         """True if only one of a compound and the base has rolling-resistance tests that set its indentation."""
         if self.conveyor.calculation.anchor != "tests":
             return False
@@ -176,7 +176,7 @@ class RankedPower:
         )
 
 
-@checked
+@check_arguments
 def compare_compounds(
     conveyor: Conveyor,
     compounds: Iterable[str | RubberCompound],
@@ -190,7 +190,7 @@ def compare_compounds(
     shelves: Iterable[str | Path] = (),
     executor: Executor | None = None,
     workers: int = 1,
-    progress: Progress | None = None,
+    progress: ProgressCallback | None = None,
 ) -> CalculatedComparison:
     """Calculate a conveyor with every compound at every temperature and speed.
 
@@ -233,16 +233,18 @@ def compare_compounds(
     """
     if cover not in get_args(CoverChoice):
         raise InputError(f'cover = "{cover}": allowed are {", ".join(get_args(CoverChoice))}')
-    chosen = _compounds(compounds, shelves)
-    at = [conveyor.ambient.belt] if temperatures is None else _quantities(temperatures, "temperature")
-    runs = [conveyor.belt.speed] if speeds is None else _quantities(speeds, "speed")
-    costs = {_named(name, chosen): cost for name, cost in (extra_costs or {}).items()}
-    reference = chosen[0].name if base is None else _named(base, chosen)
-    job = _Job(conveyor, tuple(map(text, at)), tuple(map(text, runs)), cover, rtol)
-    answers: list[_Answer] = []
+    chosen = _resolve_compounds(compounds, shelves)
+    at = [conveyor.ambient.belt] if temperatures is None else _read_quantities(temperatures, "temperature")
+    runs = [conveyor.belt.speed] if speeds is None else _read_quantities(speeds, "speed")
+    costs = {_compound_name(name, chosen): cost for name, cost in (extra_costs or {}).items()}
+    reference = chosen[0].name if base is None else _compound_name(base, chosen)
+    job = _ComparisonJob(conveyor, tuple(map(text, at)), tuple(map(text, runs)), cover, rtol)
+    answers: list[_CompoundAnswer] = []
     if progress is not None:
         progress(0, len(chosen))
-    for some in _in_turn(job, chosen) if executor is None else _on(executor, workers, job, chosen):
+    for some in (
+        _run_serially(job, chosen) if executor is None else _run_on_executor(executor, workers, job, chosen)
+    ):
         answers += some
         if progress is not None:
             progress(len(answers), len(chosen))
@@ -261,7 +263,7 @@ def compare_compounds(
     )
 
 
-class _Answer(NamedTuple):
+class _CompoundAnswer(NamedTuple):
     """Scenes of one compound, and its year if it has one."""
 
     study: CompoundStudy
@@ -269,7 +271,7 @@ class _Answer(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class _Job:
+class _ComparisonJob:
     """Inputs common to all compounds, in any process: quantities as text, as specs pickle theirs."""
 
     conveyor: Conveyor
@@ -278,9 +280,9 @@ class _Job:
     cover: CoverChoice
     rtol: float
 
-    def of(self, compound: RubberCompound, kept: Kept) -> _Answer:
+    def of(self, compound: RubberCompound, kept: ReuseCache) -> _CompoundAnswer:
         """Scenes and year of a compound."""
-        study = of_compound(
+        study = calculate_compound(
             self.conveyor,
             compound,
             [quantity(one, "temperature") for one in self.temperatures],
@@ -289,24 +291,26 @@ class _Job:
             rtol=self.rtol,
             kept=kept,
         )
-        return _Answer(study, _year(self.conveyor, compound, self.cover, self.rtol))
+        return _CompoundAnswer(study, _duty_year(self.conveyor, compound, self.cover, self.rtol))
 
 
-def _in_turn(job: _Job, compounds: Sequence[RubberCompound]) -> Iterator[list[_Answer]]:
+def _run_serially(
+    job: _ComparisonJob, compounds: Sequence[RubberCompound]
+) -> Iterator[list[_CompoundAnswer]]:
     """Calculate compounds one after the other, reusing common results."""
-    kept = Kept()
+    kept = ReuseCache()
     return ([job.of(compound, kept)] for compound in compounds)
 
 
-def _on(
-    executor: Executor, workers: int, job: _Job, compounds: Sequence[RubberCompound]
-) -> Iterator[list[_Answer]]:
+def _run_on_executor(
+    executor: Executor, workers: int, job: _ComparisonJob, compounds: Sequence[RubberCompound]
+) -> Iterator[list[_CompoundAnswer]]:
     """Calculate compounds in as many groups as there are workers."""
     count = max(1, min(workers, len(compounds)))
     ends = [len(compounds) * k // count for k in range(count + 1)]
-    asked = [executor.submit(_several, job, compounds[a:b]) for a, b in pairwise(ends)]
+    asked = [executor.submit(_run_group, job, compounds[a:b]) for a, b in pairwise(ends)]
     try:
-        with workers_of("comparison"):
+        with report_lost_worker("comparison"):
             for future in asked:
                 yield future.result()
     finally:
@@ -314,11 +318,11 @@ def _on(
             future.cancel()
 
 
-def _several(job: _Job, compounds: Sequence[RubberCompound]) -> list[_Answer]:
-    return [answer for some in _in_turn(job, compounds) for answer in some]
+def _run_group(job: _ComparisonJob, compounds: Sequence[RubberCompound]) -> list[_CompoundAnswer]:
+    return [answer for some in _run_serially(job, compounds) for answer in some]
 
 
-def _year(
+def _duty_year(
     conveyor: Conveyor, compound: RubberCompound, cover: CoverChoice, rtol: float
 ) -> CalculatedYear | None:
     """The year of a duty; None without a duty, or if a bar has no answer or no data."""
@@ -329,13 +333,13 @@ def _year(
         year = analyse_duty(changed, rtol=rtol)
     except ConveyorError:
         return None  # its scenes give the reason; the report remarks that it has no year
-    strands = strands_of(changed, cover)
+    strands = affected_strands(changed, cover)
     bands = [(row.temperature, row.excited[strand]) for row in year.rows for strand in strands]
     asked = [Coverage(compound.name, t, band, compound.frequencies(t)) for t, band in bands if band]
     return year if all(one.covered for one in asked) else None
 
 
-def _compounds(
+def _resolve_compounds(
     given: Iterable[str | RubberCompound], shelves: Iterable[str | Path]
 ) -> tuple[RubberCompound, ...]:
     extra = tuple(shelves)
@@ -351,7 +355,7 @@ def _compounds(
     return chosen
 
 
-def _named(name: str, compounds: Sequence[RubberCompound]) -> str:
+def _compound_name(name: str, compounds: Sequence[RubberCompound]) -> str:
     """Name of one of the compounds, ignoring case."""
     for compound in compounds:
         if compound.name.casefold() == name.casefold():
@@ -368,11 +372,11 @@ def _check_speed(given: Quantity) -> None:
         raise InputError(f"speed: {error.errors()[0]['msg']}") from None
 
 
-def _quantities(given: Iterable[str | Quantity], kind: str) -> list[Quantity]:
+def _read_quantities(given: Iterable[str | Quantity], kind: str) -> list[Quantity]:
     quantities = [quantity(item, kind) for item in given]
     if kind == "speed":
         for item in quantities:
             _check_speed(item)
     if not quantities:
         raise InputError(f"{kind}s: give at least one, or none at all for the spec's own")
-    return distinct(quantities)
+    return distinct_values(quantities)

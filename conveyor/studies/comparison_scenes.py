@@ -19,8 +19,8 @@ from conveyor.line.contacts import RollResult
 from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import CoverChoice, crossed_settings, with_compound
-from conveyor.pipeline import CalculatedConveyor, Kept, Variant, calculate_many
-from conveyor.rubber.anchor import ends
+from conveyor.pipeline import CalculatedConveyor, ReuseCache, Variant, calculate_many
+from conveyor.rubber.rolling_test_factor import quantile_band
 from conveyor.units import Quantity
 
 _BAND_RTOL = 1e-3  # of the contacts behind the band: a tenth of the narrowest band
@@ -118,7 +118,7 @@ class CompoundStudy:
     coverage: tuple[Coverage, ...]
 
 
-def of_compound(
+def calculate_compound(
     conveyor: Conveyor,
     compound: RubberCompound,
     temperatures: Sequence[Quantity],
@@ -126,7 +126,7 @@ def of_compound(
     *,
     cover: CoverChoice,
     rtol: float,
-    kept: Kept | None = None,
+    kept: ReuseCache | None = None,
 ) -> CompoundStudy:
     """Calculate every temperature and speed of one compound.
 
@@ -142,7 +142,7 @@ def of_compound(
         Cover that changes.
     rtol : float
         Relative tolerance of the contacts [-].
-    kept : Kept, optional
+    kept : ReuseCache, optional
         Results shared with earlier compounds: lines, and the rolls under an unchanged cover.
 
     Raises
@@ -151,7 +151,7 @@ def of_compound(
         The belt's mass does not fit the compound's density.
     """
     changed = with_compound(conveyor, compound, cover)
-    strands = strands_of(changed, cover)
+    strands = affected_strands(changed, cover)
     settings = list(crossed_settings(changed, temperatures, speeds))
     going = [(s, s.conveyor) for s in settings if isinstance(s.conveyor, Conveyor)]
     runs: dict[float, list[int]] = {}
@@ -170,16 +170,16 @@ def of_compound(
     by_temperature: dict[float, list[CalculatedConveyor]] = {}
     for one in solved:
         by_temperature.setdefault(one.temperature, []).append(one)
-    bands = {at: _band(compound, at, ones, strands) for at, ones in by_temperature.items()}
-    coverage = (_coverage(compound, at, ones, strands) for at, ones in by_temperature.items())
+    bands = {at: _indentation_band(compound, at, ones, strands) for at, ones in by_temperature.items()}
+    coverage = (_frequency_coverage(compound, at, ones, strands) for at, ones in by_temperature.items())
     return CompoundStudy(
-        tuple(_scene(compound.name, one, strands, bands[one.temperature]) for one in solved),
+        tuple(_compared_scene(compound.name, one, strands, bands[one.temperature]) for one in solved),
         tuple(refused),
         tuple(one for one in coverage if one is not None),
     )
 
 
-def strands_of(conveyor: Conveyor, cover: CoverChoice) -> frozenset[Strand]:
+def affected_strands(conveyor: Conveyor, cover: CoverChoice) -> frozenset[Strand]:
     """Strands whose rolls run on a changed cover."""
     if cover == "both":
         return frozenset(("carry", "return"))
@@ -191,7 +191,7 @@ def strands_of(conveyor: Conveyor, cover: CoverChoice) -> frozenset[Strand]:
 _Bands: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
 
 
-def _scene(
+def _compared_scene(
     name: str, one: CalculatedConveyor, strands: frozenset[Strand], bands: _Bands | None
 ) -> ComparedScene:
     balance, year = one.balance, one.year
@@ -224,14 +224,14 @@ def _scene(
     )
 
 
-def _heaviest(result: CalculatedConveyor, strands: frozenset[Strand]) -> RollResult | None:
+def _highest_loss_roll(result: CalculatedConveyor, strands: frozenset[Strand]) -> RollResult | None:
     """Roll with the highest loss, of the strands whose cover is compared."""
     pairs = zip(result.line.stretches, result.contacts.rolls, strict=True)
     rolls = [roll for stretch, several in pairs if stretch.strand in strands for roll in several]
     return max(rolls, key=lambda roll: roll.resistance) if rolls else None
 
 
-def _band(
+def _indentation_band(
     compound: RubberCompound,
     temperature: float,
     results: Sequence[CalculatedConveyor],
@@ -244,10 +244,12 @@ def _band(
     strain of the master curve: softening changes all alike.
     """
     middle = results[len(results) // 2]
-    roll = _heaviest(middle, strands)
+    roll = _highest_loss_roll(middle, strands)
     tested = [strand for strand in strands if middle.contacts.covers[strand].level is not None]
     if tested:
-        both = [[middle.contacts.level_range(strand, own=own) for strand in tested] for own in (False, True)]
+        both = [
+            [middle.contacts.test_factor_range(strand, own=own) for strand in tested] for own in (False, True)
+        ]
         whole, own = ((min(low for low, _ in each), max(high for _, high in each)) for each in both)
         return whole, own
     replicas = compound.replicas(temperature)
@@ -257,11 +259,11 @@ def _band(
     contact, load = roll.curve.contact, roll.load.peak_line_load
     problems = [to_problem(replace(contact, rubber=rubber), load) for rubber in (base, *replicas)]
     friction = np.array([solution.friction for solution in solve_many(problems, _BAND_RTOL, throw=True)])
-    band = ends(friction[1:] / friction[0])
+    band = quantile_band(friction[1:] / friction[0])
     return band, band
 
 
-def _coverage(
+def _frequency_coverage(
     compound: RubberCompound,
     temperature: float,
     results: Sequence[CalculatedConveyor],

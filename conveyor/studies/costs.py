@@ -10,9 +10,9 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.laws.belt import RATED_SAFETY
-from conveyor.laws.sizing import annuity
-from conveyor.line.roll_lives import shortest_life
+from conveyor.laws.belt_strength import RATED_SAFETY
+from conveyor.laws.preliminary_sizing import annuity
+from conveyor.line.roll_lives import shortest_set_life
 from conveyor.line.stretches import STRANDS
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor
@@ -69,7 +69,9 @@ class Costs:
         return sum((value for name, value in self.yearly.items() if name != "energy"), 0.0)
 
 
-def costs(parts: Parts, prices: Mapping[str, float], *, seconds: float, energy: Value | None) -> Costs:
+def conveyor_costs(
+    parts: Parts, prices: Mapping[str, float], *, seconds: float, energy: Value | None
+) -> Costs:
     """Capital and yearly costs of a conveyor.
 
     Parameters
@@ -119,7 +121,7 @@ def costs(parts: Parts, prices: Mapping[str, float], *, seconds: float, energy: 
     return Costs(capital, yearly)
 
 
-def unpriced(line: Conveyor) -> Iterator[str]:
+def missing_price_fields(line: Conveyor) -> Iterator[str]:
     """Fields missing in a spec for pricing its parts."""
     if line.belt.carcass.strength is None and line.belt.carcass.rating is None:
         yield "belt.carcass.strength"
@@ -132,17 +134,17 @@ def unpriced(line: Conveyor) -> Iterator[str]:
 
 def roll_life(one: CalculatedConveyor) -> float:
     """Shortest L10 of the bearings of any set [s]."""
-    lives = [shortest_life(one.line.stretches, strand, one.line.speed) for strand in STRANDS]
+    lives = [shortest_set_life(one.line.stretches, strand, one.line.speed) for strand in STRANDS]
     return min((3600.0 * life.hours for life in lives if life is not None), default=_NO_LIFE)
 
 
-def parts_of(one: CalculatedConveyor) -> Parts | None:
-    """Parts of a calculated conveyor as its spec lists them; None if `unpriced` names a field.
+def conveyor_parts(one: CalculatedConveyor) -> Parts | None:
+    """Parts of a calculated conveyor as its spec lists them; None if `missing_price_fields` names a field.
 
     The bottom cover is a special one if its compound is not that of the top cover; a belt sold by its rated tension is
     taken to break at a usual multiple of it.
     """
-    if any(unpriced(one.conveyor)):
+    if any(missing_price_fields(one.conveyor)):
         return None
     line, belt = one.line, one.line.belt
     (top, bottom), rubber = belt.cover_thicknesses, one.conveyor.belt.top_cover.compound

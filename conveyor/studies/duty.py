@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from conveyor.arguments import checked
+from conveyor.arguments import check_arguments
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.laws.energy import Duty, DutyStep, duty_emission, duty_specific_energy, duty_sums
+from conveyor.laws.energy import DutyStep, DutySums, duty_emission, duty_specific_energy, duty_sums
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.line.stretches import STRANDS, Strand
-from conveyor.loop.frame import TakeUpSetting
-from conveyor.loop.year import year_cost
+from conveyor.loop.annual_energy import annual_cost
+from conveyor.loop.loop_layout import TakeUpSetting
 from conveyor.models import Conveyor, DutyEntry, LoadCase
 from conveyor.models.variants import with_case, with_temperature
-from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate_many
+from conveyor.pipeline import CalculatedConveyor, ProgressCallback, Variant, calculate_many
 from conveyor.units import quantity
 
 
@@ -76,7 +76,7 @@ class CalculatedYear:
         The spec.
     rows : tuple of DutyRow
         The bars.
-    year : Duty
+    year : DutySums
         Their sums.
     cost : float or None
         Of the energy, less the credit for what is fed back [currency]; None without a price.
@@ -92,7 +92,7 @@ class CalculatedYear:
 
     conveyor: Conveyor
     rows: tuple[DutyRow, ...]
-    year: Duty
+    year: DutySums
     cost: float | None
     currency: str | None
     emission: float | None
@@ -103,13 +103,13 @@ class CalculatedYear:
         return f'DutyStudy("{self.conveyor.name}": {len(self.rows)} bars)'
 
 
-@checked
+@check_arguments
 def analyse_duty(
     conveyor: Conveyor,
     *,
     take_up: TakeUpSetting | None = None,
     rtol: float | None = None,
-    progress: Progress | None = None,
+    progress: ProgressCallback | None = None,
 ) -> CalculatedYear:
     """Calculate every bar of a conveyor's duty and sum the year.
 
@@ -147,20 +147,20 @@ def analyse_duty(
     if operation is None:
         raise InputError("operation: missing; hours_per_year or duty say how the conveyor is used")
     entries = operation.duty or (DutyEntry(hours=operation.hours_per_year, share=quantity("100 %")),)
-    variants = [_variant(conveyor, i, entry) for i, entry in enumerate(entries)]
+    variants = [_duty_variant(conveyor, i, entry) for i, entry in enumerate(entries)]
     rows = []
     answers = calculate_many([Variant(one, take_up=take_up) for one in variants], rtol, progress)
     for i, (entry, result) in enumerate(zip(entries, answers, strict=True)):
         if not isinstance(result, CalculatedConveyor):
             raise NoSolutionError(f"operation.duty[{i}] ({entry}): {result}")
-        rows.append(_row(entry, result))
+        rows.append(_duty_row(entry, result))
     year = duty_sums([row.step for row in rows])
     price, factor, saved = operation.price, operation.emission, operation.feed_in_emission
     return CalculatedYear(
         conveyor=conveyor,
         rows=tuple(rows),
         year=year,
-        cost=year_cost(operation, year),
+        cost=annual_cost(operation, year),
         currency=None if price is None else price.currency,
         emission=None
         if factor is None
@@ -172,7 +172,7 @@ def analyse_duty(
     )
 
 
-def _variant(conveyor: Conveyor, place: int, entry: DutyEntry) -> Conveyor:
+def _duty_variant(conveyor: Conveyor, place: int, entry: DutyEntry) -> Conveyor:
     if entry.load == 1.0:
         case = LoadCase(name="duty")
     elif entry.load == 0.0:
@@ -186,7 +186,7 @@ def _variant(conveyor: Conveyor, place: int, entry: DutyEntry) -> Conveyor:
         raise InputError(f"operation.duty[{place}] ({entry}): {error}") from None
 
 
-def _row(entry: DutyEntry, result: CalculatedConveyor) -> DutyRow:
+def _duty_row(entry: DutyEntry, result: CalculatedConveyor) -> DutyRow:
     power = result.balance.power
     return DutyRow(
         hours=entry.seconds / 3600.0,

@@ -17,16 +17,16 @@ from numpy.typing import NDArray
 from conveyor.errors import InputError
 from conveyor.models import Conveyor
 from conveyor.models.study import Direction, StudyPlan, Value
-from conveyor.studies.campaign import Campaign
-from conveyor.studies.designs import Design, DesignFigure, front
+from conveyor.studies.design_figures import Design, DesignFigure, pareto_front
+from conveyor.studies.parametric_study import ParametricStudy
 from conveyor.studies.points import OUTPUTS
 from conveyor.units import quantity
 
 Array: TypeAlias = NDArray[np.float64]
 _NUMBER: Final = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
-BEST: Final = 10
+MOST_LISTED: Final = 10
 """Most designs listed, and written as specs."""
-BINS: Final = 8
+RANGE_BINS: Final = 8
 """Parts of the range of a field with many values."""
 
 
@@ -55,7 +55,7 @@ class VariedField:
         """Convert a value to a number."""
         if self.words:
             return float(self.words.index(str(value)))
-        return _read(value, self.unit)
+        return _read_number(value, self.unit)
 
     def said(self, number: float) -> str:
         """Format a number as a value."""
@@ -91,7 +91,7 @@ class MainEffect:
 
 
 @dataclass(frozen=True, eq=False)
-class Explored:
+class StudySummary:
     """Designs of a study with an answer, as numbers.
 
     Attributes
@@ -104,7 +104,7 @@ class Explored:
         Fields that differ between designs.
     figures : mapping of str to DesignFigure
         Design figures by name.
-    sought : mapping of str to {"least", "most"}
+    objectives : mapping of str to {"least", "most"}
         Objectives: figures of the ranking and the front.
     values : ndarray
         Values of the fields, shape `(n, fields)`.
@@ -126,7 +126,7 @@ class Explored:
     base: Conveyor
     fields: tuple[VariedField, ...]
     figures: dict[str, DesignFigure]
-    sought: dict[str, Direction]
+    objectives: dict[str, Direction]
     values: Array
     found: Array
     keeps: NDArray[np.bool_]
@@ -144,19 +144,21 @@ class Explored:
     @property
     def costs(self) -> Array:
         """Objectives with the sign that makes less better, shape `(n, objectives)`."""
-        return self.found * signs(self.sought)
+        return self.found * objective_signs(self.objectives)
 
     def effects(self, field: int) -> tuple[MainEffect, ...]:
         """Main effects of a field on the first objective, by value or in parts of its range."""
         at, values_of = self.values[:, field], self.found[:, 0]
         different = np.unique(at)
         varied = self.fields[field]
-        if len(different) <= BINS or varied.words:
+        if len(different) <= RANGE_BINS or varied.words:
             groups = [(float(value), np.flatnonzero(at == value)) for value in different]
         else:
-            edges = np.linspace(different[0], different[-1], BINS + 1)
-            place = np.clip(np.searchsorted(edges, at, side="right") - 1, 0, BINS - 1)
-            groups = [(float(edges[k] + edges[k + 1]) / 2.0, np.flatnonzero(place == k)) for k in range(BINS)]
+            edges = np.linspace(different[0], different[-1], RANGE_BINS + 1)
+            place = np.clip(np.searchsorted(edges, at, side="right") - 1, 0, RANGE_BINS - 1)
+            groups = [
+                (float(edges[k] + edges[k + 1]) / 2.0, np.flatnonzero(place == k)) for k in range(RANGE_BINS)
+            ]
         return tuple(
             MainEffect(
                 value,
@@ -190,12 +192,12 @@ class Explored:
         return tuple(sorted(range(len(self.fields)), key=lambda field: -span(field)))
 
 
-def signs(sought: dict[str, Direction]) -> Array:
+def objective_signs(sought: dict[str, Direction]) -> Array:
     """Sign of each objective: 1 for least, -1 for most."""
     return np.array([1.0 if direction == "least" else -1.0 for direction in sought.values()])
 
 
-def sought_of(plan: StudyPlan, figures: Iterable[str], base: Conveyor) -> dict[str, Direction]:
+def study_objectives(plan: StudyPlan, figures: Iterable[str], base: Conveyor) -> dict[str, Direction]:
     """Objectives: those of the plan, else cost and energy of a year if designs have them, else the first figure.
 
     Safeties and the flow are maximised, all others minimised.
@@ -209,21 +211,21 @@ def sought_of(plan: StudyPlan, figures: Iterable[str], base: Conveyor) -> dict[s
     return dict(plan.best) or {name: OUTPUTS[name.partition(" ")[0]].better for name in usual or known[:1]}
 
 
-def explored(campaign: Campaign, designs: Iterable[Design]) -> Explored:
+def summarise_study(campaign: ParametricStudy, designs: Iterable[Design]) -> StudySummary:
     """Summarise the designs of a study in one pass.
 
     Parameters
     ----------
-    campaign : Campaign
+    campaign : ParametricStudy
         The study.
     designs : iterable of Design
         All designs; only numbers of each are kept, and the best ten in full.
     """
     plan = campaign.listed
-    every = varied(plan)
-    fields = tuple(field for field in every if len(set(_given(plan, field.path))) > 1) or every
-    sought = sought_of(plan, campaign.figures, campaign.base)
-    sign = signs(sought)
+    every = varied_fields(plan)
+    fields = tuple(field for field in every if len(set(_field_values(plan, field.path))) > 1) or every
+    sought = study_objectives(plan, campaign.figures, campaign.base)
+    sign = objective_signs(sought)
     values, reached, keeps, numbers = array("d"), array("d"), bytearray(), array("q")
     refused: Counter[str] = Counter()
     best: list[tuple[tuple[bool, float, int], Design]] = []
@@ -240,12 +242,14 @@ def explored(campaign: Campaign, designs: Iterable[Design]) -> Explored:
         keeps.append(design.keeps)
         numbers.append(design.number)
         rank = (design.keeps, -float(told[0] * sign[0]), -design.number)
-        heapq.heappush(best, (rank, design)) if len(best) < BEST else heapq.heappushpop(best, (rank, design))
+        heapq.heappush(best, (rank, design)) if len(best) < MOST_LISTED else heapq.heappushpop(
+            best, (rank, design)
+        )
     costs = np.array(reached).reshape(-1, len(sought))
     kept = np.frombuffer(keeps, dtype=bool)
     beaten_by_none = np.zeros(len(kept), dtype=bool)
-    beaten_by_none[kept] = front(costs[kept] * sign)
-    return Explored(
+    beaten_by_none[kept] = pareto_front(costs[kept] * sign)
+    return StudySummary(
         plan,
         campaign.base,
         fields,
@@ -262,20 +266,23 @@ def explored(campaign: Campaign, designs: Iterable[Design]) -> Explored:
     )
 
 
-def varied(plan: StudyPlan, paths: Sequence[str] = ()) -> tuple[VariedField, ...]:
+def varied_fields(plan: StudyPlan, paths: Sequence[str] = ()) -> tuple[VariedField, ...]:
     """Varied fields at the given paths; by default those that differ between designs."""
-    every = paths or plan.designed
-    return tuple(replace(_field(path, _given(plan, path)), label=_label(path, every)) for path in every)
+    every = paths or plan.design_fields
+    return tuple(
+        replace(_varied_field(path, _field_values(plan, path)), label=_field_label(path, every))
+        for path in every
+    )
 
 
-def _label(path: str, every: Sequence[str]) -> str:
+def _field_label(path: str, every: Sequence[str]) -> str:
     parts = path.split(".")
     ends = (".".join(parts[-k:]) for k in range(1, len(parts) + 1))
     label = next(end for end in ends if sum(f".{other}".endswith(f".{end}") for other in every) == 1)
     return label.replace("_", " ").replace(".", " ")
 
 
-def _given(plan: StudyPlan, path: str) -> Sequence[Value]:
+def _field_values(plan: StudyPlan, path: str) -> Sequence[Value]:
     """Values of a field, or the ends of its range."""
     if plan.samples is not None and path in plan.samples.fields:
         span = plan.samples.fields[path]
@@ -283,17 +290,17 @@ def _given(plan: StudyPlan, path: str) -> Sequence[Value]:
     return plan.axes.get(path) or [row[path] for row in (*plan.together, *plan.rows) if path in row]
 
 
-def _field(path: str, given: Sequence[Value]) -> VariedField:
+def _varied_field(path: str, given: Sequence[Value]) -> VariedField:
     unit = str(given[0]).strip().partition(" ")[2].strip() if isinstance(given[0], str) else ""
     try:
-        if not any(isinstance(value, bool) or math.isnan(_read(value, unit)) for value in given):
+        if not any(isinstance(value, bool) or math.isnan(_read_number(value, unit)) for value in given):
             return VariedField(path, unit)
     except InputError:
         pass
     return VariedField(path, words=tuple(dict.fromkeys(map(str, given))))
 
 
-def _read(value: Value, unit: str) -> float:
+def _read_number(value: Value, unit: str) -> float:
     """Number of a value, converted to a unit if it is a quantity."""
     if not isinstance(value, str):
         return float(value)

@@ -7,13 +7,20 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import TypeAlias
 
-from conveyor.checks import BELT_USE, Check, checks, deciding, highest_use, reach
-from conveyor.loop.take_up import TakeUpDuty
+from conveyor.checks import (
+    BELT_STRENGTH_CRITERIA,
+    Check,
+    governing_by_subject,
+    highest_use,
+    run_checks,
+    take_up_travel_checks,
+)
+from conveyor.loop.take_up_duty import TakeUpDuty
 from conveyor.models import Conveyor
-from conveyor.pipeline import CalculatedConveyor, take_up_of
-from conveyor.studies.cases import AS_GIVEN, CalculatedCases, Load, analyse_cases
+from conveyor.pipeline import CalculatedConveyor, common_take_up_duty
+from conveyor.studies.load_cases import AS_GIVEN, CalculatedCases, Load, analyse_cases
 from conveyor.studies.states import CalculatedStates, at_one_take_up, load_states
-from conveyor.units.sentences import Said, quoted, said
+from conveyor.units.sentences import Message, escape_braces, message
 
 Progress: TypeAlias = Callable[[str, int, int], None]
 """Called with a name, the items done and their total."""
@@ -42,7 +49,7 @@ class EveryLoad:
     @cached_property
     def governing(self) -> tuple[Check, ...]:
         """Governing check of each criterion and subject, as `conveyor power` lists them; without scenarios."""
-        return deciding(every_check(self.own, self.states, self.cases))
+        return governing_by_subject(every_check(self.own, self.states, self.cases))
 
     @property
     def failed(self) -> int:
@@ -52,12 +59,12 @@ class EveryLoad:
     @cached_property
     def designing(self) -> tuple[CalculatedConveyor, ...]:
         """Loads to design by."""
-        return tuple(load.found for load in designing(self.own, self.states, self.cases))
+        return tuple(load.found for load in design_loads(self.own, self.states, self.cases))
 
     @property
     def motor_power(self) -> float:
         """Highest power that motors give or hold, at the less favourable end of the friction band [W]."""
-        return max(abs(load.motor_asked) for load in self.designing)
+        return max(abs(load.governing_motor_power) for load in self.designing)
 
     @property
     def motor_use(self) -> float | None:
@@ -78,7 +85,7 @@ class EveryLoad:
     @property
     def belt_use(self) -> float | None:
         """Belt utilisation by strength or rating [-]; None if neither is given."""
-        return highest_use(self.governing, BELT_USE)[0]
+        return highest_use(self.governing, BELT_STRENGTH_CRITERIA)[0]
 
     @property
     def take_up(self) -> float:
@@ -114,25 +121,27 @@ def every_load(
     return EveryLoad(*at_one_take_up(load_states(conveyor, own, cases, progress=told("load states")), cases))
 
 
-def designing(
+def design_loads(
     own: CalculatedConveyor, states: CalculatedStates | None, cases: CalculatedCases | None
 ) -> tuple[Load, ...]:
     """Loads to design by: as given, load cases covered by the rubber's data, load states."""
     return (
-        Load(AS_GIVEN, said(AS_GIVEN), own),
+        Load(AS_GIVEN, message(AS_GIVEN), own),
         *(() if cases is None else cases.designing),
         *(() if states is None else states.loads),
     )
 
 
-def asked_of_take_up(
+def take_up_demand(
     own: CalculatedConveyor, states: CalculatedStates | None, cases: CalculatedCases | None
-) -> tuple[TakeUpDuty, Said]:
+) -> tuple[TakeUpDuty, Message]:
     """Take-up duty of all loads to design by at one setting, and the governing load and condition."""
-    loads = designing(own, states, cases)
-    duty = take_up_of([load.found for load in loads], () if cases is None else cases.temperatures)
-    condition, label = quoted(duty.governed_by), loads[duty.governing].label
-    return duty, said(condition) if len(loads) == 1 else said(f"{label.words}: {condition}", *label.figures)
+    loads = design_loads(own, states, cases)
+    duty = common_take_up_duty([load.found for load in loads], () if cases is None else cases.temperatures)
+    condition, label = escape_braces(duty.governed_by), loads[duty.governing].label
+    return duty, message(condition) if len(loads) == 1 else message(
+        f"{label.words}: {condition}", *label.figures
+    )
 
 
 def every_check(
@@ -142,7 +151,7 @@ def every_check(
     further: Iterable[Check] = (),
 ) -> tuple[Check, ...]:
     """Checks of the conveyor as given, of its load cases and load states, then of other calculations."""
-    together = reach(asked_of_take_up(own, states, cases)[0])
+    together = take_up_travel_checks(take_up_demand(own, states, cases)[0])
     of_cases = () if cases is None else cases.checks
     of_states = () if states is None else states.checks
-    return (*checks(own), *together, *of_cases, *of_states, *further)
+    return (*run_checks(own), *together, *of_cases, *of_states, *further)

@@ -19,16 +19,16 @@ from scipy.special import ndtr
 
 from conveyor.errors import ConveyorError, InputError, NoSolutionError
 from conveyor.line.stretches import Strand
-from conveyor.loop.frame import TakeUpSetting
+from conveyor.loop.loop_layout import TakeUpSetting
 from conveyor.models import Conveyor, RubberCompound, Uncertainty
-from conveyor.models.uncertainty import FEWEST
+from conveyor.models.uncertain_inputs import FEWEST_DRAWS
 from conveyor.models.variants import with_alternative
-from conveyor.pipeline import Anchors, CalculatedConveyor, Progress, Variant, calculate_many
-from conveyor.rubber.anchor import COVERED, ends
+from conveyor.pipeline import CalculatedConveyor, KnownTestFactors, ProgressCallback, Variant, calculate_many
+from conveyor.rubber.rolling_test_factor import BAND_COVERAGE, quantile_band
 
 Array: TypeAlias = NDArray[np.float64]
 _BATCH = 64
-SURE = 0.9
+PERCENTILE_CONFIDENCE = 0.9
 """Confidence of the bounds of a percentile."""
 
 
@@ -76,17 +76,17 @@ class MonteCarlo:
     @property
     def band(self) -> tuple[float, float]:
         """90 % interval [W]."""
-        return ends(self.power)
+        return quantile_band(self.power)
 
     @cached_property
     def convergence(self) -> tuple[Percentiles, ...]:
         """The interval after 64, 128, 256 draws and so on."""
         count = len(self.power)
-        steps = [FEWEST * 2**k for k in range(32) if FEWEST * 2**k < count]
-        return tuple(percentiles(self.power[:n]) for n in (*steps, count))
+        steps = [FEWEST_DRAWS * 2**k for k in range(32) if FEWEST_DRAWS * 2**k < count]
+        return tuple(power_percentiles(self.power[:n]) for n in (*steps, count))
 
 
-def percentiles(power: Array) -> Percentiles:
+def power_percentiles(power: Array) -> Percentiles:
     """90 % interval of draws with distribution-free bounds of its ends, by ranks.
 
     Parameters
@@ -97,16 +97,20 @@ def percentiles(power: Array) -> Percentiles:
     from scipy.stats import binom  # takes 0.3 s, not needed without draws
 
     ranked, count = np.sort(power), len(power)
-    low, high = ends(power)
+    low, high = quantile_band(power)
 
     def between(share: float) -> tuple[float, float]:
-        first, last = (int(binom.ppf(0.5 + sign * 0.5 * SURE, count, share)) for sign in (-1.0, 1.0))
+        first, last = (
+            int(binom.ppf(0.5 + sign * 0.5 * PERCENTILE_CONFIDENCE, count, share)) for sign in (-1.0, 1.0)
+        )
         return float(ranked[first - 1]), float(ranked[last])
 
-    return Percentiles(count, low, between(0.5 - 0.5 * COVERED), high, between(0.5 + 0.5 * COVERED))
+    return Percentiles(
+        count, low, between(0.5 - 0.5 * BAND_COVERAGE), high, between(0.5 + 0.5 * BAND_COVERAGE)
+    )
 
 
-def drawn(
+def calculate_draws(
     given: CalculatedConveyor,
     inputs: Sequence[DrawnInput],
     ranges: Uncertainty,
@@ -114,7 +118,7 @@ def drawn(
     end: float,
     take_up: TakeUpSetting | None = None,
     rtol: float | None = None,
-    progress: Progress | None = None,
+    progress: ProgressCallback | None = None,
 ) -> MonteCarlo:
     """Draw all inputs together and calculate every draw.
 
@@ -143,15 +147,18 @@ def drawn(
         Fewer than 64 draws have an answer.
     """
     rng = np.random.default_rng(ranges.seed)
-    normal = rng.standard_normal((ranges.draws, len(inputs))) @ _root([one.name for one in inputs], ranges).T
+    normal = (
+        rng.standard_normal((ranges.draws, len(inputs)))
+        @ _correlation_root([one.name for one in inputs], ranges).T
+    )
     power: list[float] = []
-    anchors: Anchors = []
+    anchors: KnownTestFactors = []
     refused: Counter[str] = Counter()
     for at in range(0, ranges.draws, _BATCH):
         variants: list[Variant] = []
         for row in normal[at : at + _BATCH]:
             try:
-                made = _variant(given.conveyor, inputs, row.tolist(), end)
+                made = _draw_variant(given.conveyor, inputs, row.tolist(), end)
                 variants.append(replace(made, take_up=take_up))
             except ConveyorError as error:
                 refused[str(error)] += 1
@@ -162,7 +169,7 @@ def drawn(
                 refused[str(result)] += 1
         if progress is not None:
             progress(min(at + _BATCH, ranges.draws), ranges.draws)
-    if len(power) < FEWEST:
+    if len(power) < FEWEST_DRAWS:
         why = "; ".join(refused)
         raise NoSolutionError(
             f"uncertainty.draws: {len(power)} of {ranges.draws} draws have an answer: {why}"
@@ -170,7 +177,7 @@ def drawn(
     return MonteCarlo(np.array(power), dict(refused.most_common()))
 
 
-def _root(names: Sequence[str], ranges: Uncertainty) -> Array:
+def _correlation_root(names: Sequence[str], ranges: Uncertainty) -> Array:
     """Cholesky root of the correlation matrix, which correlates independent normals."""
     matrix = np.eye(len(names))
     for pair in ranges.correlations:
@@ -187,7 +194,9 @@ def _root(names: Sequence[str], ranges: Uncertainty) -> Array:
         raise InputError("uncertainty.correlations: contradict each other: no inputs have them all") from None
 
 
-def _variant(conveyor: Conveyor, inputs: Sequence[DrawnInput], row: Sequence[float], end: float) -> Variant:
+def _draw_variant(
+    conveyor: Conveyor, inputs: Sequence[DrawnInput], row: Sequence[float], end: float
+) -> Variant:
     """Variant of one draw."""
     made, drag = conveyor, 1.0
     level: dict[Strand, float] = {}

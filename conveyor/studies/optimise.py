@@ -21,9 +21,9 @@ from scipy.optimize import Bounds, NonlinearConstraint, differential_evolution
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.models.study import SearchPlan, Value
-from conveyor.studies.campaign import Answers, Campaign, design_of, run
-from conveyor.studies.designs import Design, violation
-from conveyor.units.presentation import MONEY, unit
+from conveyor.studies.design_figures import Design, limit_excess
+from conveyor.studies.parametric_study import ParametricStudy, ResultStore, design_result, run_study
+from conveyor.units.presentation import MONEY, display_unit
 
 Array: TypeAlias = NDArray[np.float64]
 Generation: TypeAlias = Callable[[int, int, Design], None]
@@ -58,8 +58,8 @@ class SearchResult:
 
 
 def optimise(
-    campaign: Campaign,
-    known: Answers,
+    campaign: ParametricStudy,
+    known: ResultStore,
     *,
     executor: Executor | None = None,
     workers: int = 1,
@@ -69,9 +69,9 @@ def optimise(
 
     Parameters
     ----------
-    campaign : Campaign
+    campaign : ParametricStudy
         Study of a `SearchPlan`.
-    known : Answers
+    known : ResultStore
         Stored answers; new ones are added.
     executor : concurrent.futures.Executor, optional
         Executor of the designs of a generation.
@@ -92,7 +92,7 @@ def optimise(
     plan = campaign.plan
     if not isinstance(plan, SearchPlan):
         raise InputError("optimise: takes a campaign of a SearchPlan")
-    search = _Search(campaign, plan, known, partial(run, executor=executor, workers=workers))
+    search = _Search(campaign, plan, known, partial(run_study, executor=executor, workers=workers))
     history: list[float] = []
     gone = itertools.count(1)
 
@@ -129,7 +129,7 @@ class _Search:
     """Designs tried, by their fields; each is calculated once."""
 
     def __init__(
-        self, campaign: Campaign, plan: SearchPlan, known: Answers, calculate: Callable[..., None]
+        self, campaign: ParametricStudy, plan: SearchPlan, known: ResultStore, calculate: Callable[..., None]
     ) -> None:
         self._campaign, self._plan, self._known, self._calculate = campaign, plan, known, calculate
         self._name, self._direction = next(iter(plan.best.items()))
@@ -154,7 +154,9 @@ class _Search:
             return math.inf
         limits = self._plan.limits.items()
         kinds = self._campaign.figures
-        return math.fsum(violation(one, name, kinds[name].kind, design.figures[name]) for name, one in limits)
+        return math.fsum(
+            limit_excess(one, name, kinds[name].kind, design.figures[name]) for name, one in limits
+        )
 
     def told(self, name: str) -> str:
         """Text of a figure of the best design and the limit it exceeds."""
@@ -165,7 +167,9 @@ class _Search:
         )
         if value is None:
             return f"no {name}"
-        shown = unit(f"{MONEY}{self._campaign.currency}" if kind == "money" else kind).brief(value)
+        shown = display_unit(f"{MONEY}{self._campaign.currency}" if kind == "money" else kind).four_digits(
+            value
+        )
         ends = (("least", limit.least), ("most", limit.most))
         kept = " and ".join(f"{word} {end}" for word, end in ends if end is not None)
         return f"{name} {shown} against {kept}"
@@ -182,5 +186,5 @@ class _Search:
         points = [point for one in new.values() for point in self._plan.points_of(one)]
         self._calculate(self._campaign, self._known, points)
         for key, one in new.items():
-            self.designs[key] = design_of(self._campaign, self._known, one, len(self.designs) + 1)
+            self.designs[key] = design_result(self._campaign, self._known, one, len(self.designs) + 1)
         return [self.designs[tuple(one.values())] for one in asked]

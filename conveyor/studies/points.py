@@ -10,14 +10,21 @@ from functools import lru_cache
 from operator import attrgetter
 from typing import Any, Final, Literal, Self, TypeAlias
 
-from conveyor.checks import BELT_USE, belt_rating, belt_safety, checks, highest_use
+from conveyor.checks import BELT_STRENGTH_CRITERIA, belt_rating, belt_safety, highest_use, run_checks
 from conveyor.errors import ConveyorError, InputError
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.fields import with_fields
 from conveyor.models.study import Changes, Direction, Value
-from conveyor.pipeline import Anchors, CalculatedConveyor, Kept, Variant, anchors_of, calculate_many
-from conveyor.studies.costs import Parts, costs, parts_of
+from conveyor.pipeline import (
+    CalculatedConveyor,
+    KnownTestFactors,
+    ReuseCache,
+    Variant,
+    calculate_many,
+    conveyor_test_factors,
+)
+from conveyor.studies.costs import Parts, conveyor_costs, conveyor_parts
 from conveyor.studies.loads import every_load
 
 Loads: TypeAlias = Mapping[str, Any]
@@ -69,7 +76,7 @@ OUTPUTS: Final[Mapping[str, Output]] = {
     "belt_use": Output(
         "belt utilisation",
         "ratio",
-        lambda a: highest_use((*belt_safety(a), *belt_rating(a)), BELT_USE)[0],
+        lambda a: highest_use((*belt_safety(a), *belt_rating(a)), BELT_STRENGTH_CRITERIA)[0],
         needs=_BELT,
     ),
     "energy_per_year": Output(
@@ -89,7 +96,7 @@ OUTPUTS: Final[Mapping[str, Output]] = {
     "failed": Output(
         "failed checks of the own load",
         "count",
-        lambda a: sum(check.failed for check in checks(a)),
+        lambda a: sum(check.failed for check in run_checks(a)),
     ),
     "all_loads_failed": Output("failed checks, all loads", "count", attrgetter("failed"), of="loads"),
     "all_loads_motor_power": Output(
@@ -126,7 +133,7 @@ PARTS: Final = "parts"
 """Key of a point's parts, from which priced figures follow."""
 
 
-def outputs_of(keys: Iterable[str]) -> dict[str, Output]:
+def select_outputs(keys: Iterable[str]) -> dict[str, Output]:
     """Requested figures; by default all but those of every load, which take a hundred times as long.
 
     Raises
@@ -141,12 +148,12 @@ def outputs_of(keys: Iterable[str]) -> dict[str, Output]:
     return {key: OUTPUTS[key] for key in asked}
 
 
-def loads_asked(asked: Iterable[str]) -> tuple[str, ...]:
+def all_loads_keys(asked: Iterable[str]) -> tuple[str, ...]:
     """Keys of the requested figures that need every load of a design."""
     return tuple(key for key in asked if key != PARTS and OUTPUTS[key].of == "loads")
 
 
-def asked_of(outputs: Iterable[str]) -> tuple[str, ...]:
+def required_outputs(outputs: Iterable[str]) -> tuple[str, ...]:
     """Keys to calculate at points for the requested figures; priced ones need only the parts."""
     keys = dict.fromkeys(outputs)
     read = [key for key in keys if OUTPUTS[key].of != "parts"]
@@ -154,7 +161,7 @@ def asked_of(outputs: Iterable[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys([*read, *energy, *((PARTS,) if len(read) < len(keys) else ())]))
 
 
-def priced(
+def price_answer(
     answer: Answer, asked: Sequence[str], outputs: Sequence[str], amounts: Mapping[str, float], seconds: float
 ) -> Answer:
     """Requested figures of a calculated answer, with prices applied.
@@ -175,7 +182,7 @@ def priced(
     known = dict(zip(asked, answer, strict=True))
     parts, costed = known[PARTS], None
     if amounts and parts is not None:
-        costed = costs(Parts(*parts), amounts, seconds=seconds, energy=known.get("cost_per_year"))
+        costed = conveyor_costs(Parts(*parts), amounts, seconds=seconds, energy=known.get("cost_per_year"))
     read = ((OUTPUTS[key], key) for key in outputs)
     return [
         (None if costed is None else one.get(costed)) if one.of == "parts" else known[key]
@@ -207,20 +214,20 @@ class Job:
         met: Sequence[str] = (),
     ) -> Self:
         """Pack a spec, the keys to calculate, compounds by name, and paths of the states."""
-        every = _every(base, compounds)
-        anchors = anchors_of(base, every)
+        every = _all_compounds(base, compounds)
+        anchors = conveyor_test_factors(base, every)
         # a compound that is unpickled is another object
         levels = [[level for one, *level in anchors if one is compound] for compound in every]
         packed = pickle.dumps((base, tuple(asked), dict(compounds), tuple(met), levels))
         return cls(hashlib.sha256(packed).digest(), packed)
 
 
-def _every(base: Conveyor, compounds: Mapping[str, RubberCompound]) -> tuple[RubberCompound, ...]:
+def _all_compounds(base: Conveyor, compounds: Mapping[str, RubberCompound]) -> tuple[RubberCompound, ...]:
     """The compounds of all points."""
     return base.carry_compound, base.return_compound, *compounds.values()
 
 
-class _Opened:
+class _UnpackedJob:
     """An unpickled job: shared inputs of all its batches, and results of earlier ones."""
 
     def __init__(self, job: Job) -> None:
@@ -228,9 +235,11 @@ class _Opened:
         self.asked: tuple[str, ...]
         self.compounds: Mapping[str, RubberCompound]
         self.base, self.asked, self.compounds, self._met, levels = pickle.loads(job.packed)  # noqa: S301 by this program
-        every = zip(_every(self.base, self.compounds), levels, strict=True)
-        self.anchors: Anchors = [(compound, how, level) for compound, known in every for how, level in known]
-        self.kept = Kept()
+        every = zip(_all_compounds(self.base, self.compounds), levels, strict=True)
+        self.anchors: KnownTestFactors = [
+            (compound, how, level) for compound, known in every for how, level in known
+        ]
+        self.kept = ReuseCache()
         self._loads: dict[tuple[tuple[str, Value], ...], Loads] = {}
 
     def made(self, point: Changes) -> Conveyor:
@@ -251,19 +260,19 @@ class _Opened:
         design = {path: value for path, value in point.items() if path not in self._met}
         key = tuple(design.items())
         if key not in self._loads:
-            if len(self._loads) >= Kept.MOST:
+            if len(self._loads) >= ReuseCache.MOST:
                 self._loads.clear()
-            self._loads[key] = _loads(self.made(design), self.asked)
+            self._loads[key] = _all_loads_figures(self.made(design), self.asked)
         return self._loads[key]
 
 
 @lru_cache(maxsize=1)
-def _opened(job: Job) -> _Opened:
+def _unpack_job(job: Job) -> _UnpackedJob:
     """Unpickled job, cached in a process that does many of its batches."""
-    return _Opened(job)
+    return _UnpackedJob(job)
 
 
-def answers(job: Job, points: Sequence[Changes]) -> list[Answer]:
+def evaluate_points(job: Job, points: Sequence[Changes]) -> list[Answer]:
     """Calculate points in one batch.
 
     Parameters
@@ -278,7 +287,7 @@ def answers(job: Job, points: Sequence[Changes]) -> list[Answer]:
     list
         For each point the requested values in SI, or the reason why it has none.
     """
-    opened = _opened(job)
+    opened = _unpack_job(job)
     opened.kept.forget_solved()
     made: list[Conveyor | str] = []
     for point in points:
@@ -289,45 +298,45 @@ def answers(job: Job, points: Sequence[Changes]) -> list[Answer]:
     variants = [Variant(one) for one in made if isinstance(one, Conveyor)]
     results = iter(calculate_many(variants, anchors=list(opened.anchors), kept=opened.kept))
     return [
-        one if isinstance(one, str) else _answer(next(results), opened, point)
+        one if isinstance(one, str) else _point_answer(next(results), opened, point)
         for one, point in zip(made, points, strict=True)
     ]
 
 
-def _answer(result: CalculatedConveyor | ConveyorError, opened: _Opened, point: Changes) -> Answer:
+def _point_answer(result: CalculatedConveyor | ConveyorError, opened: _UnpackedJob, point: Changes) -> Answer:
     if not isinstance(result, CalculatedConveyor):
         return str(result)
     answer = []
     try:
         for key in opened.asked:
             if key == PARTS:
-                answer.append(_parts(result))
+                answer.append(_parts_figures(result))
             elif OUTPUTS[key].of == "loads":
                 answer.append(opened.loads(point)[key])
             else:
-                answer.append(kept(OUTPUTS[key].get(result)))
+                answer.append(round_for_storage(OUTPUTS[key].get(result)))
     except ConveyorError as error:
         return str(error)
     return answer
 
 
-def _loads(design: Conveyor, asked: Iterable[str]) -> Loads:
+def _all_loads_figures(design: Conveyor, asked: Iterable[str]) -> Loads:
     """Requested figures over all loads of a design."""
     loads = every_load(design)
-    return {key: kept(OUTPUTS[key].get(loads)) for key in loads_asked(asked)}
+    return {key: round_for_storage(OUTPUTS[key].get(loads)) for key in all_loads_keys(asked)}
 
 
-def kept(value: Any) -> Any:
+def round_for_storage(value: Any) -> Any:
     """Round to ten digits: further ones differ from run to run of the same batch.
 
     Examples
     --------
-    >>> kept(7197.430288888889), kept("pass")
+    >>> round_for_storage(7197.430288888889), round_for_storage("pass")
     (7197.430289, 'pass')
     """
     return float(f"{value:.10g}") if isinstance(value, float) else value
 
 
-def _parts(result: CalculatedConveyor) -> list[float | None] | None:
-    parts = parts_of(result)
-    return None if parts is None else [kept(float(value)) for value in vars(parts).values()]
+def _parts_figures(result: CalculatedConveyor) -> list[float | None] | None:
+    parts = conveyor_parts(result)
+    return None if parts is None else [round_for_storage(float(value)) for value in vars(parts).values()]

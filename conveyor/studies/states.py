@@ -15,37 +15,42 @@ from itertools import groupby
 from operator import itemgetter
 from typing import Final
 
-from conveyor.checks import Check, checks, severity
+from conveyor.checks import Check, run_checks, severity_rank
 from conveyor.errors import ConveyorError, NoSolutionError
-from conveyor.loop.balance import Balance, balances, held
-from conveyor.loop.frame import TakeUpSetting
-from conveyor.loop.superposition import DRIVE_FORCE, HOLDING_BACK, HOLDING_DOWN, Loading, Loadings
-from conveyor.loop.take_up import at_one_setting, on_one_side
+from conveyor.loop.balance import Balance, close_loops, with_take_up_at
+from conveyor.loop.load_superposition import DRIVE_FORCE, HOLDING_BACK, HOLDING_DOWN, Loading, SectionLoadings
+from conveyor.loop.loop_layout import TakeUpSetting
+from conveyor.loop.take_up_duty import at_common_setting, on_common_side
 from conveyor.loop.worst_loadings import CriterionLoadings
 from conveyor.models import Conveyor, LoadCase
 from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
-from conveyor.pipeline import CalculatedConveyor, Progress, Variant, calculate, calculate_many
-from conveyor.studies.cases import (
+from conveyor.pipeline import CalculatedConveyor, ProgressCallback, Variant, calculate, calculate_many
+from conveyor.studies.load_cases import (
     AS_GIVEN,
     CalculatedCases,
     Load,
-    figures_for_the_worse,
-    start_of_motors,
+    governing_figures,
+    motor_start_force,
     with_motors,
 )
-from conveyor.ties import largest
+from conveyor.ties import first_maximum
 from conveyor.units import from_si
-from conveyor.units.sentences import Said, quoted, said
+from conveyor.units.sentences import Message, escape_braces, message
 
 _ROW: Final = 3  # consecutive sections from which a row is named by its ends
 _ROUNDS: Final = 20  # of reloading the rolls; each changes the tensions by a hundredth of the last change
 _IN_FULL: Final = frozenset({DRIVE_FORCE, HOLDING_BACK, HOLDING_DOWN})
 """Figures whose worst loading is calculated with its own contacts."""
-_NAMED: Final = 2  # figures in the name of a state
-_FIGURE: Final = 3  # rank of figures that are no criteria: behind unchecked ones
+_NAMING_FIGURES: Final = 2  # figures in the name of a state
+_FIGURE_RANK: Final = 3  # rank of figures that are no criteria: behind unchecked ones
 _DIGITS: Final = 9  # of figures: values that differ by rounding are equal
-_KEYS: Final = {"full": "full", "empty": "empty", "inclines only": "inclines", "declines only": "declines"}
+_STATE_KEYS: Final = {
+    "full": "full",
+    "empty": "empty",
+    "inclines only": "inclines",
+    "declines only": "declines",
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,26 +86,26 @@ class LoadState:
     @property
     def label(self) -> str:
         """Its name; for a standard state with the figures it is worst for."""
-        if self.name in _KEYS and self.worst_for:
+        if self.name in _STATE_KEYS and self.worst_for:
             return f"{self.name} (worst for {', '.join(self.worst_for)})"
         return self.name
 
     @property
     def title(self) -> str:
         """Its name among load cases."""
-        return f"load state {self.name if self.name in _KEYS else f'worst for {self.worst_for[0]}'}"
+        return f"load state {self.name if self.name in _STATE_KEYS else f'worst for {self.worst_for[0]}'}"
 
     @property
-    def case(self) -> Said:
+    def case(self) -> Message:
         """Case of its checks."""
-        return said(f"{quoted(self.title)}, {{}}", (self.temperature, "temperature"))
+        return message(f"{escape_braces(self.title)}, {{}}", (self.temperature, "temperature"))
 
     @property
     def loaded_in_words(self) -> str:
         """Names of the sections that bear bulk, or of those that do not if that is shorter."""
         names, bearing = [section.name for section in self.balance.line.sections], frozenset(self.loaded)
         loaded, empty = (
-            _in_words(names, [(name in bearing) is on for name in names]) for on in (True, False)
+            _section_list(names, [(name in bearing) is on for name in names]) for on in (True, False)
         )
         if not loaded or not empty:
             return "all" if loaded else "none"
@@ -176,11 +181,11 @@ class CalculatedStates:
         return tuple(
             replace(check, case=load.label)
             for load in self.loads
-            for check in checks(load.found, contacts=False)
+            for check in run_checks(load.found, contacts=False)
         )
 
 
-def _in_words(names: Sequence[str], on: Sequence[bool]) -> str:
+def _section_list(names: Sequence[str], on: Sequence[bool]) -> str:
     """Names of the selected sections; of three or more in a row the first and the last."""
     runs = [
         [name for name, _ in run]
@@ -207,7 +212,7 @@ def load_states(
     given: CalculatedConveyor | None = None,
     cases: CalculatedCases | None = None,
     *,
-    progress: Progress | None = None,
+    progress: ProgressCallback | None = None,
 ) -> CalculatedStates:
     """Calculate empty, full, inclines only and declines only, and the worst loadings at every temperature of the cases.
 
@@ -229,11 +234,11 @@ def load_states(
     NoSolutionError, RangeError, InputError
         The spec's own load has no answer.
     """
-    own = _standing(calculate(conveyor) if given is None else given)
+    own = _fix_take_up_side(calculate(conveyor) if given is None else given)
     at = own.temperature
     ends, refused = _full_and_empty(conveyor, own, cases, progress)
-    adding = {temperature: Loadings(*pair) for temperature, pair in ends.items()}
-    worst = _worst(adding)
+    adding = {temperature: SectionLoadings(*pair) for temperature, pair in ends.items()}
+    worst = _worst_loadings(adding)
     states = []
     if at in adding:
         alike: dict[bytes, tuple[Loading, list[str]]] = {}
@@ -243,16 +248,16 @@ def load_states(
             figures = worst.pop((at, loading.tobytes()), (loading, ()))[1]
             known = dict(zip(("full", "empty"), ends[at], strict=True)).get(names[0])
             one = adding[at].loaded(loading) if known is None else known
-            keys = (*map(_KEYS.__getitem__, names), *map(worst_key, figures))
-            states.append(LoadState(names[0], _names(own, loading), at, figures, keys, one))
+            keys = (*map(_STATE_KEYS.__getitem__, names), *map(worst_key, figures))
+            states.append(LoadState(names[0], _loaded_sections(own, loading), at, figures, keys, one))
     alone = [
-        (temperature, _names(own, loading))
+        (temperature, _loaded_sections(own, loading))
         for (temperature, _), (loading, figures) in worst.items()
         if not _IN_FULL.isdisjoint(figures) and loading.any() and not loading.all()
     ]
-    full_ones = dict(zip(alone, _in_full(conveyor, alone, own), strict=True))
+    full_ones = dict(zip(alone, _calculate_in_full(conveyor, alone, own), strict=True))
     for (temperature, _), (loading, figures) in worst.items():
-        loaded = _names(own, loading)
+        loaded = _loaded_sections(own, loading)
         full, empty = ends[temperature]
         one = full if loading.all() else adding[temperature].loaded(loading) if loading.any() else empty
         again = full_ones.get((temperature, loaded))
@@ -266,9 +271,9 @@ def load_states(
     return CalculatedStates(own, tuple(states), tuple(refused), looked_at)
 
 
-def _standing(own: CalculatedConveyor) -> CalculatedConveyor:
+def _fix_take_up_side(own: CalculatedConveyor) -> CalculatedConveyor:
     """The spec's own load with the take-up on the side of the drives that suits every load."""
-    (balance,) = on_one_side([own.balance])
+    (balance,) = on_common_side([own.balance])
     return own if balance is own.balance else replace(own, balance=balance)
 
 
@@ -312,16 +317,16 @@ def _at_one_setting(
         before, results = states.own, () if cases is None else cases.results
         loads = [before.balance, *(result.found.balance for result in results)]
         asking = [True, *(result.covered for result in results), *(True for _ in states.states)]
-        own, *closed = at_one_setting([*loads, *(state.balance for state in states.states)], asking)
+        own, *closed = at_common_setting([*loads, *(state.balance for state in states.states)], asking)
         found = [replace(r.found, balance=one) for r, one in zip(results, closed, strict=False)]
         as_given, setting = replace(before, balance=own), own.settled.setting
         near = math.isclose(before.balance.settled.setting, setting, rel_tol=before.line.rtol)
-        if before.line.tension_acts and not near:
-            as_given, *found = _loaded_anew([as_given, *found], own.settled.take_up)
+        if before.line.has_tension_coupling and not near:
+            as_given, *found = _reload_rolls([as_given, *found], own.settled.take_up)
         if cases is not None:
             every = tuple(replace(r, found=one) for r, one in zip(results, found, strict=True))
             cases = replace(cases, results=every, as_given=as_given)
-        if near or not before.line.tension_acts:
+        if near or not before.line.has_tension_coupling:
             pairs = zip(states.states, closed[len(results) :], strict=True)
             moved = (replace(s, balance=own if s.balance is before.balance else one) for s, one in pairs)
             return replace(states, own=as_given, states=tuple(moved)), cases
@@ -335,27 +340,27 @@ def _with_motors(
     """Loads with the starting force of motors without a given power."""
     of_states = [states.own, *(load.found for load in states.loads)]
     of_cases = [] if cases is None else [result.found for result in cases.designing]
-    own = replace(states.own, start_of_motors=start_of_motors([*of_states, *of_cases]))
+    own = replace(states.own, start_of_motors=motor_start_force([*of_states, *of_cases]))
     return replace(states, own=own), None if cases is None else with_motors(cases, of_states)
 
 
 def _with_candidates(states: CalculatedStates, cases: CalculatedCases | None) -> CalculatedStates:
     """States extended by the loadings that are worst for a figure of the criteria at any temperature."""
     own = states.own
-    ends = iter(held([loop for _, *pair in states.ends for loop in pair], states.take_up))
+    ends = iter(with_take_up_at([loop for _, *pair in states.ends for loop in pair], states.take_up))
     looked_at = {temperature: CriterionLoadings(next(ends), next(ends)) for temperature, *_ in states.ends}
     worst: dict[str, tuple[float, float, Loading]] = {}
     for temperature, loadings in looked_at.items():
         for figure, (value, loading) in loadings.worst_of_each().items():
             if figure not in worst or value > worst[figure][0]:
                 worst[figure] = (value, temperature, loading)
-    there = _loadings_there(states, cases)
+    there = _existing_loadings(states, cases)
     wanted = {
-        (temperature, _names(own, loading)): (figure, loading)
+        (temperature, _loaded_sections(own, loading)): (figure, loading)
         for figure, (_, temperature, loading) in worst.items()
-        if (temperature, _names(own, loading)) not in there
+        if (temperature, _loaded_sections(own, loading)) not in there
     }
-    loops = balances([looked_at[at].open_loop(loading) for (at, _), (_, loading) in wanted.items()])
+    loops = close_loops([looked_at[at].open_loop(loading) for (at, _), (_, loading) in wanted.items()])
     candidates, refused = [], []
     for ((at, loaded), (figure, _)), loop in zip(wanted.items(), loops, strict=True):
         if isinstance(loop, Balance):
@@ -366,7 +371,7 @@ def _with_candidates(states: CalculatedStates, cases: CalculatedCases | None) ->
     return replace(states, states=(*standing, *candidates), refused=(*states.refused, *refused))
 
 
-def _loadings_there(
+def _existing_loadings(
     states: CalculatedStates, cases: CalculatedCases | None
 ) -> set[tuple[float, tuple[str, ...]]]:
     """Temperature and loaded sections of every load calculated at the spec's speed and full cross-section."""
@@ -385,11 +390,11 @@ def _governing_only(states: CalculatedStates, cases: CalculatedCases | None) -> 
     candidates = [state for state in states.states if not state.keys]
     of_states = [replace(state, found=states.load(state).found) for state in (*fixed, *candidates)]
     fixed, candidates = of_states[: len(fixed)], of_states[len(fixed) :]
-    loads = [Load(AS_GIVEN, said(AS_GIVEN), own), *of_cases]
+    loads = [Load(AS_GIVEN, message(AS_GIVEN), own), *of_cases]
     count = len(loads) + len(fixed)
     governs: dict[tuple[str, str], tuple[Rank, int]] = {}
     for i, load in enumerate([*loads, *map(states.load, of_states)]):
-        for name, rank in _ranks(load):
+        for name, rank in _criterion_ranks(load):
             if name not in governs or rank < governs[name][0]:
                 governs[name] = (rank, i)
     named: list[list[tuple[Rank, str]]] = [[] for _ in candidates]
@@ -401,15 +406,15 @@ def _governing_only(states: CalculatedStates, cases: CalculatedCases | None) -> 
         if subjects:
             figures = tuple(dict.fromkeys(subject for _, subject in sorted(subjects)))
             keys = tuple(map(worst_key, figures))
-            kept.append(replace(state, name=_called(figures), worst_for=figures, keys=keys))
+            kept.append(replace(state, name=_state_name(figures), worst_for=figures, keys=keys))
     return replace(states, states=(*fixed, *kept))
 
 
-def _ranks(load: Load) -> Iterator[tuple[tuple[str, str], Rank]]:
+def _criterion_ranks(load: Load) -> Iterator[tuple[tuple[str, str], Rank]]:
     """Criteria and figures of a load by key and name, with their rank: the least governs, as in `deciding`."""
-    for check in checks(load.found, contacts=False):
-        yield (check.key, check.subject.text()), severity(check)
-    figures = figures_for_the_worse(load)
+    for check in run_checks(load.found, contacts=False):
+        yield (check.key, check.subject.text()), severity_rank(check)
+    figures = governing_figures(load)
     for duty in load.found.pulley_duty:
         figures[f"load of the {duty.pulley.name} pulley"] = duty.largest.resultant
     for zone in load.found.belt_duty.transitions:
@@ -417,7 +422,7 @@ def _ranks(load: Load) -> Iterator[tuple[tuple[str, str], Rank]]:
             figures[f"length of the {zone.zone.end} transition, strips {what}"] = least or 0.0
     if load.found.line.take_up.travel is not None or load.found.take_up.travel is not None:
         lengths = load.found.line.loop.length
-        means = [state.mean(lengths) for state in load.found.every_state]
+        means = [state.mean(lengths) for state in load.found.motion_states]
         steady = load.found.balance.settled.steady.mean(lengths)
         for name, low, high in (
             ("mean tension", min(means), max(means)),
@@ -427,21 +432,21 @@ def _ranks(load: Load) -> Iterator[tuple[tuple[str, str], Rank]]:
             figures[f"travel of the take-up, largest {name}"] = high
         figures["speed of the take-up"] = load.found.take_up.speed or 0.0
     for name, value in figures.items():
-        yield ("", name), (_FIGURE, -_to_digits(value), 0.0)
+        yield ("", name), (_FIGURE_RANK, -_round_digits(value), 0.0)
 
 
-def _to_digits(value: float) -> float:
+def _round_digits(value: float) -> float:
     """Figure rounded so that values differing by rounding are equal."""
     return float(f"{value:.{_DIGITS}g}")
 
 
-def _called(figures: Sequence[str]) -> str:
+def _state_name(figures: Sequence[str]) -> str:
     """Name of a state by the figures it is worst for."""
-    more = f" and {len(figures) - _NAMED} more" if len(figures) > _NAMED else ""
-    return f"worst for {', '.join(figures[:_NAMED])}{more}"
+    more = f" and {len(figures) - _NAMING_FIGURES} more" if len(figures) > _NAMING_FIGURES else ""
+    return f"worst for {', '.join(figures[:_NAMING_FIGURES])}{more}"
 
 
-def _loaded_anew(loads: Sequence[CalculatedConveyor], take_up: TakeUpSetting) -> list[CalculatedConveyor]:
+def _reload_rolls(loads: Sequence[CalculatedConveyor], take_up: TakeUpSetting) -> list[CalculatedConveyor]:
     """Loads recalculated with the rolls loaded by the tension at a take-up setting; the first is the spec's own."""
     variants = [Variant(one.conveyor, one.temperature, take_up=take_up) for one in loads]
     made = []
@@ -453,13 +458,16 @@ def _loaded_anew(loads: Sequence[CalculatedConveyor], take_up: TakeUpSetting) ->
 
 
 Rank = tuple[int, float, float]
-"""Rank of a check, as returned by `severity`."""
+"""Rank of a check, as returned by `severity_rank`."""
 _Ends = tuple[Balance, Balance]
 """Under full and empty belt."""
 
 
 def _full_and_empty(
-    conveyor: Conveyor, own: CalculatedConveyor, cases: CalculatedCases | None, progress: Progress | None
+    conveyor: Conveyor,
+    own: CalculatedConveyor,
+    cases: CalculatedCases | None,
+    progress: ProgressCallback | None,
 ) -> tuple[dict[float, _Ends], list[StateRefusal]]:
     """Full and empty belt at the spec's temperature and those of its cases, reusing results of the cases.
 
@@ -478,7 +486,7 @@ def _full_and_empty(
     for temperature, name in wanted:
         case = LoadCase.from_data({"name": name, "loading": name})
         try:
-            asked[temperature, name] = _loaded(conveyor, case, temperature, own)
+            asked[temperature, name] = _load_conveyor(conveyor, case, temperature, own)
         except ConveyorError as error:
             refused.append(StateRefusal(name, temperature, str(error)))
     solved: dict[tuple[float, str], CalculatedConveyor] = {k: known[k] for k in asked if k in known}
@@ -500,7 +508,9 @@ def _full_and_empty(
     return ends, refused
 
 
-def _loaded(conveyor: Conveyor, case: LoadCase, temperature: float, own: CalculatedConveyor) -> Conveyor:
+def _load_conveyor(
+    conveyor: Conveyor, case: LoadCase, temperature: float, own: CalculatedConveyor
+) -> Conveyor:
     """Conveyor under a load case at a temperature; the same object if nothing changes."""
     loaded = with_case(conveyor, case)
     if temperature == own.temperature:
@@ -508,15 +518,15 @@ def _loaded(conveyor: Conveyor, case: LoadCase, temperature: float, own: Calcula
     return with_temperature(loaded, from_si(temperature, "temperature", "K"))
 
 
-def _worst(
-    adding: Mapping[float, Loadings],
+def _worst_loadings(
+    adding: Mapping[float, SectionLoadings],
 ) -> dict[tuple[float, bytes], tuple[Loading, tuple[str, ...]]]:
     """Worst loadings over all temperatures, each with the figures it is worst for."""
     every: dict[str, list[tuple[float, float, Loading]]] = {}
     for temperature, states in adding.items():
         for figure, loading in states.worst().items():
             every.setdefault(figure, []).append((states.figures(loading)[figure], temperature, loading))
-    best = {figure: largest(found, itemgetter(0)) for figure, found in every.items()}
+    best = {figure: first_maximum(found, itemgetter(0)) for figure, found in every.items()}
     loadings: dict[tuple[float, bytes], tuple[Loading, tuple[str, ...]]] = {}
     for figure, (_, temperature, loading) in best.items():
         key = (temperature, loading.tobytes())
@@ -524,7 +534,7 @@ def _worst(
     return loadings
 
 
-def _in_full(
+def _calculate_in_full(
     conveyor: Conveyor, loads: Sequence[tuple[float, tuple[str, ...]]], own: CalculatedConveyor
 ) -> list[CalculatedConveyor | ConveyorError]:
     """Calculate loadings at temperatures with their own contacts, or return the errors."""
@@ -533,7 +543,7 @@ def _in_full(
     for i, (temperature, loaded) in enumerate(loads):
         case = LoadCase(name="worst", loading="sections", sections=loaded)
         try:
-            one = _loaded(conveyor, case, temperature, own)
+            one = _load_conveyor(conveyor, case, temperature, own)
         except ConveyorError as error:
             made.append(error)
         else:
@@ -545,7 +555,7 @@ def _in_full(
     return made
 
 
-def _names(own: CalculatedConveyor, loading: Loading) -> tuple[str, ...]:
+def _loaded_sections(own: CalculatedConveyor, loading: Loading) -> tuple[str, ...]:
     """Names of the sections that bear bulk."""
     pairs = zip(own.line.sections, loading.tolist(), strict=True)
     return tuple(section.name for section, on in pairs if on)

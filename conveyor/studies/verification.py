@@ -16,18 +16,18 @@ from typing import Annotated, Any, Final, TypeAlias
 from pydantic import TypeAdapter, ValidationError
 
 from conveyor import shelf
-from conveyor.arguments import checked
+from conveyor.arguments import check_arguments
 from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError
 from conveyor.indentation import IndentationCurve, RollContact, indentation_curves
-from conveyor.laws.softening import WorkedCover, softened_each
-from conveyor.line.anchors import anchor
+from conveyor.laws.softening import SofteningCover, soften_or_raise
+from conveyor.line.rolling_test_theory import compound_test_factor
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.operation import BeltSpeed, EarthTemperature
 from conveyor.models.variants import with_compound
-from conveyor.pipeline import CalculatedConveyor, Progress, StretchResult, Variant, calculate_many
+from conveyor.pipeline import CalculatedConveyor, ProgressCallback, StretchResult, Variant, calculate_many
 from conveyor.rubber import PronySeries
-from conveyor.rubber.anchor import Anchor
-from conveyor.units import Bounds, Length, LineForce, Quantity, Thickness, in_si, text
+from conveyor.rubber.rolling_test_factor import RollingTestFactor
+from conveyor.units import Bounds, Length, LineForce, Quantity, Thickness, read_si, text
 
 Given: TypeAlias = Iterable[str | Quantity]
 LINE_LOADS: Final = ("1 N/mm", "2 N/mm", "4 N/mm", "6 N/mm", "8 N/mm")
@@ -131,8 +131,8 @@ class CalculatedVerification:
         return f"VerificationSheet({names}: {len(self.rows)} rows at {len(self.line_loads)} line loads)"
 
 
-@checked
-def verification(
+@check_arguments
+def verify_compounds(
     compounds: Iterable[str | RubberCompound],
     *,
     line_loads: Iterable[str | Quantity] = LINE_LOADS,
@@ -144,7 +144,7 @@ def verification(
     softened: bool = False,
     shelves: Iterable[str | Path] = (),
     rtol: float = 1e-6,
-    progress: Progress | None = None,
+    progress: ProgressCallback | None = None,
 ) -> CalculatedVerification:
     """Calculate the losses of compounds under single rolls, and under an idler set of a conveyor.
 
@@ -197,10 +197,14 @@ def verification(
     if not chosen:
         raise InputError("compounds: give at least one; `conveyor shelf` lists those at hand")
     scenes = tuple(
-        product(_axis("covers", covers), _axis("roll_diameters", roll_diameters), _axis("speeds", speeds))
+        product(
+            _axis_values("covers", covers),
+            _axis_values("roll_diameters", roll_diameters),
+            _axis_values("speeds", speeds),
+        )
     )
-    loads = _axis("line_loads", line_loads)
-    warmth = _axis("temperatures", TEMPERATURES if temperatures is None else temperatures)
+    loads = _axis_values("line_loads", line_loads)
+    warmth = _axis_values("temperatures", TEMPERATURES if temperatures is None else temperatures)
     count = len(chosen) * len(loads) * len(warmth) * len(scenes)
     if count > MOST_POINTS:
         raise InputError(
@@ -211,18 +215,18 @@ def verification(
     for done, compound in enumerate(chosen):
         if progress is not None:
             progress(done, len(chosen))
-        known = {at: _series(compound, at) for at in warmth}
+        known = {at: _compound_series(compound, at) for at in warmth}
         if temperatures is None:
             known = {at: series for at, series in known.items() if isinstance(series, PronySeries)}
-        rows += _rows(compound, known, scenes, loads, softened=softened, rtol=rtol)
+        rows += _verification_rows(compound, known, scenes, loads, softened=softened, rtol=rtol)
         if conveyor is not None:
-            sets += _sets(conveyor, compound, tuple(known))
+            sets += _set_rows(conveyor, compound, tuple(known))
     if progress is not None:
         progress(len(chosen), len(chosen))
     return CalculatedVerification(chosen, loads, tuple(rows), tuple(sets), conveyor, softened)
 
 
-def _axis(name: str, given: Given) -> tuple[float, ...]:
+def _axis_values(name: str, given: Given) -> tuple[float, ...]:
     """Sorted distinct values of an axis in SI."""
     kind, allowed = _AXES[name]
     values = []
@@ -231,20 +235,20 @@ def _axis(name: str, given: Given) -> tuple[float, ...]:
             value: Quantity = allowed.validate_python(item)
         except ValidationError as error:
             raise InputError(f"{name}: {error.errors()[0]['msg']}") from None
-        values.append(in_si(text(value), kind))
+        values.append(read_si(text(value), kind))
     if not values:
         raise InputError(f"{name}: give at least one")
     return tuple(sorted(set(values)))
 
 
-def _series(compound: RubberCompound, temperature: float) -> PronySeries | RangeError:
+def _compound_series(compound: RubberCompound, temperature: float) -> PronySeries | RangeError:
     try:
         return compound.series(temperature)
     except RangeError as error:
         return error
 
 
-def _rows(
+def _verification_rows(
     compound: RubberCompound,
     known: Mapping[float, PronySeries | RangeError],
     scenes: Sequence[tuple[float, float, float]],
@@ -265,19 +269,19 @@ def _rows(
             asked.append((row, [roll], [(loads[0], loads[-1])]))
             continue
         try:
-            each = _softened(roll, loads, compound, temperature)
+            each = _soften_contacts(roll, loads, compound, temperature)
             asked.append((row, each, [(load, load) for load in loads]))
         except (NoSolutionError, RangeError) as error:
             asked.append((replace(row, reason=str(error)), [], []))
     contacts = [contact for _, each, _ in asked for contact in each]
     lowest, highest = ([span[end] for _, _, each in asked for span in each] for end in (0, 1))
     curves = iter(indentation_curves(contacts, lowest, highest, rtol) if contacts else ())
-    level = anchor(compound, softened=softened)
+    level = compound_test_factor(compound, softened=softened)
     for row, each, _ in asked:
-        yield _filled(row, [next(curves) for _ in each], loads, level)
+        yield _fill_row(row, [next(curves) for _ in each], loads, level)
 
 
-def _softened(
+def _soften_contacts(
     roll: RollContact, loads: Sequence[float], compound: RubberCompound, temperature: float
 ) -> list[RollContact]:
     """Roll contacts with the cover softened at each line load."""
@@ -285,15 +289,15 @@ def _softened(
     if factors is None:
         return [roll for _ in loads]
     swept = compound.swept_series(temperature)
-    works = [WorkedCover(roll, load, factors, temperature, swept) for load in loads]
-    return [replace(roll, rubber=series) for series, _ in softened_each(works)]
+    works = [SofteningCover(roll, load, factors, temperature, swept) for load in loads]
+    return [replace(roll, rubber=series) for series, _ in soften_or_raise(works)]
 
 
-def _filled(
+def _fill_row(
     row: VerificationRow,
     curves: Sequence[IndentationCurve | NoSolutionError],
     loads: tuple[float, ...],
-    level: Anchor | None,
+    level: RollingTestFactor | None,
 ) -> VerificationRow:
     """Row with the resistances of its curves (one for all loads or one for each) times the test factor."""
     drawn: list[IndentationCurve] = []
@@ -309,7 +313,9 @@ def _filled(
     return replace(row, resistances=tuple(lost))
 
 
-def _sets(conveyor: Conveyor, compound: RubberCompound, temperatures: Sequence[float]) -> Iterator[SetRow]:
+def _set_rows(
+    conveyor: Conveyor, compound: RubberCompound, temperatures: Sequence[float]
+) -> Iterator[SetRow]:
     """Loss of the most loaded carry set of a conveyor on a compound at every temperature."""
     try:
         made = with_compound(conveyor, compound, "bottom")
@@ -322,10 +328,10 @@ def _sets(conveyor: Conveyor, compound: RubberCompound, temperatures: Sequence[f
             yield SetRow(compound.name, "", at, None, None, str(answer))
             continue
         carry = [stretch for stretch in answer.stretches if stretch.stretch.strand == "carry"]
-        heaviest = max(carry, key=_load)
+        heaviest = max(carry, key=_set_load)
         lost = math.fsum(roll.resistance for roll in heaviest.rolls)
-        yield SetRow(compound.name, heaviest.stretch.section, at, _load(heaviest), lost)
+        yield SetRow(compound.name, heaviest.stretch.section, at, _set_load(heaviest), lost)
 
 
-def _load(stretch: StretchResult) -> float:
+def _set_load(stretch: StretchResult) -> float:
     return math.fsum(roll.load.force for roll in stretch.rolls)

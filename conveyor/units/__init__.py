@@ -1,6 +1,5 @@
 """Quantities with units, their kinds, and numbers as text."""
 
-from conveyor.units.kinds import KINDS
 from conveyor.units.quantities import (
     Acceleration,
     Angle,
@@ -40,18 +39,19 @@ from conveyor.units.quantities import (
     Torque,
     Viscosity,
     WindSpeed,
-    between,
-    convert,
-    display,
+    format_si,
     from_si,
-    in_si,
+    in_report_unit,
+    interpolate_quantity,
     is_kind,
     is_quantity,
     quantity,
-    same,
+    read_si,
+    same_value,
     si,
     si_with_unit,
-    system_of,
+    spec_value,
     text,
-    written,
+    unit_system,
 )
+from conveyor.units.quantity_kinds import KINDS

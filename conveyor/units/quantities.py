@@ -19,8 +19,16 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from conveyor.errors import InputError
-from conveyor.units.kinds import KINDS, MAGNITUDES
-from conveyor.units.misreadings import LONGEST, NUMBER, NUMBER_UNIT, every, example_of, expected_of, why_not
+from conveyor.units.misreadings import (
+    LONGEST_TEXT,
+    NUMBER,
+    NUMBER_UNIT,
+    allow_all,
+    allowed_example,
+    expected_text,
+    misread_reason,
+)
+from conveyor.units.quantity_kinds import KINDS, MAGNITUDES
 from conveyor.units.registry import REGISTRY, UNITS
 
 System = Literal["SI", "US"]
@@ -32,15 +40,15 @@ if TYPE_CHECKING:
 else:
     Quantity = REGISTRY.Quantity
 
-_TABLES: dict[str | None, dict[str, Any]] = {
+_UNIT_TABLES: dict[str | None, dict[str, Any]] = {
     None: UNITS,
     **{key: {form: UNITS[form] for form in kind.units} for key, kind in KINDS.items()},
 }
-_SPELLED: dict[Any, str] = {}
+_UNIT_SPELLINGS: dict[Any, str] = {}
 for _form, _unit in UNITS.items():
-    _SPELLED.setdefault(_unit, _form)
+    _UNIT_SPELLINGS.setdefault(_unit, _form)
 _PERCENT, _PLAIN = UNITS["%"], UNITS[""]
-Allows = Callable[[str], bool]
+TextTest = Callable[[str], bool]
 """Test for texts that a message may propose."""
 _MEASURE = "measure"  # in the schema of a field
 
@@ -53,7 +61,7 @@ def quantity(value: object, kind: str | None = None) -> Quantity:
     value : str or Quantity
         ``"number unit"``; for a fraction a plain number too.
     kind : str, optional
-        A key of `conveyor.units.kinds.KINDS`; without it every unit of the table is taken.
+        A key of `conveyor.units.quantity_kinds.KINDS`; without it every unit of the table is taken.
 
     Raises
     ------
@@ -65,45 +73,49 @@ def quantity(value: object, kind: str | None = None) -> Quantity:
     >>> text(quantity("1200 mm", "length")), si(quantity("1200 mm"))
     ('1200 mm', 1.2)
     """
-    return _read(value, kind, every)
+    return _read_quantity(value, kind, allow_all)
 
 
-def _read(value: object, kind: str | None, allows: Allows) -> Quantity:
+def _read_quantity(value: object, kind: str | None, allows: TextTest) -> Quantity:
     """`quantity` with messages that propose only allowed texts."""
     if isinstance(value, str):
-        match = NUMBER_UNIT.fullmatch(value) if len(value) <= LONGEST else None
+        match = NUMBER_UNIT.fullmatch(value) if len(value) <= LONGEST_TEXT else None
         if match is not None:
-            unit = _TABLES[kind].get(match[2])
+            unit = _UNIT_TABLES[kind].get(match[2])
             number = float(match[1])
             if unit is not None and math.isfinite(number):
-                return _sized(_build(number, unit), kind, allows, match[2])
+                return _check_size(_make_quantity(number, unit), kind, allows, match[2])
     elif isinstance(value, pint.Quantity):
-        return _sized(_checked(value, kind, allows), kind, allows)
+        return _check_size(_check_quantity(value, kind, allows), kind, allows)
     elif kind == "fraction" and _is_finite_number(value):
-        return _sized(_build(float(value), _PLAIN), kind, allows)
-    raise InputError(why_not(value, kind, allows))
+        return _check_size(_make_quantity(float(value), _PLAIN), kind, allows)
+    raise InputError(misread_reason(value, kind, allows))
 
 
-def _sized(value: Quantity, kind: str | None, allows: Allows, unit: str | None = None) -> Quantity:
+def _check_size(value: Quantity, kind: str | None, allows: TextTest, unit: str | None = None) -> Quantity:
     """Refuse an impossible size of a kind: results would overflow or vanish."""
     if kind == "temperature" and si(value) < 0.0:
         raise InputError(f"got {text(value)}, below absolute zero (-273.15 degC)")
     number = abs(value.magnitude)
     if kind is None or number == 0.0:
         return value
-    smallest, largest = _sizes(kind, _SPELLED[value.units] if unit is None else unit)
+    smallest, largest = _size_limits(kind, _UNIT_SPELLINGS[value.units] if unit is None else unit)
     if smallest <= number <= largest:
         return value
     low, high = MAGNITUDES[kind]
     label = "" if kind == "fraction" else f" {si_with_unit(value)[1]}"
-    if system_of(value) == "US" and kind != "temperature":
-        low, high, label = float(f"{smallest:.4g}"), float(f"{largest:.4g}"), f" {_SPELLED[value.units]}"
-    expected = f"{expected_of(kind, allows)}, in size from {low:g} to {high:g}{label}"
+    if unit_system(value) == "US" and kind != "temperature":
+        low, high, label = (
+            float(f"{smallest:.4g}"),
+            float(f"{largest:.4g}"),
+            f" {_UNIT_SPELLINGS[value.units]}",
+        )
+    expected = f"{expected_text(kind, allows)}, in size from {low:g} to {high:g}{label}"
     raise InputError(f"got {text(value)}, expected {expected}")
 
 
 @cache
-def _sizes(kind: str, unit: str) -> tuple[float, float]:
+def _size_limits(kind: str, unit: str) -> tuple[float, float]:
     """Smallest and largest size of a kind in a unit; for scales with an offset in their degrees."""
     scale = _si_scale(UNITS[unit]._units)  # noqa: SLF001 as `si` asks
     one = 1.0 if scale is None or scale[2] else scale[0] / scale[1]
@@ -114,23 +126,23 @@ def _is_finite_number(value: object) -> TypeGuard[float]:
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
 
 
-def _build(number: float, unit: Any) -> Quantity:
+def _make_quantity(number: float, unit: Any) -> Quantity:
     built: Quantity = REGISTRY.Quantity(number, unit)
     return built
 
 
-def _checked(value: Any, kind: str | None, allows: Allows) -> Quantity:
+def _check_quantity(value: Any, kind: str | None, allows: TextTest) -> Quantity:
     """Check a quantity built in Python: our registry, a unit of the table, finite."""
-    expected = "a quantity" if kind is None else expected_of(kind, allows)
+    expected = "a quantity" if kind is None else expected_text(kind, allows)
     if not isinstance(value, REGISTRY.Quantity):
         raise InputError(f"got {value} of another pint registry, expected {expected}; give it as text")
-    if value.units not in _TABLES[kind].values():
-        allowed = ", ".join(form for form in _TABLES[kind] if form)
+    if value.units not in _UNIT_TABLES[kind].values():
+        allowed = ", ".join(form for form in _UNIT_TABLES[kind] if form)
         raise InputError(f"got {value}, expected {expected}; units allowed (convert with .to): {allowed}")
     number = float(value.magnitude)
     if not math.isfinite(number):
         raise InputError(f"got {value}, expected a finite number")
-    return _build(number, value.units)
+    return _make_quantity(number, value.units)
 
 
 def si(value: Quantity) -> float:
@@ -147,7 +159,7 @@ def si(value: Quantity) -> float:
     return float(value.magnitude * scale[0] / scale[1] + scale[2])
 
 
-def in_si(value: str, kind: str, place: str = "") -> float:
+def read_si(value: str, kind: str, place: str = "") -> float:
     """Read a quantity of one kind from text straight to its SI value.
 
     Raises
@@ -157,7 +169,7 @@ def in_si(value: str, kind: str, place: str = "") -> float:
 
     Examples
     --------
-    >>> in_si("1200 mm", "length"), in_si("20 degC", "temperature")
+    >>> read_si("1200 mm", "length"), read_si("20 degC", "temperature")
     (1.2, 293.15)
     """
     try:
@@ -181,10 +193,10 @@ def si_with_unit(value: Quantity) -> tuple[float, str]:
 
 @cache
 def _si_label(unit: Any) -> str:
-    return next((label for kind, label in _SI_LABELS.items() if unit in _TABLES[kind].values()), "K")
+    return next((label for kind, label in _SI_LABELS.items() if unit in _UNIT_TABLES[kind].values()), "K")
 
 
-def between(low: Quantity, high: Quantity, share: float) -> Quantity:
+def interpolate_quantity(low: Quantity, high: Quantity, share: float) -> Quantity:
     """Interpolate between two quantities, in the unit of the first.
 
     Raises
@@ -194,19 +206,19 @@ def between(low: Quantity, high: Quantity, share: float) -> Quantity:
 
     Examples
     --------
-    >>> text(between(quantity("-10 degC"), quantity("30 degC"), 0.25))
+    >>> text(interpolate_quantity(quantity("-10 degC"), quantity("30 degC"), 0.25))
     '0 degC'
     """
     if low.dimensionality != high.dimensionality:
         raise InputError(f"got {text(low)} and {text(high)}, expected two of one kind")
     base, other = low.to_base_units(), high.to_base_units()
-    built: Quantity = _build(base.magnitude + share * (other.magnitude - base.magnitude), base.units).to(
-        low.units
-    )
-    return _build(float(f"{built.magnitude:.9g}"), low.units)
+    built: Quantity = _make_quantity(
+        base.magnitude + share * (other.magnitude - base.magnitude), base.units
+    ).to(low.units)
+    return _make_quantity(float(f"{built.magnitude:.9g}"), low.units)
 
 
-def same(one: Quantity, other: Quantity) -> bool:
+def same_value(one: Quantity, other: Quantity) -> bool:
     """True if two quantities have the same value, in any units."""
     return si(one) == si(other)
 
@@ -216,7 +228,7 @@ def _si_scale(unit: Any) -> tuple[float, float, float] | None:
     """Factor, divisor and offset to SI, None for degrees unlike kelvin; by pint once for each unit."""
     if REGISTRY.Unit(unit) == _PERCENT:
         return 1.0, 100.0, 0.0
-    zero, one = (float(_build(number, unit).to_base_units().magnitude) for number in (0.0, 1.0))
+    zero, one = (float(_make_quantity(number, unit).to_base_units().magnitude) for number in (0.0, 1.0))
     if zero == 0.0:
         return one, 1.0, 0.0
     return (1.0, 1.0, zero) if one == zero + 1.0 else None
@@ -235,25 +247,25 @@ def text(value: Quantity) -> str:
     >>> text(quantity("600 fpm")), text(quantity("0.5 kg/m³"))
     ('600 fpm', '0.5 kg/m^3')
     """
-    spelled = _SPELLED.get(value.units)
+    spelled = _UNIT_SPELLINGS.get(value.units)
     if spelled is None:
         raise InputError(f"{value} has a unit that specs do not know; convert it with .to first")
     number = repr(float(value.magnitude)).removesuffix(".0")
     return f"{number} {spelled}" if spelled else number
 
 
-_OF_US = re.compile(r"\b(?:in|ft|yd|mi|lb|lbf|short_ton|psi|hp|fpm|mph|PIW|stph|degF|delta_degF)\b|°F")
+_US_UNITS = re.compile(r"\b(?:in|ft|yd|mi|lb|lbf|short_ton|psi|hp|fpm|mph|PIW|stph|degF|delta_degF)\b|°F")
 
 
-def system_of(value: Quantity) -> System:
+def unit_system(value: Quantity) -> System:
     """Return the system of units that a quantity was entered in.
 
     Examples
     --------
-    >>> system_of(quantity("48 in")), system_of(quantity("90 lb/ft^3")), system_of(quantity("1.2 m"))
+    >>> unit_system(quantity("48 in")), unit_system(quantity("90 lb/ft^3")), unit_system(quantity("1.2 m"))
     ('US', 'US', 'SI')
     """
-    return "US" if _OF_US.search(text(value)) else "SI"
+    return "US" if _US_UNITS.search(text(value)) else "SI"
 
 
 def is_quantity(value: object) -> TypeGuard[Quantity]:
@@ -269,7 +281,7 @@ def is_kind(value: Quantity, kind: str) -> bool:
     >>> is_kind(quantity("16 kg/m"), "line mass"), is_kind(quantity("16 kg/m"), "area mass")
     (True, False)
     """
-    return value.units in _TABLES[kind].values()
+    return value.units in _UNIT_TABLES[kind].values()
 
 
 _SI_LABELS = {
@@ -295,15 +307,15 @@ def from_si(value: float, kind: str, unit: str | None = None) -> Quantity:
     spelled = KINDS[kind].si if unit is None else unit
     if spelled not in KINDS[kind].units:
         raise InputError(f'"{spelled}" is not a unit of {KINDS[kind].noun}')
-    built: Quantity = _build(float(value), _base(kind)).to(UNITS[spelled])
+    built: Quantity = _make_quantity(float(value), _base_unit(kind)).to(UNITS[spelled])
     return built
 
 
 @cache
-def _base(kind: str) -> Any:
+def _base_unit(kind: str) -> Any:
     if kind == "temperature":
         return UNITS["K"]
-    return _build(1.0, UNITS[KINDS[kind].si]).to_base_units().units
+    return _make_quantity(1.0, UNITS[KINDS[kind].si]).to_base_units().units
 
 
 def unit_label(kind: str, system: System = "SI") -> str:
@@ -317,41 +329,41 @@ def unit_label(kind: str, system: System = "SI") -> str:
     return KINDS[kind].si if system == "SI" else KINDS[kind].us
 
 
-def convert(value: float, kind: str, system: System = "SI") -> float:
+def in_report_unit(value: float, kind: str, system: System = "SI") -> float:
     """Convert an SI value to the unit of `unit_label`, for table columns.
 
     Examples
     --------
-    >>> round(convert(293.15, "temperature", "US"), 9)
+    >>> round(in_report_unit(293.15, "temperature", "US"), 9)
     68.0
     """
     if kind == "temperature":
         return float(from_si(value, kind, unit_label(kind, system)).magnitude)
-    return float(value) * _one(kind, system)
+    return float(value) * _report_unit_factor(kind, system)
 
 
 @cache
-def _one(kind: str, system: System) -> float:
+def _report_unit_factor(kind: str, system: System) -> float:
     """Factor from the SI base unit to the unit of reports."""
     return float(from_si(1.0, kind, unit_label(kind, system)).magnitude)
 
 
-def display(value: float, kind: str, system: System = "SI", *, digits: int = 4) -> str:
+def format_si(value: float, kind: str, system: System = "SI", *, digits: int = 4) -> str:
     """Return an SI value as text with its unit, for people; `digits` are significant digits.
 
     Examples
     --------
-    >>> display(5.0, "speed"), display(5.08, "speed", "US"), display(0.95, "fraction")
+    >>> format_si(5.0, "speed"), format_si(5.08, "speed", "US"), format_si(0.95, "fraction")
     ('5 m/s', '1000 fpm', '0.95')
     """
-    number = convert(value, kind, system)
+    number = in_report_unit(value, kind, system)
     shown = f"{number:.{digits}g}"
     if "e" in shown and 1.0 <= abs(number) < 10.0**12:
         shown = f"{number:.0f}"
     return f"{shown} {unit_label(kind, system)}".rstrip()
 
 
-def _refusing(check: Callable[[Any], Quantity]) -> Callable[[Any], Quantity]:
+def _pydantic_validator(check: Callable[[Any], Quantity]) -> Callable[[Any], Quantity]:
     """Turn an `InputError` into pydantic's own error, without its prefix."""
 
     def validate(value: Any) -> Quantity:
@@ -363,7 +375,7 @@ def _refusing(check: Callable[[Any], Quantity]) -> Callable[[Any], Quantity]:
     return validate
 
 
-def written(value: Quantity) -> str | float:
+def spec_value(value: Quantity) -> str | float:
     """Return a quantity as a spec stores it: text, or a number for a fraction without a percent sign."""
     return float(value.magnitude) if value.units == _PLAIN else text(value)
 
@@ -377,8 +389,8 @@ class Measure:
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         """Validate with `quantity`; keep quantities in Python, write text to JSON."""
         return core_schema.no_info_plain_validator_function(
-            self._reads(every),
-            serialization=core_schema.plain_serializer_function_ser_schema(written, when_used="json"),
+            self._reads(allow_all),
+            serialization=core_schema.plain_serializer_function_ser_schema(spec_value, when_used="json"),
             metadata={_MEASURE: self},
         )
 
@@ -386,8 +398,8 @@ class Measure:
         """Limit the proposals in a schema's messages to the bounds."""
         schema["function"] = schema["function"] | {"function": self._reads(partial(bounds.allows, self.kind))}
 
-    def _reads(self, allows: Allows) -> Callable[[Any], Quantity]:
-        return _refusing(partial(_read, kind=self.kind, allows=allows))
+    def _reads(self, allows: TextTest) -> Callable[[Any], Quantity]:
+        return _pydantic_validator(partial(_read_quantity, kind=self.kind, allows=allows))
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
@@ -446,10 +458,10 @@ class Bounds:
         def check(value: Quantity) -> Quantity:
             if self._hold(value):
                 return value
-            allowed = " and ".join(f"{sign} {_rounded(limit, value)}" for sign, limit, _ in self._limits())
+            allowed = " and ".join(f"{sign} {_limit_text(limit, value)}" for sign, limit, _ in self._limits())
             raise InputError(f"got {text(value)}, allowed: {allowed}")
 
-        return core_schema.no_info_after_validator_function(_refusing(check), inner)
+        return core_schema.no_info_after_validator_function(_pydantic_validator(check), inner)
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         """Add the range to the description."""
@@ -457,15 +469,15 @@ class Bounds:
         allowed = " and ".join(f"{sign} {text(limit)}" for sign, limit, _ in self._limits())
         measure = schema.get("schema", {}).get("metadata", {}).get(_MEASURE)
         if measure is not None and "examples" in described:
-            described["examples"] = [example_of(measure.kind, partial(self.allows, measure.kind))]
+            described["examples"] = [allowed_example(measure.kind, partial(self.allows, measure.kind))]
         described["description"] = f"{described.get('description', '')}, {allowed}"
         return described | {"x-allowed": allowed}
 
 
-def _rounded(limit: Quantity, like: Quantity) -> str:
+def _limit_text(limit: Quantity, like: Quantity) -> str:
     """Write a limit in the unit of another quantity, to six digits."""
     converted = limit.to(like.units)
-    return text(_build(float(f"{converted.magnitude:.6g}"), like.units))
+    return text(_make_quantity(float(f"{converted.magnitude:.6g}"), like.units))
 
 
 Length = Annotated[Quantity, Measure("length")]

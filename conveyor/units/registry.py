@@ -11,7 +11,7 @@ from typing import Any, Final
 
 import pint
 
-from conveyor.units.kinds import SPELLINGS
+from conveyor.units.quantity_kinds import SPELLINGS
 
 _DEFINITIONS: Final = """
 @defaults
@@ -74,38 +74,38 @@ REGISTRY: Final[pint.UnitRegistry[Any]] = pint.UnitRegistry(
     _DEFINITIONS.splitlines(), on_redefinition="ignore"
 )
 REGISTRY.formatter.default_format = "~P"
-_NAMES: Final = {
+_PINT_NAMES: Final = {
     "°": "degree",
     "Δ°C": "delta_degC",
     "Δ°F": "delta_degF",
     "rpm": "1/minute",
     "N/rpm": "newton*minute",
 }
-_MADE: Final = {name: REGISTRY.Unit(_NAMES.get(name, name)) for name in SPELLINGS.values()}
-UNITS: Final[dict[str, Any]] = {form: _MADE[name] for form, name in SPELLINGS.items()}
+_SPEC_UNITS: Final = {name: REGISTRY.Unit(_PINT_NAMES.get(name, name)) for name in SPELLINGS.values()}
+UNITS: Final[dict[str, Any]] = {form: _SPEC_UNITS[name] for form, name in SPELLINGS.items()}
 """Units of specs by each of their spellings."""
 
 
-_READING: Final = RLock()
+_READ_LOCK: Final = RLock()
 
 
-def _whole(text: str) -> str:
+def _load_all_units(text: str) -> str:
     """Load all of pint's units, at the first unit that a program gives as text."""
-    with _READING:
-        if _whole in REGISTRY.preprocessors:
-            REGISTRY.preprocessors[REGISTRY.preprocessors.index(_whole)] = _waited
+    with _READ_LOCK:
+        if _load_all_units in REGISTRY.preprocessors:
+            REGISTRY.preprocessors[REGISTRY.preprocessors.index(_load_all_units)] = _wait_for_units
             written = REGISTRY.formatter.default_format
             REGISTRY.formatter.default_format = ""  # pint compares long names
             REGISTRY.load_definitions(Path(pint.__file__).with_name("default_en.txt"))
             REGISTRY.formatter.default_format = written
-            REGISTRY.preprocessors.remove(_waited)
+            REGISTRY.preprocessors.remove(_wait_for_units)
     return text
 
 
-def _waited(text: str) -> str:
+def _wait_for_units(text: str) -> str:
     """Wait while another thread loads pint's units."""
-    with _READING:
+    with _READ_LOCK:
         return text
 
 
-REGISTRY.preprocessors.append(_whole)
+REGISTRY.preprocessors.append(_load_all_units)

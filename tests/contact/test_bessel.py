@@ -59,7 +59,7 @@ SPANS = [1e-9, 1e-3, 0.5, 1.0, 7.0, 16.0, 30.0, 700.0, 1024.0, 1e5]
 def test_products_of_i_and_k(order):
     # one retardation term in each row of the batch; the wide ones go through a matrix product, the narrow by diagonals
     b = np.array(SPANS)[:, None]
-    products, _ = ProductIK(order, b).weighted(np.array([1.0]))
+    products, _ = ProductIK(order, b).weighted_sums(np.array([1.0]))
     assert np.all(np.diagonal(products, axis1=1, axis2=2) == 0.0)
     pairs = {(0, 1), (0, order), (order // 2, order)} - {(0, 0)}
     with mpmath.workdps(40):
@@ -74,7 +74,7 @@ def test_products_of_i_and_k(order):
 @pytest.mark.parametrize("order", [8, 64])
 def test_deficit_keeps_relative_precision(order):
     # 1/(2v) - I_v K_v → b²/(4 v³) for b → 0, where the plain difference has no digit left
-    _, deficit = ProductIK(order, np.array(SPANS)[:, None]).weighted(np.array([1.0]))
+    _, deficit = ProductIK(order, np.array(SPANS)[:, None]).weighted_sums(np.array([1.0]))
     assert np.all(deficit[:, 0] == 0.0)
     with mpmath.workdps(60):
         for place, a in enumerate(SPANS):
@@ -86,14 +86,14 @@ def test_deficit_keeps_relative_precision(order):
 def test_terms_add_with_their_weights():
     b = np.array(SPANS)
     weights = np.linspace(0.1, 2.0, b.size)
-    together = ProductIK(12, b[None, :]).weighted(weights)
-    alone = [ProductIK(12, b[None, t : t + 1]).weighted(weights[t : t + 1]) for t in range(b.size)]
+    together = ProductIK(12, b[None, :]).weighted_sums(weights)
+    alone = [ProductIK(12, b[None, t : t + 1]).weighted_sums(weights[t : t + 1]) for t in range(b.size)]
     for whole, parts in zip(together, zip(*alone, strict=True), strict=True):
         np.testing.assert_allclose(whole, sum(parts), rtol=1e-12, atol=1e-16)
 
 
 def test_products_at_the_ends_of_the_range():
     # neither I nor K is representable there: I_v K_v is 1/(2v) and 1/(2b)
-    _, deficit = ProductIK(3, np.array([[1e-150], [1e150]])).weighted(np.array([1.0]))
+    _, deficit = ProductIK(3, np.array([[1e-150], [1e150]])).weighted_sums(np.array([1.0]))
     assert deficit[0, 2] == pytest.approx(1e-300 / (4.0 * 2.0**3 - 8.0), rel=1e-9)  # b²/(4 v (v² - 1))
     assert deficit[1, 2] == pytest.approx(0.25, rel=1e-14)

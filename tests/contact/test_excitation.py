@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from conveyor.contact import ContactProblem, CreepSpectrum, load_curve, solve
-from conveyor.contact.scene import Scene
+from conveyor.contact.solver_state import SolverState
 from conveyor.errors import NoSolutionError
 
 CREEP = CreepSpectrum(0.1, [0.4, 0.5], [0.05, 2.0])
@@ -28,7 +28,7 @@ def shares_below(problem, m_end):
         x = 0.5 * (low + high) + 0.5 * (high - low) * np.cos(angle)
         weight = 0.5 * (high - low) * np.sin(angle) * np.pi / 2000
         spectrum += np.exp(-1j * np.outer(m, x)) @ (found.pressure(x / problem.rho) * weight)
-    symbol = problem.layer.symbol(m.astype(float), Scene.of(problem).creep)
+    symbol = problem.layer.symbol(m.astype(float), SolverState.of(problem).creep)
     running = np.cumsum(symbol.imag * np.abs(spectrum) ** 2)
     return found, running / running[-1]
 

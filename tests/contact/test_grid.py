@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from conveyor.contact import ContactProblem, CreepSpectrum, solve
-from conveyor.contact import grid as module
-from conveyor.contact.grid import Grid, solve_grid
+from conveyor.contact import grid_solver as module
+from conveyor.contact.grid_solver import ContactGrid, solve_grid
 from conveyor.contact.layers import Layer
 from conveyor.errors import InputError, NoSolutionError
 
@@ -155,7 +155,7 @@ def test_load_and_compliance_scale(name):
 
 def test_both_ways_to_solve_the_equations_agree(monkeypatch):
     direct = solve_grid(SCENES["free"], 1024)
-    monkeypatch.setattr(module, "_DENSE", 10)
+    monkeypatch.setattr(module, "_DENSE_NODES", 10)
     krylov = solve_grid(SCENES["free"], 1024)
     # GMRES to 1e-12, times the condition of the preconditioned equations
     assert krylov.friction == pytest.approx(direct.friction, rel=1e-10)
@@ -165,7 +165,7 @@ def test_both_ways_to_solve_the_equations_agree(monkeypatch):
 def test_products_on_the_roll_alone_are_those_of_the_period():
     # R/λ 0.02: the roll takes 1/25 of the period, its nodes have a transform of their own
     problem = ContactProblem("half-space", 0.02, 1e-3, ONE)
-    grid = Grid(problem, 1 << 14)
+    grid = ContactGrid(problem, 1 << 14)
     found = grid.contact(problem.pressure)
     # 20 nodes in the contact
     assert found.friction == pytest.approx(solve(problem, rtol=1e-9).friction, rel=2e-2)
@@ -181,7 +181,7 @@ def test_products_on_the_roll_alone_are_those_of_the_period():
 
 
 def test_one_grid_serves_many_loads():
-    grid = Grid(SCENES["confined"], 512)
+    grid = ContactGrid(SCENES["confined"], 512)
     for pressure in (0.01, 0.05):
         alone = solve_grid(replace(SCENES["confined"], pressure=pressure), 512)
         assert grid.contact(pressure).friction == pytest.approx(alone.friction, rel=ROUNDING)
@@ -213,7 +213,7 @@ PLATE = ContactProblem(
 class TestRaisedFromNothing:
     @by_scene
     def test_the_same_contact(self, name):
-        grid = Grid(SCENES[name], 256)
+        grid = ContactGrid(SCENES[name], 256)
         raised, limit, _ = grid.raised(SCENES[name].pressure)
         straight = grid.contact(SCENES[name].pressure)
         assert raised.friction == pytest.approx(straight.friction, rel=ROUNDING, abs=1e-15)
@@ -222,14 +222,14 @@ class TestRaisedFromNothing:
 
     @pytest.mark.parametrize("start", [None, 1e-7])
     def test_the_limit_is_where_the_end_is_reached(self, start):
-        grid = Grid(PLATE, 128)
-        below = None if start is None else Grid(PLATE, 256).contact(start)
+        grid = ContactGrid(PLATE, 128)
+        below = None if start is None else ContactGrid(PLATE, 256).contact(start)
         wrapped, limit, _ = grid.raised(PLATE.pressure, below)
         assert wrapped.at_roll_end
         assert not grid.raised(0.999 * limit)[0].at_roll_end
         assert grid.raised(1.001 * limit)[0].at_roll_end
 
     def test_where_block_exchanges_run_in_circles(self):
-        grid = Grid(PLATE, 128)
+        grid = ContactGrid(PLATE, 128)
         found = grid.contact(PLATE.pressure)
         assert found.friction == pytest.approx(grid.raised(PLATE.pressure)[0].friction, rel=1e-9)

@@ -15,7 +15,7 @@ from conveyor.contact import (
     ContactProblem,
     CreepSpectrum,
     HalfSpace,
-    general,
+    many_strips,
     solve,
     solve_many,
     working_strains,
@@ -23,7 +23,7 @@ from conveyor.contact import (
 from conveyor.contact.interior import interior, interior_fields, path_amplitude
 from conveyor.contact.layer_shapes import confined_shapes, free_shapes, incompressible_shapes
 from conveyor.contact.layers import confined_symbol, free_symbol
-from conveyor.contact.worked import _table
+from conveyor.contact.working_strain import _wave_tables
 from conveyor.errors import InputError, NoSolutionError
 
 ONE = CreepSpectrum(0.1, [0.9], [1.0])
@@ -347,8 +347,8 @@ def test_strains_of_a_split_contact_change_steadily_with_the_load():
 
 
 def test_contacts_known_on_a_grid_have_an_interior(monkeypatch):
-    monkeypatch.setattr(general, "_polished", lambda *_: None)
-    monkeypatch.setattr(general, "_FINEST", 6)
+    monkeypatch.setattr(many_strips, "_polish_strips", lambda *_: None)
+    monkeypatch.setattr(many_strips, "_FINEST", 6)
     grid = solve(SPLIT, throw=False)
     assert grid.stats.way == "grid"
     inside, exact = interior(grid), interior(solved("split"))
@@ -435,7 +435,7 @@ def test_working_strain_of_a_layer_that_is_very_thick_against_its_contact(pressu
 @pytest.mark.parametrize("octaves", [1, 4, 9, 15])
 def test_waves_of_every_octave_sum_to_a_pressure_that_is_zero_outside_its_strip(octaves):
     """∫ J_1(u)/u cos(ux) du = 0 for |x| > 1 (Weber, Schafheitlin), to the 1e-5 of the panels; and few waves do."""
-    for waves in _table(48, octaves)[1:]:
+    for waves in _wave_tables(48, octaves)[1:]:
         transform = waves.weights * waves.window * special.j1(waves.u) / waves.u
         assert np.abs(transform @ waves.cos).max() < 1e-5
         # 40 of phase over the gap of one half width at least, the span five of them: 200/12 panels and the graded ones

@@ -15,20 +15,28 @@ from conveyor.contact import (
     Free,
     HalfSpace,
     Status,
-    load,
-    narrow,
+    load_control,
+    one_strip_batch,
     solve,
     solve_many,
 )
-from conveyor.contact.checks import WRAPPED, pulling_and_pressing
-from conveyor.contact.creep import Creeps
-from conveyor.contact.layers import Layers
-from conveyor.contact.narrow import Left, solve_narrow
+from conveyor.contact.acceptance import WRAP_EXTENT, pressure_signs
+from conveyor.contact.creep import CreepBatch
+from conveyor.contact.layers import PlainLayerBatch
+from conveyor.contact.one_strip import HalfWidthStart, solve_one_strip
+from conveyor.contact.one_strip_batch import UnsolvedReason, solve_batch
 from conveyor.contact.quadrature import build_rule
-from conveyor.contact.scene import Scene
-from conveyor.contact.short_rule import CAPS, COARSE, FINE, LOOSE, _moments, _width, short_rules
-from conveyor.contact.single import Near, by_half_width
-from conveyor.contact.spectral import Contact, assemble
+from conveyor.contact.short_rule import (
+    COARSE_GRADES,
+    FINE_GRADES,
+    LOOSE_GRADES,
+    WINDOW_CAPS,
+    _legendre_moments,
+    _window_width,
+    short_rules,
+)
+from conveyor.contact.solver_state import SolverState
+from conveyor.contact.spectral import Contact, assemble_matrix
 
 SUPPORTS = ("free", "confined", "half-space")
 
@@ -38,13 +46,13 @@ def test_an_elastic_half_space_is_guessed_as_hertz_has_it(pressure):
     # p̃_m = α²/(4ρ²) is a straight line of logarithms: nothing is lost between the points of the tables
     problem = ContactProblem("half-space", 0.3, pressure, CreepSpectrum(1.0))
     hertz = 2.0 * problem.rho * np.sqrt(pressure)
-    alone, _ = load.guess(Scene.of(problem))
-    (batch,) = narrow.guess(narrow.Group.of([problem], [problem.creep]))
+    alone, _ = load_control.guess_half_width(SolverState.of(problem))
+    (batch,) = one_strip_batch.guess_half_widths(one_strip_batch.ProblemBatch.of([problem], [problem.creep]))
     assert [np.exp(alone), batch] == pytest.approx([hertz, hertz], rel=1e-12)
 
 
 def test_a_half_width_with_no_place_on_the_roll_is_half_way_back_to_the_last_too_light():
-    search = load.LoadSearch(target=0.0, log_alpha=-1.0, slope=2.0, low=-3.0)
+    search = load_control.LoadSearch(target=0.0, log_alpha=-1.0, slope=2.0, low=-3.0)
     search.reject()
     assert (search.high, search.log_alpha) == (-1.0, -2.0)
 
@@ -57,7 +65,7 @@ def test_a_contact_presses_where_its_tension_carries_no_more_than_is_tolerated(t
     )
     one = np.ones(1)
     contact = Contact(one, 0.0 * one, np.array([[1.0, 0.6, *[0.0] * 6]]), one, one, one > 0.0)
-    found = pulling_and_pressing(contact, tolerated * pull / (0.5 * np.pi))
+    found = pressure_signs(contact, tolerated * pull / (0.5 * np.pi))
     assert found.pressing.tolist() == [pressing]
     step = np.pi / 34  # of the places that it is summed over
     assert found.tension == pytest.approx(pull / (0.5 * np.pi), rel=2.0 * step**2)
@@ -102,7 +110,7 @@ def conveyors(count: int, seed: int = 0) -> list[ContactProblem]:
     ("zeta", "count"), [(7.5, 10), (9.0, 10), (30.0, 10), (1e3, 10), (1e6, 10), (22.0, 18), (1e5, 18)]
 )
 def test_moments_of_slow_terms(zeta, count):
-    found = _moments(np.array([zeta]), count)[:, 0]
+    found = _legendre_moments(np.array([zeta]), count)[:, 0]
     for degree in (0, 1, 4, 9, count - 1):
         for part, value in ((np.real, found[degree].real), (np.imag, found[degree].imag)):
             expected, error = integrate.quad(
@@ -126,25 +134,27 @@ def test_short_rules_make_the_matrix_of_the_full_rule(support, half_width, thick
     creep = spectrum(int(1e4 * half_width))
     problem = ContactProblem(support, 0.45, 0.01, creep, thickness, 0.45)
     full = build_rule(problem.layer, creep, half_width)
-    side = Creeps(np.array([creep.instantaneous]), creep.weights[None], creep.times[None])
-    layers = Layers(support, np.array([thickness]), np.array([0.45]))
-    for grades, tolerance in ((FINE, 1e-10), (COARSE, 2e-8), (LOOSE, 2e-6)):
+    side = CreepBatch(np.array([creep.instantaneous]), creep.weights[None], creep.times[None])
+    layers = PlainLayerBatch(support, np.array([thickness]), np.array([0.45]))
+    for grades, tolerance in ((FINE_GRADES, 1e-10), (COARSE_GRADES, 2e-8), (LOOSE_GRADES, 2e-6)):
         for rule in short_rules(layers, side, np.array([half_width]), grades):
             # the full rule takes wide contacts on thin layers one by one
             assert rule.nodes.shape[1] < full.nodes.size or (thickness < 0.1 and half_width >= 0.5)
             for share in (1.0, 0.3):
                 alpha = np.array([share * half_width])
-                expected = assemble(full, creep, alpha, 24)
-                found = assemble(rule, side, alpha, 24)
+                expected = assemble_matrix(full, creep, alpha, 24)
+                found = assemble_matrix(rule, side, alpha, 24)
                 np.testing.assert_allclose(found, expected, rtol=0, atol=tolerance * np.abs(expected).max())
 
 
 @pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-8])
 def test_the_batch_agrees_with_the_general_way(rtol):
     problems = conveyors(12)
-    for problem, left in zip(problems, solve_narrow(problems, rtol), strict=True):
-        outcome = by_half_width(Scene.of(problem), rtol, left) if isinstance(left, Near) else left
-        exact = by_half_width(Scene.of(problem), 1e-10).found
+    for problem, left in zip(problems, solve_batch(problems, rtol), strict=True):
+        outcome = (
+            solve_one_strip(SolverState.of(problem), rtol, left) if isinstance(left, HalfWidthStart) else left
+        )
+        exact = solve_one_strip(SolverState.of(problem), 1e-10).found
         true_error = abs(outcome.found.friction / exact.friction - 1.0)
         assert true_error <= rtol
         assert true_error <= 10.0 * outcome.found.error_estimate
@@ -155,7 +165,7 @@ def test_the_batch_agrees_with_the_general_way(rtol):
 
 
 def test_most_conveyor_contacts_are_narrow():
-    found = solve_narrow(conveyors(40), 1e-6)
+    found = solve_batch(conveyors(40), 1e-6)
     assert all(outcome is not None and outcome.way == "narrow" for outcome in found)
 
 
@@ -177,15 +187,15 @@ def test_a_scene_does_not_feel_its_neighbours():
     ("problem", "left"),
     [
         # thin against the contact
-        (ContactProblem("free", 0.3, 0.001, CreepSpectrum(0.1, [0.9], [1.0]), 1e-4), Left.ANY),
+        (ContactProblem("free", 0.3, 0.001, CreepSpectrum(0.1, [0.9], [1.0]), 1e-4), UnsolvedReason.ANY),
         # beside the crown, where it touches again
-        (ContactProblem("free", 0.4, 0.0012, CreepSpectrum(0.1, [0.9], [3.0]), 0.3), Left.STRIPS),
+        (ContactProblem("free", 0.4, 0.0012, CreepSpectrum(0.1, [0.9], [3.0]), 0.3), UnsolvedReason.STRIPS),
         # negative between two strips
-        (ContactProblem("free", 0.3, 0.13, CreepSpectrum(0.1, [0.9], [3.0]), 1.0), Left.STRIPS),
+        (ContactProblem("free", 0.3, 0.13, CreepSpectrum(0.1, [0.9], [3.0]), 1.0), UnsolvedReason.STRIPS),
     ],
 )
 def test_what_is_not_one_strip_is_left_to_other_ways(problem, left):
-    assert solve_narrow([problem], 1e-6) == [left]
+    assert solve_batch([problem], 1e-6) == [left]
 
 
 @pytest.mark.parametrize(("support", "pressure"), [("free", 0.05), ("confined", 0.05), ("half-space", 0.1)])
@@ -193,9 +203,13 @@ def test_what_is_not_one_strip_is_left_to_other_ways(problem, left):
 @pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-10])
 def test_wide_contacts_agree_with_the_general_way(support, pressure, zeta, rtol):
     problem = ContactProblem(support, 0.4, pressure, CreepSpectrum(0.1, [0.9], [zeta]), 1.0)
-    exact = by_half_width(Scene.of(problem), 1e-12).found
-    (outcome,) = solve_narrow([problem], rtol)
-    outcome = by_half_width(Scene.of(problem), rtol, outcome) if isinstance(outcome, Near) else outcome
+    exact = solve_one_strip(SolverState.of(problem), 1e-12).found
+    (outcome,) = solve_batch([problem], rtol)
+    outcome = (
+        solve_one_strip(SolverState.of(problem), rtol, outcome)
+        if isinstance(outcome, HalfWidthStart)
+        else outcome
+    )
     assert abs(outcome.found.friction / exact.friction - 1.0) <= outcome.found.error_estimate <= rtol
     assert outcome.found.half_width == pytest.approx(exact.half_width, abs=10.0 * rtol)
 
@@ -220,7 +234,7 @@ def test_a_strip_beside_the_crown_is_not_taken_for_the_whole_contact():
     # alone the right strip has a converged answer, friction 0.406, but the layer touches left of the crown again
     found = solve(ContactProblem("free", 0.4, 0.0012, CreepSpectrum(0.1, [0.9], [3.0]), 0.3), rtol=1e-7)
     assert len(found.patches) == 2
-    assert found.outer_edge < WRAPPED
+    assert found.outer_edge < WRAP_EXTENT
     assert found.friction == pytest.approx(0.3815, abs=2e-4)
 
 
@@ -234,9 +248,9 @@ def test_elastic_layers_in_a_batch():
 
 def test_widest_contact_meets_the_alias_of_its_window():
     # exp(-(w(2π-2α))²/4) of the solving windows
-    for grade, alias in ((FINE[0], 1e-16), (COARSE[0], 1e-16), (LOOSE[0], 1e-7)):
-        for cap in CAPS:
-            assert np.exp(-((_width(grade, cap) * (2.0 * np.pi - 2.0 * cap)) ** 2) / 4.0) < alias
+    for grade, alias in ((FINE_GRADES[0], 1e-16), (COARSE_GRADES[0], 1e-16), (LOOSE_GRADES[0], 1e-7)):
+        for cap in WINDOW_CAPS:
+            assert np.exp(-((_window_width(grade, cap) * (2.0 * np.pi - 2.0 * cap)) ** 2) / 4.0) < alias
 
 
 @pytest.mark.parametrize("pressure", [1e-3, 1e-7, 1e-11])
@@ -244,9 +258,13 @@ def test_widest_contact_meets_the_alias_of_its_window():
 def test_friction_keeps_its_relative_precision_however_small(pressure, zeta):
     # half widths down to 1e-8, friction to 1e-20: what is looked up must not leave its rounding there
     problem = ContactProblem("half-space", 0.002, pressure, CreepSpectrum(0.01, [0.99], [zeta]))
-    exact = by_half_width(Scene.of(problem), 1e-10).found
-    (outcome,) = solve_narrow([problem], 1e-6)
-    outcome = by_half_width(Scene.of(problem), 1e-6, outcome) if isinstance(outcome, Near) else outcome
+    exact = solve_one_strip(SolverState.of(problem), 1e-10).found
+    (outcome,) = solve_batch([problem], 1e-6)
+    outcome = (
+        solve_one_strip(SolverState.of(problem), 1e-6, outcome)
+        if isinstance(outcome, HalfWidthStart)
+        else outcome
+    )
     assert abs(outcome.found.friction / exact.friction - 1.0) <= outcome.found.error_estimate <= 1e-6
 
 
@@ -263,5 +281,5 @@ def test_half_widths_far_outside_the_search_are_left_without_a_word():
     # the search's next place is so far outside that its α is zero to rounding: dividing by it warned
     creep = CreepSpectrum(0.00322, [0.99678], [0.379])
     problem = ContactProblem("free", 0.066, 0.0374, creep, 0.603)
-    assert solve_narrow([problem], 1e-3) == [Left.ANY]
+    assert solve_batch([problem], 1e-3) == [UnsolvedReason.ANY]
     assert solve(problem, 1e-3, throw=False).status is Status.TOO_DEEP

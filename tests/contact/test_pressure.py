@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from conveyor.contact import ContactProblem, CreepSpectrum, Status, solve, solve_many
-from conveyor.contact.finer import flows_to, peak_error
-from conveyor.contact.pressure import peak, sampled_sines, settled
-from conveyor.contact.scene import Scene
-from conveyor.contact.spectral import equilibrium
+from conveyor.contact.peak_error import flow_order, peak_error
+from conveyor.contact.pressure import largest_pressure, sample_sine_sum, smoothed_coefficients
+from conveyor.contact.solver_state import SolverState
+from conveyor.contact.spectral import solve_equilibrium
 from conveyor.indentation import RollContact, to_problem
 from conveyor.shelf import compound
 
@@ -33,9 +33,9 @@ def contacts():
     """Of each scene at one half width, by order; 384 last."""
     found = {}
     for name, problem in SCENES.items():
-        scene, alpha = Scene.of(problem), solve(problem, 1e-6).half_width * problem.rho
+        scene, alpha = SolverState.of(problem), solve(problem, 1e-6).half_width * problem.rho
         found[name] = {
-            n: equilibrium(scene.system(alpha, n, n).matrix, np.array([alpha]), problem.rho)
+            n: solve_equilibrium(scene.system(alpha, n, n).matrix, np.array([alpha]), problem.rho)
             for n in (*ORDERS, 384)
         }
     return found
@@ -43,7 +43,7 @@ def contacts():
 
 def carried(contact):
     """Largest pressure over the root of the load, which compares orders at one half width."""
-    return peak(contact.c)[0] / math.sqrt(contact.pressure[0])
+    return largest_pressure(contact.c)[0] / math.sqrt(contact.pressure[0])
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -94,16 +94,16 @@ def test_smoothing_brings_the_largest_pressure_of_broad_rubber_nearer(contacts):
     by_order = contacts["broad"]
     exact = carried(by_order[384])
     for n in ORDERS[1:]:
-        rippled = sampled_sines(by_order[n].c, 8 * n).max() / math.sqrt(by_order[n].pressure[0])
+        rippled = sample_sine_sum(by_order[n].c, 8 * n).max() / math.sqrt(by_order[n].pressure[0])
         assert abs(carried(by_order[n]) / exact - 1.0) < 0.3 * abs(rippled / exact - 1.0), n
 
 
 def test_a_series_that_falls_exponentially_is_summed_as_it_is(contacts):
     c = contacts["resolved"][64].c
-    np.testing.assert_allclose(settled(c), c, rtol=1e-15)
+    np.testing.assert_allclose(smoothed_coefficients(c), c, rtol=1e-15)
     rippled = contacts["broad"][64].c
-    np.testing.assert_allclose(settled(rippled)[:, :32], rippled[:, :32], rtol=1e-15)
-    assert abs(settled(rippled)[0, -1]) < 0.01 * abs(rippled[0, -1])
+    np.testing.assert_allclose(smoothed_coefficients(rippled)[:, :32], rippled[:, :32], rtol=1e-15)
+    assert abs(smoothed_coefficients(rippled)[0, -1]) < 0.01 * abs(rippled[0, -1])
 
 
 def test_orders_are_asked_for_down_to_the_lengths_in_which_rubber_flows():
@@ -114,12 +114,14 @@ def test_orders_are_asked_for_down_to_the_lengths_in_which_rubber_flows():
         for later in (1.0, 10.0):
             creep = CreepSpectrum(instantaneous, [1.0 - instantaneous], [1.0 / (later * seen)])
             expected = n * math.sqrt(later / instantaneous)
-            assert flows_to(creep, alpha, n) == pytest.approx(expected, rel=0.06)  # 24 wave numbers a decade
-    assert flows_to(CreepSpectrum(0.3, [0.7], [1e-6]), alpha, n) == n  # tangent 0.64 at most
-    assert flows_to(CreepSpectrum(1.0), alpha, n) == n
+            assert flow_order(creep, alpha, n) == pytest.approx(
+                expected, rel=0.06
+            )  # 24 wave numbers a decade
+    assert flow_order(CreepSpectrum(0.3, [0.7], [1e-6]), alpha, n) == n  # tangent 0.64 at most
+    assert flow_order(CreepSpectrum(1.0), alpha, n) == n
     # six decades in which pressure falls before two in which it grows
     later = CreepSpectrum(1e-3, [0.9, 0.099], [1e3 / seen, 1e-6 / seen])
-    assert flows_to(later, alpha, n) == n
+    assert flow_order(later, alpha, n) == n
 
 
 @pytest.mark.parametrize("rtol", [1e-4, 1e-6])

@@ -11,10 +11,10 @@ import pytest
 from scipy import special
 
 from conveyor.contact import ContactProblem, CreepSpectrum, Status, solve
-from conveyor.contact import general as module
-from conveyor.contact.grid import solve_grid
-from conveyor.contact.scene import Scene
-from conveyor.contact.strips import _window, friction_by_loss, settle, smallest_gap, too_close
+from conveyor.contact import many_strips as module
+from conveyor.contact.grid_solver import solve_grid
+from conveyor.contact.solver_state import SolverState
+from conveyor.contact.strips import _gap_window, balance_strips, friction_by_loss, smallest_gap, too_close
 
 ROUNDING = 1e-11  # of systems of condition 100 and sums of 100 terms, in whatever order: 1e4 of 2e-16
 ONE = CreepSpectrum(0.1, [0.9], [1.0])
@@ -54,12 +54,12 @@ def roll(found, x):
 def test_one_strip_is_the_contact_of_the_half_width(name):
     problem = SINGLE[name]
     exact = solve(problem, rtol=1e-11)
-    scene = Scene.of(problem)
+    scene = SolverState.of(problem)
     start = (
         np.array([1.02 * exact.eccentricity * problem.rho]),
         np.array([0.98 * exact.half_width * problem.rho]),
     )
-    found = settle(scene, max(exact.stats.order, 32), *start, 1e-12)
+    found = balance_strips(scene, max(exact.stats.order, 32), *start, 1e-12)
     assert found.friction == pytest.approx(exact.friction, rel=1e-10)
     assert found.depth == pytest.approx(exact.penetration, rel=1e-9)
     assert friction_by_loss(scene, found) == pytest.approx(found.friction, rel=1e-10)
@@ -128,12 +128,12 @@ def test_the_grid_agrees(name):
 def test_strips_have_no_order_and_start_anywhere_near(name):
     problem = SEVERAL[name]
     found = solved(problem)
-    scene = Scene.of(problem)
+    scene = SolverState.of(problem)
     edges = found.patches * problem.rho
     centre, alpha = edges.mean(axis=1), 0.5 * np.diff(edges, axis=1)[:, 0]
     # part of the narrowest half width: Newton is on its own
     away = centre + 0.03 * alpha.min() * np.where(np.arange(centre.size) % 2, 1.0, -1.0)
-    turned = settle(scene, 64, away[::-1], 0.97 * alpha[::-1], 1e-9)
+    turned = balance_strips(scene, 64, away[::-1], 0.97 * alpha[::-1], 1e-9)
     assert turned is not None
     np.testing.assert_allclose(turned.contact.eps[::-1], centre, rtol=0, atol=1e-8)
     np.testing.assert_allclose(turned.contact.alpha[::-1], alpha, rtol=0, atol=1e-8)
@@ -227,9 +227,9 @@ def test_what_counts_is_the_gap_beside_the_contacts_width():
 @pytest.mark.parametrize("width", [1.0, 0.01])
 def test_window_of_near_strips_is_their_sum_wave_by_wave(width):
     # two line forces a gap g apart: the window, by a quadrature where the contact is narrow, or every m of it
-    scene = Scene.of(ContactProblem("free", 0.3, 0.01, CreepSpectrum(0.1, [0.9], [1e-3]), 0.02))
+    scene = SolverState.of(ContactProblem("free", 0.3, 0.01, CreepSpectrum(0.1, [0.9], [1e-3]), 0.02))
     gap = 0.5 * width
-    m, weights = _window(scene, gap, width)
+    m, weights = _gap_window(scene, gap, width)
     ramp = 12.5 / gap
     every = np.arange(1.0, 13.0 * ramp + 1.0)
     plain = scene.problem.layer.symbol(every, scene.creep) / every
@@ -255,7 +255,7 @@ def test_two_lines_of_a_small_roll_are_polished():
 
 def test_strips_that_cannot_be_polished_keep_the_grid_with_its_error(monkeypatch):
     exact = solve(SPLIT, rtol=1e-9)
-    monkeypatch.setattr(module, "_polished", lambda *_: None)
+    monkeypatch.setattr(module, "_polish_strips", lambda *_: None)
     monkeypatch.setattr(module, "_FINEST", 6)
     found = solve(SPLIT, rtol=1e-9, throw=False)
     assert found.status is Status.NOT_CONVERGED

@@ -8,11 +8,11 @@ from scipy import special
 
 from conveyor.contact import ContactProblem, CreepSpectrum, Status, solve
 from conveyor.contact.bessel import ProductIK
+from conveyor.contact.one_strip import HalfWidthStart, layer_beyond_reach, solve_one_strip
+from conveyor.contact.order_tail import OrderTail, neighbour_ratios
 from conveyor.contact.quadrature import build_rule
-from conveyor.contact.scene import Scene
-from conveyor.contact.single import Near, beyond_reach, by_half_width
-from conveyor.contact.spectral import assemble, equilibrium, level, nested
-from conveyor.contact.tail import Tail, neighbour_ratios
+from conveyor.contact.solver_state import SolverState
+from conveyor.contact.spectral import assemble_matrix, mean_displacement, nested_matrices, solve_equilibrium
 
 ALPHA, CORE, LAST = 0.03, 64, 256
 
@@ -44,12 +44,12 @@ class TestAgainstAllOrdersAtOnce:
         problem = ContactProblem("confined", 0.05, 1e-3, creep, 0.3)
         place = np.array([ALPHA])
         rule = build_rule(problem.layer, creep, ALPHA)
-        dense = assemble(rule, creep, place, LAST)
+        dense = assemble_matrix(rule, creep, place, LAST)
         ik = ProductIK(CORE, place[:, None] / creep.times)
-        tail = Tail.of(ALPHA, creep, CORE, LAST)
-        closed, lower = tail.closed(assemble(rule, creep, place, CORE, ik), ik)
-        whole = equilibrium(dense, place, problem.rho)
-        core = equilibrium(closed, place, problem.rho)
+        tail = OrderTail.of(ALPHA, creep, CORE, LAST)
+        closed, lower = tail.closed(assemble_matrix(rule, creep, place, CORE, ik), ik)
+        whole = solve_equilibrium(dense, place, problem.rho)
+        core = solve_equilibrium(closed, place, problem.rho)
         return problem, rule, dense, ik, tail, lower, whole, core
 
     def test_every_coefficient_is_the_same(self, dense_and_closed):
@@ -63,20 +63,22 @@ class TestAgainstAllOrdersAtOnce:
         problem, _, dense, _, _, lower, whole, _ = dense_and_closed
         place = np.array([ALPHA])
         (half_core, most_core), tails = lower
-        for shorter, block in zip(tails, nested(dense), strict=True):
-            exact = equilibrium(block, place, problem.rho).friction
-            assert equilibrium(shorter, place, problem.rho).friction == pytest.approx(exact, rel=1e-12)
+        for shorter, block in zip(tails, nested_matrices(dense), strict=True):
+            exact = solve_equilibrium(block, place, problem.rho).friction
+            assert solve_equilibrium(shorter, place, problem.rho).friction == pytest.approx(exact, rel=1e-12)
         # the correction ends at m α = 60 · 0.03: all of it lies within order 32
         for smaller in (half_core, most_core):
-            assert equilibrium(smaller, place, problem.rho).friction == pytest.approx(
+            assert solve_equilibrium(smaller, place, problem.rho).friction == pytest.approx(
                 whole.friction, rel=1e-12
             )
 
     def test_level_and_loss_are_the_same(self, dense_and_closed):
         problem, rule, _, ik, tail, _, whole, core = dense_and_closed
         place, creep = np.array([ALPHA]), problem.creep
-        here = level(rule, creep, place, core.c.shape[1])[0] @ core.c[0] + tail.level(ik, core.c[0])
-        beyond = level(rule, creep, place, whole.c.shape[1])[0] @ whole.c[0]
+        here = mean_displacement(rule, creep, place, core.c.shape[1])[0] @ core.c[0] + tail.level(
+            ik, core.c[0]
+        )
+        beyond = mean_displacement(rule, creep, place, whole.c.shape[1])[0] @ whole.c[0]
         assert here == pytest.approx(beyond, rel=1e-12)
         weights = creep.weights * creep.times
         every = ProductIK(LAST, place[:, None] / creep.times)
@@ -103,7 +105,9 @@ def test_a_long_tail_gives_what_a_dense_matrix_does():
     # order 128 meets 1e-8 here; the same scene by a core of 64 and a tail to 1024
     problem = ContactProblem("confined", 0.1, 1e-3, CreepSpectrum(0.05, [0.95], [0.01]), 0.5)
     dense = solve(problem, rtol=1e-8)
-    long = by_half_width(Scene.of(problem), 1e-8, Near(np.log(dense.half_width * problem.rho), 2.0))
+    long = solve_one_strip(
+        SolverState.of(problem), 1e-8, HalfWidthStart(np.log(dense.half_width * problem.rho), 2.0)
+    )
     assert long.order == 1024
     assert long.found.friction == pytest.approx(dense.friction, rel=2e-8)
     assert long.found.fields.depth() == pytest.approx(dense.penetration, rel=1e-8)
@@ -125,8 +129,8 @@ def test_a_core_that_the_energy_doubts_is_lengthened_not_its_tail():
 
 def test_an_error_that_falls_fast_is_not_beyond_reach():
     creep = CreepSpectrum(1e-4, [1.0 - 1e-4], [1e-9])  # its layer is beyond order 512
-    scene = Scene.of(ContactProblem("half-space", 0.05, 1e-3, creep))
+    scene = SolverState.of(ContactProblem("half-space", 0.05, 1e-3, creep))
     alpha = 0.0075
-    contact = equilibrium(scene.system(alpha, 96, 96).matrix, np.array([alpha]), scene.problem.rho)
-    assert beyond_reach(scene, contact, (96, 512), 1e3)
-    assert not beyond_reach(scene, contact, (96, 512), 1e3, falls=8.0)
+    contact = solve_equilibrium(scene.system(alpha, 96, 96).matrix, np.array([alpha]), scene.problem.rho)
+    assert layer_beyond_reach(scene, contact, (96, 512), 1e3)
+    assert not layer_beyond_reach(scene, contact, (96, 512), 1e3, falls=8.0)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from conveyor.dynamics.wave import Beginning, Chain, Machines, Record, run
+from conveyor.dynamics.wave import Chain, InitialState, Machines, Record, simulate_belts
 
 EA, LINE_MASS, LENGTH = 4.0e7, 40.0, 2000.0
 WAVE = np.sqrt(EA / LINE_MASS)  # 1000 m/s
@@ -48,7 +48,7 @@ def clamped(cells: int, *nodes: int) -> dict[str, Any]:
     return {"sticking": sticking, "friction": friction, "lumps": lumps}
 
 
-def begun(chain: Chain, **changes: Any) -> Beginning:
+def begun(chain: Chain, **changes: Any) -> InitialState:
     """At rest under an even tension."""
     s, n = chain.stiffness.shape
     drives = np.zeros((s, chain.nodes.shape[1]))
@@ -56,7 +56,7 @@ def begun(chain: Chain, **changes: Any) -> Beginning:
         "speed": np.zeros((s, n + 1)), "tension": np.full((s, n), PULL), "resisting": np.zeros((s, n + 1)),
         "driving": drives, "rims": drives,
     }  # fmt: skip
-    return Beginning(**(parts | changes))
+    return InitialState(**(parts | changes))
 
 
 def idle(steps: int, drives: int = 0, scenes: int = 1) -> Machines:
@@ -68,9 +68,9 @@ def idle(steps: int, drives: int = 0, scenes: int = 1) -> Machines:
     )  # fmt: skip
 
 
-def follow(chain: Chain, start: Beginning, time: float, machines: Machines | None = None) -> Record:
+def follow(chain: Chain, start: InitialState, time: float, machines: Machines | None = None) -> Record:
     """Every step kept."""
     step = chain.longest_step
     steps = round(time / step)
     given = idle(steps, chain.nodes.shape[1]) if machines is None else machines
-    return run(chain, given, start, step=step, samples=steps)
+    return simulate_belts(chain, given, start, step=step, samples=steps)

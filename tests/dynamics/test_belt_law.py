@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from conveyor.dynamics.wave import run
+from conveyor.dynamics.wave import simulate_belts
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.waves import sag_factor
 from conveyor.models.belt import Carcass
@@ -75,7 +75,7 @@ def test_a_belt_pulled_taut_has_the_same_peaks_in_long_cells():
 def test_a_slack_begin_is_refused_where_the_belt_hangs():
     chain = hanging()
     with pytest.raises(NoSolutionError, match="bears tension only"):
-        run(chain, idle(3), begun(chain, tension=np.zeros((1, CELLS))), step=chain.longest_step)
+        simulate_belts(chain, idle(3), begun(chain, tension=np.zeros((1, CELLS))), step=chain.longest_step)
 
 
 @pytest.mark.parametrize(("share", "time"), [(0.3, 0.2), (1.0, 1.0), (0.5, 10.0)])

@@ -10,13 +10,13 @@ from multiprocessing import get_context
 import pytest
 from openpyxl import load_workbook
 
-from conveyor.dynamics import design
-from conveyor.dynamics import follow as following
-from conveyor.dynamics.design import size
-from conveyor.dynamics.follow import follow, standard_scenarios
+from conveyor.dynamics import scenario_sizing
+from conveyor.dynamics import simulation as following
+from conveyor.dynamics.scenario_sizing import size_scenario
+from conveyor.dynamics.simulation import simulate_scenarios, standard_scenarios
 from conveyor.errors import ConveyorError, InputError, NoSolutionError
 from conveyor.models import Scenario
-from conveyor.report.dynamics_tables import of_dynamics, plain
+from conveyor.report.dynamics_tables import dynamics_contents, dynamics_json
 from conveyor.report.result_schema import result_schema
 from conveyor.spec import from_data
 from tests.command_line import run
@@ -45,13 +45,13 @@ def spec(tmp_path_factory):
 def rigged(monkeypatch):
     """Loads without contacts: what they resist is a share of them."""
 
-    def rides(conveyor, scenarios, _loads=None):
+    def setups(conveyor, scenarios, _loads=None):
         made = [ridden(conveyor, one.as_data()) for one in scenarios]
         return made, made[0].loop.steady
 
-    for module in (design, following):
-        monkeypatch.setattr(module, "prepared_rides", rides)
-    monkeypatch.setattr(design, "_CELLS", 25)
+    for module in (scenario_sizing, following):
+        monkeypatch.setattr(module, "prepared_rides", setups)
+    monkeypatch.setattr(scenario_sizing, "_CELLS", 25)
 
 
 def test_it_writes_what_it_is_asked_for_and_its_json_has_every_peak_and_check(spec):
@@ -111,16 +111,16 @@ def test_standard_scenarios_fit_the_drives():
 def test_peaks_hold_and_tables_say_so():
     """An error asked for is kept by cells half as long."""
     conveyor = from_data(data() | {"scenarios": [STOP], "drive": data()["drive"] | {"reduced_mass": "4 t"}})
-    found = follow(conveyor, error=0.02)
+    found = simulate_scenarios(conveyor, error=0.02)
     (one,) = found.followed
-    (finer,) = follow(conveyor, step=0.25 * one.record.step).followed
+    (finer,) = simulate_scenarios(conveyor, step=0.25 * one.record.step).followed
     assert one.error <= 0.02
     assert abs(finer.highest - one.highest) <= 0.02 * finer.highest
     assert abs(finer.lowest - one.lowest) <= 0.02 * finer.highest
     assert {"scenarios", "scenario_drives", "scenario_tensions", "histories", "checks", "remarks"} <= set(
-        of_dynamics(found, "US").by_key
+        dynamics_contents(found, "US").by_key
     )
-    assert plain(found)["conveyor"] == "loop"
+    assert dynamics_json(found)["conveyor"] == "loop"
 
 
 QUIET = STOP | {"name": "nothing happens", "events": [{"at": "1 h", "do": "power off"}]}
@@ -131,24 +131,24 @@ def test_a_scenario_without_an_answer_leaves_the_others_theirs():
     """It is named with its reason among the checks and remarks; alone, or with its like, it is refused."""
     led = STOP | {"name": "led stop", "events": [{"do": "ramp down"}], "starter": {"kind": "direct"}}
     drive = data()["drive"] | {"reduced_mass": "4 t"}
-    found = follow(from_data(data() | {"scenarios": [led, QUIET], "drive": drive}))
+    found = simulate_scenarios(from_data(data() | {"scenarios": [led, QUIET], "drive": drive}))
     assert [one.name for one in found.followed] == ["nothing happens"]
-    (check,) = (one for one in plain(found)["checks"] if one["key"] == "dynamic_answer")
+    (check,) = (one for one in dynamics_json(found)["checks"] if one["key"] == "dynamic_answer")
     assert (check["case"], check["verdict"]) == ("led stop", "fail")
-    (warned,) = (one for one in of_dynamics(found, "SI").lines("warning") if "led stop" in one)
+    (warned,) = (one for one in dynamics_contents(found, "SI").lines("warning") if "led stop" in one)
     assert "has no inverter (direct) and cannot ramp down" in warned
     again = [led, led | {"name": "again"}]
     with pytest.raises(NoSolutionError, match='scenario "led stop", "again": drive "drive" has no inverter'):
-        follow(from_data(data() | {"scenarios": again, "drive": drive}))
+        simulate_scenarios(from_data(data() | {"scenarios": again, "drive": drive}))
 
 
 @pytest.mark.usefixtures("rigged")
 def test_peaks_that_do_not_hold_are_refused_with_both_figures_and_what_helps(monkeypatch):
     """A winch with hardly any run-up pulls the belt the harder the shorter the cell."""
-    monkeypatch.setattr(following, "_REFINED", 4)
+    monkeypatch.setattr(following, "_REFINEMENTS", 4)
     winch = {"kind": "winch", "position": "tail", "winch_speed": "1 m/s", "winch_band": "1 %"}
     given = data(route={"take_up": winch | {"winch_run_up": "1 ms"}}, drive={"reduced_mass": "4 t"})
-    found = follow(from_data(given | {"scenarios": [STOP, QUIET]}))
+    found = simulate_scenarios(from_data(given | {"scenarios": [STOP, QUIET]}))
     assert [one.name for one in found.followed] == ["nothing happens"]
     (refusal,) = found.refused
     assert refusal.scenario == "power failure"
@@ -163,7 +163,7 @@ def test_peaks_that_do_not_hold_are_refused_with_both_figures_and_what_helps(mon
     )
     for system, unit in (("SI", "kN"), ("US", "lbf")):
         with pytest.raises(NoSolutionError, match=peaks.format(unit)):
-            follow(once.replace(report={"units": system}), error=1e-6)
+            simulate_scenarios(once.replace(report={"units": system}), error=1e-6)
 
 
 @pytest.mark.usefixtures("rigged")
@@ -171,15 +171,17 @@ def test_a_scenario_that_the_longest_cells_cannot_answer_is_followed_in_shorter_
     """As drives that have no room beside each other in 25 cells."""
     steps = []
 
-    def beside(rides, step):
+    def beside(setups, step):
         steps.append(step)
         if step > 0.3 * steps[0]:
             raise NoSolutionError("the belt is too short")
-        return side_by_side(rides, step)
+        return side_by_side(setups, step)
 
-    side_by_side = following.side_by_side
-    monkeypatch.setattr(following, "side_by_side", beside)
-    found = follow(from_data(data(drive={"reduced_mass": "4 t"}) | {"scenarios": [STOP]}), error=0.05)
+    side_by_side = following.simulate_batch
+    monkeypatch.setattr(following, "simulate_batch", beside)
+    found = simulate_scenarios(
+        from_data(data(drive={"reduced_mass": "4 t"}) | {"scenarios": [STOP]}), error=0.05
+    )
     assert [one.name for one in found.followed] == ["power failure"]
     assert found.refused == ()
 
@@ -189,7 +191,7 @@ def test_a_winch_with_a_speed_needs_its_run_up_in_scenarios():
     winch = {"kind": "winch", "position": "tail", "winch_speed": "1 m/s"}
     given = data(route={"take_up": winch}, drive={"reduced_mass": "4 t"}) | {"scenarios": [STOP]}
     with pytest.raises(NoSolutionError, match=r"give route\.take_up\.winch_run_up, the time in which"):
-        follow(from_data(given))
+        simulate_scenarios(from_data(given))
     with pytest.raises(InputError, match="given without winch_speed"):
         from_data(data(route={"take_up": {"kind": "winch", "winch_run_up": "1 s"}}))
 
@@ -210,8 +212,8 @@ def test_a_winch_with_a_speed_needs_its_run_up_in_scenarios():
 )
 def test_the_error_of_peaks_is_the_grid_convergence_index_of_four_sizes(highest, error):
     peaks = [following._Peaks(one, 10.0, 0.1) for one in highest]
-    assert following._error(peaks[:3]) is None
-    assert following._error(peaks) == pytest.approx(error / highest[-1], rel=1e-12)
+    assert following._peak_error(peaks[:3]) is None
+    assert following._peak_error(peaks) == pytest.approx(error / highest[-1], rel=1e-12)
 
 
 @pytest.mark.usefixtures("rigged")
@@ -221,26 +223,26 @@ def test_the_shortest_ramp_keeps_every_criterion():
     taut = data()["route"] | {"take_up": {"kind": "gravity", "tension": "60 kN"}}
     conveyor = from_data(data() | {"route": taut, "drive": data()["drive"] | {"reduced_mass": "4 t"}})
     scenario = Scenario.from_data(start)
-    found = size(conveyor, scenario, "ramp", between=(4.0, 40.0))
+    found = size_scenario(conveyor, scenario, "ramp", between=(4.0, 40.0))
     assert 4.0 <= found.value < 40.0
-    assert found.ride.starters[0].time == pytest.approx(found.value, rel=1e-12)
+    assert found.setup.starters[0].time == pytest.approx(found.value, rel=1e-12)
     assert 0.0 < found.error < 0.05
     assert found.governs
     with pytest.raises(InputError, match="a ramp needs inverters"):
-        size(conveyor, Scenario.from_data(start | {"starter": {"kind": "direct"}}), "ramp")
+        size_scenario(conveyor, Scenario.from_data(start | {"starter": {"kind": "direct"}}), "ramp")
     with pytest.raises(NoSolutionError, match="nothing from 1 to 2"):
-        size(conveyor, scenario, "ramp", between=(1.0, 2.0))
+        size_scenario(conveyor, scenario, "ramp", between=(1.0, 2.0))
     us = conveyor.replace(report={"units": "US"})
     with pytest.raises(NoSolutionError, match=r"nothing from 1 s to 2 s keeps every check; at best: .* ft "):
-        size(us, scenario, "ramp", between=(1.0, 2.0))
+        size_scenario(us, scenario, "ramp", between=(1.0, 2.0))
     with pytest.raises(
         NoSolutionError, match=r"nothing from 224\.8 lbf to 449\.6 lbf keeps every check; at best: .* lbf;"
     ):
-        size(us, scenario, "take-up", between=(1e3, 2e3))
+        size_scenario(us, scenario, "take-up", between=(1e3, 2e3))
     with pytest.raises(
         NoSolutionError, match=r"nothing from 1000 to 2000 \(SI\) keeps every check; at best: .* N;"
     ):
-        size(conveyor, scenario, "take-up", between=(1e3, 2e3))
+        size_scenario(conveyor, scenario, "take-up", between=(1e3, 2e3))
 
 
 @pytest.mark.usefixtures("rigged")
@@ -254,15 +256,15 @@ def test_the_least_brake_stops_a_downhill_belt_in_the_time_of_its_scenario():
     conveyor = from_data(data(route=taut, drive={"reduced_mass": "4 t"}))
     stop = {"name": "stop", "begins": "running", "loading": "full", "duration": "20 s",
             "events": [{"do": "power off"}, {"do": "brake"}]}  # fmt: skip
-    found = size(conveyor, Scenario.from_data(stop), "brake")
-    (ride,), _ = design.prepared_rides(conveyor, [Scenario.from_data(stop)])
-    mass = ride.loop.mass.sum() + ride.rims.sum() + sum(lump.mass for lump in ride.loop.lumps)
-    hold = -ride.loop.steady.balance.settled.force
+    found = size_scenario(conveyor, Scenario.from_data(stop), "brake")
+    (setup,), _ = scenario_sizing.prepare_setups(conveyor, [Scenario.from_data(stop)])
+    mass = setup.loop.mass.sum() + setup.rims.sum() + sum(lump.mass for lump in setup.loop.lumps)
+    hold = -setup.loop.steady.balance.settled.force
     assert found.value == pytest.approx(hold + mass * 4.0 / 20.0, rel=0.1)
     assert found.governs == "stopping"
-    assert found.ride.brakes == pytest.approx([found.value], rel=1e-12)
+    assert found.setup.brakes == pytest.approx([found.value], rel=1e-12)
     with pytest.raises(InputError, match="no brake grips in it"):
-        size(conveyor, Scenario.from_data(STOP), "brake")
+        size_scenario(conveyor, Scenario.from_data(STOP), "brake")
 
 
 @pytest.mark.usefixtures("rigged")
@@ -271,9 +273,9 @@ def test_the_take_up_is_as_heavy_as_a_fast_start_needs():
     start = {"name": "start", "begins": "at rest", "loading": "full", "events": [{"do": "start"}],
              "starter": {"time": "14 s"}, "duration": "16 s"}  # fmt: skip
     conveyor = from_data(data(drive={"reduced_mass": "4 t"}))
-    found = size(conveyor, Scenario.from_data(start), "take-up")
+    found = size_scenario(conveyor, Scenario.from_data(start), "take-up")
     assert found.kind == "mass"
-    assert found.ride.setting == pytest.approx(found.value * 9.80665 / 2.0, rel=1e-3)
+    assert found.setup.setting == pytest.approx(found.value * 9.80665 / 2.0, rel=1e-3)
     assert found.governs.startswith(("grip of", "sag", "belt is taut"))
     assert 0.0 < found.error < 0.05
 
@@ -291,11 +293,11 @@ def test_a_delay_is_found_that_keeps_every_criterion():
         "events": [{"do": "start"}],
         "duration": "30 s",
     }
-    found = size(conveyor, Scenario.from_data(start), "delay", between=(0.0, 10.0))
+    found = size_scenario(conveyor, Scenario.from_data(start), "delay", between=(0.0, 10.0))
     assert 0.0 <= found.value <= 10.0
-    assert found.ride.starters[1].delay == pytest.approx(found.value, abs=1e-12)
+    assert found.setup.starters[1].delay == pytest.approx(found.value, abs=1e-12)
     with pytest.raises(InputError, match="one drive only"):
-        size(from_data(data()), Scenario.from_data(start), "delay")
+        size_scenario(from_data(data()), Scenario.from_data(start), "delay")
 
 
 @pytest.mark.usefixtures("rigged")
@@ -303,9 +305,9 @@ def test_an_executor_gives_the_same_answers():
     """Every scenario in its place, whatever the groups."""
     names = [BRAKED | {"name": f"stop {k}", "friction": f"{100 - 10 * k} %"} for k in range(3)]
     conveyor = from_data(data() | {"scenarios": names, "drive": data()["drive"] | {"reduced_mass": "4 t"}})
-    here = follow(conveyor, error=0.1)
+    here = simulate_scenarios(conveyor, error=0.1)
     with ThreadPoolExecutor(2) as pool:
-        there = follow(conveyor, error=0.1, executor=pool, workers=2)
+        there = simulate_scenarios(conveyor, error=0.1, executor=pool, workers=2)
     assert [one.name for one in there.followed] == [one.name for one in here.followed]
     for one, other in zip(here.followed, there.followed, strict=True):
         assert other.way == pytest.approx(one.way, rel=1e-3)
@@ -318,7 +320,7 @@ def test_a_lost_worker_is_told():
     with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as processes:
         processes.submit(os._exit, 1)
         with pytest.raises(ConveyorError, match="a worker of the scenarios was lost"):
-            follow(conveyor, executor=processes)
+            simulate_scenarios(conveyor, executor=processes)
 
 
 def test_power_reports_the_scenarios_of_a_spec(spec, tmp_path):

@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from conveyor.dynamics.criteria import CRITERIA, at_pulley, peaks
-from conveyor.dynamics.follow import CalculatedDynamics, side_by_side
-from conveyor.dynamics.machines import prepared
-from conveyor.dynamics.wave import Machines, run
+from conveyor.dynamics.criteria import CRITERIA, pulley_peak, tension_peaks
+from conveyor.dynamics.machines import prepare_belts
+from conveyor.dynamics.simulation import CalculatedDynamics, simulate_batch
+from conveyor.dynamics.wave import Machines, simulate_belts
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.laws.waves import STEEPEST, ramp
+from conveyor.laws.waves import STEEPEST_SLOPE, ramp_speed
 from conveyor.models import Scenario, Starter
 from conveyor.spec import from_data, load
 from tests.dynamics.rods import EA, LENGTH, LINE_MASS, PULL, WAVE, begun, clamped, follow, idle, rod
@@ -46,7 +46,7 @@ def pulled(force, steps, *, time, cells=CELLS, grip=1e9, rim=HEAVY, **changes):
         np.array([[1e9]]), np.full((steps, 1, 1), 1e6), share, np.zeros((steps, 1, 1)),
         np.full((1, 1, 65), force), 1.0, np.zeros((1, 1)),
     )  # fmt: skip
-    return run(chain, driving, begun(chain), step=step, samples=steps)
+    return simulate_belts(chain, driving, begun(chain), step=step, samples=steps)
 
 
 @pytest.mark.parametrize("share", [0.3, 0.7, 1.5])
@@ -80,7 +80,7 @@ def test_backstop_and_brake_hold_what_pulls_back():
         )  # fmt: skip
         machines = replace(idle(400, 1), brake=np.full((400, 1, 1), force))
         start = begun(chain, tension=np.full((1, 20), PULL + 40e3))
-        found = run(chain, machines, start, step=chain.longest_step)
+        found = simulate_belts(chain, machines, start, step=chain.longest_step)
         assert bool(np.abs(found.drives["rim"]).max() == 0.0) is stands
         if stands:
             assert found.drives["holding"][-1, 0, 0] == pytest.approx(-40e3, rel=1e-9)
@@ -97,7 +97,9 @@ def test_the_tension_at_a_pulley_falls_after_a_power_cut_as_a_damped_rod_says(ce
     tension = np.full((1, cells), PULL)
     tension[:, :node] += force
     step = 0.95 * chain.longest_step
-    found = run(chain, idle(2, 1), begun(chain, tension=tension, driving=np.array([[force]])), step=step)
+    found = simulate_belts(
+        chain, idle(2, 1), begun(chain, tension=tension, driving=np.array([[force]])), step=step
+    )
     falls = PULL + force - found.drives["arriving"][0, 0, 0]
     assert found.drives["leaving"][0, 0, 0] - PULL == pytest.approx(falls, rel=1e-9)
     # the mean over a step of a root, 2/3 of its end; a cell resolves that to some per cent
@@ -133,7 +135,7 @@ def test_tensions_beside_a_pulley_that_slips_at_once_are_split_by_impedances(cel
         np.array([[1e9]]), direction * np.full((3, 1, 1), 1e6), np.ones((3, 1, 1)), np.zeros((3, 1, 1)),
         np.full((1, 1, 65), 1e7), 1e6, np.zeros((1, 1)),
     )  # fmt: skip
-    found = run(chain, driving, begun(chain), step=step)
+    found = simulate_belts(chain, driving, begun(chain), step=step)
     # T - z v on the slack side, T + z v on the other one
     ratio = 0.25 if direction > 0.0 else 4.0
     slack = PULL * (1.0 + ratio) / (1.0 + grip + ratio)
@@ -158,8 +160,8 @@ def slipping_late(step):
 def test_the_lowest_tension_beside_a_drive_switched_on_late_is_that_of_its_closed_form(step):
     """(T1 + r T2)/(e^(mu alpha) + r) of the tensions before it, r the impedance sqrt(m' EA) before over that behind."""
     found = slipping_late(step)
-    cells, drives, drive = found.cells, found.record.drives, found.ride.drives[1]
-    k, loop = int(cells.nodes[1]), found.ride.loop
+    cells, drives, drive = found.cells, found.record.drives, found.setup.drives[1]
+    k, loop = int(cells.nodes[1]), found.setup.loop
     carry = int(np.argmax(loop.order == found.line.count))  # the first stretch behind the tail
     before, behind = (loop.mass / np.diff(loop.way))[[carry - 1, carry]]
     on = int(np.argmax(drives["motor"][:, 1] > 0.0))
@@ -212,8 +214,8 @@ def test_every_scenario_is_followed_to_its_own_end():
     """Side by side: as long as each asks for, and no more than a step longer."""
     conveyor = line(drive=DATA["drive"] | MASSES)
     lasting = (2.0, 5.0, 3.3)
-    rides = [ridden(conveyor, START | {"duration": f"{time} s"}) for time in lasting]
-    for found, time in zip(side_by_side(rides, 0.1), lasting, strict=True):
+    setups = [ridden(conveyor, START | {"duration": f"{time} s"}) for time in lasting]
+    for found, time in zip(simulate_batch(setups, 0.1), lasting, strict=True):
         assert time <= found.times[-1] < time + found.record.step
         assert time - 2.0 * found.record.step < found.record.times[-1] <= time
 
@@ -236,7 +238,7 @@ def test_motors_without_a_power_are_said_to_be_rated_for_the_largest_force():
     for drive, said in ((plain, True), (plain | {"installed_power": "400 kW"}, False)):
         conveyor = from_data(DATA | {"drive": drive})
         found = followed(conveyor, START | {"duration": "1 s"}, step=0.1)
-        dynamics = CalculatedDynamics(conveyor, found.ride.given.steady, (found,))
+        dynamics = CalculatedDynamics(conveyor, found.setup.given.steady, (found,))
         assert (words in dynamics.assumptions) is said
 
 
@@ -244,10 +246,10 @@ def test_a_light_rim_comes_to_its_line_and_does_not_swing_about_it():
     """Switched on at once it runs at no load less what its torque takes; never beyond, nor back."""
     found = slipping_late(0.05)
     rim = found.record.drives["rim"][:, 1]
-    level = found.line.speed * (1.0 + found.ride.starters[1].slip)
+    level = found.line.speed * (1.0 + found.setup.starters[1].slip)
     on = int(np.argmax(rim > 0.5))
     assert np.all(rim[on:] < level)
-    assert np.ptp(rim[on:]) < found.ride.starters[1].slip * found.line.speed  # it was 8 and 0 m/s by turns
+    assert np.ptp(rim[on:]) < found.setup.starters[1].slip * found.line.speed  # it was 8 and 0 m/s by turns
 
 
 @pytest.mark.parametrize("step", [0.02, 0.1])
@@ -265,7 +267,7 @@ def test_a_running_belt_has_the_steady_tensions_on_both_sides_of_its_drives(chan
     """Half a cell of each strand, and what stands there as the belt meets it: skirts come behind a tail drive."""
     drive = DATA["drive"] | MASSES | changes.get("drive", {})
     found = followed(line(drive=drive, route=changes.get("route", {})), NOTHING, step=step)
-    steady = found.ride.loop.steady.balance.settled.steady
+    steady = found.setup.loop.steady.balance.settled.steady
     for name in ("arriving", "leaving"):
         told = [getattr(one, name) for one in steady.drives]
         # a boundary of stretches that lies within half a cell of a drive has its share on both sides
@@ -300,12 +302,12 @@ def test_a_winch_brings_the_tension_into_its_band_and_rests():
 @pytest.mark.parametrize("shape", ["linear", "cosine", "S"])
 def test_ramps_end_at_full_speed_and_are_as_steep_as_said(shape):
     x = np.linspace(0.0, 1.0, 20001)
-    made = ramp(x, shape=shape)
+    made = ramp_speed(x, shape=shape)
     assert made[0] == 0.0
     assert made[-1] == 1.0
-    assert np.gradient(made, x).max() == pytest.approx(STEEPEST[shape], rel=1e-3)
+    assert np.gradient(made, x).max() == pytest.approx(STEEPEST_SLOPE[shape], rel=1e-3)
     with pytest.raises(InputError, match="linear, cosine or S"):
-        ramp(x, shape="steep")
+        ramp_speed(x, shape="steep")
 
 
 START = {"begins": "at rest", "events": [{"do": "start"}], "duration": "6 s"}
@@ -327,16 +329,16 @@ def test_starters_let_through_what_they_say(starter, early, late):
     assert found.torque[0, 0] == pytest.approx(early, rel=0.01)
     if late is not None:
         assert found.torque[:, 0].max() == pytest.approx(late, rel=1e-9)
-    assert "slip" in found.ride.starters[0].assumed
+    assert "slip" in found.setup.starters[0].assumed
 
 
 def test_a_later_drive_begins_after_its_delay_and_a_failed_brake_does_not_grip():
     """Delay of one drive; share 0 % of a brake."""
     late = BOOSTER | MASSES | {"starter": {"time": "10 s", "delay": "4 s"}}
     drive = DATA["drive"] | MASSES | {"starter": {"time": "10 s"}, "further_drives": [late]}
-    ride = ridden(line(drive=drive), START)
+    setup = ridden(line(drive=drive), START)
     times = np.arange(0.0, 20.0, 0.5)
-    _, share, _ = ride.over_time(times)
+    _, share, _ = setup.over_time(times)
     assert np.all(share[:, 0] == 1.0)
     assert np.all(share[:, 1] == (times >= 4.0))
     drive = DATA["drive"] | MASSES | {"brake_force": "20 kN"}
@@ -355,10 +357,10 @@ FILL = [{"at": "0 s", "share": "0 %"}, {"at": "4 s", "share": "80 %"}, {"at": "8
 def test_a_coupling_lets_through_what_its_fill_says():
     """Linear between the points, held beyond; from its delay on."""
     starter = {"kind": "fluid coupling", "fill": FILL, "delay": "2 s"}
-    ride = ridden(line(drive=DATA["drive"] | MASSES), START | {"starter": starter})
-    _, share, _ = ride.over_time(np.array([0.0, 2.0, 4.0, 6.0, 8.0, 10.0, 50.0]))
+    setup = ridden(line(drive=DATA["drive"] | MASSES), START | {"starter": starter})
+    _, share, _ = setup.over_time(np.array([0.0, 2.0, 4.0, 6.0, 8.0, 10.0, 50.0]))
     assert share[:, 0] == pytest.approx([0.0, 0.0, 0.4, 0.8, 0.9, 1.0, 1.0], abs=1e-12)
-    assert ride.starters[0].assumed == ("slip",)
+    assert setup.starters[0].assumed == ("slip",)
 
 
 @pytest.mark.parametrize(
@@ -383,7 +385,7 @@ def test_a_drive_that_loses_power_leaves_its_share_to_the_other():
     drive = DATA["drive"] | MASSES | {"further_drives": [SECOND | MASSES]}
     stop = {"begins": "running", "events": [{"do": "power off", "drives": ["second"]}], "duration": "40 s"}
     found = followed(line(drive=drive, route=TAUT), stop, step=0.1)
-    motor, whole = found.record.drives["motor"], found.ride.loop.steady.balance.settled.force
+    motor, whole = found.record.drives["motor"], found.setup.loop.steady.balance.settled.force
     assert np.all(motor[1:, 1] == 0.0)
     assert motor[-1, 0] == pytest.approx(whole, rel=0.02)
     assert float(found.torque[:, 0].max()) <= 1.6 + 1e-9
@@ -394,8 +396,8 @@ def test_drives_side_by_side_do_not_swing_against_each_other_in_short_cells():
     """Nearly empty, without power: the belt between them is as stiff as its cell is short."""
     drive = DATA["drive"] | MASSES | {"further_drives": [SECOND | MASSES]}
     off = {"begins": "running", "events": [{"do": "power off"}], "duration": "5 s"}
-    ride = ridden(line(drive=drive, material={"flow": "1 t/h"}), off)
-    (found,) = side_by_side([ride], float(ride.loop.travel[-1]) / 800)
+    setup = ridden(line(drive=drive, material={"flow": "1 t/h"}), off)
+    (found,) = simulate_batch([setup], float(setup.loop.travel[-1]) / 800)
     assert np.all(found.record.slipped == 0.0)  # it was 2 mm
     assert found.missing_energy < 1e-5  # of second order; it was 2e-4
 
@@ -443,7 +445,7 @@ def test_a_loaded_incline_restarts_from_its_backstop_or_rolls_back(backstop):
     assert (least == 0.0) is backstop
     assert said["dynamic_backward"].failed is not backstop
     if backstop:
-        held = found.ride.loop.steady.motions.brake_to_hold
+        held = found.setup.loop.steady.motions.brake_to_hold
         assert said["dynamic_backstop"].verdict == "pass"
         assert said["dynamic_backstop"].calculated >= 0.9 * held
         assert found.belt_speed[-1] == pytest.approx(found.line.speed, rel=0.05)
@@ -453,12 +455,12 @@ def test_a_loaded_incline_restarts_from_its_backstop_or_rolls_back(backstop):
 
 def test_bulk_that_is_not_fed_holds_no_belt_at_rest():
     """What brings it to speed falls with the square of the belt's: no mass breaks loose from it with a jump."""
-    rides = [
+    setups = [
         ridden(line(drive=DATA["drive"] | MASSES, route={"feeding": feeding}), START)
         for feeding in (DATA["route"]["feeding"], NO_RUSH)
     ]
-    fed, calm = (float(prepared([ride], 0.04)[1].sticking.sum()) for ride in rides)
-    singles = rides[0].loop.steady.balance.singles
+    fed, calm = (float(prepare_belts([setup], 0.04)[1].sticking.sum()) for setup in setups)
+    singles = setups[0].loop.steady.balance.singles
     bringing = next(force.total for force in singles if force.key == "acceleration")
     assert fed == pytest.approx(calm, abs=0.05 * bringing)  # wraps feel the tension
 
@@ -468,7 +470,7 @@ def test_a_backstop_that_is_assumed_is_said():
         steep(), {"begins": "at rest", "events": [{"do": "power off"}], "duration": "5 s"}, step=0.1
     )
     said = {check.key: check for check in checks_of_one(found)}
-    assert found.ride.assumed_backstop
+    assert found.setup.assumed_backstop
     assert said["dynamic_backstop"].verdict == "not checked"
 
 
@@ -480,17 +482,19 @@ def test_drag_brakes_a_drive_without_power_whose_belt_slips():
         backstop=np.array([[False]]), **clamped(cells, 1),
     )  # fmt: skip
     start = begun(chain, rims=np.array([[3.0]]))
-    found = run(chain, replace(idle(60, 1), drag=np.array([[drag]])), start, step=chain.longest_step)
+    found = simulate_belts(
+        chain, replace(idle(60, 1), drag=np.array([[drag]])), start, step=chain.longest_step
+    )
     rims = found.drives["rim"][:, 0, 0]
     assert np.diff(rims) == pytest.approx(-drag / rim * found.step, rel=1e-9)
 
 
 def test_a_belt_that_runs_away_has_the_friction_of_full_speed():
     """The parabola through three speeds up to that says nothing beyond: it may even turn and push."""
-    ride = ridden(line(drive=DATA["drive"] | MASSES), START)
-    _, chain, _ = prepared([ride], 0.1)
+    setup = ridden(line(drive=DATA["drive"] | MASSES), START)
+    _, chain, _ = prepare_belts([setup], 0.1)
     falling = replace(chain, friction=np.stack([chain.friction[0], 0.0 * chain.mass, -chain.friction[0]]))
-    full = np.full_like(chain.mass, ride.loop.line.speed)
+    full = np.full_like(chain.mass, setup.loop.line.speed)
     assert np.array_equal(falling.resisting(3.0 * full), falling.resisting(full))
 
 
@@ -508,7 +512,7 @@ def test_a_led_stop_comes_to_rest_at_the_end_of_its_ramp():
         "duration": "30 s",
     }
     found = followed(line(drive=DATA["drive"] | MASSES, route={"feeding": NO_RUSH}), stop, step=0.04)
-    assert found.rests_at == pytest.approx(20.0, abs=3.0 * found.ride.loop.travel[-1])
+    assert found.rests_at == pytest.approx(20.0, abs=3.0 * found.setup.loop.travel[-1])
     # of an S the way is half of that at full speed
     assert found.way == pytest.approx(0.5 * found.line.speed * 20.0, rel=0.02)
 
@@ -576,7 +580,7 @@ def test_splice_pulleys_and_curves_are_checked_at_their_own_highest_tensions():
     said = checks_of_one(found)
     (splice,) = (check for check in said if check.key == "dynamic_splice")
     assert splice.required == pytest.approx(found.highest / 1.5 * 1.1 * 1.7 / 0.45, rel=1e-9)
-    there = {peak.strand: peak for peak in peaks(found) if peak.section == "hollow"}
+    there = {peak.strand: peak for peak in tension_peaks(found) if peak.section == "hollow"}
     lifts = {check.subject.text(): check for check in said if check.key == "dynamic_lift_off"}
     assert len(lifts) == 2
     radius = lifts["empty belt stays down, hollow, carry"].required
@@ -587,7 +591,7 @@ def test_splice_pulleys_and_curves_are_checked_at_their_own_highest_tensions():
         there["carry"].highest / (20.0 * 9.80665 * np.cos(abs(slope) + 30.0 / 900.0)), rel=1e-3
     )
     names = [pulley.name for pulley in found.line.pulleys]
-    head = at_pulley(found, names.index("head"))
+    head = pulley_peak(found, names.index("head"))
     # middles of its cells against their ends at it: a cell of the belt at most lies between
     cell = 1.0 / found.middles.size
     assert head.highest == pytest.approx(float(found.record.drives["arriving"].max()), rel=cell)

@@ -10,7 +10,7 @@ import openpyxl
 import pytest
 
 from conveyor.errors import InputError
-from conveyor.fitting.compound import Request, fit_file, from_files
+from conveyor.fitting.fitted_compound import Request, compound_from_files, fit_file
 from conveyor.laboratory import read_dma
 
 ISOTHERMS = Path(__file__).parents[2] / "examples" / "laboratory" / "isotherms.csv"
@@ -194,12 +194,12 @@ def test_sheets_of_one_rubber_are_taken_together(tmp_path: Path) -> None:
     path = tmp_path / "steps.xlsx"
     book.save(path)
     with pytest.raises(InputError, match=r"15 sheets hold a table: .*--sheet '\*'"):
-        from_files(path, Request("pad", "20 degC"))
+        compound_from_files(path, Request("pad", "20 degC"))
     with pytest.raises(
         InputError, match=r"no sheet 'Temp\*' holds a table; .*'Sheet', 'Frequency sweep - 1'"
     ):
-        from_files(path, Request("pad", "20 degC", reading={"sheet": "Temp*"}))
-    found = from_files(path, Request("pad", "20 degC", replicas=0, reading={"sheet": "Freq*"}))
+        compound_from_files(path, Request("pad", "20 degC", reading={"sheet": "Temp*"}))
+    found = compound_from_files(path, Request("pad", "20 degC", replicas=0, reading={"sheet": "Freq*"}))
     beside = fit_file(ISOTHERMS, Request("pad", "20 degC", replicas=0))
     # the same rows, their temperatures rounded at the mean: nothing but rounding tells them apart
     assert found.superposition.log10_a_T == pytest.approx(beside.superposition.log10_a_T, abs=1e-6)
@@ -211,4 +211,4 @@ def test_sheets_of_one_rubber_are_taken_together(tmp_path: Path) -> None:
         exclude=("steps.xlsx[Frequency sweep - 1]:4-99",),
     )
     with pytest.raises(InputError, match="no row would be left"):
-        from_files(path, left)
+        compound_from_files(path, left)

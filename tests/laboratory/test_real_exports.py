@@ -10,10 +10,10 @@ import pytest
 
 from conveyor.errors import InputError
 from conveyor.laboratory import read_dma
-from conveyor.laboratory.layout import spans
-from conveyor.laboratory.names import meaning
-from conveyor.laboratory.units import find_unit
-from conveyor.laboratory.vocabulary import deformations
+from conveyor.laboratory.column_units import find_unit
+from conveyor.laboratory.header_meanings import header_meaning
+from conveyor.laboratory.table_layout import row_spans
+from conveyor.laboratory.vocabulary import find_deformations
 
 ROWS = [(t, f, 6.0 - 0.02 * t + 0.5 * k, 0.6 + 0.05 * k) for t in (0, 20) for k, f in enumerate((1, 10, 100))]
 """Temperature [degC], frequency [Hz], E' and E'' [MPa]: invented."""
@@ -174,7 +174,7 @@ def test_rows_at_fault_are_named_together(tmp_path: Path) -> None:
         InputError, match=r"pad\.csv:3: .*--exclude 3,5-6\); likewise row 5: .*likewise row 6: "
     ):
         read_dma(written(tmp_path, table("T [degC];f [Hz];E' [MPa];E'' [MPa]", rows)))
-    assert spans([1, 3, 4, 5, 9]) == "1,3-5,9"
+    assert row_spans([1, 3, 4, 5, 9]) == "1,3-5,9"
 
 
 def test_a_column_of_another_name(tmp_path: Path) -> None:
@@ -212,7 +212,7 @@ NEITHER = (
 
 @pytest.mark.parametrize("words", SHEAR)
 def test_every_way_of_saying_shear(tmp_path: Path, words: str) -> None:
-    assert {one.letter for one in deformations(words)} == {"G"}
+    assert {one.letter for one in find_deformations(words)} == {"G"}
     open_ = written(tmp_path, f"# {words}\n" + table("T [degC];f [Hz];storage [MPa];loss [MPa]"))
     with pytest.raises(InputError, match=r"E or G\?.*row 1 speaks of.*--moduli G"):
         read_dma(open_)
@@ -236,7 +236,7 @@ def test_every_way_of_saying_tension(tmp_path: Path, words: str) -> None:
 
 @pytest.mark.parametrize("words", NEITHER)
 def test_where_nothing_says_which_it_is_asked(tmp_path: Path, words: str) -> None:
-    assert not list(deformations(words))
+    assert not list(find_deformations(words))
     file = written(tmp_path, f"# {words}\n" + table("T [degC];f [Hz];storage [MPa];loss [MPa]"))
     with pytest.raises(
         InputError, match=r"E or G\?.*nothing in the file says whether tension or shear.*--moduli E"
@@ -293,6 +293,6 @@ def test_names_of_every_list_are_read() -> None:
         ("せん断ひずみ (%)", "strain", "G"), ("tan δ", "tan_delta", ""), ("Tangens kąta stratności", "tan_delta", ""),
         ("угол сдвига фаз, град", "phase", ""), ("移位因子", "a_T", ""),
     ):  # fmt: skip
-        sense = meaning(header)
+        sense = header_meaning(header)
         assert sense is not None, header
         assert (sense.quantity, sense.letter) == (quantity, letter)

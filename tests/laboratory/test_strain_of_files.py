@@ -10,8 +10,8 @@ import pytest
 
 from conveyor.errors import InputError
 from conveyor.fitting.amplitude import UNLIKE_STRAINS, WORKING_STRAIN
-from conveyor.fitting.compound import Fitted, Request, fit_file
-from conveyor.fitting.verdict import verdict
+from conveyor.fitting.fit_verdict import fit_criteria
+from conveyor.fitting.fitted_compound import FittedCompound, Request, fit_file
 from conveyor.units import si
 
 FREQUENCY = np.geomspace(1.0, 50.0, 7)
@@ -51,13 +51,15 @@ def sweep(folder: Path, largest: float) -> Path:
 ALIKE = dict.fromkeys((0, 10, 20, 30), 0.1)
 
 
-def fit(path: Path, strain: Path | None = None, given: str | None = None, **reading: object) -> Fitted:
+def fit(
+    path: Path, strain: Path | None = None, given: str | None = None, **reading: object
+) -> FittedCompound:
     return fit_file(
         path, Request("pad", "20 degC", strain=strain, reference_strain=given, replicas=0, reading=reading)
     )
 
 
-def reference(fitted: Fitted) -> float:
+def reference(fitted: FittedCompound) -> float:
     known = fitted.compound.strain_dependence
     assert known is not None
     return si(known.reference_strain)
@@ -106,8 +108,8 @@ def test_a_remark_states_it_too(tmp_path: Path) -> None:
         fit(path, swept, "0.3 %")
 
 
-def criterion(fitted: Fitted, name: str) -> str:
-    return next(one.verdict for one in verdict(fitted) if one.name.startswith(name))
+def criterion(fitted: FittedCompound, name: str) -> str:
+    return next(one.verdict for one in fit_criteria(fitted) if one.name.startswith(name))
 
 
 def test_isotherms_at_different_strains_fail(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from itertools import pairwise
 import pytest
 
 from conveyor.errors import InputError, RangeError
-from conveyor.laws import belt as belt_check
+from conveyor.laws import belt_strength as belt_check
 
 ROUNDING = 1e-13
 
@@ -20,9 +20,9 @@ def test_safety_times_tension_is_the_breaking_force():
 
 
 def test_a_belt_of_the_needed_strength_has_its_safety_at_the_splice():
-    strength = belt_check.needed_strength(200e3, splice_strength=0.45, s0=1.1, s1=1.7)
+    strength = belt_check.required_strength(200e3, splice_strength=0.45, s0=1.1, s1=1.7)
     assert 0.45 * strength / 200e3 == pytest.approx(1.1 * 1.7, rel=ROUNDING)
-    assert belt_check.needed_strength(200e3, splice_strength=1.0, s0=1.0, s1=1.0) == 200e3
+    assert belt_check.required_strength(200e3, splice_strength=1.0, s0=1.0, s1=1.0) == 200e3
 
 
 @pytest.mark.parametrize("table", [belt_check.SPLICE_SAFETY, belt_check.DUTY_SAFETY])
@@ -103,11 +103,11 @@ def test_covers_protect_the_carcass():
             r"largest_tension = 0\.0",
         ),
         (
-            lambda: belt_check.needed_strength(1e5, splice_strength=1.2, s0=1.1, s1=1.7),
+            lambda: belt_check.required_strength(1e5, splice_strength=1.2, s0=1.1, s1=1.7),
             r"splice_strength = 1\.2 is not allowed: above 0 and at most 1",
         ),
-        (lambda: belt_check.needed_strength(1e5, splice_strength=0.4, s0=0.9, s1=1.7), r"s0 = 0\.9"),
-        (lambda: belt_check.needed_strength(1e5, splice_strength=0.4, s0=1.1, s1=0.9), r"s1 = 0\.9"),
+        (lambda: belt_check.required_strength(1e5, splice_strength=0.4, s0=0.9, s1=1.7), r"s0 = 0\.9"),
+        (lambda: belt_check.required_strength(1e5, splice_strength=0.4, s0=1.1, s1=0.9), r"s1 = 0\.9"),
         (
             lambda: belt_check.pulley_group_diameter(1.0, group="D"),
             r"group = 'D' is not allowed: one of A, B, C",

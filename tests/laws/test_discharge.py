@@ -14,7 +14,7 @@ from conveyor.laws import discharge, transfer
 from conveyor.laws.discharge import (
     bulk_on_pulley,
     discharge_angle,
-    fall,
+    free_fall,
     slipping_discharge,
     width_on_pulley,
 )
@@ -121,7 +121,7 @@ def test_without_slip_both_methods_agree_and_with_it_bulk_leaves_earlier():
 
 
 def test_fall_keeps_its_energy_and_its_forward_speed():
-    path = fall(0.4, speed=2.0, radius=0.6, drop=3.0, gravity=G)
+    path = free_fall(0.4, speed=2.0, radius=0.6, drop=3.0, gravity=G)
     assert float(path.up[-1]) == pytest.approx(-3.0, rel=1e-12)
     energy = 0.5 * path.speed**2 + G * path.up
     assert np.ptp(energy) < 1e-12 * energy[0] * path.time.size
@@ -136,7 +136,7 @@ def test_a_lump_on_a_rising_belt_flies_clear_from_the_inverse_cosine_on():
     slope, radius = math.radians(18.0), 0.6
     for over, clear in ((1.02, True), (0.98, False)):
         speed = math.sqrt(over / math.cos(slope) * G * radius)
-        path = fall(-slope, speed=speed, radius=radius, drop=0.0, gravity=G)
+        path = free_fall(-slope, speed=speed, radius=radius, drop=0.0, gravity=G)
         assert (np.hypot(path.across, path.up)[1:] >= radius).all() == clear
 
 
@@ -171,7 +171,7 @@ def test_cleaners_in_a_row_leave_the_product():
         (lambda: discharge_angle(0.0, radius=0.5, inclination=0.0, gravity=G), "speed"),
         (lambda: slipping_discharge(1.0, radius=0.5, inclination=0.0, friction=0.4, sliding_friction=0.5, gravity=G),
          "sliding_friction"),
-        (lambda: fall(1.6, speed=1.0, radius=0.5, drop=1.0, gravity=G), "angle"),
+        (lambda: free_fall(1.6, speed=1.0, radius=0.5, drop=1.0, gravity=G), "angle"),
         (lambda: transfer.lump_impact(1.0, drop_height=-1.0, stiffness=1.0, gravity=G), "drop_height"),
         (lambda: transfer.carryback(1.0, efficiency=1.1, count=1), "efficiency"),
         (lambda: transfer.impact_class(-1.0), "energy"),

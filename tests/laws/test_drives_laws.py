@@ -45,8 +45,8 @@ def test_larger_motors_are_beyond_the_table():
 
 def test_preferred_numbers_stay_and_are_reached():
     for number in (1.0, 3150.0, 0.8, 1e4):
-        assert drives.next_preferred(number) == pytest.approx(number, rel=ROUNDING)
-    assert [drives.next_preferred(x) for x in (1.01, 9.9, 101.0)] == pytest.approx([1.25, 10.0, 125.0])
+        assert drives.next_preferred_number(number) == pytest.approx(number, rel=ROUNDING)
+    assert [drives.next_preferred_number(x) for x in (1.01, 9.9, 101.0)] == pytest.approx([1.25, 10.0, 125.0])
     assert [drives.nearest_ratio(x) for x in (7.3, 9.6, 11.0, 16.5)] == pytest.approx([7.1, 10.0, 11.2, 16.0])
 
 
@@ -88,7 +88,7 @@ def test_a_larger_pulley_takes_more_and_stretch_less():
 
 
 def test_disc_of_steel():
-    assert drives.disc_rise(1e6, mass=100.0) == pytest.approx(1e6 / 46e3)
+    assert drives.disc_temperature_rise(1e6, mass=100.0) == pytest.approx(1e6 / 46e3)
 
 
 def test_refusals():

@@ -38,7 +38,7 @@ def _height(place):
 @pytest.mark.parametrize("drift", [-0.31, -0.1, 0.0, 0.2, 0.31])
 def test_without_friction_the_force_is_the_slope_of_the_potential_energy(drift):
     """d/ds of w ∫ z(y + s) dy over the belt is w times the difference of its edges' heights (Leibniz)."""
-    pushes = curve.outward_pushes((0.0, 0.0, 0.0), **TROUGH)
+    pushes = curve.outward_force_factors((0.0, 0.0, 0.0), **TROUGH)
     edges = _height(0.5 + drift) - _height(-0.5 + drift)
     law = curve.DriftLaw.of(_belt(250.0), pushes)
     assert law.force(drift) == pytest.approx(250.0 * edges, rel=ROUNDING, abs=250.0 * ROUNDING)
@@ -62,7 +62,7 @@ def test_drift_keeps_the_sum_and_comes_back(loads):
 @pytest.mark.parametrize("frictions", [(0.0, 0.0, 0.0), (0.3, 0.0, -0.3), (0.2, 0.1, -0.05)])
 def test_the_drift_balances_the_pull(loads, frictions):
     """At the drift the moved loads push as much out as is pulled in; the parabolas are exact."""
-    pushes = curve.outward_pushes(frictions, **TROUGH)
+    pushes = curve.outward_force_factors(frictions, **TROUGH)
     law = curve.DriftLaw.of(loads, pushes)
     weight = math.fsum(load.force for load in loads)
     for share in (-0.05, 0.0, 0.03, 0.1, 0.2):
@@ -75,7 +75,7 @@ def test_the_drift_balances_the_pull(loads, frictions):
 def test_an_empty_v_drifts_by_the_pull_over_weight_and_slope():
     """W sin λ s/w = P on two rolls without banking."""
     lam, pull = math.radians(15), 12.0
-    law = curve.DriftLaw.of(V, curve.outward_pushes((0.0, 0.0), trough_angle=lam, banking_angle=0.0))
+    law = curve.DriftLaw.of(V, curve.outward_force_factors((0.0, 0.0), trough_angle=lam, banking_angle=0.0))
     assert law.drift(pull) == pytest.approx(0.5 * pull / (200.0 * math.sin(lam)), rel=ROUNDING)
     assert law.drift(-pull) == pytest.approx(-law.drift(pull), rel=ROUNDING)
     assert law.drift(0.0) == 0.0
@@ -88,7 +88,7 @@ def test_an_empty_v_drifts_by_the_pull_over_weight_and_slope():
 def test_a_flat_belt_is_held_by_banking_and_friction_alone():
     """As λ goes to 0 every roll pushes with sin β + μ cos β: none holds more by drift, a pull beyond runs off."""
     mu, beta = 0.3, math.radians(5)
-    pushes = curve.outward_pushes((mu, mu, mu), trough_angle=1e-15, banking_angle=beta)
+    pushes = curve.outward_force_factors((mu, mu, mu), trough_angle=1e-15, banking_angle=beta)
     assert pushes == pytest.approx([math.sin(beta) + mu * math.cos(beta)] * 3, rel=ROUNDING)
 
 
@@ -136,12 +136,12 @@ def test_refusals():
     with pytest.raises(InputError, match="two to five rolls"):
         curve.drifted_loads((*BULK, *BULK), 0.1, roll_length=ROLL)
     with pytest.raises(InputError, match="two to five rolls"):
-        curve.outward_pushes((0.0,), **TROUGH)
+        curve.outward_force_factors((0.0,), **TROUGH)
     with pytest.raises(InputError, match="trough_angle"):
-        curve.outward_pushes((0.0, 0.0), trough_angle=0.0, banking_angle=0.1)
+        curve.outward_force_factors((0.0, 0.0), trough_angle=0.0, banking_angle=0.1)
     with pytest.raises(InputError, match="sum_of_trough_and_banking"):
-        curve.outward_pushes((0.0, 0.0), trough_angle=1.0, banking_angle=0.7)
-    law = curve.DriftLaw.of(BULK, curve.outward_pushes((0.0, 0.0, 0.0), **TROUGH))
+        curve.outward_force_factors((0.0, 0.0), trough_angle=1.0, banking_angle=0.7)
+    law = curve.DriftLaw.of(BULK, curve.outward_force_factors((0.0, 0.0, 0.0), **TROUGH))
     with pytest.raises(InputError, match=r"drift = 0\.4"):
         law.force(0.4)
     with pytest.raises(ValueError, match="shorter"):
@@ -150,6 +150,6 @@ def test_refusals():
 
 def test_given_loads_need_not_be_even():
     """More bulk on the inside wing pushes the centred belt out."""
-    pushes = curve.outward_pushes((0.0, 0.0, 0.0), trough_angle=0.6, banking_angle=0.0)
+    pushes = curve.outward_force_factors((0.0, 0.0, 0.0), trough_angle=0.6, banking_angle=0.0)
     uneven = (replace(BULK[0], bulk_force=200.0), *BULK[1:])
     assert curve.DriftLaw.of(uneven, pushes).drift(0.0) < 0.0

@@ -9,7 +9,7 @@ from itertools import pairwise
 import pytest
 
 from conveyor.errors import InputError, RangeError
-from conveyor.laws import idlers
+from conveyor.laws import idler_sets
 
 ROUNDING = 1e-12
 INCH, POUND = 0.0254, 4.4482216152605
@@ -18,7 +18,9 @@ SPAN = {"line_mass": 20.0, "spacing": 3.0}
 
 def rated(name, inches, degrees, rolls):
     return (
-        idlers.rated_set_load(name, belt_width=inches * INCH, trough_angle=math.radians(degrees), rolls=rolls)
+        idler_sets.rated_set_load(
+            name, belt_width=inches * INCH, trough_angle=math.radians(degrees), rolls=rolls
+        )
         / POUND
     )
 
@@ -56,14 +58,14 @@ def test_what_a_class_has_not_is_said(name, inches, degrees, rolls, message):
 
 def test_a_raised_set_by_the_formula_of_the_book():
     # IML = D T/(6 Si): 0.1 in, 1000 lbf, 4 ft
-    load = idlers.raised_set_load(1000.0 * POUND, height=0.1 * INCH, spacing=4 * 12 * INCH)
+    load = idler_sets.raised_set_load(1000.0 * POUND, height=0.1 * INCH, spacing=4 * 12 * INCH)
     assert load / POUND == pytest.approx(0.1 * 1000.0 / (6 * 4), rel=ROUNDING)
 
 
 def test_a_belt_at_rest_swings_as_a_string():
-    at_rest = idlers.flap_frequency(32e3, **SPAN, belt_speed=0.0)
+    at_rest = idler_sets.flap_frequency(32e3, **SPAN, belt_speed=0.0)
     assert at_rest == pytest.approx(math.sqrt(32e3 / 20.0) / 6.0, rel=ROUNDING)
-    assert idlers.flap_frequency(32e3, **SPAN, belt_speed=0.0, mode=3) == pytest.approx(
+    assert idler_sets.flap_frequency(32e3, **SPAN, belt_speed=0.0, mode=3) == pytest.approx(
         3 * at_rest, rel=ROUNDING
     )
 
@@ -72,29 +74,33 @@ def test_a_wave_goes_there_and_back_in_a_period():
     # c + v with the belt, c - v against it
     wave, speed = math.sqrt(32e3 / 20.0), 6.0
     period = 3.0 / (wave + speed) + 3.0 / (wave - speed)
-    assert 1.0 / idlers.flap_frequency(32e3, **SPAN, belt_speed=speed) == pytest.approx(period, rel=ROUNDING)
+    assert 1.0 / idler_sets.flap_frequency(32e3, **SPAN, belt_speed=speed) == pytest.approx(
+        period, rel=ROUNDING
+    )
 
 
 def test_near_its_waves_speed_the_belt_has_no_frequency():
     speed = math.sqrt(32e3 / 20.0)
-    assert idlers.flap_frequency(32e3 * (1 + 1e-9), **SPAN, belt_speed=speed) < 1e-7
+    assert idler_sets.flap_frequency(32e3 * (1 + 1e-9), **SPAN, belt_speed=speed) < 1e-7
     with pytest.raises(InputError, match=r"more than m' v² = 32000 N is needed"):
-        idlers.flap_frequency(32e3, **SPAN, belt_speed=speed)
+        idler_sets.flap_frequency(32e3, **SPAN, belt_speed=speed)
 
 
 def test_the_second_mode_counts():
     # first modes at 5 to 6 Hz: second at 10 to 12
-    assert idlers.resonance_distance(11.0, lowest=5.0, highest=6.0) == 0.0
-    assert idlers.resonance_distance(8.0, lowest=5.0, highest=6.0) == pytest.approx(0.25, rel=ROUNDING)
-    assert idlers.resonance_distance(20.0, lowest=5.0, highest=6.0) == pytest.approx(0.4, rel=ROUNDING)
+    assert idler_sets.resonance_margin(11.0, lowest=5.0, highest=6.0) == 0.0
+    assert idler_sets.resonance_margin(8.0, lowest=5.0, highest=6.0) == pytest.approx(0.25, rel=ROUNDING)
+    assert idler_sets.resonance_margin(20.0, lowest=5.0, highest=6.0) == pytest.approx(0.4, rel=ROUNDING)
 
 
 @pytest.mark.parametrize("margin", [0.0, 0.15, 0.5])
 def test_the_still_spacing_is_as_far_from_resonance_as_wanted(margin):
-    low = idlers.flap_frequency(32e3, **SPAN, belt_speed=5.0)
-    spacing = idlers.still_spacing(9.0, lowest=low, spacing=3.0, margin=margin)
-    there = idlers.flap_frequency(32e3, line_mass=20.0, spacing=spacing, belt_speed=5.0)
-    assert idlers.resonance_distance(9.0, lowest=there, highest=2 * there) == pytest.approx(margin, abs=1e-12)
+    low = idler_sets.flap_frequency(32e3, **SPAN, belt_speed=5.0)
+    spacing = idler_sets.resonance_free_spacing(9.0, lowest=low, spacing=3.0, margin=margin)
+    there = idler_sets.flap_frequency(32e3, line_mass=20.0, spacing=spacing, belt_speed=5.0)
+    assert idler_sets.resonance_margin(9.0, lowest=there, highest=2 * there) == pytest.approx(
+        margin, abs=1e-12
+    )
 
 
 @pytest.mark.parametrize("density", [800.0, 1200.0, 1600.0, 2000.0, 2400.0, 2800.0, 3200.0])
@@ -103,11 +109,11 @@ def test_the_edge_of_a_column_in_pounds_is_that_edge(density):
     pound_per_foot = density / (0.45359237 / 0.3048**3)
     again = pound_per_foot * 0.45359237 / 0.3048**3 * (1.0 + 1e-15)
     for lump in (0.1, 0.3, 0.5):
-        factors = [idlers.lump_load_factor(lump, density=one) for one in (density, again)]
+        factors = [idler_sets.lump_load_factor(lump, density=one) for one in (density, again)]
         assert factors[0] == factors[1]
 
 
-@pytest.mark.parametrize("name", idlers.CEMA_CLASSES)
+@pytest.mark.parametrize("name", idler_sets.CEMA_CLASSES)
 def test_no_wider_or_steeper_set_of_a_class_bears_more(name):
     widths = [18, 24, 30, 36, 42, 48, 54, 60, 72, 84, 96]
     table = []

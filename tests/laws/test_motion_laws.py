@@ -24,14 +24,14 @@ def test_start_power_is_the_limited_motor_power():
 
 
 def test_stop_turns_the_kinetic_energy_into_work():
-    stop = motion.stop(4.0, retarding_force=30e3, moving_mass=45e3)
+    stop = motion.constant_force_stop(4.0, retarding_force=30e3, moving_mass=45e3)
     assert 30e3 * stop.distance == pytest.approx(45e3 * 4.0**2 / 2, rel=ROUNDING)
     assert 30e3 * stop.time == pytest.approx(45e3 * 4.0, rel=ROUNDING)
 
 
 def test_brake_gives_the_deceleration_asked_for():
     brake = motion.brake_force(0.3, resistance=-12e3, moving_mass=45e3)
-    stop = motion.stop(4.0, retarding_force=brake - 12e3, moving_mass=45e3)
+    stop = motion.constant_force_stop(4.0, retarding_force=brake - 12e3, moving_mass=45e3)
     assert stop.deceleration == pytest.approx(0.3, rel=ROUNDING)
     assert motion.brake_force(0.0, resistance=-12e3, moving_mass=45e3) == 12e3
     assert motion.brake_force(0.1, resistance=12e3, moving_mass=45e3) == -7500.0
@@ -52,11 +52,11 @@ def test_bulk_slips_symmetrically_on_the_level_and_mirrors_with_the_slope():
     ("call", "message"),
     [
         (
-            lambda: motion.stop(4.0, retarding_force=-5e3, moving_mass=1.0),
+            lambda: motion.constant_force_stop(4.0, retarding_force=-5e3, moving_mass=1.0),
             r"retarding force of -5000 N does not stop the belt: a brake of more than 5000 N",
         ),
         (
-            lambda: motion.stop(4.0, retarding_force=0.0, moving_mass=1.0),
+            lambda: motion.constant_force_stop(4.0, retarding_force=0.0, moving_mass=1.0),
             r"retarding force of 0 N does not stop the belt: a brake of more than 0 N",
         ),
         (
@@ -78,7 +78,10 @@ def test_no_answer(call, message):
             lambda: motion.start_force(1.0, torque_factor=1.0, efficiency=1.1, rated_belt_speed=1.0),
             r"efficiency = 1\.1 is not allowed: above 0 and at most 1",
         ),
-        (lambda: motion.stop(1.0, retarding_force=1.0, moving_mass=0.0), r"moving_mass = 0\.0"),
+        (
+            lambda: motion.constant_force_stop(1.0, retarding_force=1.0, moving_mass=0.0),
+            r"moving_mass = 0\.0",
+        ),
         (lambda: motion.brake_force(-0.1, resistance=0.0, moving_mass=1.0), r"deceleration = -0\.1"),
         (
             lambda: motion.bulk_slip_limits(0.5, inclination=15.0, gravity=9.81),

@@ -5,13 +5,13 @@ from __future__ import annotations
 import pytest
 
 from conveyor.errors import InputError
-from conveyor.laws.resistance import ploughs
+from conveyor.laws.resistance import plough_drag
 
 
 def test_plough_resistance_is_width_times_factor_times_number():
-    assert ploughs.plough_resistance(1.0, scraping_factor=1500.0, n_ploughs=3) == 4500.0
-    assert ploughs.plough_resistance(1.0, scraping_factor=1500.0, n_ploughs=0) == 0
-    assert ploughs.SCRAPING_FACTOR.general_knowledge
+    assert plough_drag.plough_resistance(1.0, scraping_factor=1500.0, n_ploughs=3) == 4500.0
+    assert plough_drag.plough_resistance(1.0, scraping_factor=1500.0, n_ploughs=0) == 0
+    assert plough_drag.SCRAPING_FACTOR.general_knowledge
 
 
 @pytest.mark.parametrize(
@@ -24,4 +24,4 @@ def test_plough_resistance_is_width_times_factor_times_number():
 )
 def test_refusals(arguments, message):
     with pytest.raises(InputError, match=message):
-        ploughs.plough_resistance(**arguments)
+        plough_drag.plough_resistance(**arguments)

@@ -9,15 +9,15 @@ import pytest
 
 import conveyor
 from conveyor import shelf
-from conveyor.checks import checks
+from conveyor.checks import run_checks
 from conveyor.contact import interior, solve
 from conveyor.errors import InputError
 from conveyor.indentation import RollContact, to_problem
-from conveyor.laws.softening import WorkedCover, losing_load, softened_at, softened_each
+from conveyor.laws.softening import SofteningCover, loss_weighted_load, soften_at_strains, soften_or_raise
 from conveyor.models import RubberCompound
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
-from conveyor.remarks import warnings
+from conveyor.remarks import analysis_warnings
 from conveyor.spec import load
 
 AT = 293.15
@@ -37,7 +37,7 @@ def contact(compound):
 
 @pytest.fixture(scope="module")
 def softened(compound, contact):
-    return softened_each([WorkedCover(contact, LOAD, compound.amplitude_factors(), AT)])[0]
+    return soften_or_raise([SofteningCover(contact, LOAD, compound.amplitude_factors(), AT)])[0]
 
 
 @pytest.fixture(scope="module")
@@ -75,7 +75,8 @@ def test_factors_are_the_compounds_at_that_strain(compound, contact, softened):
 def test_heavier_rolls_work_it_harder(compound, contact):
     factors = compound.amplitude_factors()
     found = [
-        softened_each([WorkedCover(contact, load, factors, AT)])[0][1] for load in (1000.0, 2000.0, 4000.0)
+        soften_or_raise([SofteningCover(contact, load, factors, AT)])[0][1]
+        for load in (1000.0, 2000.0, 4000.0)
     ]
     assert all(np.diff([f.strain for f in found]) > 0.0)
     assert all(np.diff([f.storage_factor for f in found]) < 0.0)
@@ -89,7 +90,7 @@ def test_at_the_reference_strain_nothing_changes(compound, contact, softened):
     data["strain_dependence"]["reference_strain"] = f"{100.0 * strain:.12g} %"
     # not quite: the contact of the unsoftened series works at a little less strain
     factors = RubberCompound.from_data(data).amplitude_factors()
-    ((series, found),) = softened_each([WorkedCover(contact, LOAD, factors, AT)])
+    ((series, found),) = soften_or_raise([SofteningCover(contact, LOAD, factors, AT)])
     assert found.strain < strain
     assert found.storage_factor == pytest.approx(1.0, abs=0.06)
     assert found.storage_factor > 1.0
@@ -98,22 +99,22 @@ def test_at_the_reference_strain_nothing_changes(compound, contact, softened):
 
 def test_strains_beyond_the_sweeps_hold_their_last_factors(compound, contact):
     factors = compound.amplitude_factors()
-    found = softened_each([WorkedCover(contact, 5e6, factors, AT)])[0][1]
+    found = soften_or_raise([SofteningCover(contact, 5e6, factors, AT)])[0][1]
     largest = factors.largest_strain(AT)
     assert found.strain > largest
     assert found.storage_factor == pytest.approx(float(factors.storage(10.0 * found.strain, AT)), rel=1e-12)
 
 
 def test_losing_load():
-    assert losing_load(np.full(3, 700.0), np.array([0.1, 0.2, 0.3])) == pytest.approx(700.0)
+    assert loss_weighted_load(np.full(3, 700.0), np.array([0.1, 0.2, 0.3])) == pytest.approx(700.0)
     # two rolls of one weight: (w1^(7/3) + w2^(7/3))/(w1^(4/3) + w2^(4/3))
     low, high = 1000.0, 3000.0
     expected = (low ** (7 / 3) + high ** (7 / 3)) / (low ** (4 / 3) + high ** (4 / 3))
-    assert losing_load(np.array([low, high]), np.ones(2)) == pytest.approx(expected, rel=1e-12)
+    assert loss_weighted_load(np.array([low, high]), np.ones(2)) == pytest.approx(expected, rel=1e-12)
 
 
 def told(result):
-    return [warning.text() for warning in warnings(result, checks(result))]
+    return [warning.text() for warning in analysis_warnings(result, run_checks(result))]
 
 
 def test_covers_know_at_which_strain_they_work(line):
@@ -163,10 +164,14 @@ def test_outside_the_sweeps_their_factors_are_held_and_it_says_so(line):
 
 def test_mean_load_weighs_by_what_rolls_lose():
     """8^(4/3) is 16: two rolls at 8 N/m and one at 1 lose 16 to 1 each; a load that all share is the mean."""
-    assert losing_load(np.array([8.0, 1.0]), np.array([2.0, 1.0])) == pytest.approx(257.0 / 33.0, rel=1e-14)
-    assert losing_load(np.array([5.0, 5.0, 5.0]), np.array([1.0, 2.0, 0.0])) == pytest.approx(5.0, rel=1e-14)
+    assert loss_weighted_load(np.array([8.0, 1.0]), np.array([2.0, 1.0])) == pytest.approx(
+        257.0 / 33.0, rel=1e-14
+    )
+    assert loss_weighted_load(np.array([5.0, 5.0, 5.0]), np.array([1.0, 2.0, 0.0])) == pytest.approx(
+        5.0, rel=1e-14
+    )
     with pytest.raises(InputError, match=r"^line_loads = 0\.0 is not allowed: a roll that carries something"):
-        losing_load(np.zeros(2), np.ones(2))
+        loss_weighted_load(np.zeros(2), np.ones(2))
 
 
 @pytest.mark.parametrize(
@@ -174,6 +179,6 @@ def test_mean_load_weighs_by_what_rolls_lose():
     [((0.0, 600.0), "strain"), ((-0.01, 600.0), "strain"), ((0.01, 0.0), "angular_frequency")],
 )
 def test_strains_that_are_none_are_refused(compound, contact, worked, name):
-    work = WorkedCover(contact, LOAD, compound.amplitude_factors(), AT)
+    work = SofteningCover(contact, LOAD, compound.amplitude_factors(), AT)
     with pytest.raises(InputError, match=rf"^{name} = .*a finite number greater than 0 is needed"):
-        softened_at([work], [worked])
+        soften_at_strains([work], [worked])

@@ -17,7 +17,7 @@ from conveyor.laws.loading import (
     filled_width,
     roll_angles,
     shares_by_area,
-    wings,
+    wing_pieces,
 )
 
 ROUNDING = 1e-12
@@ -100,10 +100,10 @@ def test_rolls_in_line_are_the_set_of_fewer_rolls():
             ),
         ):
             assert law(more) == pytest.approx(law(fewer), rel=ROUNDING)
-    pushes = curve.outward_pushes(
+    pushes = curve.outward_force_factors(
         (0.1, 0.2, 0.3, 0.2, -0.1), trough_angle=OUTER, banking_angle=0.1, inner_angle=OUTER
     )
-    three = curve.outward_pushes((0.1, 0.3, -0.1), trough_angle=OUTER, banking_angle=0.1)
+    three = curve.outward_force_factors((0.1, 0.3, -0.1), trough_angle=OUTER, banking_angle=0.1)
     assert [pushes[0], pushes[2], pushes[4]] == pytest.approx(three, rel=ROUNDING)
 
 
@@ -142,7 +142,7 @@ def test_without_friction_the_force_is_the_slope_of_the_potential_energy(given, 
     """w times the difference of the edges' heights (Leibniz), of a polygon banked as a whole."""
     banking, rolls = math.radians(4), 5 if given is GARLAND else 4
     angles = roll_angles(rolls, trough_angle=OUTER, inner_angle=INNER)
-    half = [wing.length for wing in wings(WIDTH, **given)]
+    half = [wing.length for wing in wing_pieces(WIDTH, **given)]
     middle = given["middle_roll_length"]
     lengths = [*reversed(half), *([middle] if middle else []), *half]
     loads = [RollLoad("", 0.0, 250.0 * length, length, "uniform") for length in lengths]
@@ -151,7 +151,7 @@ def test_without_friction_the_force_is_the_slope_of_the_potential_energy(given, 
         x, y = _place(given, abs(place))
         return y * math.cos(banking) + math.copysign(x, place) * math.sin(banking)
 
-    pushes = curve.outward_pushes(
+    pushes = curve.outward_force_factors(
         (0.0,) * rolls, trough_angle=OUTER, banking_angle=banking, inner_angle=INNER
     )
     assert pushes == pytest.approx([math.sin(angle + banking) for angle in angles], rel=ROUNDING)
@@ -168,7 +168,9 @@ def test_a_wing_presses_on_every_roll_that_it_slides_toward():
     for at, bend in ((1, OUTER - INNER), (2, INNER)):
         frictions = [0.0] * 5
         frictions[at] = 0.2
-        pushes = curve.outward_pushes(frictions, trough_angle=OUTER, banking_angle=0.0, inner_angle=INNER)
+        pushes = curve.outward_force_factors(
+            frictions, trough_angle=OUTER, banking_angle=0.0, inner_angle=INNER
+        )
         assert pushes[0] == pytest.approx(math.sin(OUTER) * (1.0 + 0.2 * math.sin(bend)), rel=ROUNDING)
         outside = -math.sin(OUTER) * (1.0 - (0.2 * math.sin(bend) if at == 2 else 0.0))
         assert pushes[4] == pytest.approx(outside, rel=ROUNDING)
@@ -176,8 +178,8 @@ def test_a_wing_presses_on_every_roll_that_it_slides_toward():
 
 def test_refusals():
     with pytest.raises(InputError, match="inner_wing_angle = 2"):
-        wings(1.0, middle_roll_length=0.2, trough_angle=0.5, inner_wing=Wing(0.2, 2.0))
+        wing_pieces(1.0, middle_roll_length=0.2, trough_angle=0.5, inner_wing=Wing(0.2, 2.0))
     with pytest.raises(InputError, match=r"inner_angle = 0\.6"):
-        curve.outward_pushes((0.0,) * 4, trough_angle=0.5, banking_angle=0.0, inner_angle=0.6)
+        curve.outward_force_factors((0.0,) * 4, trough_angle=0.5, banking_angle=0.0, inner_angle=0.6)
     with pytest.raises(InputError, match="rolls = 6"):
         roll_angles(6, trough_angle=0.5)

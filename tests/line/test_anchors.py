@@ -9,16 +9,16 @@ import pytest
 
 import conveyor
 from conveyor import shelf
-from conveyor.checks import checks
+from conveyor.checks import run_checks
 from conveyor.errors import NoSolutionError
 from conveyor.indentation import RollContact, indentation_resistance
-from conveyor.line.anchors import anchor, anchor_rows, anchors
+from conveyor.line.rolling_test_theory import compound_test_factor, compound_test_factors, rolling_test_rows
 from conveyor.models import Uncertainty
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
-from conveyor.remarks import warnings
+from conveyor.remarks import analysis_warnings
 from conveyor.spec import load
-from conveyor.studies.uncertainty import study
+from conveyor.studies.input_ranges import analyse_ranges
 
 RTOL = 1e-4  # of the theory at the tests
 AT = 293.15
@@ -54,15 +54,15 @@ def indentation(given) -> float:
 
 
 def told(result):
-    return [warning.text() for warning in warnings(result, checks(result))]
+    return [warning.text() for warning in analysis_warnings(result, run_checks(result))]
 
 
 @pytest.mark.parametrize("name", COVERS)
 def test_the_covers_of_the_shelf_stand_on_the_published_law(name):
     compound = shelf.compound(name)
     for softened in (True, False):
-        rows = anchor_rows(compound, softened=softened)
-        level = anchor(compound, softened=softened)
+        rows = rolling_test_rows(compound, softened=softened)
+        level = compound_test_factor(compound, softened=softened)
         for row in rows:
             # CEMA-7 / DIN 22123: w = 6.59e-3 W^1.28, N/mm
             law = LEVELS[name] * 6.59 * (row.line_load / 1e3) ** 1.28
@@ -74,7 +74,7 @@ def test_the_covers_of_the_shelf_stand_on_the_published_law(name):
 
 def test_theory_at_the_tests_is_the_contact_of_the_test():
     compound = linear("standard-cover").replace(tests=[one_test((1.0, 8.0), (3.0, 30.0))])
-    first, second = anchor_rows(compound, softened=False)
+    first, second = rolling_test_rows(compound, softened=False)
     contact = RollContact(0.0795, 1.0, 5e-3, 4.0, compound.series(AT))
     for row, load_ in ((first, 1e3), (second, 3e3)):
         assert row.line_load == pytest.approx(load_)
@@ -85,9 +85,11 @@ def test_theory_at_the_tests_is_the_contact_of_the_test():
 
 def test_softened_theory_between_its_loads_is_the_softened_contact():
     compound = shelf.compound("s100").replace(tests=[one_test((1.0, 8.0), (2.0, 16.0), (5.0, 60.0))])
-    rows = anchor_rows(compound, softened=True)
+    rows = rolling_test_rows(compound, softened=True)
     alone = [
-        anchor_rows(shelf.compound("s100").replace(tests=[one_test((load_, 10.0 * load_))]), softened=True)[0]
+        rolling_test_rows(
+            shelf.compound("s100").replace(tests=[one_test((load_, 10.0 * load_))]), softened=True
+        )[0]
         for load_ in (1.0, 2.0, 5.0)
     ]
     for row, single in zip(rows, alone, strict=True):
@@ -126,11 +128,11 @@ def test_the_level_is_shown_wherever_its_result_is(line):
 
 
 def test_the_level_is_in_the_uncertainty(line):
-    found = study(line, Uncertainty(rubber=True), rtol=1e-4)
+    found = analyse_ranges(line, Uncertainty(rubber=True), rtol=1e-4)
     effects = {effect.name: effect for effect in found.effects}
     carry = effects['level of "low-rolling-resistance-cover"']
     middle = calculate(line)
-    half = middle.contacts.level_band("carry")
+    half = middle.contacts.test_factor_band("carry")
     along = {force.key: force for force in middle.balance.along}["indentation"].by_strand()["carry"]
     efficiency = middle.line.efficiency
     # the carry rolls' force, the flexure that follows it, and the pulleys' share of the tensions
@@ -150,7 +152,7 @@ def test_a_test_that_no_contact_answers_says_so():
         tests=[one_test((100.0, 1e4), roll_diameter="20 mm", cover_thickness="100 mm", temperature="40 degC")]
     )
     with pytest.raises(NoSolutionError, match="a rolling-resistance test: roll of 20 mm on a 100 mm cover"):
-        anchor(heavy, softened=False)
+        compound_test_factor(heavy, softened=False)
 
 
 def test_below_the_best_ever_published_it_warns(line):
@@ -162,14 +164,14 @@ def test_below_the_best_ever_published_it_warns(line):
 
 
 def test_tested_and_untested_compounds_are_not_ranked_without_a_word(line):
-    from conveyor.report.comparison_tables import remarks
+    from conveyor.report.comparison_tables import comparison_notes
     from conveyor.studies.comparison import compare_compounds
 
     def said(compounds):
         found = compare_compounds(line, compounds, temperatures=["20 degC"])
         return [
             remark
-            for remark in remarks(found)
+            for remark in comparison_notes(found)
             if "no rolling-resistance tests, which the others have" in remark
         ]
 
@@ -182,10 +184,10 @@ def test_tested_and_untested_compounds_are_not_ranked_without_a_word(line):
 
 def test_levels_side_by_side_are_each_alone():
     compounds = [shelf.compound(name) for name in ("standard-cover", "s100", "cold-resistant-cover")]
-    first, none, last = anchors(compounds, softened=True)
+    first, none, last = compound_test_factors(compounds, softened=True)
     assert none is None  # no tests
     for compound, level in ((compounds[0], first), (compounds[2], last)):
-        alone = anchor(compound, softened=True)
+        alone = compound_test_factor(compound, softened=True)
         # batches round otherwise, and contacts end within their tolerance
         assert level.factor(2000.0, AT) == pytest.approx(alone.factor(2000.0, AT), rel=RTOL)
 
@@ -204,12 +206,12 @@ def test_beyond_the_tests_the_replicas_carry_the_level(line):
         carried = indentation(with_compound(cold, other, "both"))
         factors.append(carried / middle.balance.forces.indentation)
     low, high = np.log(np.quantile(factors, (0.05, 0.95), method="weibull"))
-    half = middle.contacts.level_band("carry")
+    half = middle.contacts.test_factor_band("carry")
     own = level.anchor.own_half_width
     # one roll for all, and its own roll for that of the tests: a tenth of the band
     for band, inner in (
-        (middle.contacts.level_range("carry"), half),
-        (middle.contacts.level_range("carry", own=True), own),
+        (middle.contacts.test_factor_range("carry"), half),
+        (middle.contacts.test_factor_range("carry", own=True), own),
     ):
         assert math.log(band[0]) == pytest.approx(-math.hypot(low, inner), rel=0.1)
         assert math.log(band[1]) == pytest.approx(math.hypot(high, inner), rel=0.1)
@@ -217,7 +219,7 @@ def test_beyond_the_tests_the_replicas_carry_the_level(line):
 
 def test_at_the_tested_temperature_the_tests_alone_are_the_range(line):
     contacts = calculate(line).contacts
-    half = contacts.level_band("carry")
-    assert contacts.level_range("carry") == pytest.approx((math.exp(-half), math.exp(half)), rel=1e-12)
+    half = contacts.test_factor_band("carry")
+    assert contacts.test_factor_range("carry") == pytest.approx((math.exp(-half), math.exp(half)), rel=1e-12)
     bare = calculate(with_compound(line, linear("s100"), "both"))
-    assert bare.contacts.level_range("carry") == (1.0, 1.0)
+    assert bare.contacts.test_factor_range("carry") == (1.0, 1.0)

@@ -10,11 +10,11 @@ import pytest
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.indentation import indentation_resistance
-from conveyor.line.belts import GAUSS, BeltContacts
-from conveyor.loop.curves import pulls
+from conveyor.line.belt_contacts import STRETCH_QUADRATURE, BeltContacts
+from conveyor.loop.tension_coupling import pull_per_width
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.pipeline import calculate
-from conveyor.remarks import warnings
+from conveyor.remarks import analysis_warnings
 from conveyor.rubber import PronySeries
 from conveyor.spec import load
 from conveyor.units import quantity, si
@@ -79,7 +79,7 @@ def test_a_stretch_feels_the_mean_over_its_tensions(found):
     place = next(k for k, (stretch, _) in enumerate(kind.rolls) if stretch == i)
     nodes, weights = np.polynomial.legendre.leggauss(7)
     low, high = contacts.pulls[i, 0], contacts.pulls[i, -1]
-    along = 0.5 * (low + high) + 0.5 * (high - low) * nodes / (2.0 * GAUSS[0][-1])
+    along = 0.5 * (low + high) + 0.5 * (high - low) * nodes / (2.0 * STRETCH_QUADRATURE[0][-1])
     curve = contacts.rolls[i][kind.rolls[place][1]].curve
     loads, across = kind.rolls[place], slice(kind.starts[place], kind.starts[place] + 8)
     each = [curve.among.under(float(tension)).resistance(kind.line_loads[across]) for tension in along]
@@ -90,7 +90,7 @@ def test_a_stretch_feels_the_mean_over_its_tensions(found):
 
 def test_tension_and_indentation_agree(found):
     assert isinstance(found.contacts, BeltContacts)
-    again = pulls(found.line, found.balance.settled.steady, GAUSS[0])
+    again = pull_per_width(found.line, found.balance.settled.steady, STRETCH_QUADRATURE[0])
     largest = found.balance.tensions.largest / found.line.belt.width
     assert again == pytest.approx(found.contacts.pulls, abs=RTOL * largest)
     assert found.convergence.settled(RTOL)
@@ -142,7 +142,7 @@ def test_a_belt_turned_over_runs_on_its_bottom_cover():
 
 
 def test_what_stands_in_is_said(found):
-    told = " | ".join(one.words for one in warnings(found, ()))
+    told = " | ".join(one.words for one in analysis_warnings(found, ()))
     for words in (
         "the belt gives under the carry rolls",
         "bending_stiffness not given: 15",
@@ -164,4 +164,4 @@ def test_a_slack_belt_has_no_answer(found):
     steady = found.balance.settled.steady
     slack = replace(steady, starts=steady.starts - steady.largest)
     with pytest.raises(NoSolutionError, match="no tension is left to hold the belt in section"):
-        pulls(found.line, slack, GAUSS[0])
+        pull_per_width(found.line, slack, STRETCH_QUADRATURE[0])

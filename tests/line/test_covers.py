@@ -9,7 +9,7 @@ from conveyor.laws import softening
 from conveyor.laws.softening import STRAIN_RTOL
 from conveyor.line import covers
 from conveyor.models.variants import crossed_settings, with_compound
-from conveyor.pipeline import CalculatedConveyor, Kept, Variant, calculate_many
+from conveyor.pipeline import CalculatedConveyor, ReuseCache, Variant, calculate_many
 from conveyor.spec import load
 from conveyor.units import quantity
 
@@ -31,9 +31,9 @@ def solved(monkeypatch):
 
     def counted(works):
         counts.append(len(works))
-        return softening.softened_many(works)
+        return softening.soften_covers(works)
 
-    monkeypatch.setattr(covers, "softened_many", counted)
+    monkeypatch.setattr(covers, "soften_covers", counted)
     return counts
 
 
@@ -75,13 +75,13 @@ def test_few_speeds_and_speeds_far_apart_have_each_their_own_strain(line, solved
 
 
 def test_a_strain_that_bends_too_much_is_found_at_each_speed(line, solved, monkeypatch):
-    monkeypatch.setattr(covers, "READ_STRAIN", 1e-9)  # of what a parabola may miss
+    monkeypatch.setattr(covers, "STRAIN_INTERPOLATION_TOLERANCE", 1e-9)  # of what a parabola may miss
     calculated(line, SPEEDS, runs=[range(len(SPEEDS))])
     assert sum(solved) == 2 * len(SPEEDS)
 
 
 def test_compounds_of_the_bottom_cover_share_the_line_and_the_return_rolls(line):
-    kept = Kept()
+    kept = ReuseCache()
     one, other = (
         calculated(with_compound(line, shelf.compound(name), "bottom"), SPEEDS[:1], kept=kept)[0]
         for name in ("standard-cover", "low-rolling-resistance-cover")

@@ -7,9 +7,12 @@ from pathlib import Path
 import pytest
 
 import conveyor
-from conveyor.line.stretches import Acting
+from conveyor.line.stretches import CurveLoads
 from conveyor.models.base import Model
-from conveyor.pipeline import Kept, _Shared  # how lines are kept is nowhere to be seen but in time
+from conveyor.pipeline import (  # how lines are kept is nowhere to be seen but in time
+    ReuseCache,
+    _BatchContext,
+)
 
 SPECS = sorted((Path(__file__).parents[2] / "examples" / "specs").glob("*.yaml"))
 LOOKED_INTO = ("", "belt", "belt.top_cover", "belt.bottom_cover", "idlers", "ambient")
@@ -41,12 +44,12 @@ class Spied:
 @pytest.mark.parametrize("path", SPECS, ids=[path.stem for path in SPECS])
 def test_a_line_reads_nothing_that_its_key_does_not_hold(path):
     """Found the second time, a line costs the reading of its key; made the first time, no more may be read."""
-    read, kept = set(), Kept()
+    read, kept = set(), ReuseCache()
     given = Spied(conveyor.load(path), "", read)
-    made = _Shared(None, [], None, kept)._still(given, Acting())
+    made = _BatchContext(None, [], None, kept)._line_without_drag(given, CurveLoads())
     in_making = set(read)
     read.clear()
-    again = _Shared(None, [], None, kept)._still(given, Acting())
+    again = _BatchContext(None, [], None, kept)._line_without_drag(given, CurveLoads())
     assert again is made
     fields = {one for one in in_making - read if not one.startswith("belt.")}
     assert not fields, "read by a line, not in the key of pipeline._Shared._still"

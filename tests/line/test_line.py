@@ -14,7 +14,7 @@ from conveyor.laboratory import read_dma
 from conveyor.laws.resistance import length_coefficient
 from conveyor.models import Conveyor
 from conveyor.pipeline import calculate
-from conveyor.rubber import PronySeries, fit_prony, shifted
+from conveyor.rubber import PronySeries, fit_prony, shift_series
 from conveyor.shelf import built_in, compound
 from conveyor.spec import from_data, load
 from conveyor.units import quantity, si
@@ -291,7 +291,7 @@ def test_published_friction_of_s100():
     # half a unit of the last digit and the difference between the fits, 0.05 %
     data = read_dma(built_in() / "s100.dma.csv")
     fit = fit_prony(data.frequency, data.storage, data.loss, terms_per_decade=1.0)
-    rubber = shifted(fit.series, compound("s100").shift_law(), 293.15)
+    rubber = shift_series(fit.series, compound("s100").shift_law(), 293.15)
     for pressed, friction in ((1500.0, 0.003692), (4000.0, 0.004932)):
         found = indentation_resistance(contact(rubber=rubber), pressed)
         assert float(found.resistance) / pressed == pytest.approx(friction, rel=6e-4)

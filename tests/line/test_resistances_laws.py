@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from conveyor.checks import checks
+from conveyor.checks import run_checks
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.resistance import belt_flexure_resistance, bulk_flexure_bound
 from conveyor.line.set_loads import SetLoads
 from conveyor.pipeline import calculate
-from conveyor.remarks import assumptions, warnings
+from conveyor.remarks import analysis_assumptions, analysis_warnings
 from conveyor.spec import load
 from conveyor.units import si
 
@@ -47,7 +47,7 @@ def along(found, key):
 
 
 def told(found):
-    return [warning.text() for warning in warnings(found, checks(found))]
+    return [warning.text() for warning in analysis_warnings(found, run_checks(found))]
 
 
 def by_hand(stretch, tension):
@@ -67,7 +67,7 @@ def test_load_and_sag_are_the_default(result):
     ]
     assert along(result, "flexure") == pytest.approx(np.array(expected), rel=1e-12)
     assert any("load x sag x 0.158 (0.079 to 0.316) assumed" in w for w in told(result))
-    assert any("(carry 1 %, return 2 %)" in a for a in assumptions(result.conveyor))
+    assert any("(carry 1 %, return 2 %)" in a for a in analysis_assumptions(result.conveyor))
 
 
 def test_the_default_follows_neither_rubber_nor_drag(result):
@@ -98,7 +98,9 @@ def test_a_share_is_one_on_request(line):
     others = along(found, "indentation") + along(found, "idler_rotation")
     assert along(found, "flexure") == pytest.approx(0.11 / 0.89 * others, rel=1e-12)
     assert not any("calculation.flexure not given" in w for w in told(found))
-    assert any("Flexure of belt and bulk is 11 % of the main resistance" in a for a in assumptions(made))
+    assert any(
+        "Flexure of belt and bulk is 11 % of the main resistance" in a for a in analysis_assumptions(made)
+    )
 
 
 def test_flexure_of_the_belt_at_the_least_tension(line):
@@ -148,7 +150,9 @@ def test_splitting_a_section_changes_no_flexure(line, laws):
 
 def test_the_laws_say_how_far_to_trust_them(line):
     made = with_flexure(line, belt=BELT)
-    assert any("at the least tension that the sag allows, on the safe side" in a for a in assumptions(made))
+    assert any(
+        "at the least tension that the sag allows, on the safe side" in a for a in analysis_assumptions(made)
+    )
     said = told(calculate(made))
     assert "calculation.flexure.bulk not given: flexure of the bulk is not in the figures" in said
     assert not any("flexure_share" in w for w in said)

@@ -7,15 +7,15 @@ from pathlib import Path
 
 import pytest
 
-from conveyor.checks import checks
+from conveyor.checks import run_checks
 from conveyor.errors import InputError
 from conveyor.laws.resistance import bearing_roll_drag, oil_viscosity, service_roll_drag
 from conveyor.laws.roll_life import heavier_bearing_load
 from conveyor.line.line import Line
 from conveyor.line.roll_drags import roll_drags, roll_drags_many
-from conveyor.line.roll_lives import roll_life, set_life
+from conveyor.line.roll_lives import idler_set_life, roll_life
 from conveyor.pipeline import calculate
-from conveyor.remarks import assumptions, warnings
+from conveyor.remarks import analysis_assumptions, analysis_warnings
 from conveyor.spec import load
 from conveyor.units import quantity, si
 
@@ -57,7 +57,7 @@ def carry_drags(line):
 
 
 def told(found):
-    return [warning.text() for warning in warnings(found, checks(found))]
+    return [warning.text() for warning in analysis_warnings(found, run_checks(found))]
 
 
 def test_one_figure_is_the_drag_of_every_roll(line):
@@ -234,15 +234,16 @@ def test_a_law_that_fails_names_its_field(line, law, message):
 
 def test_remarks_follow_the_law(line):
     limit = line.replace(calculation=line.calculation.replace(roll_drag="acceptance limit"))
-    assert "Roll drag does not depend on speed, load or temperature." in assumptions(limit)
-    assert any("usual bearings at their own temperature" in a for a in assumptions(line))
+    assert "Roll drag does not depend on speed, load or temperature." in analysis_assumptions(limit)
+    assert any("usual bearings at their own temperature" in a for a in analysis_assumptions(line))
     assert any("idlers.carry: roll drag not given, 2.45 N" in w for w in told(calculate(limit)))
     assert any("a roll assumed (bearings 6305, usual grease and seals" in w for w in told(calculate(line)))
     cold = line.replace(ambient=line.ambient.replace(temperature="-10 degC", belt_temperature="20 degC"))
     made = carry_roll(cold, drag_law=BEARING)
     said = told(calculate(made))
     assert any(
-        "Roll drag: carry over load, speed and air temperature by Palmgren" in a for a in assumptions(made)
+        "Roll drag: carry over load, speed and air temperature by Palmgren" in a
+        for a in analysis_assumptions(made)
     )
     assert any("f0, f1_factor, f1_exponent not given" in w for w in said)
     assert any("mm²/s at -10 °C: bearings warm themselves" in w for w in said)
@@ -276,10 +277,10 @@ def test_life_falls_with_the_cube_of_the_load_and_adds_up(line):
     assert middle.hours == pytest.approx(by_hand, rel=1e-12)
     # two equal bearings: 2^(-9/10) of one's life (Weibull slope 10/9)
     assert middle.both == pytest.approx(middle.hours * 2.0**-0.9, rel=1e-12)
-    together = set_life(stretch, 5.0)
+    together = idler_set_life(stretch, 5.0)
     assert together.whole
     assert together.hours < min(life.both for life in lives) == together.weakest_hours
-    assert set_life(carry_stretches(line)[0], 5.0) is None
+    assert idler_set_life(carry_stretches(line)[0], 5.0) is None
 
 
 def test_roller_bearings_and_single_rolls(line):

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from conveyor.checks import checks
+from conveyor.checks import run_checks
 from conveyor.errors import InputError
 from conveyor.laws.loading import (
     Wing,
@@ -20,9 +20,9 @@ from conveyor.laws.loading import (
 )
 from conveyor.line.line import Line
 from conveyor.line.set_loads import SetLoads
-from conveyor.line.stretches import roll_masses
+from conveyor.line.stretches import masses_on_rolls
 from conveyor.pipeline import calculate
-from conveyor.remarks import assumptions, warnings
+from conveyor.remarks import analysis_assumptions, analysis_warnings
 from conveyor.spec import load
 from conveyor.units import quantity, si
 
@@ -47,7 +47,7 @@ def loads_of(line, section=1):
 
 def warned(line):
     found = calculate(line)
-    return [warning.text() for warning in warnings(found, checks(found))]
+    return [warning.text() for warning in analysis_warnings(found, run_checks(found))]
 
 
 def middle_share(loads):
@@ -158,7 +158,7 @@ def test_each_wing_bears_half_of_what_lies_beside_the_middle_roll(line):
 
 def test_what_a_valley_leaves_on_the_rolls_may_be_little():
     # 20 kg/m of belt, 80 kg/m of bulk, lifted like 99.5 kg/m
-    assert roll_masses(20.0, 80.0, -99.5, where="dip") == pytest.approx((0.0, 0.5), rel=1e-12)
+    assert masses_on_rolls(20.0, 80.0, -99.5, where="dip") == pytest.approx((0.0, 0.5), rel=1e-12)
 
 
 def test_by_cross_section_the_share_is_that_of_the_area_at_the_filling(line):
@@ -272,7 +272,7 @@ def test_contradictions_are_refused(line, changes, message):
 
 def test_the_assumptions_name_the_rule(line):
     def told(made):
-        return next(a for a in assumptions(made) if a.startswith("Load shares"))
+        return next(a for a in analysis_assumptions(made) if a.startswith("Load shares"))
 
     assert (
         told(line)

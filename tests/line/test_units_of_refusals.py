@@ -11,14 +11,14 @@ from typing import Any, NamedTuple
 import pytest
 
 from conveyor import shelf
-from conveyor.errors import Amount, ConveyorError, InputError, NoSolutionError, RangeError
+from conveyor.errors import ConveyorError, InputError, MessageQuantity, NoSolutionError, RangeError
 from conveyor.indentation import RollContact
-from conveyor.line.belts import _judged
+from conveyor.line.belt_contacts import _accept_interpolation
 from conveyor.pipeline import Variant, calculate, calculate_many
 from conveyor.rubber import PronySeries
 from conveyor.spec import from_data
 from conveyor.units import is_kind, quantity, si
-from conveyor.units.sentences import said, told
+from conveyor.units.sentences import error_in_units, message
 from tests.line.test_anchors import one_test
 from tests.loop.loop_lines import DATA, data, line
 from tests.loop.test_curves import PULLEYS, VALLEY
@@ -208,10 +208,10 @@ def test_a_belt_read_between_tensions() -> None:
             return self.factor * loads
 
     curves: Any = [Curve(1.0 + 9.0 * (i % 2)) for i in range(5)]
-    refused = _judged(curves, ((100.0, 1000.0), (17512.7, 35025.4)), 1e-4, last=True)
+    refused = _accept_interpolation(curves, ((100.0, 1000.0), (17512.7, 35025.4)), 1e-4, last=True)
     assert isinstance(refused, NoSolutionError)
     assert "between tensions of 1.751e+04 and 3.503e+04 N/m the" in str(refused)
-    assert "between tensions of 100 lbf/in and 200 lbf/in the" in str(told(refused, "US"))
+    assert "between tensions of 100 lbf/in and 200 lbf/in the" in str(error_in_units(refused, "US"))
 
 
 def test_sizes_that_nothing_has_are_in_the_unit_written() -> None:
@@ -223,11 +223,11 @@ def test_sizes_that_nothing_has_are_in_the_unit_written() -> None:
 
 def test_errors_of_errors_and_sentences_are_told_too() -> None:
     """Braces of a user's name stay; a worker sends what it was made of."""
-    why = RangeError("{} for {}", "a{b}", Amount(1.0, "power", "1 W"))
-    error = InputError("{}: {}; {}", "x", why, said("at {}", (0.3048, "length")))
+    why = RangeError("{} for {}", "a{b}", MessageQuantity(1.0, "power", "1 W"))
+    error = InputError("{}: {}; {}", "x", why, message("at {}", (0.3048, "length")))
     assert str(error) == "x: a{b} for 1 W; at 0.305 m"
     for one in (error, pickle.loads(pickle.dumps(error))):  # noqa: S301 made here
-        assert str(told(one, "US")) == "x: a{b} for 0.001341 hp; at 1 ft"
-        assert told(one, "SI") is one
-    assert str(told(told(error, "US"), "US")) == str(told(error, "US"))
-    assert str(told(InputError("got {}"), "US")) == "got {}"
+        assert str(error_in_units(one, "US")) == "x: a{b} for 0.001341 hp; at 1 ft"
+        assert error_in_units(one, "SI") is one
+    assert str(error_in_units(error_in_units(error, "US"), "US")) == str(error_in_units(error, "US"))
+    assert str(error_in_units(InputError("got {}"), "US")) == "got {}"

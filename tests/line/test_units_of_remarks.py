@@ -7,9 +7,9 @@ import re
 import pytest
 
 import conveyor
-from conveyor.checks import checks
+from conveyor.checks import run_checks
 from conveyor.pipeline import calculate
-from conveyor.remarks import warnings
+from conveyor.remarks import analysis_warnings
 from conveyor.spec import fingerprint, load
 
 _NEWTON, _POUND = (
@@ -33,7 +33,7 @@ def _found(pattern: re.Pattern[str], warnings: tuple[str, ...]) -> float:
 
 def test_warnings_are_written_in_any_system() -> None:
     found = calculate(load("examples/specs/in_plant_us.yaml"))
-    said = warnings(found, checks(found))
+    said = analysis_warnings(found, run_checks(found))
     si, us = (tuple(one.text(system) for one in said) for system in ("SI", "US"))
     assert _found(_POUND, us) * POUND == pytest.approx(1e3 * _found(_NEWTON, si), abs=ROUNDED)
     assert not any(re.search(r"\d k?N\b", warning) for warning in us)

@@ -7,13 +7,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from conveyor.checks import checks
-from conveyor.forces import along_the_belt, without_rubber
+from conveyor.checks import run_checks
+from conveyor.forces import forces_along_belt, rubber_free_forces
 from conveyor.line.contacts import Contacts
 from conveyor.line.line import Line
 from conveyor.line.stretches import Stretch
-from conveyor.loop.balance import Balance, balance
-from conveyor.loop.frame import Frame
+from conveyor.loop.balance import Balance, close_loop
+from conveyor.loop.loop_layout import LoopLayout
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.spec import from_data
@@ -84,10 +84,10 @@ def line(**changes: dict[str, Any]) -> Conveyor:
 def closed(conveyor: Conveyor, friction: float = FRICTION) -> Balance:
     """The loop around forces along the belt with an indentation of `friction` times the load."""
     made = Line.of(conveyor)
-    fixed = without_rubber(made.strands)
+    fixed = rubber_free_forces(made.strands)
     fixed = replace(fixed, flexure=0.002 * fixed.unit_main)
-    along = along_the_belt(made, fixed, friction * fixed.unit_main)
-    return balance(Frame(made), along, float(fixed.unit_main.sum()))
+    along = forces_along_belt(made, fixed, friction * fixed.unit_main)
+    return close_loop(LoopLayout(made), along, float(fixed.unit_main.sum()))
 
 
 def balanced(**changes: dict[str, Any]) -> Balance:
@@ -116,7 +116,7 @@ def told(conveyor: Conveyor, found: Balance) -> list[str]:
         temperature=conveyor.temperature,
         contacts=Contacts(found.line, {}, (), ()),
         balance=found,
-        fixed=without_rubber(found.line.strands),
+        fixed=rubber_free_forces(found.line.strands),
     )
-    checked = checks(given, contacts=False)
+    checked = run_checks(given, contacts=False)
     return [check.why.text() for check in checked if check.verdict != "pass" and check.why is not None]

@@ -7,14 +7,14 @@ from dataclasses import replace
 
 import pytest
 
-from conveyor.checks import checks
+from conveyor.checks import run_checks
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.line.strands import Strands
-from conveyor.line.stretches import Acting, roll_masses
+from conveyor.line.stretches import CurveLoads, masses_on_rolls
 from conveyor.loop.belt_duty import LEAST_EDGE_TENSION, belt_duty
-from conveyor.loop.curves import converged, pressing_masses
+from conveyor.loop.tension_coupling import next_convergence, pressing_masses
 from conveyor.pipeline import calculate
-from conveyor.remarks import warnings
+from conveyor.remarks import analysis_warnings
 from conveyor.spec import from_data, load
 from tests.loop.loop_lines import DATA, SPECS, closed, data, line, told
 
@@ -67,7 +67,7 @@ def test_tension_and_loads_agree_within_the_bound(hill):
     assert hill.balance.tensions.largest == pytest.approx(
         finer.balance.tensions.largest, rel=found.bound + 1e-6
     )
-    again = Strands.of(fine, Acting(pressing_masses(finer.line, finer.balance.settled.steady)))
+    again = Strands.of(fine, CurveLoads(pressing_masses(finer.line, finer.balance.settled.steady)))
     assert _borne(again) == pytest.approx(_borne(finer.line), rel=1e-6)
 
 
@@ -89,12 +89,12 @@ def test_a_hill_costs_a_valley_saves_and_an_endless_radius_does_neither(hill):
 
 
 def test_a_relieved_belt_keeps_the_sum_of_its_loads():
-    assert roll_masses(20.0, 80.0, -5.0, where="dip") == (15.0, 80.0)
-    assert roll_masses(20.0, 80.0, -30.0, where="dip") == (0.0, 70.0)
-    assert roll_masses(20.0, 80.0, 7.0, where="dip") == (27.0, 80.0)
+    assert masses_on_rolls(20.0, 80.0, -5.0, where="dip") == (15.0, 80.0)
+    assert masses_on_rolls(20.0, 80.0, -30.0, where="dip") == (0.0, 70.0)
+    assert masses_on_rolls(20.0, 80.0, 7.0, where="dip") == (27.0, 80.0)
     with pytest.raises(NoSolutionError, match=r"the belt lifts off in dip: .*choose a larger curve_radius"):
-        roll_masses(20.0, 0.0, -20.0, where="dip")
-    assert Strands.of(curved(VALLEY), Acting({("dip", "carry"): -30.0})).stretches[1].bulk_mass > 0.0
+        masses_on_rolls(20.0, 0.0, -20.0, where="dip")
+    assert Strands.of(curved(VALLEY), CurveLoads({("dip", "carry"): -30.0})).stretches[1].bulk_mass > 0.0
 
 
 def test_a_sharp_valley_lifts_the_belt_and_says_so():
@@ -184,10 +184,10 @@ def test_strength_is_needed_per_width():
 def test_the_first_step_on_curves_is_never_the_last(hill):
     """Of one step the ratio of changes is not known."""
     steady = hill.balance.settled.steady
-    first = converged(None, steady, steady, hill.line, steady.largest)
+    first = next_convergence(None, steady, steady, hill.line, steady.largest)
     assert (first.steps, first.change) == (1, 0.0)
     assert not first.settled(hill.line.rtol)
-    second = converged(replace(first, change=1e-3), steady, steady, hill.line, steady.largest)
+    second = next_convergence(replace(first, change=1e-3), steady, steady, hill.line, steady.largest)
     assert (second.steps, second.ratio) == (2, 0.0)
     assert second.settled(hill.line.rtol)
 
@@ -224,7 +224,7 @@ def test_safety_and_diameters():
 @pytest.mark.parametrize("name", ["shuttle", "downhill_brakes"])
 def test_examples_hold(name):
     done = calculate(load(SPECS / f"{name}.yaml"))
-    said = [w.text() for w in warnings(done, checks(done))]
+    said = [w.text() for w in analysis_warnings(done, run_checks(done))]
     assert not [w for w in said if "lifts off" in w or "does not stop" in w or "asks for" in w]
     found = done.balance
     settled, sides = found.settled, found.settled.steady.drives

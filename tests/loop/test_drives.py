@@ -8,7 +8,7 @@ import math
 import pytest
 
 from conveyor.laws.motion import run_up_time
-from conveyor.loop.starting import motions
+from conveyor.loop.start_and_stop import start_and_stop
 from conveyor.loop.tensions import STEADY
 from tests.loop.loop_lines import BOOSTER, DATA, DOWN, balanced, closed, line, told
 
@@ -26,7 +26,7 @@ def test_an_uncontrolled_start_brings_all_torque_to_the_belt_but_what_the_drive_
     found = balanced(drive={"torque_factor": 1.8, "reduced_mass": "10 t"})
     mass, steady = found.line.loop.mass.sum(), found.settled.force
     acceleration = (1.8 * RATED - steady) / (mass + 10e3)
-    start = motions(found).start
+    start = start_and_stop(found).start
     assert start.acceleration == pytest.approx(acceleration, rel=ROUNDING)
     assert started(found).force == pytest.approx(1.8 * RATED - 10e3 * acceleration, rel=ROUNDING)
     assert started(found).force == pytest.approx(
@@ -45,7 +45,7 @@ def test_a_controlled_start_is_limited_by_the_motors():
     mass, steady = found.line.loop.mass.sum(), found.settled.force
     factor = (1.2 * RATED / steady + 10e3 / mass) / (1.0 + 10e3 / mass)
     assert 1.0 < factor < 3.0
-    start = motions(found).start
+    start = start_and_stop(found).start
     assert start.factor == pytest.approx(factor, rel=ROUNDING)
     assert started(found).force == pytest.approx(factor * steady, rel=ROUNDING)
     assert start.asked == pytest.approx(3.0 * steady + 10e3 * 2.0 * steady / mass, rel=ROUNDING)
@@ -63,7 +63,7 @@ def test_the_weakest_of_several_motors_limits_a_controlled_start():
     weak = 1.5 * RATED / 2.0
     forces = [side.force for side in started(found).drives]
     assert forces == pytest.approx([weak, weak], rel=ROUNDING)
-    assert motions(found).start.least == pytest.approx(2.0 * weak, rel=ROUNDING)
+    assert start_and_stop(found).start.least == pytest.approx(2.0 * weak, rel=ROUNDING)
     assert any("it is limited to" in why for why in told(conveyor, found))
 
 
@@ -82,7 +82,7 @@ def test_a_torque_curve_starts_with_its_peak_in_the_tensions_and_its_run_up_in_t
     conveyor = line(drive={"torque_curve": CURVE, "reduced_mass": "10 t"})
     found = closed(conveyor)
     mass, steady = found.line.loop.mass.sum() + 10e3, found.settled.force
-    start = motions(found).start
+    start = start_and_stop(found).start
     assert start.available == pytest.approx(2.4 * RATED, rel=ROUNDING)
     assert start.least == pytest.approx(1.3 * RATED, rel=ROUNDING)
     assert start.acceleration == pytest.approx((2.4 * RATED - steady) / mass, rel=ROUNDING)
@@ -108,7 +108,7 @@ def test_motors_that_get_stuck_on_their_way_fail():
     ]
     conveyor = line(drive={"torque_curve": weak})
     found = closed(conveyor)
-    assert motions(found).start.time is None
+    assert start_and_stop(found).start.time is None
     assert any("during run-up" in why for why in told(conveyor, found))
 
 
@@ -128,7 +128,7 @@ def test_masses_of_a_drive_not_given_are_typical_of_its_power_and_flagged():
     conveyor = conveyor.replace(drive=given)
     found = closed(conveyor)
     assert found.line.drives[0].reduced_mass == pytest.approx(12.5e3, rel=ROUNDING)
-    assert motions(found).rotating_mass == pytest.approx(12.5e3, rel=ROUNDING)
+    assert start_and_stop(found).rotating_mass == pytest.approx(12.5e3, rel=ROUNDING)
     assert not found.line.drives[0].mass_given
 
 
@@ -148,7 +148,7 @@ def downhill(**drive):
 def test_without_power_a_downhill_belt_runs_away_and_its_brakes_stop_it_after_their_delay():
     conveyor = downhill(brake_force="400 kN", brake_delay="2 s")
     found = closed(conveyor)
-    moving, mass = motions(found), found.line.loop.mass.sum() + 5e3
+    moving, mass = start_and_stop(found), found.line.loop.mass.sum() + 5e3
     least = found.settled.least_force
     assert least < 0.0
     assert moving.coasting_least is None
@@ -170,7 +170,7 @@ def test_without_power_a_downhill_belt_runs_away_and_its_brakes_stop_it_after_th
 
 def test_a_level_belt_rests_before_slow_brakes_grip():
     found = balanced(drive={"brake_force": "10 kN", "brake_delay": "60 s"})
-    moving = motions(found)
+    moving = start_and_stop(found)
     assert moving.gripping_speed == 0.0
     assert moving.braking_heat == 0.0
     assert moving.braked == moving.coasting_least
@@ -202,7 +202,7 @@ def test_a_tripper_lifts_its_bulk_before_the_booster_and_speeds_it_up_behind():
     assert lift == pytest.approx(flow / 4.0 * gravity * 4.0, rel=1e-9)  # of a difference of larger sums
     assert [s.bulk_mass for s in found.line.stretches[:4]] == pytest.approx([flow / 4.0] * 4, rel=ROUNDING)
     # at rest too the bulk hangs on the tripper's slope; what accelerates it is gone
-    assert motions(found).brake_to_hold > motions(without).brake_to_hold
+    assert start_and_stop(found).brake_to_hold > start_and_stop(without).brake_to_hold
 
 
 def test_the_tension_round_a_tripper_closes_by_hand():

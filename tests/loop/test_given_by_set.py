@@ -104,7 +104,7 @@ def test_a_rated_belt_on_a_curve_is_allowed_its_rating():
         }
         return belt_duty(closed(from_data(made))).curves[0].overstress
 
-    from conveyor.laws.belt import CLASSIC_SAFETY
+    from conveyor.laws.belt_strength import CLASSIC_SAFETY
 
     strength = CLASSIC_SAFETY["textile"] * 150.0
     assert radius(rating="150 N/mm") == pytest.approx(radius(strength=f"{strength} N/mm"), rel=1e-9)

@@ -10,17 +10,17 @@ import pytest
 from conveyor.checks import belt_drift, horizontal_edges, wind_lift
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.line.strands import Strands
-from conveyor.line.stretches import Acting
+from conveyor.line.stretches import CurveLoads
 from conveyor.loop.belt_duty import LEAST_EDGE_TENSION
-from conveyor.loop.curves import drifts, pressing_masses
+from conveyor.loop.tension_coupling import belt_drifts, pressing_masses
 from conveyor.pipeline import calculate
 from conveyor.report.analysis_plots import cross_section as across
-from conveyor.report.analysis_plots import drift as drift_drawn
-from conveyor.report.analysis_plots import plan
-from conveyor.report.tables import horizontal_curves
+from conveyor.report.analysis_plots import drift_diagram as drift_drawn
+from conveyor.report.analysis_plots import plan_view
+from conveyor.report.analysis_tables import horizontal_curves
 from conveyor.spec import from_data
-from conveyor.studies.cases import Load
-from conveyor.units.sentences import said
+from conveyor.studies.load_cases import Load
+from conveyor.units.sentences import message
 from tests.loop.loop_lines import DATA, data
 
 _ROLL = {"diameter": "133 mm", "length": "600 mm", "rotating_mass": "5 kg", "drag": "1.5 N"}
@@ -61,7 +61,7 @@ def straight():
 def test_a_straight_conveyor_has_nothing_of_it(straight):
     assert straight.horizontal == ()
     assert straight.convergence is None
-    assert not horizontal_curves([Load("as given", said("as given"), straight)]).rows
+    assert not horizontal_curves([Load("as given", message("as given"), straight)]).rows
     assert "guidance" not in {force.key for force in straight.balance.along}
 
 
@@ -190,7 +190,7 @@ def test_a_storm_blows_the_empty_belt_off_and_the_picture_says_so():
 def test_the_table_is_of_all_cases(found):
     """An empty carry strand drifts farther inside than the loaded one; what is not worse there stays."""
     empty = calculate(conveyor(flow="0 t/h"))
-    loads = [Load(name, said(name), one) for name, one in (("as given", found), ("empty", empty))]
+    loads = [Load(name, message(name), one) for name, one in (("as given", found), ("empty", empty))]
     table = horizontal_curves(loads).frame()
     both = zip(found.horizontal, empty.horizontal, strict=True)
     inside, outside = zip(
@@ -232,7 +232,7 @@ def test_the_wind_lifts_what_has_no_bulk_on_it(found):
 
 def test_the_plan_turns_by_length_over_radius(found):
     """A level curve to the left: its chord heads by half the angle turned, its end by all of it."""
-    (axis,) = plan(found.line).axes
+    (axis,) = plan_view(found.line).axes
     bend = next(line for line in axis.lines if line.get_label() == "horizontal curve").get_xydata()
     (x0, y0), (x1, y1) = bend[0], bend[-1]
     angle = 300.0 / 1800.0
@@ -258,7 +258,7 @@ def test_edges_bear_the_bend_as_plane_sections_say(found):
 def test_a_hill_in_the_curve_presses_the_belt_into_its_trough(found):
     hill = calculate(conveyor({"curve": "convex", "curve_radius": "1500 m"}))
     steady = hill.balance.settled.steady
-    both = Acting(pressing_masses(hill.line, steady), drifts(hill.line, steady))
+    both = CurveLoads(pressing_masses(hill.line, steady), belt_drifts(hill.line, steady))
     assert set(both.pressing) == set(both.drift) == {("bend", "carry"), ("bend", "return")}
     flat, high = found.horizontal[0], hill.horizontal[0]
     # it stays nearer to where weight alone, without pull, would hold it

@@ -10,7 +10,7 @@ import pytest
 
 from conveyor.laws import tension
 from conveyor.laws.resistance import ROLL_DRAG_STANDSTILL_FACTOR
-from conveyor.loop.starting import every_state, motions
+from conveyor.loop.start_and_stop import motion_states, start_and_stop
 from conveyor.units import quantity, si
 from tests.loop.loop_lines import BOOSTER, DATA, DOWN, SECOND, TAIL_DRIVE, along, balanced, closed, line, told
 
@@ -63,7 +63,7 @@ def _boundary(conveyor, position, section):
 
 def test_a_state_of_motion_is_there_once(case):
     _, found = case
-    names = [state.name for state in every_state(found, motions(found))]
+    names = [state.name for state in motion_states(found, start_and_stop(found))]
     assert len(names) == len(set(names))
     assert {"steady", "brakes on"} <= set(names) or not any(found.line.brakes)
 
@@ -71,7 +71,7 @@ def test_a_state_of_motion_is_there_once(case):
 def test_the_loop_closes_in_every_state(case):
     """Resistances, masses and drives, summed anew from what went in, bring the tension back to where it began."""
     _, found = case
-    moving, results = motions(found), along(found)
+    moving, results = start_and_stop(found), along(found)
     n = len(results) // 2
     order = (*results[n:], *results[:n])
     for state in (*found.settled.states.values(), *moving.states.values()):
@@ -149,7 +149,7 @@ def test_the_take_up_holds_what_it_holds(case):
     settled = found.settled
     take_up = conveyor.route.take_up
     length = found.line.loop.length
-    for state in (*settled.states.values(), *motions(found).states.values()):
+    for state in (*settled.states.values(), *start_and_stop(found).states.values()):
         if take_up is None:
             # behind all drives at the first one's place, before them where they brake in steady running: in every state
             first = found.line.drives[0].spot
@@ -292,7 +292,7 @@ def slack_line(tension, **changes):
 
 def test_a_slack_belt_is_calculated_and_fails_with_what_would_cure_it():
     found = closed(slack_line(100.0), 0.03)
-    lowest = min(state.smallest for state in every_state(found, motions(found)))
+    lowest = min(state.smallest for state in motion_states(found, start_and_stop(found)))
     assert lowest < 0.0
     (words,) = {
         w for w in told(slack_line(100.0), found) if w.startswith("the belt goes slack") and '"start"' in w
@@ -341,7 +341,7 @@ def test_the_numbers_follow_the_conveyor_not_its_predecessor():
 def test_start_and_stop_are_newton():
     conveyor = line(drive={"reduced_mass": "20 t", "torque_factor": 1.5, "start_factor": 1.4})
     found = closed(conveyor)
-    moving = motions(found)
+    moving = start_and_stop(found)
     mass = sum(
         s.length * (s.line_mass + (10.0 if s.strand == "carry" else 3.0)) for s in found.line.stretches
     )
@@ -366,7 +366,7 @@ def test_start_and_stop_are_newton():
 def test_brakes_hold_and_stop_a_downhill_conveyor():
     wanted = {"stop_deceleration": "0.2 m/s^2", "reduced_mass": "8 t"}
     none = line(**CASES["downhill"] | {"drive": wanted})
-    moving = motions(closed(none))
+    moving = start_and_stop(closed(none))
     assert moving.coasting is None
     assert moving.coasting_least is None
     assert not moving.rolls_back
@@ -375,7 +375,7 @@ def test_brakes_hold_and_stop_a_downhill_conveyor():
     assert any(w.startswith("the conveyor does not stop by itself and has no brake") for w in said)
     assert any("needs a brake of" in w for w in said)
     held = line(**CASES["downhill"] | {"drive": {"brake_force": f"{moving.brake_to_stop} N", **wanted}})
-    stopped = motions(closed(held)).braked
+    stopped = start_and_stop(closed(held)).braked
     assert stopped is not None
     # the brake's own grip asks for tension, wraps for 1e-4 of force with it
     assert stopped.deceleration == pytest.approx(0.2, rel=1e-3)
@@ -387,12 +387,15 @@ def test_bulk_slides_where_friction_ends():
     steep = line(route={"sections": [{"name": "s", "length": "50 m", "slope": "20 deg"}], "pulleys": []},
                  drive={"start_factor": 2.5})  # fmt: skip
     found = closed(steep)
-    slip = motions(found).slip
+    slip = start_and_stop(found).slip
     assert slip is not None
     grip, pull = 0.5 * 9.81 * math.cos(math.radians(20.0)), 9.81 * math.sin(math.radians(20.0))
     assert (slip.braking, slip.starting) == pytest.approx((-grip - pull, grip - pull), rel=1e-9)
     assert any(w.startswith("the material slips on starting") for w in told(steep, found))
     steeper = line(route={"sections": [{"name": "s", "length": "50 m", "slope": "30 deg"}], "pulleys": []})
-    assert (motions(closed(steeper)).slip.braking, motions(closed(steeper)).slip.starting) == (0.0, 0.0)
+    assert (start_and_stop(closed(steeper)).slip.braking, start_and_stop(closed(steeper)).slip.starting) == (
+        0.0,
+        0.0,
+    )
     said = told(steeper, closed(steeper))
     assert 'the material slips on the belt in section "s" at any speed: too steep for its friction' in said

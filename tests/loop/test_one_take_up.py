@@ -7,13 +7,13 @@ import math
 import numpy as np
 import pytest
 
-from conveyor.loop.equilibrium import holds
-from conveyor.loop.take_up import at_one_setting, take_up_duty
+from conveyor.loop.equilibrium import tension_suffices
+from conveyor.loop.take_up_duty import at_common_setting, take_up_duty
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
 from conveyor.pipeline import calculate
 from conveyor.spec import load
-from conveyor.studies.cases import analyse_cases
+from conveyor.studies.load_cases import analyse_cases
 from conveyor.units import from_si
 from tests.loop.loop_lines import DOWN, SPECS, TAIL_DRIVE, closed, line
 
@@ -39,11 +39,11 @@ def loads(kind, changes, **take_up):
 @pytest.mark.parametrize("name", LINES)
 def test_one_setting_serves_every_state_of_every_load_and_is_the_least(name, kind):
     alone = loads(kind, LINES[name])
-    found = at_one_setting(alone)
+    found = at_common_setting(alone)
     (setting,) = {one.settled.setting for one in found}
     assert all(not one.settled.short for one in found)
     # more tension bends the belt harder, so that it asks for no less than the load that asks for most alone
-    assert holds(setting, max(one.settled.needed for one in alone))
+    assert tension_suffices(setting, max(one.settled.needed for one in alone))
     assert setting == pytest.approx(max(one.settled.needed for one in found), rel=1e-9)
     lower = [one.held(setting * (1.0 - 1e-6)) for one in alone]
     assert any(one.settled.short for one in lower)
@@ -60,7 +60,7 @@ def test_the_load_that_asks_for_most_need_not_be_the_full_one():
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_the_take_up_keeps_is_the_same_under_every_load(kind):
-    found = at_one_setting(loads(kind, LINES["hilly"]))
+    found = at_common_setting(loads(kind, LINES["hilly"]))
     head, means = [], []
     for one in found:
         lengths = one.line.loop.length
@@ -76,7 +76,7 @@ def test_what_the_take_up_keeps_is_the_same_under_every_load(kind):
 
 
 def test_a_tension_that_is_given_stands():
-    found = at_one_setting(loads("gravity", LINES["hilly"], tension="12 kN"))
+    found = at_common_setting(loads("gravity", LINES["hilly"], tension="12 kN"))
     assert {one.settled.setting for one in found} == {12e3}
     assert any(one.settled.short for one in found)
 
@@ -91,7 +91,7 @@ def test_weight_on_four_strands():
 
 
 def test_travel_is_the_belts_elongation_over_the_strands():
-    found = at_one_setting(loads("gravity", LINES["hilly"], strands=4, reserve="50 %"))
+    found = at_common_setting(loads("gravity", LINES["hilly"], strands=4, reserve="50 %"))
     states = [one.settled.states.values() for one in found]
     duty = take_up_duty(found, states, [253.15, 313.15, 293.15])
     lengths = found[0].line.loop.length
@@ -112,7 +112,7 @@ def test_travel_is_the_belts_elongation_over_the_strands():
 
 
 def test_a_held_length_only_tensions_the_belt_and_feels_its_temperature():
-    found = at_one_setting(loads("screw", LINES["hilly"]))
+    found = at_common_setting(loads("screw", LINES["hilly"]))
     duty = take_up_duty(found, [one.settled.states.values() for one in found], [273.15, 303.15])
     moved = found[0].line.loop.length.sum() / 2.0
     assert duty.travel.tensioning == pytest.approx(moved * duty.setting / BELT, rel=1e-9)

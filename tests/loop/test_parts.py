@@ -15,14 +15,14 @@ from conveyor.checks import (
     roll_axle,
     set_rating,
     splice_strength,
-    take_up_reach,
+    take_up_travel,
 )
 from conveyor.errors import InputError
 from conveyor.laws.drives import HORSEPOWER
 from conveyor.laws.take_up import SCREW_LENGTH
-from conveyor.pipeline import take_up_of
-from conveyor.report import tables
-from conveyor.studies.loads import designing
+from conveyor.pipeline import common_take_up_duty
+from conveyor.report import analysis_tables
+from conveyor.studies.loads import design_loads
 from tests.loop.loop_lines import DATA, SECOND
 from tests.loop.test_pulley_duty import calculated
 
@@ -50,7 +50,7 @@ def test_a_conveyor_that_asks_for_nothing_has_nothing():
     plain = calculated()
     assert (plain.set_duty, plain.drive_duty) == ((), ())
     for criterion in (
-        set_rating, roll_axle, belt_flap, cover_thickness, belt_temperature, splice_strength, take_up_reach,
+        set_rating, roll_axle, belt_flap, cover_thickness, belt_temperature, splice_strength, take_up_travel,
         drive_parts, coasting_time,
     ):  # fmt: skip
         assert list(criterion(plain)) == []
@@ -165,18 +165,18 @@ def take_up(**given):
 
 def test_a_carriage_has_way_and_speed():
     found = take_up(kind="winch", position="drive", travel="1 m", winch_speed="0.001 m/s")
-    duty = take_up_of([found])
+    duty = common_take_up_duty([found])
     start, steady = found.balance.settled.unsteady, found.balance.settled.steady
     lengths = found.line.loop.length
     way = (start.mean(lengths) - steady.mean(lengths)) * lengths.sum() / (72 * 2000e3 * 2)
     assert duty.speed == pytest.approx(way / (0.5 * 4.0 / start.acceleration), rel=1e-9)
-    travel, speed = take_up_reach(found)
+    travel, speed = take_up_travel(found)
     assert (travel.calculated, travel.required) == pytest.approx((duty.travel.whole, 1.0))
     assert (speed.required, speed.failed) == (pytest.approx(0.001), True)
 
 
 def test_screws_are_for_short_conveyors():
-    check = only(take_up_reach(take_up(kind="screw", position="tail")))
+    check = only(take_up_travel(take_up(kind="screw", position="tail")))
     assert (check.failed, check.required) == (True, SCREW_LENGTH)
 
 
@@ -211,7 +211,8 @@ def test_a_backstop_that_friction_spares_has_no_size():
     found = calculated(drive=DATA["drive"] | PARTS | {"backstop": True}, route={"sections": sections})
     assert [duty.holding for duty in found.drive_duty] == [0.0]
     assert (
-        "backstop size [N m]" not in tables.drive_parts(found, designing(found, None, None)).frame().columns
+        "backstop size [N m]"
+        not in analysis_tables.drive_parts(found, design_loads(found, None, None)).frame().columns
     )
 
 

@@ -8,14 +8,14 @@ from dataclasses import replace
 import pytest
 
 from conveyor import analyse
-from conveyor.checks import lagging, pulley_bearings, pulley_shaft, transitions
+from conveyor.checks import belt_transitions, lagging_pressure, pulley_bearings, pulley_shaft
 from conveyor.errors import InputError
-from conveyor.forces import without_rubber
+from conveyor.forces import rubber_free_forces
 from conveyor.laws.pulley import hub_moment, least_shaft_diameter, shaft_safety, shaft_slope
 from conveyor.laws.transition import transition_stretch
 from conveyor.line.contacts import Contacts
 from conveyor.loop.belt_duty import belt_duty
-from conveyor.loop.starting import every_state, motions
+from conveyor.loop.start_and_stop import motion_states, start_and_stop
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.spec import from_data
 from tests.loop.loop_lines import DATA, DOWN, SECOND, closed, data, line
@@ -29,7 +29,7 @@ def calculated(**changes):
     conveyor = line(**changes)
     found = closed(conveyor)
     contacts = Contacts(found.line, {}, (), ())
-    fixed = without_rubber(found.line.strands)
+    fixed = rubber_free_forces(found.line.strands)
     return CalculatedConveyor(conveyor, conveyor.temperature, contacts, found, fixed)
 
 
@@ -47,7 +47,7 @@ def plain():
 
 
 def test_every_pulley_has_the_tensions_of_its_place_in_every_state(plain):
-    states, duty = plain.every_state, duties(plain)
+    states, duty = plain.motion_states, duties(plain)
     assert {"steady", "start", "drives off"} <= {state.name for state in states}
     half = plain.line.count
     for k, state in enumerate(states):
@@ -112,7 +112,7 @@ def test_shaft_bearing_and_lagging_are_those_of_the_laws():
     assert duty.pressure == pytest.approx(2.0 * start.arriving, rel=1e-12)
     made = {
         check.key: check
-        for criterion in (pulley_shaft, pulley_bearings, lagging)
+        for criterion in (pulley_shaft, pulley_bearings, lagging_pressure)
         for check in criterion(found)
     }
     assert made["lagging_pressure"].verdict == "FAIL"
@@ -129,7 +129,12 @@ def test_a_thin_shaft_fails_and_says_what_is_needed():
 
 
 def test_what_is_not_given_is_not_checked(plain):
-    assert [*pulley_shaft(plain), *pulley_bearings(plain), *lagging(plain), *transitions(plain)] == []
+    assert [
+        *pulley_shaft(plain),
+        *pulley_bearings(plain),
+        *lagging_pressure(plain),
+        *belt_transitions(plain),
+    ] == []
     distances = {"bearing_centres": "1.9 m", "hub_centres": "1.4 m", "bearing_rating": "800 kN"}
     found = with_pulleys(HEAD | distances, TAIL)
     slope, safety = pulley_shaft(found)
@@ -165,7 +170,7 @@ def test_refused(changed, message):
 
 
 def zones(found):
-    states = every_state(found, motions(found))
+    states = motion_states(found, start_and_stop(found))
     return {check.zone.end: check for check in belt_duty(found, states).transitions}, states
 
 
@@ -193,7 +198,7 @@ def test_transitions_bear_the_tensions_of_every_state():
             allowed, rel=1e-12
         )
         assert zone.lowest + stiffness * strips.least / zone.slackened**2 == pytest.approx(0.0, abs=1e-6)
-    verdicts = {(check.subject.text(), check.verdict) for check in transitions(made)}
+    verdicts = {(check.subject.text(), check.verdict) for check in belt_transitions(made)}
     for end, zone in found.items():
         for words, least in (("overstressed", zone.stretched), ("slack", zone.slackened)):
             holds = "pass" if zone.zone.length >= least else "FAIL"
@@ -202,7 +207,7 @@ def test_transitions_bear_the_tensions_of_every_state():
 
 def test_a_transition_too_short_fails_and_one_without_length_shows_what_it_needs():
     short = calculated(route={"head_transition": {"length": "1 m"}})
-    said = [check.why.text() for check in transitions(short) if check.failed]
+    said = [check.why.text() for check in belt_transitions(short) if check.failed]
     assert any(
         "head transition: a strip of the belt is overstressed over 1 m; at least" in why for why in said
     )
@@ -211,7 +216,7 @@ def test_a_transition_too_short_fails_and_one_without_length_shows_what_it_needs
     (zone,) = bare.belt_duty.transitions
     assert zone.most is None
     assert zone.stretched == pytest.approx(short.belt_duty.transitions[0].stretched, rel=1e-12)
-    assert [(check.verdict, check.found.text()) for check in transitions(bare)] == [
+    assert [(check.verdict, check.found.text()) for check in belt_transitions(bare)] == [
         ("not checked", "length not given")
     ] * 2
 
@@ -219,7 +224,7 @@ def test_a_transition_too_short_fails_and_one_without_length_shows_what_it_needs
 def test_a_belt_beyond_its_rating_has_no_length_that_helps():
     belt = DATA["belt"] | {"carcass": DATA["belt"]["carcass"] | {"strength": "150 N/mm"}}
     found = calculated(route={"head_transition": {"length": "5 m"}}, belt=belt)
-    failed = [check for check in transitions(found) if check.failed]
+    failed = [check for check in belt_transitions(found) if check.failed]
     assert any("whatever its length" in check.why.text() for check in failed)
 
 
@@ -234,7 +239,7 @@ def test_a_belt_that_is_not_known_is_not_checked(changes, missing):
     carcass = DATA["belt"]["carcass"] | {"kind": "EP"} | changes
     kept = {key: value for key, value in carcass.items() if value is not None}
     found = calculated(route={"head_transition": {"length": "5 m"}}, belt=DATA["belt"] | {"carcass": kept})
-    assert [(check.verdict, check.asked.text()) for check in transitions(found)] == [
+    assert [(check.verdict, check.asked.text()) for check in belt_transitions(found)] == [
         ("not checked", missing)
     ] * 2
 
@@ -283,7 +288,7 @@ def test_curves_show_the_tension_of_their_strips():
     # every state of motion, coasting too
     shape = made.line.loop.stretches
     i = next(k for k, s in enumerate(shape) if (s.section, s.strand) == ("c", "carry"))
-    ends = [float(t) for state in made.every_state for t in (state.starts[i], state.ends[i])]
+    ends = [float(t) for state in made.motion_states for t in (state.starts[i], state.ends[i])]
     assert (curve.lowest, curve.highest) == pytest.approx((min(ends), max(ends)), rel=1e-12)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from conveyor.errors import NoSolutionError
-from conveyor.loop.balance import OpenLoop, balances
+from conveyor.loop.balance import OpenLoop, close_loops
 from tests.loop.loop_lines import DOWN, FRICTION, SECOND, closed, line
 from tests.loop.test_loop import CASES
 
@@ -46,19 +46,19 @@ def figures(found):
 
 def test_a_loop_does_not_depend_on_those_beside_it(loops):
     """What a study promises: the same table for any number of workers, however it is cut. So equal, not close."""
-    alone = [figures(one) for one in (balances([loop])[0] for loop in loops)]
+    alone = [figures(one) for one in (close_loops([loop])[0] for loop in loops)]
     order = np.random.default_rng(3).permutation(len(loops))
     for part in (order, order[: len(order) // 3], order[-7:]):
-        together = balances([loops[i] for i in part])
+        together = close_loops([loops[i] for i in part])
         assert [figures(one) for one in together] == [alone[i] for i in part]
 
 
 def test_a_slack_loop_leaves_the_others_alone(loops):
     slack = loops[0]._replace(setting=-20e3)
-    first, middle, last = balances([loops[1], slack, loops[2]])
+    first, middle, last = close_loops([loops[1], slack, loops[2]])
     assert middle.tensions.smallest < -20e3 < 0.0
-    assert figures(middle) == figures(balances([slack])[0])
-    assert [figures(one) for one in (first, last)] == [figures(one) for one in balances(loops[1:3])]
+    assert figures(middle) == figures(close_loops([slack])[0])
+    assert [figures(one) for one in (first, last)] == [figures(one) for one in close_loops(loops[1:3])]
 
 
 @pytest.mark.parametrize("factor", [200.0, 1e8])
@@ -66,7 +66,7 @@ def test_wraps_that_grow_faster_than_the_tension_they_need_are_refused(loops, fa
     """Two newtons of wrap a newton of tension have no answer above zero; the rows beside it do not feel it."""
     frame = loops[0].frame.scaled(lambda force: force)
     frame.bends = tuple(bend.times(factor) for bend in frame.bends)
-    refused, other = balances([loops[0]._replace(frame=frame.scaled(lambda force: force)), loops[1]])
+    refused, other = close_loops([loops[0]._replace(frame=frame.scaled(lambda force: force)), loops[1]])
     assert isinstance(refused, NoSolutionError)
     assert "do not settle" in str(refused)
-    assert figures(other) == figures(balances([loops[1]])[0])
+    assert figures(other) == figures(close_loops([loops[1]])[0])

@@ -7,17 +7,17 @@ import itertools
 import numpy as np
 import pytest
 
-from conveyor.loop.starting import motions
-from conveyor.loop.superposition import (
+from conveyor.loop.load_superposition import (
     DRIVE_FORCE,
     HOLDING_BACK,
     HOLDING_DOWN,
     LEAST_FORCE,
     TAKE_UP,
     TENSION,
-    Loadings,
+    SectionLoadings,
 )
-from conveyor.loop.take_up import at_one_setting
+from conveyor.loop.start_and_stop import start_and_stop
+from conveyor.loop.take_up_duty import at_common_setting
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
 from tests.loop.loop_lines import BOOSTER, DATA, TAIL_DRIVE, closed, line
@@ -72,7 +72,7 @@ def bearing(conveyor, loading):
 
 def added(conveyor):
     ends = [closed(with_case(conveyor, LoadCase(name=name, loading=name))) for name in ("full", "empty")]
-    return Loadings(*at_one_setting(ends))
+    return SectionLoadings(*at_common_setting(ends))
 
 
 def looked_for(found):
@@ -84,7 +84,7 @@ def looked_for(found):
         )
         for drive in found.line.drives
     }
-    moving = motions(found)
+    moving = start_and_stop(found)
     figures = {
         DRIVE_FORCE: settled.force, LEAST_FORCE: -settled.least_force,
         TENSION: found.tensions.largest, TAKE_UP: settled.needed,

@@ -10,16 +10,16 @@ from conveyor.checks import belt_cleaning, impact_load, skirtboards
 from conveyor.errors import InputError
 from conveyor.laws.discharge import bulk_on_pulley, width_on_pulley
 from conveyor.pipeline import calculate
-from conveyor.report.tables import of_analysis
+from conveyor.report.analysis_tables import analysis_contents
 from conveyor.spec import from_data
-from conveyor.starter import values
+from conveyor.starter import starter_values
 
 TAIL = {"name": "tail", "position": "tail", "diameter": "1 m", "shaft_diameter": "0.2 m", "mass": "1 t"}
 OF_TRANSFER = {"landings", "cleaners", "discharge", "trajectory", "pulley_outline"}
 
 
 def _spec(**route):
-    data = values("in-plant")
+    data = starter_values("in-plant")
     feeding = {**data["route"]["feeding"], **route.pop("feeding", {})}
     data["route"] = {**data["route"], "feeding": feeding, **route}
     data.pop("cases", None)
@@ -43,7 +43,7 @@ def found():
 def test_without_the_fields_nothing_is_asked(plain):
     assert [*impact_load(plain), *skirtboards(plain), *belt_cleaning(plain)] == []
     assert plain.trajectory is None
-    assert not OF_TRANSFER & {part.key for part in of_analysis(plain).tables}
+    assert not OF_TRANSFER & {part.key for part in analysis_contents(plain).tables}
 
 
 def test_seals_drag_over_the_skirtboards_and_nothing_else_changes(plain, found):
@@ -55,7 +55,7 @@ def test_seals_drag_over_the_skirtboards_and_nothing_else_changes(plain, found):
 
 
 def test_impact_is_the_lump_on_its_spring_over_what_rests_there(found):
-    (landing,) = found.landings
+    (landing,) = found.loading_point_duty
     weight, stretch = 30.0 * found.line.gravity, found.line.stretches[0]
     lump = weight + math.sqrt(weight**2 + 2.0 * 400e3 * weight * 1.5)
     resting = (stretch.belt_mass + stretch.bulk_mass) * found.line.gravity * 0.4
@@ -70,7 +70,7 @@ def test_impact_is_the_lump_on_its_spring_over_what_rests_there(found):
 
 
 def test_what_is_left_on_the_belt_is_checked(found):
-    (cleaning, *_), (check,) = found.cleanings, belt_cleaning(found)
+    (cleaning, *_), (check,) = found.cleaner_duty, belt_cleaning(found)
     each = cleaning.scraper
     left = 0.5 * (1.0 - each.efficiency) ** each.count
     assert check.calculated == pytest.approx(left, rel=1e-12)
@@ -86,7 +86,7 @@ def test_trajectory_begins_on_the_bulk_and_ends_at_the_depth(found):
     start = math.hypot(path.fall.across[0], path.fall.up[0])
     assert start == pytest.approx(path.radius, rel=1e-12)
     assert path.fall.up[-1] == pytest.approx(-2.0, rel=1e-12)
-    shown = {part.key: part for part in of_analysis(found).tables}
+    shown = {part.key: part for part in analysis_contents(found).tables}
     assert set(shown) >= OF_TRANSFER
     assert len(shown["trajectory"].rows) >= path.fall.time.size
 

@@ -12,7 +12,7 @@ from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.models import Conveyor
 from conveyor.models.conveyor import CHECKS
-from conveyor.models.fields import KnownParts, field, with_fields
+from conveyor.models.fields import PartCache, field_value, with_fields
 from conveyor.units import si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -34,8 +34,8 @@ def test_a_changed_field_is_that_of_a_spec_written_so(line):
             "drive.start_factor": 1.2,
         },
     )
-    assert si(field(made, "belt.speed")) == pytest.approx(5.5)
-    assert si(field(made, "idlers.return.spacing")) == pytest.approx(4.0)
+    assert si(field_value(made, "belt.speed")) == pytest.approx(5.5)
+    assert si(field_value(made, "idlers.return.spacing")) == pytest.approx(4.0)
     assert made.route.sections[2].rise < line.route.sections[2].rise
     assert si(made.route.sections[3].length) == pytest.approx(800.0)
     data = line.as_data()
@@ -49,7 +49,7 @@ def test_a_part_that_was_not_given_is_made(line):
     without = line.replace(operation=None)
     made = with_fields(without, {"operation.hours_per_year": "4000 h", "operation.price": "0.1 EUR/kWh"})
     assert made.operation.price.amount == pytest.approx(0.1)
-    assert field(without, "operation.price") is None
+    assert field_value(without, "operation.price") is None
 
 
 def test_a_compound_is_looked_up_by_name(line):
@@ -58,7 +58,7 @@ def test_a_compound_is_looked_up_by_name(line):
 
 
 def test_what_two_variants_share_is_the_very_same(line):
-    known = KnownParts()
+    known = PartCache()
     slow, fast = (
         with_fields(line, {"belt.speed": speed, "idlers.carry.spacing": "1 m"}, known=known)
         for speed in ("5 m/s", "6 m/s")
@@ -93,7 +93,7 @@ def test_parts_that_are_known_are_checked_against_each_other_all_the_same(line):
         except InputError as error:
             return str(error)
 
-    known = KnownParts()
+    known = PartCache()
     fields = {
         "belt.speed": ("5.5 m/s", "3 m/s", "5 kg"),
         "material.flow": ("2000 t/h", "6000 t/h"),

@@ -7,10 +7,10 @@ import pytest
 from conveyor.errors import InputError
 from conveyor.files import libraries
 from conveyor.models import Belt, BulkMaterial, Roll
-from conveyor.models.listed import merged, without
+from conveyor.models.library_items import merge_fields, without_entry_fields
 from conveyor.pipeline import calculate
 from conveyor.remarks import roll_assumptions, roll_warnings
-from conveyor.report.inputs import inputs
+from conveyor.report.inputs import input_rows
 from conveyor.spec import from_data
 from conveyor.units import is_quantity, quantity, si, text
 
@@ -29,13 +29,13 @@ NEEDED = {
 ENTRIES = [
     pytest.param(library, name, id=f"{library}-{name}")
     for library in MODELS
-    for name in libraries.entries(library)
+    for name in libraries.library_entries(library)
 ]
 
 
 def built(library, name, compound, **given):
-    entry = libraries.entry(library, name)
-    data = merged(NEEDED[library], entry.fields) | {"listed": name} | given
+    entry = libraries.library_entry(library, name)
+    data = merge_fields(NEEDED[library], entry.fields) | {"listed": name} | given
     if library == "belts":
         data["bottom_cover"] = {"thickness": "4 mm"} | data.get("bottom_cover", {}) | {"compound": compound}
         data["top_cover"] = {"thickness": "5 mm"} | data.get("top_cover", {})
@@ -45,7 +45,7 @@ def built(library, name, compound, **given):
 @pytest.mark.parametrize(("library", "name"), ENTRIES)
 def test_every_entry_builds_its_model_and_is_written_as_reports_write(library, name, compound_data):
     made = built(library, name, compound_data)
-    for path, value in libraries.flat(libraries.entry(library, name).fields).items():
+    for path, value in libraries.flatten_fields(libraries.library_entry(library, name).fields).items():
         held = made
         for part in path.split("."):
             held = getattr(held, part)
@@ -55,7 +55,7 @@ def test_every_entry_builds_its_model_and_is_written_as_reports_write(library, n
 
 @pytest.mark.parametrize("library", ["belts", "rolls", "materials", "spacing"])
 def test_every_entry_has_a_source_and_knowledge_of_the_craft_a_range(library):
-    for entry in libraries.entries(library).values():
+    for entry in libraries.library_entries(library).values():
         assert entry.source
         assert entry.general_knowledge == ("general knowledge" in entry.source)
         listed = {
@@ -72,7 +72,7 @@ def test_every_entry_has_a_source_and_knowledge_of_the_craft_a_range(library):
 def test_tables_have_a_row_for_each_entry_and_end_with_the_source():
     tables = (libraries.belts(), libraries.rolls(), libraries.materials(), libraries.spacings())
     for library, table in zip(("belts", "rolls", "materials", "spacing"), tables, strict=True):
-        assert list(table.index) == list(libraries.entries(library))
+        assert list(table.index) == list(libraries.library_entries(library))
         assert list(table.columns[-3:]) == ["note", "general knowledge", "source"]
     assert tables[0].loc["ST4000", "mass"] == "54 kg/m^2"
     assert tables[0].loc["EP1250/4", "carcass.mass"] == "9.1 kg/m^2"
@@ -101,7 +101,7 @@ def test_tables_have_a_row_for_each_entry_and_end_with_the_source():
 )
 def test_unknown_names_are_refused_with_a_guess(library, name, message):
     with pytest.raises(InputError, match=message):
-        libraries.entry(library, name)
+        libraries.library_entry(library, name)
 
 
 def test_a_refused_name_is_told_at_its_field(conveyor_data):
@@ -119,7 +119,7 @@ def test_the_spec_goes_before_the_entry_and_the_report_tells_them_apart(conveyor
     line = from_data(conveyor_data)
     assert (line.material.name, text(line.material.density)) == ("hard coal", "900 kg/m^3")
     assert si(line.belt.carcass.thickness) == pytest.approx(4.5e-3, rel=1e-14)
-    given_by = {field: origin for field, *_, origin in inputs(line)}
+    given_by = {field: origin for field, *_, origin in input_rows(line)}
     from_library = {
         "material.name", "material.surcharge_angle", "belt.carcass.kind", "belt.carcass.strength",
         "belt.carcass.thickness", "idlers.carry.roll.diameter", "idlers.carry.roll.length",
@@ -160,7 +160,7 @@ def test_another_name_replaces_what_the_old_one_gave(compound_data):
 def test_merging_and_taking_off_are_inverse():
     entry = {"mass": "27 kg/m^2", "carcass": {"kind": "EP", "strength": "630 N/mm"}}
     given = {"width": "1 m", "carcass": {"thickness": "4 mm"}}
-    assert without(merged(entry, given), entry) == given
+    assert without_entry_fields(merge_fields(entry, given), entry) == given
 
 
 def test_general_knowledge_is_warned_of_until_the_spec_gives_it(conveyor_data):

@@ -8,7 +8,7 @@ import pytest
 
 from conveyor.errors import InputError
 from conveyor.models.fields import with_fields
-from conveyor.models.unlikely import unlikely
+from conveyor.models.plausibility import implausible_inputs
 from conveyor.spec import load
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -19,7 +19,7 @@ PUBLISHED = Path(__file__).parent.parent / "validation" / "conveyors"
     "path", sorted([*SPECS.glob("*.yaml"), *PUBLISHED.glob("*.yaml")]), ids=lambda path: path.stem
 )
 def test_nothing_is_asked_about_examples_and_published_conveyors(path):
-    assert list(unlikely(load(path))) == []
+    assert list(implausible_inputs(load(path))) == []
 
 
 @pytest.mark.parametrize(
@@ -47,13 +47,16 @@ def test_nothing_is_asked_about_examples_and_published_conveyors(path):
 )
 def test_what_is_hardly_meant_is_asked_about(changes, words):
     made = with_fields(load(SPECS / "in_plant_us.yaml"), changes)
-    assert [said for one in unlikely(made) if words in (said := one.text("US"))], [
-        one.text("US") for one in unlikely(made)
+    assert [said for one in implausible_inputs(made) if words in (said := one.text("US"))], [
+        one.text("US") for one in implausible_inputs(made)
     ]
 
 
 def test_tonnes_are_no_question_in_a_metric_report():
-    assert list(unlikely(with_fields(load(SPECS / "overland.yaml"), {"material.flow": "2000 tph"}))) == []
+    assert (
+        list(implausible_inputs(with_fields(load(SPECS / "overland.yaml"), {"material.flow": "2000 tph"})))
+        == []
+    )
 
 
 def test_a_belt_too_small_for_metric_tonnes_says_that_tph_are_metric():

@@ -14,7 +14,7 @@ from conveyor.analysis import analyse_cases, analyse_duty
 from conveyor.models import Conveyor
 from conveyor.spec import from_data, load
 from conveyor.units import from_si, quantity, si
-from conveyor.units.kinds import KINDS
+from conveyor.units.quantity_kinds import KINDS
 from conveyor.units.registry import REGISTRY, UNITS
 
 SPECS = Path(__file__).parents[2] / "examples" / "specs"

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from conveyor.analysis import Analysis, Studies
-from conveyor.checks import Check, deciding
+from conveyor.checks import Check, governing_by_subject
 
 
 @dataclass(frozen=True)
@@ -27,4 +27,4 @@ def told(found: Iterable[Check], system: str = "SI") -> list[Told]:
 def checks(result: Analysis, system: str = "SI", studies: Studies | None = None) -> list[Told]:
     """Those that govern, of a result and of its load cases."""
     cases = () if studies is None or studies.cases is None else studies.cases.checks
-    return told(deciding((*result.checks, *cases)), system)
+    return told(governing_by_subject((*result.checks, *cases)), system)

@@ -16,8 +16,8 @@ from conveyor.line.line import Line
 from conveyor.models import LoadCase
 from conveyor.report import analysis_plots as plots
 from conveyor.report.analysis_plots import route_profile
-from conveyor.report.plots import master_curve, stacked
-from conveyor.report.svg import inline, restyle
+from conveyor.report.plots import master_curve, stacked_axes
+from conveyor.report.svg import figure_svg, restyle_figure
 from conveyor.units import si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -107,7 +107,7 @@ def test_governing_roll_bears_the_highest_line_load(result):
 
 
 def test_band_on_the_master_curve_is_that_of_the_rolls(line, result):
-    figure = plots.rubber_at_work(
+    figure = plots.excited_master_curve(
         line.carry_compound, si(line.ambient.belt), result.contacts, ("carry", "return")
     )
     assert len(figure.axes) == 2
@@ -159,7 +159,7 @@ def test_no_case_answered(cases):
 
 def test_tornado_is_the_study(line):
     study = uncertain(line.replace(uncertainty={"roll_drag": "30 %", "flow": "5 %"}))
-    (axis,) = plots.tornado(study).axes
+    (axis,) = plots.tornado_chart(study).axes
     assert [label.get_text() for label in axis.get_yticklabels()] == [effect.name for effect in study.effects]
     assert bars(axis, "at the low end") == pytest.approx(
         [(e.motor_low - study.motor) / 1e3 for e in study.effects]
@@ -172,7 +172,7 @@ def test_tornado_is_the_study(line):
 def test_restyled_curves_keep_their_house_colours_and_differ_in_dashes(cases):
     figure = plots.case_power(cases, "temperature")
     before = [to_hex(curve.get_color()) for curve in figure.axes[0].lines]
-    restyle(figure)
+    restyle_figure(figure)
     curves = figure.axes[0].lines
     assert [to_hex(curve.get_color()) for curve in curves] == before
     assert len({str(curve.get_linestyle()) + str(curve._dash_pattern) for curve in curves}) == len(curves)
@@ -181,15 +181,15 @@ def test_restyled_curves_keep_their_house_colours_and_differ_in_dashes(cases):
 
 def test_drawn_twice_it_is_the_same(result):
     """Identifiers are hashes without salt of the day: a report of the same figures is the same text."""
-    first, second = (inline(plots.resistance_breakdown(result.balance), "x", "bars") for _ in range(2))
+    first, second = (figure_svg(plots.resistance_breakdown(result.balance), "x", "bars") for _ in range(2))
     assert first == second
 
 
 def test_between_two_axes_is_as_much_room_as_below_and_above_them():
-    figure, axes = stacked(2, 7.0)
+    figure, axes = stacked_axes(2, 7.0)
     for axis in axes:
         axis.set(xlabel="belt speed [m/s]", ylabel="motor power [kW]")
-    restyle(figure)
+    restyle_figure(figure)
     above, below = (axis.get_position() for axis in axes)
     assert above.y0 - below.y1 == pytest.approx(below.y0 + 1.0 - above.y1, rel=1e-9)
 

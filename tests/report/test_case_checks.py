@@ -10,14 +10,20 @@ import pytest
 
 import conveyor
 from conveyor.analysis import Analysis, CaseStudy, Studies, analyse_cases
-from conveyor.checks import Check, checks, compared, deciding, leading
+from conveyor.checks import (
+    Check,
+    check_against_limit,
+    governing_by_criterion,
+    governing_by_subject,
+    run_checks,
+)
 from conveyor.models.fields import with_fields
 from conveyor.models.variants import with_case, with_temperature
 from conveyor.pipeline import CalculatedConveyor, calculate
-from conveyor.report.verdict import sentence
+from conveyor.report.design_verdict import verdict_sentence
 from conveyor.studies.loads import every_load
 from conveyor.units import quantity
-from conveyor.units.sentences import percent, said
+from conveyor.units.sentences import message, percent
 
 SPEC = Path(__file__).parents[2] / "examples" / "specs" / "overland.yaml"
 CASES = [
@@ -39,13 +45,15 @@ def plain() -> CaseStudy:
 
 def told(result: CalculatedConveyor) -> tuple[str, float]:
     """The sentence about what passes, and the least margin of that."""
-    passed = [check for check in checks(result) if check.verdict == "pass"]
-    return sentence(passed, "SI"), min(check.margin for check in passed if check.margin is not None)
+    passed = [check for check in run_checks(result) if check.verdict == "pass"]
+    return verdict_sentence(passed, "SI"), min(check.margin for check in passed if check.margin is not None)
 
 
 def governing(found: CaseStudy, key: str, subject: str = "") -> Check:
     (one,) = [
-        check for check in deciding(found.checks) if check.key == key and subject in check.subject.text()
+        check
+        for check in governing_by_subject(found.checks)
+        if check.key == key and subject in check.subject.text()
     ]
     return one
 
@@ -61,7 +69,7 @@ def test_a_case_is_checked_as_its_conveyor_alone(plain: CaseStudy) -> None:
     given = study(route=route)
     result = next(r for r in given.results if r.case.loading == "empty")
     alone = calculate(with_temperature(with_case(given.conveyor, result.case), quantity("-20 degC")))
-    expected = checks(alone)
+    expected = run_checks(alone)
     assert [(c.key, c.subject, c.verdict) for c in result.checks] == [
         (c.key, c.subject, c.verdict) for c in expected
     ]
@@ -74,7 +82,7 @@ def test_a_case_is_checked_as_its_conveyor_alone(plain: CaseStudy) -> None:
 
 
 def test_every_case_has_every_criterion(plain: CaseStudy) -> None:
-    own = {check.key for check in checks(calculate(plain.conveyor))}
+    own = {check.key for check in run_checks(calculate(plain.conveyor))}
     of_bulk = {"filling", "holding_brake", "bulk_slip_start", "bulk_slip_stopping"}
     for case, of in groupby(plain.checks, key=case_of):
         assert {check.key for check in of} == (own - of_bulk if case.startswith("empty") else own)
@@ -94,40 +102,45 @@ def test_every_case_has_every_criterion(plain: CaseStudy) -> None:
     ],
 )
 def test_the_margin_is_what_is_left_over_the_limit(calculated, relation, required, margin) -> None:
-    one = Check("k", said("s"), calculated, required, "force", said(""), said(""), "pass", None, relation)
+    one = Check(
+        "k", message("s"), calculated, required, "force", message(""), message(""), "pass", None, relation
+    )
     assert one.margin == (None if margin is None else pytest.approx(margin, rel=1e-12))
 
 
 def made(case: str, verdict: str, calculated: float | None, subject: str = "s", key: str = "k") -> Check:
-    return Check(key, said(subject), calculated, 1.0, "force", said(""), said(""), verdict, case=said(case))
+    return Check(
+        key, message(subject), calculated, 1.0, "force", message(""), message(""), verdict, case=message(case)
+    )
 
 
 def test_a_margin_of_many_times_the_limit_is_told_as_more_than_all_of_it() -> None:
     """49 times more strength than asked: beyond 100 % a margin says no more than that it is large."""
-    large = compared("belt_safety", "belt safety", 50.0, "at least", 1.0, "safety")
+    large = check_against_limit("belt_safety", "belt safety", 50.0, "at least", 1.0, "safety")
     assert large.margin == pytest.approx(49.0)
-    assert "; least margin > 100 %, belt safety" in sentence([large], "SI")
-    small = compared("belt_safety", "belt safety", 1.046, "at least", 1.0, "safety")
-    assert "; least margin 4.6 %, belt safety" in sentence([large, small], "SI")
+    assert "; least margin > 100 %, belt safety" in verdict_sentence([large], "SI")
+    small = check_against_limit("belt_safety", "belt safety", 1.046, "at least", 1.0, "safety")
+    assert "; least margin 4.6 %, belt safety" in verdict_sentence([large, small], "SI")
 
 
 def test_a_failure_governs_then_the_least_margin_then_the_first() -> None:
     every = [
         made("a", "pass", 1.2), made("b", "pass", 1.1), made("c", "pass", 1.1), made("d", "not checked", 0.1),
     ]  # fmt: skip
-    assert [case_of(one) for one in deciding(every)] == ["b"]
-    assert [case_of(one) for one in deciding([*every, made("e", "FAIL", 0.9)])] == ["e"]
-    assert [case_of(one) for one in deciding([*every, made("e", "FAIL", 0.9), made("f", "FAIL", None)])] == [
-        "f"
-    ]
+    assert [case_of(one) for one in governing_by_subject(every)] == ["b"]
+    assert [case_of(one) for one in governing_by_subject([*every, made("e", "FAIL", 0.9)])] == ["e"]
+    assert [
+        case_of(one)
+        for one in governing_by_subject([*every, made("e", "FAIL", 0.9), made("f", "FAIL", None)])
+    ] == ["f"]
 
 
 def test_of_a_limit_at_zero_the_lowest_governs() -> None:
     slack = [
-        Check("k", said("s"), tension, 0.0, "force", said(""), said(""), "FAIL", case=said(name))
+        Check("k", message("s"), tension, 0.0, "force", message(""), message(""), "FAIL", case=message(name))
         for name, tension in (("a", -10.0), ("b", -30.0), ("c", -20.0))
     ]
-    assert [case_of(one) for one in deciding(slack)] == ["b"]
+    assert [case_of(one) for one in governing_by_subject(slack)] == ["b"]
 
 
 def test_subjects_govern_one_by_one_criteria_by_the_worst_of_them() -> None:
@@ -135,13 +148,13 @@ def test_subjects_govern_one_by_one_criteria_by_the_worst_of_them() -> None:
         made("a", "pass", 1.5, "left"), made("a", "pass", 1.4, "right"), made("a", "pass", 3.0, key="other"),
         made("b", "pass", 1.3, "left"), made("b", "pass", 1.6, "right"),
     ]  # fmt: skip
-    governs = deciding(every)
+    governs = governing_by_subject(every)
     assert [(one.subject.words, case_of(one)) for one in governs] == [
         ("left", "b"),
         ("right", "a"),
         ("s", "a"),
     ]
-    assert [one.subject.words for one in leading(governs)] == ["left", "s"]
+    assert [one.subject.words for one in governing_by_criterion(governs)] == ["left", "s"]
 
 
 def test_motors_between_the_cases_fail_only_with_the_cases(plain: CaseStudy) -> None:
@@ -150,7 +163,7 @@ def test_motors_between_the_cases_fail_only_with_the_cases(plain: CaseStudy) -> 
     own = conveyor.analyse(plain.conveyor).balance.power.motor
     assert own < needed
     short = study(installed_power=f"{0.5 * (own + needed) / 1e3:.3f} kW")
-    assert next(c for c in checks(calculate(short.conveyor)) if c.key == "motor_power").verdict == "pass"
+    assert next(c for c in run_checks(calculate(short.conveyor)) if c.key == "motor_power").verdict == "pass"
     failed = governing(short, "motor_power")
     assert (failed.verdict, failed.case.text()) == ("FAIL", "full, -20 °C")
     assert failed.calculated == pytest.approx(needed, rel=1e-9)
@@ -195,7 +208,7 @@ def test_grip_is_checked_on_every_drive_in_every_state(plain: CaseStudy) -> None
 
 def test_a_take_up_at_its_least_leaves_no_margin_to_what_governs(plain: CaseStudy) -> None:
     """The least setting is that at which one drive's grip or one section's sag is just met."""
-    alone = checks(calculate(plain.conveyor))
+    alone = run_checks(calculate(plain.conveyor))
     least = min(c.margin for c in alone if c.key in {"drive_grip", "sag"} and c.margin is not None)
     assert least == pytest.approx(0.0, abs=1e-8)
     assert not any(c.failed for c in alone if c.key in {"drive_grip", "sag", "take_up_tension"})

@@ -10,11 +10,11 @@ from pathlib import Path
 import pytest
 
 import conveyor
-from conveyor.checks import filling
-from conveyor.report.columns import Column, Figure, Table, figures
+from conveyor.checks import belt_filling
+from conveyor.report.table_model import Column, Figure, Table, figure_table
 from conveyor.units import si
-from conveyor.units.presentation import unit
-from conveyor.units.sentences import band_words
+from conveyor.units.presentation import display_unit
+from conveyor.units.sentences import format_band
 from tests.loop.loop_lines import line as loop_line
 from tests.loop.test_pulley_duty import calculated
 from tests.report.checking import checks
@@ -198,8 +198,8 @@ def test_brakes_that_hold():
 
 
 def test_bands_in_words():
-    assert band_words((0.5, 99.6)) == "0.5 to 99.6 Hz"
-    assert band_words((1e-12, 999999.0)) == "1×10⁻¹² to 1,000,000 Hz"
+    assert format_band((0.5, 99.6)) == "0.5 to 99.6 Hz"
+    assert format_band((1e-12, 999999.0)) == "1×10⁻¹² to 1,000,000 Hz"
 
 
 def test_units_of_tables():
@@ -221,7 +221,9 @@ def test_units_of_tables():
     assert list(shown.columns) == ["strand", "force [lbf]", "at [degF]", "w [lbf/in]", "f [Hz]"]
     assert shown.iloc[0].tolist() == ["carry", 1.0, 212.0, pytest.approx(5.710147163), 5.0]
     assert table.frame().iloc[0].tolist() == ["carry", 4.4482216152605, 100.0, 1.0, 5.0]
-    rows = figures("t", "T", "T", (Figure("length", "length", 0.3048), Figure("f", "ratio", float("inf"))))
+    rows = figure_table(
+        "t", "T", "T", (Figure("length", "length", 0.3048), Figure("f", "ratio", float("inf")))
+    )
     shown = rows.frame("US")
     assert shown["quantity"].tolist() == ["length [ft]", "f [-]"]
     assert shown["value"].tolist() == [1.0, float("inf")]
@@ -241,8 +243,8 @@ def test_units_of_tables():
 )
 def test_factors(kind, value, sign, expected):
     """Exact by the international yard and pound; nine digits are printed here."""
-    assert unit(kind, "US").label == sign
-    assert unit(kind, "US").shown(value) == pytest.approx(expected, rel=1e-9)
+    assert display_unit(kind, "US").label == sign
+    assert display_unit(kind, "US").shown(value) == pytest.approx(expected, rel=1e-9)
 
 
 def test_filling_is_bulk_over_what_the_belt_holds(line, all_of):
@@ -268,12 +270,14 @@ def test_on_a_slope_the_belt_holds_less():
     trough = made.section_on_slope(math.radians(10.0))
     cos_d, cos_t = math.cos(math.asin(25.0 / 400.0)), math.cos(math.radians(10.0))
     k1 = math.sqrt((cos_d**2 - cos_t**2) / (1.0 - cos_t**2))
-    (check,) = filling(calculated(material={"surcharge_angle": "10 deg"}))
+    (check,) = belt_filling(calculated(material={"surcharge_angle": "10 deg"}))
     assert (check.where, check.verdict) == ("b", "pass")
     assert check.required == pytest.approx(trough + k1 * (level - trough), rel=1e-12)
     steep = {"sections": [{"name": name, "length": "250 m", "slope": "12 deg"} for name in "abcd"]}
     flow = 0.5 * (level + trough) * 1600.0 * 4.0 * 3.6
-    (check,) = filling(calculated(material={"surcharge_angle": "10 deg", "flow": f"{flow} t/h"}, route=steep))
+    (check,) = belt_filling(
+        calculated(material={"surcharge_angle": "10 deg", "flow": f"{flow} t/h"}, route=steep)
+    )
     assert check.failed
     assert check.required == pytest.approx(trough, rel=1e-12)
 

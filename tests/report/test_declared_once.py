@@ -14,14 +14,14 @@ from openpyxl.utils import range_boundaries
 import conveyor
 from conveyor import checks as criteria
 from conveyor import pipeline
-from conveyor.checks import compared
+from conveyor.checks import check_against_limit
 from conveyor.cli.terminal import show_power
 from conveyor.forces import Force
-from conveyor.report import excel, files, html, tables
-from conveyor.report.columns import Column, Figure, OnPage, Table
-from conveyor.report.page import in_short
-from conveyor.units.presentation import _KINDS, Unit, unit
-from conveyor.units.sentences import said
+from conveyor.report import analysis_tables, excel, html, table_files
+from conveyor.report.page_elements import notebook_summary
+from conveyor.report.table_model import Column, Figure, PagePlacement, Table
+from conveyor.units.presentation import _KIND_FORMATS, Unit, display_unit
+from conveyor.units.sentences import message
 
 PACKAGE = Path(conveyor.__file__).parent
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -35,7 +35,7 @@ def result():
 @pytest.fixture
 def probed(result, monkeypatch):
     """Contents with a column, a key figure and a table more, each put in where such a one is declared."""
-    sections, results = tables.sections, tables.results
+    sections, results = analysis_tables.section_table, analysis_tables.result_table
 
     def with_column(a):
         table = sections(a)
@@ -49,12 +49,14 @@ def probed(result, monkeypatch):
 
     def with_table(_, __):
         columns_of = (Column("what", "text", str), Column("size", "length", len))
-        return Table("probes", "Loop", "Probes", columns_of, ("abc",), (OnPage("belt", "Probes"),))
+        return Table("probes", "Loop", "Probes", columns_of, ("abc",), (PagePlacement("belt", "Probes"),))
 
-    monkeypatch.setattr(tables, "sections", with_column)
-    monkeypatch.setattr(tables, "results", with_figure)
-    monkeypatch.setattr(tables, "vertical_curves", with_table)  # its place in the list; none in this spec
-    return tables.of_analysis(result.in_units("SI"))
+    monkeypatch.setattr(analysis_tables, "section_table", with_column)
+    monkeypatch.setattr(analysis_tables, "result_table", with_figure)
+    monkeypatch.setattr(
+        analysis_tables, "vertical_curves", with_table
+    )  # its place in the list; none in this spec
+    return analysis_tables.analysis_contents(result.in_units("SI"))
 
 
 def cells(book, name):
@@ -66,7 +68,7 @@ def cells(book, name):
 
 
 def test_in_the_workbook(probed, result, tmp_path):
-    book = openpyxl.load_workbook(excel.write(probed, tmp_path / "probe.xlsx"))
+    book = openpyxl.load_workbook(excel.write_workbook(probed, tmp_path / "probe.xlsx"))
     header, *rows = cells(book, "table_sections")
     assert [row[header.index("probe [N]")] for row in rows] == pytest.approx(
         [r.forces["indentation"] for r in result.stretches]
@@ -77,24 +79,24 @@ def test_in_the_workbook(probed, result, tmp_path):
 
 
 def test_in_the_files(probed, tmp_path):
-    names = [path.name for path in files.write(probed, tmp_path)]
+    names = [path.name for path in table_files.write_tables(probed, tmp_path)]
     assert "probes.csv" in names
     assert "probe [N]" in (tmp_path / "sections.csv").read_text(encoding="utf-8-sig").splitlines()[0]
     assert "probing [kW],12.345,probing" in (tmp_path / "results.csv").read_text(encoding="utf-8-sig")
 
 
 def test_on_the_page_in_a_notebook_and_as_a_data_frame(probed):
-    made = html.build(probed)
+    made = html.build_page(probed)
     assert re.search(r">probe <span class=\"unit\">\[N\]", made)
     assert ">Probes</caption>" in made
     assert "<dt>probing, as given</dt><dd>12.3 <small>kW</small></dd>" in made
-    assert "probing" in in_short(probed)
+    assert "probing" in notebook_summary(probed)
     assert "probe [lbf]" in probed["sections"].frame("US")
 
 
 @pytest.mark.usefixtures("probed")
 def test_in_json(result):
-    told = tables.plain(result)
+    told = analysis_tables.analysis_json(result)
     assert told["power_kW"]["probing"] == pytest.approx(12.345)
     assert [row["probe_N"] for row in told["sections"]] == [r.forces["indentation"] for r in result.stretches]
 
@@ -106,15 +108,18 @@ def test_the_terminal_takes_the_same_tables(probed, capsys):
 
 def test_a_unit_system_is_one_entry(result, monkeypatch):
     """Another system: where its units are listed, and nowhere else."""
-    changed = {**_KINDS["US"], "force": _KINDS["US"]["force"]._replace(unit="kN", digits=",.2f")}
-    monkeypatch.setitem(_KINDS, "US", changed)
-    unit.cache_clear()
+    changed = {
+        **_KIND_FORMATS["US"],
+        "force": _KIND_FORMATS["US"]["force"]._replace(unit="kN", digits=",.2f"),
+    }
+    monkeypatch.setitem(_KIND_FORMATS, "US", changed)
+    display_unit.cache_clear()
     try:
         frame = result.tables["sections"].frame("US")
         assert frame["total [kN]"].tolist() == pytest.approx([r.total / 1e3 for r in result.stretches])
-        assert isinstance(unit("force", "US"), Unit)
+        assert isinstance(display_unit("force", "US"), Unit)
     finally:
-        unit.cache_clear()
+        display_unit.cache_clear()
 
 
 def test_units_are_composed_in_one_place_and_parsed_in_none():
@@ -131,17 +136,19 @@ def test_units_are_composed_in_one_place_and_parsed_in_none():
 def strained():
     """A conveyor with one more resistance and one more criterion, each put in where such a one is declared."""
     with pytest.MonkeyPatch.context() as patch:
-        along = pipeline.along_the_belt
+        along = pipeline.forces_along_belt
 
         def with_force(line, fixed, indentation, **given):
             more = Force("wind", "wind", "special", np.full(2 * line.count, 7.0), "a probe")
             return (*along(line, fixed, indentation, **given), more)
 
         def weak(found):
-            why = said("the probe bears {}", (found.line.speed, "speed"))
-            yield compared("probe", "strength of the probe", 1.0, "at least", 2.0, "force", why=why)
+            why = message("the probe bears {}", (found.line.speed, "speed"))
+            yield check_against_limit(
+                "probe", "strength of the probe", 1.0, "at least", 2.0, "force", why=why
+            )
 
-        patch.setattr(pipeline, "along_the_belt", with_force)
+        patch.setattr(pipeline, "forces_along_belt", with_force)
         patch.setattr(criteria, "CRITERIA", (*criteria.CRITERIA, weak))
         made = conveyor.analyse(conveyor.load(SPECS / "in_plant_us.yaml")).in_units("SI")
         yield made, made.contents(), made.to_dict()
@@ -166,8 +173,8 @@ def test_a_criterion_is_in_checks_warnings_and_every_output(strained, tmp_path):
     row = contents["checks"].frame().set_index("check").loc["strength of the probe"]
     assert (row["calculated"], row["required"], row["verdict"]) == ("1 N", "at least 2 N", "FAIL")
     assert any(line.startswith("the probe bears") for line in told["warnings"])
-    book = openpyxl.load_workbook(excel.write(contents, tmp_path / "weak.xlsx"))
+    book = openpyxl.load_workbook(excel.write_workbook(contents, tmp_path / "weak.xlsx"))
     assert "strength of the probe" in {cell.value for row in book["Summary"] for cell in row}
-    page = html.write(contents, tmp_path / "weak.html").read_text(encoding="utf-8")
+    page = html.write_page(contents, tmp_path / "weak.html").read_text(encoding="utf-8")
     assert "strength of the probe" in page
-    assert "strength of the probe" in in_short(contents)
+    assert "strength of the probe" in notebook_summary(contents)

@@ -11,9 +11,9 @@ import pytest
 import conveyor
 from conveyor.analysis import studies
 from conveyor.errors import InputError
-from conveyor.report.plots import save
-from conveyor.units import KINDS, convert
-from conveyor.units.presentation import unit
+from conveyor.report.plots import save_figure
+from conveyor.units import KINDS, in_report_unit
+from conveyor.units.presentation import display_unit
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 WITH_UNIT = re.compile(r"\[[^\]]+\]$")
@@ -122,7 +122,7 @@ def test_rubber_of_both_strands(result):
 
 def test_a_dollar_in_a_name_is_no_formula(figures, tmp_path):
     for name in ("cases-temperature", "cases-speed"):
-        assert save(figures["SI"][name], tmp_path / f"{name}.png").stat().st_size > 1000
+        assert save_figure(figures["SI"][name], tmp_path / f"{name}.png").stat().st_size > 1000
         legend = figures["SI"][name].axes[0].get_legend()
         assert "full $x_1$" in [text.get_text() for text in legend.get_texts()]
         assert not any(text.get_parse_math() for text in legend.get_texts())
@@ -130,8 +130,8 @@ def test_a_dollar_in_a_name_is_no_formula(figures, tmp_path):
 
 @pytest.mark.parametrize("kind", ["force", "power", "pressure", "thickness", "length", "speed", "line force"])
 def test_scales_agree_with_units(kind):
-    us, si = (unit(kind, system, large=True) for system in ("US", "SI"))
-    assert us(123.4) == pytest.approx(convert(123.4, kind, "US"))
+    us, si = (display_unit(kind, system, large=True) for system in ("US", "SI"))
+    assert us(123.4) == pytest.approx(in_report_unit(123.4, kind, "US"))
     assert us.label == KINDS[kind].us
     # 123.4 in SI, written in the axis' own unit, is the same quantity
     assert si(123.4) * {"kN": 1e3, "kW": 1e3, "MPa": 1e6, "mm": 1e-3}.get(si.label, 1.0) == pytest.approx(
@@ -140,8 +140,8 @@ def test_scales_agree_with_units(kind):
 
 
 def test_temperatures_have_an_offset():
-    assert unit("temperature")([273.15, 293.15]) == pytest.approx([0.0, 20.0])
-    assert unit("temperature", "US")([273.15, 310.92777777777775]) == pytest.approx([32.0, 100.0])
+    assert display_unit("temperature")([273.15, 293.15]) == pytest.approx([0.0, 20.0])
+    assert display_unit("temperature", "US")([273.15, 310.92777777777775]) == pytest.approx([32.0, 100.0])
 
 
 def test_a_level_route_is_drawn_level():

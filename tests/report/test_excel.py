@@ -17,7 +17,7 @@ from openpyxl.utils import get_column_letter
 import conveyor
 from conveyor.analysis import studies
 from conveyor.errors import InputError
-from conveyor.report.cells import LONGEST
+from conveyor.report.cells import CELL_CHARACTERS
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 DIGITS = 1e-15  # openpyxl writes 16 significant digits
@@ -327,7 +327,7 @@ def test_endless_notes_say_where_they_are_cut(overland, tmp_path):
         conveyor.analyse(overland.conveyor.replace(notes=typed)).to_excel(tmp_path / "notes.xlsx")
     )
     entered = next(row[1] for row in read["Inputs"].iter_rows(values_only=True) if row[0] == "notes")
-    assert len(entered) == LONGEST
+    assert len(entered) == CELL_CHARACTERS
     assert entered.endswith(f"(cut here: {len(typed)} characters)")
     whole = [row[0] for row in read["Checks and notes"].iter_rows(values_only=True)]
     assert "".join(cell for cell in whole if isinstance(cell, str) and set(cell) == {"x"}) == "x" * 40_000

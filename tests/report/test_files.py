@@ -13,12 +13,11 @@ import pytest
 import conveyor
 from conveyor.comparisons import compare_compounds
 from conveyor.errors import InputError
-from conveyor.files.saving import save
-from conveyor.printable import printable
-from conveyor.report import files, places
-from conveyor.report.excel import build
-from conveyor.report.excel import files as workbook_files
-from conveyor.report.tables import of_analysis
+from conveyor.files.atomic_write import save_files
+from conveyor.printable import escape_controls
+from conveyor.report import sheet_writer, table_files
+from conveyor.report.analysis_tables import analysis_contents
+from conveyor.report.excel import build_workbook, workbook_files
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 DIGITS = 1e-15  # pandas writes the shortest decimal that reads back
@@ -31,7 +30,7 @@ def result():
 
 def test_every_table_has_its_file(result, tmp_path):
     written = result.to_tables(tmp_path)
-    found = of_analysis(result)
+    found = analysis_contents(result)
     assert [path.name for path in written] == [f"{part.key}.csv" for part in found.tables]
     assert sorted(tmp_path.iterdir()) == sorted(written)
     for part, path in zip(found.tables, written, strict=True):
@@ -65,10 +64,10 @@ def test_a_comparison_has_its_files(tmp_path):
 
 @pytest.mark.parametrize("typed", ["=1+1", "+cmd|' /C calc'!A0", "-2+3", "@SUM(A1)", "\t=1", "\r=1"])
 def test_no_text_of_a_file_is_a_formula(typed):
-    written = files.csv(pd.DataFrame({typed: [typed], "power [kW]": [-1.5]}))
+    written = table_files.csv_bytes(pd.DataFrame({typed: [typed], "power [kW]": [-1.5]}))
     read = pd.read_csv(BytesIO(written), encoding="utf-8-sig")
-    assert read.columns[0] == f"'{printable(typed)}"
-    assert read.iloc[0].tolist() == [f"'{printable(typed)}", -1.5]  # a negative number stays one
+    assert read.columns[0] == f"'{escape_controls(typed)}"
+    assert read.iloc[0].tolist() == [f"'{escape_controls(typed)}", -1.5]  # a negative number stays one
 
 
 def test_what_a_user_types_is_safe_in_every_file(result, tmp_path):
@@ -81,7 +80,7 @@ def test_what_a_user_types_is_safe_in_every_file(result, tmp_path):
 
 
 def test_parquet_without_its_package_says_how_to_get_it(result, tmp_path, monkeypatch):
-    monkeypatch.setattr("conveyor.report.files.find_spec", lambda _: None)
+    monkeypatch.setattr("conveyor.report.table_files.find_spec", lambda _: None)
     with pytest.raises(InputError, match="Parquet needs the package pyarrow: pip install pyarrow"):
         result.to_tables(tmp_path, kind="parquet")
     assert list(tmp_path.iterdir()) == []
@@ -90,7 +89,7 @@ def test_parquet_without_its_package_says_how_to_get_it(result, tmp_path, monkey
 def test_parquet_holds_the_tables(result, tmp_path):
     pytest.importorskip("pyarrow")
     written = result.to_tables(tmp_path, kind="parquet", system="US")
-    for part, path in zip(of_analysis(result.in_units("US")).tables, written, strict=True):
+    for part, path in zip(analysis_contents(result.in_units("US")).tables, written, strict=True):
         read = pd.read_parquet(path)
         assert list(read.columns) == list(part.frame("US").columns)
         assert len(read) == len(part.rows)
@@ -121,7 +120,7 @@ def test_nothing_half_written_stays(tmp_path, monkeypatch):
 
     monkeypatch.setattr(Path, "write_bytes", fail)
     with pytest.raises(InputError, match=r"b\.csv: cannot be written \(No space left on device\)"):
-        save({first: b"new", second: b"new"})
+        save_files({first: b"new", second: b"new"})
     assert [path.name for path in tmp_path.iterdir()] == ["a.csv"]
     assert first.read_bytes() == b"old"
 
@@ -139,12 +138,12 @@ def lengthened(found, key, rows):
 
 @pytest.mark.parametrize("key", ["rolls", "tensions", "sections", "indentation"])
 def test_a_long_table_goes_beside_the_workbook(result, tmp_path, key):
-    found = lengthened(of_analysis(result), key, places.MOST_ROWS + 1)
+    found = lengthened(analysis_contents(result), key, sheet_writer.MOST_ROWS + 1)
     path = tmp_path / "line.xlsx"
-    save(workbook_files(found, path))
+    save_files(workbook_files(found, path))
     assert sorted(item.name for item in tmp_path.iterdir()) == ["line.xlsx", f"line_{key}.csv"]
     beside = pd.read_csv(tmp_path / f"line_{key}.csv", encoding="utf-8-sig")
-    assert len(beside) == places.MOST_ROWS + 1
+    assert len(beside) == sheet_writer.MOST_ROWS + 1
     book = openpyxl.load_workbook(path)
     sheet = book[found[key].sheet]
     words = [str(cell.value) for row in sheet.iter_rows() for cell in row if cell.value is not None]
@@ -155,7 +154,7 @@ def test_a_long_table_goes_beside_the_workbook(result, tmp_path, key):
 
 
 def test_ten_thousand_rows_stay_in_the_sheet(result, monkeypatch):
-    monkeypatch.setattr(places, "MOST_ROWS", 40)  # the same border, quicker to write
+    monkeypatch.setattr(sheet_writer, "MOST_ROWS", 40)  # the same border, quicker to write
     for rows, there in ((40, True), (41, False)):
-        found = lengthened(of_analysis(result), "rolls", rows)
-        assert ("table_rolls" in build(found).defined_names) is there
+        found = lengthened(analysis_contents(result), "rolls", rows)
+        assert ("table_rolls" in build_workbook(found).defined_names) is there

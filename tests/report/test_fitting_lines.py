@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from conveyor.fitting import summary
-from conveyor.fitting.compound import Request, fit_file
+from conveyor.fitting.fitted_compound import Request, fit_file
 from conveyor.rubber import PronySeries
 
 
@@ -23,7 +23,7 @@ def test_isotherms_placed_by_one_modulus(tmp_path: Path, by: Literal["storage", 
             rows.append(f"{celsius},{f},{series.storage(omega)},{series.loss(omega)}")
     (tmp_path / "isotherms.csv").write_text("\n".join(rows), encoding="utf-8")
     found = fit_file(tmp_path / "isotherms.csv", Request("x", by=by, replicas=0))
-    (line,) = (line for line in summary.lines(found) if "overlaps differ" in line)
+    (line,) = (line for line in summary.summary_lines(found) if "overlaps differ" in line)
     assert line.endswith(f"({placed}); it alone placed them")
     assert "(E') and" in line
 
@@ -46,21 +46,21 @@ def isotherms(path: Path, vertical: float, resonance: float) -> Path:
 
 def test_a_resonance_is_said(tmp_path: Path) -> None:
     found = fit_file(isotherms(tmp_path / "x.csv", 0.0, 0.5), Request("x", "20 degC", replicas=0))
-    (line,) = (line for line in summary.lines(found) if "left out of all isotherms" in line)
+    (line,) = (line for line in summary.summary_lines(found) if "left out of all isotherms" in line)
     assert "100 Hz" in line
     assert found.rows.curve[0].size == 36
-    assert not any("--vertical" in line for line in summary.lines(found))
+    assert not any("--vertical" in line for line in summary.summary_lines(found))
 
 
 def test_a_vertical_shift_is_suggested_and_its_lack_is_in_the_band(tmp_path: Path) -> None:
     data = isotherms(tmp_path / "x.csv", 0.1, 0.0)
     found = fit_file(data, Request("x", "20 degC"))
-    (line,) = (line for line in summary.lines(found) if "--vertical" in line)
+    (line,) = (line for line in summary.summary_lines(found) if "--vertical" in line)
     assert "a vertical shift of up to" in line
     assert found.compound.prony.band is not None
     assert found.compound.prony.band.log10_b_t is not None
     taken = fit_file(data, Request("x", "20 degC", vertical=True, replicas=0))
-    assert not any("--vertical" in line for line in summary.lines(taken))
+    assert not any("--vertical" in line for line in summary.summary_lines(taken))
 
 
 def test_a_row_that_stands_off_is_named(tmp_path: Path) -> None:
@@ -73,6 +73,6 @@ def test_a_row_that_stands_off_is_named(tmp_path: Path) -> None:
     rows = [f"{a},{b},{c}" for a, b, c in zip(f, e1, e2, strict=True)]
     (tmp_path / "x.csv").write_text("\n".join(["frequency_Hz,E'_Pa,E''_Pa", *rows]), encoding="utf-8")
     found = fit_file(tmp_path / "x.csv", Request("x", "20 degC", replicas=0))
-    (line,) = (line for line in summary.lines(found) if "stands off" in line)
+    (line,) = (line for line in summary.summary_lines(found) if "stands off" in line)
     assert "E'' of 1 rows" in line
     assert f"{f[20]:.3g} Hz" in line

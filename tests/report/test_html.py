@@ -10,13 +10,13 @@ import pytest
 
 import conveyor
 from conveyor.analysis import studies
-from conveyor.checks import deciding
+from conveyor.checks import governing_by_subject
 from conveyor.errors import InputError
-from conveyor.markup import Html, element, escaped
+from conveyor.markup import Html, element, escape_html
 from conveyor.report import html
-from conveyor.report.page import COLOURS, DARK
+from conveyor.report.page_elements import COLOURS, DARK
 from conveyor.units import sentences
-from conveyor.units.presentation import unit
+from conveyor.units.presentation import display_unit
 from tests.report.checking import checks
 from tests.report.reading import HOSTILE, Page
 
@@ -55,7 +55,7 @@ def result(line, studied):
 
 @pytest.fixture(scope="module")
 def text(result, studied):
-    return html.build(result.contents(studied))
+    return html.build_page(result.contents(studied))
 
 
 @pytest.fixture(scope="module")
@@ -76,7 +76,7 @@ def comparison(line):
 
 @pytest.fixture(scope="module")
 def compared(comparison):
-    return html.build(comparison.contents())
+    return html.build_page(comparison.contents())
 
 
 @pytest.fixture(scope="module", params=["analysis", "comparison"])
@@ -239,28 +239,30 @@ def test_numbers_are_those_of_the_analysis(result, page, studied):
     for figure in result.tables["results"].rows:
         assert figure.unit("SI").written(figure.value) in page.prose
     for row in result.stretches:
-        assert unit("force").written(row.total) in page.prose
+        assert display_unit("force").written(row.total) in page.prose
     for remark in (*result.contents(studied).lines("warning"), *result.assumptions):
         assert remark in page.prose
     # the belt loaded on its incline alone rolls back with more than the full one: its level feed holds
     (asked,) = (one.required for one in result.checks if one.key == "holding_brake")
-    (worst,) = (one.required for one in deciding(studied.states.checks) if one.key == "holding_brake")
+    (worst,) = (
+        one.required for one in governing_by_subject(studied.states.checks) if one.key == "holding_brake"
+    )
     assert worst > asked
-    assert f"needs a backstop of {sentences.figure(worst, 'force')} at the belt" in page.prose
+    assert f"needs a backstop of {sentences.format_figure(worst, 'force')} at the belt" in page.prose
 
 
 def test_numbers_as_in_the_workbook():
-    assert unit("power").written(-1234560.0) == "-1,234.6"
-    assert unit("power").written(-0.04) == "0.0"
-    assert unit("length").written(float("inf")) == "∞"
-    assert unit("share").written(-0.1169) == "-11.7 %"
-    assert unit("count").written(2) == "2"
+    assert display_unit("power").written(-1234560.0) == "-1,234.6"
+    assert display_unit("power").written(-0.04) == "0.0"
+    assert display_unit("length").written(float("inf")) == "∞"
+    assert display_unit("share").written(-0.1169) == "-11.7 %"
+    assert display_unit("count").written(2) == "2"
 
 
 def test_parts_follow_what_was_studied(result, text):
     asked = {"load-cases", "duty", "uncertainty"}
     assert asked <= set(re.findall(r'<h2 id="([\w-]+)"', text))
-    plain = re.findall(r'<h2 id="([\w-]+)"', html.build(result.contents()))
+    plain = re.findall(r'<h2 id="([\w-]+)"', html.build_page(result.contents()))
     assert not asked & set(plain)
     needed = ["key-figures", "checks", "warnings", "resistances", "route", "tensions", "rolls", "rubber"]
     needed += ["start-stop", "belt", "assumptions", "inputs", "provenance"]
@@ -268,7 +270,7 @@ def test_parts_follow_what_was_studied(result, text):
 
 
 def test_us_units(result):
-    prose = Page(html.build(result.contents(system="US"))).prose
+    prose = Page(html.build_page(result.contents(system="US"))).prose
     power = f"{result.summary['motor power [kW]'] * 1e3 / 745.69987158227022:,.1f}"  # 550 ft lbf/s
     assert f"{power}   hp" in prose or f"{power} hp" in re.sub(r"\s+", " ", prose)
     assert " [N] " not in prose.split("Inputs")[0]
@@ -292,7 +294,7 @@ def hostile(line):
 
 
 def test_hostile_names_are_text(hostile):
-    made = html.build(hostile.contents())
+    made = html.build_page(hostile.contents())
     found = Page(made)
     assert found.faults == []
     assert "script" not in {tag for tag, _ in found.tags}
@@ -306,14 +308,14 @@ def test_hostile_names_are_text(hostile):
 
 def test_hostile_name_in_a_figure_stays_text():
     """matplotlib reads "$" as a formula and refuses half of them; a missing glyph is the browser's matter."""
-    from conveyor.report.plots import stacked
-    from conveyor.report.svg import inline
+    from conveyor.report.plots import stacked_axes
+    from conveyor.report.svg import figure_svg
 
-    figure, (axis,) = stacked()
+    figure, (axis,) = stacked_axes()
     axis.plot([0, 1], [0, 1], label="a $\\frac{1$ <b> 皮带")
     axis.set_title("$\\broken{$")
     axis.legend()
-    drawn = inline(figure, "f", 'a "curve" <of> & more')
+    drawn = figure_svg(figure, "f", 'a "curve" <of> & more')
     found = Page(drawn)
     assert found.faults == []
     assert "a $\\frac{1$ <b> 皮带" in found.prose
@@ -361,5 +363,5 @@ def test_markup_is_escaped_once():
     assert element("p", element("b", "<")) == "<p><b>&lt;</b></p>"
     assert element("p", "x", title='a"b') == '<p title="a&quot;b">x</p>'
     assert element("p", title=None) == "<p></p>"
-    assert escaped(Html("<br>")) == "<br>"
-    assert escaped("\ud800") == "\\ud800"
+    assert escape_html(Html("<br>")) == "<br>"
+    assert escape_html("\ud800") == "\\ud800"

@@ -12,7 +12,7 @@ import pytest
 import conveyor
 from conveyor.analysis import studies
 from conveyor.contact import ContactProblem, CreepSpectrum, load_curve, solve
-from conveyor.markup import escaped
+from conveyor.markup import escape_html
 from conveyor.models import LoadCase, RubberCompound
 from conveyor.rubber import PronySeries, fit_prony
 from tests.report.reading import HOSTILE, Page
@@ -92,7 +92,7 @@ def test_refused_contact_in_a_notebook_says_why():
     )
     solution = solve(problem, throw=False)
     prose = Page(solution._repr_html_()).prose
-    assert escaped(solution.status.message) in escaped(prose)
+    assert escape_html(solution.status.message) in escape_html(prose)
     assert "friction" not in [data for tag, data in Page(solution._repr_html_()).texts if tag == "th"]
 
 

@@ -15,10 +15,10 @@ import pytest
 import conveyor
 from conveyor.analysis import studies
 from conveyor.errors import InputError
-from conveyor.files import marks
+from conveyor.files import output_marks
 from conveyor.markup import Html
-from conveyor.report import html, page, pdf
-from conveyor.report.columns import Column, Table
+from conveyor.report import html, page_elements, pdf
+from conveyor.report.table_model import Column, Table
 from tests.command_line import run
 from tests.report.reading import HOSTILE, VOID
 
@@ -71,12 +71,12 @@ def report():
 @pytest.fixture(scope="module")
 def built(report):
     analysis, asked = report
-    return html.build(analysis.contents(asked))
+    return html.build_page(analysis.contents(asked))
 
 
 def test_every_word_that_prints_is_in_it_and_nothing_less_often(built):
     words = Counter(map(bare, Printed(built).words))
-    found = text_of(pdf.printed(built))
+    found = text_of(pdf.page_pdf(built))
     assert sum(words.values()) > 500
     assert {word: n for word, n in words.items() if found.count(word) < n} == {}
 
@@ -84,14 +84,16 @@ def test_every_word_that_prints_is_in_it_and_nothing_less_often(built):
 def test_what_is_not_printed_is_not_in_it(built):
     hidden = re.findall(r"<summary>(.*?)</summary>", built)
     assert hidden
-    text = text_of(pdf.printed(built))
+    text = text_of(pdf.page_pdf(built))
     assert [words for words in hidden if bare(words) in text] == []
 
 
 @pytest.mark.parametrize(("paper", "size"), [("A4", (595.28, 841.89)), ("Letter", (612.0, 792.0))])
 def test_paper_title_and_bookmarks_are_those_of_the_page(paper, size):
-    parts = [page.Part("x", "Forces", page.bullets(["one"]))]
-    made = read(pdf.printed(page.page("Ore 1", "a report", Html(""), parts, "foot", paper=paper)))
+    parts = [page_elements.PagePart("x", "Forces", page_elements.bullet_list(["one"]))]
+    made = read(
+        pdf.page_pdf(page_elements.page_html("Ore 1", "a report", Html(""), parts, "foot", paper=paper))
+    )
     (sheet,) = made.pages
     assert (float(sheet.mediabox.width), float(sheet.mediabox.height)) == pytest.approx(size, abs=0.01)
     assert made.metadata is not None
@@ -101,8 +103,14 @@ def test_paper_title_and_bookmarks_are_those_of_the_page(paper, size):
 
 def test_a_table_has_its_heads_on_every_page():
     column = Column("force of a name that is found nowhere else", "force", float)
-    shown = page.table(Table("t", "", "", (column,), range(200)), "Forces")
-    made = read(pdf.printed(page.page("Ore 1", "r", Html(""), [page.Part("x", "Forces", shown)], "foot")))
+    shown = page_elements.table_html(Table("t", "", "", (column,), range(200)), "Forces")
+    made = read(
+        pdf.page_pdf(
+            page_elements.page_html(
+                "Ore 1", "r", Html(""), [page_elements.PagePart("x", "Forces", shown)], "foot"
+            )
+        )
+    )
     assert len(made.pages) > 2
     assert all(bare(column.label) in bare(sheet.extract_text()) for sheet in made.pages)
 
@@ -113,8 +121,14 @@ def test_words_of_a_wide_table_are_whole():
         Column(f"{words} {k}", "text", lambda _, k=k: f"{words} {words}{k}" if k % 2 else "x")
         for k in range(12)
     )
-    shown = page.table(Table("t", "", "", columns, range(3)), "Wide")
-    made = read(pdf.printed(page.page("Ore 1", "r", Html(""), [page.Part("x", "Wide", shown)], "foot")))
+    shown = page_elements.table_html(Table("t", "", "", columns, range(3)), "Wide")
+    made = read(
+        pdf.page_pdf(
+            page_elements.page_html(
+                "Ore 1", "r", Html(""), [page_elements.PagePart("x", "Wide", shown)], "foot"
+            )
+        )
+    )
     text = made.pages[0].extract_text().split()
     assert text.count(words) == 12 + 3 * 6
     assert sum(f"{words}{k}" in text for k in range(1, 12, 2)) == 6
@@ -122,8 +136,14 @@ def test_words_of_a_wide_table_are_whole():
 
 def test_a_table_wider_than_its_paper_has_smaller_letters():
     columns = tuple(Column(f"head{k}", "force", lambda _, k=k: 1e6 * k) for k in range(40))
-    shown = page.table(Table("t", "", "", columns, range(2)), "Wide")
-    made = read(pdf.printed(page.page("Ore 1", "r", Html(""), [page.Part("x", "Wide", shown)], "foot")))
+    shown = page_elements.table_html(Table("t", "", "", columns, range(2)), "Wide")
+    made = read(
+        pdf.page_pdf(
+            page_elements.page_html(
+                "Ore 1", "r", Html(""), [page_elements.PagePart("x", "Wide", shown)], "foot"
+            )
+        )
+    )
     assert {f"head{k}" for k in range(40)} <= set(made.pages[0].extract_text().split())
 
 
@@ -131,25 +151,32 @@ def test_a_table_wider_than_its_paper_has_smaller_letters():
     "words", [HOSTILE, '#panic("x") [a] *b* _c_ `d` $e$ <f> @g \\ // /* "', "Ωμ °C ≥ δ ✓ – é ß ж"]
 )
 def test_words_are_not_markup(words):
-    parts = [page.Part("p", words, page.bullets([words]))]
-    made = page.page(words, words, page.facts([(words, words)]), parts, words)
-    (as_printed,) = Printed(page.bullets([words])).words
+    parts = [page_elements.PagePart("p", words, page_elements.bullet_list([words]))]
+    made = page_elements.page_html(words, words, page_elements.fact_list([(words, words)]), parts, words)
+    (as_printed,) = Printed(page_elements.bullet_list([words])).words
     assert (
-        text_of(pdf.printed(made)).count(bare(as_printed)) == 7
+        text_of(pdf.page_pdf(made)).count(bare(as_printed)) == 7
     )  # kind, title, fact twice, heading, line, foot
 
 
 def sheets(*content):
-    whole = page.page("Ore 1", "r", Html(""), [page.Part("x", "Part", Html("".join(content)))], "foot")
-    return read(pdf.printed(whole)).pages
+    whole = page_elements.page_html(
+        "Ore 1", "r", Html(""), [page_elements.PagePart("x", "Part", Html("".join(content)))], "foot"
+    )
+    return read(pdf.page_pdf(whole)).pages
 
 
 @pytest.mark.parametrize(
     ("content", "longest"),
     [
-        (page.bullets(["x" * 400]), 160),
-        (page.facts([("client", "x" * 60)]), 30),
-        (page.table(Table("t", "", "", (Column("head", "text", lambda _: "x" * 400),), range(2)), "T"), 160),
+        (page_elements.bullet_list(["x" * 400]), 160),
+        (page_elements.fact_list([("client", "x" * 60)]), 30),
+        (
+            page_elements.table_html(
+                Table("t", "", "", (Column("head", "text", lambda _: "x" * 400),), range(2)), "T"
+            ),
+            160,
+        ),
     ],
 )
 def test_a_word_longer_than_its_line_is_broken(content, longest):
@@ -162,21 +189,21 @@ def test_a_word_longer_than_its_line_is_broken(content, longest):
 def test_a_long_word_does_not_make_the_letters_of_its_table_small():
     columns = (Column("name", "text", lambda _: "x" * 400), Column("mark", "text", lambda _: "beside"))
     sizes = {}
-    (sheet,) = sheets(page.table(Table("t", "", "", columns, range(2)), "Wide"))
+    (sheet,) = sheets(page_elements.table_html(Table("t", "", "", columns, range(2)), "Wide"))
     sheet.extract_text(visitor_text=lambda text, _cm, _tm, _font, size: sizes.setdefault(text.strip(), size))
     assert sizes["beside"] == pytest.approx(6.8, abs=0.01)
 
 
 def test_a_short_table_of_long_texts_goes_on_on_the_next_page():
     column = Column("note", "text", lambda k: f"mark{k}. " + "words " * 600)
-    made = sheets(page.table(Table("t", "", "", (column,), range(12)), "Notes"))
+    made = sheets(page_elements.table_html(Table("t", "", "", (column,), range(12)), "Notes"))
     found = [len(re.findall(r"mark\d+", sheet.extract_text())) for sheet in made]
     assert sum(found) == 12
     assert max(found) < 6
 
 
 def test_a_letter_that_the_font_lacks_is_not_drawn_by_the_font_of_last_resort():
-    (sheet,) = sheets(page.bullets(["\u4e2d ore"]))
+    (sheet,) = sheets(page_elements.bullet_list(["\u4e2d ore"]))
     fonts = [str(one.get_object()["/BaseFont"]) for one in sheet["/Resources"]["/Font"].values()]
     assert fonts
     assert [name for name in fonts if "LastResort" in name] == []
@@ -184,22 +211,26 @@ def test_a_letter_that_the_font_lacks_is_not_drawn_by_the_font_of_last_resort():
 
 @pytest.mark.parametrize(
     "content",
-    [page.facts([]), page.facts([], "tiles"), page.table(Table("t", "", "", (), range(2)), "Empty")],
+    [
+        page_elements.fact_list([]),
+        page_elements.fact_list([], "tiles"),
+        page_elements.table_html(Table("t", "", "", (), range(2)), "Empty"),
+    ],
 )
 def test_what_is_empty_prints_as_nothing(content):
-    (sheet,) = sheets(content, page.bullets(["after it"]))
+    (sheet,) = sheets(content, page_elements.bullet_list(["after it"]))
     assert "after it" in sheet.extract_text()
 
 
 def test_the_same_page_gives_the_same_bytes_and_is_known_again(built):
-    made = pdf.printed(built)
-    assert made == pdf.printed(built)
-    assert marks.mark(made) == marks.PAGE
+    made = pdf.page_pdf(built)
+    assert made == pdf.page_pdf(built)
+    assert output_marks.output_kind(made) == output_marks.PAGE
 
 
 def test_a_page_with_an_element_that_is_not_closed_is_a_fault_of_ours(built):
     with pytest.raises(ValueError, match="closed as"):
-        pdf.source(Html(str(built).replace("</p>", "", 1)))
+        pdf.typst_source(Html(str(built).replace("</p>", "", 1)))
 
 
 def test_it_is_refused_before_anything_is_written(report, tmp_path, monkeypatch):

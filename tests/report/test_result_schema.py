@@ -12,8 +12,8 @@ import pytest
 from typer.testing import CliRunner
 
 import conveyor
-from conveyor.cli.app import json_text
-from conveyor.cli.run import app
+from conveyor.cli.application import json_text
+from conveyor.cli.entry_point import app
 from conveyor.report import comparison_tables
 from conveyor.report.result_schema import SCHEMA_VERSION, result_schema
 
@@ -91,7 +91,7 @@ def test_a_comparison_is_what_the_schema_says(studied):
     line = studied("in_plant_us")[0].conveyor
     found = conveyor.compare_compounds(line, ["standard-cover", "s100"], temperatures=["20 degC"], rtol=1e-3)
     schema = result_schema()
-    assert list(faults(read(comparison_tables.plain(found)), schema, schema)) == []
+    assert list(faults(read(comparison_tables.comparison_json(found)), schema, schema)) == []
 
 
 @pytest.mark.parametrize(

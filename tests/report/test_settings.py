@@ -13,7 +13,7 @@ import pytest
 from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.report import plots, svg
-from conveyor.report.settings import own_settings
+from conveyor.report.matplotlib_settings import own_settings
 from tests import command_line
 
 HOSTILE = {
@@ -34,15 +34,15 @@ def _figure():
 @pytest.mark.parametrize("ending", [".png", ".svg", ".pdf"])
 def test_settings_of_the_user_do_not_reach_a_figure_and_come_back(ending):
     path = Path(f"f{ending}")
-    plain = plots.drawn(_figure(), path)
+    plain = plots.figure_bytes(_figure(), path)
     with mpl.rc_context(HOSTILE):
-        assert plots.drawn(_figure(), path) == plain
+        assert plots.figure_bytes(_figure(), path) == plain
         assert {key: mpl.rcParams[key] for key in HOSTILE} == HOSTILE
     with mpl.rc_context(HOSTILE):  # and the comparison sees such settings
-        figure = plots.stacked()[0]
+        figure = plots.stacked_axes()[0]
         assert figure.axes[0].get_facecolor() == (1.0, 0.0, 0.0, 1.0)
         with own_settings():
-            assert plots.stacked()[0].axes[0].get_facecolor() == (1.0, 1.0, 1.0, 1.0)
+            assert plots.stacked_axes()[0].axes[0].get_facecolor() == (1.0, 1.0, 1.0, 1.0)
 
 
 def _drawn_elsewhere(folder, **variables):
@@ -82,14 +82,14 @@ def test_what_keeps_matplotlib_from_starting_is_refused_in_words(tmp_path, varia
 def test_a_date_that_is_none_is_refused(monkeypatch, given):
     monkeypatch.setenv("SOURCE_DATE_EPOCH", given)
     with pytest.raises(InputError, match=r'SOURCE_DATE_EPOCH="[^"]+": expected whole seconds since 1970'):
-        plots.drawn(_figure(), Path("f.pdf"))
+        plots.figure_bytes(_figure(), Path("f.pdf"))
     with pytest.raises(InputError, match="SOURCE_DATE_EPOCH"):
-        svg.inline(_figure(), "f", "a figure")
+        svg.figure_svg(_figure(), "f", "a figure")
 
 
 def test_a_date_of_the_user_is_fine(monkeypatch):
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
-    assert plots.drawn(_figure(), Path("f.pdf")).startswith(b"%PDF")
+    assert plots.figure_bytes(_figure(), Path("f.pdf")).startswith(b"%PDF")
 
 
 def test_a_machine_without_memory_is_told_so():

@@ -12,10 +12,10 @@ import conveyor
 from conveyor.analysis import studies
 from conveyor.comparisons import compare_compounds
 from conveyor.models import LoadCase, Scenario
-from conveyor.report.comparison_tables import of_comparison
-from conveyor.report.excel import COMPARISON_SHEETS, FRONT, SHEETS, build
+from conveyor.report.comparison_tables import comparison_contents
+from conveyor.report.excel import COMPARISON_SHEETS, SHEETS, SUMMARY_SHEET, build_workbook
 from conveyor.studies.states import StateRefusal
-from conveyor.units.presentation import headed
+from conveyor.units.presentation import column_name
 
 ROOT = Path(__file__).parent.parent.parent
 SPECS = ROOT / "examples" / "specs"
@@ -142,7 +142,7 @@ def written(studied):
         "extra_costs": {"low-rolling-resistance-cover": 1},
     }
     compared = compare_compounds(line, ["standard-cover", "low-rolling-resistance-cover", "S100"], **options)
-    return pairs, compared, [tuple(of_comparison(compared, system) for system in ("SI", "US"))]
+    return pairs, compared, [tuple(comparison_contents(compared, system) for system in ("SI", "US"))]
 
 
 def _tables(pairs):
@@ -156,15 +156,15 @@ def _tables(pairs):
                 rows.add((words, unit, _column(key, str(us_name))[1]))
             found = names.setdefault(key, set())
             for figure in part.rows if part.links else ():
-                words, unit = _named_unit(headed(figure.label, figure.kind))
-                us_unit = _named_unit(headed(figure.label, figure.kind, "US"))[1]
+                words, unit = _named_unit(column_name(figure.label, figure.kind))
+                us_unit = _named_unit(column_name(figure.label, figure.kind, "US"))[1]
                 found.add((figure.key, words, unit, us_unit))
     return columns, names
 
 
 @pytest.mark.parametrize("book", [CONVEYOR, COMPARISON])
 def test_sheets(page, book):
-    assert page[0][book] == list({CONVEYOR: (FRONT, *SHEETS), COMPARISON: COMPARISON_SHEETS}[book])
+    assert page[0][book] == list({CONVEYOR: (SUMMARY_SHEET, *SHEETS), COMPARISON: COMPARISON_SHEETS}[book])
 
 
 @pytest.mark.parametrize("book", [CONVEYOR, COMPARISON])
@@ -188,7 +188,7 @@ def test_the_workbooks_have_these_names_and_no_others(page, written):
     """Figures and tables; of the tables all but those that stand as text, and the covers' of nothing."""
     pairs, ours = written[0], written[2]
     of = next(pair[0] for pair in pairs if "duty" in pair[0].by_key)
-    books = {CONVEYOR: build(of), COMPARISON: build(ours[0][0])}
+    books = {CONVEYOR: build_workbook(of), COMPARISON: build_workbook(ours[0][0])}
     for book, made in books.items():
         figures = {name for key, rows in page[2].items() if key[0] == book for name, *_ in rows}
         tables = {f"table_{key[2]}" for key in page[1] if key[0] == book}

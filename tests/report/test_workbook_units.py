@@ -12,8 +12,8 @@ from openpyxl.utils import range_boundaries
 import conveyor
 from conveyor.comparisons import compare_compounds
 from conveyor.errors import InputError
-from conveyor.report.cells import INFINITE, VERDICTS
-from conveyor.units.presentation import unit
+from conveyor.report.cells import INFINITY_SIGN, VERDICT_STYLES
+from conveyor.units.presentation import display_unit
 from tests.report.checking import checks
 
 SPECS = sorted((Path(__file__).parent.parent.parent / "examples" / "specs").glob("*.yaml"))
@@ -136,7 +136,7 @@ def test_columns_of_numbers_hold_numbers_only(pair):
         for name, header, rows in tables(book):
             for j, title in enumerate(header):
                 if UNIT.search(title):
-                    cells = {type(row[j]) for row in rows if row[j] not in (None, INFINITE)}
+                    cells = {type(row[j]) for row in rows if row[j] not in (None, INFINITY_SIGN)}
                     assert cells <= {int, float}, (name, title)
 
 
@@ -221,12 +221,12 @@ def test_verdicts_are_words_on_their_colours(brakes, tmp_path):
         (c.subject, c.found, c.asked, c.verdict) for c in found
     ]
     for *_, cell in rows:
-        assert cell.fill.fgColor.rgb == VERDICTS[cell.value].fill.fgColor.rgb
+        assert cell.fill.fgColor.rgb == VERDICT_STYLES[cell.value].fill.fgColor.rgb
     cover = [row[6] for row in book["Summary"].iter_rows() if row[6].value in {"pass", "FAIL", "not checked"}]
     assert 0 < len(cover) <= len(found)
-    assert all(cell.fill.fgColor.rgb == VERDICTS[cell.value].fill.fgColor.rgb for cell in cover)
-    assert VERDICTS["FAIL"].font.b  # a failure without colours, too
-    assert not VERDICTS["pass"].font.b
+    assert all(cell.fill.fgColor.rgb == VERDICT_STYLES[cell.value].fill.fgColor.rgb for cell in cover)
+    assert VERDICT_STYLES["FAIL"].font.b  # a failure without colours, too
+    assert not VERDICT_STYLES["pass"].font.b
 
 
 def test_margins_of_the_cover_are_written_as_those_of_every_check(brakes, tmp_path):
@@ -297,7 +297,7 @@ def test_unknown_systems_are_refused(brakes, tmp_path):
     ],
 )
 def test_formats(kind, system, shown):
-    assert unit(kind, system).pattern == shown
+    assert display_unit(kind, system).pattern == shown
 
 
 def test_comparison_in_us_units(tmp_path):
@@ -323,4 +323,4 @@ def test_comparison_in_us_units(tmp_path):
         assert us_row[1:] == pytest.approx([v * FACTORS["kW", "hp"] for v in row[1:]], rel=ROUNDED)
     assert books[1]["Ranking"].page_setup.fitToHeight == 1
     covered = [row[6] for row in books[1]["Coverage"]["A3:G6"]]
-    assert all(cell.fill.fgColor.rgb == VERDICTS[cell.value].fill.fgColor.rgb for cell in covered)
+    assert all(cell.fill.fgColor.rgb == VERDICT_STYLES[cell.value].fill.fgColor.rgb for cell in covered)

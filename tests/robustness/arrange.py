@@ -125,7 +125,7 @@ ALIASES = "\n".join(
 
 @cache
 def template() -> bytes:
-    from conveyor.template.write import write_template
+    from conveyor.template.template_writer import write_template
 
     with tempfile.TemporaryDirectory() as folder:
         return write_template(Path(folder) / "input.xlsx").read_bytes()

@@ -21,7 +21,8 @@ from conveyor.analysis import studies
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models.fields import with_fields
 from conveyor.spec import from_data
-from conveyor.units.kinds import KINDS
+from conveyor.units import si
+from conveyor.units.quantity_kinds import KINDS
 
 Data = dict[str, Any]
 Place = tuple[Any, Any]
@@ -213,7 +214,10 @@ def _forces_add_up(result: conveyor.Analysis) -> None:
 
 def _power_grows_with_friction(line: conveyor.Conveyor, result: conveyor.Analysis) -> None:
     """Rolls that drag more take more power at the belt and at the motors."""
-    changes = {f"idlers.{strand}.roll.drag": "50 N" for strand in ("carry", "return")}
+    changes = {}
+    for strand, idlers in (("carry", line.idlers.carry), ("return", line.idlers.return_)):
+        given = 0.0 if idlers.roll.drag is None else si(idlers.roll.drag)
+        changes[f"idlers.{strand}.roll.drag"] = f"{given + 50.0!r} N"
     try:
         more = conveyor.analyse(with_fields(line, changes))
     except ConveyorError as error:

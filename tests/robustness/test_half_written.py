@@ -13,9 +13,9 @@ import pytest
 import conveyor
 from conveyor import shelf, starter
 from conveyor.errors import InputError
-from conveyor.files.saving import save
+from conveyor.files.atomic_write import save_files
 from conveyor.report import plots
-from conveyor.template.write import write_template
+from conveyor.template.template_writer import write_template
 from tests import command_line
 from tests.robustness.arrange import SPEC, full
 from tests.robustness.table import files
@@ -44,19 +44,21 @@ def _comparison() -> conveyor.Comparison:
 
 
 def _figure(path: Path) -> object:
-    return plots.save(plots.master_curve(shelf.compound("s100"), 293.15), path)
+    return plots.save_figure(plots.master_curve(shelf.compound("s100"), 293.15), path)
 
 
 OUTPUTS: dict[str, Callable[[Path], object]] = {
     "report.xlsx": lambda path: _analysis().to_excel(path),
     "report.html": lambda path: _analysis().to_html(path),
     "compounds.xlsx": lambda path: _comparison().to_excel(path),
-    "scenes.csv": lambda path: save({path: (_comparison().table.to_csv(index=False) * 20).encode()}),
+    "scenes.csv": lambda path: save_files({path: (_comparison().table.to_csv(index=False) * 20).encode()}),
     "figure.png": _figure,
     "figure.svg": _figure,
-    "compound.yaml": lambda path: save({path: shelf.dump(shelf.compound("s100"), "From a test").encode()}),
+    "compound.yaml": lambda path: save_files(
+        {path: shelf.dump(shelf.compound("s100"), "From a test").encode()}
+    ),
     "template.xlsx": lambda path: write_template(path, _line()),
-    "starter.yaml": lambda path: save({path: starter.written("overland").encode()}),
+    "starter.yaml": lambda path: save_files({path: starter.starter_text("overland").encode()}),
 }
 CHEAP = ["scenes.csv", "figure.svg", "compound.yaml", "starter.yaml"]
 """Those that take no second, and no temporary files elsewhere."""

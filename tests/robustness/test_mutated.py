@@ -24,7 +24,7 @@ _RUN = 6
 _LONGEST = 2.0
 """Seconds of processor time; most take a hundredth."""
 _COMMENT = re.compile(r" +#.*")
-_TEXTS = (SPEC, _COMMENT.sub("", starter.written("in-plant")))
+_TEXTS = (SPEC, _COMMENT.sub("", starter.starter_text("in-plant")))
 
 
 def _seeded(seed: int) -> random.Random:

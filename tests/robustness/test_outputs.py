@@ -10,9 +10,9 @@ import pytest
 import conveyor
 from conveyor import shelf
 from conveyor.errors import InputError
-from conveyor.files.marks import mark
-from conveyor.files.saving import save
-from conveyor.report import excel, files, html, plots
+from conveyor.files.atomic_write import save_files
+from conveyor.files.output_marks import output_kind
+from conveyor.report import excel, html, plots, table_files
 from tests.robustness.arrange import SPEC, Case, given
 from tests.robustness.table import run
 
@@ -40,7 +40,7 @@ def test_a_link_is_written_through(tmp_path: Path) -> None:
             target.write_bytes(b"older")
             target.chmod(0o640)
         link.symlink_to(target)
-        save({link: b"new"})
+        save_files({link: b"new"})
         assert link.is_symlink()
         assert target.read_bytes() == b"new"
         assert not older or target.stat().st_mode & 0o777 == 0o640
@@ -51,7 +51,7 @@ def test_links_in_a_circle_are_refused(tmp_path: Path) -> None:
     link = tmp_path / "link.txt"
     link.symlink_to(link)
     with pytest.raises(InputError, match=r"link\.txt: "):
-        save({link: b"new"})
+        save_files({link: b"new"})
 
 
 @pytest.mark.parametrize("later", range(3))
@@ -71,7 +71,7 @@ def test_a_rename_that_fails_takes_the_others_back(
 
     monkeypatch.setattr(Path, "replace", refused)
     with pytest.raises(InputError, match="cannot be written"):
-        save({older: b"1", new: b"1", folder / "last.txt": b"1"}, folders=[folder])
+        save_files({older: b"1", new: b"1", folder / "last.txt": b"1"}, folders=[folder])
     assert {path.name for path in tmp_path.iterdir()} == {"older.txt"}
     assert older.read_bytes() == b"older"
 
@@ -98,31 +98,34 @@ def test_all_outputs_of_a_command_or_none(tmp_path: Path) -> None:
 
 def test_own_outputs_are_known_and_replaced(tmp_path: Path, result: conveyor.Analysis) -> None:
     figure = plots.master_curve(shelf.compound("s100"))
-    book, page = tmp_path / "r.xlsx", html.build(result.contents()).encode()
-    assert mark(excel.files(result.contents(), book)[book]) == "report workbook"
-    assert mark(page) == "report page"
+    book, page = tmp_path / "r.xlsx", html.build_page(result.contents()).encode()
+    assert output_kind(excel.workbook_files(result.contents(), book)[book]) == "report workbook"
+    assert output_kind(page) == "report page"
     for ending in (".png", ".svg", ".pdf"):
-        assert mark(plots.drawn(figure, Path(f"f{ending}"))) == "figure"
-    si, us = (files.files(result.contents(system=system), tmp_path) for system in ("SI", "US"))
-    assert {path: mark(content) for path, content in si.items()} == {
-        path: mark(content) for path, content in us.items()
+        assert output_kind(plots.figure_bytes(figure, Path(f"f{ending}"))) == "figure"
+    si, us = (table_files.encode_tables(result.contents(system=system), tmp_path) for system in ("SI", "US"))
+    assert {path: output_kind(content) for path, content in si.items()} == {
+        path: output_kind(content) for path, content in us.items()
     }
     for foreign in (b"", b"PK", b"<html>", b"\x89PNG", b"name: x\n", b"a,b\r\n1,2\r\n", b"<svg></svg>"):
-        assert mark(foreign) is None
+        assert output_kind(foreign) is None
 
 
 def test_the_same_figure_has_the_same_bytes() -> None:
     for ending in (".svg", ".pdf", ".png"):
         one, two = (
-            plots.drawn(plots.master_curve(shelf.compound("s100")), Path(f"f{ending}")) for _ in range(2)
+            plots.figure_bytes(plots.master_curve(shelf.compound("s100")), Path(f"f{ending}"))
+            for _ in range(2)
         )
         assert one == two
 
 
 def test_pages_made_in_threads_are_those_made_in_turn(result: conveyor.Analysis) -> None:
-    expected = html.build(result.contents())
+    expected = html.build_page(result.contents())
     made: list[str] = []
-    threads = [threading.Thread(target=lambda: made.append(html.build(result.contents()))) for _ in range(4)]
+    threads = [
+        threading.Thread(target=lambda: made.append(html.build_page(result.contents()))) for _ in range(4)
+    ]
     for thread in threads:
         thread.start()
     for thread in threads:

@@ -12,7 +12,7 @@ import pytest
 from ruamel.yaml import YAML
 
 import conveyor
-from conveyor.checks import checks
+from conveyor.checks import run_checks
 from conveyor.errors import NoSolutionError
 from conveyor.models.fields import with_fields
 from tests.command_line import ROOT, run
@@ -68,7 +68,7 @@ def test_what_is_missing_is_said_as_tension_and_as_weight(one_drive: Path) -> No
     # 22 t hold 107.9 kN: 4.903 N a kg, two strands at 9.80665 m/s²
     lacking = next(
         check
-        for check in checks(conveyor.analyse(conveyor.load(one_drive)))
+        for check in run_checks(conveyor.analyse(conveyor.load(one_drive)))
         if check.key == "take_up_tension"
     )
     assert lacking.failed

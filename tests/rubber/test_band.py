@@ -9,7 +9,7 @@ from conveyor.errors import InputError
 from conveyor.rubber import PronyFit, PronySeries, fit_prony
 from conveyor.rubber import band as module
 from conveyor.rubber.band import ReplicaBand, bootstrap
-from conveyor.rubber.superposition import Isotherm, Superposition, superpose
+from conveyor.rubber.time_temperature import Isotherm, Superposition, superpose
 
 TRUTH = PronySeries(3e6, 10 ** np.linspace(8.6, 5.5, 25) / 2, np.logspace(-10, 2, 25))
 FREQUENCY = np.logspace(-3, 10.5, 84)
@@ -178,14 +178,14 @@ def test_what_the_data_do_not_reach_is_less_certain() -> None:
 def test_blocks_are_as_long_as_errors_hang_together():
     # runs of 10 of one sign: of 79 neighbours 72 agree, 65/80 = 0.8125, and (1 + 0.8125)/(1 - 0.8125) = 9.7
     runs = np.tile(np.repeat([0.01, -0.01], 10), 4)
-    _, block = module._ratios(1.0 + np.concatenate([runs, runs]), np.zeros(160))
+    _, block = module._resampling_ratios(1.0 + np.concatenate([runs, runs]), np.zeros(160))
     assert block == 10
 
 
 def test_what_the_fit_took_of_an_error_is_given_back():
     # a row that the fit follows by half leaves errors of sqrt(1 - 1/2) of their size
     signs = np.tile([0.01, -0.01], 20)
-    drawn, block = module._ratios(np.exp(np.concatenate([signs, signs])), np.full(80, 0.5))
+    drawn, block = module._resampling_ratios(np.exp(np.concatenate([signs, signs])), np.full(80, 0.5))
     assert block == 1
     spread = np.log(drawn[:, 0] / drawn[:, 1])
-    assert spread == pytest.approx(np.full(2, 0.02 * module.CALIBRATION / np.sqrt(0.5)), rel=1e-9)
+    assert spread == pytest.approx(np.full(2, 0.02 * module.RESIDUAL_WIDENING / np.sqrt(0.5)), rel=1e-9)

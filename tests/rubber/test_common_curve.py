@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from conveyor.rubber.common_curve import ORDER, Smoother, basis
+from conveyor.rubber.common_curve import PENALTY_ORDER, Smoother, spline_basis
 
 
 def restricted(b, y, weight, strength):
@@ -13,14 +13,14 @@ def restricted(b, y, weight, strength):
 
     C. D. Patterson, R. Thompson, Biometrika 58 (1971) 545: fixed X, random Z u, V = W^-1 + Z Z'/λ, variance profiled.
     """
-    differences = np.diff(np.eye(b.shape[1]), ORDER, axis=0)
-    fixed = b @ np.vander(np.linspace(-1.0, 1.0, b.shape[1]), ORDER)
+    differences = np.diff(np.eye(b.shape[1]), PENALTY_ORDER, axis=0)
+    fixed = b @ np.vander(np.linspace(-1.0, 1.0, b.shape[1]), PENALTY_ORDER)
     random = b @ np.linalg.pinv(differences)
     covariance = np.diag(1.0 / weight) + random @ random.T / strength
     inverse = np.linalg.inv(covariance)
     normal = fixed.T @ inverse @ fixed
     rest = y - fixed @ np.linalg.solve(normal, fixed.T @ inverse @ y)
-    free = y.size - ORDER
+    free = y.size - PENALTY_ORDER
     determinants = np.linalg.slogdet(covariance)[1] + np.linalg.slogdet(normal)[1]
     return determinants + free * np.log(rest @ inverse @ rest)
 
@@ -30,7 +30,7 @@ def test_the_stiffness_is_judged_by_the_restricted_likelihood():
     x = np.sort(rng.uniform(0.0, 6.0, 40))
     y = np.tanh(x - 3.0) + 0.05 * rng.standard_normal(x.size)
     weight = rng.uniform(0.5, 2.0, x.size)
-    splines = basis(x, 0.5)
+    splines = spline_basis(x, 0.5)
     smoother = Smoother(splines, y, weight)
     stiffness = np.array([-2.0, -1.0, 0.0, 1.0, 2.0])
     found = np.array([smoother.likelihood(s) for s in stiffness])

@@ -11,8 +11,8 @@ import pytest
 from conveyor import shelf
 from conveyor.cli import app
 from conveyor.errors import InputError
-from conveyor.fitting.compound import Request, fit_file
 from conveyor.fitting.findings import FINDINGS, check_findings
+from conveyor.fitting.fitted_compound import Request, fit_file
 from conveyor.laboratory import read_dma
 from conveyor.laboratory.moduli import equivalent_strain
 from conveyor.rubber import PronySeries

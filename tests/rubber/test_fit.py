@@ -10,8 +10,8 @@ import pytest
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laboratory import read_dma
 from conveyor.rubber import PronyFit, PronySeries, fit_prony
-from conveyor.rubber.misfit import scatter
-from conveyor.rubber.rows import Rows, relative_to_fit
+from conveyor.rubber.fit_rows import FitRows, scale_to_fit
+from conveyor.rubber.misfit import row_scatter
 
 SHELF = Path(__file__).parents[2] / "materials"
 TRUTH = PronySeries(3e6, 10 ** np.linspace(8.6, 5.5, 13), np.logspace(-10, 2, 13))
@@ -161,8 +161,8 @@ def test_held_equilibrium_allows_slow_times() -> None:
 
 def test_exact_data_are_their_own_fit_with_the_plateau_held() -> None:
     f, e1, e2 = data(TRUTH, FREQUENCY)
-    rows = Rows(f, e1, e2, np.concatenate([e1, e2]), np.ones(2 * f.size))
-    found = relative_to_fit(rows, TRUTH.times, TRUTH.equilibrium)
+    rows = FitRows(f, e1, e2, np.concatenate([e1, e2]), np.ones(2 * f.size))
+    found = scale_to_fit(rows, TRUTH.times, TRUTH.equilibrium)
     np.testing.assert_allclose(found.scale, rows.scale, rtol=1e-9)
 
 
@@ -339,7 +339,7 @@ def test_penalty_smooths_and_vanishes() -> None:
 def test_the_middle_of_three_rows_of_one_frequency_is_held_to_the_mean_of_the_others() -> None:
     # ln: 0, 0, 0.3: the middle one is 0.15 below the mean, whose variance with its own is 1 + 1/4 + 1/4
     modulus = 1e6 * np.exp([0.0, 0.0, 0.3])
-    assert scatter(np.ones(3), modulus) == pytest.approx(0.15 / np.sqrt(1.5), rel=1e-9)
+    assert row_scatter(np.ones(3), modulus) == pytest.approx(0.15 / np.sqrt(1.5), rel=1e-9)
 
 
 def test_scatter_is_told_from_misfit() -> None:

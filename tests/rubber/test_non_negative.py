@@ -7,16 +7,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from conveyor.fitting.compound import Request, fit_file
+from conveyor.fitting.fitted_compound import Request, fit_file
 from conveyor.laboratory import read_dma
 from conveyor.rubber import PronySeries, fit_prony
-from conveyor.rubber.non_negative import active_set, non_negative, slope
-from conveyor.rubber.rows import kernel
+from conveyor.rubber.fit_rows import debye_kernel
+from conveyor.rubber.non_negative import active_set, largest_slope, non_negative_least_squares
 
 FITS = Path(__file__).parents[1] / "laboratory" / "files" / "fits"
 
 
-@pytest.mark.parametrize("solver", [non_negative, active_set])
+@pytest.mark.parametrize("solver", [non_negative_least_squares, active_set])
 def test_by_hand(solver) -> None:  # type: ignore[no-untyped-def]
     # the second column alone gives 1/2, the first 2 and -1 remains; a column of zeros takes nothing
     matrix = np.array([[1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
@@ -27,15 +27,19 @@ def test_by_hand(solver) -> None:  # type: ignore[no-untyped-def]
 
 def test_what_is_no_minimum_is_told() -> None:
     matrix, target = np.eye(2), np.array([1.0, 1.0])
-    assert slope(matrix, target, np.array([1.0, 1.0])) == 0.0
+    assert largest_slope(matrix, target, np.array([1.0, 1.0])) == 0.0
     # the error along the second column is 1, |target| + weights sqrt(2) + 1
-    assert slope(matrix, target, np.array([1.0, 0.0])) == pytest.approx(1.0 / (np.sqrt(2.0) + 1.0), rel=1e-14)
-    assert slope(matrix, target, np.array([2.0, 1.0])) == pytest.approx(1.0 / (np.sqrt(2.0) + 3.0), rel=1e-14)
+    assert largest_slope(matrix, target, np.array([1.0, 0.0])) == pytest.approx(
+        1.0 / (np.sqrt(2.0) + 1.0), rel=1e-14
+    )
+    assert largest_slope(matrix, target, np.array([2.0, 1.0])) == pytest.approx(
+        1.0 / (np.sqrt(2.0) + 3.0), rel=1e-14
+    )
 
 
 def test_an_answer_that_is_no_minimum_is_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("scipy.optimize.nnls", lambda matrix, _: (np.zeros(matrix.shape[1]), 0.0))
-    assert non_negative(np.eye(2), np.array([1.0, 2.0])) == pytest.approx([1.0, 2.0], rel=1e-14)
+    assert non_negative_least_squares(np.eye(2), np.array([1.0, 2.0])) == pytest.approx([1.0, 2.0], rel=1e-14)
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -45,13 +49,13 @@ def test_dense_spectra_reach_their_minimum(seed: int) -> None:
     omega = np.logspace(0.0, rng.uniform(4.0, 10.0), 40)
     tau = np.logspace(3.0, -13.0, 161)
     weights = tau ** -rng.uniform(0.05, 0.5) * rng.uniform(0.5, 2.0, tau.size)
-    data = kernel(omega, tau) @ np.concatenate([[1.0], weights])
+    data = debye_kernel(omega, tau) @ np.concatenate([[1.0], weights])
     scatter = 1.0 + 0.01 * (seed % 2) * rng.standard_normal(data.size)
-    matrix = kernel(omega, tau) / data[:, None]
-    for solver in (non_negative, active_set):
+    matrix = debye_kernel(omega, tau) / data[:, None]
+    for solver in (non_negative_least_squares, active_set):
         found = solver(matrix, scatter)
         assert np.all(found >= 0.0)
-        assert slope(matrix, scatter, found) <= 1e-12
+        assert largest_slope(matrix, scatter, found) <= 1e-12
         if not seed % 2:  # the truth lies on the grid: what is left is a thousandth of the printed digits
             assert np.sqrt(np.mean((matrix @ found - scatter) ** 2)) < 1e-6
 

@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from conveyor.errors import InputError
-from conveyor.rubber import CreepSeries, PronySeries, creeps
-from conveyor.rubber.prony import _one_per_time
+from conveyor.rubber import CreepSeries, PronySeries, creep_forms
+from conveyor.rubber.prony import _merge_equal_times
 
 EXACT = 1e-12
 """Asked of J*E* = 1 and of the sum rule; seen 1.1e-14 at worst over 15 000 random spectra, a third of them resonant."""
@@ -114,7 +114,7 @@ def test_a_weak_pole_on_the_root_of_the_others() -> None:
 
 
 def test_terms_that_agree_in_every_digit_are_added() -> None:
-    weights, times = _one_per_time(np.array([1.0, 2.0, 4.0]), np.array([3.0, 1.0, 3.0]))
+    weights, times = _merge_equal_times(np.array([1.0, 2.0, 4.0]), np.array([3.0, 1.0, 3.0]))
     assert (weights.tolist(), times.tolist()) == ([2.0, 5.0], [1.0, 3.0])
 
 
@@ -276,7 +276,7 @@ def test_many_spectra_side_by_side_are_each_alone() -> None:
         PronySeries(10.0 ** rng.uniform(5, 7), 10.0 ** rng.uniform(3, 8, n), 10.0 ** rng.uniform(-9, 4, n))
         for n in (7, 1, 7, 0, 30, 7)
     ]
-    found = creeps([*many, many[0]])
+    found = creep_forms([*many, many[0]])
     assert found[6] is found[0]
     for one, together in zip(many, found, strict=False):
         alone = one.creep()

@@ -14,8 +14,8 @@ from ruamel.yaml import YAML
 from conveyor import shelf
 from conveyor.indentation import RollContact, indentation_resistances
 from conveyor.laboratory import read_dma
-from conveyor.line.anchors import anchor
-from conveyor.rubber import WLF, PronySeries, ShiftLaw, ShiftTable, shifted
+from conveyor.line.rolling_test_theory import compound_test_factor
+from conveyor.rubber import WLF, PronySeries, ShiftLaw, ShiftTable, shift_series
 
 ROOT = Path(__file__).parents[2]
 SHELF = ROOT / "materials"
@@ -147,7 +147,7 @@ def test_every_compound_is_complete_and_usable(name: str) -> None:
         assert series.times[0] >= 0.0999 / (2 * np.pi * high)
         assert series.times[-1] <= 10.01 / (2 * np.pi * low)
     for temperature in (si(t) for t in c["range"]["temperature"]):
-        assert np.isfinite(shifted(series, law, temperature).times).all()
+        assert np.isfinite(shift_series(series, law, temperature).times).all()
     assert float(law.log10_a_T(si(c["reference_temperature"]))) == 0.0
     omega = np.logspace(-20, 20, 400)
     assert np.abs(series.creep().compliance(omega) * series.modulus(omega) - 1).max() < 1e-12
@@ -173,7 +173,7 @@ def test_stated_misfit_is_the_misfit_of_the_written_numbers(name: str) -> None:
 @pytest.mark.parametrize("name", TARGETS)
 def test_illustrative_covers_meet_their_targets(name: str) -> None:
     c = compound(name)
-    series = shifted(series_of(c), law_of(c), 293.15)
+    series = shift_series(series_of(c), law_of(c), 293.15)
     storage, tan_delta = TARGETS[name]
     # 1 % is promised; three linear equations meet them to the twelve digits written
     assert series.storage(TEN_HERTZ) == pytest.approx(storage, rel=1e-9)
@@ -194,7 +194,7 @@ def test_illustrative_covers_are_smooth_and_look_like_rubber(name: str) -> None:
     assert 0.4 < tan_delta.max() < 1.5
     assert tan_delta.min() > 0.005
     # heating from 0 to 80 degC at 10 Hz softens
-    warm = [float(shifted(series, law, t + 273.15).storage(TEN_HERTZ)) for t in range(0, 81, 5)]
+    warm = [float(shift_series(series, law, t + 273.15).storage(TEN_HERTZ)) for t in range(0, 81, 5)]
     assert np.all(np.diff(warm) < 0)
 
 
@@ -203,7 +203,7 @@ def test_covers_differ_as_their_names_say() -> None:
     for name in TARGETS:
         c = compound(name)
         for celsius in (-40, -20, 0, 20, 40):
-            at[name, celsius] = shifted(series_of(c), law_of(c), celsius + 273.15)
+            at[name, celsius] = shift_series(series_of(c), law_of(c), celsius + 273.15)
     standard, easy, cold = TARGETS
     for celsius in (0, 20, 40):
         assert at[easy, celsius].tan_delta(TEN_HERTZ) < 0.70 * at[standard, celsius].tan_delta(TEN_HERTZ)
@@ -253,7 +253,7 @@ def test_sweeps_and_law_of_the_tests_agree(name: str) -> None:
     0.02, and the law is printed to 0.005.
     """
     rubber = shelf.compound(name)
-    level = anchor(rubber, softened=True)
+    level = compound_test_factor(rubber, softened=True)
     assert level is not None
     assert abs(level.slope) < 0.03
 
@@ -291,7 +291,7 @@ def test_glass_temperatures_five_kelvin_off_are_in_the_band(script: dict[str, An
     for kelvin in (-5.0, 5.0):
         glass = {name: t + kelvin for name, t in script["GLASS"].items()}
         series, law = script["construct"](cover, script["Shape"](glass, cover.blend))
-        moved.append((shifted(series, law, 243.15), series))
+        moved.append((shift_series(series, law, 243.15), series))
     replicas = list(zip(rubber.replicas(243.15), rubber.replicas(293.15), strict=True))
     band, off = carried(replicas), carried(moved)
     assert band.min() < off.min()

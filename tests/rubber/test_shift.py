@@ -16,7 +16,7 @@ from conveyor.rubber import (
     entropic_b_T,
     fit_arrhenius,
     fit_wlf,
-    shifted,
+    shift_series,
 )
 
 SHELF = Path(__file__).parents[2] / "materials"
@@ -78,9 +78,9 @@ def test_shifted_series_is_the_series_at_a_shifted_frequency() -> None:
     t, y, reference = shelf_table("s120")
     series = PronySeries(3e6, [5e6, 2e8], [1e-3, 1e-9])
     omega = np.logspace(0, 5, 11)
-    cold = shifted(series, ShiftTable(t, y, reference), t[3], b_T=0.9)
+    cold = shift_series(series, ShiftTable(t, y, reference), t[3], b_T=0.9)
     np.testing.assert_allclose(cold.modulus(omega), 0.9 * series.modulus(10.0 ** y[3] * omega), rtol=1e-12)
-    same = shifted(series, ShiftTable(t, y, reference), reference)
+    same = shift_series(series, ShiftTable(t, y, reference), reference)
     np.testing.assert_array_equal(same.times, series.times)
 
 
@@ -140,7 +140,7 @@ def test_messages_of_the_laws() -> None:
     ):
         Arrhenius(1e5, 293.15).log10_a_T(-20.0)
     with pytest.raises(RangeError, match=r"the shift law gives .* decades at -78\.35 degC, above 100"):
-        shifted(PronySeries(1.0, [1.0], [1.0]), WLF(8.86, 101.6, 296.3), 194.8)
+        shift_series(PronySeries(1.0, [1.0], [1.0]), WLF(8.86, 101.6, 296.3), 194.8)
 
 
 def test_table_is_not_extrapolated() -> None:

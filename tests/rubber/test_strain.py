@@ -14,7 +14,7 @@ from conveyor.contact.interior import interior
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.indentation import RollContact, to_problem
 from conveyor.rubber import PronySeries
-from conveyor.rubber.equivalent import equivalent_linear, softened
+from conveyor.rubber.equivalent_series import equivalent_linear, soften_series
 from conveyor.rubber.kraus import KrausLaw, fit_kraus
 from conveyor.rubber.strain import AmplitudeFactors, StrainSweep
 from conveyor.shelf import compound
@@ -227,7 +227,7 @@ def test_kraus_law_of_the_measured_rubbers(name):
 
 @pytest.mark.parametrize("omega", [1e-2, 3.0, 300.0, 1e6])
 def test_softened_is_exact_at_the_working_frequency(omega):
-    soft = softened(SERIES, storage_factor=0.85, loss_factor=0.9, omega=omega)
+    soft = soften_series(SERIES, storage_factor=0.85, loss_factor=0.9, omega=omega)
     # a linear system of two equations: its condition, below 1e3 here, times rounding
     assert soft.storage(omega) == pytest.approx(0.85 * SERIES.storage(omega), rel=1e-12)
     assert soft.loss(omega) == pytest.approx(0.9 * SERIES.loss(omega), rel=1e-12)
@@ -246,12 +246,12 @@ def test_softened_is_exact_at_the_working_frequency(omega):
 
 
 def test_softened_by_one_is_the_series():
-    same = softened(SERIES, storage_factor=1.0, loss_factor=1.0, omega=50.0)
+    same = soften_series(SERIES, storage_factor=1.0, loss_factor=1.0, omega=50.0)
     assert same.equilibrium == pytest.approx(SERIES.equilibrium, rel=1e-12)
     assert same.moduli == pytest.approx(SERIES.moduli, rel=1e-12)
-    scaled = softened(SERIES, storage_factor=0.7, loss_factor=0.7, omega=50.0)
+    scaled = soften_series(SERIES, storage_factor=0.7, loss_factor=0.7, omega=50.0)
     assert scaled.equilibrium == pytest.approx(0.7 * SERIES.equilibrium, rel=1e-12)
-    elastic = softened(PronySeries(2e6, [], []), storage_factor=0.7, loss_factor=0.9, omega=50.0)
+    elastic = soften_series(PronySeries(2e6, [], []), storage_factor=0.7, loss_factor=0.9, omega=50.0)
     assert elastic.equilibrium == pytest.approx(1.4e6)
 
 
@@ -259,11 +259,11 @@ def test_softened_refuses_a_fluid():
     with pytest.raises(
         NoSolutionError, match=r"leave -.* of the equilibrium modulus, .* of the slow .* no solid changes so"
     ):
-        softened(SERIES, storage_factor=0.2, loss_factor=2.0, omega=1e4)
+        soften_series(SERIES, storage_factor=0.2, loss_factor=2.0, omega=1e4)
     with pytest.raises(InputError, match="loss_factor = 0 - must be finite and > 0"):
-        softened(SERIES, storage_factor=0.4, loss_factor=0.0, omega=1e4)
+        soften_series(SERIES, storage_factor=0.4, loss_factor=0.0, omega=1e4)
     with pytest.raises(InputError, match="omega = 0 rad/s must be finite and > 0"):
-        softened(SERIES, storage_factor=0.4, loss_factor=1.0, omega=0.0)
+        soften_series(SERIES, storage_factor=0.4, loss_factor=1.0, omega=0.0)
 
 
 # equivalent linear

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from conveyor.errors import InputError, NoSolutionError, RangeError
-from conveyor.rubber.overlap import LogIsotherm, overlap
+from conveyor.rubber.overlap import LogIsotherm, measure_overlap
 from conveyor.rubber.prony import PronySeries
 from conveyor.rubber.shift import WLF, ShiftTable
-from conveyor.rubber.superposition import Isotherm, Superposition, superpose
+from conveyor.rubber.time_temperature import Isotherm, Superposition, superpose
 
 DATA = Path(__file__).parent / "data"
 CELSIUS = 273.15
@@ -283,7 +283,7 @@ def rms_storage(cold: Isotherm, hot: Isotherm, step: float) -> float:
     sheets = [
         LogIsotherm(i.temperature, np.log10(i.frequency), np.log([i.storage, i.loss])) for i in (cold, hot)
     ]
-    return overlap(sheets[0], sheets[1], float(step), 0.0, held=False).storage
+    return measure_overlap(sheets[0], sheets[1], float(step), 0.0, held=False).storage
 
 
 def test_published_raw_isotherms_are_another_polymer_than_the_published_master_curve() -> None:

@@ -11,15 +11,15 @@ import pytest
 
 from conveyor import shelf
 from conveyor.errors import NoSolutionError
-from conveyor.laws.sizing import annuity
+from conveyor.laws.preliminary_sizing import annuity
+from conveyor.line.sizing_task import SizingTask
 from conveyor.line.stretches import STRANDS
-from conveyor.line.task import SizingTask
 from conveyor.models.sizing import SizingDuty
 from conveyor.pipeline import CalculatedConveyor, Variant, calculate_many
-from conveyor.sizing import size
-from conveyor.sizing.designs import _estimated, _levels
-from conveyor.sizing.screen import Candidates, first_levels, screen
-from conveyor.sizing.sized import SizedDesign
+from conveyor.sizing import size_conveyor
+from conveyor.sizing.design_search import _calibrate_estimate, _estimated_parts
+from conveyor.sizing.screen import Candidates, first_calibration, screen_candidates
+from conveyor.sizing.sized_design import SizedDesign
 from conveyor.sizing.spacing import section_spacings
 from conveyor.studies.loads import every_load
 from conveyor.units import si
@@ -65,7 +65,7 @@ def test_a_plain_duty_ends_with_a_design_that_holds_what_its_report_checks(of):
     """At the temperature of the duty and with its coldest covers, from the spec alone, in every load."""
     *figures, more = of
     given = duty(*figures, **more)
-    best = size(given, best=1).best
+    best = size_conveyor(given, best=1).best
     coldest = given.ambient.belt if given.coldest is None else given.coldest
     for temperature in {si(coldest): coldest, si(given.ambient.belt): given.ambient.belt}.values():
         spec = best.conveyor.replace(ambient=best.conveyor.ambient.replace(belt_temperature=temperature))
@@ -81,7 +81,7 @@ def _travel_by_hand(design: SizedDesign, warmth: float) -> float:
     means = [
         np.sum((state.starts + state.ends) / 2.0 * one.line.loop.length) / np.sum(one.line.loop.length)
         for one in design.pair
-        for state in one.every_state
+        for state in one.motion_states
     ]
     steel = spec.belt.carcass.kind == "steel cord"
     strain = max(means) / (line.belt.tensile_stiffness * line.belt.width)
@@ -92,7 +92,7 @@ def _travel_by_hand(design: SizedDesign, warmth: float) -> float:
 def test_a_class_stiff_enough_for_the_take_up_is_chosen_where_the_strength_alone_asks_for_less():
     """1,747 m of grain: fabric strong enough stretches too far by load and lasting stretch, a stronger one does not."""
     given = duty(1600.0, 1750.0, 0.0, density=750.0, lump=5.0, rules={"carcasses": ["EP"]})
-    best = size(given, best=1).best
+    best = size_conveyor(given, best=1).best
     classes = SizingTask(given).carcasses["EP"]
     weaker = [one for one in classes if one.strength < best.chosen.carcass.strength][-1]
     tension = best.found.balance.settled.steady.largest
@@ -124,12 +124,12 @@ def test_a_lift_that_no_motor_gives_is_refused_with_the_power_it_needs():
     with pytest.raises(
         NoSolutionError, match=r"a drive pulley needs motors of .*\(rules\.motors_per_pulley"
     ) as refused:
-        size(given)
+        size_conveyor(given)
     needed, allowed = _figures(str(refused.value), "kW")
     lifting = 6400.0 / 3.6 * GRAVITY * 150.0 / 0.94 * 1.1 / 3.0 / 1e3
     assert allowed == 1000.0
     assert lifting < needed < 1.5 * lifting
-    with_two = size(given.replace(rules={"motors_per_pulley": 2}), best=1).best
+    with_two = size_conveyor(given.replace(rules={"motors_per_pulley": 2}), best=1).best
     assert sum(with_two.chosen.motors) / 3.0 >= lifting * 1e3
 
 
@@ -138,11 +138,11 @@ def test_a_carcass_that_stretches_too_far_for_good_is_refused_with_the_travel_it
     given = duty(500.0, 6000.0, 0.0, rules={"carcasses": ["EP"]})
     message = r"lasting stretch of EP belts alone asks for 54 m .* 30 m are allowed: .*take_up_travel\), or steel cord"
     with pytest.raises(NoSolutionError, match=message):
-        size(given)
+        size_conveyor(given)
     with pytest.raises(
         NoSolutionError, match=r"steel cord belts alone asks for 7\.2 m .*, 5 m are .*take_up_travel\)$"
     ):
-        size(given.replace(rules={"carcasses": ["steel cord"], "take_up_travel": "5 m"}))
+        size_conveyor(given.replace(rules={"carcasses": ["steel cord"], "take_up_travel": "5 m"}))
 
 
 def test_a_take_up_too_short_for_the_load_is_refused_with_the_travel_it_needs():
@@ -151,14 +151,14 @@ def test_a_take_up_too_short_for_the_load_is_refused_with_the_travel_it_needs():
     with pytest.raises(
         NoSolutionError, match=r"its take-up needs .* of travel, .*\(rules\.take_up_travel"
     ) as refused:
-        size(given)
+        size_conveyor(given)
     needed, allowed = _figures(str(refused.value).partition("take-up needs")[2], "m")
     assert allowed == 9.5
     assert (
         9.5 < needed < 1.2 * 1000.0 * (7.5e-3 + 1.0 / 8.0 / 5.0)
     )  # EA 5 times the strength: at most all of it
     longer = given.replace(rules=given.rules.replace(take_up_travel=f"{1.02 * needed} m"))
-    assert size(longer, best=1).best.uses["take-up travel"] <= 1.0
+    assert size_conveyor(longer, best=1).best.uses["take-up travel"] <= 1.0
 
 
 def test_a_climb_that_no_class_bears_is_refused_with_the_strength_it_needs():
@@ -169,7 +169,7 @@ def test_a_climb_that_no_class_bears_is_refused_with_the_strength_it_needs():
     with pytest.raises(
         NoSolutionError, match=r"asks for a belt of .*, the strongest .* 1,600 N/mm"
     ) as refused:
-        size(given)
+        size_conveyor(given)
     needed, strongest = _figures(str(refused.value), "N/mm")
     least = 8.0 * 2000.0 / 3.6 / 4.0 * GRAVITY * 150.0 / 1.4 / 1e3
     assert strongest == 1600.0
@@ -180,7 +180,7 @@ def test_a_climb_that_no_class_bears_is_refused_with_the_strength_it_needs():
 def test_what_a_stiffer_class_leaves_of_the_travel_is_foreseen():
     """The share of the travel used with the strongest class is that of a calculation with it, to what its mass adds."""
     given = duty(1000.0, 1000.0, 15.0, rules={"carcasses": ["EP"]})
-    best, task = size(given, best=1).best, SizingTask(given)
+    best, task = size_conveyor(given, best=1).best, SizingTask(given)
     strongest = task.carcasses["EP"][-1]
     spec = task.spec(best.choice, _of_class(given, best, strongest), "x")
     (found,) = calculate_many([Variant(spec)])
@@ -199,14 +199,14 @@ def test_a_belt_that_would_go_slack_in_a_stop_has_its_take_up_set_higher():
         "drives": ["head, two pulleys"],
         "trough_angles": ["35 deg"],
     }
-    best = size(duty(1000.0, 2500.0, 300.0, rules=rules), best=1).best
+    best = size_conveyor(duty(1000.0, 2500.0, 300.0, rules=rules), best=1).best
     assert best.conveyor.route.take_up is not None
     assert si(best.conveyor.route.take_up.tension) == pytest.approx(best.chosen.take_up)
     assert not [check.subject.text() for check in every_load(best.conveyor).governing if check.failed]
     least = best.conveyor.route.replace(take_up={"kind": "gravity"})
     loose = every_load(best.conveyor.replace(route=least))
     assert {check.key for check in loose.governing if check.failed} == {"slack_belt"}
-    slack = -min(state.smallest for one in loose.designing for state in one.every_state)
+    slack = -min(state.smallest for one in loose.designing for state in one.motion_states)
     assert (
         0.0 <= best.chosen.take_up - loose.take_up - slack < 0.05 * best.chosen.take_up
     )  # a wider class weighs more
@@ -215,14 +215,16 @@ def test_a_belt_that_would_go_slack_in_a_stop_has_its_take_up_set_higher():
 def test_levels_of_one_calculation_make_the_estimate_that_calculation():
     given = duty(800.0, 300.0, 20.0)
     task = SizingTask(given)
-    choices, levels = Candidates.of(task), first_levels(1)
-    estimate = screen(task, choices, levels)
+    choices, levels = Candidates.of(task), first_calibration(1)
+    estimate = screen_candidates(task, choices, levels)
     i = int(np.argmin(estimate.year))
     (found,) = calculate_many(
-        [Variant(task.spec(choices[i], _estimated(task, choices[i], estimate, i), "probe"))]
+        [Variant(task.spec(choices[i], _estimated_parts(task, choices[i], estimate, i), "probe"))]
     )
     assert isinstance(found, CalculatedConveyor)
-    again = screen(task, choices, made := _levels(choices, estimate, levels, {i: found}, {}))
+    again = screen_candidates(
+        task, choices, made := _calibrate_estimate(choices, estimate, levels, {i: found}, {})
+    )
     assert again.carcass[i] == estimate.carcass[i]
     forces = found.balance.forces
     main = {force.key: force for force in found.balance.along}
@@ -234,7 +236,9 @@ def test_levels_of_one_calculation_make_the_estimate_that_calculation():
         "belt strength": 1.2 * float(again.uses["belt strength"][i]),
         "motor power": 0.9 * float(again.uses["motor power"][i]),
     }
-    leveled = screen(task, choices, _levels(choices, again, made, {i: found}, {i: used}))
+    leveled = screen_candidates(
+        task, choices, _calibrate_estimate(choices, again, made, {i: found}, {i: used})
+    )
     for limit, share in used.items():
         assert leveled.uses[limit][i] == pytest.approx(share, rel=1e-9)
 
@@ -258,12 +262,12 @@ def test_the_estimate_costs_the_parts_of_a_candidate(price, dearer):
     )
     task = SizingTask(given)
     choices = Candidates.of(task)
-    levels = first_levels(2)
-    estimate = screen(task, choices, levels)
+    levels = first_calibration(2)
+    estimate = screen_candidates(task, choices, levels)
     usual = given.prices.amounts
     costly = SizingTask(given.replace(prices={price: dearer}))
     assert costly.duty.prices.amounts[price] == pytest.approx(1.25 * usual[price])
-    dear = screen(costly, Candidates.of(costly), levels).year
+    dear = screen_candidates(costly, Candidates.of(costly), levels).year
     rate = {"set": "years", "drive": "years"}.get(price, "textile_life")
     for cover in (0, 1):
         rows = np.flatnonzero((choices.numbers[:, 3] == cover) & np.isfinite(estimate.year))
@@ -287,7 +291,7 @@ def test_the_estimate_costs_the_parts_of_a_candidate(price, dearer):
 def test_what_a_distance_is_worth_is_what_the_energy_of_a_year_costs():
     """Indentation and rotation of all sections at the distances built are their shares of the energy's cost."""
     given = duty(800.0, 300.0, 20.0)
-    best = size(given, best=1).best
+    best = size_conveyor(given, best=1).best
     rows = list(section_spacings(SizingTask(given), best))
     indentation, rotation = (
         next(force.total for force in best.found.balance.along if force.key == key)

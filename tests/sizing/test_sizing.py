@@ -15,18 +15,18 @@ from openpyxl.utils import get_column_letter
 
 import conveyor
 from conveyor import shelf
-from conveyor.checks import checks
+from conveyor.checks import run_checks
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.laws.belt import RATED_SAFETY
+from conveyor.laws.belt_strength import RATED_SAFETY
 from conveyor.laws.energy import NEMA_MOTORS
 from conveyor.laws.roll_life import rating_life_hours
-from conveyor.line.task import SizingTask
+from conveyor.line.sizing_task import SizingTask
 from conveyor.models.prices import Prices
 from conveyor.models.sizing import SizingDuty
-from conveyor.sizing import size
-from conveyor.sizing.around import around
-from conveyor.sizing.designs import settled
-from conveyor.sizing.screen import Candidates, first_levels, screen
+from conveyor.sizing import size_conveyor
+from conveyor.sizing.design_search import size_parts
+from conveyor.sizing.screen import Candidates, first_calibration, screen_candidates
+from conveyor.sizing.sensitivity import vary_choices
 from conveyor.sizing.spacing import graduated_spacings, section_spacings
 from conveyor.studies.loads import every_load
 from conveyor.study_file import read_duty
@@ -74,18 +74,18 @@ def small():
 
 @pytest.fixture(scope="module")
 def sized(small):
-    return size(small, best=3)
+    return size_conveyor(small, best=3)
 
 
 def test_the_best_is_that_of_trying_every_candidate(small, sized):
     """Nothing is left out by the estimate: every candidate with the best one's rolls, sized for every load."""
     task = SizingTask(small.replace(rules=small.rules.replace(graduated=False)))
     every = Candidates.of(task)
-    estimate = screen(task, every, first_levels(1))
-    best = size(task.duty, best=1).best
+    estimate = screen_candidates(task, every, first_calibration(1))
+    best = size_conveyor(task.duty, best=1).best
     some = [i for i in range(len(every)) if every[i].roll.diameter == best.choice.roll.diameter]
     begin = [(every[i], replace(best.chosen, settling=False), float(estimate.year[i])) for i in some]
-    found = [one.year for one in settled(task, begin, [], every_load=True) if not isinstance(one, str)]
+    found = [one.year for one in size_parts(task, begin, [], every_load=True) if not isinstance(one, str)]
     assert best.year == pytest.approx(min(found), rel=1e-9)
     assert sized.best.year <= best.year * (1.0 + 1e-9)  # graduated distances are taken where they save
 
@@ -94,13 +94,13 @@ def test_every_design_passes_its_checks_and_is_ranked_by_its_year(sized):
     years = [design.year for design in sized.designs]
     assert years == sorted(years)
     for design in sized.designs:
-        assert not [check.subject for one in design.pair for check in checks(one) if check.failed]
+        assert not [check.subject for one in design.pair for check in run_checks(one) if check.failed]
         assert design.year == pytest.approx(math.fsum(float(x) for x in design.costs.yearly.values()))
 
 
 def test_a_design_holds_what_its_report_checks():
     """In every load at its own temperature too, where less friction than in the cold helps a backstop; one take-up."""
-    best = size(read_duty(DUTIES / "overland.yaml"), best=1).best
+    best = size_conveyor(read_duty(DUTIES / "overland.yaml"), best=1).best
     loads = every_load(best.conveyor)
     assert not [check.subject.text() for check in loads.governing if check.failed]
     assert best.found.balance.settled.setting == pytest.approx(loads.take_up, rel=1e-6)
@@ -119,7 +119,7 @@ def test_no_weaker_class_and_no_smaller_motor_would_do(small, sized):
         )  # the widest step of the series: 1.1 to 1.5 of small, 1.33 of large ones
         if weaker:
             changed = replace(design.chosen, carcass=weaker[-1], settling=False)
-            (again,) = settled(task, [(design.choice, changed, 0.0)], [], every_load=True)
+            (again,) = size_parts(task, [(design.choice, changed, 0.0)], [], every_load=True)
             assert again.chosen.carcass == design.chosen.carcass
 
 
@@ -131,14 +131,14 @@ def test_the_estimate_is_close_where_it_chose(sized):
 def test_dearer_energy_never_makes_a_design_that_draws_more(small):
     """Of two optima the one at the higher price cannot draw more energy: both are best at their own price."""
     cheap, dear = (
-        size(small.replace(operation=small.operation.replace(price=f"{price} EUR/kWh")), best=1).best
+        size_conveyor(small.replace(operation=small.operation.replace(price=f"{price} EUR/kWh")), best=1).best
         for price in (0.01, 1.0)
     )
     assert dear.found.balance.power.mains <= cheap.found.balance.power.mains * (1.0 + 1e-9)
 
 
 def test_what_varies_around_the_best_passes_through_it(small, sized):
-    sweeps = around(SizingTask(small), sized.best)
+    sweeps = vary_choices(SizingTask(small), sized.best)
     assert [sweep.name.split(",")[0] for sweep in sweeps] == [
         "distance of carry sets", "distance of return sets", "roll diameter", "belt speed", "bottom cover",
     ]  # fmt: skip
@@ -172,14 +172,14 @@ def test_sets_may_stand_farther_apart_where_the_belt_is_tighter():
     text = DUTY.replace("    - {name: high, length: 120 m, lift: 12 m}\n", CLIMB)
     text = text.replace("[650 mm, 800 mm]", "[800 mm]").replace("[2 m/s, 2.5 m/s]", "[2.5 m/s]")
     wide = duty(text.replace("[1.2 m, 1.5 m]", "[2 m, 3 m, 5 m]").replace("[3 m]", "[6 m]"))
-    task, best = SizingTask(wide), size(wide, best=1).best
-    even = size(wide.replace(rules=wide.rules.replace(graduated=False)), best=1).best
+    task, best = SizingTask(wide), size_conveyor(wide, best=1).best
+    even = size_conveyor(wide.replace(rules=wide.rules.replace(graduated=False)), best=1).best
     assert best.year <= even.year * (1.0 + 1e-9)
     tried = [apart for apart in graduated_spacings(task, even) if len(set(apart)) > 1]
     assert tried
     for apart, found in zip(
         tried,
-        settled(task, [(replace(even.choice, graduated=apart), even.chosen, 0.0) for apart in tried], []),
+        size_parts(task, [(replace(even.choice, graduated=apart), even.chosen, 0.0) for apart in tried], []),
         strict=True,
     ):
         assert list(apart) == sorted(apart)
@@ -296,7 +296,7 @@ def test_what_is_wrong_is_refused_with_its_place(tmp_path, old, new, message):
 )
 def test_what_leaves_nothing_is_named(small, changes, rules, message):
     with pytest.raises(NoSolutionError, match=message):
-        size(small.replace(rules=small.rules.replace(**rules), **changes))
+        size_conveyor(small.replace(rules=small.rules.replace(**rules), **changes))
 
 
 def test_a_flow_that_fills_no_belt_enough_is_named(small):
@@ -306,7 +306,7 @@ def test_a_flow_that_fills_no_belt_enough_is_named(small):
         r"20 t/h fills no belt that may be chosen to more than 1 %, rules\.least_filling asks for 40 %: allow"
     )
     with pytest.raises(NoSolutionError, match=message):
-        size(small.replace(rules=rules, material=small.material.replace(flow="20 t/h")))
+        size_conveyor(small.replace(rules=rules, material=small.material.replace(flow="20 t/h")))
 
 
 def test_a_heap_that_comes_too_near_to_the_edges_is_named(small):
@@ -317,7 +317,7 @@ def test_a_heap_that_comes_too_near_to_the_edges_is_named(small):
     with pytest.raises(
         NoSolutionError, match=r"leaves 65 mm of either edge .* CEMA asks for 66\.9 mm: allow wider"
     ):
-        size(level.replace(material=small.material.replace(flow=f"{most * (1.0 - 1e-9)} t/h")))
+        size_conveyor(level.replace(material=small.material.replace(flow=f"{most * (1.0 - 1e-9)} t/h")))
 
 
 @pytest.mark.parametrize("most", [1, 2])
@@ -331,9 +331,11 @@ def test_motors_of_a_pulley_share_what_one_does_not_give(small, most):
 
 
 def test_a_rising_design_has_the_backstop_that_holds_it(small):
-    spec = size(small, best=1).best.conveyor
+    spec = size_conveyor(small, best=1).best.conveyor
     held = [
-        check for check in checks(conveyor.analyse(spec)) if check.key in {"holding_brake", "backstop_torque"}
+        check
+        for check in run_checks(conveyor.analyse(spec))
+        if check.key in {"holding_brake", "backstop_torque"}
     ]
     assert [check.verdict for check in held] == ["pass", "pass"]
     assert all(check.margin >= 1.0 - 1.0 / 1.3 - 1e-3 for check in held)  # 1.3, written to four digits
@@ -392,7 +394,7 @@ def test_a_design_in_us_units_is_of_the_us_trade(small):
         "trough_angles": ["35 deg"],
     }
     american = small.replace(rules=rules, report={"units": "US"})
-    spec = size(american, best=1).best.conveyor
+    spec = size_conveyor(american, best=1).best.conveyor
     belt, drums = spec.belt, {text(pulley.diameter) for pulley in spec.route.pulleys}
     assert text(belt.width) in {f"{inches} in" for inches in (18, 24, 30, 36, 42, 48)}
     assert text(belt.carcass.rating).endswith(" PIW")
@@ -402,7 +404,9 @@ def test_a_design_in_us_units_is_of_the_us_trade(small):
         min(NEMA_MOTORS, key=lambda each: abs(each - si(spec.drive.installed_power))), rel=1e-6
     )
     assert drums <= {f"{inches} in" for inches in (8, 10, 12, 14, 16, 18, 20, 24, 30, 36)}
-    judged = [check for check in checks(conveyor.analyse(spec)) if check.key in {"set_rating", "belt_rating"}]
+    judged = [
+        check for check in run_checks(conveyor.analyse(spec)) if check.key in {"set_rating", "belt_rating"}
+    ]
     assert len(judged) == 4  # both strands; steady and all states
     assert not [check for check in judged if check.failed]
     for carcass in SizingTask(american).carcasses["EP"]:
@@ -438,7 +442,7 @@ def test_the_duty_to_begin_with_is_read_and_leaves_a_choice(tmp_path, units):
     task = SizingTask(given)
     every = Candidates.of(task)
     assert given.report.units == units
-    assert np.isfinite(screen(task, every, first_levels(2)).year).sum() > 1000
+    assert np.isfinite(screen_candidates(task, every, first_calibration(2)).year).sum() > 1000
 
 
 @pytest.mark.parametrize("name", ["overland", "in_plant", "downhill", "in_plant_us"])

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import itertools
 
-from conveyor.checks import checks
-from conveyor.forces import without_rubber
+from conveyor.checks import run_checks
+from conveyor.forces import rubber_free_forces
 from conveyor.line.contacts import Contacts
 from conveyor.line.stretches import STRANDS
-from conveyor.loop.balance import held
+from conveyor.loop.balance import with_take_up_at
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
 from conveyor.pipeline import CalculatedConveyor
@@ -39,8 +39,8 @@ def calculated(conveyor, take_up=None):
     """A conveyor without contacts, its take-up at a setting."""
     balance = closed(conveyor)
     if take_up is not None:
-        (balance,) = held([balance], take_up)
-    contacts, fixed = Contacts(balance.line, {}, (), ()), without_rubber(balance.line.strands)
+        (balance,) = with_take_up_at([balance], take_up)
+    contacts, fixed = Contacts(balance.line, {}, (), ()), rubber_free_forces(balance.line.strands)
     return CalculatedConveyor(conveyor, conveyor.temperature, contacts, balance, fixed)
 
 
@@ -113,4 +113,4 @@ def every_loading(conveyor, take_up):
 
 def judged(found):
     """Criteria of a load that need no contacts."""
-    return checks(found, contacts=False)
+    return run_checks(found, contacts=False)

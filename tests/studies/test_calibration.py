@@ -163,7 +163,7 @@ def test_joined_factors_that_differ_are_in_the_bands_of_the_others(monkeypatch: 
     truth = with_factors(given, indentation=1.2, idler_rotation=1.1, flexure=0.8)
     powers = measured(truth, runs)
     found = conveyor.calibrate(given, powers, error=0.02).factors
-    monkeypatch.setattr("conveyor.studies.calibration.UNLIKE", 0.0)
+    monkeypatch.setattr("conveyor.studies.calibration.JOINED_SPREAD", 0.0)
     errors_only = conveyor.calibrate(given, powers, error=0.02).factors
     assert [factor.forces for factor in found] == [
         ("indentation", "flexure", "misalignment"),
@@ -191,7 +191,7 @@ def test_vertical_curves_are_solved_until_factors_and_loads_agree():
         {"name": "b", "length": "400 m", "lift": "-2 m"},
     ]
     given = line(calculation=QUICK, route={"sections": sections, "pulleys": []})
-    assert calculate(given).line.tension_acts
+    assert calculate(given).line.has_tension_coupling
     truth = with_factors(given, indentation=1.3, idler_rotation=0.8)
     found = conveyor.calibrate(
         given, measured(truth, states((0, 0), (0, 30), (1200, 0), (1200, 30))), error=0.02

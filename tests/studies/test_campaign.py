@@ -21,14 +21,21 @@ import pytest
 
 import conveyor
 from conveyor import shelf
-from conveyor.cli.workers import executor_of
+from conveyor.cli.worker_processes import open_executor
 from conveyor.errors import ConveyorError, InputError, ValidityWarning
 from conveyor.models.fields import with_fields
 from conveyor.models.study import StudyPlan
-from conveyor.pipeline import Kept, calculate
-from conveyor.report.point_tables import CampaignTable, PartedTable, of_points
-from conveyor.studies.campaign import BATCH, Answers, Campaign, point_of, rows, run
-from conveyor.studies.points import OUTPUTS, _Opened, _opened, answers
+from conveyor.pipeline import ReuseCache, calculate
+from conveyor.report.point_tables import PartedTable, StudyTable, point_table
+from conveyor.studies.parametric_study import (
+    BATCH_SIZE,
+    ParametricStudy,
+    ResultStore,
+    point_result,
+    point_results,
+    run_study,
+)
+from conveyor.studies.points import OUTPUTS, _unpack_job, _UnpackedJob, evaluate_points
 from tests.command_line import run as command
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -46,13 +53,13 @@ def line():
 
 
 def campaign(line, **changes):
-    return Campaign.of(StudyPlan.from_data(PLAN | changes), line, shelf.compound)
+    return ParametricStudy.of(StudyPlan.from_data(PLAN | changes), line, shelf.compound)
 
 
 def answered(study, path, **options):
-    with Answers(path) as known:
-        run(study, known, **options)
-        return list(rows(study, known))
+    with ResultStore(path) as known:
+        run_study(study, known, **options)
+        return list(point_results(study, known))
 
 
 def same(found, expected):
@@ -124,7 +131,7 @@ def test_a_study_that_is_stopped_says_that_it_goes_on(tmp_path):
         file,
         "-o",
         tmp_path / "t.csv",
-        spoil=lambda patched: patched.setattr("conveyor.studies.campaign.run", stop),
+        spoil=lambda patched: patched.setattr("conveyor.studies.parametric_study.run_study", stop),
     )
     assert done.returncode == 130
     assert done.stderr == "conveyor: stopped by Ctrl-C; what is done is kept: run it again to go on\n"
@@ -145,7 +152,7 @@ def test_a_stopped_run_goes_on_and_calculates_nothing_twice(line, tmp_path):
     same(answered(study, path, progress=lambda *counts: done.append(counts)), whole)
     assert done[-1] == (6, 6, 0)
     more = campaign(line, axes=PLAN["axes"] | {"belt.speed": "1:1.6:0.2 m/s"})
-    with Answers(path) as known:
+    with ResultStore(path) as known:
         assert (
             len(known.among([more.key(point) for point in more.plan.points()])) == 6
         )  # of a longer axis just what is new
@@ -154,7 +161,7 @@ def test_a_stopped_run_goes_on_and_calculates_nothing_twice(line, tmp_path):
 
 
 def test_order_and_number_of_workers_change_nothing(line, tmp_path, monkeypatch):
-    monkeypatch.setattr("conveyor.studies.campaign.BATCH", 2)
+    monkeypatch.setattr("conveyor.studies.parametric_study.BATCH_SIZE", 2)
     study = campaign(line)
     alone = answered(study, tmp_path / "alone")
     with ThreadPoolExecutor(3) as threads:
@@ -166,12 +173,12 @@ def test_order_and_number_of_workers_change_nothing(line, tmp_path, monkeypatch)
 def test_a_point_alone_is_as_among_others(line, monkeypatch):
     study = campaign(line)
     points = list(study.listed.points())
-    together = answers(study.job, points)
+    together = evaluate_points(study.job, points)
     again = [
-        answers(study.job, [point])[0] for point in points
+        evaluate_points(study.job, [point])[0] for point in points
     ]  # strands and lines are those of the batch before
-    monkeypatch.setattr(Kept, "MOST", 0)
-    forgetful = [answers(study.job, [point])[0] for point in points]
+    monkeypatch.setattr(ReuseCache, "MOST", 0)
+    forgetful = [evaluate_points(study.job, [point])[0] for point in points]
     for one, other, third in zip(together, again, forgetful, strict=True):
         assert one == pytest.approx(other, rel=1e-9)  # figures are kept to ten digits
         assert one == pytest.approx(third, rel=1e-9)
@@ -179,14 +186,14 @@ def test_a_point_alone_is_as_among_others(line, monkeypatch):
 
 def test_what_batches_before_made_changes_no_bit(monkeypatch):
     """A compound named by the plan as by the spec, strains and levels sought, every batch done twice by one process."""
-    monkeypatch.setattr("conveyor.studies.points.kept", lambda value: value)  # all digits
+    monkeypatch.setattr("conveyor.studies.points.round_for_storage", lambda value: value)  # all digits
     axes = {
         "belt.bottom_cover.compound": ["standard-cover", "low-rolling-resistance-cover"],
         "belt.speed": ["5 m/s", "5.5 m/s"],
         "idlers.carry.spacing": ["1.2 m", "1.5 m"],
     }
     long = conveyor.load(SPECS / "overland_10km.yaml")
-    study = Campaign.of(
+    study = ParametricStudy.of(
         StudyPlan.from_data(
             {
                 "name": "n",
@@ -200,10 +207,10 @@ def test_what_batches_before_made_changes_no_bit(monkeypatch):
     )
     points = list(study.listed.points())
     batches = [points[:2], points[2:4], points[4:6], points[6:]]
-    forward = [answers(study.job, batch) for batch in batches]
-    backward = [answers(study.job, batch) for batch in reversed(batches)][::-1]
-    _opened.cache_clear()
-    anew = answers(study.job, batches[2])
+    forward = [evaluate_points(study.job, batch) for batch in batches]
+    backward = [evaluate_points(study.job, batch) for batch in reversed(batches)][::-1]
+    _unpack_job.cache_clear()
+    anew = evaluate_points(study.job, batches[2])
     assert forward == backward
     assert anew == forward[2]
 
@@ -211,9 +218,11 @@ def test_what_batches_before_made_changes_no_bit(monkeypatch):
 def test_loads_of_so_many_designs_are_remembered_and_no_more(line, monkeypatch):
     """Of a design once as long as no more than that many came since; never more than that many."""
     made = []
-    monkeypatch.setattr("conveyor.studies.points._loads", lambda design, _: made.append(design) or len(made))
+    monkeypatch.setattr(
+        "conveyor.studies.points._all_loads_figures", lambda design, _: made.append(design) or len(made)
+    )
     monkeypatch.setattr("conveyor.studies.points.Kept.MOST", 3)
-    opened = _Opened(campaign(line, axes={"belt.speed": "1:2:0.1 m/s"}).job)
+    opened = _UnpackedJob(campaign(line, axes={"belt.speed": "1:2:0.1 m/s"}).job)
     three = [{"belt.speed": f"{speed} m/s"} for speed in (1.1, 1.2, 1.3)]
     assert [opened.loads(point) for point in three + three] == [1, 2, 3, 1, 2, 3]
     assert opened.loads({"belt.speed": "1.4 m/s"}) == 4
@@ -224,21 +233,21 @@ def test_loads_of_so_many_designs_are_remembered_and_no_more(line, monkeypatch):
 
 def test_no_batch_finds_the_level_of_a_compound_anew(line):
     study = campaign(line, axes={"belt.bottom_cover.compound": ["low-rolling-resistance-cover"]})
-    opened = _opened(study.job)
+    opened = _unpack_job(study.job)
     every = (opened.base.carry_compound, opened.base.return_compound, *opened.compounds.values())
     assert all(any(one is compound for one, *_ in opened.anchors) for compound in every)
 
 
 def test_points_that_share_what_both_strands_feel_are_solved_side_by_side(line, tmp_path, monkeypatch):
-    monkeypatch.setattr("conveyor.studies.campaign.BATCH", 2)
-    monkeypatch.setattr("conveyor.studies.campaign.SMALLEST", 2)
+    monkeypatch.setattr("conveyor.studies.parametric_study.BATCH_SIZE", 2)
+    monkeypatch.setattr("conveyor.studies.parametric_study.SMALLEST_BATCH", 2)
     batches = []
 
     def instead(_, points):
         batches.append([tuple(point.values()) for point in points])
         return by_speed(_, points)
 
-    monkeypatch.setattr("conveyor.studies.campaign.answers", instead)
+    monkeypatch.setattr("conveyor.studies.parametric_study.answers", instead)
     axes = {"idlers.carry.spacing": ["1 m", "1.2 m"], "belt.speed": ["1 m/s", "1.2 m/s", "1.4 m/s"]}
     found = answered(campaign(line, axes=axes), tmp_path / "a")
     assert batches == [[("1 m", v), ("1.2 m", v)] for v in axes["belt.speed"]]
@@ -248,9 +257,9 @@ def test_points_that_share_what_both_strands_feel_are_solved_side_by_side(line, 
 
 
 def test_a_lost_worker_loses_nothing_that_was_done(line, tmp_path, monkeypatch):
-    monkeypatch.setattr("conveyor.studies.campaign.BATCH", 2)
+    monkeypatch.setattr("conveyor.studies.parametric_study.BATCH_SIZE", 2)
     study = campaign(line)
-    with Answers(tmp_path / "a") as known:
+    with ResultStore(tmp_path / "a") as known:
         with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as processes:
 
             def told(done, *_):
@@ -259,11 +268,11 @@ def test_a_lost_worker_loses_nothing_that_was_done(line, tmp_path, monkeypatch):
                         process.kill()
 
             with pytest.raises(ConveyorError, match="run it again to go on"):
-                run(study, known, executor=processes, workers=1, progress=told)
+                run_study(study, known, executor=processes, workers=1, progress=told)
         kept = len(known)
         assert 2 <= kept < 6
-        run(study, known)
-        assert list(rows(study, known)) == answered(study, tmp_path / "whole")
+        run_study(study, known)
+        assert list(point_results(study, known)) == answered(study, tmp_path / "whole")
 
 
 def test_a_pipe_to_a_lost_worker_is_an_error_and_ends_nothing(line, tmp_path):
@@ -272,15 +281,15 @@ def test_a_pipe_to_a_lost_worker_is_an_error_and_ends_nothing(line, tmp_path):
             raise BrokenPipeError
 
     with (
-        Answers(tmp_path / "a") as known,
+        ResultStore(tmp_path / "a") as known,
         pytest.raises(ConveyorError, match="a worker of the study was lost"),
     ):
-        run(campaign(line), known, executor=Broken(1))
+        run_study(campaign(line), known, executor=Broken(1))
     if not hasattr(signal, "SIGPIPE"):
         return
     before = signal.signal(signal.SIGPIPE, signal.SIG_DFL)
     try:
-        with executor_of(None, 2):
+        with open_executor(None, 2):
             read, write = os.pipe()
             os.close(read)
             with pytest.raises(BrokenPipeError):
@@ -293,7 +302,7 @@ def test_a_pipe_to_a_lost_worker_is_an_error_and_ends_nothing(line, tmp_path):
 
 def test_a_folder_in_the_place_of_the_answers_is_refused(tmp_path):
     with pytest.raises(InputError, match=r"cannot be written \(unable to open database file\)"):
-        Answers(tmp_path)
+        ResultStore(tmp_path)
 
 
 @pytest.mark.parametrize("held", ["mine\n", "SQLite format 3\0 that is none" * 40])
@@ -301,7 +310,7 @@ def test_what_is_no_file_of_answers_is_refused(tmp_path, held):
     path = tmp_path / "a"
     path.write_text(held, encoding="utf-8")
     with pytest.raises(InputError, match="something else than answers"):
-        Answers(path)
+        ResultStore(path)
     assert path.read_text(encoding="utf-8") == held
 
 
@@ -402,8 +411,8 @@ def test_a_table_in_a_folder_grows_while_its_study_runs(line, tmp_path, monkeypa
         pytest.importorskip("pyarrow")
     else:
         monkeypatch.setattr("conveyor.report.point_tables.find_spec", lambda _: None)
-    monkeypatch.setattr("conveyor.studies.campaign.BATCH", 2)
-    monkeypatch.setattr("conveyor.report.point_tables.PART", 4)
+    monkeypatch.setattr("conveyor.studies.parametric_study.BATCH_SIZE", 2)
+    monkeypatch.setattr("conveyor.report.point_tables.PART_POINTS", 4)
     calls = []
 
     def instead(_, points):
@@ -413,20 +422,20 @@ def test_a_table_in_a_folder_grows_while_its_study_runs(line, tmp_path, monkeypa
     study, folder = campaign(line), tmp_path / "points"
 
     def run_into(folder, path, **options):
-        with Answers(path) as known:
+        with ResultStore(path) as known:
 
             def row(number, keyed):
-                return point_of(study, known, number, keyed)
+                return point_result(study, known, number, keyed)
 
-            parts = PartedTable(of_points(study, "SI"), folder, study.plan.count, row)
-            run(study, known, answered=parts.take, **options)
+            parts = PartedTable(point_table(study, "SI"), folder, study.plan.count, row)
+            run_study(study, known, answered=parts.take, **options)
         return {file.name: file.read_bytes() for file in folder.iterdir()}
 
     def stopping(done, *_):
         if done == 4:
             raise KeyboardInterrupt
 
-    monkeypatch.setattr("conveyor.studies.campaign.answers", instead)
+    monkeypatch.setattr("conveyor.studies.parametric_study.answers", instead)
     with pytest.raises(KeyboardInterrupt):
         run_into(folder, tmp_path / "a", progress=stopping)
     assert [file.name for file in folder.iterdir()] == [f"part-00001.{ending}"]  # 4 of 6 points, whole
@@ -461,41 +470,43 @@ def by_speed(_, points):
 
 
 def test_a_full_disk_loses_nothing_and_the_run_goes_on(line, tmp_path, monkeypatch):
-    monkeypatch.setattr("conveyor.studies.campaign.answers", by_speed)
+    monkeypatch.setattr("conveyor.studies.parametric_study.answers", by_speed)
     path, study = tmp_path / "a", campaign(line, axes={"belt.speed": "1:3:0.002 m/s"})
-    with Answers(path) as known:
+    with ResultStore(path) as known:
         known._file.execute("PRAGMA max_page_count = 4")  # as a disk without room for a fifth page
         with pytest.raises(
             ConveyorError, match=r"disk is full; make room.*what is done is kept: run it again"
         ):
-            run(study, known)
+            run_study(study, known)
         kept = len(known)
     assert 0 < kept < study.plan.count
     asked = []
     monkeypatch.setattr(
-        "conveyor.studies.campaign.answers", lambda _, new: asked.extend(new) or by_speed(_, new)
+        "conveyor.studies.parametric_study.answers", lambda _, new: asked.extend(new) or by_speed(_, new)
     )
     assert answered(study, path) == answered(study, tmp_path / "whole")
     assert len(asked) == (study.plan.count - kept) + study.plan.count
 
 
 def test_a_part_without_room_is_not_there_and_the_run_goes_on(line, tmp_path, monkeypatch):
-    monkeypatch.setattr("conveyor.studies.campaign.answers", by_speed)
-    monkeypatch.setattr("conveyor.report.point_tables.PART", 8)
+    monkeypatch.setattr("conveyor.studies.parametric_study.answers", by_speed)
+    monkeypatch.setattr("conveyor.report.point_tables.PART_POINTS", 8)
     monkeypatch.setattr("conveyor.report.point_tables.find_spec", lambda _: None)
     study, folder = campaign(line, axes={"belt.speed": "1:1.31:0.01 m/s"}), tmp_path / "points"
 
     def run_into(folder):
-        with Answers(tmp_path / "a") as known:
+        with ResultStore(tmp_path / "a") as known:
 
             def row(number, keyed):
-                return point_of(study, known, number, keyed)
+                return point_result(study, known, number, keyed)
 
-            run(
-                study, known, answered=PartedTable(of_points(study, "SI"), folder, study.plan.count, row).take
+            run_study(
+                study,
+                known,
+                answered=PartedTable(point_table(study, "SI"), folder, study.plan.count, row).take,
             )
 
-    write, begun = CampaignTable._csv, []
+    write, begun = StudyTable._csv, []
 
     def full(self, path, rows):
         begun.append(path)
@@ -504,7 +515,7 @@ def test_a_part_without_room_is_not_there_and_the_run_goes_on(line, tmp_path, mo
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
         return count
 
-    monkeypatch.setattr(CampaignTable, "_csv", full)
+    monkeypatch.setattr(StudyTable, "_csv", full)
     with pytest.raises(InputError, match=r"part-00003.csv: cannot be written \(No space left on device\)"):
         run_into(folder)
     assert sorted(file.name for file in folder.iterdir()) == ["part-00001.csv", "part-00002.csv"]
@@ -516,16 +527,16 @@ def test_a_part_without_room_is_not_there_and_the_run_goes_on(line, tmp_path, mo
 
 
 def test_a_file_of_answers_that_a_full_disk_left_without_a_table_is_begun_again(tmp_path):
-    with Answers(tmp_path / "a"):
+    with ResultStore(tmp_path / "a"):
         pass
     with closing(sqlite3.connect(tmp_path / "a")) as file, file:
         file.execute("DROP TABLE answers")
-    with Answers(tmp_path / "a") as known:
+    with ResultStore(tmp_path / "a") as known:
         assert len(known) == 0
 
 
 def test_a_damaged_file_of_answers_says_so(line, tmp_path, monkeypatch):
-    monkeypatch.setattr("conveyor.studies.campaign.answers", by_speed)
+    monkeypatch.setattr("conveyor.studies.parametric_study.answers", by_speed)
     path, study = tmp_path / "a", campaign(line, axes={"belt.speed": "1:2:0.001 m/s"})
     answered(study, path)
     data = path.read_bytes()
@@ -535,7 +546,7 @@ def test_a_damaged_file_of_answers_says_so(line, tmp_path, monkeypatch):
 
 
 def test_an_answer_that_lost_a_bit_is_calculated_anew_with_a_line(line, tmp_path, monkeypatch):
-    monkeypatch.setattr("conveyor.studies.campaign.answers", by_speed)
+    monkeypatch.setattr("conveyor.studies.parametric_study.answers", by_speed)
     path, study = tmp_path / "a", campaign(line, axes={"belt.speed": "1:2:0.01 m/s"})
     whole = answered(study, path)
     data = bytearray(path.read_bytes())
@@ -544,7 +555,7 @@ def test_an_answer_that_lost_a_bit_is_calculated_anew_with_a_line(line, tmp_path
     path.write_bytes(data)
     asked = []
     monkeypatch.setattr(
-        "conveyor.studies.campaign.answers", lambda _, new: asked.extend(new) or by_speed(_, new)
+        "conveyor.studies.parametric_study.answers", lambda _, new: asked.extend(new) or by_speed(_, new)
     )
     with pytest.warns(ValidityWarning, match=r"a: answers .* checksum: 2; they are calculated anew"):
         assert answered(study, path) == whole
@@ -554,7 +565,7 @@ def test_an_answer_that_lost_a_bit_is_calculated_anew_with_a_line(line, tmp_path
 
 @pytest.mark.parametrize("seed", range(8))
 def test_no_lost_bit_changes_a_figure(line, tmp_path, monkeypatch, seed):
-    monkeypatch.setattr("conveyor.studies.campaign.answers", by_speed)
+    monkeypatch.setattr("conveyor.studies.parametric_study.answers", by_speed)
     path, study = tmp_path / "a", campaign(line, axes={"belt.speed": "1:2:0.05 m/s"})
     whole, seeded = answered(study, path), random.Random(seed)  # noqa: S311 a repeatable test
     data = path.read_bytes()
@@ -584,7 +595,7 @@ def test_every_figure_can_be_asked_for(line, tmp_path):
     ((*_, answer),) = answered(study, tmp_path / "a")
     assert len(answer) == len(OUTPUTS)
     assert None not in answer
-    assert BATCH > 1
+    assert BATCH_SIZE > 1
 
 
 def test_the_contacts_have_the_tolerance_of_the_spec(line, tmp_path):

@@ -12,15 +12,15 @@ from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.laws.energy import MOTOR_SERIES
 from conveyor.line.line import Line
-from conveyor.loop.frame import Frame
+from conveyor.loop.loop_layout import LoopLayout
 from conveyor.models import Conveyor, LoadCase, standard_cases
 from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
 from conveyor.pipeline import Variant, calculate, calculate_many
 from conveyor.spec import load
-from conveyor.studies.cases import CalculatedCases, analyse_cases
+from conveyor.studies.load_cases import CalculatedCases, analyse_cases
 from conveyor.units import quantity, si
-from conveyor.units.sentences import degrees
+from conveyor.units.sentences import degree_signs
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 ROUNDING = 1e-11
@@ -360,7 +360,7 @@ def test_the_train_multiplies_on_both_sides_of_the_motor(line):
     data["drive"]["regeneration_efficiency"] = "90 %"
     made = Conveyor.from_data(data)
     assert si(made.drive.efficiency) == pytest.approx(0.98 * 0.97, rel=1e-15)
-    frame = Frame(Line.of(made))
+    frame = LoopLayout(Line.of(made))
     assert frame.motor(1e5) == pytest.approx(1e5 * 5.0 / (0.98 * 0.97), rel=1e-14)
     assert frame.mains(1e5) == pytest.approx(1e5 * 5.0 / (0.95 * 0.98 * 0.97), rel=1e-14)
     assert frame.mains(-1e5) == pytest.approx(-1e5 * 5.0 * 0.9 * 0.95, rel=1e-14)
@@ -388,7 +388,7 @@ def test_cases_without_an_answer_are_listed_with_their_reason(line):
     assert "the belt holds" in surge
     assert "the belt holds" in slow
     told = [check for check in study.checks if check.key == "case_answer"]
-    assert [check.why.text() for check in told] == [degrees(hot), surge, slow]
+    assert [check.why.text() for check in told] == [degree_signs(hot), surge, slow]
     assert {(check.found.text(), check.verdict) for check in told} == {("none to 3 of 4", "FAIL")}
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from conveyor.studies.campaign import Answers
+from conveyor.studies.parametric_study import ResultStore
 from tests.command_line import run as command
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -52,7 +52,7 @@ def test_killed_workers_and_drivers_leave_the_same_table(tmp_path):
         time.sleep(0.2)
         driver.kill()
         driver.wait()
-        with Answers(answers) as known:
+        with ResultStore(answers) as known:
             kept = len(known)
         assert 0 < kept < 32
         assert not killed.exists()
@@ -64,7 +64,7 @@ def test_killed_workers_and_drivers_leave_the_same_table(tmp_path):
 
 _DRIVER = """
 import os, time
-from conveyor.cli.workers import executor_of
+from conveyor.cli.worker_processes import executor_of
 if __name__ == "__main__":
     with executor_of(None, 2) as pool:
         print(*{pool.submit(os.getpid).result() for _ in range(4)}, flush=True)

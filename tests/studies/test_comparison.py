@@ -14,8 +14,8 @@ from conveyor.errors import ConveyorError, InputError
 from conveyor.models import RubberCompound
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
-from conveyor.report.columns import ordered
-from conveyor.report.comparison_tables import remarks
+from conveyor.report.comparison_tables import comparison_notes
+from conveyor.report.table_model import sort_notes
 from conveyor.spec import load
 from conveyor.studies.comparison import RTOL, RankedPower, compare_compounds
 from conveyor.studies.duty import analyse_duty
@@ -241,13 +241,13 @@ def test_a_lost_worker_is_told(line):
 def test_remarks_are_in_the_units_asked_for():
     line = load("examples/specs/in_plant_us.yaml")
     turning = compare_compounds(line, NAMES[:2], temperatures=["0 degF", "100 degF"], speeds=["400 fpm"])
-    metric, us = (" ".join(remarks(turning, system)) for system in ("SI", "US"))
+    metric, us = (" ".join(comparison_notes(turning, system)) for system in ("SI", "US"))
     easy = "low-rolling-resistance-cover, then standard-cover"
     together = "low-rolling-resistance-cover and standard-cover, which cannot be told apart"
     assert f"least motor power first, at 2.032 m/s: -17.78 °C: {together}; 37.78 °C: {easy}" in metric
     assert f"first, at 400 fpm: 0 °F: {together}; 100 °F: {easy}" in us
     assert "m/s" not in us
-    _, basis = ordered(remarks(turning, "US"))
+    _, basis = sort_notes(comparison_notes(turning, "US"))
     assert any(said.startswith("90 % bands are of the rubber alone") for said in basis)
 
 
@@ -264,11 +264,11 @@ def test_compounds_apart_by_less_than_both_may_be_off_are_one_group(found):
     for gap, apart in ((4.9, False), (5.1, True)):
         # what belts tested alike share does not count between them
         least, most = one(NAMES[1], 100.0, 50.0, 3.0), one(NAMES[0], 100.0 + gap, 50.0, 4.0)
-        assert found.told_apart(least, most) == apart
+        assert found.differs_clearly(least, most) == apart
         assert [len(group) for group in found.groups([most, least])] == ([1, 1] if apart else [2])
         # it does against one that was not
         other = one("S100", 100.0 + gap, 4.0, 0.1)
-        assert found.told_apart(one(NAMES[1], 100.0, 3.0, 0.1), other) == apart
+        assert found.differs_clearly(one(NAMES[1], 100.0, 3.0, 0.1), other) == apart
     # a third that is near the second but not near the first begins a group of its own
     three = [one(name, motor, 50.0, 3.0) for name, motor in zip(NAMES[:2], (100.0, 103.0), strict=True)]
     assert [
@@ -284,7 +284,7 @@ def test_the_ranking_in_the_cold_is_that_of_the_trade(line):
     cold = compare_compounds(line, names, temperatures=["-25 degC"], speeds=["5 m/s"])
     by_power = sorted(cold.scenes, key=lambda one: one.motor)
     assert by_power[0].compound == "cold-resistant-cover"
-    assert any("which cannot be told apart" in said for said in remarks(cold))
+    assert any("which cannot be told apart" in said for said in comparison_notes(cold))
     warm = compare_compounds(line, names, temperatures=["20 degC"], speeds=["5 m/s"])
     (first, *_, last) = warm.groups(RankedPower.of([one]) for one in warm.scenes)
     assert "low-rolling-resistance-cover" in {one.compound for one in first}
@@ -294,7 +294,7 @@ def test_the_ranking_in_the_cold_is_that_of_the_trade(line):
 def test_a_factor_of_the_belt_that_ran_is_said(line):
     def told(factor):
         given = line.calculation.replace(calibration={"indentation": factor, "idler_rotation": 0.9})
-        return " ".join(remarks(compare_compounds(line.replace(calculation=given), NAMES[:2])))
+        return " ".join(comparison_notes(compare_compounds(line.replace(calculation=given), NAMES[:2])))
 
     assert "indentation x 1.25 of every compound, a factor found with the belt that ran" in told(1.25)
     assert "calculation.calibration" not in told(1.0)

@@ -13,8 +13,8 @@ from conveyor.errors import InputError
 from conveyor.models.prices import Prices, library_prices
 from conveyor.models.study import StudyPlan
 from conveyor.pipeline import calculate
-from conveyor.studies.campaign import Answers, Campaign, designs, run
-from conveyor.studies.costs import costs, parts_of, unpriced
+from conveyor.studies.costs import conveyor_costs, conveyor_parts, missing_price_fields
+from conveyor.studies.parametric_study import ParametricStudy, ResultStore, design_results, run_study
 from tests.command_line import run as command
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -63,7 +63,7 @@ def result(line):
 
 def costed(result, **prices):
     amounts = Prices.from_data(FREE | {"roll_of_belt": "20 m"} | prices).amounts
-    return costs(parts_of(result), amounts, seconds=5000 * 3600.0, energy=None)
+    return conveyor_costs(conveyor_parts(result), amounts, seconds=5000 * 3600.0, energy=None)
 
 
 @pytest.mark.parametrize(("name", "price", "expected"), BY_HAND)
@@ -100,11 +100,11 @@ def test_without_interest_a_year_is_the_capital_over_the_life(result):
 
 def test_a_year_of_parts_and_energy_is_their_sum_and_the_states_wear_the_rolls(line, tmp_path):
     def first(line=line, **changes):
-        study = Campaign.of(StudyPlan.from_data(PLAN | changes), line, shelf.compound)
-        with Answers(tmp_path / "a") as known:
-            run(study, known)
+        study = ParametricStudy.of(StudyPlan.from_data(PLAN | changes), line, shelf.compound)
+        with ResultStore(tmp_path / "a") as known:
+            run_study(study, known)
             assert len(known) == 4  # whatever parts and energy cost
-            return next(designs(study, known)).figures
+            return next(design_results(study, known)).figures
 
     found = first()
     assert found["total_cost_per_year"] == pytest.approx(
@@ -135,9 +135,9 @@ def test_a_year_of_parts_and_energy_is_their_sum_and_the_states_wear_the_rolls(l
 def test_parts_without_a_price_are_refused_before_the_study_begins(line, changes, plan, said):
     if "drive" in changes:
         changes = {"drive": {k: v for k, v in line.drive.as_data().items() if k != changes["drive"]}}
-        assert list(unpriced(line.replace(**changes))) == ["drive.installed_power"]
+        assert list(missing_price_fields(line.replace(**changes))) == ["drive.installed_power"]
     with pytest.raises(InputError, match=said):
-        Campaign.of(StudyPlan.from_data(PLAN | plan), line.replace(**changes), shelf.compound)
+        ParametricStudy.of(StudyPlan.from_data(PLAN | plan), line.replace(**changes), shelf.compound)
 
 
 def test_the_command_has_a_front_of_capital_and_energy(tmp_path):

@@ -12,7 +12,7 @@ import conveyor
 from conveyor.laws.misalignment import misalignment_friction
 from conveyor.models import Conveyor
 from conveyor.pipeline import Variant, calculate, calculate_many
-from conveyor.studies.defaults import power_range
+from conveyor.studies.default_bands import power_range
 from conveyor.studies.effects import root_of_squares
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -65,7 +65,7 @@ def test_each_default_scales_its_force_and_nothing_else(bare):
     rotation, flexure, rubber, askew = (
         parts[key] * watts for key in ("idler_rotation", "flexure", "indentation", "misalignment")
     )
-    half = found.contacts.level_band(
+    half = found.contacts.test_factor_band(
         "carry"
     )  # one compound under both strands; the carry rolls are within its loads
     assert half >= 0.15

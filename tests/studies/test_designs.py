@@ -14,11 +14,11 @@ from conveyor import shelf
 from conveyor.analysis import studies
 from conveyor.errors import InputError
 from conveyor.models.study import StudyPlan
-from conveyor.report.design_tables import of_study
-from conveyor.studies.campaign import Answers, Campaign, designs, run
-from conveyor.studies.designs import front, mean, percentile
+from conveyor.report.design_tables import study_contents
+from conveyor.studies.design_figures import pareto_front, weighted_mean, weighted_percentile
 from conveyor.studies.duty import analyse_duty
-from conveyor.studies.evaluation import explored, sought_of
+from conveyor.studies.evaluation import study_objectives, summarise_study
+from conveyor.studies.parametric_study import ParametricStudy, ResultStore, design_results, run_study
 from conveyor.studies.points import OUTPUTS
 from conveyor.study_file import read_plan
 from conveyor.units import si
@@ -55,18 +55,18 @@ def line():
 
 @pytest.fixture(scope="module")
 def answers(tmp_path_factory):
-    with Answers(tmp_path_factory.mktemp("answers") / "a") as known:
+    with ResultStore(tmp_path_factory.mktemp("answers") / "a") as known:
         yield known
 
 
 def campaign(line, **changes):
-    return Campaign.of(StudyPlan.from_data(PLAN | changes), line, shelf.compound)
+    return ParametricStudy.of(StudyPlan.from_data(PLAN | changes), line, shelf.compound)
 
 
 def designed(line, known, **changes):
     study = campaign(line, **changes)
-    run(study, known)
-    return study, list(designs(study, known))
+    run_study(study, known)
+    return study, list(design_results(study, known))
 
 
 @pytest.mark.parametrize(
@@ -87,8 +87,8 @@ def test_a_year_beside_that_of_the_duty_is_refused(line, plan):
 
 def test_points_of_a_spec_with_a_duty_have_no_year_of_their_own(line, answers):
     study = campaign(line, states=[], figures=[], best={}, outputs=[])
-    run(study, answers)
-    assert {one.figures["energy_per_year"] for one in designs(study, answers)} <= {None}
+    run_study(study, answers)
+    assert {one.figures["energy_per_year"] for one in design_results(study, answers)} <= {None}
 
 
 def test_a_design_over_the_duty_is_the_year_that_the_duty_gives(line, answers):
@@ -113,9 +113,14 @@ def test_a_design_over_the_duty_is_the_year_that_the_duty_gives(line, answers):
 
 def test_percentiles_are_of_hours():
     values, hours = np.array([3.0, 1.0, 2.0]), np.array([1.0, 5.0, 4.0])
-    assert [percentile(values, hours, share) for share in (0.5, 0.51, 0.9, 0.91)] == [1.0, 2.0, 2.0, 3.0]
-    assert mean(values, hours) == pytest.approx(1.6)
-    assert mean(np.full(3, 7.0), hours) == pytest.approx(7.0)
+    assert [weighted_percentile(values, hours, share) for share in (0.5, 0.51, 0.9, 0.91)] == [
+        1.0,
+        2.0,
+        2.0,
+        3.0,
+    ]
+    assert weighted_mean(values, hours) == pytest.approx(1.6)
+    assert weighted_mean(np.full(3, 7.0), hours) == pytest.approx(7.0)
 
 
 def test_the_front_is_that_of_the_definition():
@@ -123,7 +128,7 @@ def test_the_front_is_that_of_the_definition():
     for width in (1, 2, 3):
         costs = rng.integers(0, 12, (60, width)).astype(float)
         beaten = [any((other <= one).all() and (other < one).any() for other in costs) for one in costs]
-        assert front(costs).tolist() == [not each for each in beaten]
+        assert pareto_front(costs).tolist() == [not each for each in beaten]
 
 
 def test_entries_of_a_duty_that_are_alike_are_one_state(line):
@@ -239,7 +244,7 @@ def test_limits_and_front_and_what_fields_do(line, answers):
     highest = sorted(one.figures["motor_power highest"] for one in every)
     limit = {"motor_power highest": {"most": f"{(highest[1] + highest[2]) / 2.0:.9g} W"}}
     study, every = designed(line, answers, limits=limit)
-    found = explored(study, every)
+    found = summarise_study(study, every)
     assert sum(one.keeps for one in every) == found.keeps.sum() == 2
     assert [one.broken for one in every if not one.keeps] == [("motor_power highest",)] * 2
     assert [one.keeps for one in found.best] == [True, True, False, False]
@@ -263,7 +268,7 @@ def test_means_of_draws_have_a_standard_error_that_counts_each_draw_once(line, a
         figures=["motor_power"],
         best={},
     )
-    found = explored(study, every)
+    found = summarise_study(study, every)
     by_path = {one.path: found.effects(k) for k, one in enumerate(found.fields)}
     assert [effect.error for effect in by_path["idlers.carry.spacing"]] == [None, None]
     speeds = found.values[:, [one.path for one in found.fields].index("belt.speed")]
@@ -278,7 +283,7 @@ def test_means_of_draws_have_a_standard_error_that_counts_each_draw_once(line, a
         else:
             assert effect.error == pytest.approx(np.std(means, ddof=1) / np.sqrt(len(means)), rel=1e-9)
     assert any(effect.error for effect in by_path["belt.speed"])
-    table = of_study(found, "SI")["effects"]
+    table = study_contents(found, "SI")["effects"]
     assert [column.key for column in table.columns][-1] == "error"
 
 
@@ -288,7 +293,7 @@ def test_a_design_with_a_state_without_an_answer_says_which(line, answers):
         line, answers, states=states, figures=["motor_power"], best={}, axes={"belt.speed": ["1 m/s"]}
     )
     assert every[0].why.startswith("state 2: material")
-    found = explored(study, every)
+    found = summarise_study(study, every)
     assert (found.count, len(found.values), sum(found.refused.values())) == (1, 0, 1)
 
 
@@ -358,7 +363,7 @@ def test_figures_of_all_loads_are_those_of_power(tmp_path):
         "figures": ["motor_power highest", *ALL_LOADS],
         "limits": {"all_loads_failed": {"most": 0}},
     }
-    with Answers(tmp_path / "a") as known:
+    with ResultStore(tmp_path / "a") as known:
         study, (own, slower) = designed(given, known, **plan, best={})
         assert {len(study.answer(known, (study.key(p), p))) for p in study.listed.points()} == {
             1 + len(ALL_LOADS)
@@ -392,7 +397,7 @@ def test_a_belt_by_its_rating_has_a_use_and_no_safety(tmp_path):
         limits={"belt_safety": {"least": 6.7}},
     )
     uses = {"belt_use": {"most": 1}, "all_loads_belt_use": {"most": 1}}
-    with Answers(tmp_path / "a") as known:
+    with ResultStore(tmp_path / "a") as known:
         _, (one,) = designed(given, known, **plan, figures=[*uses], limits=uses)
     assert one.keeps
     found = conveyor.analyse(given)
@@ -405,4 +410,4 @@ def test_a_belt_by_its_rating_has_a_use_and_no_safety(tmp_path):
 def test_what_is_sought_without_a_word_is_the_least_power_and_the_most_safety(line):
     for asked, sought in (("motor_power", "least"), ("belt_safety_steady", "most"), ("flow", "most")):
         study = campaign(line, states=[], figures=[], best={}, outputs=[asked])
-        assert sought_of(study.listed, study.figures, study.base) == {asked: sought}
+        assert study_objectives(study.listed, study.figures, study.base) == {asked: sought}

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from conveyor.checks import checks
+from conveyor.checks import run_checks
 from conveyor.errors import InputError
 from conveyor.models import Conveyor, DutyEntry
 from conveyor.models.operation import EmissionFactor, Operation
 from conveyor.pipeline import calculate
-from conveyor.remarks import warnings
+from conveyor.remarks import analysis_warnings
 from conveyor.spec import load
 from conveyor.studies.comparison import compare_compounds
 from conveyor.studies.duty import analyse_duty
@@ -136,7 +136,7 @@ def test_energy_fed_back_is_worth_the_same_in_a_flat_year_a_duty_and_a_compariso
     assert power.mains < 0.0
     expected = price * 5000.0 * power.mains / 1e3
     assert found.year.cost == pytest.approx(expected, rel=1e-12, abs=1e-9)
-    told = [warning.text() for warning in warnings(found, checks(found))]
+    told = [warning.text() for warning in analysis_warnings(found, run_checks(found))]
     said = "operation.feed_in_price not given: energy that is fed back earns nothing"
     assert (said in told) == (not feed_in)
     for spec in (flat, bar):

@@ -10,8 +10,8 @@ import pytest
 import conveyor
 from conveyor.errors import NoSolutionError
 from conveyor.models.fields import with_fields
-from conveyor.report.study_tables import flooded as flooded_table
-from conveyor.studies.flooded import flooded_belt
+from conveyor.report.study_tables import flooded_belt as flooded_table
+from conveyor.studies.flooding import flooded_belt
 from conveyor.units import si
 from tests.command_line import ROOT, run
 
@@ -76,7 +76,7 @@ def test_a_conveyor_without_bulk_is_not_flooded(own):
 def test_a_flooded_belt_without_an_answer_says_why(own, monkeypatch):
     """As the contacts of its heavier rolls may have none."""
     none = NoSolutionError("the roll presses through its cover")
-    monkeypatch.setattr("conveyor.studies.flooded.calculate_many", lambda *_, **__: [none])
+    monkeypatch.setattr("conveyor.studies.flooding.calculate_many", lambda *_, **__: [none])
     found = flooded_belt(own)
     assert found.found is found.set_load is found.line_mass is None
     table = flooded_table(found)

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from conveyor.analysis import analyse, studies
-from conveyor.dynamics.follow import prepared_rides, standard_scenarios
+from conveyor.dynamics.simulation import prepare_setups, standard_scenarios
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
 from conveyor.pipeline import Variant, calculate_many
@@ -53,7 +53,7 @@ def test_studies_of_one_report_have_its_power(found):
 
 
 def test_scenarios_begin_with_the_weight_of_the_report(line, found):
-    rides, given = prepared_rides(line, standard_scenarios(line))
+    rides, given = prepare_setups(line, standard_scenarios(line))
     assert {ride.setting for ride in rides} == {given.balance.settled.setting}
     assert given.balance.settled.setting == pytest.approx(found.states.setting, rel=RTOL)
 
@@ -95,7 +95,7 @@ def test_the_load_as_given_is_among_those_that_govern():
     found = studies(given)
     own, (motor,) = found.states.own, found.motors
     every = [own, *(load.found for load in (*found.states.loads, *found.cases.results))]
-    held = min(one.motor_asked for one in every)
+    held = min(one.governing_motor_power for one in every)
     assert motor.needed == pytest.approx(held, rel=RTOL)
     assert motor.rated * motor.count >= -held
     level = load(SPECS / "curved.yaml").replace(cases=[{"name": "empty", "loading": "empty"}])

@@ -12,8 +12,8 @@ from scipy.special import ndtri
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.models import Uncertainty
 from conveyor.spec import load
-from conveyor.studies.monte_carlo import SURE, percentiles
-from conveyor.studies.uncertainty import END, study
+from conveyor.studies.input_ranges import BAND_END, analyse_ranges
+from conveyor.studies.monte_carlo import PERCENTILE_CONFIDENCE, power_percentiles
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 RTOL = 1e-3
@@ -27,7 +27,7 @@ def line():
 
 
 def exact(line, **ranges):
-    return study(line, Uncertainty.from_data(ranges), rtol=RTOL)
+    return analyse_ranges(line, Uncertainty.from_data(ranges), rtol=RTOL)
 
 
 def test_of_a_linear_input_draws_and_first_order_agree(line):
@@ -37,7 +37,7 @@ def test_of_a_linear_input_draws_and_first_order_agree(line):
     last = found.monte_carlo.convergence[-1]
     assert last.draws == DRAWS == len(found.monte_carlo.power)
     # scatter of an empirical quantile: sqrt(p(1-p)/n)/density = 2.1 sigma/sqrt(n); 4 of them
-    sigma = (effect.motor_high - effect.motor_low) / (2.0 * END)
+    sigma = (effect.motor_high - effect.motor_low) / (2.0 * BAND_END)
     assert found.monte_carlo.band == pytest.approx(
         (effect.motor_low, effect.motor_high), abs=4 * 2.1 * sigma / 32
     )
@@ -61,10 +61,12 @@ def test_percentiles_lie_between_their_ranks_as_often_as_they_say():
     rng, true = np.random.default_rng(0), float(ndtri(0.05))
     held = [
         low <= true <= high
-        for low, high in (percentiles(rng.standard_normal(64)).low_between for _ in range(400))
+        for low, high in (power_percentiles(rng.standard_normal(64)).low_between for _ in range(400))
     ]
     # a binomial share: at least SURE, as ranks are whole; 4 standard deviations below
-    assert np.mean(held) > SURE - 4.0 * math.sqrt(SURE * (1.0 - SURE) / 400)
+    assert np.mean(held) > PERCENTILE_CONFIDENCE - 4.0 * math.sqrt(
+        PERCENTILE_CONFIDENCE * (1.0 - PERCENTILE_CONFIDENCE) / 400
+    )
 
 
 def test_replicas_of_the_rubber_are_drawn():

@@ -12,8 +12,8 @@ import conveyor
 from conveyor import shelf
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.models.study import SearchPlan
-from conveyor.studies.campaign import Answers, Campaign
 from conveyor.studies.optimise import optimise
+from conveyor.studies.parametric_study import ParametricStudy, ResultStore
 from tests.command_line import run as command
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -41,13 +41,13 @@ def bowl(job, points):
 
 @pytest.fixture
 def line(monkeypatch):
-    monkeypatch.setattr("conveyor.studies.campaign.answers", bowl)
+    monkeypatch.setattr("conveyor.studies.parametric_study.answers", bowl)
     return conveyor.load(SPECS / "shuttle.yaml")
 
 
 def search(line, path, **changes):
-    campaign = Campaign.of(SearchPlan.from_data(PLAN | changes), line, shelf.compound)
-    with Answers(path) as known:
+    campaign = ParametricStudy.of(SearchPlan.from_data(PLAN | changes), line, shelf.compound)
+    with ResultStore(path) as known:
         return optimise(campaign, known), len(known)
 
 
@@ -81,7 +81,7 @@ def test_a_search_that_was_stopped_goes_on_and_ends_alike(line, tmp_path, monkey
             raise KeyboardInterrupt
         return bowl(job, points)
 
-    monkeypatch.setattr("conveyor.studies.campaign.answers", failing)
+    monkeypatch.setattr("conveyor.studies.parametric_study.answers", failing)
     with pytest.raises(KeyboardInterrupt):
         search(line, tmp_path / "stopped")
     kept = sum(asked[:3])

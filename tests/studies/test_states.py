@@ -13,7 +13,7 @@ from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
 from conveyor.pipeline import CalculatedConveyor, Variant, calculate, calculate_many
 from conveyor.spec import load
-from conveyor.studies import studies
+from conveyor.studies import calculate_studies
 from conveyor.studies.states import LoadState, load_states
 from conveyor.units import quantity, si
 
@@ -114,7 +114,7 @@ def test_cold_cases_are_looked_at_too(line):
         LoadCase(name="full", loading="full", temperatures=("-20 degC", "30 degC")),
         LoadCase(name="empty", loading="empty", temperatures=("-20 degC",)),
     ]
-    found = studies(line.replace(cases=cases))
+    found = calculate_studies(line.replace(cases=cases))
     worst = found.states.state("worst")
     assert worst.temperature == pytest.approx(253.15)
     setting = found.cases.as_given.balance.settled.setting
@@ -129,7 +129,7 @@ def test_the_worst_at_another_temperature_may_be_the_empty_belt(line):
     """Downhill the empty belt asks most of the drives, in the cold more than at the spec's temperature."""
     sections = [{"name": "descent", "length": "800 m", "lift": "-25 m"}]
     cases = [LoadCase(name="empty", loading="empty", temperatures=("-20 degC",))]
-    found = studies(line.replace(cases=cases, route=line.route.replace(sections=sections)))
+    found = calculate_studies(line.replace(cases=cases, route=line.route.replace(sections=sections)))
     worst = found.states.state("worst")
     (empty,) = (result for result in found.cases.results if result.case.loading == "empty")
     assert (worst.loaded, worst.temperature) == ((), empty.temperature)

@@ -10,9 +10,9 @@ from conveyor import shelf
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import CalculatedConveyor, calculate
-from conveyor.remarks import warnings
+from conveyor.remarks import analysis_warnings
 from conveyor.spec import load
-from conveyor.studies.uncertainty import _rubber
+from conveyor.studies.input_ranges import _vary_rubber
 
 SPEC = Path(__file__).parents[2] / "examples" / "specs" / "overland.yaml"
 
@@ -42,11 +42,11 @@ def test_the_range_of_a_short_sweep_holds_the_whole_one(name: str) -> None:
     whole = with_compound(load(SPEC), shelf.compound(name), "bottom")
     short = with_compound(whole, cut(shelf.compound(name), 0.6), "bottom")
     known, held = calculated(whole), calculated(short)
-    assert not any("sweeps end at" in said.words for said in warnings(known, ()))
-    flagged = [said.words for said in warnings(held, ()) if "sweeps end at" in said.words]
+    assert not any("sweeps end at" in said.words for said in analysis_warnings(known, ()))
+    flagged = [said.words for said in analysis_warnings(held, ()) if "sweeps end at" in said.words]
     assert flagged
     assert all("calculation: {{strain: off}}" in words for words in flagged)
-    ends = next(v for v in _rubber(held, []) if v.name.startswith("largest strain")).variants
+    ends = next(v for v in _vary_rubber(held, []) if v.name.startswith("largest strain")).variants
     low, high = sorted(
         calculated(end.conveyor).contacts.covers["carry"].strain.storage_factor for end in ends
     )
@@ -54,4 +54,4 @@ def test_the_range_of_a_short_sweep_holds_the_whole_one(name: str) -> None:
     assert true is not None
     # softer rubber is strained more, so both ends are at strains of their own
     assert low <= true.storage_factor <= high
-    assert not any(v.name.startswith("largest strain") for v in _rubber(known, []))
+    assert not any(v.name.startswith("largest strain") for v in _vary_rubber(known, []))

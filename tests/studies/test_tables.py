@@ -19,9 +19,9 @@ from conveyor.errors import InputError
 from conveyor.models import RubberCompound, standard_cases
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
-from conveyor.report.study_tables import of_studies
-from conveyor.studies.defaults import power_range
-from conveyor.ties import ALIKE
+from conveyor.report.study_tables import tables_and_drawings
+from conveyor.studies.default_bands import power_range
+from conveyor.ties import TIE_RTOL
 from tests.written_tables import written_tables
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -74,8 +74,8 @@ def test_governing_cases_are_the_extremes_of_the_table(cases):
     for figure, (column, which, unit) in columns.items():
         row = by_figure[figure]
         extreme = getattr(table[column], which)()
-        assert row.value == pytest.approx(extreme * unit, rel=ALIKE), figure
-        place = next(i for i, value in table[column].items() if value == pytest.approx(extreme, rel=ALIKE))
+        assert row.value == pytest.approx(extreme * unit, rel=TIE_RTOL), figure
+        place = next(i for i, value in table[column].items() if value == pytest.approx(extreme, rel=TIE_RTOL))
         assert (row.result.name, row.result.speed) == (
             table["case"][place], table["belt speed [m/s]"][place],
         )  # fmt: skip
@@ -183,7 +183,7 @@ def test_tornado_and_band(line):
     assert [row["motor power, high [kW]"] for row in alone] == pytest.approx(
         [found.uncertainty.band[1] / 1e3, found.uncertainty.sampled[1] / 1e3], rel=1e-15
     )
-    names = "; ".join(effect.name for effect in found.uncertainty.left_open)
+    names = "; ".join(effect.name for effect in found.uncertainty.uncovered_defaults)
     assert whole["combined by"] == f"root sum of squares, with the defaults in use: {names}"
     assert whole["motor power, high [kW]"] > alone[0]["motor power, high [kW]"]
 
@@ -194,7 +194,7 @@ def test_the_band_of_the_ranges_says_what_it_leaves_out(line):
     found = study_ranges(given)
     defaults = power_range(calculate(given))
     left = [effect for effect in defaults.effects if effect.key != "roll_drag"]
-    assert {effect.name for effect in found.left_open} == {effect.name for effect in left}
+    assert {effect.name for effect in found.uncovered_defaults} == {effect.name for effect in left}
     motor = found.motor
     for k, end, worse in ((0, "motor_low", min), (1, "motor_high", max)):
         changes = [
@@ -207,7 +207,9 @@ def test_the_band_of_the_ranges_says_what_it_leaves_out(line):
     assert f"90 % interval of its ranges {found.band[0] / 1e3:.1f} to" in repr(found)
     assert f"with the defaults in use {low} to {high} kW" in repr(found)
     (note,) = [
-        part.note for part in of_studies(Studies(uncertainty=found), "SI")[0] if part.key == "power_band"
+        part.note
+        for part in tables_and_drawings(Studies(uncertainty=found), "SI")[0]
+        if part.key == "power_band"
     ]
     assert (
         note == "The last row alone has the defaults in use that no range covers; the others leave them out."
@@ -215,7 +217,7 @@ def test_the_band_of_the_ranges_says_what_it_leaves_out(line):
     covering = given.replace(
         uncertainty={"flexure_share": ["8 %", "14 %"], "roll_drag": "30 %", "rubber": True}
     )
-    keys = {effect.key for effect in study_ranges(covering).left_open}
+    keys = {effect.key for effect in study_ranges(covering).uncovered_defaults}
     assert not keys & {"flexure", "roll_drag", "tested_level"}
 
 
@@ -386,9 +388,9 @@ def test_figures_are_saved_as_pictures_only(compared, tmp_path):
     from conveyor.report import plots
 
     figure = compared.plots.power_against_temperature()
-    assert plots.save(figure, tmp_path / "p.svg").stat().st_size > 5000
+    assert plots.save_figure(figure, tmp_path / "p.svg").stat().st_size > 5000
     with pytest.raises(InputError, match=r"ends in \.png, \.svg or \.pdf"):
-        plots.save(figure, tmp_path / "p.xyz")
+        plots.save_figure(figure, tmp_path / "p.xyz")
 
 
 def test_captions_say_what_is_drawn(line, tmp_path):

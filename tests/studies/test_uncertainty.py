@@ -13,10 +13,10 @@ from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.models import Conveyor, RubberCompound, Uncertainty
 from conveyor.pipeline import calculate
-from conveyor.rubber.anchor import COVERED
+from conveyor.rubber.rolling_test_factor import BAND_COVERAGE
 from conveyor.spec import load
 from conveyor.studies.effects import Effect, root_of_squares
-from conveyor.studies.uncertainty import SAMPLES, hypercube_band, study
+from conveyor.studies.input_ranges import SAMPLES, analyse_ranges, hypercube_band
 from conveyor.units import quantity, si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -102,7 +102,7 @@ def test_roll_drag_without_pulleys_is_a_linear_input(line):
     # wraps and pulley bearings would follow the tension
     alone = line.calculation.replace(not_given="nothing")
     bare = line.replace(route=line.route.replace(pulleys=[]), calculation=alone)
-    found = study(bare, ranges(roll_drag="30 %"))
+    found = analyse_ranges(bare, ranges(roll_drag="30 %"))
     (one,) = found.effects
     balance = calculate(bare).balance
     change = 0.3 * balance.forces.parts["idler_rotation"] / 0.89  # flexure is 11 % of the main resistance
@@ -152,14 +152,14 @@ def test_roll_drag_without_pulleys_is_a_linear_input(line):
     ids=lambda value: next(iter(value)) if isinstance(value, dict) else "",
 )  # fmt: skip
 def test_both_ends_are_analyses(line, given, change):
-    (one,) = study(line, ranges(**given)).effects
+    (one,) = analyse_ranges(line, ranges(**given)).effects
     for sign, power in ((-1.0, one.motor_low), (1.0, one.motor_high)):
         alone = calculate(line.replace(**change(line, sign))).balance.power.motor
         assert power == pytest.approx(alone, rel=2.0 * RTOL)
 
 
 def test_the_tornado_has_its_largest_swing_on_top(line):
-    found = study(
+    found = analyse_ranges(
         line, ranges(roll_drag="30 %", flow="5 %", cleaner_pressure="10 %", flexure_share=("8 %", "14 %"))
     )
     swings = [one.swing for one in found.effects]
@@ -173,19 +173,19 @@ def test_the_tornado_has_its_largest_swing_on_top(line):
 
 
 def test_a_range_twice_as_wide_swings_twice_as_far(line):
-    narrow, wide = (study(line, ranges(skirt_friction=f"{p} %")).effects[0].swing for p in (10, 20))
+    narrow, wide = (analyse_ranges(line, ranges(skirt_friction=f"{p} %")).effects[0].swing for p in (10, 20))
     assert wide == pytest.approx(2.0 * narrow, rel=1e-9)
 
 
 def test_downhill_the_power_falls_with_the_drag():
-    (one,) = study(load(SPECS / "downhill.yaml"), ranges(roll_drag="30 %"), rtol=RTOL).effects
+    (one,) = analyse_ranges(load(SPECS / "downhill.yaml"), ranges(roll_drag="30 %"), rtol=RTOL).effects
     assert one.motor_low < one.motor_high < 0.0
 
 
 def test_rubber_is_the_band_of_its_replicas(line):
     compound = shelf.compound("s100").replace(strain_dependence=None)
     given = on(line, compound)
-    found = study(given, ranges(rubber=True))
+    found = analyse_ranges(given, ranges(rubber=True))
     (one,) = found.effects
     assert one.name == 'rubber "S100"'
     assert any('"standard-cover" has no replicas and no tests' in note for note in found.notes)
@@ -200,19 +200,21 @@ def test_rubber_is_the_band_of_its_replicas(line):
             ],
         )
         powers.append(calculate(on(line, compound.replace(prony=prony))).balance.power.motor)
-    expected = np.quantile(powers, [0.5 * (1.0 - COVERED), 0.5 * (1.0 + COVERED)], method="weibull")
+    expected = np.quantile(
+        powers, [0.5 * (1.0 - BAND_COVERAGE), 0.5 * (1.0 + BAND_COVERAGE)], method="weibull"
+    )
     assert [one.motor_low, one.motor_high] == pytest.approx(expected, rel=2.0 * RTOL)
 
 
 def test_ranges_of_the_spec(line):
     given = line.replace(uncertainty={"roll_drag": "30 %"})
     assert Conveyor.from_data(given.as_data()) == given
-    assert [one.name for one in study(given).effects] == ["roll drag"]
+    assert [one.name for one in analyse_ranges(given).effects] == ["roll drag"]
 
 
 def test_what_the_conveyor_has_none_of_is_noted(line):
     bare = line.replace(route=line.route.replace(cleaners=[]))
-    found = study(bare, ranges(cleaner_pressure="50 %"))
+    found = analyse_ranges(bare, ranges(cleaner_pressure="50 %"))
     assert found.notes == ("uncertainty.cleaner_pressure: the conveyor has none of it",)
     assert found.effects[0].swing == 0.0
     assert found.shares == (0.0,)
@@ -243,14 +245,14 @@ def test_studies_without_an_answer_are_refused(line):
     with pytest.raises(
         InputError, match="uncertainty: missing; give the spec ranges, or pass them: nothing to vary"
     ):
-        study(line)
+        analyse_ranges(line)
     cover = shelf.compound("low-rolling-resistance-cover").replace(strain_dependence=None, tests=())
     bare = on(line, without_replicas(cover))
     with pytest.raises(InputError, match=r"has no replicas.*nothing to vary"):
-        study(bare, ranges(rubber=True))
+        analyse_ranges(bare, ranges(rubber=True))
     with pytest.raises(
         InputError, match=r"uncertainty.flow: an end of the range is refused: material.flow: got"
     ):
-        study(line, ranges(flow="90 %"))
+        analyse_ranges(line, ranges(flow="90 %"))
     with pytest.raises(InputError, match=r"uncertainty.temperature: an end of the range is refused: ambient"):
-        study(line, ranges(temperature="90 K"))
+        analyse_ranges(line, ranges(temperature="90 K"))

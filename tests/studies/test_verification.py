@@ -13,9 +13,9 @@ import conveyor
 from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.indentation import RollContact, indentation_resistance
-from conveyor.measured.rolling_tests import read_rolling_tests
+from conveyor.measured.rolling_test_table import read_rolling_tests
 from conveyor.report import excel, html
-from conveyor.report.cells import ASKED
+from conveyor.report.cells import INPUT_FILL
 from conveyor.studies.verification import SPACING
 from conveyor.units import si
 from tests.loop.loop_lines import line
@@ -79,7 +79,7 @@ def test_the_set_is_the_most_loaded_one_of_the_conveyor():
 def test_the_makers_columns_are_empty_and_marked(tmp_path: Path):
     found = conveyor.verify_sheet(["s100", "standard-cover"], line_loads=["1 N/mm", "2 N/mm"], **ONE)
     path = tmp_path / "sheet.xlsx"
-    path.write_bytes(excel.files(found.contents(), path)[path])
+    path.write_bytes(excel.workbook_files(found.contents(), path)[path])
     book = openpyxl.load_workbook(path)
     assert book.sheetnames == ["About", "N per width"]
     sheet = book["N per width"]
@@ -89,7 +89,8 @@ def test_the_makers_columns_are_empty_and_marked(tmp_path: Path):
         ours, theirs = row[0::2], row[1::2]
         assert all(isinstance(cell.value, float) for cell in ours)
         assert all(
-            cell.value is None and cell.fill.fgColor.rgb == f"00{ASKED.fgColor.rgb[2:]}" for cell in theirs
+            cell.value is None and cell.fill.fgColor.rgb == f"00{INPUT_FILL.fgColor.rgb[2:]}"
+            for cell in theirs
         )
         assert not any(cell.protection.locked for cell in theirs)
     assert sheet.freeze_panes == "F3"
@@ -99,7 +100,7 @@ def test_the_makers_columns_are_empty_and_marked(tmp_path: Path):
 
 def test_the_page_leaves_cells_empty_and_says_what_the_figures_are():
     found = conveyor.verify_sheet(["s100"], line_loads=["1 N/mm"], **ONE)
-    written = html.build(found.contents("US"))
+    written = html.build_page(found.contents("US"))
     assert re.search(r'<td class="asked"[^>]*></td>', written)
     assert "bonded to a carcass that does not give (confined)" in written
     assert "at 5.71 lbf/in, ours" in written
@@ -127,7 +128,7 @@ def test_a_sheet_filled_in_is_read_as_tests(tmp_path: Path, system: str):
     asked = {**ONE, "temperatures": ["0 degC", "20 degC"], "line_loads": ["1 N/mm", "4 N/mm"]}
     found = conveyor.verify_sheet(["s100", "s120"], **asked)
     path = tmp_path / "sheet.xlsx"
-    path.write_bytes(excel.files(found.contents(system), path)[path])
+    path.write_bytes(excel.workbook_files(found.contents(system), path)[path])
     with pytest.raises(
         InputError, match=r"sheet\.xlsx\[N per width\]:2: column A: no figure of the maker in it"
     ):
@@ -162,7 +163,7 @@ def test_a_sheet_filled_in_is_read_as_tests(tmp_path: Path, system: str):
 def test_columns_of_the_maker_belong_to_ours_before_them(tmp_path: Path):
     found = conveyor.verify_sheet(["s100"], **ONE | {"line_loads": ["1 N/mm", "4 N/mm"]})
     path = tmp_path / "sheet.xlsx"
-    path.write_bytes(excel.files(found.contents("SI"), path)[path])
+    path.write_bytes(excel.workbook_files(found.contents("SI"), path)[path])
     book = openpyxl.load_workbook(path)
     cells = book["N per width"]
     for column in (7, 9):

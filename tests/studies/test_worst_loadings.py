@@ -10,20 +10,20 @@ import numpy as np
 import pytest
 
 from conveyor.analysis import Studies, analyse
-from conveyor.checks import Check, deciding, severity, worst_not_sought
+from conveyor.checks import Check, governing_by_subject, severity_rank, unsearched_criteria
 from conveyor.loop import worst_loadings
-from conveyor.loop.take_up import at_one_setting
+from conveyor.loop.take_up_duty import at_common_setting
 from conveyor.loop.worst_loadings import CriterionLoadings
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
-from conveyor.pipeline import Variant, calculate_many, take_up_of
-from conveyor.report.tables import checked
+from conveyor.pipeline import Variant, calculate_many, common_take_up_duty
+from conveyor.report.analysis_tables import check_table
 from conveyor.spec import from_data, load
+from conveyor.studies import calculate_studies
 from conveyor.studies import states as of_states
-from conveyor.studies import studies
 from conveyor.studies.loads import every_load
 from conveyor.studies.states import at_one_take_up, load_states
-from conveyor.units.sentences import said
+from conveyor.units.sentences import message
 from tests.loop.loop_lines import DATA, closed, data, line
 from tests.studies.every_loading import (
     PULLEYS,
@@ -51,7 +51,7 @@ def without_contacts(monkeypatch):
 def reported(conveyor):
     """States at the one take-up, and by criterion the check that governs."""
     states, _ = at_one_take_up(load_states(conveyor, calculated(conveyor)), None)
-    governing = deciding((*judged(states.own), *states.checks))
+    governing = governing_by_subject((*judged(states.own), *states.checks))
     return states, {(check.key, check.subject): check for check in governing}
 
 
@@ -59,9 +59,12 @@ def never_worse(governing, loads, tolerance):
     """No check of any load ranks before the one that governs."""
     for loading, found in loads:
         for check in judged(found):
-            if check.key in worst_not_sought(found.line):
+            if check.key in unsearched_criteria(found.line):
                 continue
-            (verdict, margin, further), here = severity(governing[check.key, check.subject]), severity(check)
+            (verdict, margin, further), here = (
+                severity_rank(governing[check.key, check.subject]),
+                severity_rank(check),
+            )
             words = f"{check.name.text()}: {check.found.text()} with {loading}"
             assert verdict <= here[0], words
             if verdict < here[0]:
@@ -96,13 +99,13 @@ def test_no_loading_is_worse_for_any_criterion(seed, count):
     loads = list(every_loading(conveyor, states.take_up))
     never_worse(governing, loads, SUMS)
     if states.own.take_up.travel is not None:
-        asked = [take_up_of([states.own, *(one.found for one in of)]).travel.whole
+        asked = [common_take_up_duty([states.own, *(one.found for one in of)]).travel.whole
                  for of in (states.loads, [Found(found) for _, found in loads])]  # fmt: skip
         assert asked[0] == pytest.approx(asked[1], rel=SUMS)
 
 
 class Found:
-    """A load as `take_up_of` is given them."""
+    """A load as `common_take_up_duty` is given them."""
 
     def __init__(self, found):
         self.found = found
@@ -124,7 +127,7 @@ def loadings(conveyor):
     """Loadings between the full and the empty belt of a conveyor without contacts."""
     count = len(conveyor.route.sections)
     return CriterionLoadings(
-        *at_one_setting([closed(bearing(conveyor, [full] * count)) for full in (True, False)])
+        *at_common_setting([closed(bearing(conveyor, [full] * count)) for full in (True, False)])
     )
 
 
@@ -133,7 +136,7 @@ def test_of_long_routes_changes_of_single_sections_find_what_all_loadings_have(s
     """But the longest stop: where the belt nearly balances, it is as long as one likes."""
     between = loadings(route(np.random.default_rng(seed), 8))
     every = between.worst_of_each()
-    monkeypatch.setattr(worst_loadings, "EVERY", 1)
+    monkeypatch.setattr(worst_loadings, "EXHAUSTIVE_SECTIONS", 1)
     changed = between.worst_of_each()
     assert set(changed) == set(every)
     for figure, (value, _) in every.items():
@@ -143,8 +146,8 @@ def test_of_long_routes_changes_of_single_sections_find_what_all_loadings_have(s
 
 def test_a_route_of_hundreds_of_sections_has_its_worst_stop_and_says_what_it_leaves_out():
     found = loadings(route(np.random.default_rng(1), 200))
-    assert "curve_radius" in worst_not_sought(found.line)
-    assert "curve_radius" not in worst_not_sought(calculated(line()).line)
+    assert "curve_radius" in unsearched_criteria(found.line)
+    assert "curve_radius" not in unsearched_criteria(calculated(line()).line)
     worst, rng = found.worst_of_each(), np.random.default_rng(2)
     tried = found.criterion_figures(rng.random((2000, 200)) < rng.random((2000, 1)))
     for figure in (
@@ -217,28 +220,28 @@ def test_downhill_with_brakes_no_loading_calculated_in_full_is_worse():
 
 
 def test_of_criteria_without_anything_there_the_one_that_needs_most_governs():
-    none = said("")
+    none = message("")
 
     def lacking(required, case):
         verdict = "not checked"
         return Check("holding_brake", none, 0.0, required, "force", none, none, verdict, case=case)
 
-    few, much = lacking(2e4, said("a")), lacking(4e4, said("b"))
-    assert deciding([few, much]) == (much,)
-    assert deciding([much, few]) == (much,)
+    few, much = lacking(2e4, message("a")), lacking(4e4, message("b"))
+    assert governing_by_subject([few, much]) == (much,)
+    assert governing_by_subject([much, few]) == (much,)
 
     def stop(seconds):
         return Check("comes_to_rest", none, seconds, None, "duration", none, none, "pass", None, "at most")
 
     short, long, never = stop(10.0), stop(20.0), stop(None)
-    assert deciding([short, long]) == (long,)
-    assert deciding([short, never, long]) == (never,)
+    assert governing_by_subject([short, long]) == (long,)
+    assert governing_by_subject([short, never, long]) == (never,)
 
 
 def test_what_is_not_sought_says_so_beside_its_figure():
     conveyor = load(SPECS / "overland.yaml")
     loads = every_load(conveyor)
-    table = checked(loads.governing, "SI", worst_not_sought(loads.own.line))
+    table = check_table(loads.governing, "SI", unsearched_criteria(loads.own.line))
     shown = {row.subject: row.case for row in table.rows}
     assert shown["penetration of the cover, carry rolls"] == "as given; worst loading not sought"
     assert not any(
@@ -246,12 +249,12 @@ def test_what_is_not_sought_says_so_beside_its_figure():
         for name, case in shown.items()
         if "penetration" not in name and "rubber" not in name
     )
-    alone = checked(analyse(conveyor).checks, "SI", worst_not_sought(loads.own.line))
+    alone = check_table(analyse(conveyor).checks, "SI", unsearched_criteria(loads.own.line))
     assert {row.case for row in alone.rows} == {"as given"}
 
 
 def test_a_state_is_named_by_the_first_of_what_it_governs_and_lists_all():
-    found = studies(load(SPECS / "downhill_brakes.yaml")).states
+    found = calculate_studies(load(SPECS / "downhill_brakes.yaml")).states
     most = max(found.states, key=lambda state: len(state.worst_for))
     first, second, *more = most.worst_for
     assert most.name == f"worst for {first}, {second} and {len(more)} more"

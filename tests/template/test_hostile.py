@@ -17,11 +17,11 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor import spec
 from conveyor.errors import InputError
-from conveyor.files.workbook import Sheet, SheetCell
-from conveyor.forms import read
-from conveyor.forms.read import LARGEST_FILE, LIMITS, read_template, sheets_of
+from conveyor.files.workbook_cells import Sheet, SheetCell
+from conveyor.forms import form_reader
+from conveyor.forms.form_reader import LARGEST_FILE, LIMITS, read_template, sheets_of
 from conveyor.models import Conveyor
-from conveyor.template.write import write_template
+from conveyor.template.template_writer import write_template
 
 
 @pytest.fixture(scope="session")
@@ -71,7 +71,7 @@ def sheets(pristine: Path) -> dict[str, Sheet]:
 def retype(path: Path, sheets: dict[str, Sheet], monkeypatch: pytest.MonkeyPatch) -> Edit:
     """Type a value and a unit over those of a field; gives the place of its value cell."""
     grids = {name: replace(grid, cells=dict(grid.cells)) for name, grid in sheets.items()}
-    monkeypatch.setattr(read, "sheets_of", lambda *_: grids)
+    monkeypatch.setattr(form_reader, "sheets_of", lambda *_: grids)
 
     def typed(key: str, value: Any, unit: Any) -> str:
         for grid in grids.values():

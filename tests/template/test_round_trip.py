@@ -13,14 +13,14 @@ from pydantic import BaseModel, Field
 
 from conveyor import shelf, spec
 from conveyor.errors import InputError
-from conveyor.forms.layout import Leaf, layout, leaves
-from conveyor.forms.plan import Row, whole, written_out
-from conveyor.forms.read import read_filled, read_template
+from conveyor.forms.form_fields import FormField, leaf_fields, model_layout
+from conveyor.forms.form_reader import read_form, read_template
+from conveyor.forms.sheet_plan import FormRow, plan_model, plan_reference
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.base import Model, Name, Number
-from conveyor.template.draw import Book
-from conveyor.template.fill import filled, stated
-from conveyor.template.write import write_template
+from conveyor.template.filled_cells import fill_sheets, given_data
+from conveyor.template.template_sheets import TemplateBook
+from conveyor.template.template_writer import write_template
 from conveyor.units import Bounds, Force, Length, Power
 
 SPECS = sorted((Path(__file__).parents[2] / "examples" / "specs").glob("*.yaml"))
@@ -38,7 +38,7 @@ def test_every_example_comes_back_equal(path: Path, tmp_path: Path) -> None:
     back = there_and_back(conveyor, tmp_path)
     assert back.as_data() == conveyor.as_data()
     # what was left to a default is still left to it
-    assert stated(back) == stated(conveyor)
+    assert given_data(back) == given_data(conveyor)
 
 
 def test_without_a_conveyor_the_template_holds_an_example(tmp_path: Path) -> None:
@@ -64,8 +64,8 @@ def test_numbers_keep_all_their_digits(number: str, tmp_path: Path) -> None:
         plain: Number
 
     held = Held.from_data({"length": number, "plain": float(number[:-2])})
-    Book("numbers", []).draw(filled(held)).save(tmp_path / "numbers.xlsx")
-    assert Held.from_data(read_filled(tmp_path / "numbers.xlsx", Held).data).as_data() == held.as_data()
+    TemplateBook("numbers", []).draw(fill_sheets(held)).save(tmp_path / "numbers.xlsx")
+    assert Held.from_data(read_form(tmp_path / "numbers.xlsx", Held).data).as_data() == held.as_data()
 
 
 def test_compounds_of_the_shelf_go_by_name_and_others_are_written_out(
@@ -136,9 +136,12 @@ def every_leaf(schema: dict[str, Any], definitions: dict[str, Any], path: str = 
 
 
 def placed(model: type[BaseModel]) -> set[str]:
-    plan = whole(model)
+    plan = plan_model(model)
     forms = {
-        f".{'.'.join(row.path)}" for form in plan.forms for row in form.rows if isinstance(row.part, Leaf)
+        f".{'.'.join(row.path)}"
+        for form in plan.forms
+        for row in form.rows
+        if isinstance(row.part, FormField)
     }
     lists = {f".{'.'.join((*table.path, *c.path))}" for table in plan.tables for c in table.columns}
     return forms | lists
@@ -148,7 +151,7 @@ def test_every_field_of_the_schema_has_its_cells() -> None:
     schema = Conveyor.json_schema()
     wanted = set(every_leaf(schema, schema["$defs"]))
     # lists inside lists stand on their own sheet, under their own path
-    nested = {".".join(("", *t.path)) for t in whole(Conveyor).tables if t.parent is not None}
+    nested = {".".join(("", *t.path)) for t in plan_model(Conveyor).tables if t.parent is not None}
     shown = placed(Conveyor)
     missing = {path for path in wanted - shown if not any(n in path for n in nested)}
     assert not missing
@@ -161,16 +164,20 @@ def example(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 
 def form_fields() -> list[Any]:
-    rows = [(form.name, row) for form in whole(Conveyor).forms for row in form.rows]
+    rows = [(form.name, row) for form in plan_model(Conveyor).forms for row in form.rows]
     return [
-        pytest.param(name, row, id=".".join(row.path)) for name, row in rows if isinstance(row.part, Leaf)
+        pytest.param(name, row, id=".".join(row.path))
+        for name, row in rows
+        if isinstance(row.part, FormField)
     ]
 
 
 @pytest.mark.parametrize(("name", "line"), form_fields())
-def test_fields_are_drawn_with_note_range_default_and_drop_down(example: Any, name: str, line: Row) -> None:
+def test_fields_are_drawn_with_note_range_default_and_drop_down(
+    example: Any, name: str, line: FormRow
+) -> None:
     sheet, leaf = example[name], line.part
-    assert isinstance(leaf, Leaf)
+    assert isinstance(leaf, FormField)
     row = next(row for row in range(1, sheet.max_row + 1) if sheet.cell(row, 7).value == ".".join(line.path))
     label, value, unit, allowed, default, meaning = (sheet.cell(row, column) for column in range(1, 7))
     assert leaf.doc in label.comment.text
@@ -235,7 +242,7 @@ def test_a_us_template_offers_no_tph(tmp_path: Path) -> None:
 
 
 def test_lists_are_drawn_with_notes_and_units(example: Any) -> None:
-    for table in whole(Conveyor).tables:
+    for table in plan_model(Conveyor).tables:
         sheet = example[table.name]
         heads = {sheet.cell(6, c).value: c for c in range(1, sheet.max_column + 1)}
         for column in table.columns:
@@ -245,7 +252,7 @@ def test_lists_are_drawn_with_notes_and_units(example: Any) -> None:
                 unit = sheet.cell(7, heads[f"{key} [unit]"])
                 assert listed(example, rule(sheet, unit)) == list(column.leaf.units)
     assert example["Lists"].sheet_state == "hidden"
-    assert all(example[form.name].freeze_panes == "B5" for form in whole(Conveyor).forms)
+    assert all(example[form.name].freeze_panes == "B5" for form in plan_model(Conveyor).forms)
 
 
 def rule(sheet: Any, cell: Any) -> Any:
@@ -258,10 +265,10 @@ def listed(book: Any, rule: Any) -> list[Any]:
 
 
 def test_sheet_names_do_not_change() -> None:
-    names = [form.name for form in whole(Conveyor).forms]
+    names = [form.name for form in plan_model(Conveyor).forms]
     assert names[:4] == ["Conveyor", "Belt", "Idlers", "Material"]
-    assert "Sections" in [table.name for table in whole(Conveyor).tables]
-    own = written_out(RubberCompound, "Rubber compound 1")
+    assert "Sections" in [table.name for table in plan_model(Conveyor).tables]
+    own = plan_reference(RubberCompound, "Rubber compound 1")
     assert [form.name for form in own.forms] == ["Rubber compound 1"]
 
 
@@ -342,12 +349,12 @@ PLANT: dict[str, Any] = {
 @pytest.fixture
 def plant(tmp_path: Path) -> Path:
     path = tmp_path / "plant.xlsx"
-    Book("plant", []).draw(filled(Plant.from_data(PLANT))).save(path)
+    TemplateBook("plant", []).draw(fill_sheets(Plant.from_data(PLANT))).save(path)
     return path
 
 
 def test_lists_in_lists_unions_and_mappings_come_back(plant: Path) -> None:
-    read = read_filled(plant, Plant)
+    read = read_form(plant, Plant)
     assert Plant.from_data(read.data).as_data() == Plant.from_data(PLANT).as_data()
     assert read.where(("drives", 2, "motors", 0, "power")).endswith("Motors!C9")
     assert read.where(("drives", 0, "stop", "pawl", "teeth")).endswith("Drives!F7")
@@ -359,7 +366,7 @@ def test_an_item_of_a_list_in_a_list_names_its_parent(plant: Path) -> None:
     book["Motors"]["B8"] = None
     book.save(plant)
     with pytest.raises(InputError) as refused:
-        read_filled(plant, Plant)
+        read_form(plant, Plant)
     message = 'belongs to No. {} of sheet "Drives", a number that no row has'
     lines = str(refused.value).splitlines()
     assert lines == [
@@ -369,12 +376,12 @@ def test_an_item_of_a_list_in_a_list_names_its_parent(plant: Path) -> None:
 
 
 def test_variants_share_a_field_with_the_units_of_both() -> None:
-    torque = next(leaf for leaf in leaves(layout(Plant)) if leaf.key == "torque")
+    torque = next(leaf for leaf in leaf_fields(model_layout(Plant)) if leaf.key == "torque")
     assert {"N", "kN", "W", "kW"} <= set(torque.units)
     assert "(kind: disc)" in torque.doc
     assert "(kind: pawl)" in torque.doc
 
 
 def test_self_containing_models_end_as_json() -> None:
-    tree = next(part for part in layout(Plant).parts if part.key == "tree")
-    assert [(leaf.key, leaf.kind) for leaf in leaves(tree)] == [("name", "text"), ("children", "json")]
+    tree = next(part for part in model_layout(Plant).parts if part.key == "tree")
+    assert [(leaf.key, leaf.kind) for leaf in leaf_fields(tree)] == [("name", "text"), ("children", "json")]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from conveyor.dynamics.published import lodewijks
+from conveyor.dynamics.published_cases import lodewijks_start
 from tests.dynamics.rods import EA, LENGTH, LINE_MASS, PULL, WAVE, begun, clamped, follow, rod
 
 IMPEDANCE = WAVE * LINE_MASS
@@ -122,14 +122,14 @@ def test_a_weight_with_mass_bounces_on_the_belt():
 @pytest.mark.parametrize(("shape", "printed"), [("linear", 0.0246), ("cosine", 0.0303)])
 def test_lodewijks_peaks_lie_between_dry_and_rising_resistances(shape, printed):
     """Table 8.7 of 1996: what he does not print, how resistances rise with speed, spans his figures."""
-    assert lodewijks(shape, rising=1.0) < printed < lodewijks(shape, rising=0.0)
+    assert lodewijks_start(shape, rising=1.0) < printed < lodewijks_start(shape, rising=0.0)
 
 
 def test_a_step_too_long_is_refused():
-    from conveyor.dynamics.wave import run
+    from conveyor.dynamics.wave import simulate_belts
     from conveyor.errors import NoSolutionError
     from tests.dynamics.rods import idle
 
     chain = rod(10)
     with pytest.raises(NoSolutionError, match="unstable"):
-        run(chain, idle(3), begun(chain), step=1.1 * chain.longest_step)
+        simulate_belts(chain, idle(3), begun(chain), step=1.1 * chain.longest_step)

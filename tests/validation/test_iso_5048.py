@@ -76,7 +76,7 @@ def _motor(total: float) -> float:
     return power.motor_power(power.belt_power(total, belt_speed=4.8), efficiency=0.95 * 0.97) / 1e3
 
 
-def _drive() -> tension.DriveTensions:
+def _drive() -> tension.DriveSideTensions:
     return tension.drive_tensions(FIRST.total, friction=0.3, wrap_angle=math.pi)
 
 

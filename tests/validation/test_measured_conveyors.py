@@ -18,13 +18,13 @@ import pytest
 from conveyor import shelf
 from conveyor.laws.take_up import take_up_mass
 from conveyor.laws.tension import sag_tension
-from conveyor.line.anchors import anchor, anchor_rows
+from conveyor.line.rolling_test_theory import compound_test_factor, rolling_test_rows
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
 from conveyor.pipeline import CalculatedConveyor, calculate
 from conveyor.spec import load
-from conveyor.starter.write import written
-from conveyor.studies.defaults import power_range
+from conveyor.starter.starter_writer import starter_text
+from conveyor.studies.default_bands import power_range
 
 SPECS = Path(str(resources.files("conveyor") / "_reference" / "practice"))
 BAND = (0.8, 1.25)
@@ -62,8 +62,8 @@ def friction(found: CalculatedConveyor) -> float:
 @cache
 def rows() -> tuple[Row, ...]:
     cover = shelf.compound("low-rolling-resistance-cover")
-    level = anchor(cover, softened=True)
-    theory = anchor_rows(cover, softened=True)
+    level = compound_test_factor(cover, softened=True)
+    theory = rolling_test_rows(cover, softened=True)
     found = [
         Row(
             f"indentation, 219 mm roll, 7 mm cover, 20 °C, {row.line_load / 1e3:.3g} N/mm [N/m]",
@@ -157,7 +157,7 @@ def test_the_site_is_within_the_range_that_its_defaults_leave():
 @pytest.mark.parametrize("kind", ["overland", "in-plant", "downhill"])
 def test_starters_lie_where_operating_conveyors_do(kind, tmp_path):
     path = tmp_path / "mine.yaml"
-    path.write_text(written(kind), encoding="utf-8")
+    path.write_text(starter_text(kind), encoding="utf-8")
     f = calculate(load(path)).balance.friction_factor
     assert 0.009 <= f <= 0.020
     assert not math.isnan(f)

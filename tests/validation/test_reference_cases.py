@@ -9,7 +9,7 @@ import pytest
 
 from conveyor import validation
 from conveyor.contact import solve
-from conveyor.validation import ReferenceCheck, reference_cases, run
+from conveyor.validation import ReferenceCheck, reference_cases, run_checks
 
 CASES = reference_cases()
 SINGLE = [case for case in CASES if not case.split]
@@ -81,12 +81,12 @@ def test_the_tighter_tolerance_is_closer_on_the_whole():
 
 
 def test_every_shipped_check_passes():
-    failed = [check for check in run() if not check.passed]
+    failed = [check for check in run_checks() if not check.passed]
     assert failed == []
 
 
 def test_shipped_checks_name_source_and_quantity():
-    checks = run()
+    checks = run_checks()
     assert {check.source for check in checks} == {
         "Bessel-Galerkin prototype",
         "CEMA, transition",
@@ -130,6 +130,6 @@ def test_a_wrong_solver_would_fail(monkeypatch):
         return solve(replace(problem, pressure=1.01 * problem.pressure), **options)
 
     monkeypatch.setattr(validation, "solve", wrong)
-    failed = [check for check in run() if not check.passed]
+    failed = [check for check in run_checks() if not check.passed]
     # every friction of the reference and of the split contacts, every Hunter figure that depends on the load
     assert sum("friction" in check.quantity for check in failed) == len(SINGLE) + 2 + 9

@@ -17,7 +17,7 @@ import pytest
 from conveyor.laws import resistance
 from conveyor.laws.resistance import cema
 from conveyor.line.line import Line
-from conveyor.loop.estimates import cema as estimate
+from conveyor.loop.estimates import cema_estimate as estimate
 from conveyor.spec import from_data
 
 FACTOR = 1e-4

@@ -8,12 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from conveyor.dynamics.follow import ERROR, side_by_side
-from conveyor.dynamics.loop import CutLoop
-from conveyor.dynamics.machines import Ride
-from conveyor.forces import without_rubber
+from conveyor.dynamics.cut_loop import CutLoop
+from conveyor.dynamics.machines import ScenarioSetup
+from conveyor.dynamics.simulation import ERROR, simulate_batch
+from conveyor.forces import rubber_free_forces
 from conveyor.line.contacts import Contacts
-from conveyor.line.scenes import ScenarioUnit
+from conveyor.line.drive_scenarios import ScenarioUnit
 from conveyor.models import Scenario
 from conveyor.pipeline import CalculatedConveyor
 from tests.loop.loop_lines import BOOSTER, DATA, SECOND, TAIL_DRIVE, closed, line
@@ -29,21 +29,21 @@ def ridden(conveyor, scenario):
         conveyor.temperature,
         Contacts(found.line, {}, (), ()),
         found,
-        without_rubber(found.line.strands),
+        rubber_free_forces(found.line.strands),
     )
     loop = CutLoop.of(steady)
     scene = ScenarioUnit.of(Scenario.from_data({"name": "test"} | scenario), conveyor)
-    return Ride(scene, loop, loop, found.settled.setting)
+    return ScenarioSetup(scene, loop, loop, found.settled.setting)
 
 
 def followed(conveyor, scenario, step=0.02):
-    (found,) = side_by_side([ridden(conveyor, scenario)], step)
+    (found,) = simulate_batch([ridden(conveyor, scenario)], step)
     return found
 
 
 def quiet(found, state):
     """Tensions of cells that no boundary of stretches touches, beside those of a state of the package."""
-    loop, middles = found.ride.loop, found.middles
+    loop, middles = found.setup.loop, found.middles
     size = np.diff(found.cells.at)
     starts, ends = state.starts[loop.order], state.ends[loop.order]
     for k, tension in enumerate(middles):
@@ -76,7 +76,7 @@ def test_a_running_belt_keeps_its_steady_tensions(changes):
     """Everywhere the package's own, and they stay: what is left is where a pulley is within its cell."""
     drive = DATA["drive"] | MASSES | changes.get("drive", {})
     found = followed(line(**{**changes, "drive": drive}), NOTHING)
-    steady = found.ride.loop.steady.balance.settled.steady
+    steady = found.setup.loop.steady.balance.settled.steady
     pairs = list(quiet(found, steady))
     assert len(pairs) > 0.5 * found.middles.size
     for tensions in (found.record.tensions[0], found.record.tensions[-1]):
@@ -90,7 +90,7 @@ def test_a_running_belt_keeps_its_steady_tensions(changes):
 def test_a_running_belt_has_its_highest_steady_tension_at_the_pulley_however_long_its_cells(step):
     """Half of what lies along a cell stands between its middle and the pulley: 5 % of this belt's in cells of 150 m."""
     found = followed(line(drive=DATA["drive"] | MASSES), NOTHING, step)
-    assert found.highest == pytest.approx(found.ride.loop.steady.balance.settled.steady.largest, rel=1e-9)
+    assert found.highest == pytest.approx(found.setup.loop.steady.balance.settled.steady.largest, rel=1e-9)
 
 
 def test_a_very_slow_start_has_the_quasi_static_tensions():
@@ -105,7 +105,7 @@ def test_a_very_slow_start_has_the_quasi_static_tensions():
         conveyor, {"begins": "at rest", "events": [{"do": "start"}], "starter": starter, "duration": f"{time:.3f} s"},
         step=0.04,
     )  # fmt: skip
-    start = made.ride.loop.steady.balance.settled.states["start"]
+    start = made.setup.loop.steady.balance.settled.states["start"]
     half = int(np.argmin(np.abs(made.record.times - 0.5 * time)))
     pairs = list(quiet(made, start))
     got = np.array([made.record.tensions[half, k] for k, _ in pairs])
@@ -124,7 +124,7 @@ def test_a_very_stiff_belt_stops_as_a_rigid_one():
         ride = ridden(conveyor, {"begins": "running", "events": [{"do": "power off"}]})
         steady = ride.loop.steady
         ride = replace(ride, scene=replace(ride.scene, duration=1.1 * steady.motions.coasting.time))
-        (made,) = side_by_side([ride], 0.02)
+        (made,) = simulate_batch([ride], 0.02)
         pulleys = sum(lump.mass for lump in ride.loop.lumps)
         heavier = 1.0 + pulleys / (steady.motions.moving_mass + steady.motions.rotating_mass)
         # the last masses come to rest when the waves have died: a few trips of a wave
@@ -151,7 +151,7 @@ def test_peaks_hold_as_cells_get_shorter_where_friction_stands_at_one_place(take
     route = {"sections": sections, "feeding": LONG_SKIRTS, "take_up": take_up | {"tension": "40 kN"},
              "pulleys": DATA["route"]["pulleys"][:3]}  # fmt: skip
     ride = ridden(line(drive=DATA["drive"] | MASSES, route=route), scenario)
-    made = [side_by_side([ride], float(ride.loop.travel[-1]) / cells)[0] for cells in (40, 80, 160)]
+    made = [simulate_batch([ride], float(ride.loop.travel[-1]) / cells)[0] for cells in (40, 80, 160)]
     for coarse, fine in itertools.pairwise(made):
         assert fine.highest == pytest.approx(coarse.highest, rel=ERROR)
         assert fine.lowest == pytest.approx(coarse.lowest, abs=ERROR * fine.highest)

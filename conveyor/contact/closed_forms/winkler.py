@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 JONKERS_FACTOR: Final[float] = (math.pi / 2.0) * (math.pi / 4.0) ** (4.0 / 3.0)  # [-], Jonkers (1980)
 _SERIES_TERMS: Final = 18  # 1/18! is below rounding for u < 1
 _GAUSS: Final = 24  # points per panel: exact to rounding for exp(-2u) over a doubling of u
-_DECAYED: Final = 64.0  # exp(-64) is below rounding beside what remains of the history
+_DECAY_LENGTHS: Final = 64.0  # exp(-64) is below rounding beside what remains of the history
 _TOLERANCE: Final = 1e-15  # of the roots, relative
 
 
@@ -44,23 +44,23 @@ def _memory_functions(u: Array) -> tuple[Array, Array, Array]:
     return np.where(near, s1, c1), np.where(near, s2, c2), np.where(near, s3, c3)
 
 
-def _history(depth: Array, memory: Array) -> Array:
+def _stress_history(depth: Array, memory: Array) -> Array:
     """Stress of one element over E_i/(R h), a d g1(d/k) - (d²/2) g2(d/k) with a = 1."""
     g1, g2, _ = _memory_functions(depth / memory)
     history: Array = depth * g1 - depth**2 / 2.0 * g2
     return history
 
 
-def _dissipated(memory: Array, depth: float) -> Array:
+def _dissipated_energy(memory: Array, depth: float) -> Array:
     """(1/k) ∫_0^depth stress² dd of each element with a = 1: every term positive."""
-    doublings = 2.0 ** np.arange(math.log2(_DECAYED) + 1.0)
+    doublings = 2.0 ** np.arange(math.log2(_DECAY_LENGTHS) + 1.0)
     start = np.minimum(memory, depth)[:, None]
     edges = np.concatenate(
         (np.zeros_like(start), np.minimum(start * doublings, depth), np.full_like(start, depth)), axis=1
     )
     nodes, weights = np.polynomial.legendre.leggauss(_GAUSS)
     half = np.diff(edges, axis=1)[:, :, None] / 2.0
-    stress = _history(edges[:, :-1, None] + half * (nodes + 1.0), memory[:, None, None])
+    stress = _stress_history(edges[:, :-1, None] + half * (nodes + 1.0), memory[:, None, None])
     integral: Array = ((half * stress**2) @ weights).sum(axis=1)
     return integral / memory
 
@@ -92,7 +92,7 @@ class WinklerContact:
         return self.resistance / self.load
 
 
-def _checked(equilibrium: float, moduli: Array, memories: Array) -> tuple[Array, Array]:
+def _active_elements(equilibrium: float, moduli: Array, memories: Array) -> tuple[Array, Array]:
     """Moduli and memories of the elements that carry stress, checked: a memory of 0 is relaxed everywhere."""
     require_positive(equilibrium=equilibrium)
     ok = moduli.ndim == 1 and bool(np.all((moduli >= 0.0) & np.isfinite(moduli)))
@@ -158,11 +158,11 @@ def winkler_pressure(
     >>> glassy.tolist()
     [2.0]
     """
-    moduli, memories = _checked(equilibrium, moduli, memories)
+    moduli, memories = _active_elements(equilibrium, moduli, memories)
     require_positive(entry=entry, radius=radius, thickness=thickness)
     require(bool(np.all(x <= entry)), "x", x, f"at most entry = {entry!r} m is needed")
     depth = 1.0 - x / entry
-    history = _history(depth[:, None], memories / entry)
+    history = _stress_history(depth[:, None], memories / entry)
     shape = equilibrium * (depth - depth**2 / 2.0) + history @ moduli
     return entry**2 / (radius * thickness) * shape
 
@@ -218,7 +218,7 @@ def winkler(
     >>> round(c.exit, 8), round(c.load, 8), round(c.friction, 8)
     (0.83312517, 0.95942002, 0.10887526)
     """
-    moduli, memories = _checked(equilibrium, moduli, memories)
+    moduli, memories = _active_elements(equilibrium, moduli, memories)
     require_positive(entry=entry, radius=radius, thickness=thickness)
     memory = memories / entry
 
@@ -231,9 +231,9 @@ def winkler(
     _, g2, g3 = _memory_functions(depth / memory)
     square, cube = depth**2 / 2.0, depth**3 / 6.0
     load = equilibrium * (square - cube) + float((square * g2 - cube * g3) @ moduli)
-    stored = _history(np.full_like(memory, depth), memory) ** 2 / 2.0
+    stored = _stress_history(np.full_like(memory, depth), memory) ** 2 / 2.0
     rubbery = (depth - depth**2 / 2.0) ** 2 / 2.0
-    loss = equilibrium * rubbery + float((stored + _dissipated(memory, depth)) @ moduli)
+    loss = equilibrium * rubbery + float((stored + _dissipated_energy(memory, depth)) @ moduli)
     scale = entry**3 / (radius * thickness)
     return WinklerContact(
         entry=entry,
@@ -290,7 +290,7 @@ def winkler_at_load(
     >>> round(c.entry, 7)
     1.0
     """
-    _checked(equilibrium, moduli, memories)
+    _active_elements(equilibrium, moduli, memories)
     require_positive(load=load, radius=radius, thickness=thickness)
 
     def contact(log_entry: float) -> WinklerContact:

@@ -1,7 +1,7 @@
 """From the mass flow to the line load on every roll: cross-sections, shares, load along a roll."""
 
 from conveyor.laws.loading.bulk import *
-from conveyor.laws.loading.curves import *
+from conveyor.laws.loading.curve_loads import *
 from conveyor.laws.loading.heap import *
-from conveyor.laws.loading.rolls import *
+from conveyor.laws.loading.roll_loading import *
 from conveyor.laws.loading.wings import *

@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 from typing import Final, NamedTuple, TypedDict
 
-from conveyor.laws.loading.wings import NO_WING, Wing, wings
+from conveyor.laws.loading.wings import NO_WING, Wing, wing_pieces
 from conveyor.require import require, require_angle, require_not_negative, require_positive
 
 EDGE_FRACTION: Final = 0.9  # ISO 5048: b = 0.9 B - 50 mm
@@ -162,7 +162,7 @@ def cross_section(
     surcharge_angle : float
         β, dynamic slope of the heap [rad], from 0 to below pi/2.
     inner_wing : Wing
-        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wings`.
+        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wing_pieces`.
 
     Returns
     -------
@@ -190,7 +190,7 @@ def cross_section(
     """
     require_angle(0.0, surcharge_angle=surcharge_angle)
     across, bottom = middle_roll_length, 0.0
-    for length, angle in wings(
+    for length, angle in wing_pieces(
         usable_width, middle_roll_length=middle_roll_length, trough_angle=trough_angle, inner_wing=inner_wing
     ):
         beside = length * math.cos(angle)
@@ -223,7 +223,8 @@ def filled_width(
     surcharge_angle : float
         β, dynamic slope of the heap [rad], from 0 to below pi/2.
     inner_wing : Wing
-        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wings`: filled, they and the middle
+        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wing_pieces`: filled, they and the
+        middle
         are to the outer wings a level middle as wide as they are across.
 
     Returns
@@ -282,7 +283,7 @@ def filled_width(
     return middle + 2.0 * (area - over_middle) / (linear + root)
 
 
-class Spread(NamedTuple):
+class BulkSpread(NamedTuple):
     """Width of belt under a cross-section of bulk [m] and surcharge angle of its heap [rad]."""
 
     width: float
@@ -297,7 +298,7 @@ def spread_bulk(
     trough_angle: float,
     surcharge_angle: float,
     inner_wing: Wing = NO_WING,
-) -> Spread:
+) -> BulkSpread:
     """Width of belt under a cross-section and slope of its heap: `filled_width` as far as the belt's edges.
 
     Bulk beyond a heap of its own slope from edge to edge makes a steeper heap on the whole belt:
@@ -316,11 +317,11 @@ def spread_bulk(
     surcharge_angle : float
         β, dynamic slope of the heap [rad], from 0 to below pi/2.
     inner_wing : Wing
-        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wings`.
+        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wing_pieces`.
 
     Returns
     -------
-    Spread
+    BulkSpread
         Its width, at most B, and its slope, at least β.
 
     Raises
@@ -349,11 +350,11 @@ def spread_bulk(
     }
     width = filled_width(area, surcharge_angle=surcharge_angle, **trough)
     if width <= belt_width:
-        return Spread(width, surcharge_angle)
-    pieces = wings(belt_width, **trough)
+        return BulkSpread(width, surcharge_angle)
+    pieces = wing_pieces(belt_width, **trough)
     across = middle_roll_length + 2.0 * math.fsum(wing.length * math.cos(wing.angle) for wing in pieces)
     level = cross_section(belt_width, surcharge_angle=0.0, **trough).bottom
-    return Spread(belt_width, math.atan(6.0 * (area - level) / across**2))
+    return BulkSpread(belt_width, math.atan(6.0 * (area - level) / across**2))
 
 
 class _Trough(TypedDict):

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import Final, Literal
 
-from conveyor.laws.loading.wings import NO_WING, Wing, wings
+from conveyor.laws.loading.wings import NO_WING, Wing, wing_pieces
 from conveyor.require import require, require_angle
 
 Heap = Literal["parabola", "triangle"]
@@ -67,7 +67,7 @@ def shares_by_area(
     heap : {"parabola", "triangle"}
         Shape of the heap [-]: ISO 5048, or DIN 22101 with the same area.
     inner_wing : Wing
-        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wings`.
+        Length [m] and angle [rad] of the inner wing rolls of four and five, see `wing_pieces`.
 
     Returns
     -------
@@ -97,7 +97,7 @@ def shares_by_area(
     """
     require_angle(0.0, surcharge_angle=surcharge_angle)
     require(heap in {"parabola", "triangle"}, "heap", heap, "one of parabola, triangle is needed")
-    pieces = wings(
+    pieces = wing_pieces(
         usable_width, middle_roll_length=middle_roll_length, trough_angle=trough_angle, inner_wing=inner_wing
     )
     steepness, depth = math.tan(surcharge_angle), math.fsum(w.length * math.sin(w.angle) for w in pieces)

@@ -21,7 +21,7 @@ NO_WING: Final = Wing(0.0, 0.0)
 """Between middle and outer rolls: none, in sets of up to three rolls."""
 
 
-def wings(
+def wing_pieces(
     width: float, *, middle_roll_length: float, trough_angle: float, inner_wing: Wing = NO_WING
 ) -> tuple[Wing, ...]:
     """Straight pieces of belt on one side of the middle roll, from it outward.
@@ -49,7 +49,10 @@ def wings(
 
     Examples
     --------
-    >>> [w.length for w in wings(1.5, middle_roll_length=0.25, trough_angle=1.0, inner_wing=Wing(0.25, 0.5))]
+    >>> [
+    ...     w.length
+    ...     for w in wing_pieces(1.5, middle_roll_length=0.25, trough_angle=1.0, inner_wing=Wing(0.25, 0.5))
+    ... ]
     [0.25, 0.375]
     """
     require_positive(width=width)

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final, Literal
 
-from conveyor.laws.resistance.defaults import Default
+from conveyor.laws.resistance.resistance_defaults import Default
 from conveyor.require import require, require_finite, require_not_negative, require_positive
 
 FOOT: Final = 0.3048  # [m], exact

@@ -12,10 +12,10 @@ from typing import Final
 
 import numpy as np
 
-from conveyor.laws.resistance.defaults import FLEXURE_SHARE, Default
+from conveyor.laws.resistance.resistance_defaults import FLEXURE_SHARE, Default
 from conveyor.require import require, require_angle, require_not_negative, require_positive
 
-_SITE: Final = (
+_SITE_SOURCE: Final = (
     "The CEMA Horsepower Equation, Bulk Solids Handling 34 (2014) 7: 4860 t/h, 7.5 m/s, sets 2 m apart"
 )
 SITE_LOSS: Final = 61.7  # [N a set], all losses measured there but those of the idlers' seals
@@ -25,14 +25,14 @@ SITE_SAG: Final = Default(
 )
 
 
-def _coefficient(sag: float) -> float:
+def _site_coefficient(sag: float) -> float:
     """Coefficient c that gives the site its share of flexure, at a sag over the spacing [-]."""
     return FLEXURE_SHARE.value * SITE_LOSS / (SITE_LOAD * sag)
 
 
 FLEXURE_COEFFICIENT: Final = Default(
-    _coefficient(SITE_SAG.value), _coefficient(SITE_SAG.high), _coefficient(SITE_SAG.low),
-    f"{100.0 * FLEXURE_SHARE.value:.0f} % of {SITE_LOSS:g} N a set under {SITE_LOAD:g} N ({_SITE}) "
+    _site_coefficient(SITE_SAG.value), _site_coefficient(SITE_SAG.high), _site_coefficient(SITE_SAG.low),
+    f"{100.0 * FLEXURE_SHARE.value:.0f} % of {SITE_LOSS:g} N a set under {SITE_LOAD:g} N ({_SITE_SOURCE}) "
     f"at {100.0 * SITE_SAG.value:.0f} % sag",
     True,
 )  # [-]  # fmt: skip
@@ -40,7 +40,7 @@ FLEXURE_COEFFICIENT: Final = Default(
 HARMONICS: Final = np.arange(1.0, 128.0)  # summed one by one; the rest is then right to 1e-10 of the sum
 
 
-def _rest(ratio: float, first: int) -> float:
+def _series_remainder(ratio: float, first: int) -> float:
     """Remainder of Σ n/(1 + (r n)²)² from n = first: Euler-Maclaurin to the first derivative."""
     square = (ratio * first) ** 2
     integral = 1.0 / (2.0 * ratio**2 * (1.0 + square))
@@ -145,7 +145,7 @@ def belt_flexure_resistance(
     ratio = 2.0 * math.pi * math.sqrt(bending_stiffness / tension) / spacing
     head = float(np.sum(HARMONICS / (1.0 + (ratio * HARMONICS) ** 2) ** 2))
     amplitude = 4.0 * math.pi * loss_tangent * bending_stiffness * (line_load / tension) ** 2
-    return amplitude * (head + _rest(ratio, HARMONICS.size + 1))
+    return amplitude * (head + _series_remainder(ratio, HARMONICS.size + 1))
 
 
 def rankine_coefficients(friction_angle: float) -> tuple[float, float]:

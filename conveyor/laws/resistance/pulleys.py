@@ -19,7 +19,7 @@ WRAP_TENSION_FACTOR: Final = 0.01  # [-], ISO 5048
 BEARING_FACTOR: Final = 0.005  # [-], ISO 5048: pulley bearings
 
 
-def _wrap(
+def _wrap_resistance(
     wrap: tuple[float, float], belt_width: float, tension: float, belt_thickness: float, diameter: float
 ) -> float:
     require_positive(belt_width=belt_width, belt_thickness=belt_thickness, pulley_diameter=diameter)
@@ -62,7 +62,7 @@ def fabric_wrap_resistance(
     ... )
     61.2
     """
-    return _wrap(FABRIC_WRAP, belt_width, tension, belt_thickness, pulley_diameter)
+    return _wrap_resistance(FABRIC_WRAP, belt_width, tension, belt_thickness, pulley_diameter)
 
 
 def steel_cord_wrap_resistance(
@@ -103,7 +103,7 @@ def steel_cord_wrap_resistance(
     ... )
     96.0
     """
-    return _wrap(STEEL_CORD_WRAP, belt_width, tension, belt_thickness, pulley_diameter)
+    return _wrap_resistance(STEEL_CORD_WRAP, belt_width, tension, belt_thickness, pulley_diameter)
 
 
 def pulley_load(

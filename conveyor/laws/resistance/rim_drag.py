@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 from typing import Final
 
-from conveyor.errors import Amount, InputError
+from conveyor.errors import InputError, MessageQuantity
 from conveyor.laws.resistance.roll_bearing import (
     PER_MINUTE,
     bearing_load_factor,
@@ -218,9 +218,9 @@ def linear_roll_drag(
         raise InputError(
             "reference_drag = {} is not allowed: its line gives {} at {} and {}; give smaller slopes or a measurement "
             "nearer by",
-            Amount(reference_drag, "force", f"{reference_drag!r}"),
-            Amount(drag, "force", f"{drag:.3g} N"),
-            Amount(load, "force", f"{load:g} N"),
-            Amount(rotation, "rotation", f"{rotation:g} 1/s"),
+            MessageQuantity(reference_drag, "force", f"{reference_drag!r}"),
+            MessageQuantity(drag, "force", f"{drag:.3g} N"),
+            MessageQuantity(load, "force", f"{load:g} N"),
+            MessageQuantity(rotation, "rotation", f"{rotation:g} 1/s"),
         )
     return drag

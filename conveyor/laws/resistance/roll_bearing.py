@@ -11,8 +11,8 @@ import math
 import warnings
 from typing import Final
 
-from conveyor.errors import Amount, ValidityWarning
-from conveyor.laws.resistance.defaults import Default
+from conveyor.errors import MessageQuantity, ValidityWarning
+from conveyor.laws.resistance.resistance_defaults import Default
 from conveyor.require import require, require_not_negative, require_positive
 
 MM: Final = 1e-3  # [m]
@@ -96,9 +96,9 @@ def oil_viscosity(
         require(least <= value < math.inf, name, value, f"at least {least:g} m²/s is needed")
     falls = (second_temperature - first_temperature) * (first_viscosity - second_viscosity) > 0.0
     require(falls, "second_viscosity", second_viscosity, "the hotter of the two must be the thinner")
-    turn, slope = walther(first_temperature, first_viscosity, second_temperature, second_viscosity)
+    turn, slope = walther_constants(first_temperature, first_viscosity, second_temperature, second_viscosity)
     log_z = math.exp(turn - slope * math.log(temperature))
-    cold = Amount(temperature, "temperature", f"{temperature!r}")
+    cold = MessageQuantity(temperature, "temperature", f"{temperature!r}")
     require(log_z < math.log10(1e9), "temperature", cold, "the oil is solid there, give hotter ones")
     viscosity: float = 10.0**log_z - WALTHER_OFFSET
     if viscosity < WALTHER_LEAST:
@@ -110,7 +110,7 @@ def oil_viscosity(
     return viscosity * CENTISTOKES
 
 
-def walther(
+def walther_constants(
     first: float, first_viscosity: float, second: float, second_viscosity: float
 ) -> tuple[float, float]:
     """A and B of ln log10(ν + 0.7) = A - B ln T through two points (ASTM D341, equation 1).
@@ -138,7 +138,7 @@ def walther(
 
     Examples
     --------
-    >>> a, b = walther(313.0, 32e-6, 373.0, 5.4e-6)
+    >>> a, b = walther_constants(313.0, 32e-6, 373.0, 5.4e-6)
     >>> round(10.0 ** math.exp(a - b * math.log(353.0)) - 0.7, 1)
     8.5
     """

@@ -13,8 +13,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from conveyor.errors import Amount, ConveyorError
-from conveyor.laws.resistance.defaults import Default, Site
+from conveyor.errors import ConveyorError, MessageQuantity
+from conveyor.laws.resistance.resistance_defaults import Default, Site
 from conveyor.laws.resistance.rim_drag import bearing_roll_drag, roll_rotation
 from conveyor.laws.resistance.roll_bearing import (
     BEARING_F0,
@@ -26,7 +26,7 @@ from conveyor.laws.resistance.roll_bearing import (
     PER_MINUTE,
     WALTHER_OFFSET,
     oil_viscosity,
-    walther,
+    walther_constants,
 )
 from conveyor.require import require, require_positive
 
@@ -70,12 +70,12 @@ USUAL_BEARINGS: Final = (
 """Roll diameter up to [m], its bearings; general knowledge."""
 
 
-def _middle(default: Default) -> float:
+def _range_middle(default: Default) -> float:
     return 0.5 * (default.low + default.high)
 
 
-SERVICE_F0: Final = _middle(BEARING_F0)  # [-]
-SERVICE_F1_FACTOR: Final = _middle(BEARING_F1_FACTOR)  # [-]
+SERVICE_F0: Final = _range_middle(BEARING_F0)  # [-]
+SERVICE_F1_FACTOR: Final = _range_middle(BEARING_F1_FACTOR)  # [-]
 USUAL_OIL: Final = ((313.15, 100e-6), (373.15, 11e-6))  # base oil ISO VG 100: [K], [m²/s]; general knowledge
 SEAL_STRESS: Final = Default(
     500.0, 250.0, 750.0,
@@ -100,7 +100,7 @@ ROLL_CONDITION: Final[dict[Site, Default]] = {
     "poor": Default(2.0, 1.5, 3.0, "wet, dirty or worn bearings, build-up on the rolls", True),
 }  # fmt: skip
 """Drag of rolls in service over that of rolls in order [-], by site."""
-_CLOSED: Final = 1e-10  # [K]
+_STEP_TOLERANCE: Final = 1e-10  # [K]
 _UNIT_SPEED: Final = (
     1.0  # [m/s], at which a bearing's film is scaled; Palmgren's moment is proportional to it anywhere
 )
@@ -147,8 +147,8 @@ def usual_bearing(roll_diameter: float) -> Bearing:
     """
     smallest = USUAL_BEARINGS[0][1].outside
     diameter, least = (
-        Amount(roll_diameter, "thickness", f"{roll_diameter!r}"),
-        Amount(smallest, "thickness", f"{smallest:g} m"),
+        MessageQuantity(roll_diameter, "thickness", f"{roll_diameter!r}"),
+        MessageQuantity(smallest, "thickness", f"{smallest:g} m"),
     )
     allowed = ConveyorError("more than {} is needed; give the roll's drag", least)
     require(smallest < roll_diameter < math.inf, "roll_diameter", diameter, allowed)
@@ -263,7 +263,7 @@ def service_roll_drag(
         seal_moment=seal,
     )
     rest = unit.seals + unit.load * load ** (1.0 + BEARING_F1_EXPONENT.value)
-    turn, slope = walther(cool, thick, warm, thin)
+    turn, slope = walther_constants(cool, thick, warm, thin)
 
     def film(temperature: Array, speed: Array) -> tuple[Array, Array]:
         """Palmgren's f(ν n) of the oil at temperatures and speeds, and its slope [1/K]."""
@@ -282,7 +282,7 @@ def service_roll_drag(
     cooled = 2.0 * cooling / speed
     low, high = air, air + (rest + scale * film(air, speed)[0]) / cooled
     place, step = low, math.inf
-    while step > _CLOSED:
+    while step > _STEP_TOLERANCE:
         viscous, falls = film(place, speed)
         surplus = rest + scale * viscous - cooled * (place - air)
         low, high = np.where(surplus >= 0.0, place, low), np.where(surplus > 0.0, high, place)

@@ -1,0 +1,80 @@
+"""`conveyor new`: a commented spec to start from."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, cast
+
+from conveyor.cli.application import Force, Quiet, Units, app, argument, examples_text, option, print_lines
+from conveyor.cli.output_files import Outputs
+from conveyor.errors import InputError
+from conveyor.files.output_marks import TO_FILL_IN
+
+if TYPE_CHECKING:
+    from conveyor.starter import Kind
+
+
+class StarterKind(StrEnum):
+    """Kinds of starter: three conveyors, a duty to size one from, and full examples."""
+
+    OVERLAND = "overland"
+    IN_PLANT = "in-plant"
+    DOWNHILL = "downhill"
+    DUTY = "duty"
+    SHUTTLE = "shuttle"
+    CURVED = "curved"
+    BRAKES = "brakes"
+    TRANSFER = "transfer"
+    DYNAMICS = "dynamics"
+    STUDY = "study"
+    SEARCH = "search"
+
+
+@app.command(
+    short_help="Write a commented spec to start from.",
+    epilog=examples_text(
+        "conveyor new mine.yaml",
+        "conveyor new mine.yaml --kind in-plant --units US",
+        "conveyor new duty.yaml --kind duty",
+        "conveyor new spacing.yaml --kind study",
+    ),
+)
+def new(
+    spec: Annotated[Path, argument("Spec to write (.yaml).", show_default=False)],
+    kind: Annotated[
+        StarterKind,
+        option(
+            "Conveyor the example values belong to; duty: of one to be sized. From shuttle on full examples in "
+            "SI, a study or search with the spec it varies beside it."
+        ),
+    ] = StarterKind.OVERLAND,
+    units: Annotated[Units, option("System of units.")] = Units.SI,
+    force: Force = False,
+    quiet: Quiet = False,
+) -> None:
+    """Write a spec to start from: every field that matters, with a comment; it runs as it stands."""
+    if spec.suffix.lower() not in {".yaml", ".yml"}:
+        raise InputError(f'{spec}: a spec\'s name ends in .yaml, got "{spec.suffix}"')
+    to = Outputs(force=force)
+    to.file("SPEC", spec, ".yaml", ".yml", kind=TO_FILL_IN)
+    from conveyor.starter import EXAMPLES, example_files, quote_path, starter_text
+
+    if kind.value in EXAMPLES:
+        files, command = example_files(kind.value, spec), EXAMPLES[kind.value].command
+        if units is not Units.SI:
+            raise InputError(
+                f"--units {units.value}: the example of --kind {kind.value} is in SI; leave the units out, and give "
+                f"them to conveyor {command}, which then reports in them"
+            )
+        for beside in [path for path in files if path != spec]:
+            to.file("SPEC", beside, ".yaml", kind=TO_FILL_IN)
+    else:
+        files = {spec: starter_text(cast("Kind", kind.value), units.value, file=spec.name).encode()}
+        command = "size" if kind is StarterKind.DUTY else "power"
+    for path, content in files.items():
+        to.add("spec", path, {path: content})
+    lines = to.save()
+    if not quiet:
+        more = {"study": " -o points.csv", "optimise": " -o best.yaml"}.get(command, "")
+        print_lines(*lines, f"next: conveyor {command} {quote_path(str(spec))}{more}")

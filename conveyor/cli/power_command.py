@@ -1,0 +1,65 @@
+"""`conveyor power`: forces, tensions, power."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+from conveyor.cli.application import (
+    AsParquet,
+    ImageKind,
+    PdfPage,
+    Spec,
+    TablesFolder,
+    WebPage,
+    Workbook,
+    option,
+)
+from conveyor.cli.shared_options import Session, session_command
+
+
+@session_command(
+    short_help="Power, forces and tensions of a conveyor.",
+    examples_of=(
+        "conveyor power overland.yaml",
+        "conveyor power overland.yaml -o report.xlsx --html report.html",
+        "conveyor power overland.yaml --units us",
+        "conveyor power overland.yaml --tables tables --plots figures",
+        "conveyor power overland.yaml --json | jq .power_kW",
+        "conveyor power input.xlsx --shelf my-compounds",
+    ),
+)
+def power(
+    session: Session,
+    spec: Spec,
+    output: Workbook = None,
+    html: WebPage = None,
+    pdf: PdfPage = None,
+    tables: TablesFolder = None,
+    parquet: AsParquet = False,
+    plots: Annotated[Path | None, option("Draw every figure into it.", "FOLDER", "--plots")] = None,
+    plot_kind: Annotated[ImageKind, option("Format of the figures.", None, "--plot-kind")] = ImageKind.PNG,
+) -> None:
+    """Power, forces and tensions of a conveyor, with the load cases, the year and the ranges its spec has."""
+    to = session.outputs(spec)
+    to.reports(output, html, tables, parquet=parquet, pdf=pdf)
+    to.folder("--plots", plots)
+    import conveyor
+    from conveyor import spec as spec_file
+    from conveyor.analysis import studies
+
+    line = session.read(spec)
+    system = session.system(line)
+    result = conveyor.analyse(line)
+    with session.progress() as told:
+        with spec_file.locate_errors(spec):
+            asked = studies(line, result, progress=told)
+        result = result.beside(asked)
+        shown = result.in_units(system)
+        contents = shown.contents(asked)
+        to.write(contents, told)
+        if plots is not None:
+            to.figures(shown.plots.every(asked), plots, plot_kind.value)
+    from conveyor.cli.terminal import show_power
+
+    session.answer(lambda: result.to_dict(asked), to, lambda: show_power(contents))

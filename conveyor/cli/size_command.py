@@ -1,0 +1,100 @@
+"""`conveyor size`: ranked designs from a duty alone, each a complete spec."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from conveyor.cli.application import AsParquet, PdfPage, TablesFolder, argument, option
+from conveyor.cli.output_files import FIGURE, PAGE, SPEC, Outputs
+from conveyor.cli.shared_options import Session, session_command
+
+if TYPE_CHECKING:
+    from conveyor.report.table_model import Contents
+    from conveyor.sizing import CalculatedSizing
+
+_MOST_DESIGNS = 50
+
+
+@session_command(
+    short_help="Size a conveyor from its duty: ranked designs.",
+    without=("changed",),
+    examples_of=(
+        "conveyor size duty.yaml",
+        "conveyor size duty.yaml -n 3 -o design.yaml",
+        "conveyor size duty.yaml -o designs.xlsx -o around.png",
+        "conveyor size duty.yaml --json | jq .designs",
+    ),
+)
+def size(
+    session: Session,
+    duty: Annotated[Path, argument("Duty: .yaml or .json.", "DUTY", show_default=False)],
+    best: Annotated[int, option("Designs to rank.", "N", "--best", "-n", min=1, max=_MOST_DESIGNS)] = 3,
+    output: Annotated[
+        list[Path] | None,
+        option(
+            "Write specs of the designs (.yaml, numbered by rank), .xlsx, .html, or what varies around the best "
+            "(.png, .svg, .pdf); may be repeated.",
+            "FILE",
+            "-o",
+            "--output",
+        ),
+    ] = None,
+    pdf: PdfPage = None,
+    tables: TablesFolder = None,
+    parquet: AsParquet = False,
+) -> None:
+    """Size a conveyor from what it is to convey, where and by which rules; the cheapest in a year first.
+
+    Belt width, speed, trough, belt class, covers, rolls, distances of the sets, drives and their places, take-up. Every
+    design shown is calculated exactly and passes its checks; a closed estimate chooses which are worth it.
+    """
+    asked = [(path, path.suffix.lower()) for path in output or ()]
+    to = session.outputs(duty)
+    for path, ending in asked:
+        for each in _ranked_paths(path, best) if ending in SPEC else [path]:
+            to.file("--output", each, ".xlsx", *PAGE, *FIGURE, *SPEC)
+    to.reports(tables=tables, parquet=parquet, pdf=pdf)
+    from conveyor import sizing
+    from conveyor.report.sizing_tables import sizing_contents, sizing_json
+    from conveyor.study_file import read_duty
+
+    read = read_duty(duty, shelves=session.shelf or ())
+    with session.progress("designs") as told:
+        designs = sizing.size_conveyor(read, best=best, progress=told)
+    pictured = (
+        session.as_json
+        or tables is not None
+        or pdf is not None
+        or any(ending not in SPEC for _, ending in asked)
+    )
+    contents = sizing_contents(designs, session.system(read), vary=pictured)
+    for path, ending in asked:
+        _write_output(designs, contents, path, ending, to)
+    to.write(contents)
+    from conveyor.cli.terminal import show_sizing
+
+    session.answer(lambda: sizing_json(contents, designs), to, lambda: show_sizing(contents))
+
+
+def _ranked_paths(path: Path, best: int) -> list[Path]:
+    """Paths of the design specs, numbered by rank where there are several."""
+    return [path] if best == 1 else [path.with_stem(f"{path.stem}-{rank}") for rank in range(1, best + 1)]
+
+
+def _write_output(sizing: CalculatedSizing, contents: Contents, path: Path, ending: str, to: Outputs) -> None:
+    """Add the specs, report or figure of an output path, by its ending."""
+    from conveyor.spec import dump
+
+    if ending in SPEC:
+        names = _ranked_paths(path, len(sizing.designs) if len(sizing.designs) > 1 else 1)
+        made = {
+            name: f"# Rank {rank} of conveyor size.\n{dump(design.conveyor)}".encode()
+            for rank, (name, design) in enumerate(zip(names, sizing.designs, strict=True), start=1)
+        }
+        to.add("specs", path, made)
+    elif ending in FIGURE:
+        around = next(drawing for drawing in contents.drawings if drawing.name == "around")
+        to.figure(around.draw(), path)
+    else:
+        to.report(contents, path)

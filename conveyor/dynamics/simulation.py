@@ -1,0 +1,594 @@
+"""Simulation of scenarios through time, in batches, with cells refined until the peak tensions converge."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Final, NamedTuple, Self, TypeAlias, TypeGuard
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.dynamics.cut_loop import SPEEDS, Cells, CutLoop
+from conveyor.dynamics.machines import ScenarioSetup, ScenarioSize, machines_over_time, prepare_belts
+from conveyor.dynamics.wave import Record, simulate_belts
+from conveyor.errors import InputError, NoSolutionError
+from conveyor.laws.waves import (
+    BELT_RETARDATION,
+    DRIVE_DRAG,
+    MOTOR_SLIP,
+    PULLEY_INERTIA,
+    SLACK_SAG,
+    TORQUE_LIMIT,
+)
+from conveyor.line.drive_scenarios import ScenarioUnit
+from conveyor.line.line import Line
+from conveyor.models import Conveyor, LoadCase, Scenario
+from conveyor.models.variants import at_reduced_speed, with_case, with_temperature
+from conveyor.pipeline import CalculatedConveyor, ProgressCallback, Variant, calculate_many
+from conveyor.studies.loads import EveryLoad, every_load
+from conveyor.studies.states import CalculatedStates
+from conveyor.studies.worker_failures import report_lost_worker
+from conveyor.units import from_si
+from conveyor.units.sentences import Message, escape_braces, message, percent, reraise_in_units
+
+Array = NDArray[np.float64]
+
+ERROR: Final = 0.01
+"""Default error of the peaks [-]."""
+_CELLS = 25  # of the longest belt at first
+_REFINEMENTS = 6  # refinements at most
+_RETRIES = 2  # refinements of a scenario without an answer: its cells may be too long
+_SIZES = 4  # cell sizes for an error estimate
+_SAFETY = 1.25  # for three sizes and more: P. J. Roache, J. Fluids Eng. 116 (1994) 405
+_SLOWEST, _FASTEST = math.sqrt(2.0), 2.0  # ratio of changes: at a jump of speed, at first order
+_HALVING_HELPS = (
+    0.75  # ratio of errors up to which halving helps: 1/2 at first order, 1/√2 at a jump of speed
+)
+_REST = 1e-3  # of the steady speed, below which a belt away from the drives is at rest
+_COURANT = 0.95  # of the longest stable step: at that step itself cell-to-cell oscillations are never damped
+
+
+@dataclass(frozen=True, eq=False)
+class ScenarioResult:
+    """Result of a scenario.
+
+    Attributes
+    ----------
+    setup : ScenarioSetup
+        The scenario on its belt.
+    cells : Cells
+        Cells of the belt.
+    record : Record
+        Its record, without the axis of scenarios.
+    error : float or None
+        Error estimate of the highest and lowest tension over the highest [-]; None if the step was given.
+    """
+
+    setup: ScenarioSetup
+    cells: Cells
+    record: Record
+    error: float | None
+
+    @property
+    def name(self) -> str:
+        """Name of the scenario."""
+        return self.setup.scene.name
+
+    @property
+    def line(self) -> Line:
+        """The conveyor in SI."""
+        return self.setup.loop.line
+
+    @cached_property
+    def times(self) -> Array:
+        """Time of every step [s]."""
+        return np.asarray(self.record.step * np.arange(len(self.record.take_up["tension"])), dtype=float)
+
+    @cached_property
+    def middles(self) -> Array:
+        """Distance of every cell from the take-up [m]."""
+        return np.asarray(0.5 * (self.cells.at[:-1] + self.cells.at[1:]))
+
+    @property
+    def highest(self) -> float:
+        """Highest tension [N]."""
+        return float(self.record.highest.max())
+
+    @property
+    def lowest(self) -> float:
+        """Lowest tension [N]."""
+        return float(self.record.lowest.min())
+
+    def place(self, i: int) -> str:
+        """Section and strand of a cell."""
+        return self._words(float(self.middles[i]))
+
+    def _words(self, distance: float) -> str:
+        """Section and strand at a distance from the take-up."""
+        order = self.setup.loop.order
+        at = int(np.searchsorted(self.setup.loop.way, distance, side="right")) - 1
+        stretch = self.line.loop.stretches[order[min(at, order.size - 1)]]
+        return f"{stretch.section}, {stretch.strand}"
+
+    @cached_property
+    def top_speed(self) -> tuple[float, str, float]:
+        """Highest speed anywhere on the belt in either direction, start included [m/s]; its location and time [s]."""
+        record = self.record
+        size = np.maximum(record.highest_speed, -record.lowest_speed)
+        i = int(size.argmax())
+        when = record.highest_speed_at if record.highest_speed[i] >= size[i] else record.lowest_speed_at
+        return float(size[i]), self._words(float(self.cells.at[i])), float(when[i])
+
+    @cached_property
+    def round_loop(self) -> tuple[NDArray[np.int_], Array]:
+        """Cells in belt order from the head, return strand first, and their distance from it [m]."""
+        loop, ways = self.setup.loop, self.line.loop.way
+        distance = (self.middles + ways[loop.order[0]]) % ways[-1]
+        order = np.argsort(distance)
+        return order, distance[order]
+
+    def stretches(self) -> Iterator[tuple[int, slice]]:
+        """Every stretch of `line.loop` with its cells, at least one."""
+        for i, k in enumerate(self.setup.loop.order.tolist()):
+            low, high = np.searchsorted(self.middles, self.setup.loop.way[i : i + 2])
+            low = min(int(low), self.middles.size - 1)
+            yield k, slice(low, max(int(high), low + 1))
+
+    def beside(self, pulley: int) -> NDArray[np.int_]:
+        """Cells on both sides of a pulley of the line, across the take-up if it is next to it."""
+        at = self.cells.at
+        i = int(np.argmin(np.abs(at - self.setup.loop.pulleys[pulley])))
+        return np.array([i - 1, i]) % (at.size - 1)
+
+    @cached_property
+    def sag(self) -> Array:
+        """Largest sag of every cell over the span of its idlers [-]."""
+        return np.asarray(SLACK_SAG.value * self.cells.slack / self.record.lowest)
+
+    @cached_property
+    def torque(self) -> Array:
+        """Torque of every motor over its rated torque [-], shape (steps, d)."""
+        return np.asarray(self.record.drives["motor"] / self.setup.rated)
+
+    @cached_property
+    def travel(self) -> Array:
+        """Travel of the take-up's carriage at every step, away from the belt positive [m]."""
+        return np.asarray(self.record.take_up["belt"] / self.line.take_up.strands)
+
+    @cached_property
+    def stops(self) -> bool:
+        """True if the last command to every drive is to stop."""
+        told = {d: happening.do for happening in self.setup.scene.drive_events for d in happening.drives}
+        return len(told) == len(self.setup.drives) and "start" not in told.values()
+
+    @cached_property
+    def belt_speed(self) -> Array:
+        """Belt speed at the first drive at every step [m/s]."""
+        return np.asarray(self.record.drives["belt"][:, 0])
+
+    @cached_property
+    def rests_at(self) -> float | None:
+        """Time at which drive pulleys and belt are finally at rest [s]; None if they are not."""
+        turning = np.abs(self.record.drives["belt"]).max(axis=1) > 0.0
+        creeping = np.abs(self.record.speeds).max(axis=1) > _REST * self.line.speed
+        if turning[-1] or creeping[-1]:
+            return None
+        ends = [
+            float(times[np.flatnonzero(moves)[-1]])
+            for times, moves in ((self.times, turning), (self.record.times, creeping))
+            if moves.any()
+        ]
+        return max(ends, default=0.0)
+
+    @cached_property
+    def way(self) -> float:
+        """Distance run by the belt at the first drive [m]."""
+        return float(self.belt_speed.sum() * self.record.step)
+
+    @property
+    def missing_energy(self) -> float:
+        """Error of the energy balance over its largest term [-]."""
+        work = {name: abs(float(value)) for name, value in self.record.work.items()}
+        missing = work.pop("missing")
+        return missing / max(work.values())
+
+
+@dataclass(frozen=True)
+class ScenarioRefusal:
+    """A scenario without an answer, and the reason."""
+
+    scenario: str
+    reason: Message
+
+
+_ResultOrRefusal: TypeAlias = ScenarioResult | ScenarioRefusal
+
+
+class _Peaks(NamedTuple):
+    """Peak tensions of a scenario at a cell size [N, s]."""
+
+    highest: float
+    lowest: float
+    step: float
+
+    @classmethod
+    def of(cls, one: ScenarioResult) -> Self:
+        return cls(one.highest, one.lowest, one.record.step)
+
+
+@dataclass(frozen=True, eq=False)
+class CalculatedDynamics:
+    """Scenarios of a conveyor.
+
+    Attributes
+    ----------
+    conveyor : Conveyor
+        The spec.
+    given : CalculatedConveyor
+        Its steady result, at the one take-up setting of every load of the spec.
+    followed : tuple of ScenarioResult
+        Results in order of the scenarios.
+    refused : tuple of ScenarioRefusal
+        Scenarios without an answer.
+    sized : tuple of ScenarioSize
+        Sizes determined for them, if any.
+    """
+
+    conveyor: Conveyor
+    given: CalculatedConveyor
+    followed: tuple[ScenarioResult, ...]
+    refused: tuple[ScenarioRefusal, ...] = ()
+    sized: tuple[ScenarioSize, ...] = ()
+
+    @cached_property
+    def assumptions(self) -> tuple[str, ...]:
+        """Assumptions for values that the spec does not give."""
+        return tuple(dict.fromkeys(_dynamics_assumptions(self)))
+
+
+def standard_scenarios(conveyor: Conveyor) -> tuple[Scenario, ...]:
+    """Standard scenarios: starts full and empty, a stop by the drives, an emergency stop, power failures."""
+    line = conveyor.drive
+    led = all(pulley.starter is None or pulley.starter.kind == "inverter" for pulley in line.pulleys)
+    direct = line.start_factor is None and (line.torque_curve or line.torque_factor is not None)
+    led = led and not (direct and line.starter is None)
+    braked = any(pulley.brake_force is not None for pulley in line.pulleys)
+    brake = [{"at": line.brake_delay, "do": "brake"}] if braked else []
+    made = [
+        ("start full", "at rest", "full", [{"do": "start"}]),
+        ("start empty", "at rest", "empty", [{"do": "start"}]),
+        *([("stop full", "running", "full", [{"do": "ramp down"}])] if led else []),
+        ("emergency stop full", "running", "full", [{"do": "power off"}, *brake]),
+        *([("power failure full, brakes fail", "running", "full", [{"do": "power off"}])] if braked else []),
+        *(
+            (f"power failure of {name}", "running", "full", [{"do": "power off", "drives": [name]}])
+            for name in line.names
+            if len(line.names) > 1
+        ),
+    ]
+    return tuple(
+        Scenario.from_data({"name": name, "begins": begins, "loading": loading, "events": events})
+        for name, begins, loading, events in made
+    )
+
+
+def simulate_scenarios(
+    conveyor: Conveyor,
+    scenarios: Sequence[Scenario] | None = None,
+    *,
+    error: float = ERROR,
+    step: float | None = None,
+    executor: Executor | None = None,
+    workers: int = 1,
+    progress: ProgressCallback | None = None,
+    loads: EveryLoad | None = None,
+) -> CalculatedDynamics:
+    """Simulate scenarios through time.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        The spec.
+    scenarios : sequence of Scenario, optional
+        By default those of the spec, or the standard ones if it has none.
+    error : float
+        Permitted error of the highest and lowest tension over the highest [-].
+    step : float, optional
+        Travel time of a cell [s]; by default cells are halved until the peaks converge to `error`.
+    executor : concurrent.futures.Executor, optional
+        Executor of groups of scenarios, as in `conveyor.studies.parametric_study.run_study`; by default one batch in
+        this process.
+    workers : int
+        Workers of the executor, and number of groups.
+    progress : callable, optional
+        Called with the items done and their total.
+    loads : EveryLoad, optional
+        Every load of the spec, if already calculated.
+
+    Returns
+    -------
+    CalculatedDynamics
+        One result per scenario, and the scenarios without an answer.
+
+    Raises
+    ------
+    InputError
+        A loading does not fit the belt, or an argument is outside its range.
+    NoSolutionError, RangeError
+        A load has no steady answer, the belt's stiffness is not known, or no scenario has an answer.
+    """
+    if not 0.0 < error < 1.0:
+        raise InputError(f"error = {error}: between 0 and 1 is needed")
+    setups, given = prepare_setups(
+        conveyor, tuple(scenarios or conveyor.scenarios or standard_scenarios(conveyor)), loads
+    )
+    with reraise_in_units(conveyor.report.units):
+        if step is not None:
+            answers = _split_refusals(_simulate_group(setups, step))
+        else:
+            answers = simulate_to_error(setups, error, executor=executor, workers=workers, progress=progress)
+    return CalculatedDynamics(conveyor, given, *answers)
+
+
+@report_lost_worker("scenarios")
+def simulate_to_error(
+    setups: Sequence[ScenarioSetup],
+    error: float = ERROR,
+    *,
+    executor: Executor | None = None,
+    workers: int = 1,
+    progress: ProgressCallback | None = None,
+) -> tuple[tuple[ScenarioResult, ...], tuple[ScenarioRefusal, ...]]:
+    """Simulate scenarios as `simulate_scenarios`, halving cells until the peaks converge to an error [-].
+
+    Scenarios that do not converge at the finest cells count as without an answer.
+    """
+
+    def beside(some: list[ScenarioSetup], step: float) -> list[_ResultOrRefusal]:
+        """Simulate one group per worker; results in the order of the scenarios."""
+        if executor is None:
+            return _simulate_group(some, step)
+        groups = [some[k::workers] for k in range(min(workers, len(some)))]
+        made = list(executor.map(_simulate_group, groups, itertools.repeat(step)))
+        return [made[i % len(groups)][i // len(groups)] for i in range(len(some))]
+
+    step = max(float(setup.loop.travel[-1]) for setup in setups) / _CELLS
+    answers = beside(list(setups), step)
+    peaks = [[_Peaks.of(one)] if isinstance(one, ScenarioResult) else [] for one in answers]
+    for halved in range(_REFINEMENTS):
+        retried = halved < _RETRIES
+        open_ones = [
+            i
+            for i, one in enumerate(answers)
+            if _needs_refinement(one, error) or (retried and isinstance(one, ScenarioRefusal))
+        ]
+        if not open_ones:
+            break
+        if progress is not None:
+            progress(len(setups) - len(open_ones), len(setups))
+        step *= 0.5
+        for i, now in zip(open_ones, beside([setups[i] for i in open_ones], step), strict=True):
+            answers[i] = now
+            if isinstance(now, ScenarioResult):
+                peaks[i].append(_Peaks.of(now))
+                answers[i] = replace(now, error=_peak_error(peaks[i]))
+    return _split_refusals(
+        [
+            _unconverged_refusal(one, peaks[i]) if _needs_refinement(one, error) else one
+            for i, one in enumerate(answers)
+        ]
+    )
+
+
+def _needs_refinement(one: _ResultOrRefusal, error: float) -> TypeGuard[ScenarioResult]:
+    """True if the peaks have not converged."""
+    return isinstance(one, ScenarioResult) and (one.error is None or one.error > error)
+
+
+def _peak_error(peaks: Sequence[_Peaks]) -> float | None:
+    """Error of the last peaks over the highest [-], from their changes as cells were halved; None for fewer than four.
+
+    Grid convergence index with the observed order, at most the first: a change may be small by chance, so it counts at
+    least half the previous one. A change of opposite sign shows no order and counts like the previous one.
+    """
+    if len(peaks) < _SIZES:
+        return None
+    errors = []
+    for tension in list(zip(*peaks[-_SIZES:], strict=True))[:2]:
+        changes = [fine - coarse for coarse, fine in itertools.pairwise(tension)]
+        before, change = 0.0, abs(changes[0])
+        for now in changes[1:]:
+            before, change = change, max(abs(now), change / _FASTEST)
+        if changes[-2] * changes[-1] < 0.0:
+            errors.append(_SAFETY * max(change, abs(changes[-2])))
+        elif change > 0.0:
+            errors.append(_SAFETY * change / (max(before / change, _SLOWEST) - 1.0))
+    return max(errors, default=0.0) / peaks[-1].highest
+
+
+def _unconverged_refusal(one: ScenarioResult, peaks: Sequence[_Peaks]) -> ScenarioRefusal:
+    """Refusal of a scenario that has not converged: the last figures, their location, and the remedy."""
+    record, error = one.record, one.error or 0.0
+    coarse, fine = peaks[-2:]
+    high = abs(fine.highest - coarse.highest) > abs(fine.lowest - coarse.lowest)
+    i = int(record.highest.argmax() if high else record.lowest.argmin())
+    at = float((record.highest_at if high else record.lowest_at)[i])
+    helps = (
+        f"they come closer: an error of {percent(math.ceil(1e3 * error) / 1e3, 1)} can be asked for"
+        if error < _HALVING_HELPS * (_peak_error(peaks[:-1]) or 0.0)
+        else "shorter cells bring them no closer, a larger error would only hide it: look for what jumps there, as a "
+        "winch with hardly any run-up or a drive of hardly any mass"
+    )
+    figures = zip((*coarse, *fine), 2 * ("force", "force", "time"), strict=True)
+    return ScenarioRefusal(one.name, message(
+        "highest and lowest tension are {} and {} at steps of {}, {} and {} at steps of {}: an error of "
+        f"{percent(error, 1)} of the highest, most in {escape_braces(one.place(i))} after {at:.1f} s; {helps}", *figures
+    ))  # fmt: skip
+
+
+def _split_refusals(
+    answers: Sequence[_ResultOrRefusal],
+) -> tuple[tuple[ScenarioResult, ...], tuple[ScenarioRefusal, ...]]:
+    """Separate scenarios with an answer from those without.
+
+    Raises
+    ------
+    NoSolutionError
+        None has an answer.
+    """
+    followed = tuple(one for one in answers if isinstance(one, ScenarioResult))
+    refused = tuple(one for one in answers if isinstance(one, ScenarioRefusal))
+    if not followed:
+        named: dict[Message, list[str]] = {}
+        for one in refused:
+            named.setdefault(one.reason, []).append(f'"{one.scenario}"')
+        of_reason = ((", ".join(of), why) for why, of in named.items())
+        raise NoSolutionError(
+            "\n".join(["scenario {}: {}"] * len(named)), *itertools.chain.from_iterable(of_reason)
+        )
+    return followed, refused
+
+
+def _simulate_group(setups: list[ScenarioSetup], step: float) -> list[_ResultOrRefusal]:
+    """Simulate scenarios in one batch, or each alone if one of them has no answer."""
+    try:
+        return list(simulate_batch(setups, step))
+    except NoSolutionError as error:
+        if len(setups) == 1:
+            return [ScenarioRefusal(setups[0].scene.name, message(escape_braces(str(error))))]
+    return [answer for one in setups for answer in _simulate_group([one], step)]
+
+
+def simulate_batch(setups: Sequence[ScenarioSetup], step: float) -> list[ScenarioResult]:
+    """Simulate scenarios of one conveyor in one batch, with cells as long as a wave travels in a step [s].
+
+    Raises
+    ------
+    NoSolutionError
+        The drives have no room, a drive cannot execute its command, or a figure is not finite.
+    """
+    cells, chain, start = prepare_belts(list(setups), step)
+    step = _COURANT * min(step, chain.longest_step)
+    steps = math.ceil(max(setup.duration for setup in setups) / step) + 1
+    record = simulate_belts(chain, machines_over_time(list(setups), start, step, steps), start, step=step)
+    return [
+        ScenarioResult(setup, one, _single_record(record, i, one.at.size, setup.duration), None)
+        for i, (setup, one) in enumerate(zip(setups, cells, strict=True))
+    ]
+
+
+def _single_record(record: Record, i: int, size: int, duration: float) -> Record:
+    """Record of one belt, with its own cells and duration."""
+    steps, kept = math.ceil(duration / record.step) + 1, record.times <= duration
+    return Record(
+        record.step, record.highest[i, : size - 1], record.lowest[i, : size - 1], record.highest_at[i, : size - 1],
+        record.lowest_at[i, : size - 1], record.highest_speed[i, :size], record.lowest_speed[i, :size],
+        record.highest_speed_at[i, :size], record.lowest_speed_at[i, :size], record.times[kept],
+        record.tensions[kept, i, : size - 1],
+        record.speeds[kept, i, :size], {name: values[:steps, i] for name, values in record.drives.items()},
+        {name: values[:steps, i] for name, values in record.take_up.items()}, record.slipped[i], record.heat[i],
+        record.fastest[i, :size], record.slowest[i, :size], {name: v[i] for name, v in record.work.items()},
+    )  # fmt: skip
+
+
+def prepare_setups(
+    conveyor: Conveyor, scenarios: Sequence[Scenario], loads: EveryLoad | None = None
+) -> tuple[list[ScenarioSetup], CalculatedConveyor]:
+    """Scenarios on their loads at the take-up setting of `every_load`; shared loads are calculated once."""
+    loads = every_load(conveyor) if loads is None else loads
+    loaded: dict[tuple[object, ...], Conveyor] = {}
+    keys = []
+    for scenario in scenarios:
+        temperature = ScenarioUnit.of(scenario, conveyor).temperature
+        key = (scenario.loading, scenario.sections, str(scenario.share), temperature)
+        keys.append(key)
+        if key not in loaded:
+            case = _scenario_case(loads.states, scenario)
+            made = with_case(conveyor, case)
+            if temperature is not None:
+                made = with_temperature(made, from_si(temperature, "temperature", "K"))
+            loaded[key] = made
+    steady = _steady_results([Variant(one, take_up=loads.states.take_up) for one in loaded.values()])
+    slower = _steady_results([
+        Variant(at_reduced_speed(one, share), take_up=loads.states.take_up)
+        for one in (conveyor, *loaded.values()) for share in SPEEDS
+    ])  # fmt: skip
+    loops = [
+        CutLoop.of(one, slower[len(SPEEDS) * i : len(SPEEDS) * (i + 1)])
+        for i, one in enumerate((loads.own, *steady))
+    ]
+    of_key = dict(zip(loaded, loops[1:], strict=True))
+    setups = [
+        ScenarioSetup(ScenarioUnit.of(scenario, conveyor), of_key[key], loops[0], loads.take_up)
+        for scenario, key in zip(scenarios, keys, strict=True)
+    ]
+    return setups, loads.own
+
+
+def _scenario_case(states: CalculatedStates, scenario: Scenario) -> LoadCase:
+    """Load case of a scenario."""
+    loading, sections = scenario.loading, scenario.sections
+    if loading == "worst":
+        state = states.state("worst")
+        if state is None:
+            raise NoSolutionError(f'scenario "{scenario.name}": no loading is worst; name the sections')
+        loading, sections = ("sections", state.loaded) if state.loaded else ("empty", ())
+    return LoadCase(name=scenario.name, loading=loading, sections=sections, share=scenario.share)
+
+
+def _steady_results(variants: list[Variant]) -> list[CalculatedConveyor]:
+    results = []
+    for one in calculate_many(variants):
+        if not isinstance(one, CalculatedConveyor):
+            raise one
+        results.append(one)
+    return results
+
+
+def _dynamics_assumptions(dynamics: CalculatedDynamics) -> Iterator[str]:
+    line = dynamics.given.line
+    if line.belt.retardation is None and line.belt.relaxing is None:
+        yield f"belt.carcass.retardation_time not given: {BELT_RETARDATION.value:g} s, general knowledge"
+    if line.belt.stiffness is None:
+        yield "belt.carcass.stiffness not given: the usual multiple of strength or rating"
+    if any(not pulley.driven for pulley in line.pulleys):
+        yield (
+            f"pulleys not driven turn like {percent(PULLEY_INERTIA.value)} of their mass, not given: "
+            "general knowledge"
+        )
+    if line.take_up.kind == "slack side":
+        yield "route.take_up not given: a weight on the slack side of the drive"
+    if any(float(followed.record.slipped.max()) > 0.0 for followed in dynamics.followed):
+        yield (
+            f"drag of a drive without power, whose belt slips, not given: {percent(DRIVE_DRAG.value)} of its "
+            "loss at rated "
+            "power, general knowledge"
+        )
+    for followed in dynamics.followed:
+        yield from _drive_assumptions(followed.setup)
+
+
+def _drive_assumptions(setup: ScenarioSetup) -> Iterator[str]:
+    for drive, unit in zip(setup.drives, setup.starters, strict=True):
+        values = {
+            "slip": f"{percent(MOTOR_SLIP.value)}, general knowledge",
+            "kind": unit.kind,
+            "time": f"{unit.time or 0.0:.0f} s, of the stiff belt at the start factor, by the ramp's shape",
+            "initial torque": f"{percent(unit.initial)}, general knowledge",
+        }
+        for what in unit.assumed:
+            yield f"{drive.name}: starter's {what} not given: {values[what]}"
+        if unit.limit is None and not setup.loop.line.torque_curve:
+            yield f"{drive.name}: torque limit not given: {TORQUE_LIMIT.value:g} x rated, general knowledge"
+        if drive.power is None:
+            yield f"{drive.name}: installed power not given: motors rated for the largest steady force"
+        if not (drive.mass_given and drive.reduced_mass):
+            given = "of 0 kg" if drive.mass_given else "not given"
+            yield f"{drive.name}: rotating masses {given}: typical of its power"
+    if setup.assumed_backstop:
+        yield f"{setup.drives[0].name}: backstop not given: one is assumed, the loaded belt would roll back"

@@ -1,0 +1,782 @@
+"""Sizing duty in SI, and the spec of a candidate in the units of its series."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Final, NoReturn
+
+from conveyor.errors import NoSolutionError, RangeError
+from conveyor.files import libraries
+from conveyor.laws.belt_strength import (
+    CEMA_PULLEYS,
+    CLASSIC_SAFETY,
+    PULLEY_DIAMETERS,
+    least_cover,
+    next_pulley_diameter,
+    pulley_group_diameter,
+)
+from conveyor.laws.energy import MOTOR_SERIES, NEMA_MOTORS, next_motor
+from conveyor.laws.idler_sets import CemaClass, rated_set_load
+from conveyor.laws.loading import cross_section, filled_width, usable_width
+from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
+from conveyor.laws.preliminary_sizing import (
+    PULLEY_MASS,
+    carcass_mass,
+    least_width_for_lumps,
+    recommended_speed,
+    roll_shell_mass,
+    standard_edge_distance,
+    wear_addition,
+)
+from conveyor.laws.take_up import (
+    PERMANENT_STRETCH_STEEL_CORD,
+    PERMANENT_STRETCH_TEXTILE,
+    STEEL_EXPANSION,
+    TRAVEL_RESERVE,
+)
+from conveyor.laws.tension import least_pulley_diameter, usual_stiffness
+from conveyor.line.usual_parts import SHAFT_DIAMETER_RATIO, usual_lump_factor
+from conveyor.models import Conveyor
+from conveyor.models.sizing import (
+    CarcassRow,
+    DriveLayout,
+    SiteRules,
+    Sizes,
+    SizingDuty,
+    same_width,
+    size_series,
+    within_limit,
+)
+from conveyor.units import Quantity, from_si, read_si, si, text
+from conveyor.units.sentences import format_figure, percent
+
+_BEARING_INSET: Final = 0.02  # [m], middle of a bearing inside the tube's end; general knowledge
+_OVERLAND_LENGTH: Final = (
+    1000.0  # [m], length from which spacings are those of overland belts; general knowledge
+)
+_V_ANGLE: Final = math.radians(10.0)
+
+
+@dataclass(frozen=True)
+class CarcassClass:
+    """A carcass class: kind, strength [N/m], thickness [m]; if listed mass [kg/m²] and rated tension [N/m]."""
+
+    kind: str
+    strength: float
+    thickness: float
+    listed_mass: float | None = None
+    rating: float | None = None
+
+    @property
+    def steel_cord(self) -> bool:
+        """True for steel cords."""
+        return self.kind == "steel cord"
+
+    @property
+    def mass(self) -> float:
+        """Mass per area [kg/m²]."""
+        if self.listed_mass is not None:
+            return self.listed_mass
+        return carcass_mass(self.strength, thickness=self.thickness, steel_cord=self.steel_cord)
+
+    @property
+    def safety(self) -> float:
+        """Strength over the allowed tension in steady running [-]."""
+        if self.rating is not None:
+            return self.strength / self.rating
+        return CLASSIC_SAFETY["steel cord" if self.steel_cord else "textile"]
+
+    @property
+    def stiffness(self) -> float:
+        """Usual tensile stiffness per width [N/m]."""
+        strength = self.strength if self.rating is None else None
+        usual = usual_stiffness(strength, rating=self.rating, carcass=self.kind)
+        if usual is None:
+            raise AssertionError("every kind of the series has a usual stiffness")
+        return usual
+
+    @property
+    def name(self) -> str:
+        """Trade name, such as ST1000."""
+        if self.rating is not None:
+            return f"{from_si(self.rating, 'line force', 'PIW').magnitude:.0f} PIW"
+        return f"{'ST' if self.steel_cord else 'EP'}{self.strength / 1e3:.0f}"
+
+    @property
+    def least_cover(self) -> float:
+        """Least thickness of a cover [m]."""
+        return least_cover(self.thickness, steel_cord=self.steel_cord)
+
+    @property
+    def least_pulley(self) -> float:
+        """Least diameter of a drive pulley [m]."""
+        return least_pulley_diameter(self.thickness, carcass="steel cord" if self.steel_cord else "EP")
+
+
+@dataclass(frozen=True)
+class RollSize:
+    """Rolls of one diameter [m]: wall [m], mass of the ends [kg], bearing rating C [N], CEMA class of their sets."""
+
+    diameter: float
+    wall: float
+    ends: float
+    rating: float
+    cema_class: CemaClass | None = None
+
+    def mass(self, length: float) -> float:
+        """Rotating mass of a roll of a length [kg]."""
+        return roll_shell_mass(self.diameter, wall=self.wall, length=length) + self.ends
+
+
+@dataclass(frozen=True)
+class WidthSize:
+    """A belt width and its roll lengths for sets of one, two and three [m]; `vee`: return sets are Vs of two."""
+
+    belt: float
+    one: float
+    two: float
+    three: float
+    vee: bool
+
+    @property
+    def return_rolls(self) -> tuple[int, float, float]:
+        """Number, length [m] and trough angle [rad] of the rolls of a return set."""
+        return (2, self.two, _V_ANGLE) if self.vee else (1, self.one, 0.0)
+
+
+@dataclass(frozen=True)
+class TroughSize:
+    """A belt width with a trough angle [rad] and its largest bulk cross-section on the steepest section [m²]."""
+
+    width: WidthSize
+    angle: float
+    area: float
+
+
+@dataclass(frozen=True)
+class DesignChoice:
+    """Parts of a candidate design, SI.
+
+    Attributes
+    ----------
+    trough : Trough
+        Width of the belt, and angle of the outer rolls.
+    speed, filling : float
+        Belt speed [m/s] and filling of the cross-section [-].
+    roll : RollSize
+        Rolls of both strands.
+    carry, back : float
+        Spacing of carry and return sets [m].
+    cover : int
+        Index of the compound of the bottom cover.
+    kind : str
+        Kind of carcass.
+    drives : str
+        Drive layout.
+    graduated : tuple of float
+        Spacing of the carry sets of each section [m]; empty where it is `carry`.
+    thicker : float
+        Addition to the least bottom cover [m].
+    """
+
+    trough: TroughSize
+    speed: float
+    filling: float
+    roll: RollSize
+    carry: float
+    back: float
+    cover: int
+    kind: str
+    drives: DriveLayout
+    graduated: tuple[float, ...] = ()
+    thicker: float = 0.0
+
+
+@dataclass(frozen=True)
+class SelectedParts:
+    """Parts selected from a candidate's tensions: carcass, covers [m], motors of each drive [W], brake force [N].
+
+    `backstop`: torque of that on the first pulley [N m]; `take_up`: its tension [N], 0 where grip and sag decide;
+    `settling`: selected from exact tensions already.
+    """
+
+    carcass: CarcassClass
+    top: float
+    bottom: float
+    motors: tuple[float, ...]
+    brake: float
+    backstop: float = 0.0
+    take_up: float = 0.0
+    settling: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class SizingTask:
+    """A duty in SI."""
+
+    duty: SizingDuty
+
+    @property
+    def rules(self) -> SiteRules:
+        """Rules of the site."""
+        return self.duty.rules
+
+    @property
+    def flow(self) -> float:
+        """Mass flow [kg/s]."""
+        return si(self.duty.material.flow)
+
+    @property
+    def density(self) -> float:
+        """Bulk density [kg/m³]."""
+        return si(self.duty.material.density)
+
+    @property
+    def gravity(self) -> float:
+        """Gravity [m/s²]."""
+        return si(self.duty.calculation.gravity)
+
+    @cached_property
+    def sections(self) -> tuple[tuple[float, float], ...]:
+        """Length and rise of every section [m]."""
+        return tuple((si(section.length), section.rise) for section in self.duty.sized_route.sections)
+
+    @property
+    def steepest(self) -> float:
+        """Inclination of the steepest section, up or down [rad]."""
+        return max(abs(math.asin(rise / length)) for length, rise in self.sections)
+
+    @property
+    def length(self) -> float:
+        """Length of the route [m]."""
+        return math.fsum(length for length, _ in self.sections)
+
+    @property
+    def seconds(self) -> float:
+        """Running time in a year [s]."""
+        return self.duty.operation.seconds_per_year
+
+    @property
+    def energy_price(self) -> float:
+        """Price of energy [currency/kWh]; 0 without one."""
+        price = self.duty.operation.price
+        return 0.0 if price is None else price.amount
+
+    @property
+    def feed_in_price(self) -> float:
+        """Price of energy fed back [currency/kWh]; 0 without one."""
+        credit = self.duty.operation.feed_in_price
+        return 0.0 if credit is None else credit.amount
+
+    @property
+    def roll_life(self) -> float:
+        """Required L10 of a set [s]."""
+        return si(self.rules.roll_life)
+
+    @property
+    def misalignment_friction(self) -> float:
+        """Drag of misaligned sets over their load [-]."""
+        return misalignment_friction(MISALIGNMENT[self.duty.site].value)
+
+    @property
+    def sags(self) -> tuple[float, float]:
+        """Sag of carry and return strand over the spacing of sets [-]."""
+        return si(self.rules.carry_sag), si(self.rules.return_sag)
+
+    @property
+    def grip(self) -> tuple[float, float]:
+        """Friction [-] and wrap [rad] of a drive pulley."""
+        return self.rules.friction, si(self.rules.wrap_angle)
+
+    @property
+    def efficiency(self) -> float:
+        """Efficiency of the drives [-]."""
+        return si(self.rules.efficiency)
+
+    @cached_property
+    def sizes(self) -> Sizes:
+        """Series that parts are chosen from."""
+        return size_series(self.duty.series)
+
+    @property
+    def _motors(self) -> tuple[float, ...]:
+        """Rated motor powers of the series [W]."""
+        return NEMA_MOTORS if self.duty.series == "US" else MOTOR_SERIES
+
+    @property
+    def _largest_motor(self) -> float:
+        """Largest motor of the series allowed by the rules [W]; the limit itself if below the series."""
+        most = si(self.rules.largest_motor)
+        return max((each for each in self._motors if within_limit(each, most)), default=most)
+
+    @property
+    def largest_drive(self) -> float:
+        """Largest power of all motors of a pulley [W]."""
+        return self.rules.motors_per_pulley * self._largest_motor
+
+    def motors(self, power: float) -> float:
+        """Total power of the fewest, smallest equal motors of a pulley, with the reserve of the rules [W]."""
+        count = self.motor_count(power * self.rules.motor_reserve)
+        return count * next_motor(power / count, reserve=self.rules.motor_reserve, series=self._motors)
+
+    def motor_count(self, rated: float) -> int:
+        """Number of equal motors of a pulley for a rated power [W]."""
+        return max(1, math.ceil(round(rated / self._largest_motor, 9)))
+
+    @property
+    def take_up_travel(self) -> float:
+        """Longest travel of a take-up [m]."""
+        return si(self.rules.take_up_travel)
+
+    @property
+    def take_up_strain(self) -> float:
+        """Strain of the loop that the take-up's travel allows after its reserve [-]."""
+        return self.take_up_travel / (self.length * (1.0 + TRAVEL_RESERVE.value))
+
+    def lasting_strain(self, kind: str) -> float:
+        """Permanent and thermal strain of a kind of carcass over the temperatures of the duty [-]."""
+        if kind != "steel cord":
+            return PERMANENT_STRETCH_TEXTILE.value
+        return PERMANENT_STRETCH_STEEL_CORD.value + STEEL_EXPANSION.value * self.warmth
+
+    @property
+    def warmth(self) -> float:
+        """Temperature difference from the coldest covers to those of the duty [K]."""
+        coldest = self.duty.coldest
+        return si(self.duty.ambient.belt) - si(coldest) if coldest is not None and self.cold else 0.0
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """Kinds of carcass to choose from."""
+        return self.rules.carcasses
+
+    @property
+    def cold(self) -> bool:
+        """True if motors and strength are for colder covers than the energy."""
+        coldest = self.duty.coldest
+        return coldest is not None and si(coldest) < si(self.duty.ambient.belt)
+
+    @cached_property
+    def speeds(self) -> tuple[float, ...]:
+        """Belt speeds to choose from [m/s]."""
+        return tuple(map(si, self.rules.speeds or self.sizes.speeds))
+
+    @cached_property
+    def spacings(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Spacings of carry and return sets to choose from [m]."""
+        rules, wide = self.rules, ", US" if self.duty.series == "US" else ""
+        if self.length >= _OVERLAND_LENGTH:
+            wide = ", overland"
+        pairs = []
+        for strand, asked, series in (
+            ("carry", rules.carry_spacings, self.sizes.carry_spacings),
+            ("return", rules.return_spacings, self.sizes.return_spacings),
+        ):
+            widest = read_si(libraries.library_entries("spacing")[f"{strand}{wide}"].fields["to"], "length")
+            pairs.append(
+                tuple(map(si, asked)) or tuple(a for a in map(si, series) if within_limit(a, widest))
+            )
+        return pairs[0], pairs[1]
+
+    @property
+    def _fitted(self) -> Iterator[float]:
+        """Widths of skirts, cleaners and ploughs that the duty gives [m]."""
+        route = self.duty.sized_route
+        yield from (si(cleaner.width) for cleaner in route.cleaners)
+        yield from (si(plough.width) for plough in route.ploughs)
+        for point in route.feeding_points:
+            yield si(point.skirt_width)
+
+    @property
+    def _trough_angles(self) -> Sequence[Quantity]:
+        """Trough angles to choose from."""
+        return self.rules.trough_angles or self.sizes.trough_angles
+
+    @cached_property
+    def troughs(self) -> tuple[TroughSize, ...]:
+        """Belt widths that take the lumps, with every trough angle."""
+        rules, surcharge = self.rules, self.duty.material.surcharge
+        asked = [si(width) for width in rules.widths]
+        lumps = least_width_for_lumps(si(self.duty.lump), surcharge_angle=surcharge, share=self.duty.lumps)
+        least = max([lumps, *self._fitted])
+        shapes = []
+        for row in self.sizes.widths:
+            belt, vee = si(row.belt), si(row.belt) >= si(self.sizes.vee_from)
+            width = WidthSize(belt, si(row.one), si(row.two), si(row.three), vee)
+            if not within_limit(least, belt):
+                continue
+            if asked and not any(same_width(belt, one) for one in asked):
+                continue
+            for angle in map(si, self._trough_angles):
+                section = cross_section(
+                    usable_width(width.belt),
+                    middle_roll_length=width.three,
+                    trough_angle=angle,
+                    surcharge_angle=surcharge,
+                )
+                area = section.on_slope(self.steepest, surcharge_angle=si(self.duty.material.surcharge_angle))
+                if area > 0.0:
+                    shapes.append(TroughSize(width, angle, area))
+        return tuple(shapes)
+
+    def refuse(self) -> NoReturn:
+        """Raise the error of a duty that no belt, speed and rolls satisfy, naming the rule that fails.
+
+        Raises
+        ------
+        NoSolutionError
+            No belt is wide enough for the lumps or fast and full enough for the flow; or speeds are too fast, belts too
+            wide, free edges too narrow, rolls too fast.
+        """
+        duty, rules, system = self.duty, self.rules, self.duty.report.units
+        lumps = least_width_for_lumps(
+            si(duty.lump), surcharge_angle=duty.material.surcharge, share=duty.lumps
+        )
+        widest = max(map(si, rules.widths or [row.belt for row in self.sizes.widths]))
+        if not within_limit(lumps, widest):
+            asked, had = (format_figure(width, "thickness", system) for width in (lumps, widest))
+            raise NoSolutionError(
+                f"lump: {text(duty.lump)} asks for a belt of {asked}, the widest has {had} (rules.widths)"
+            )
+        surcharge = duty.material.surcharge_angle
+        if self.steepest >= si(surcharge) and not any(map(si, self._trough_angles)):
+            raise NoSolutionError(
+                f"route: on a slope of {format_figure(self.steepest, 'angle', system)} no heap of {text(surcharge)} "
+                f"stands, "
+                "and flat sets hold nothing else: allow troughs (rules.trough_angles)"
+            )
+        pairs = [(trough, v) for trough in self.troughs for v in self.speeds if self.allows(trough, v)]
+        if not pairs:
+            slowest = format_figure(min(self.speeds), "speed", system)
+            raise NoSolutionError(
+                f"every speed, from {slowest}, is faster than the rules or CEMA allow for every width and abrasiveness "
+                f'"{duty.abrasiveness}": allow slower ones or a faster belt (rules.speeds, rules.fastest, rules.widths)'
+            )
+        most = max(trough.area * v for trough, v in pairs) * self.density * si(rules.filling)
+        if self.flow > most:
+            raise NoSolutionError(
+                f"material.flow: {text(duty.material.flow)} is more than the widest and fastest belt takes, "
+                f"{format_figure(most, 'mass flow', system)} (rules.widths, rules.fastest, rules.speeds, rules.filling)"
+            )
+        pairs = [pair for pair in pairs if self._filled(*pair) <= si(rules.filling)]
+        if not any(self._full_enough(*pair) for pair in pairs):
+            fullest = max(self._filled(*pair) for pair in pairs)
+            raise NoSolutionError(
+                f"material.flow: {text(duty.material.flow)} fills no belt that may be chosen to more than "
+                f"{percent(fullest)}, rules.least_filling asks for {text(rules.least_filling)}: allow narrower or "
+                "slower belts (rules.widths, rules.speeds), or a lower filling"
+            )
+        pairs = [pair for pair in pairs if self._full_enough(*pair)]
+        if all(self.filling(*pair) is None for pair in pairs):
+            edges = [(self._edge(*pair), standard_edge_distance(pair[0].width.belt)) for pair in pairs]
+            edge, asked = (
+                format_figure(each, "thickness", system) for each in max(edges, key=lambda of: of[0] / of[1])
+            )
+            raise NoSolutionError(
+                f"the bulk leaves {edge} of either edge of the belt free, CEMA asks for {asked}: allow wider or faster "
+                "belts (rules.widths, rules.speeds, rules.fastest)"
+            )
+        slowest_belt = min(v for trough, v in pairs if self.filling(trough, v) is not None)
+        largest = max(roll.diameter for roll in self.rolls)
+        if not any(self.turns_slowly(roll, slowest_belt) for roll in self.rolls):
+            turns = format_figure(slowest_belt / (math.pi * largest), "rotation", system)
+            raise NoSolutionError(
+                f"at {format_figure(slowest_belt, 'speed', system)}, the slowest belt that takes the flow, the "
+                f"largest rolls "
+                f"turn at {turns}, {text(rules.roll_rotation)} are allowed (rules.roll_rotation): allow slower or "
+                "wider belts (rules.speeds, rules.widths)"
+            )
+        raise NoSolutionError(
+            "no class of rolls of the series has sets for the widths and troughs that take the flow: allow others "
+            "(rules.widths, rules.trough_angles, rules.series)"
+        )
+
+    def _filled(self, trough: TroughSize, speed: float) -> float:
+        """Share of the cross-section under bulk [-]."""
+        return self.flow / (self.density * speed) / trough.area
+
+    def _full_enough(self, trough: TroughSize, speed: float) -> bool:
+        """True if filled to the least filling of the rules; the narrowest belt is exempt."""
+        narrowest = trough.width.belt == self.troughs[0].width.belt
+        return narrowest or self._filled(trough, speed) >= si(self.rules.least_filling)
+
+    def _edge(self, trough: TroughSize, speed: float) -> float:
+        """Free edge of the belt on either side [m]."""
+        under = filled_width(
+            self.flow / (self.density * speed),
+            middle_roll_length=trough.width.three,
+            trough_angle=trough.angle,
+            surcharge_angle=self.duty.material.surcharge,
+        )
+        return 0.5 * (trough.width.belt - under)
+
+    def allows(self, trough: TroughSize, speed: float) -> bool:
+        """True if the rules allow the belt speed [m/s]."""
+        given = self.rules.fastest
+        fastest = (
+            si(given) if given else recommended_speed(trough.width.belt, abrasiveness=self.duty.abrasiveness)
+        )
+        return within_limit(speed, fastest)
+
+    def filling(self, trough: TroughSize, speed: float) -> float | None:
+        """Filling of the cross-section [-]; None where it breaks the rules of speed, filling or edges."""
+        if not self.allows(trough, speed):
+            return None
+        filling = self._filled(trough, speed)
+        if filling > si(self.rules.filling) or not self._full_enough(trough, speed):
+            return None
+        return filling if self._edge(trough, speed) >= standard_edge_distance(trough.width.belt) else None
+
+    @cached_property
+    def rolls(self) -> tuple[RollSize, ...]:
+        """Roll sizes of the library."""
+        return tuple(
+            RollSize(si(row.diameter), si(row.wall), si(row.ends), si(row.dynamic_rating), row.cema_class)
+            for row in self.sizes.rolls
+        )
+
+    def set_ratings(self, roll: RollSize, trough: TroughSize) -> tuple[float, float]:
+        """Ratings of carry and return sets of a roll's class [N]; infinite without a class, 0 if it has no such set."""
+        if roll.cema_class is None:
+            return math.inf, math.inf
+        count, _, vee = trough.width.return_rolls
+        carry, back = (
+            _class_set_load(roll.cema_class, trough.width.belt, angle, rolls)
+            for rolls, angle in ((3, trough.angle), (count, vee))
+        )
+        return carry, back
+
+    @cached_property
+    def lump_factor(self) -> float:
+        """Lump factor on the bulk's load for set ratings [-]; 1 outside the printed table."""
+        return usual_lump_factor(si(self.duty.lump), self.density) or 1.0
+
+    def turns_slowly(self, roll: RollSize, speed: float) -> bool:
+        """True if a roll keeps the limit of rotation."""
+        return speed / (math.pi * roll.diameter) <= si(self.rules.roll_rotation)
+
+    @cached_property
+    def carcasses(self) -> Mapping[str, tuple[CarcassClass, ...]]:
+        """Carcass classes of each kind, the weakest first."""
+        rows = {"EP": self.sizes.textile, "steel cord": self.sizes.steel_cord}
+        return {kind: tuple(_carcass_class(kind, row) for row in rows[kind]) for kind in self.rules.carcasses}
+
+    def wear(self, speed: float) -> float:
+        """Wear addition of the cover at a belt speed [m]."""
+        duty = self.duty
+        return wear_addition(
+            lump=si(duty.lump),
+            density=self.density,
+            round_time=2.0 * self.length / speed,
+            abrasiveness=duty.abrasiveness,
+            loading=duty.loading,
+        )
+
+    def covers(self, choice: DesignChoice, carcass: CarcassClass) -> tuple[float, float]:
+        """Top and bottom cover of a candidate with a class of belt [m]."""
+        top, bottom = self.worn_covers(carcass, self.wear(choice.speed))
+        return top, bottom + choice.thicker
+
+    @property
+    def cover_step(self) -> float:
+        """Step of cover thickness [m]."""
+        return si(self.sizes.cover_step)
+
+    def worn_covers(self, carcass: CarcassClass, addition: float) -> tuple[float, float]:
+        """Top and bottom cover with a wear addition, on steps of the series; at most 3 to 1 [m]."""
+        step, least = self.cover_step, carcass.least_cover
+        top = _round_up_to_step(least + addition, step)
+        return top, _round_up_to_step(max(least, top / 3.0), step)
+
+    def drive_diameter(self, carcass: CarcassClass) -> float:
+        """Diameter of a drive pulley [m]: the next of the series; beyond it the carcass's least."""
+        return self._pulley_diameter(carcass.least_pulley)
+
+    def bend_diameter(self, carcass: CarcassClass) -> float:
+        """Diameter of tail and take-up pulleys [m], likewise."""
+        return self._pulley_diameter(pulley_group_diameter(carcass.least_pulley, group="B"))
+
+    def _pulley_diameter(self, least: float) -> float:
+        series = CEMA_PULLEYS if self.duty.series == "US" else PULLEY_DIAMETERS
+        return next_pulley_diameter(least, series=series) if least <= series[-1] else least
+
+    def spec(self, choice: DesignChoice, chosen: SelectedParts, name: str) -> Conveyor:
+        """The complete spec of a candidate.
+
+        Raises
+        ------
+        InputError
+            The spec is invalid: the duty does not fit the choice.
+        """
+        duty, carcass, written = self.duty, chosen.carcass, self._written
+        drive_diameter, bend_diameter = self.drive_diameter(carcass), self.bend_diameter(carcass)
+        route = duty.sized_route.as_data()
+        for section, spacing in zip(route["sections"], choice.graduated, strict=bool(choice.graduated)):
+            section["carry_spacing"] = written(spacing, "m")
+        route["pulleys"] = [
+            self._pulley(name, place, size, choice.trough.width.belt)
+            for name, place, size in (
+                ("head", "head", drive_diameter),
+                ("take-up", "take-up", bend_diameter),
+                ("tail", "tail", drive_diameter if "tail" in choice.drives else bend_diameter),
+            )
+        ]
+        tension = {"tension": written(chosen.take_up, "kN", 4)} if chosen.take_up > 0.0 else {}
+        route["take_up"] = {"kind": "gravity", **tension}
+        covers = duty.covers
+        return Conveyor.from_data({
+            "name": name,
+            "site": duty.site,
+            "belt": {
+                "width": written(choice.trough.width.belt, "mm"),
+                "speed": written(choice.speed, "m/s"),
+                "top_cover": {"thickness": written(chosen.top, "mm"), "compound": covers[0]},
+                "bottom_cover": {"thickness": written(chosen.bottom, "mm"), "compound": covers[choice.cover]},
+                "carcass": {
+                    "kind": carcass.kind,
+                    **(
+                        {"strength": written(carcass.strength, "N/mm")}
+                        if carcass.rating is None
+                        else {"rating": written(carcass.rating, "PIW")}
+                    ),
+                    "thickness": written(carcass.thickness, "mm"),
+                    "mass": written(carcass.mass, "kg/m^2", 3),
+                },
+                "wear": {
+                    "lump": written(si(duty.lump), "mm"), "abrasiveness": duty.abrasiveness, "loading": duty.loading
+                },
+            },
+            "idlers": self._idlers(choice),
+            "material": duty.material.as_data(),
+            "route": route,
+            "drive": self._drive(choice, chosen),
+            "ambient": duty.ambient.as_data(),
+            "operation": duty.operation.as_data(),
+            "calculation": duty.calculation.as_data(),
+            "report": duty.report.as_data(),
+        })  # fmt: skip
+
+    def colder(self, conveyor: Conveyor) -> Conveyor:
+        """The conveyor with its covers at the coldest temperature."""
+        return conveyor.replace(ambient=conveyor.ambient.replace(belt_temperature=self.duty.coldest))
+
+    def pulley_mass(self, carcass: CarcassClass, width: float) -> float:
+        """Mass of head, take-up and tail pulley together [kg]."""
+        bend = self.bend_diameter(carcass)
+        return math.fsum(PULLEY_MASS * size**2 * width for size in (self.drive_diameter(carcass), bend, bend))
+
+    def _written(self, value: float, unit: str, digits: int = 6) -> str:
+        """Value and unit as spec text, in the unit of the series."""
+        own = _US_UNITS.get(unit, unit) if self.duty.series == "US" else unit
+        return f"{float(from_si(value, _UNIT_KINDS[unit], own).magnitude):.{digits}g} {own}"
+
+    def _pulley(self, name: str, place: str, diameter: float, width: float) -> dict[str, Any]:
+        return {
+            "name": name,
+            "position": place,
+            "diameter": self._written(diameter, "mm"),
+            "shaft_diameter": self._written(SHAFT_DIAMETER_RATIO * diameter, "mm"),
+            "mass": self._written(PULLEY_MASS * diameter**2 * width, "kg", 3),
+        }
+
+    def _idlers(self, choice: DesignChoice) -> dict[str, Any]:
+        carry_sag, return_sag = self.sags
+        count, length, angle = choice.trough.width.return_rolls
+        rated = {} if choice.roll.cema_class is None else {"cema_class": choice.roll.cema_class}
+        return {
+            "carry": {
+                "rolls": 3,
+                "spacing": self._written(choice.carry, "m"),
+                "trough_angle": self._written(choice.trough.angle, "deg"),
+                "roll": self._roll(choice.roll, choice.trough.width.three),
+                "sag": f"{100.0 * carry_sag:.6g} %",
+                **rated,
+            },
+            "return": {
+                "rolls": count,
+                "spacing": self._written(choice.back, "m"),
+                "trough_angle": self._written(angle, "deg"),
+                "roll": self._roll(choice.roll, length),
+                "sag": f"{100.0 * return_sag:.6g} %",
+                **rated,
+            },
+        }
+
+    def _drive(self, choice: DesignChoice, chosen: SelectedParts) -> dict[str, Any]:
+        rules, motors = self.rules, chosen.motors
+        one = {"wrap_angle": self._written(si(rules.wrap_angle), "deg"), "friction": rules.friction}
+        brake = {"brake_force": self._written(chosen.brake, "kN", 4)} if chosen.brake > 0.0 else {}
+        if chosen.backstop > 0.0:
+            brake["backstop_torque"] = self._written(chosen.backstop, "kN*m", 4)
+        first = {
+            **one,
+            **brake,
+            "position": "tail" if choice.drives == "tail" else "head",
+            **self._motor_fields(motors[0]),
+            "efficiency": f"{100.0 * self.efficiency:.6g} %",
+            "start_factor": rules.start_factor,
+        }
+        further = []
+        for number, motor in enumerate(motors[1:], start=2):
+            tail = "tail" in choice.drives and number == len(motors)
+            place = {"name": f"drive {number}", "position": "tail" if tail else "head"}
+            further.append({**one, **place, **self._motor_fields(motor)})
+        return {**first, "further_drives": further} if further else first
+
+    def _motor_fields(self, rated: float) -> dict[str, Any]:
+        """Spec fields of a pulley's motors of a total power [W]."""
+        count = self.motor_count(rated)
+        return {"installed_power": self._written(rated, "kW")} | ({"motors": count} if count > 1 else {})
+
+    def _roll(self, roll: RollSize, length: float) -> dict[str, Any]:
+        return {
+            "diameter": self._written(roll.diameter, "mm"),
+            "length": self._written(length, "mm"),
+            "rotating_mass": self._written(roll.mass(length), "kg", 3),
+            "bearing": {
+                "dynamic_rating": self._written(roll.rating, "kN"),
+                "distance": self._written(length - 2.0 * _BEARING_INSET, "mm"),
+            },
+        }
+
+
+_UNIT_KINDS: Final = {"m": "length", "mm": "thickness", "m/s": "speed", "deg": "angle", "kW": "power",
+"N/mm": "line force",
+                 "PIW": "line force", "kN": "force", "kN*m": "torque", "kg": "mass", "kg/m^2": "area mass"}  # fmt: skip
+_US_UNITS: Final = {
+    "m": "ft",
+    "mm": "in",
+    "m/s": "fpm",
+    "kW": "hp",
+    "kN": "lbf",
+    "kN*m": "lbf*ft",
+    "kg": "lb",
+    "kg/m^2": "lb/ft^2",
+}
+"""ST classes keep N/mm in the US."""
+
+
+def _carcass_class(kind: str, row: CarcassRow) -> CarcassClass:
+    mass, rating = (None if given is None else si(given) for given in (row.mass, row.rating))
+    return CarcassClass(kind, si(row.strength), si(row.thickness), mass, rating)
+
+
+def _class_set_load(cema_class: CemaClass, width: float, angle: float, rolls: int) -> float:
+    """Rating of a set of a class [N]; 0 where the class has no such set."""
+    try:
+        return rated_set_load(cema_class, belt_width=width, trough_angle=angle, rolls=rolls)
+    except RangeError:
+        return 0.0
+
+
+def _round_up_to_step(thickness: float, step: float) -> float:
+    return step * math.ceil(thickness / step - 1e-9)  # decimals: 6.5 mm is a step
+
+
+def drive_powers(power: float, layout: DriveLayout) -> Sequence[float]:
+    """Power of each drive of a layout, equal shares [W]."""
+    count = {"head": 1, "tail": 1, "head, two pulleys, and tail": 3}.get(layout, 2)
+    return (power / count,) * count

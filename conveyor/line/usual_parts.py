@@ -1,0 +1,86 @@
+"""Usual parts where the spec gives none: a loading point, cleaners, end pulleys.
+
+Figures are those of the worked example of ISO 5048 (skirts as long as the belt runs in a second and 0.625 of its width
+apart, blades of the belt's width and 8 mm, half-turn wraps), bulk that lands without speed, seals of the skirts as CEMA
+has them (they rub on the empty belt too), and general knowledge (two cleaners, shafts of a fifth of the pulley).
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+from conveyor.errors import RangeError
+from conveyor.laws.idler_sets import lump_load_factor
+from conveyor.laws.resistance.cema import FOOT, POUND_FORCE, SEALS_PER_FOOT
+from conveyor.laws.tension import PULLEY_FACTOR
+from conveyor.models import Cleaner, Conveyor, Feeding, Pulley
+from conveyor.units import from_si, quantity, si
+
+SKIRT_TRAVEL_TIME: Final = 4.8 / 4.8  # [s], worked example of ISO 5048: 4.8 m at 4.8 m/s
+SKIRT_WIDTH_RATIO: Final = 0.75 / 1.2  # [-], worked example of ISO 5048: over the belt's width
+CLEANER_COUNT: Final = 2  # general knowledge: one at the head pulley, one behind it
+CLEANER_THICKNESS: Final = "8 mm"  # worked example of ISO 5048
+SKIRT_SEALS: Final = SEALS_PER_FOOT.value * POUND_FORCE / FOOT  # [N/m] of skirt, both sides; CEMA
+SHAFT_DIAMETER_RATIO: Final = 0.2  # [-], general knowledge: over the pulley's diameter
+
+
+def route_feeding_points(conveyor: Conveyor) -> tuple[tuple[Feeding, ...], bool]:
+    """Loading points of the route, or a usual one; True if assumed."""
+    given = conveyor.route.feeding_points
+    if given or not _uses_usual_values(conveyor):
+        return given, False
+    belt, bears = conveyor.belt, conveyor.route.sections[0].loaded
+    skirts = from_si(SKIRT_TRAVEL_TIME * si(belt.speed), "length")
+    usual = Feeding(
+        speed=quantity("0 m/s") if bears else belt.speed,
+        skirt_length=skirts if bears else quantity("0 m"),
+        skirt_width=from_si(SKIRT_WIDTH_RATIO * si(belt.width), "length"),
+        skirtboards=skirts,
+        seal_drag=from_si(SKIRT_SEALS, "line force"),
+    )
+    return (usual,), True
+
+
+def route_cleaners(conveyor: Conveyor) -> tuple[tuple[Cleaner, ...], bool]:
+    """Cleaners of the route, or usual ones; True if assumed."""
+    given = conveyor.route.cleaners
+    if given or not _uses_usual_values(conveyor):
+        return given, False
+    usual = Cleaner(
+        count=CLEANER_COUNT, width=conveyor.belt.width, thickness=quantity(CLEANER_THICKNESS, "thickness")
+    )
+    return (usual,), True
+
+
+def route_pulleys(conveyor: Conveyor) -> tuple[tuple[Pulley, ...], bool]:
+    """Pulleys of the route, or massless end pulleys of least diameter (other carcasses as EP); True if assumed."""
+    given = conveyor.route.pulleys
+    if given or not _uses_usual_values(conveyor):
+        return given, False
+    carcass = conveyor.belt.carcass
+    factor = next((c for kind, c in PULLEY_FACTOR.items() if kind == carcass.kind), PULLEY_FACTOR["EP"])
+    diameter = factor * si(carcass.thickness)
+    usual = tuple(
+        Pulley.model_construct(  # unvalidated: a 50 mm carcass needs more than the largest pulley
+            name=end,
+            position=end,
+            diameter=from_si(diameter, "length"),
+            shaft_diameter=from_si(SHAFT_DIAMETER_RATIO * diameter, "length"),
+            mass=from_si(0.0, "mass"),
+            section=None,
+        )
+        for end in ("head", "tail")
+    )
+    return usual, True
+
+
+def _uses_usual_values(conveyor: Conveyor) -> bool:
+    return conveyor.calculation.not_given == "usual values"
+
+
+def usual_lump_factor(lump: float | None, density: float) -> float | None:
+    """Load factor of lumps of a size [m], 1 for unknown size; None outside the printed table."""
+    try:
+        return 1.0 if lump is None else lump_load_factor(lump, density=density)
+    except RangeError:
+        return None

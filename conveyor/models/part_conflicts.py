@@ -1,0 +1,339 @@
+"""Checks between the parts of a conveyor, each naming both fields and what to change."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from typing import Final
+
+from conveyor.errors import InputError, MessageQuantity, RangeError
+from conveyor.laws.idler_sets import rated_set_load
+from conveyor.laws.loading import CrossSection, bulk_line_mass, cross_section, usable_width
+from conveyor.laws.resistance import SHORTEST_FOR_FACTOR
+from conveyor.laws.tension import usual_stiffness
+from conveyor.models.base import Problem
+from conveyor.models.belt import Cover, TopCover
+from conveyor.models.drive import DrivePulley
+from conveyor.models.idlers import IdlerSet, overlap_problems
+from conveyor.models.parts import ConveyorParts
+from conveyor.models.route import Feeding
+from conveyor.models.validation_messages import Location
+from conveyor.units import Quantity, format_si, from_si, si, text, unit_system
+
+OVERFILL_LIMIT: Final = 1.5
+"""Largest calculated bulk over the cross-section that the belt holds [-]; more where edge to edge holds more."""
+_FLOW_ROUNDING: Final = 1e-9
+"""Relative rounding of a flow derived from a cross-section [-]."""
+
+
+def _idler_sets(conveyor: ConveyorParts) -> tuple[tuple[str, IdlerSet], tuple[str, IdlerSet]]:
+    return (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_))
+
+
+def _roll_length_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Refuse rolls that together are narrower than the belt, or inner rolls as wide as the belt."""
+    width = conveyor.belt.width
+    for strand, idlers in _idler_sets(conveyor):
+        each = si(idlers.roll.length)
+        location = ("idlers", strand, "roll", "length")
+        if idlers.rolls * each < si(width):
+            yield Problem(
+                location,
+                f"got {text(idlers.roll.length)}: {idlers.rolls} roll(s) side by side are "
+                f"{_in_roll_unit(idlers.rolls * each, idlers)} wide, the belt (belt.width) {text(width)}; "
+                "take longer rolls or a narrower belt",
+            )
+        elif (idlers.rolls - 2) * each >= si(width):
+            yield Problem(
+                location,
+                f"got {text(idlers.roll.length)}: the inner rolls alone are as wide as the belt "
+                f"(belt.width {text(width)}); take shorter rolls or a wider belt",
+            )
+
+
+def _in_roll_unit(length: float, idlers: IdlerSet) -> str:
+    unit = text(idlers.roll.length).split()[1]
+    return text(from_si(float(f"{length:.6g}"), "length", unit))
+
+
+def largest_section(conveyor: ConveyorParts) -> CrossSection:
+    """Largest bulk cross-section on a horizontal belt (ISO 5048)."""
+    return _bulk_section(conveyor, usable_width(si(conveyor.belt.width)))
+
+
+def flooded_section(conveyor: ConveyorParts) -> CrossSection:
+    """Bulk cross-section heaped from edge to edge of a horizontal belt."""
+    return _bulk_section(conveyor, si(conveyor.belt.width))
+
+
+def _bulk_section(conveyor: ConveyorParts, across: float) -> CrossSection:
+    """Bulk cross-section on a width of the belt [m]."""
+    carry = conveyor.idlers.carry
+    return cross_section(
+        across,
+        middle_roll_length=carry.middle_belt(across),
+        trough_angle=si(carry.trough_angle),
+        surcharge_angle=conveyor.material.surcharge,
+        inner_wing=carry.inner_wing,
+    )
+
+
+def _fill_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Refuse a flow beyond the calculated range; up to it an overfull trough (ISO 5048) only fails its check."""
+    belt, material = conveyor.belt, conveyor.material
+    if si(material.flow) == 0.0:
+        return
+    needed = bulk_line_mass(si(material.flow), belt_speed=si(belt.speed)) / si(material.density)
+    area, flooded = largest_section(conveyor).area, flooded_section(conveyor).area
+    calculated = max(OVERFILL_LIMIT * area, flooded)
+    if needed <= calculated * (1.0 + _FLOW_ROUNDING):
+        return
+    system = unit_system(belt.width)
+    sections_of = (
+        MessageQuantity(each, "area", format_si(each, "area", system)) for each in (needed, area, calculated)
+    )
+    most = from_si(si(material.flow) * area / needed, "mass flow", text(material.flow).split()[1])
+    least = from_si(si(belt.speed) * needed / area, "speed", text(belt.speed).split()[1])
+    metric = ""
+    if system == "US" and text(material.flow).endswith(" tph"):
+        metric = "; tph are metric tonnes per hour, short tons per hour are stph"
+    why = "heaped from edge to edge" if calculated == flooded else f"{100.0 * OVERFILL_LIMIT:g} % of that"
+    yield Problem(
+        ("material", "flow"),
+        InputError(
+            f"got {text(material.flow)}, which at {text(belt.speed)} (belt.speed) needs a cross-section of {{}}, the "
+            f"belt holds {{}} and is calculated up to {{}}, {why}: reduce material.flow to "
+            f"{_safe_limit(most, down=True)} or less, raise belt.speed to {_safe_limit(least, down=False)} or more, "
+            f"or take "
+            f"a wider belt{metric}",
+            *sections_of,
+        ),
+    )
+
+
+def _safe_limit(value: Quantity, *, down: bool) -> str:
+    """Limit as text of three digits, rounded to the safe side."""
+    number, unit = float(value.magnitude), text(value).split()[1]
+    step = 10.0 ** (math.floor(math.log10(number)) - 2)
+    whole = math.floor(number / step) if down else math.ceil(number / step)
+    return f"{whole * step:.6g} {unit}"
+
+
+def _idler_class_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Refuse an idler class without a rating for the belt width, number of rolls and trough."""
+    for strand, idlers in _idler_sets(conveyor):
+        if idlers.cema_class is None:
+            continue
+        try:
+            rated_set_load(
+                idlers.cema_class,
+                belt_width=conveyor.belt_width,
+                trough_angle=si(idlers.trough_angle),
+                rolls=idlers.rolls,
+            )
+        except RangeError as error:
+            why = InputError("{}; give rating, of its maker, instead", error)
+            yield Problem(("idlers", strand, "cema_class"), why)
+
+
+def _wear_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Require the severity of loading or the drop height for belt wear."""
+    wear, feeding = conveyor.belt.wear, conveyor.route.feeding
+    if wear is not None and wear.loading is None and (feeding is None or feeding.drop_height is None):
+        message = "missing: give it, or the height of fall as route.feeding.drop_height"
+        yield Problem(("belt", "wear", "loading"), message)
+
+
+def _spacing_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Refuse section spacings at which rolls of neighbouring sets overlap."""
+    for i, section in enumerate(conveyor.route.sections):
+        for strand, idlers in _idler_sets(conveyor):
+            spacing = section.carry_spacing if strand == "carry" else section.return_spacing
+            if spacing is not None:
+                yield from overlap_problems(("route", "sections", i, f"{strand}_spacing"), spacing, idlers)
+
+
+def _cover_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Refuse a cover as thick as the radius of a roll that runs on it."""
+    belt, idlers = conveyor.belt, conveyor.idlers
+    bottom_on_both = conveyor.route.turned_over
+    under: dict[str, tuple[Cover | TopCover, list[IdlerSet]]] = {
+        "bottom_cover": (belt.bottom_cover, [idlers.carry] + [idlers.return_] * bottom_on_both),
+        "top_cover": (belt.top_cover, [] if bottom_on_both else [idlers.return_]),
+    }
+    for name, (cover, sets) in under.items():
+        rolls = [roll for idler_set in sets for roll in (idler_set.roll, idler_set.middle)]
+        thinnest = min(rolls, key=lambda roll: si(roll.diameter), default=None)
+        if thinnest is not None and si(cover.thickness) >= si(thinnest.diameter) / 2.0:
+            yield Problem(
+                ("belt", name, "thickness"),
+                f"got {text(cover.thickness)}, but the rolls it runs on are {text(thinnest.diameter)} in diameter: "
+                "a cover must be thinner than their radius; correct the thickness or the roll diameter",
+            )
+
+
+def _temperature_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Refuse a belt temperature at which a compound is not known."""
+    ambient = conveyor.ambient
+    field = "temperature" if ambient.belt_temperature is None else "belt_temperature"
+    compounds = {"belt.bottom_cover.compound": conveyor.carry_compound}
+    if conveyor.return_compound is not conveyor.carry_compound:
+        compounds["belt.top_cover.compound"] = conveyor.return_compound
+    for name, compound in compounds.items():
+        try:
+            compound.check_temperature(si(ambient.belt))
+        except RangeError as error:
+            why = InputError('got {}, but {} is "{}": {}', text(ambient.belt), name, compound.name, error)
+            yield Problem(("ambient", field), why)
+
+
+def _feeding_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Refuse feeding faster than the belt, and skirts, cleaners or ploughs wider than it."""
+    belt, route = conveyor.belt, conveyor.route
+    points: dict[Location, Feeding] = {} if route.feeding is None else {("feeding",): route.feeding}
+    points |= {("further_feeding", i): point for i, point in enumerate(route.further_feeding)}
+    for location, point in points.items():
+        if si(point.speed) > si(belt.speed):
+            yield Problem(
+                ("route", *location, "speed"),
+                f"got {text(point.speed)}, faster than the belt (belt.speed {text(belt.speed)}); "
+                "the law holds for bulk that the belt accelerates: correct one of the two",
+            )
+    widths: dict[Location, Quantity] = {
+        (*location, "skirt_width"): point.skirt_width for location, point in points.items()
+    }
+    widths |= {("cleaners", i, "width"): cleaner.width for i, cleaner in enumerate(route.cleaners)}
+    widths |= {("ploughs", i, "width"): plough.width for i, plough in enumerate(route.ploughs)}
+    for location, width in widths.items():
+        if si(width) > si(belt.width):
+            yield Problem(
+                ("route", *location),
+                f"got {text(width)}, wider than the belt (belt.width {text(belt.width)}); correct one of the two",
+            )
+
+
+def _discharge_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Require the diameter of the discharge pulley."""
+    route = conveyor.route
+    if route.discharge is None or route.discharge.pulley_diameter is not None:
+        return
+    usual = not route.pulleys and conveyor.calculation.not_given == "usual values"
+    if not usual and all(pulley.position != "head" for pulley in route.pulleys):
+        message = "missing: no pulley of route.pulleys stands at the head; give the diameter, or the pulley"
+        yield Problem(("route", "discharge", "pulley_diameter"), message)
+
+
+def _drive_section_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Refuse drives at sections that the route does not have."""
+    drive = conveyor.drive
+    named: dict[Location, str | None] = {("drive", "section"): drive.section}
+    named |= {
+        ("drive", "further_drives", i, "section"): d.section for i, d in enumerate(drive.further_drives)
+    }
+    for location, name in named.items():
+        if name is not None:
+            yield from conveyor.route.section_problem(location, name)
+
+
+def drive_diameter(conveyor: ConveyorParts, drive: DrivePulley) -> Quantity | None:
+    """Drive pulley diameter: as given, else of the pulley there with the largest wrap; None without one."""
+    if drive.pulley_diameter is not None:
+        return drive.pulley_diameter
+    place = (drive.position, drive.section)
+    here = [pulley for pulley in conveyor.route.pulleys if (pulley.position, pulley.section) == place]
+    return max(here, key=lambda pulley: si(pulley.wrap_angle)).diameter if here else None
+
+
+def _inertia_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Require the pulley diameter of a drive with a moment of inertia."""
+    places: list[Location] = [("drive",)]
+    places += [("drive", "further_drives", i) for i in range(len(conveyor.drive.further_drives))]
+    for place, drive in zip(places, conveyor.drive.pulleys, strict=True):
+        if drive.inertia is not None and drive_diameter(conveyor, drive) is None:
+            message = (
+                "missing: inertia acts over the pulley's radius; give it, or the pulley in route.pulleys"
+            )
+            yield Problem((*place, "pulley_diameter"), message)
+
+
+def _bulk_flexure_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Refuse bulk flexure with four or five rolls."""
+    flexure, rolls = conveyor.calculation.flexure, conveyor.idlers.carry.rolls
+    if flexure is not None and flexure.bulk is not None and rolls in {4, 5}:
+        yield Problem(
+            ("calculation", "flexure", "bulk"),
+            f"given, but the wings of {rolls} rolls (idlers.carry.rolls) have no law; remove it, or take 2 or 3 rolls",
+        )
+
+
+def _belt_support_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Require incompressible covers and the carcass stiffness for the support "belt"."""
+    if conveyor.calculation.support != "belt":
+        return
+    carcass = conveyor.belt.carcass
+    strength, rating = (None if each is None else si(each) for each in (carcass.strength, carcass.rating))
+    usual = usual_stiffness(strength, rating=rating, carcass=carcass.kind)
+    if carcass.stiffness is None and usual is None:
+        message = (
+            'missing: calculation.support "belt" needs it; give it, or strength or rating of a carcass of steel '
+            "cord, EP or polyamide"
+        )
+        yield Problem(("belt", "carcass", "stiffness"), message)
+    for name, cover in (("bottom_cover", conveyor.belt.bottom_cover), ("top_cover", conveyor.belt.top_cover)):
+        if cover.compound is not None and cover.compound.poisson_ratio != 0.5:
+            yield Problem(
+                ("belt", name, "compound"),
+                f"has the poisson_ratio {cover.compound.poisson_ratio:g}: the covers of calculation.support "
+                '"belt" are incompressible; set it to 0.5, or take the support "confined"',
+            )
+
+
+def _curve_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Refuse flat sets of several rolls in a horizontal curve."""
+    curved = next((s.name for s in conveyor.route.sections if s.horizontal_curve is not None), None)
+    if curved is None:
+        return
+    where = f'section "{curved}" is a horizontal curve'
+    for strand, idlers in _idler_sets(conveyor):
+        if idlers.rolls > 1 and si(idlers.trough_angle) == 0.0:
+            message = (
+                f"got {text(idlers.trough_angle)}, but {where}, in which nothing holds a flat belt on several rolls: "
+                "take a trough, or rolls: 1"
+            )
+            yield Problem(("idlers", strand, "trough_angle"), message)
+
+
+def _length_coefficient_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Refuse the length coefficient C for short conveyors."""
+    if conveyor.calculation.secondary == "C" and (length := conveyor.route.length) <= SHORTEST_FOR_FACTOR:
+        yield Problem(
+            ("calculation", "secondary"),
+            InputError(
+                'got "C", but route.sections are {} long together and C holds for more than {}; set '
+                'calculation.secondary to "itemised"',
+                *(
+                    MessageQuantity(each, "length", format_si(each, "length"))
+                    for each in (length, SHORTEST_FOR_FACTOR)
+                ),
+            ),
+        )
+
+
+CONFLICTS: Final[Mapping[Callable[[ConveyorParts], Iterator[Problem]], tuple[str, ...]]] = {
+    _roll_length_problems: ("belt", "idlers"),
+    _fill_problems: ("belt", "idlers", "material"),
+    _spacing_problems: ("idlers", "route"),
+    _idler_class_problems: ("belt", "idlers"),
+    _wear_problems: ("belt", "route"),
+    _cover_problems: ("belt", "idlers", "route"),
+    _temperature_problems: ("ambient", "belt", "route"),
+    _feeding_problems: ("belt", "route"),
+    _discharge_problems: ("calculation", "route"),
+    _drive_section_problems: ("drive", "route"),
+    _inertia_problems: ("drive", "route"),
+    _length_coefficient_problems: ("calculation", "route"),
+    _bulk_flexure_problems: ("calculation", "idlers"),
+    _belt_support_problems: ("belt", "calculation"),
+    _curve_problems: ("idlers", "route"),
+}
+"""Checks between the parts, and the parts that each check reads."""

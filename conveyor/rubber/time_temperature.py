@@ -1,0 +1,470 @@
+"""Isotherms to a master curve: all shifts at once, against one smooth curve, with their uncertainty."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.errors import InputError, NoSolutionError, RangeError
+from conveyor.rubber.arrays import FloatArray, positive_number, positive_vector
+from conveyor.rubber.joint_shift import LONGEST_STEP, JointMinimum, JointShift
+from conveyor.rubber.misfit import hampel_weights
+from conveyor.rubber.overlap import LogIsotherm, Overlap, first_guess, measure_overlap
+from conveyor.rubber.shift import celsius_in_message
+
+LEAST_ROWS = 3
+"""Least rows of an isotherm: two moduli at three frequencies separate a shift from noise."""
+DIFFERENCE_STEP = 1.0e-4
+"""Step of a central difference: a hundredth of the smallest shift that matters [decades]."""
+MODULI = {"both": (0, 1), "storage": (0,), "loss": (1,)}
+"""Rows of `LogIsotherm.y` that count."""
+LEAST_ISOTHERMS = 3
+"""Isotherms that must hold a frequency to separate a resonance from one bad row [-]."""
+OUTLIER_TRUST = 0.5
+"""Weight below which a row is an outlier: 4.4 robust standard deviations of the residuals, see `hampel_weights` [-]."""
+SAME_FREQUENCY = 1.0e-4
+"""Frequencies closer than this are one setting of the instrument [decades]."""
+LEAST_VERTICAL = 0.004
+"""Least range of log10 b_T: below it a vertical shift changes no modulus by 1 % [decades]."""
+NORMAL_QUANTILE_999 = 3.09
+"""Quantile of the normal distribution [-]."""
+LN10 = float(np.log(10.0))
+
+
+@dataclass(frozen=True, eq=False)
+class Isotherm:
+    """One frequency sweep at one temperature.
+
+    Parameters
+    ----------
+    temperature : float
+        Absolute temperature [K].
+    frequency : array_like
+        Cyclic frequency, shape `(n,)`, n >= 3, distinct; sorted ascending with the moduli [Hz].
+    storage : array_like
+        E' at them, shape `(n,)` [Pa].
+    loss : array_like
+        E'' at them, shape `(n,)` [Pa].
+
+    Raises
+    ------
+    InputError
+        If shapes differ, a value is not finite and > 0, a frequency repeats, or there are fewer than 3 rows.
+    """
+
+    temperature: float
+    frequency: FloatArray
+    storage: FloatArray
+    loss: FloatArray
+
+    def __post_init__(self) -> None:
+        """Check, sort, freeze."""
+        t = positive_number("temperature", self.temperature, "K")
+        f = positive_vector("frequency", self.frequency, "Hz")
+        columns = {"frequency": f, "storage": positive_vector("storage", self.storage, "Pa")}
+        columns["loss"] = positive_vector("loss", self.loss, "Pa")
+        if any(c.shape != f.shape for c in columns.values()) or f.size < LEAST_ROWS:
+            sizes = ", ".join(f"{name} {c.size}" for name, c in columns.items())
+            raise InputError(
+                f"the isotherm at {celsius_in_message(t)} needs >= {LEAST_ROWS} rows, each with E' and E''; got {sizes}"
+            )
+        order = np.argsort(f, kind="stable")
+        if np.any(np.diff(f[order]) == 0.0):
+            twice = f[order][1:][np.diff(f[order]) == 0.0][0]
+            raise InputError(
+                f"the isotherm at {celsius_in_message(t)} holds {twice:g} Hz twice: choose one run, or average the runs"
+            )
+        for name, column in columns.items():
+            ordered = column[order]
+            ordered.setflags(write=False)
+            object.__setattr__(self, name, ordered)
+        object.__setattr__(self, "temperature", t)
+
+
+@dataclass(frozen=True)
+class Resonance:
+    """A resonance of the instrument: its rows are outliers in most isotherms.
+
+    Parameters
+    ----------
+    frequency : float
+        As measured [Hz].
+    isotherms : int
+        Number of isotherms in which its rows are outliers [-].
+    storage : float
+        Median of E' over the common curve, less one; 0 if E' did not count [-].
+    loss : float
+        The same of E'' [-].
+    """
+
+    frequency: float
+    isotherms: int
+    storage: float
+    loss: float
+
+
+@dataclass(frozen=True, eq=False)
+class Superposition:
+    """A master curve and everything needed to judge it; `n` isotherms, `m` rows.
+
+    Parameters
+    ----------
+    reference : float
+        Absolute temperature at which a_T = b_T = 1 [K].
+    temperatures : numpy.ndarray
+        Of the isotherms, shape `(n,)`, ascending [K].
+    log10_a_T : numpy.ndarray
+        Shift of each: E(f, T) = b_T E(f a_T, T_ref), shape `(n,)` [decades].
+    log10_a_T_error : numpy.ndarray
+        Standard uncertainty, shape `(n,)`; 0 at a measured reference, growing along the chain [decades].
+    log10_b_T : numpy.ndarray
+        Vertical shift, 0 unless it was asked for, shape `(n,)` [decades].
+    log10_b_T_error : numpy.ndarray
+        Its standard uncertainty, shape `(n,)` [decades].
+    joint_covariance : numpy.ndarray
+        Of log10 a_T, then log10 b_T, shape `(2n, 2n)`: neighbours share the chain to the reference, and its
+        errors [-].
+    frequency : numpy.ndarray
+        Reduced frequency f a_T of the master curve, ascending, shape `(m,)` [Hz].
+    storage : numpy.ndarray
+        E'/b_T, shape `(m,)` [Pa].
+    loss : numpy.ndarray
+        E''/b_T, shape `(m,)` [Pa].
+    isotherm : numpy.ndarray
+        Index into `temperatures` of each row, shape `(m,)` [-].
+    overlaps : tuple of Overlap
+        Of each neighbouring pair, coldest first.
+    storage_residual : float
+        Root mean square difference of ln E' in all overlaps [-].
+    loss_residual : float
+        The same of ln E'' [-].
+    storage_scatter : float or None
+        Standard deviation of ln E' about the common curve; None if it did not count [-].
+    loss_scatter : float or None
+        The same of ln E'' [-].
+    correlation : float
+        Correlation of residuals of neighbouring rows, the larger of E' and E''; far above 0 where the
+        isotherms differ in shape: then they do not superpose, whatever the shift [-].
+    resonances : tuple of Resonance
+        Frequencies that were left out of every isotherm; their rows are in nothing above.
+    with_vertical : Superposition or None
+        With vertical shifts, where none were asked for and the isotherms need them: beyond chance, by one per
+        cent and more, and they become one curve by it. The errors above then hold the difference to it.
+    """
+
+    reference: float
+    temperatures: FloatArray
+    log10_a_T: FloatArray  # noqa: N815
+    log10_a_T_error: FloatArray  # noqa: N815
+    log10_b_T: FloatArray  # noqa: N815
+    log10_b_T_error: FloatArray  # noqa: N815
+    joint_covariance: FloatArray = field(repr=False)
+    frequency: FloatArray = field(repr=False)
+    storage: FloatArray = field(repr=False)
+    loss: FloatArray = field(repr=False)
+    isotherm: NDArray[np.intp] = field(repr=False)
+    overlaps: tuple[Overlap, ...] = field(repr=False)
+    storage_residual: float
+    loss_residual: float
+    storage_scatter: float | None
+    loss_scatter: float | None
+    correlation: float
+    resonances: tuple[Resonance, ...] = ()
+    with_vertical: Superposition | None = field(default=None, repr=False)
+
+    @property
+    def covariance(self) -> FloatArray:
+        """Covariance of log10 a_T, shape `(n, n)` [-]."""
+        n = self.temperatures.size
+        return self.joint_covariance[:n, :n]
+
+    @property
+    def shifts(self) -> FloatArray:
+        """log10 a_T, then log10 b_T, shape `(2, n)` [decades]."""
+        return np.array([self.log10_a_T, self.log10_b_T])
+
+    def kept(self, frequency: FloatArray) -> NDArray[np.bool_]:
+        """True for rows at frequencies [Hz] without resonance, shape `(m,)`."""
+        return _off_resonance(np.log10(frequency), [one.frequency for one in self.resonances])
+
+    def drawn(self, generator: np.random.Generator) -> FloatArray:
+        """Draw shifts from their covariance: plus an error, and minus the same error.
+
+        Parameters
+        ----------
+        generator : numpy.random.Generator
+            Source of random numbers [-].
+
+        Returns
+        -------
+        numpy.ndarray
+            Both, each log10 a_T, then log10 b_T, shape `(2, 2, n)` [decades].
+        """
+        from scipy.interpolate import PchipInterpolator
+
+        values, vectors = np.linalg.eigh(self.joint_covariance)
+        error = vectors @ (np.sqrt(np.maximum(values, 0.0)) * generator.standard_normal(values.size))
+        drawn_shifts = self.shifts + np.array([1.0, -1.0])[:, None, None] * error.reshape(2, -1)
+        level = PchipInterpolator(self.temperatures, drawn_shifts, axis=2)(self.reference)
+        return np.asarray(drawn_shifts - level[..., None])
+
+
+def superpose(
+    isotherms: Sequence[Isotherm],
+    reference: float,
+    *,
+    vertical: bool = False,
+    by: Literal["both", "storage", "loss"] = "both",
+) -> Superposition:
+    """Shift isotherms onto one master curve.
+
+    Parameters
+    ----------
+    isotherms : sequence of Isotherm
+        At least two, at distinct temperatures, any order.
+    reference : float
+        Absolute temperature at which a_T is to be 1, within the measured ones [K].
+    vertical : bool
+        Whether the moduli are scaled by a b_T of each isotherm too [-].
+    by : {"both", "storage", "loss"}
+        The moduli whose overlap counts; the other is carried along. "storage" where E'' is disturbed
+        (resonance of the instrument, a stiff glass) [-].
+
+    Returns
+    -------
+    Superposition
+        Shifts, uncertainties, master curve, residuals.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than two isotherms, a temperature occurs twice, or two neighbours do not overlap.
+    RangeError
+        If the reference is outside the measured temperatures.
+    NoSolutionError
+        If the data do not determine the shifts (flat curves; with `vertical`, power laws).
+
+    Notes
+    -----
+    ln E' and ln E'' of all isotherms are regressed on two common smooth functions of log10(f a_T), penalised
+    cubic splines, and on the shifts, together: Honerkamp and Weese's idea with splines for their polynomial.
+    Stiffness of the curves and noise of each modulus follow from the restricted likelihood, so E' and E''
+    weigh by how well they superpose. The first guess lays each isotherm on its hotter neighbour.
+
+    An outlier loses its weight (`conveyor.rubber.misfit.hampel_weights`). A frequency with outliers in most
+    isotherms is a
+    resonance of the instrument: its rows are left out of all of them, also where one isotherm alone reaches.
+
+    Isotherms with little slope are placed by a prior: the decades per kelvin change from one pair of
+    neighbours to the next by half of their mean, as a standard deviation (`conveyor.rubber.joint_shift.RATE_SCATTER`).
+
+    The uncertainty is the posterior covariance of the shifts with the curves integrated out: slope and
+    scatter in the overlaps, carried along the chain to the reference. Residuals that correlate within an
+    isotherm carry less information; the covariance is widened by (1 + c)/(1 - c). Without `vertical`, a score
+    test shows whether vertical shifts are missing; if so they are fitted too, and the difference enters the
+    uncertainty as one standard deviation. It does not cover errors
+    of the thermometer (1 K is 0.1 decade or more near the glass transition), nor what all rows share.
+
+    A reference between two isotherms is placed by monotone (PCHIP) interpolation of log10 a_T over T, as
+    `ShiftTable` does; the error of that interpolation is not in the uncertainty.
+
+    Only the bend of the curves separates a vertical shift from a horizontal one; look at the errors.
+
+    References
+    ----------
+    J. Honerkamp, J. Weese, Rheol. Acta 32 (1993) 57-64 (shifts by joint regression).
+    M. Gergesova, B. Zupancic, I. Saprunov, I. Emri, J. Rheol. 55 (2011) 1-16 (shifts pair by pair).
+    G. H. Golub, V. Pereyra, SIAM J. Numer. Anal. 10 (1973) 413-432 (variable projection).
+
+    Examples
+    --------
+    >>> from conveyor.rubber.prony import PronySeries
+    >>> series = PronySeries(1e6, np.full(13, 1e6), np.logspace(-9, 3, 13))
+    >>> f = np.logspace(-1, 2, 10)
+    >>> def sweep(t, a):
+    ...     omega = 2 * np.pi * f * 10**a
+    ...     return Isotherm(t, f, series.storage(omega), series.loss(omega))
+    >>> result = superpose([sweep(273.0, 2.5), sweep(283.0, 1.2), sweep(293.0, 0.0)], reference=293.0)
+    >>> [round(float(a), 2) for a in result.log10_a_T[:2]]
+    [2.5, 1.2]
+    """
+    sheets, t_ref = _check_isotherms(isotherms, reference)
+    if by not in MODULI:
+        raise InputError(f'by = {by!r} must be "both", "storage" or "loss"')
+    moduli = MODULI[by]
+    placed = _place_isotherms(sheets, moduli, vertical=vertical)
+    resonances = _find_resonances(sheets, moduli, placed)
+    if resonances:
+        sheets = [_without_frequencies(sheet, [one.frequency for one in resonances]) for sheet in sheets]
+        placed = _place_isotherms(sheets, moduli, vertical=vertical)
+    superposed = replace(_assemble_master_curve(sheets, t_ref, moduli, placed), resonances=resonances)
+    return superposed if vertical else _add_vertical_uncertainty(superposed, sheets, moduli, placed)
+
+
+def _add_vertical_uncertainty(
+    superposition: Superposition, sheets: list[LogIsotherm], moduli: tuple[int, ...], placed: JointMinimum
+) -> Superposition:
+    """Add a missing vertical shift to the uncertainty, where the score test shows one."""
+    steps = -np.diff(placed.shift)
+    try:
+        score = JointShift(sheets, moduli=moduli, vertical=True).score(
+            np.concatenate([steps, np.zeros_like(steps)]), placed.residual
+        )
+        if score < _chi2_limit(steps.size):
+            return superposition
+        other = _assemble_master_curve(
+            sheets, superposition.reference, moduli, _place_isotherms(sheets, moduli, vertical=True)
+        )
+    except NoSolutionError:  # straight lines in log-log: no vertical shift is determined
+        return superposition
+    n = superposition.temperatures.size
+    apart = (other.shifts - superposition.shifts).ravel()
+    chance = 2.0 / np.sqrt(superposition.frequency.size)
+    if (
+        np.ptp(other.log10_b_T) < LEAST_VERTICAL
+        or np.max(np.abs(np.diff(apart[:n])))
+        > LONGEST_STEP  # the slopes hardly separate one shift from the other
+        or other.correlation > max(chance, 0.5 * superposition.correlation)  # it does not make them one curve
+    ):
+        return superposition
+    covariance = superposition.joint_covariance + np.outer(apart, apart)
+    return replace(
+        superposition,
+        joint_covariance=covariance,
+        log10_a_T_error=_standard_errors(covariance[:n, :n]),
+        log10_b_T_error=_standard_errors(covariance[n:, n:]),
+        with_vertical=other,
+    )
+
+
+def _chi2_limit(freedom: int) -> float:
+    """99.9 % quantile of chi squared: Wilson and Hilferty, PNAS 17 (1931) 684-688."""
+    step = 2.0 / (9.0 * freedom)
+    return float(freedom * (1.0 - step + NORMAL_QUANTILE_999 * np.sqrt(step)) ** 3)
+
+
+def _place_isotherms(sheets: list[LogIsotherm], moduli: tuple[int, ...], *, vertical: bool) -> JointMinimum:
+    joint = JointShift(sheets, moduli=moduli, vertical=vertical)
+    start = [first_guess(cold, hot, moduli=moduli, vertical=vertical) for cold, hot in pairwise(sheets)]
+    return joint.minimum(np.array(start).T)
+
+
+def _find_resonances(
+    sheets: list[LogIsotherm], moduli: tuple[int, ...], placed: JointMinimum
+) -> tuple[Resonance, ...]:
+    """Frequencies whose rows are outliers in more than half of the isotherms that hold them."""
+    x = np.concatenate([sheet.x for sheet in sheets])
+    stray = np.min([hampel_weights(one) for one in placed.residual], axis=0) < OUTLIER_TRUST
+    resonances = []
+    for at in np.unique(x[stray]):
+        same = np.abs(x - at) < SAME_FREQUENCY
+        if np.count_nonzero(same) < LEAST_ISOTHERMS or np.mean(stray[same]) <= 0.5:
+            continue
+        off = dict(zip(moduli, np.expm1(np.median(placed.residual[:, same & stray], axis=1)), strict=True))
+        count = int(np.count_nonzero(stray[same]))
+        resonances.append(Resonance(float(10.0**at), count, float(off.get(0, 0.0)), float(off.get(1, 0.0))))
+    return tuple(resonances)
+
+
+def _off_resonance(x: FloatArray, frequencies: list[float]) -> NDArray[np.bool_]:
+    """True for log10 frequencies away from the frequencies left out."""
+    apart: NDArray[np.bool_] = np.abs(x - np.log10(frequencies)[:, None]) >= SAME_FREQUENCY
+    return np.asarray(apart.all(axis=0))
+
+
+def _without_frequencies(sheet: LogIsotherm, frequencies: list[float]) -> LogIsotherm:
+    kept = _off_resonance(sheet.x, frequencies)
+    if np.count_nonzero(kept) < LEAST_ROWS:
+        raise NoSolutionError(
+            f"the rows at {', '.join(f'{f:g} Hz' for f in frequencies)} stand off the common curve in most isotherms"
+            f" (a resonance?), and without them the one at {celsius_in_message(sheet.temperature)} has < "
+            f"{LEAST_ROWS} rows"
+        )
+    return LogIsotherm(sheet.temperature, sheet.x[kept], sheet.y[:, kept])
+
+
+def _check_isotherms(isotherms: Sequence[Isotherm], reference: float) -> tuple[list[LogIsotherm], float]:
+    if len(isotherms) < 2:
+        raise InputError(f"a superposition needs >= 2 isotherms; got {len(isotherms)}")
+    ordered = sorted(isotherms, key=lambda one: one.temperature)
+    t = np.array([one.temperature for one in ordered])
+    if np.any(np.diff(t) == 0.0):
+        twice = float(t[1:][np.diff(t) == 0.0][0])
+        raise InputError(f"two isotherms at {celsius_in_message(twice)}: choose one run, or average the runs")
+    t_ref = positive_number("reference", reference, "K")
+    if not t[0] <= t_ref <= t[-1]:
+        raise RangeError(
+            f"reference {celsius_in_message(t_ref)} is outside the isotherms, {celsius_in_message(float(t[0]))} to"
+            f" {celsius_in_message(float(t[-1]))}; shifts are not extrapolated: choose a reference inside"
+        )
+    return [
+        LogIsotherm(one.temperature, np.log10(one.frequency), np.log([one.storage, one.loss]))
+        for one in ordered
+    ], t_ref
+
+
+def _assemble_master_curve(
+    sheets: list[LogIsotherm], t_ref: float, moduli: tuple[int, ...], placed: JointMinimum
+) -> Superposition:
+    """Move the zero of the shifts to the reference, and shift the rows."""
+    t = np.array([s.temperature for s in sheets])
+    shift, offset = placed.shift, placed.offset
+    size = t.size
+    a, from_a = _zero_at_reference(t, shift, t_ref)
+    b, from_b = _zero_at_reference(t, offset, t_ref)
+    from_both = np.block([[from_a, np.zeros((size, size))], [np.zeros((size, size)), from_b / LN10]])
+    covariance = from_both @ placed.covariance @ from_both.T
+    overlaps = tuple(
+        measure_overlap(sheets[i], sheets[i + 1], -da, -db, held=bool(placed.held[i]))
+        for i, (da, db) in enumerate(zip(np.diff(a).tolist(), np.diff(b).tolist(), strict=True))
+    )
+    x = np.concatenate([s.x + d for s, d in zip(sheets, a, strict=True)])
+    y = np.hstack([s.y - d for s, d in zip(sheets, b, strict=True)])
+    of = np.repeat(np.arange(size), [s.x.size for s in sheets])
+    order = np.argsort(x, kind="stable")
+    modulus = np.exp(y[:, order])
+    scatter = dict(zip(moduli, placed.scatter, strict=True))
+    return Superposition(
+        reference=t_ref,
+        temperatures=t,
+        log10_a_T=a,
+        log10_a_T_error=_standard_errors(covariance[:size, :size]),
+        log10_b_T=b / LN10,
+        log10_b_T_error=_standard_errors(covariance[size:, size:]),
+        joint_covariance=covariance,
+        frequency=10.0 ** x[order],
+        storage=modulus[0],
+        loss=modulus[1],
+        isotherm=of[order],
+        overlaps=overlaps,
+        storage_residual=float(np.sqrt(np.mean([o.storage**2 for o in overlaps]))),
+        loss_residual=float(np.sqrt(np.mean([o.loss**2 for o in overlaps]))),
+        storage_scatter=scatter.get(0),
+        loss_scatter=scatter.get(1),
+        correlation=placed.correlation,
+    )
+
+
+def _zero_at_reference(t: FloatArray, value: FloatArray, t_ref: float) -> tuple[FloatArray, FloatArray]:
+    """Values less the interpolated one at the reference, and their derivative by the values."""
+    from scipy.interpolate import PchipInterpolator
+
+    at = np.flatnonzero(t == t_ref)
+    if at.size:
+        weights = np.eye(t.size)[at[0]]
+    else:
+        moved = value + DIFFERENCE_STEP * np.vstack([np.eye(t.size), -np.eye(t.size)])
+        at_reference = PchipInterpolator(t, moved, axis=1)(t_ref)
+        weights = (at_reference[: t.size] - at_reference[t.size :]) / (2.0 * DIFFERENCE_STEP)
+    level = float(PchipInterpolator(t, value)(t_ref))
+    return value - level, np.eye(t.size) - weights
+
+
+def _standard_errors(covariance: FloatArray) -> FloatArray:
+    """Standard deviations of a covariance; that of the reference is 0 up to rounding of either sign."""
+    return np.sqrt(np.maximum(np.diagonal(covariance), 0.0))

@@ -1,0 +1,356 @@
+"""Range of the power from the defaults in use: each at both ends of its band.
+
+Forces are linear in the defaults, so no contact is solved again: the forces are scaled and the loop of tensions is
+closed around them. Bands are taken to be independent; changes down and changes up add as the root of their squares. A
+default is one line of `DEFAULTS`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Final, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.errors import NoSolutionError
+from conveyor.forces import Force
+from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
+from conveyor.laws.resistance import (
+    CLEANER_PRESSURE,
+    FLEXURE_COEFFICIENT,
+    ROLL_ON_BELT_FRICTION,
+    SERVICE_DRAG,
+    Default,
+)
+from conveyor.laws.resistance.cema import (
+    CLEANER_PER_INCH,
+    INCH,
+    POUND_FORCE,
+    cema_pulley_friction,
+)
+from conveyor.line.belt_contacts import BeltContacts
+from conveyor.line.covers import compounds_by_strand
+from conveyor.line.roll_drags import assumed_drag_share
+from conveyor.line.stretches import STRANDS
+from conveyor.loop.balance import Balance, OpenLoop, close_loops
+from conveyor.pipeline import CalculatedConveyor
+from conveyor.rubber.rolling_test_factor import UNTESTED_FACTOR
+from conveyor.studies.effects import Effect, ends_of_band, root_of_squares
+from conveyor.units.sentences import Message, error_in_units, escape_braces, message
+
+Shares: TypeAlias = NDArray[np.float64] | float
+"""Share of a force that depends on a default [-]: of every stretch, shape (2n,), or at one place."""
+Share: TypeAlias = Callable[[CalculatedConveyor, Force], Shares]
+
+
+@dataclass(frozen=True)
+class DefaultBand:
+    """A default of the spec: the forces it scales, its band, the fields that replace it.
+
+    Attributes
+    ----------
+    key, what : str
+        Key in files; label for people.
+    low, high : float
+        90 % band of the dependent forces over those computed [-].
+    give : str
+        Fields that replace it.
+    share : callable
+        Share of a force of a conveyor that depends on this default; 0 if it is not in use.
+    band : callable, optional
+        Band of a conveyor, if it is not the same for all; replaces `low` and `high`.
+    """
+
+    key: str
+    what: str
+    low: float
+    high: float
+    give: str
+    share: Share
+    band: Callable[[CalculatedConveyor], tuple[float, float]] | None = None
+
+    def ends(self, result: CalculatedConveyor) -> tuple[float, float]:
+        """Both ends of the band on a conveyor [-]."""
+        return (self.low, self.high) if self.band is None else self.band(result)
+
+
+def proportional_default(key: str, what: str, of: Default, give: str, share: Share) -> DefaultBand:
+    """A default whose forces are proportional to a figure with a range."""
+    return DefaultBand(key, what, of.low / of.value, of.high / of.value, give, share)
+
+
+def share_along_belt(key: str, share: Callable[[CalculatedConveyor], Shares]) -> Share:
+    """Share of a force along the belt that depends on a default, by stretch if they differ."""
+    return lambda result, force: share(result) if force.key == key else 0.0
+
+
+def usual_parts_share(*keys: str) -> Share:
+    """Share of forces from usual parts assumed for missing ones: all or nothing."""
+    return lambda _found, force: float(force.assumed and force.key in keys)
+
+
+def _roll_drag_share(result: CalculatedConveyor) -> Shares:
+    pairs = zip(result.line.stretches, result.line.roll_drags, strict=True)
+    return np.array([assumed_drag_share(result.conveyor, stretch.idlers, drags) for stretch, drags in pairs])
+
+
+def _flexure_share(result: CalculatedConveyor) -> Shares:
+    calculation = result.conveyor.calculation
+    return float(calculation.flexure is None and calculation.flexure_share is None)
+
+
+def _misalignment_share(result: CalculatedConveyor) -> Shares:
+    """Stretches whose sets have no misalignment of their own."""
+    return np.array([float(stretch.idlers.misalignment is None) for stretch in result.line.stretches])
+
+
+def _misalignment_band(result: CalculatedConveyor) -> tuple[float, float]:
+    """Band from the best to the worst alignment of such a site."""
+    of_site = MISALIGNMENT[result.conveyor.site]
+    low, middle, high = map(misalignment_friction, (of_site.low, of_site.value, of_site.high))
+    return low / middle, high / middle
+
+
+def _untested_share(result: CalculatedConveyor, force: Force) -> Shares:
+    """Indentation of the strands whose rubber has no rolling-resistance tests."""
+    if force.key != "indentation":
+        return 0.0
+    covers = result.contacts.covers
+    return np.array([float(covers[stretch.strand].level is None) for stretch in result.line.stretches])
+
+
+def _tested_share(result: CalculatedConveyor, force: Force) -> Shares:
+    """Indentation of the strands whose rubber has tests."""
+    return 0.0 if force.key != "indentation" else 1.0 - np.asarray(_untested_share(result, force))
+
+
+def _tests_band(result: CalculatedConveyor) -> tuple[float, float]:
+    """Band enclosing those of the test factors of both strands, spectra beyond the tests included."""
+    lows, highs = zip(*(result.contacts.test_factor_range(strand) for strand in STRANDS), strict=True)
+    return min(lows), max(highs)
+
+
+def _bending_share(result: CalculatedConveyor, force: Force) -> Shares:
+    """Indentation under a flexible belt whose carcass has no bending loss."""
+    given = result.conveyor.belt.carcass.bending_loss > 0.0
+    return float(force.key == "indentation" and isinstance(result.contacts, BeltContacts) and not given)
+
+
+def _bending_band(result: CalculatedConveyor) -> tuple[float, float]:
+    """Band up to the flexure by load and sag of a stiff carcass, over the indentation."""
+    contacts = result.contacts
+    left_out = contacts.flexure_left_out if isinstance(contacts, BeltContacts) else 0.0
+    return 1.0, 1.0 + left_out / result.balance.forces.indentation
+
+
+def _cleaner_pressure_share(result: CalculatedConveyor, force: Force) -> float:
+    """1 if a cleaner is given without its pressure, else 0."""
+    names = [each.name for each in result.balance.singles if each.key == "cleaner"]
+    cleaner = dict(zip(names, result.conveyor.route.cleaners, strict=False)).get(force.name)
+    return float(cleaner is not None and "pressure" not in cleaner.model_fields_set)
+
+
+def _cleaners_band(result: CalculatedConveyor) -> tuple[float, float]:
+    """Band from one usual cleaner to CEMA's force on each."""
+    line = result.line
+    usual = math.fsum(
+        force.total for force in result.balance.singles if force.key == "cleaner" and force.assumed
+    )
+    by_cema = CLEANER_PER_INCH.value * POUND_FORCE / INCH * line.belt.width
+    return 0.5, by_cema * math.fsum(scraper.count for scraper in line.scrapers) / usual
+
+
+def _pulleys_band(result: CalculatedConveyor) -> tuple[float, float]:
+    """Band from half the resistance of usual pulleys to CEMA's with a take-up and its bends."""
+    usual = math.fsum(
+        force.total for force in result.balance.singles if force.key in _PULLEYS and force.assumed
+    )
+    return 0.5, max(2.0, cema_pulley_friction(_CEMA_PULLEYS) / usual)
+
+
+def _illustrative_share(result: CalculatedConveyor, force: Force) -> Shares:
+    """Indentation of the strands whose compound is illustrative, representing a kind of cover."""
+    if force.key != "indentation":
+        return 0.0
+    compounds = compounds_by_strand(result.conveyor)
+    kinds = {strand: float(compound.kind == "illustrative") for strand, compound in compounds.items()}
+    return np.array([kinds[stretch.strand] for stretch in result.line.stretches])
+
+
+COVERS_OF_A_KIND: Final = (0.7, 1.4)
+"""Indentation of covers sold under one name, over their middle [-]: general knowledge; a design program takes 0.80 for
+low-resistance covers, tests of single makes differ by as much either way."""
+_PULLEYS: Final = ("wrap", "pulley_bearings")
+_CEMA_PULLEYS: Final = ("slack", "slack", "other", "other")
+"""Tail, take-up and its two bends; CEMA leaves out the driven head."""
+
+DEFAULTS: Final = (
+    proportional_default("roll_drag", "drag of the rolls in service", SERVICE_DRAG, "idlers.*.roll.drag or drag_law",
+           share_along_belt("idler_rotation", _roll_drag_share)),
+    proportional_default("flexure", "flexure of belt and bulk over load and sag", FLEXURE_COEFFICIENT,
+           "calculation.flexure or flexure_share", share_along_belt("flexure", _flexure_share)),
+    proportional_default("tilt", "friction of tilted rolls on the belt", ROLL_ON_BELT_FRICTION,
+    "idlers.*.tilt_angle: 0 deg",
+           share_along_belt("tilt", lambda _found: 1.0)),
+    DefaultBand("misalignment", "alignment of the idlers", 1.0, 1.0, "idlers.*.misalignment",
+            share_along_belt("misalignment", _misalignment_share), _misalignment_band),
+    DefaultBand("feeding", "acceleration of the bulk from rest", 0.5, 1.0, "route.feeding",
+    usual_parts_share("acceleration")),
+    DefaultBand("skirts", "usual skirts and their seals", 0.5, 2.0, "route.feeding",
+            usual_parts_share("loading_skirts", "skirts", "skirt_seals")),
+    DefaultBand("cleaners", "usual cleaners", 1.0, 1.0, "route.cleaners", usual_parts_share("cleaner"), _cleaners_band),
+    proportional_default("cleaner_pressure", "pressure of the cleaners", CLEANER_PRESSURE,
+    "route.cleaners[].pressure", _cleaner_pressure_share),
+    DefaultBand("level", "level of the indentation, no rolling-resistance tests", 1.0, UNTESTED_FACTOR,
+    "a compound with tests",
+            _untested_share),
+    DefaultBand("tested_level", "level of the indentation, tests and spectrum", 1.0, 1.0, "tests of the belt itself",
+            _tested_share, _tests_band),
+    DefaultBand("bending_loss", "loss of the carcass that bends, 0", 1.0, 1.0, "belt.carcass.bending_loss",
+    _bending_share,
+            _bending_band),
+    DefaultBand("pulleys", "usual head and tail pulleys", 1.0, 1.0, "route.pulleys", usual_parts_share(*_PULLEYS),
+            _pulleys_band),
+    DefaultBand("cover", "make of the covers, others of their kind", *COVERS_OF_A_KIND, "compounds measured and tested",
+            _illustrative_share),
+)  # fmt: skip
+"""Every default with a band; one more line is one more default.
+
+Bands of usual parts are general knowledge: bulk landing at half the belt's speed, half and twice the skirts, one
+cleaner, half the pulleys' resistance; their high ends are CEMA's: 5 lbf/in of each cleaner, and 150 lbf at tail and
+take-up, 100 at the two bends before it.
+"""
+
+
+@dataclass(frozen=True)
+class DefaultEffect(Effect):
+    """Effect of a default in use on the power; `key` and `give` as in `DefaultBand`.
+
+    Attributes
+    ----------
+    low_factor, high_factor : float
+        Ends of its band [-].
+    """
+
+    key: str = ""
+    give: str = ""
+    low_factor: float = 1.0
+    high_factor: float = 1.0
+
+
+@dataclass(frozen=True)
+class PowerRange:
+    """Motor power with its range from the defaults.
+
+    Attributes
+    ----------
+    motor, low, high : float
+        At the motors' shafts: computed, and its 90 % band [W].
+    effects : tuple of DefaultEffect
+        One per default in use, the largest swing first.
+    notes : tuple of str
+        Ends of bands without an answer, and the reason.
+    friction : tuple of float
+        90 % band of the effective tension less lift, over the computed one [-].
+    untested : tuple of Message
+        Rubbers without rolling-resistance tests at the belt's temperature.
+    """
+
+    motor: float
+    low: float
+    high: float
+    effects: tuple[DefaultEffect, ...]
+    notes: tuple[str, ...] = ()
+    friction: tuple[float, float] = (1.0, 1.0)
+    untested: tuple[Message, ...] = ()
+
+
+def power_range(result: CalculatedConveyor) -> PowerRange:
+    """Range of the motor power from the defaults in use.
+
+    Parameters
+    ----------
+    result : CalculatedConveyor
+        Result of `calculate`.
+
+    Returns
+    -------
+    PowerRange
+        The band, and the effect of every default.
+
+    Notes
+    -----
+    On vertical curves the rolls keep their loads. A default for which the loop has no answer at an end of its band is
+    left out and noted.
+    """
+    motor = result.balance.power.motor
+    using = [
+        one for one in DEFAULTS if any(_uses_default(one, result, force) for force in result.balance.every)
+    ]
+    bands = [assumed.ends(result) for assumed in using]
+    pairs = zip(using, bands, strict=True)
+    closed = close_loops([_scale_loop(result, assumed, factor) for assumed, ends in pairs for factor in ends])
+    effects, notes, frictions = [], [], []
+    computed = _friction_force(result.balance)
+    for assumed, ends, *both in zip(using, bands, closed[::2], closed[1::2], strict=True):
+        why = next((end for end in both if isinstance(end, NoSolutionError)), None)
+        if why is not None:
+            notes.append(
+                f"{assumed.what} at an end of its band: {error_in_units(why, result.conveyor.report.units)}"
+            )
+            continue
+        low, high = (end.power.motor for end in both if isinstance(end, Balance))
+        frictions.append([_friction_force(end) / computed for end in both if isinstance(end, Balance)])
+        effects.append(
+            DefaultEffect(
+                assumed.what, f"x {ends[0]:.3g}", "x 1", f"x {ends[1]:.3g}", low, high,
+                assumed.key, assumed.give, *ends,
+            )
+        )  # fmt: skip
+    effects.sort(key=lambda effect: -effect.swing)
+    return PowerRange(
+        motor, *root_of_squares(motor, effects), tuple(effects), tuple(notes),
+        ends_of_band(1.0, frictions), tuple(_untested_rubbers(result)),
+    )  # fmt: skip
+
+
+def _friction_force(balance: Balance) -> float:
+    """Effective tension less lift [N]."""
+    return balance.forces.total - balance.forces.lift
+
+
+def _untested_rubbers(result: CalculatedConveyor) -> Iterator[Message]:
+    """Notes on rubbers tested at other temperatures: which, and the spectrum that extrapolates the test factor."""
+    levels = [result.contacts.covers[strand].level for strand in STRANDS]
+    names: dict[tuple[tuple[float, ...], str], dict[str, None]] = {}
+    for level in levels:
+        if level is None or level.anchor.tested_at(level.temperature):
+            continue
+        tested = tuple(dict.fromkeys(level.anchor.temperatures[[0, -1]].tolist()))
+        spectrum = "constructed" if level.compound.kind == "illustrative" else "measured"
+        names.setdefault((tested, spectrum), {})[level.compound.name] = None
+    for (tested, spectrum), compounds in names.items():
+        several = ", ".join(escape_braces(f'"{name}"') for name in compounds)
+        yield message(
+            f"the level of {several} is tested at {' to '.join('{}' for _ in tested)}, not at {{}}: "
+            f"{'its' if len(compounds) == 1 else 'their'} {spectrum} spectrum carries it there",
+            *((kelvin, "temperature") for kelvin in (*tested, result.temperature)),
+        )
+
+
+def _uses_default(assumed: DefaultBand, result: CalculatedConveyor, force: Force) -> bool:
+    """True if a force depends on a default."""
+    return bool(np.any(np.asarray(assumed.share(result, force)) * np.asarray(force.newtons)))
+
+
+def _scale_loop(result: CalculatedConveyor, assumed: DefaultBand, factor: float) -> OpenLoop:
+    """The loop with the forces of a default scaled."""
+
+    def scaled(force: Force) -> Force:
+        return replace(force, newtons=force.newtons * (1.0 + (factor - 1.0) * assumed.share(result, force)))
+
+    along = tuple(map(scaled, result.balance.along))
+    return OpenLoop(result.balance.frame.scaled(scaled), along, result.balance.unit_main)
