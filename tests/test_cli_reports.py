@@ -186,7 +186,7 @@ def test_no_bar_where_output_is_piped():
 def test_what_was_done_before_a_bar_appears_is_no_speed(monkeypatch):
     now, bar = [0.0], MagicMock()
     monkeypatch.setattr(sys.modules["conveyor.cli.application"], "perf_counter", lambda: now[0])
-    monkeypatch.setattr(sys.modules["conveyor.cli.application"], "_bar", lambda: nullcontext(bar))
+    monkeypatch.setattr(sys.modules["conveyor.cli.application"], "_rich_bar", lambda: nullcontext(bar))
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     with progress_bar(silent=False) as told:
         now[0] = 1.5

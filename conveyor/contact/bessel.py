@@ -148,7 +148,7 @@ class ProductIK:
 
     Examples
     --------
-    >>> products, _ = ProductIK(2, np.array([[1.0]])).weighted(np.array([1.0]))
+    >>> products, _ = ProductIK(2, np.array([[1.0]])).weighted_sums(np.array([1.0]))
     >>> round(float(products[0, 0, 1] / (special.iv(1, 1.0) * special.kv(0, 1.0))), 12)
     1.0
     """

@@ -115,7 +115,9 @@ def _ramp_variants(setup: ScenarioSetup) -> tuple[Callable[[float], ScenarioSetu
     return made, _RAMPS, "duration"
 
 
-def _brake_variants(setup: ScenarioSetup) -> tuple[Callable[[float], ScenarioSetup], tuple[float, float], str]:
+def _brake_variants(
+    setup: ScenarioSetup,
+) -> tuple[Callable[[float], ScenarioSetup], tuple[float, float], str]:
     if all(happening.do != "brake" for happening in setup.scene.drive_events):
         raise InputError(
             f'scenario "{setup.scene.name}": no brake grips in it; give it an event {{do: brake}}'
@@ -130,7 +132,9 @@ def _brake_variants(setup: ScenarioSetup) -> tuple[Callable[[float], ScenarioSet
     return made, (_BRAKES[0] * rated, _BRAKES[1] * rated), "force"
 
 
-def _delay_variants(setup: ScenarioSetup) -> tuple[Callable[[float], ScenarioSetup], tuple[float, float], str]:
+def _delay_variants(
+    setup: ScenarioSetup,
+) -> tuple[Callable[[float], ScenarioSetup], tuple[float, float], str]:
     if len(setup.drives) == 1:
         raise InputError(f'scenario "{setup.scene.name}": one drive only, nothing to delay')
 

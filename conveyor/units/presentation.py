@@ -185,9 +185,9 @@ class Unit:
         Examples
         --------
         >>> (
-        ...     display_unit("speed").brief(5.0),
-        ...     display_unit("speed", "US").brief(5.08),
-        ...     display_unit("mass flow").brief(2000.0 / 3.6),
+        ...     display_unit("speed").four_digits(5.0),
+        ...     display_unit("speed", "US").four_digits(5.08),
+        ...     display_unit("mass flow").four_digits(2000.0 / 3.6),
         ... )
         ('5 m/s', '1,000 fpm', '2,000 t/h')
         """

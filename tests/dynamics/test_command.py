@@ -50,7 +50,7 @@ def rigged(monkeypatch):
         return made, made[0].loop.steady
 
     for module in (scenario_sizing, following):
-        monkeypatch.setattr(module, "prepared_rides", setups)
+        monkeypatch.setattr(module, "prepare_setups", setups)
     monkeypatch.setattr(scenario_sizing, "_CELLS", 25)
 
 

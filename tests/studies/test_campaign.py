@@ -221,7 +221,7 @@ def test_loads_of_so_many_designs_are_remembered_and_no_more(line, monkeypatch):
     monkeypatch.setattr(
         "conveyor.studies.points._all_loads_figures", lambda design, _: made.append(design) or len(made)
     )
-    monkeypatch.setattr("conveyor.studies.points.Kept.MOST", 3)
+    monkeypatch.setattr("conveyor.studies.points.ReuseCache.MOST", 3)
     opened = _UnpackedJob(campaign(line, axes={"belt.speed": "1:2:0.1 m/s"}).job)
     three = [{"belt.speed": f"{speed} m/s"} for speed in (1.1, 1.2, 1.3)]
     assert [opened.loads(point) for point in three + three] == [1, 2, 3, 1, 2, 3]
@@ -247,7 +247,7 @@ def test_points_that_share_what_both_strands_feel_are_solved_side_by_side(line, 
         batches.append([tuple(point.values()) for point in points])
         return by_speed(_, points)
 
-    monkeypatch.setattr("conveyor.studies.parametric_study.answers", instead)
+    monkeypatch.setattr("conveyor.studies.parametric_study.evaluate_points", instead)
     axes = {"idlers.carry.spacing": ["1 m", "1.2 m"], "belt.speed": ["1 m/s", "1.2 m/s", "1.4 m/s"]}
     found = answered(campaign(line, axes=axes), tmp_path / "a")
     assert batches == [[("1 m", v), ("1.2 m", v)] for v in axes["belt.speed"]]
@@ -435,7 +435,7 @@ def test_a_table_in_a_folder_grows_while_its_study_runs(line, tmp_path, monkeypa
         if done == 4:
             raise KeyboardInterrupt
 
-    monkeypatch.setattr("conveyor.studies.parametric_study.answers", instead)
+    monkeypatch.setattr("conveyor.studies.parametric_study.evaluate_points", instead)
     with pytest.raises(KeyboardInterrupt):
         run_into(folder, tmp_path / "a", progress=stopping)
     assert [file.name for file in folder.iterdir()] == [f"part-00001.{ending}"]  # 4 of 6 points, whole
@@ -470,7 +470,7 @@ def by_speed(_, points):
 
 
 def test_a_full_disk_loses_nothing_and_the_run_goes_on(line, tmp_path, monkeypatch):
-    monkeypatch.setattr("conveyor.studies.parametric_study.answers", by_speed)
+    monkeypatch.setattr("conveyor.studies.parametric_study.evaluate_points", by_speed)
     path, study = tmp_path / "a", campaign(line, axes={"belt.speed": "1:3:0.002 m/s"})
     with ResultStore(path) as known:
         known._file.execute("PRAGMA max_page_count = 4")  # as a disk without room for a fifth page
@@ -482,14 +482,15 @@ def test_a_full_disk_loses_nothing_and_the_run_goes_on(line, tmp_path, monkeypat
     assert 0 < kept < study.plan.count
     asked = []
     monkeypatch.setattr(
-        "conveyor.studies.parametric_study.answers", lambda _, new: asked.extend(new) or by_speed(_, new)
+        "conveyor.studies.parametric_study.evaluate_points",
+        lambda _, new: asked.extend(new) or by_speed(_, new),
     )
     assert answered(study, path) == answered(study, tmp_path / "whole")
     assert len(asked) == (study.plan.count - kept) + study.plan.count
 
 
 def test_a_part_without_room_is_not_there_and_the_run_goes_on(line, tmp_path, monkeypatch):
-    monkeypatch.setattr("conveyor.studies.parametric_study.answers", by_speed)
+    monkeypatch.setattr("conveyor.studies.parametric_study.evaluate_points", by_speed)
     monkeypatch.setattr("conveyor.report.point_tables.PART_POINTS", 8)
     monkeypatch.setattr("conveyor.report.point_tables.find_spec", lambda _: None)
     study, folder = campaign(line, axes={"belt.speed": "1:1.31:0.01 m/s"}), tmp_path / "points"
@@ -536,7 +537,7 @@ def test_a_file_of_answers_that_a_full_disk_left_without_a_table_is_begun_again(
 
 
 def test_a_damaged_file_of_answers_says_so(line, tmp_path, monkeypatch):
-    monkeypatch.setattr("conveyor.studies.parametric_study.answers", by_speed)
+    monkeypatch.setattr("conveyor.studies.parametric_study.evaluate_points", by_speed)
     path, study = tmp_path / "a", campaign(line, axes={"belt.speed": "1:2:0.001 m/s"})
     answered(study, path)
     data = path.read_bytes()
@@ -546,7 +547,7 @@ def test_a_damaged_file_of_answers_says_so(line, tmp_path, monkeypatch):
 
 
 def test_an_answer_that_lost_a_bit_is_calculated_anew_with_a_line(line, tmp_path, monkeypatch):
-    monkeypatch.setattr("conveyor.studies.parametric_study.answers", by_speed)
+    monkeypatch.setattr("conveyor.studies.parametric_study.evaluate_points", by_speed)
     path, study = tmp_path / "a", campaign(line, axes={"belt.speed": "1:2:0.01 m/s"})
     whole = answered(study, path)
     data = bytearray(path.read_bytes())
@@ -555,7 +556,8 @@ def test_an_answer_that_lost_a_bit_is_calculated_anew_with_a_line(line, tmp_path
     path.write_bytes(data)
     asked = []
     monkeypatch.setattr(
-        "conveyor.studies.parametric_study.answers", lambda _, new: asked.extend(new) or by_speed(_, new)
+        "conveyor.studies.parametric_study.evaluate_points",
+        lambda _, new: asked.extend(new) or by_speed(_, new),
     )
     with pytest.warns(ValidityWarning, match=r"a: answers .* checksum: 2; they are calculated anew"):
         assert answered(study, path) == whole
@@ -565,7 +567,7 @@ def test_an_answer_that_lost_a_bit_is_calculated_anew_with_a_line(line, tmp_path
 
 @pytest.mark.parametrize("seed", range(8))
 def test_no_lost_bit_changes_a_figure(line, tmp_path, monkeypatch, seed):
-    monkeypatch.setattr("conveyor.studies.parametric_study.answers", by_speed)
+    monkeypatch.setattr("conveyor.studies.parametric_study.evaluate_points", by_speed)
     path, study = tmp_path / "a", campaign(line, axes={"belt.speed": "1:2:0.05 m/s"})
     whole, seeded = answered(study, path), random.Random(seed)  # noqa: S311 a repeatable test
     data = path.read_bytes()

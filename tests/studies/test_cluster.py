@@ -64,9 +64,9 @@ def test_killed_workers_and_drivers_leave_the_same_table(tmp_path):
 
 _DRIVER = """
 import os, time
-from conveyor.cli.worker_processes import executor_of
+from conveyor.cli.worker_processes import open_executor
 if __name__ == "__main__":
-    with executor_of(None, 2) as pool:
+    with open_executor(None, 2) as pool:
         print(*{pool.submit(os.getpid).result() for _ in range(4)}, flush=True)
         time.sleep(60)
 """

@@ -41,7 +41,7 @@ def bowl(job, points):
 
 @pytest.fixture
 def line(monkeypatch):
-    monkeypatch.setattr("conveyor.studies.parametric_study.answers", bowl)
+    monkeypatch.setattr("conveyor.studies.parametric_study.evaluate_points", bowl)
     return conveyor.load(SPECS / "shuttle.yaml")
 
 
@@ -81,7 +81,7 @@ def test_a_search_that_was_stopped_goes_on_and_ends_alike(line, tmp_path, monkey
             raise KeyboardInterrupt
         return bowl(job, points)
 
-    monkeypatch.setattr("conveyor.studies.parametric_study.answers", failing)
+    monkeypatch.setattr("conveyor.studies.parametric_study.evaluate_points", failing)
     with pytest.raises(KeyboardInterrupt):
         search(line, tmp_path / "stopped")
     kept = sum(asked[:3])
