@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 import conveyor
-from conveyor.analysis import studies
+from conveyor.results.analysis import studies
 from conveyor.spec import dump
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -26,7 +26,7 @@ from pathlib import Path
 import numpy as np
 
 from conveyor.contact import ContactProblem, CreepSpectrum, solve
-from conveyor.contact.grid_solver import solve_grid
+from conveyor.contact.solvers.grid_solver import solve_grid
 
 SCENES = {"wide: R/λ 0.4, p̃ 0.05": (0.4, 0.05), "narrow: R/λ 0.05, p̃ 0.01": (0.05, 0.01)}
 NODES = tuple(2**k for k in range(7, 14))

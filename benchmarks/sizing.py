@@ -21,7 +21,7 @@ import conveyor
 from conveyor.sizing import size_conveyor
 from conveyor.spec import from_data
 from conveyor.starter import starter_values
-from conveyor.study_file import read_duty
+from conveyor.studies.study_file import read_duty
 
 DUTIES = Path(__file__).resolve().parents[1] / "examples" / "duties"
 HAND_MADE = {

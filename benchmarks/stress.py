@@ -25,7 +25,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from conveyor.contact import ContactProblem, ContactSolution, CreepSpectrum, Status, solve
-from conveyor.contact.grid_solver import solve_grid
+from conveyor.contact.solvers.grid_solver import solve_grid
 from conveyor.errors import ConveyorError, NoSolutionError
 
 RTOL, FINE = 1e-6, 1e-10

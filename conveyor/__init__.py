@@ -14,26 +14,6 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from conveyor.analysis import (
-        Analysis,
-        CaseStudy,
-        DutyStudy,
-        Studies,
-        analyse,
-        analyse_cases,
-        analyse_duty,
-        analyse_studies,
-    )
-    from conveyor.comparisons import (
-        CalibrationStudy,
-        Comparison,
-        VerificationSheet,
-        calibrate,
-        compare,
-        compare_compounds,
-        verify_sheet,
-    )
-    from conveyor.designs import Sizing, Study, size, study
     from conveyor.errors import (
         ConveyorError,
         InputError,
@@ -46,13 +26,33 @@ if TYPE_CHECKING:
     from conveyor.models.cases import LoadCase
     from conveyor.models.sizing import SizingDuty
     from conveyor.models.study import StudyPlan
+    from conveyor.results.analysis import (
+        Analysis,
+        CaseStudy,
+        DutyStudy,
+        Studies,
+        analyse,
+        analyse_cases,
+        analyse_duty,
+        analyse_studies,
+    )
+    from conveyor.results.comparisons import (
+        CalibrationStudy,
+        Comparison,
+        VerificationSheet,
+        calibrate,
+        compare,
+        compare_compounds,
+        verify_sheet,
+    )
+    from conveyor.results.designs import Sizing, Study, size, study
     from conveyor.spec import load
 
     __version__: str
 
 # Imported on first use: `conveyor --help` must not pay for scipy and pandas.
 _WHERE = {
-    "conveyor.comparisons": (
+    "conveyor.results.comparisons": (
         "CalibrationStudy",
         "Comparison",
         "VerificationSheet",
@@ -61,7 +61,7 @@ _WHERE = {
         "compare_compounds",
         "verify_sheet",
     ),
-    "conveyor.designs": ("Sizing", "Study", "size", "study"),
+    "conveyor.results.designs": ("Sizing", "Study", "size", "study"),
     "conveyor.errors": (
         "ConveyorError",
         "InputError",
@@ -76,7 +76,7 @@ _WHERE = {
     "conveyor.models.study": ("StudyPlan",),
     "conveyor.spec": ("load",),
 }
-"""Modules of names; `conveyor.analysis` has the others."""
+"""Modules of names; `conveyor.results.analysis` has the others."""
 
 __all__ = [
     "Analysis",
@@ -119,8 +119,9 @@ __all__ = [
 _MODULES = {
     **{
         name: f"conveyor.{name}"
-        for name in ("contact", "indentation", "rubber", "shelf", "spec", "studies", "uncertainty", "units")
+        for name in ("contact", "indentation", "rubber", "shelf", "spec", "studies", "units")
     },
+    "uncertainty": "conveyor.results.uncertainty",
     "libraries": "conveyor.files.libraries",
 }
 
@@ -133,7 +134,9 @@ def __getattr__(name: str) -> Any:
     if name == "__version__":
         return import_module("importlib.metadata").version("conveyor")
     if name in __all__:
-        module = next((module for module, names in _WHERE.items() if name in names), "conveyor.analysis")
+        module = next(
+            (module for module, names in _WHERE.items() if name in names), "conveyor.results.analysis"
+        )
         return getattr(import_module(module), name)
     if name in _MODULES:
         return import_module(_MODULES[name])

@@ -31,9 +31,9 @@ from conveyor.loop.horizontal_curve_duty import DriftState, HorizontalCurveCheck
 from conveyor.loop.set_duty import SetDuty
 from conveyor.loop.start_and_stop import motion_states
 from conveyor.loop.take_up_duty import TakeUpDuty, take_up_weight_mass
+from conveyor.loop.ties import first_maximum
 from conveyor.loop.worst_loadings import SINGLE_CHANGE_SECTIONS
 from conveyor.pipeline import CalculatedConveyor
-from conveyor.ties import first_maximum
 from conveyor.units.sentences import Message, escape_braces, format_band, message, percent
 
 Verdict = Literal["pass", "FAIL", "not checked"]
@@ -44,7 +44,7 @@ _AT_LEAST: Final[Relation] = "at least"
 _HALF_TROUGH: Final = 0.5
 _FIGURE_PATTERN: Final = re.compile(r"(?<!{){(?:calculated|required)}(?!})")
 _MARGIN_DIGITS: Final = 9
-"""Digits of margins, so that rounding does not decide between equals, see `conveyor.ties`."""
+"""Digits of margins, so that rounding does not decide between equals, see `conveyor.loop.ties`."""
 MAX_PENETRATION: Final = 0.2
 """Largest Δ/h for linear small-strain theory; strain is about Δ/h [-]."""
 

@@ -13,8 +13,8 @@ from conveyor.arguments import check_arguments
 from conveyor.errors import InputError
 from conveyor.files.compound_folders import ENVIRONMENT, SUFFIXES, built_in, compound_files, folders
 from conveyor.files.document import read_document, yaml_text
-from conveyor.model_file import read_model
 from conveyor.models.compound import RubberCompound
+from conveyor.models.model_file import read_model
 
 __all__ = ["ENVIRONMENT", "built_in", "compound", "dump", "folders", "names", "read_compound", "resolver"]
 

@@ -16,9 +16,9 @@ from conveyor import shelf
 from conveyor.arguments import check_arguments
 from conveyor.errors import InputError
 from conveyor.files.document import error_lines, read_document, yaml_text
-from conveyor.model_file import read_model
 from conveyor.models import Conveyor
 from conveyor.models.base import Model, field_path, real_errors, validate_model
+from conveyor.models.model_file import read_model
 from conveyor.models.validation_messages import Location, error_message
 
 _FIELD: Final = re.compile(r"[a-z_]+(?:\.[a-z_]+|\[[0-9]+\])*(?=[: ])")

@@ -7,10 +7,11 @@ import math
 
 import pytest
 
-from conveyor import rolling_test_calibration, shelf
+from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.indentation import RollContact, indentation_resistance
 from conveyor.measured.rolling_test_table import read_rolling_tests
+from conveyor.results import rolling_test_calibration
 from tests.test_cli import run
 
 HEAD = (

@@ -54,7 +54,7 @@ def test_no_circle_of_imports():
 
 
 def test_quantities_end_in_models_and_line():
-    at_home = ("conveyor.models", "conveyor.line", "conveyor.units")
+    at_home = ("conveyor.models", "conveyor.line", "conveyor.sizing.sizing_task", "conveyor.units")
     others = {name for name, text in SOURCES.items() if re.search(r"(?<!def )\bsi\(", text)}
     assert sorted(others - set(inside(*at_home))) == []
 
@@ -65,6 +65,7 @@ def test_labels_hold_no_units():
     found = [
         (name, match[0])
         for name, text in inside("conveyor.report", "conveyor.cli", "conveyor.studies").items()
+        if name != "conveyor.studies.study_file"  # says how users head a column
         for match in written.finditer(_without_docstrings(name, text))
     ]
     assert found == []
@@ -104,8 +105,8 @@ def test_renderers_know_no_results(renderer):
         "conveyor.loop",
         "conveyor.studies",
         "conveyor.pipeline",
-        "conveyor.analysis",
-        "conveyor.comparisons",
+        "conveyor.results.analysis",
+        "conveyor.results.comparisons",
     )
     assert name in FILES
     assert [used for used in sorted(imports(name)) if used.startswith(below)] == []

@@ -14,8 +14,8 @@ from ruamel.yaml import YAML
 
 import conveyor
 import conveyor.spec
-from conveyor.analysis import studies
-from conveyor.format_reference import heading_anchor
+from conveyor.results.analysis import studies
+from conveyor.starter.format_reference import heading_anchor
 from conveyor.starter.starter_data import starter_values
 from tests.command_line import run
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from conveyor.contact.quadrature import RuleTooLongError
+from conveyor.contact.galerkin.quadrature import RuleTooLongError
 from conveyor.errors import ConveyorError, InputError, PlanError, ValidityWarning
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from conveyor.practice_cases import QUANTITIES, PracticeFigure, practice_figures, practice_summary
+from conveyor.validation.practice_cases import QUANTITIES, PracticeFigure, practice_figures, practice_summary
 
 PAGE = Path(__file__).parent.parent / "docs" / "printed.md"
 DIGITS = 2

@@ -11,9 +11,9 @@ from pydantic import BaseModel, TypeAdapter
 from typer.testing import CliRunner
 
 from conveyor.cli import app
-from conveyor.format_reference import example_value, format_fields, heading_anchor, markdown_reference
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.sizing import SizingDuty
+from conveyor.starter.format_reference import example_value, format_fields, heading_anchor, markdown_reference
 
 PAGE = Path(__file__).parent.parent / "docs" / "spec.md"
 FORMATS = (Conveyor, SizingDuty, RubberCompound)

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from conveyor.ties import first_maximum, first_minimum
+from conveyor.loop.ties import first_maximum, first_minimum
 
 
 @pytest.mark.parametrize("scale", [1e-9, 1.0, 1e9])

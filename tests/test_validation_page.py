@@ -13,8 +13,8 @@ from pathlib import Path
 
 import pytest
 
-from conveyor import validation
-from conveyor.validation import ReferenceCheck
+from conveyor.validation import reference_cases
+from conveyor.validation.reference_cases import ReferenceCheck
 from tests.validation.test_measured_conveyors import rows as measured
 
 ROOT = Path(__file__).parent.parent
@@ -113,7 +113,7 @@ was found, so those are compared in bands. What the models leave out is in the [
 
 @cache
 def checks() -> tuple[ReferenceCheck, ...]:
-    return tuple(validation.run_checks())
+    return tuple(reference_cases.run_checks())
 
 
 def shown(value: float | str) -> str:

@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 
 import conveyor
-from conveyor.analysis import Analysis, Studies, studies
+from conveyor.results.analysis import Analysis, Studies, studies
 
 SPECS = Path(__file__).parent.parent / "examples" / "specs"
 

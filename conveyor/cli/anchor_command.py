@@ -11,7 +11,7 @@ from conveyor.cli.shared_options import Session, session_command
 from conveyor.files import output_marks
 
 if TYPE_CHECKING:
-    from conveyor.rolling_test_calibration import RollingTestCalibration
+    from conveyor.results.rolling_test_calibration import RollingTestCalibration
     from conveyor.units import System
 
 
@@ -52,9 +52,9 @@ def anchor(
     """Set the level of a compound's indentation by rolling-resistance tests: measured over calculated."""
     to = session.outputs(compound, tests)
     to.file("--output", output, *SPEC, kind=output_marks.COMPOUND)
-    from conveyor import rolling_test_calibration
     from conveyor import shelf as store
     from conveyor.measured.rolling_test_table import read_rolling_tests
+    from conveyor.results import rolling_test_calibration
 
     anchored = rolling_test_calibration.calibrate_compound(
         store.compound(compound, extra=session.shelf or ()), read_rolling_tests(tests, source), name=name
@@ -74,8 +74,8 @@ def anchor(
 
 def _show_tests(anchored: RollingTestCalibration, system: System) -> None:
     """Print measured over calculated of the tests, row by row and in all."""
-    from conveyor import rolling_test_calibration
     from conveyor.cli.terminal import report_grid, terminal_console, wrap_line
+    from conveyor.results import rolling_test_calibration
 
     screen = terminal_console()
     for part in (

@@ -20,8 +20,8 @@ import typer.core
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.files.compound_folders import compound_files
-from conveyor.printable import escape_controls, escape_json_controls
-from conveyor.ranges import MOST_VALUES, range_values
+from conveyor.text.printable import escape_controls, escape_json_controls
+from conveyor.text.ranges import MOST_VALUES, range_values
 
 if TYPE_CHECKING:
     from conveyor.models import Conveyor

@@ -10,7 +10,7 @@ from conveyor.cli.output_files import SPEC
 from conveyor.cli.shared_options import Session, session_command
 
 if TYPE_CHECKING:
-    from conveyor.comparisons import CalibrationStudy
+    from conveyor.results.comparisons import CalibrationStudy
     from conveyor.units import System
 
 _RUN_COLUMNS = ("run", "flow", "speed", "temperature", "measured", "before", "after", "difference", "note")

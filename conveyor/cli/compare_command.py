@@ -95,7 +95,7 @@ def compare(
     to.file("--csv", csv, ".csv")
     for name, path in (("--plot", plot), ("--speed-plot", speed_plot), ("--tan-delta", tan_delta)):
         to.file(name, path, *FIGURE)
-    from conveyor.comparisons import compare_compounds
+    from conveyor.results.comparisons import compare_compounds
 
     line = session.read(spec)
     system = session.system(line)

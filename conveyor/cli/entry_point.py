@@ -17,7 +17,7 @@ import typer
 
 from conveyor.cli.application import app
 from conveyor.errors import ConveyorError, InputError
-from conveyor.printable import escape_controls
+from conveyor.text.printable import escape_controls
 
 EXIT_DONE: Final = 0
 EXIT_NO_SOLUTION: Final = 1

@@ -38,7 +38,7 @@ def optimise(
     from conveyor import shelf as shelves
     from conveyor.studies.optimise import optimise as search
     from conveyor.studies.parametric_study import ParametricStudy, ResultStore
-    from conveyor.study_file import base_spec_path, name_plan_file, read_search
+    from conveyor.studies.study_file import base_spec_path, name_plan_file, read_search
 
     plan = read_search(plan_file)
     spec = base_spec_path(plan, plan_file)

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from conveyor.cli.application import Progress
-    from conveyor.markup import Html
     from conveyor.report.table_model import Contents
+    from conveyor.text.markup import Html
 
 PAGE = (".html", ".htm")
 FIGURE = (".png", ".svg", ".pdf")

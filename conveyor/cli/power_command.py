@@ -46,7 +46,7 @@ def power(
     to.folder("--plots", plots)
     import conveyor
     from conveyor import spec as spec_file
-    from conveyor.analysis import studies
+    from conveyor.results.analysis import studies
 
     line = session.read(spec)
     system = session.system(line)

@@ -26,7 +26,7 @@ from conveyor.cli.application import (
 from conveyor.cli.output_files import FIGURE, SPEC, Outputs
 from conveyor.errors import InputError
 from conveyor.files import output_marks
-from conveyor.printable import escape_controls
+from conveyor.text.printable import escape_controls
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -57,7 +57,7 @@ def size(
     to.reports(tables=tables, parquet=parquet, pdf=pdf)
     from conveyor import sizing
     from conveyor.report.sizing_tables import sizing_contents, sizing_json
-    from conveyor.study_file import read_duty
+    from conveyor.studies.study_file import read_duty
 
     read = read_duty(duty, shelves=session.shelf or ())
     with session.progress("designs") as told:

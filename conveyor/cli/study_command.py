@@ -15,7 +15,7 @@ from conveyor.cli.output_files import Outputs
 from conveyor.cli.shared_options import Session, session_command
 from conveyor.cli.worker_processes import Scheduler, Workers, open_executor, preload_workers
 from conveyor.files import output_marks
-from conveyor.printable import escape_controls
+from conveyor.text.printable import escape_controls
 
 if TYPE_CHECKING:
     from conveyor.report.table_model import Contents
@@ -65,7 +65,7 @@ def study(
     from conveyor.report import design_tables, point_tables
     from conveyor.studies import parametric_study as running
     from conveyor.studies.evaluation import summarise_study
-    from conveyor.study_file import base_spec_path, name_plan_file, read_plan
+    from conveyor.studies.study_file import base_spec_path, name_plan_file, read_plan
 
     plan = read_plan(plan_file)
     spec, answers = base_spec_path(plan, plan_file), output.with_name(f"{output.name}.answers")

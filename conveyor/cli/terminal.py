@@ -9,7 +9,7 @@ import textwrap
 from collections.abc import Callable, Collection, Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
-from conveyor.printable import escape_controls
+from conveyor.text.printable import escape_controls
 from conveyor.units.presentation import Unit, column_name, display_unit
 from conveyor.units.sentences import percent
 

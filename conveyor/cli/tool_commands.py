@@ -95,7 +95,7 @@ def template(
     to = Outputs(spec, force=force)
     to.file("OUTPUT", output, ".xlsx", kind=TO_FILL_IN)
     import conveyor
-    from conveyor.template.template_writer import template_bytes as made
+    from conveyor.starter.template_writer import template_bytes as made
 
     if spec is not None and units is not None:
         raise InputError(
@@ -134,7 +134,7 @@ def schema(
         print_json(result_schema())
         return
     if markdown:
-        from conveyor.format_reference import markdown_reference as written
+        from conveyor.starter.format_reference import markdown_reference as written
 
         print_text(written())
         return
@@ -148,7 +148,7 @@ def schema(
 def _compare_with_practice() -> None:
     """Print computed against published and measured resistances of conveyors."""
     from conveyor.cli.terminal import plain_table, terminal_console
-    from conveyor.practice_cases import QUANTITIES, practice_figures, practice_summary
+    from conveyor.validation.practice_cases import QUANTITIES, practice_figures, practice_summary
 
     figures = list(practice_figures())
     heads = ("conveyor", "resistance", "stated", "least", "expected", "design")
@@ -177,10 +177,10 @@ def _compare_with_practice() -> None:
 )
 def validate(quiet: Quiet = False) -> None:
     """Run the built-in reference cases and print what was expected and what came out."""
-    from conveyor import validation
     from conveyor.cli.terminal import plain_table, terminal_console
+    from conveyor.validation import reference_cases
 
-    checks = validation.run_checks()
+    checks = reference_cases.run_checks()
     heads = ("reference", "expected", "got", "deviation", "allowed", "")
     made = plain_table(None, heads, left=("reference",))
     for check in checks:

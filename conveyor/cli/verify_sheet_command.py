@@ -10,7 +10,7 @@ from conveyor.cli.shared_options import Session, session_command
 from conveyor.errors import InputError
 
 if TYPE_CHECKING:
-    from conveyor.comparisons import VerificationSheet
+    from conveyor.results.comparisons import VerificationSheet
 
 _AXIS_OPTIONS = {
     "--load": ("line_loads", "N/mm", "N/m", "lbf/in"),

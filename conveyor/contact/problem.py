@@ -25,9 +25,9 @@ from functools import cached_property
 
 import numpy as np
 
-from conveyor.contact.belt_layer import BeltSupport
-from conveyor.contact.creep import CreepSpectrum
-from conveyor.contact.layers import Confined, Free, HalfSpace, Layer
+from conveyor.contact.layers.belt_layer import BeltSupport
+from conveyor.contact.layers.creep import CreepSpectrum
+from conveyor.contact.layers.layer_models import Confined, Free, HalfSpace, Layer
 from conveyor.errors import InputError
 
 _SUPPORTS = ("free", "confined", "half-space")

@@ -10,13 +10,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from conveyor.contact.belt_layer import BeltSupport
-from conveyor.contact.contact_fields import Fields, SpectralFields
-from conveyor.contact.energy_balance import Strip, belt_losses
-from conveyor.contact.excitation import LOSS_SHARES, excited_harmonics
-from conveyor.contact.layers import Confined, HalfSpace
-from conveyor.contact.peak_error import FieldErrors
+from conveyor.contact.fields.contact_fields import Fields, SpectralFields
+from conveyor.contact.fields.energy_balance import Strip, belt_losses
+from conveyor.contact.fields.excitation import LOSS_SHARES, excited_harmonics
+from conveyor.contact.layers.belt_layer import BeltSupport
+from conveyor.contact.layers.layer_models import Confined, HalfSpace
 from conveyor.contact.problem import ContactProblem, Status
+from conveyor.contact.solvers.peak_error import FieldErrors
 from conveyor.errors import InputError, NoSolutionError
 
 Array = NDArray[np.float64]
@@ -146,7 +146,7 @@ class ContactSolution:
 
     def _repr_html_(self) -> str:
         """Results, or why there are none, for notebooks."""
-        from conveyor.markup import name_value_table
+        from conveyor.text.markup import name_value_table
 
         rows: list[tuple[str, object]] = [("status", self.message)]
         if self._found is not None:

@@ -10,11 +10,11 @@ from conveyor.fitting import fit_tables
 from conveyor.fitting.fit_verdict import GLOSSARY, Criterion, is_accepted
 from conveyor.fitting.fitted_compound import FittedCompound
 from conveyor.fitting.quality_figures import fit_figures
-from conveyor.markup import Html, element, join_html
 from conveyor.models.report import Paper
 from conveyor.report.page_elements import PagePart, bullet_list, fact_list, page_html, table_html
 from conveyor.report.page_elements import verdict_mark as mark
 from conveyor.report.svg import captioned_drawing, figure_svg
+from conveyor.text.markup import Html, element, join_html
 
 
 def build_page(

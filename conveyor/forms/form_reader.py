@@ -293,7 +293,7 @@ class FilledWorkbook:
 
 
 def read_template(path: str | FilePath) -> FilledWorkbook:
-    """Read a workbook that `conveyor.template.template_writer.write_template` wrote and someone filled in.
+    """Read a workbook that `conveyor.starter.template_writer.write_template` wrote and someone filled in.
 
     Parameters
     ----------

@@ -255,7 +255,7 @@ def equivalent_strain(shear: FloatArray, poisson_ratio: float) -> tuple[FloatArr
     Notes
     -----
     E epsilon^2 = G gamma^2 with E = 2 (1 + nu) G. At nu = 0.5 it is gamma/sqrt(3), the equivalent strain
-    sqrt(2/3 e:e) of simple shear, the strain of a cover in `conveyor.contact.interior`.
+    sqrt(2/3 e:e) of simple shear, the strain of a cover in `conveyor.contact.fields.interior`.
     """
     factor = 1.0 / np.sqrt(2.0 * (1.0 + poisson_ratio))
     note = f"shear strain: the tensile one of equal energy is gamma/sqrt(2 (1 + nu)) = {factor:.4g} gamma"

@@ -1,6 +1,6 @@
 """Working strain of a cover under rolls and its moduli at that strain: the equivalent-linear cover of a strand.
 
-The strain is that of the rolls' contact (conveyor.contact.working_strain) at the loss-weighted line load of the strand;
+The strain is that of the rolls' contact (`working_strains`) at the loss-weighted line load of the strand;
 moduli are softened by the compound's strain sweeps (conveyor.rubber.equivalent_series) until both agree.
 """
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from conveyor.contact import solve
-from conveyor.contact.sampling import interpolation_errors, interpolation_weights, lobatto_points
+from conveyor.contact.galerkin.sampling import interpolation_errors, interpolation_weights, lobatto_points
 from conveyor.errors import MessageQuantity, NoSolutionError
 from conveyor.indentation import Indentation, IndentationCurve, RollContact, indentation_curves, to_problem
 from conveyor.laws.resistance import FLEXURE_COEFFICIENT, sag_flexure_resistance

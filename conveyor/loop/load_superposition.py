@@ -27,7 +27,7 @@ from conveyor.loop.equilibrium import BRAKES, LEAST, LEAST_BRAKING, START
 from conveyor.loop.loop_layout import LoopLayout
 from conveyor.loop.run_up import is_start_uncontrolled, start_motion
 from conveyor.loop.tensions import STEADY
-from conveyor.ties import first_maximum
+from conveyor.loop.ties import first_maximum
 
 Array = NDArray[np.float64]
 Loading = NDArray[np.bool_]

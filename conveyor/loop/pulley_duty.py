@@ -20,7 +20,7 @@ from conveyor.laws.roll_life import ROLLER_EXPONENT, SECONDS_PER_HOUR, rating_li
 from conveyor.line.line import BendPulley, Line
 from conveyor.loop.balance import Balance
 from conveyor.loop.tensions import STEADY, MotionState
-from conveyor.ties import first_maximum, first_minimum
+from conveyor.loop.ties import first_maximum, first_minimum
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from conveyor.laws.take_up import (
 from conveyor.line.line import BeltBody, Line, TakeUpUnit
 from conveyor.loop.balance import Balance, with_take_up_at
 from conveyor.loop.tensions import MotionState
-from conveyor.ties import first_maximum
+from conveyor.loop.ties import first_maximum
 
 _MAX_SETTING_STEPS = 50  # wraps add about 1e-3 of the tension: a few are enough
 _SETTING_TOLERANCE = (

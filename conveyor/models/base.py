@@ -258,7 +258,7 @@ class Model(BaseModel):
 
     def _repr_html_(self) -> str:
         """Field list for notebooks, as entered."""
-        from conveyor.markup import name_value_table
+        from conveyor.text.markup import name_value_table
 
         return name_value_table(type(self).__name__, self.as_data().items())
 

@@ -20,7 +20,7 @@ from conveyor.models.operation import PRICE_PATTERN
 from conveyor.models.prices import Prices
 from conveyor.models.validation_messages import Location, shown_value
 from conveyor.models.variants import scale_quantity
-from conveyor.ranges import range_error, range_values
+from conveyor.text.ranges import range_error, range_values
 from conveyor.units import interpolate_quantity, quantity, si, text
 from conveyor.units.presentation import MONEY, display_unit
 

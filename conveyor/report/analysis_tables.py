@@ -33,6 +33,7 @@ from conveyor.loop.horizontal_curve_duty import HorizontalCurveCheck
 from conveyor.loop.set_duty import SetDuty
 from conveyor.loop.take_up_duty import TakeUpDuty
 from conveyor.loop.tensions import MotionState
+from conveyor.loop.ties import first_maximum
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.pipeline import CalculatedConveyor, StretchResult
 from conveyor.remarks import analysis_assumptions, analysis_warnings, method_summary
@@ -67,7 +68,6 @@ from conveyor.studies.default_bands import PowerRange, power_range
 from conveyor.studies.duty import CalculatedYear
 from conveyor.studies.load_cases import AS_GIVEN, Load
 from conveyor.studies.loads import design_loads, every_check, take_up_demand
-from conveyor.ties import first_maximum
 from conveyor.units import Quantity, System
 from conveyor.units.presentation import MONEY, belt_rating_text, belt_strength_text, display_unit
 from conveyor.units.sentences import Message, degree_signs, format_band, format_figure, plain_figure

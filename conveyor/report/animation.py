@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.markup import Html, element, join_html
 from conveyor.report.plots import curve_colour
+from conveyor.text.markup import Html, element, join_html
 
 Array = NDArray[np.float64]
 

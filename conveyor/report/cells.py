@@ -17,8 +17,8 @@ from openpyxl.worksheet.header_footer import HeaderFooterItem, _HeaderFooterPart
 from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
-from conveyor.printable import escape_controls
 from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Table
+from conveyor.text.printable import escape_controls
 from conveyor.units import System
 from conveyor.units.presentation import NEVER, display_unit
 

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, Final
 from conveyor.laws.energy import DutySums, duty_emission
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.loop.annual_energy import annual_cost, lacks_feed_in_price
-from conveyor.markup import Html
 from conveyor.report import plots, what_if
 from conveyor.report.analysis_tables import band_columns, provenance_table, report_head
 from conveyor.report.page_elements import notebook_html
@@ -19,6 +18,7 @@ from conveyor.report.table_model import Column, Contents, Drawing, PagePlacement
 from conveyor.rubber.rolling_test_factor import UNTESTED_FACTOR
 from conveyor.spec import fingerprint
 from conveyor.studies.comparison import RankedPower
+from conveyor.text.markup import Html
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, NEVER, display_unit
 from conveyor.units.sentences import degree_signs, to_celsius

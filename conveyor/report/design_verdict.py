@@ -11,12 +11,12 @@ from conveyor.line.covers import compounds_by_strand
 from conveyor.loop.equilibrium import START
 from conveyor.loop.take_up_duty import TakeUpDuty
 from conveyor.loop.tensions import MotionState
+from conveyor.loop.ties import first_maximum, first_minimum
 from conveyor.models import RubberCompound
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.table_model import Column, Table
 from conveyor.studies.default_bands import PowerRange
 from conveyor.studies.load_cases import AS_GIVEN, Load, MotorChoice
-from conveyor.ties import first_maximum, first_minimum
 from conveyor.units import System
 from conveyor.units.presentation import Unit, display_unit
 from conveyor.units.sentences import Message, format_figure, percent

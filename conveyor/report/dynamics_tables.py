@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure as Picture
 
-    from conveyor.markup import Html
+    from conveyor.text.markup import Html
 
 PARTS: Final = (
     ("dynamics", "Starting and stopping"),

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any, Final
 
-from conveyor.markup import Html, element, escape_html, join_html
 from conveyor.models.report import Paper
 from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Column, Contents, Figure, Table, figure_table
+from conveyor.text.markup import Html, element, escape_html, join_html
 from conveyor.units import System
 from conveyor.units.presentation import display_unit
 

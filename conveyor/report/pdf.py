@@ -18,11 +18,11 @@ from typing import Final
 
 from conveyor.errors import InputError
 from conveyor.files.atomic_write import check_writable, save_files
-from conveyor.markup import Html
 from conveyor.report.html import build_page
 from conveyor.report.matplotlib_settings import load_matplotlib
 from conveyor.report.page_elements import COLOURS
 from conveyor.report.table_model import Contents
+from conveyor.text.markup import Html
 
 _TYPST_FORMS: Final = Path(__file__).with_name("page.typ")
 _FONT: Final = "DejaVu Sans"  # comes with matplotlib; missing letters are from the fonts of the machine

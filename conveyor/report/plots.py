@@ -13,8 +13,8 @@ import numpy as np
 
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.files import atomic_write, output_marks
-from conveyor.printable import escape_controls
 from conveyor.report.matplotlib_settings import own_settings, refuse_wrong_date
+from conveyor.text.printable import escape_controls
 from conveyor.units import System
 from conveyor.units.presentation import display_unit
 

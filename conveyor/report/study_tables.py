@@ -9,12 +9,12 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from conveyor.laws.power import JOULE_PER_KWH
-from conveyor.markup import Html
 from conveyor.report import analysis_plots
 from conveyor.report.page_elements import notebook_html
 from conveyor.report.plots import PowerAxis
 from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Column, Drawing, Figure, Table, figure_table
 from conveyor.studies.loads import take_up_demand
+from conveyor.text.markup import Html
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, display_unit
 from conveyor.units.sentences import Message, degree_signs

@@ -8,9 +8,9 @@ from io import BytesIO
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree as ET
 
-from conveyor.markup import Html, element
-from conveyor.printable import escape_controls
 from conveyor.report.plots import curve_colour, drawing_settings
+from conveyor.text.markup import Html, element
+from conveyor.text.printable import escape_controls
 from conveyor.units.sentences import SUPERSCRIPTS
 
 if TYPE_CHECKING:

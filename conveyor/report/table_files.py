@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Final, Literal
 from conveyor.errors import InputError
 from conveyor.files import output_marks
 from conveyor.files.atomic_write import save_files
-from conveyor.printable import escape_controls
 from conveyor.report.table_model import Contents
+from conveyor.text.printable import escape_controls
 
 if TYPE_CHECKING:
     import pandas as pd

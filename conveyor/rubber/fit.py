@@ -132,7 +132,7 @@ class PronyFit:
 
     def _repr_html_(self) -> str:
         """For notebooks: the series, and how far it is from the data."""
-        from conveyor.markup import Html, join_html, name_value_table
+        from conveyor.text.markup import Html, join_html, name_value_table
 
         rows = [
             ("data", f"{self.window[0]:.4g} to {self.window[1]:.4g} Hz"),

@@ -92,7 +92,7 @@ class PronySeries:
 
     def _repr_html_(self) -> str:
         """For notebooks: moduli and times, the terms folded away."""
-        from conveyor.markup import name_value_table
+        from conveyor.text.markup import name_value_table
 
         terms = [
             {"modulus [MPa]": f"{modulus / 1e6:.6g}", "relaxation time [s]": f"{time:.6g}"}

@@ -20,7 +20,6 @@ from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.laws.belt_strength import RATED_START
 from conveyor.laws.drives import next_preferred_number
 from conveyor.laws.take_up import TRAVEL_RESERVE
-from conveyor.line.sizing_task import CarcassClass, DesignChoice, SelectedParts, SizingTask, drive_powers
 from conveyor.line.stretches import STRANDS
 from conveyor.models import Conveyor
 from conveyor.models.sizing import SizingDuty
@@ -42,6 +41,7 @@ from conveyor.sizing.screen import (
     screen_candidates,
 )
 from conveyor.sizing.sized_design import Shortfall, SizedDesign, highest_tension
+from conveyor.sizing.sizing_task import CarcassClass, DesignChoice, SelectedParts, SizingTask, drive_powers
 from conveyor.sizing.spacing import graduated_spacings
 from conveyor.studies.costs import conveyor_costs, conveyor_parts, roll_life
 from conveyor.studies.loads import EveryLoad

@@ -22,9 +22,9 @@ from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.laws.resistance.flexure import FLEXURE_COEFFICIENT
 from conveyor.laws.resistance.resistance_defaults import CLEANER_PRESSURE
 from conveyor.laws.roll_life import BALL_EXPONENT, RATED_REVOLUTIONS
-from conveyor.line.sizing_task import DesignChoice, RollSize, SizingTask, TroughSize, drive_powers
 from conveyor.models.belt import RUBBER_DENSITY
 from conveyor.models.sizing import DriveLayout
+from conveyor.sizing.sizing_task import DesignChoice, RollSize, SizingTask, TroughSize, drive_powers
 from conveyor.studies.costs import Parts, conveyor_costs
 
 Array = NDArray[np.float64]

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from conveyor.line.sizing_task import DesignChoice, SelectedParts
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.sizing.screen import Limit
+from conveyor.sizing.sizing_task import DesignChoice, SelectedParts
 from conveyor.studies.costs import Costs
 from conveyor.units.sentences import Message, format_figure, format_number
 

@@ -18,6 +18,7 @@ from conveyor.checks import Check, rubber_data_suffice, run_checks
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.energy import MOTOR_SERIES, NEMA_MOTORS, next_motor
 from conveyor.loop.take_up_duty import TakeUpDuty
+from conveyor.loop.ties import first_maximum, first_minimum
 from conveyor.models import Conveyor, LoadCase, standard_cases
 from conveyor.models.variants import case_settings
 from conveyor.pipeline import (
@@ -27,7 +28,6 @@ from conveyor.pipeline import (
     calculate_many,
     common_take_up_duty,
 )
-from conveyor.ties import first_maximum, first_minimum
 from conveyor.units.sentences import Message, escape_braces, message
 
 MOTOR_RESERVE: Final = 1.1

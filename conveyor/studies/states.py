@@ -21,6 +21,7 @@ from conveyor.loop.balance import Balance, close_loops, with_take_up_at
 from conveyor.loop.load_superposition import DRIVE_FORCE, HOLDING_BACK, HOLDING_DOWN, Loading, SectionLoadings
 from conveyor.loop.loop_layout import TakeUpSetting
 from conveyor.loop.take_up_duty import at_common_setting, on_common_side
+from conveyor.loop.ties import first_maximum
 from conveyor.loop.worst_loadings import CriterionLoadings
 from conveyor.models import Conveyor, LoadCase
 from conveyor.models.cases import STANDARD_LOADINGS
@@ -34,7 +35,6 @@ from conveyor.studies.load_cases import (
     motor_start_force,
     with_motors,
 )
-from conveyor.ties import first_maximum
 from conveyor.units import from_si
 from conveyor.units.sentences import Message, escape_braces, message
 

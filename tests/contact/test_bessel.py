@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from conveyor.contact.bessel import ProductIK, bessel_j
+from conveyor.contact.galerkin.bessel import ProductIK, bessel_j
 
 ARGUMENTS = [1e-12, 1e-3, 0.7, 2.404825557695773, 9.5, 31.4, 100.25, 512.0, 3e3]
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from conveyor.contact import ContactProblem, CreepSpectrum, load_curve, solve
-from conveyor.contact.solver_state import SolverState
+from conveyor.contact.solvers.solver_state import SolverState
 from conveyor.errors import NoSolutionError
 
 CREEP = CreepSpectrum(0.1, [0.4, 0.5], [0.05, 2.0])

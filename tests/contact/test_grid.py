@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from conveyor.contact import ContactProblem, CreepSpectrum, solve
-from conveyor.contact import grid_solver as module
-from conveyor.contact.grid_solver import ContactGrid, solve_grid
-from conveyor.contact.layers import Layer
+from conveyor.contact.layers.layer_models import Layer
+from conveyor.contact.solvers import grid_solver as module
+from conveyor.contact.solvers.grid_solver import ContactGrid, solve_grid
 from conveyor.errors import InputError, NoSolutionError
 
 ROUNDING = 1e-11  # of systems of condition 100 and sums of 100 terms, in whatever order: 1e4 of 2e-16

@@ -15,15 +15,15 @@ from conveyor.contact import (
     ContactProblem,
     CreepSpectrum,
     HalfSpace,
-    many_strips,
     solve,
     solve_many,
     working_strains,
 )
-from conveyor.contact.interior import interior, interior_fields, path_amplitude
-from conveyor.contact.layer_shapes import confined_shapes, free_shapes, incompressible_shapes
-from conveyor.contact.layers import confined_symbol, free_symbol
-from conveyor.contact.working_strain import _wave_tables
+from conveyor.contact.fields.interior import interior, interior_fields, path_amplitude
+from conveyor.contact.fields.working_strain import _wave_tables
+from conveyor.contact.layers.layer_models import confined_symbol, free_symbol
+from conveyor.contact.layers.layer_shapes import confined_shapes, free_shapes, incompressible_shapes
+from conveyor.contact.solvers import many_strips
 from conveyor.errors import InputError, NoSolutionError
 
 ONE = CreepSpectrum(0.1, [0.9], [1.0])

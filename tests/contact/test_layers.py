@@ -10,7 +10,7 @@ import pytest
 
 from conveyor.contact import Confined, CreepSpectrum, Free, HalfSpace
 from conveyor.contact.closed_forms import plate_symbol
-from conveyor.contact.layers import HALF_SPACE_DEPTH, confined_symbol, free_symbol
+from conveyor.contact.layers.layer_models import HALF_SPACE_DEPTH, confined_symbol, free_symbol
 
 DEPTHS = np.concatenate([np.logspace(-6, 1.5, 40), [0.9999999, 1.0, 1.0000001, 0.5, 0.50000001, 25.0, 400.0]])
 CREEP = CreepSpectrum(0.1, [0.9], [1.0])

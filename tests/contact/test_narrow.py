@@ -15,18 +15,12 @@ from conveyor.contact import (
     Free,
     HalfSpace,
     Status,
-    load_control,
     one_strip_batch,
     solve,
     solve_many,
 )
-from conveyor.contact.acceptance import WRAP_EXTENT, pressure_signs
-from conveyor.contact.creep import CreepBatch
-from conveyor.contact.layers import PlainLayerBatch
-from conveyor.contact.one_strip import HalfWidthStart, solve_one_strip
-from conveyor.contact.one_strip_batch import UnsolvedReason, solve_batch
-from conveyor.contact.quadrature import build_rule
-from conveyor.contact.short_rule import (
+from conveyor.contact.galerkin.quadrature import build_rule
+from conveyor.contact.galerkin.short_rule import (
     COARSE_GRADES,
     FINE_GRADES,
     LOOSE_GRADES,
@@ -35,8 +29,14 @@ from conveyor.contact.short_rule import (
     _window_width,
     short_rules,
 )
-from conveyor.contact.solver_state import SolverState
-from conveyor.contact.spectral import Contact, assemble_matrix
+from conveyor.contact.galerkin.spectral import Contact, assemble_matrix
+from conveyor.contact.layers.creep import CreepBatch
+from conveyor.contact.layers.layer_models import PlainLayerBatch
+from conveyor.contact.solvers import load_control
+from conveyor.contact.solvers.acceptance import WRAP_EXTENT, pressure_signs
+from conveyor.contact.solvers.one_strip import HalfWidthStart, solve_one_strip
+from conveyor.contact.solvers.one_strip_batch import UnsolvedReason, solve_batch
+from conveyor.contact.solvers.solver_state import SolverState
 
 SUPPORTS = ("free", "confined", "half-space")
 

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from conveyor.contact import ContactProblem, CreepSpectrum, Status, solve, solve_many
-from conveyor.contact.peak_error import flow_order, peak_error
-from conveyor.contact.pressure import largest_pressure, sample_sine_sum, smoothed_coefficients
-from conveyor.contact.solver_state import SolverState
-from conveyor.contact.spectral import solve_equilibrium
+from conveyor.contact.galerkin.pressure import largest_pressure, sample_sine_sum, smoothed_coefficients
+from conveyor.contact.galerkin.spectral import solve_equilibrium
+from conveyor.contact.solvers.peak_error import flow_order, peak_error
+from conveyor.contact.solvers.solver_state import SolverState
 from conveyor.indentation import RollContact, to_problem
 from conveyor.shelf import compound
 

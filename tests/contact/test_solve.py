@@ -20,8 +20,8 @@ from conveyor.contact import (
     solve,
     solve_many,
 )
-from conveyor.contact.layers import Creep
-from conveyor.contact.orders import lowest_order
+from conveyor.contact.galerkin.orders import lowest_order
+from conveyor.contact.layers.layer_models import Creep
 
 RTOL = 1e-9
 ROUNDING = 1e-11  # of systems of condition 100 and sums of 100 terms, in whatever order: 1e4 of 2e-16

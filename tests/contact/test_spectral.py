@@ -9,8 +9,8 @@ import pytest
 from scipy import special
 
 from conveyor.contact import Confined, CreepSpectrum, Free, HalfSpace
-from conveyor.contact.quadrature import CHECK_PANELS, SOLVE_PANELS, Panels, build_rule
-from conveyor.contact.spectral import assemble_matrix, crown_depth, solve_equilibrium
+from conveyor.contact.galerkin.quadrature import CHECK_PANELS, SOLVE_PANELS, Panels, build_rule
+from conveyor.contact.galerkin.spectral import assemble_matrix, crown_depth, solve_equilibrium
 from conveyor.errors import NoSolutionError
 
 TERMS = {

@@ -11,10 +11,16 @@ import pytest
 from scipy import special
 
 from conveyor.contact import ContactProblem, CreepSpectrum, Status, solve
-from conveyor.contact import many_strips as module
-from conveyor.contact.grid_solver import solve_grid
-from conveyor.contact.solver_state import SolverState
-from conveyor.contact.strips import _gap_window, balance_strips, friction_by_loss, smallest_gap, too_close
+from conveyor.contact.solvers import many_strips as module
+from conveyor.contact.solvers.grid_solver import solve_grid
+from conveyor.contact.solvers.solver_state import SolverState
+from conveyor.contact.solvers.strips import (
+    _gap_window,
+    balance_strips,
+    friction_by_loss,
+    smallest_gap,
+    too_close,
+)
 
 ROUNDING = 1e-11  # of systems of condition 100 and sums of 100 terms, in whatever order: 1e4 of 2e-16
 ONE = CreepSpectrum(0.1, [0.9], [1.0])

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from conveyor.contact import regrid
-from conveyor.contact.creep import CreepBatch
-from conveyor.contact.energy_balance import friction_by_loss
-from conveyor.contact.galerkin_tables import GalerkinTables
-from conveyor.contact.short_rule import ShortRule
-from conveyor.contact.spectral import assemble_matrix, solve_equilibrium
+from conveyor.contact.fields.energy_balance import friction_by_loss
+from conveyor.contact.galerkin.galerkin_tables import GalerkinTables
+from conveyor.contact.galerkin.short_rule import ShortRule
+from conveyor.contact.galerkin.spectral import assemble_matrix, solve_equilibrium
+from conveyor.contact.layers import regrid
+from conveyor.contact.layers.creep import CreepBatch
 
 ALPHA = np.array([0.004, 0.03, 0.4])
 RHO = np.array([0.3, 0.4, 1.5])

@@ -7,12 +7,17 @@ import pytest
 from scipy import special
 
 from conveyor.contact import ContactProblem, CreepSpectrum, Status, solve
-from conveyor.contact.bessel import ProductIK
-from conveyor.contact.one_strip import HalfWidthStart, layer_beyond_reach, solve_one_strip
-from conveyor.contact.order_tail import OrderTail, neighbour_ratios
-from conveyor.contact.quadrature import build_rule
-from conveyor.contact.solver_state import SolverState
-from conveyor.contact.spectral import assemble_matrix, mean_displacement, nested_matrices, solve_equilibrium
+from conveyor.contact.galerkin.bessel import ProductIK
+from conveyor.contact.galerkin.order_tail import OrderTail, neighbour_ratios
+from conveyor.contact.galerkin.quadrature import build_rule
+from conveyor.contact.galerkin.spectral import (
+    assemble_matrix,
+    mean_displacement,
+    nested_matrices,
+    solve_equilibrium,
+)
+from conveyor.contact.solvers.one_strip import HalfWidthStart, layer_beyond_reach, solve_one_strip
+from conveyor.contact.solvers.solver_state import SolverState
 
 ALPHA, CORE, LAST = 0.03, 64, 256
 

@@ -10,9 +10,9 @@ from typing import Any
 import pytest
 
 import conveyor
-from conveyor.analysis import studies
 from conveyor.errors import InputError
 from conveyor.models import Conveyor
+from conveyor.results.analysis import studies
 from conveyor.spec import load
 
 SPEC = Path(__file__).parent.parent.parent / "examples" / "specs" / "overland.yaml"

@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 import conveyor
-from conveyor.analysis import analyse_cases, analyse_duty
 from conveyor.models import Conveyor
+from conveyor.results.analysis import analyse_cases, analyse_duty
 from conveyor.spec import from_data, load
 from conveyor.units import from_si, quantity, si
 from conveyor.units.quantity_kinds import KINDS

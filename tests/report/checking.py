@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from conveyor.analysis import Analysis, Studies
 from conveyor.checks import Check, governing_by_subject
+from conveyor.results.analysis import Analysis, Studies
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from conveyor.analysis import Analysis, Studies
+from conveyor.results.analysis import Analysis, Studies
 from tests.worked_examples import worked_example
 
 

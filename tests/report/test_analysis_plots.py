@@ -10,7 +10,6 @@ from matplotlib.colors import to_hex
 from matplotlib.patches import Rectangle
 
 import conveyor
-from conveyor.analysis import study_ranges as uncertain
 from conveyor.errors import InputError
 from conveyor.line.line import Line
 from conveyor.models import LoadCase
@@ -18,6 +17,7 @@ from conveyor.report import analysis_plots as plots
 from conveyor.report.analysis_plots import route_profile
 from conveyor.report.plots import master_curve, stacked_axes
 from conveyor.report.svg import figure_svg, restyle_figure
+from conveyor.results.analysis import study_ranges as uncertain
 from conveyor.units import si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"

@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 
 import conveyor
-from conveyor.analysis import Analysis, CaseStudy, Studies, analyse_cases
 from conveyor.checks import (
     Check,
     check_against_limit,
@@ -21,6 +20,7 @@ from conveyor.models.fields import with_fields
 from conveyor.models.variants import with_case, with_temperature
 from conveyor.pipeline import CalculatedConveyor, calculate
 from conveyor.report.design_verdict import verdict_sentence
+from conveyor.results.analysis import Analysis, CaseStudy, Studies, analyse_cases
 from conveyor.studies.loads import every_load
 from conveyor.units import quantity
 from conveyor.units.sentences import message, percent

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import conveyor
-from conveyor.analysis import studies
 from conveyor.errors import InputError
 from conveyor.report.plots import save_figure
+from conveyor.results.analysis import studies
 from conveyor.units import KINDS, in_report_unit
 from conveyor.units.presentation import display_unit
 

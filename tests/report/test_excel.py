@@ -15,9 +15,9 @@ import pytest
 from openpyxl.utils import get_column_letter
 
 import conveyor
-from conveyor.analysis import studies
 from conveyor.errors import InputError
 from conveyor.report.cells import CELL_CHARACTERS
+from conveyor.results.analysis import studies
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 DIGITS = 1e-15  # openpyxl writes 16 significant digits

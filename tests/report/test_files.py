@@ -11,13 +11,13 @@ import pandas as pd
 import pytest
 
 import conveyor
-from conveyor.comparisons import compare_compounds
 from conveyor.errors import InputError
 from conveyor.files.atomic_write import save_files
-from conveyor.printable import escape_controls
 from conveyor.report import sheet_writer, table_files
 from conveyor.report.analysis_tables import analysis_contents
 from conveyor.report.excel import build_workbook, workbook_files
+from conveyor.results.comparisons import compare_compounds
+from conveyor.text.printable import escape_controls
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 DIGITS = 1e-15  # pandas writes the shortest decimal that reads back

@@ -9,12 +9,12 @@ from pathlib import Path
 import pytest
 
 import conveyor
-from conveyor.analysis import studies
 from conveyor.checks import governing_by_subject
 from conveyor.errors import InputError
-from conveyor.markup import Html, element, escape_html
 from conveyor.report import html
 from conveyor.report.page_elements import COLOURS, DARK
+from conveyor.results.analysis import studies
+from conveyor.text.markup import Html, element, escape_html
 from conveyor.units import sentences
 from conveyor.units.presentation import display_unit
 from tests.report.checking import checks

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 import conveyor
-from conveyor.analysis import studies
 from conveyor.contact import ContactProblem, CreepSpectrum, load_curve, solve
-from conveyor.markup import escape_html
 from conveyor.models import LoadCase, RubberCompound
+from conveyor.results.analysis import studies
 from conveyor.rubber import PronySeries, fit_prony
+from conveyor.text.markup import escape_html
 from tests.report.reading import HOSTILE, Page
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"

@@ -13,12 +13,12 @@ import pypdf
 import pytest
 
 import conveyor
-from conveyor.analysis import studies
 from conveyor.errors import InputError
 from conveyor.files import output_marks
-from conveyor.markup import Html
 from conveyor.report import html, page_elements, pdf
 from conveyor.report.table_model import Column, Table
+from conveyor.results.analysis import studies
+from conveyor.text.markup import Html
 from tests.command_line import run
 from tests.report.reading import HOSTILE, VOID
 

@@ -97,7 +97,7 @@ def test_a_machine_without_memory_is_told_so():
         def refused(_):
             raise MemoryError
 
-        patched.setattr("conveyor.analysis.analyse", refused)
+        patched.setattr("conveyor.results.analysis.analyse", refused)
 
     done = command_line.run("power", "examples/specs/shuttle.yaml", spoil=none_left)
     assert done.returncode == 1

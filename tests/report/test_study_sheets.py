@@ -6,7 +6,7 @@ import openpyxl
 import pytest
 
 import conveyor
-from conveyor.analysis import Studies, studies
+from conveyor.results.analysis import Studies, studies
 
 
 @pytest.fixture(scope="module")

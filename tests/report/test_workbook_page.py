@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 
 import conveyor
-from conveyor.analysis import studies
-from conveyor.comparisons import compare_compounds
 from conveyor.models import LoadCase, Scenario
 from conveyor.report.comparison_tables import comparison_contents
 from conveyor.report.excel import COMPARISON_SHEETS, SHEETS, SUMMARY_SHEET, build_workbook
+from conveyor.results.analysis import studies
+from conveyor.results.comparisons import compare_compounds
 from conveyor.studies.states import StateRefusal
 from conveyor.units.presentation import column_name
 

@@ -10,9 +10,9 @@ import pytest
 from openpyxl.utils import range_boundaries
 
 import conveyor
-from conveyor.comparisons import compare_compounds
 from conveyor.errors import InputError
 from conveyor.report.cells import INFINITY_SIGN, VERDICT_STYLES
+from conveyor.results.comparisons import compare_compounds
 from conveyor.units.presentation import display_unit
 from tests.report.checking import checks
 

@@ -125,7 +125,7 @@ ALIASES = "\n".join(
 
 @cache
 def template() -> bytes:
-    from conveyor.template.template_writer import write_template
+    from conveyor.starter.template_writer import write_template
 
     with tempfile.TemporaryDirectory() as folder:
         return write_template(Path(folder) / "input.xlsx").read_bytes()
@@ -284,12 +284,12 @@ def read_only_folder(patched: pytest.MonkeyPatch) -> None:
 
 def stopped(patched: pytest.MonkeyPatch) -> None:
     """Ctrl-C in the middle of a calculation."""
-    import conveyor.analysis
+    import conveyor.results.analysis
 
     def interrupted(_: Any) -> None:
         raise KeyboardInterrupt
 
-    patched.setattr(conveyor.analysis, "analyse", interrupted)
+    patched.setattr(conveyor.results.analysis, "analyse", interrupted)
 
 
 def older(name: str, *arguments: str) -> Callable[[Path], Arguments]:

@@ -17,9 +17,9 @@ from ruamel.yaml import YAML
 
 import conveyor
 from conveyor import shelf
-from conveyor.analysis import studies
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models.fields import with_fields
+from conveyor.results.analysis import studies
 from conveyor.spec import from_data
 from conveyor.units import si
 from conveyor.units.quantity_kinds import KINDS

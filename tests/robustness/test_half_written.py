@@ -15,7 +15,7 @@ from conveyor import shelf, starter
 from conveyor.errors import InputError
 from conveyor.files.atomic_write import save_files
 from conveyor.report import plots
-from conveyor.template.template_writer import write_template
+from conveyor.starter.template_writer import write_template
 from tests import command_line
 from tests.robustness.arrange import SPEC, full
 from tests.robustness.table import files

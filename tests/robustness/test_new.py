@@ -12,7 +12,7 @@ from conveyor import spec, starter
 from conveyor.checks import run_checks
 from conveyor.cli.new_command import StarterKind
 from conveyor.errors import InputError
-from conveyor.study_file import read_plan, read_search
+from conveyor.studies.study_file import read_plan, read_search
 from conveyor.units import System
 from tests.command_line import ROOT, run
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from conveyor.contact import solve
-from conveyor.contact.interior import interior
+from conveyor.contact.fields.interior import interior
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.indentation import RollContact, to_problem
 from conveyor.rubber import PronySeries

@@ -12,7 +12,6 @@ import pytest
 from conveyor import shelf
 from conveyor.errors import NoSolutionError
 from conveyor.laws.preliminary_sizing import annuity
-from conveyor.line.sizing_task import SizingTask
 from conveyor.line.stretches import STRANDS
 from conveyor.models.sizing import SizingDuty
 from conveyor.pipeline import CalculatedConveyor, Variant, calculate_many
@@ -20,6 +19,7 @@ from conveyor.sizing import size_conveyor
 from conveyor.sizing.design_search import _calibrate_estimate, _estimated_parts
 from conveyor.sizing.screen import Candidates, first_calibration, screen_candidates
 from conveyor.sizing.sized_design import SizedDesign
+from conveyor.sizing.sizing_task import SizingTask
 from conveyor.sizing.spacing import section_spacings
 from conveyor.studies.loads import every_load
 from conveyor.units import si

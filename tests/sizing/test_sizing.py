@@ -20,16 +20,16 @@ from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.belt_strength import RATED_SAFETY
 from conveyor.laws.energy import NEMA_MOTORS
 from conveyor.laws.roll_life import rating_life_hours
-from conveyor.line.sizing_task import SizingTask
 from conveyor.models.prices import Prices
 from conveyor.models.sizing import SizingDuty
 from conveyor.sizing import size_conveyor
 from conveyor.sizing.design_search import size_parts
 from conveyor.sizing.screen import Candidates, first_calibration, screen_candidates
 from conveyor.sizing.sensitivity import vary_choices
+from conveyor.sizing.sizing_task import SizingTask
 from conveyor.sizing.spacing import graduated_spacings, section_spacings
 from conveyor.studies.loads import every_load
-from conveyor.study_file import read_duty
+from conveyor.studies.study_file import read_duty
 from conveyor.units import quantity, si, text
 from tests.command_line import run
 

@@ -11,16 +11,16 @@ import pytest
 
 import conveyor
 from conveyor import shelf
-from conveyor.analysis import studies
 from conveyor.errors import InputError
 from conveyor.models.study import StudyPlan
 from conveyor.report.design_tables import study_contents
+from conveyor.results.analysis import studies
 from conveyor.studies.design_figures import pareto_front, weighted_mean, weighted_percentile
 from conveyor.studies.duty import analyse_duty
 from conveyor.studies.evaluation import study_objectives, summarise_study
 from conveyor.studies.parametric_study import ParametricStudy, ResultStore, design_results, run_study
 from conveyor.studies.points import OUTPUTS
-from conveyor.study_file import read_plan
+from conveyor.studies.study_file import read_plan
 from conveyor.units import si
 from tests.command_line import run as command
 

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from conveyor.analysis import Studies
 from conveyor.errors import InputError
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
 from conveyor.pipeline import CalculatedConveyor, Variant, calculate, calculate_many
+from conveyor.results.analysis import Studies
 from conveyor.spec import load
 from conveyor.studies import calculate_studies
 from conveyor.studies.states import LoadState, load_states

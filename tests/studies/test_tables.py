@@ -14,14 +14,14 @@ import pytest
 
 import conveyor
 from conveyor import shelf
-from conveyor.analysis import Studies, studies, study_ranges
 from conveyor.errors import InputError
+from conveyor.loop.ties import TIE_RTOL
 from conveyor.models import RubberCompound, standard_cases
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
 from conveyor.report.study_tables import tables_and_drawings
+from conveyor.results.analysis import Studies, studies, study_ranges
 from conveyor.studies.default_bands import power_range
-from conveyor.ties import TIE_RTOL
 from tests.written_tables import written_tables
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"

@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from conveyor.analysis import Studies, analyse
 from conveyor.checks import Check, governing_by_subject, severity_rank, unsearched_criteria
 from conveyor.loop import worst_loadings
 from conveyor.loop.take_up_duty import at_common_setting
@@ -18,6 +17,7 @@ from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
 from conveyor.pipeline import Variant, calculate_many, common_take_up_duty
 from conveyor.report.analysis_tables import check_table
+from conveyor.results.analysis import Studies, analyse
 from conveyor.spec import from_data, load
 from conveyor.studies import calculate_studies
 from conveyor.studies import states as of_states

@@ -21,7 +21,7 @@ from conveyor.files.workbook_cells import Sheet, SheetCell
 from conveyor.forms import form_reader
 from conveyor.forms.form_reader import LARGEST_FILE, LIMITS, read_template, sheets_of
 from conveyor.models import Conveyor
-from conveyor.template.template_writer import write_template
+from conveyor.starter.template_writer import write_template
 
 
 @pytest.fixture(scope="session")

@@ -18,9 +18,9 @@ from conveyor.forms.form_reader import read_form, read_template
 from conveyor.forms.sheet_plan import FormRow, plan_model, plan_reference
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.base import Model, Name, Number
-from conveyor.template.filled_cells import fill_sheets, given_data
-from conveyor.template.template_sheets import TemplateBook
-from conveyor.template.template_writer import write_template
+from conveyor.starter.filled_cells import fill_sheets, given_data
+from conveyor.starter.template_sheets import TemplateBook
+from conveyor.starter.template_writer import write_template
 from conveyor.units import Bounds, Force, Length, Power
 
 SPECS = sorted((Path(__file__).parents[2] / "examples" / "specs").glob("*.yaml"))

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from conveyor.contact import Belt, ContactProblem, CreepSpectrum, solve, solve_many
-from conveyor.contact.grid_solver import solve_grid
+from conveyor.contact.solvers.grid_solver import solve_grid
 
 from .test_boundary_elements import route
 

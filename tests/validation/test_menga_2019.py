@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from conveyor.contact import ContactProblem, CreepSpectrum, solve
-from conveyor.contact.layers import confined_symbol, free_symbol
+from conveyor.contact.layers.layer_models import confined_symbol, free_symbol
 
 RATIO = 10.0  # E∞/E0
 ELASTIC = CreepSpectrum(1.0)

@@ -7,9 +7,8 @@ from functools import cache
 
 import pytest
 
-from conveyor import validation
 from conveyor.contact import solve
-from conveyor.validation import ReferenceCheck, reference_cases, run_checks
+from conveyor.validation.reference_cases import ReferenceCheck, reference_cases, run_checks
 
 CASES = reference_cases()
 SINGLE = [case for case in CASES if not case.split]
@@ -129,7 +128,7 @@ def test_a_wrong_solver_would_fail(monkeypatch):
     def wrong(problem, **options):
         return solve(replace(problem, pressure=1.01 * problem.pressure), **options)
 
-    monkeypatch.setattr(validation, "solve", wrong)
+    monkeypatch.setattr(reference_cases, "solve", wrong)
     failed = [check for check in run_checks() if not check.passed]
     # every friction of the reference and of the split contacts, every Hunter figure that depends on the load
     assert sum("friction" in check.quantity for check in failed) == len(SINGLE) + 2 + 9

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from conveyor.contact import ContactProblem, CreepSpectrum, Status, solve
-from conveyor.contact.grid_solver import solve_grid
+from conveyor.contact.solvers.grid_solver import solve_grid
 
 
 def scene(radius, thickness, zeta):

@@ -1,0 +1,1 @@
+"""Friction of one contact over its load."""

@@ -1,0 +1,182 @@
+"""Solve a contact problem: as one strip by its half width, else with any number of strips."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from conveyor.arguments import check_arguments
+from conveyor.contact.galerkin.quadrature import RuleTooLongError
+from conveyor.contact.problem import ContactProblem, Status, check_rtol
+from conveyor.contact.solution import ContactSolution, SolveOutcome, SolveStats
+from conveyor.contact.solvers.many_strips import CoarseContact, solve_strips
+from conveyor.contact.solvers.one_strip import HalfWidthStart, solve_one_strip
+from conveyor.contact.solvers.one_strip_batch import UnsolvedReason, solve_batch
+from conveyor.contact.solvers.solver_state import SolverState
+from conveyor.errors import InputError, NoSolutionError
+
+_SHALLOWEST, _DEEPEST = (
+    1e-28,
+    1e3,
+)  # of penetrations over R: the loads of others underflow or lead beyond the roll
+
+
+@check_arguments
+def solve(problem: ContactProblem, rtol: float = 1e-6, *, throw: bool = True) -> ContactSolution:
+    """Solve a steady rolling contact under load control.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        Layer, roll, load and rubber, dimensionless.
+    rtol : float
+        Relative error of friction allowed [-], in [1e-12, 1e-2].
+    throw : bool
+        Raise where the tolerance is not met; False returns the status, for batches.
+
+    Returns
+    -------
+    ContactSolution
+        Results with `error_estimate` and `energy_error`.
+
+    Raises
+    ------
+    InputError
+        rtol outside its range.
+    NoSolutionError
+        The load wraps the roll, or the tolerance was not reached (throw=True).
+
+    References
+    ----------
+    Menga, Bottiglione, Carbone, Lubricants 7 (2019), Eqs. (1)-(9), corrected as docs/method.md says.
+
+    Examples
+    --------
+    >>> from conveyor.contact import CreepSpectrum
+    >>> creep = CreepSpectrum(instantaneous=0.1, weights=[0.9], times=[1.0])
+    >>> s = solve(ContactProblem("free", radius=0.4, thickness=1.0, pressure=0.05, creep=creep), rtol=1e-9)
+    >>> round(s.friction, 8), s.status.name
+    (0.28505539, 'OK')
+    """
+    return _solve_all([problem], rtol, throw)[0]
+
+
+@check_arguments
+def solve_penetration(
+    problem: ContactProblem, penetration: float, rtol: float = 1e-6, *, throw: bool = True
+) -> ContactSolution:
+    """Solve a steady rolling contact at a given penetration instead of a load.
+
+    Parameters
+    ----------
+    problem : ContactProblem
+        Layer, roll and rubber; its own pressure is not used.
+    penetration : float
+        Δ/R [-], positive: mean line of the deformed surface to the roll's crown.
+    rtol, throw
+        As in `solve`; rtol also holds the penetration.
+
+    Returns
+    -------
+    ContactSolution
+        Its `problem` has the mean pressure that belongs to the penetration.
+
+    Raises
+    ------
+    InputError
+        rtol or penetration outside its range.
+    NoSolutionError
+        As in `solve`.
+
+    Examples
+    --------
+    >>> from conveyor.contact import CreepSpectrum
+    >>> scene = ContactProblem("confined", 0.4, 1.0, CreepSpectrum(0.1, [0.9], [1.0]), thickness=1.0)
+    >>> s = solve_penetration(scene, 0.0378398947)
+    >>> round(s.problem.pressure, 6), round(s.friction, 5)
+    (0.05, 0.13098)
+    """
+    if not (_SHALLOWEST <= penetration <= _DEEPEST):
+        raise InputError(
+            f"penetration = {penetration!r}: Δ/R is finite and positive, from {_SHALLOWEST:g} to {_DEEPEST:g}"
+        )
+    check_rtol(rtol)
+    return _solve_alone(SolverState.of(problem, depth=penetration), rtol, throw)
+
+
+@check_arguments
+def solve_many(
+    problems: Sequence[ContactProblem], rtol: float = 1e-6, *, throw: bool = False
+) -> list[ContactSolution]:
+    """Solve many problems, in their order; by default a refused one is returned with its status, not raised.
+
+    Contacts of one strip on the same kind of layer are solved in a batch.
+
+    Raises
+    ------
+    InputError
+        rtol outside its range.
+    NoSolutionError
+        As `solve`, for the first problem without a solution (throw=True).
+    """
+    return _solve_all(problems, rtol, throw)
+
+
+def _solve_all(problems: Sequence[ContactProblem], rtol: float, throw: bool) -> list[ContactSolution]:
+    check_rtol(rtol)
+    return [
+        _make_solution(problem, outcome, throw)
+        if isinstance(outcome, SolveOutcome)
+        else _solve_alone(SolverState.of(problem), rtol, throw, outcome)
+        for problem, outcome in zip(problems, solve_batch(problems, rtol), strict=True)
+    ]
+
+
+def _solve_alone(
+    scene: SolverState, rtol: float, throw: bool, left: UnsolvedReason | HalfWidthStart | None = None
+) -> ContactSolution:
+    """Solve one problem as one strip, or as several where a coarse grid shows them."""
+    try:
+        outcome = _find_outcome(scene, rtol, left)
+    except RuleTooLongError:
+        outcome = SolveOutcome(Status.TOO_THIN)
+    rule = scene.rules.get("solve")
+    outcome = replace(
+        outcome,
+        matrices=scene.matrices,
+        nodes=rule.nodes.size if rule else 0,
+        terms=scene.creep.weights.size,
+    )
+    problem = scene.problem
+    if scene.depth is not None and outcome.found is not None:
+        problem = replace(problem, pressure=outcome.found.mean_pressure)
+    return _make_solution(problem, outcome, throw)
+
+
+def _find_outcome(
+    scene: SolverState, rtol: float, left: UnsolvedReason | HalfWidthStart | None
+) -> SolveOutcome:
+    seen = CoarseContact.of(scene, scene.problem.pressure) if left is UnsolvedReason.ANY else None
+    refusal = seen.refusal if seen is not None else None
+    if refusal is not None:
+        return refusal
+    if left is UnsolvedReason.STRIPS:
+        return solve_strips(scene, rtol)
+    outcome = solve_strips(scene, rtol, seen) if seen is not None and seen.several else None
+    if outcome is not None and outcome.status is not Status.NOT_CONVERGED:
+        return outcome
+    near = left if isinstance(left, HalfWidthStart) else None
+    one = solve_one_strip(scene, rtol, near, doubtful=outcome is not None)
+    if outcome is None:
+        return one or solve_strips(scene, rtol, seen)
+    return one if one is not None and one.status is Status.OK else outcome
+
+
+def _make_solution(problem: ContactProblem, outcome: SolveOutcome, throw: bool) -> ContactSolution:
+    stats = SolveStats(
+        outcome.order, outcome.matrices, outcome.nodes, outcome.terms, outcome.grid, outcome.way
+    )
+    solution = ContactSolution(problem, outcome.status, stats, outcome.remarks, outcome.found)
+    if throw and outcome.status is not Status.OK:
+        raise NoSolutionError(solution.message)
+    return solution

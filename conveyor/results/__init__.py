@@ -1,0 +1,1 @@
+"""Results as people use them: tables, workbooks, pages and figures of what is calculated."""

@@ -1,0 +1,1 @@
+"""Reference cases: converged contacts, published figures, conveyors with printed or measured results."""
