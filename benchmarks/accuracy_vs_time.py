@@ -85,15 +85,9 @@ def runs(problem: ContactProblem) -> list[tuple[str, str, Callable[[], float]]]:
     """Every method at every size."""
     return [
         *((METHODS[0], f"n {n}", lambda n=n: by_order(problem, n)) for n in ORDERS),
-        *(
-            (METHODS[1], f"rtol {r:g}", lambda r=r: solve(problem, rtol=r, throw=False).friction)
-            for r in RTOLS
-        ),
+        *((METHODS[1], f"rtol {r:g}", lambda r=r: solve(problem, rtol=r, throw=False).friction) for r in RTOLS),
         *((METHODS[2], f"{n} nodes", lambda n=n: by_grids(problem, n)) for n in GRIDS),
-        *(
-            (METHODS[3], f"{n} elements", lambda n=n: solve_boundary_elements(problem, n).friction)
-            for n in ELEMENTS
-        ),
+        *((METHODS[3], f"{n} elements", lambda n=n: solve_boundary_elements(problem, n).friction) for n in ELEMENTS),
     ]
 
 
@@ -123,9 +117,7 @@ def batch(problem: ContactProblem, count: int) -> list[ContactProblem]:
             radius=problem.radius * rng.uniform(0.7, 1.4),
             thickness=problem.thickness * rng.uniform(0.5, 2.0),
             pressure=problem.pressure * rng.uniform(0.1, 3.0),
-            creep=CreepSpectrum(
-                creep.instantaneous, creep.weights, creep.times * 10.0 ** rng.uniform(-1.0, 1.0)
-            ),
+            creep=CreepSpectrum(creep.instantaneous, creep.weights, creep.times * 10.0 ** rng.uniform(-1.0, 1.0)),
         )
         for _ in range(count)
     ]

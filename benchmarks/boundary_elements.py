@@ -196,9 +196,7 @@ class Kernel:
             matrix = (values - (self._times / math.pi)[:, None, None] * slopes) * scale[:, :, None]
             right = (smooth + 2.0 * (np.euler_gamma - np.log(self._times))[:, None]) * scale
             matrix[:, -1] = values[-1] - values[0]
-            right[:, -1] = 2.0 * (
-                _memory(math.pi / self._times, _PLAIN) - _memory(-math.pi / self._times, _PLAIN)
-            )
+            right[:, -1] = 2.0 * (_memory(math.pi / self._times, _PLAIN) - _memory(-math.pi / self._times, _PLAIN))
             theta += self._weights @ np.linalg.solve(matrix, right[:, :, None])[:, :, 0]
         return math.pi * chebyshev.chebint(theta)
 
@@ -314,9 +312,7 @@ def _strip(kernel: Kernel, mesh: _Mesh, alpha: float, rho: float, eccentricity: 
     root = np.sqrt(1.0 - t * t)
     slope = (t[1:] + t[:-1]) / (root[1:] + root[:-1])
     total = float(load.sum())
-    return _Strip(
-        eccentricity, penetration, total / (2.0 * math.pi), float(load @ slope) / total, float(p.min())
-    )
+    return _Strip(eccentricity, penetration, total / (2.0 * math.pi), float(load @ slope) / total, float(p.min()))
 
 
 @dataclass(frozen=True)
@@ -417,9 +413,7 @@ def _line(case: ReferenceCase, name: str, work: Callable[[], _Found], before: li
     found = work()
     matrices = found.iterations if isinstance(found, BoundaryElementContact) else found.stats.matrices
     errors = _errors(found, case)
-    orders = (
-        [f"({math.log2(b / e):4.1f})" for b, e in zip(before, errors, strict=True)] if before else [""] * 4
-    )
+    orders = [f"({math.log2(b / e):4.1f})" for b, e in zip(before, errors, strict=True)] if before else [""] * 4
     cells = " ".join(f"{e:8.1e} {order:6}" for e, order in zip(errors, orders, strict=True))
     print(f"{name:>10} {matrices:8d} {timed(work):7.1f} {cells}".rstrip())
     return errors
@@ -433,18 +427,12 @@ def main() -> None:
         print(f"{'elements':>10} {'matrices':>8} {'ms':>7} {'friction':15} {'a':15} {'e':15} Δ")
         before: list[float] = []
         for elements in ELEMENTS:
-            before = _line(
-                case, f"{elements}", partial(solve_boundary_elements, case.problem, elements), before
-            )
+            before = _line(case, f"{elements}", partial(solve_boundary_elements, case.problem, elements), before)
         for rtol in RTOLS:
             _line(case, f"rtol {rtol:.0e}", partial(solve, case.problem, rtol=rtol), [])
     # against `solve` at rtol 1e-12
-    print(
-        "\nrtol: conveyor.contact.solve. The references are good to 1e-10 in friction and 1e-11 in the places, but"
-    )
-    print(
-        "the conveyor's a to 1.5e-8, e to 5e-7, Δ to 2.1e-8: both methods approach values that far from them."
-    )
+    print("\nrtol: conveyor.contact.solve. The references are good to 1e-10 in friction and 1e-11 in the places, but")
+    print("the conveyor's a to 1.5e-8, e to 5e-7, Δ to 2.1e-8: both methods approach values that far from them.")
 
 
 if __name__ == "__main__":

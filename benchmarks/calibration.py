@@ -40,9 +40,7 @@ def drawn(rng: np.random.Generator) -> Conveyor:
         section.replace(length=section.length * long, lift=from_si(section.rise * high, "length"), slope=None)
         for section in spec.route.sections
     ]
-    return spec.replace(
-        route=spec.route.replace(sections=sections), calculation=spec.calculation.replace(rtol=1e-3)
-    )
+    return spec.replace(route=spec.route.replace(sections=sections), calculation=spec.calculation.replace(rtol=1e-3))
 
 
 def powers(spec: Conveyor, runs: list[MeasuredRun]) -> list[CalculatedConveyor]:
@@ -69,9 +67,7 @@ def main(conveyors: int, draws: int) -> None:
         if shares(spec):
             truth = truth.replace(flexure=1.0)
         runs = [
-            MeasuredRun(
-                power="1 kW", at="motor shaft", flow=spec.material.flow * flow, temperature=f"{warmth} degC"
-            )
+            MeasuredRun(power="1 kW", at="motor shaft", flow=spec.material.flow * flow, temperature=f"{warmth} degC")
             for flow, warmth in STATES
         ]
         made = powers(spec.replace(calculation=spec.calculation.replace(calibration=truth)), runs)
@@ -95,13 +91,9 @@ def main(conveyors: int, draws: int) -> None:
     every = [one for each in held.values() for one in each]
     for name, each in {**held, "all bands": every}.items():
         share = sum(each) / len(each)
-        print(
-            f"{name:40} {share:6.1%} of {len(each):4} bands hold, +-{math.sqrt(share * (1 - share) / len(each)):.1%}"
-        )
+        print(f"{name:40} {share:6.1%} of {len(each):4} bands hold, +-{math.sqrt(share * (1 - share) / len(each)):.1%}")
     spread, mean = np.std(off), np.mean(off)
-    print(
-        f"power at full load, 15 degC: off by {spread:.2%} (one standard deviation), {mean:+.2%} in the mean"
-    )
+    print(f"power at full load, 15 degC: off by {spread:.2%} (one standard deviation), {mean:+.2%} in the mean")
     print(f"{refused} of {conveyors * draws} refused; {perf_counter() - begun:.0f} s")
 
 

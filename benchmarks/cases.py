@@ -51,9 +51,7 @@ def main() -> None:
     row(f"analyse, {SECTIONS} sections", median(lambda: conveyor.analyse(line), RUNS))
     for rtol in (1e-4, 1e-6):
         study = conveyor.analyse_cases(line, cases, rtol=rtol)
-        name = (
-            f"{SECTIONS} sections x {len(cases)} load cases x {len(TEMPERATURES)} temperatures, rtol {rtol:g}"
-        )
+        name = f"{SECTIONS} sections x {len(cases)} load cases x {len(TEMPERATURES)} temperatures, rtol {rtol:g}"
         row(name, median(lambda r=rtol: conveyor.analyse_cases(line, cases, rtol=r), RUNS))
         assert len(study.results) == len(cases) * len(TEMPERATURES)  # noqa: S101
     small = conveyor.load(SPECS / "overland_10km.yaml")

@@ -36,9 +36,7 @@ def varied(count: int) -> list[RubberCompound]:
         base = shelf.compound(COVERS[k % len(COVERS)])
         terms = [
             {"modulus": f"{si(term.modulus) * factor:.9g} Pa", "time": term.time}
-            for term, factor in zip(
-                base.prony.terms, rng.uniform(0.6, 1.6, len(base.prony.terms)), strict=True
-            )
+            for term, factor in zip(base.prony.terms, rng.uniform(0.6, 1.6, len(base.prony.terms)), strict=True)
         ]
         prony = base.prony.replace(terms=terms)
         found.append(base.replace(name=f"{base.name} {k}", prony=prony))

@@ -154,8 +154,7 @@ def written(measured: np.ndarray, header: str, *, sets: bool) -> str:
     lines = [header]
     for k, sheet in enumerate(measured):
         lines += [
-            f"{f:.9g},{a / 1e6:.9g},{b / 1e6:.9g},{t - CELSIUS:g}" + (f",{k}" if sets else "")
-            for t, f, a, b in sheet.T
+            f"{f:.9g},{a / 1e6:.9g},{b / 1e6:.9g},{t - CELSIUS:g}" + (f",{k}" if sets else "") for t, f, a, b in sheet.T
         ]
     return "\n".join(lines) + "\n"
 
@@ -182,8 +181,7 @@ def errors(rubber: Rubber, series: PronySeries, warm: PronySeries, omega: np.nda
 def share(values: list[np.ndarray], truth: np.ndarray) -> float:
     """Of the truth inside the ends of its replicas, shape `(replicas, n)`."""
     inside = [
-        low <= true <= high
-        for (low, high), true in zip(map(quantile_band, np.array(values).T), truth, strict=True)
+        low <= true <= high for (low, high), true in zip(map(quantile_band, np.array(values).T), truth, strict=True)
     ]
     return float(np.mean(inside))
 
@@ -192,9 +190,7 @@ def judged(rubber: Rubber, noise: float, seed: int, *, vertical: bool) -> tuple[
     """Ours, and plain NNLS; None where that gives up or finds a fluid."""
     with tempfile.TemporaryDirectory() as folder:
         data = Path(folder) / "rubber.csv"
-        data.write_text(
-            written(rows(rubber, noise, seed), "frequency [Hz],E' [MPa],E'' [MPa],T [degC]", sets=False)
-        )
+        data.write_text(written(rows(rubber, noise, seed), "frequency [Hz],E' [MPa],E'' [MPa],T [degC]", sets=False))
         start = time.perf_counter()
         found = fit_file(data, Request("x", "20 degC", vertical=vertical))
         seconds = time.perf_counter() - start
@@ -208,9 +204,7 @@ def judged(rubber: Rubber, noise: float, seed: int, *, vertical: bool) -> tuple[
         **errors(rubber, compound.series(REFERENCE), compound.series(WARM), omega),
         shift=rms(error),
         shift_z=rms(error / shifts.log10_a_T_error[away]),
-        vertical_z=rms(error_b / shifts.log10_b_T_error[away])
-        if np.all(shifts.log10_b_T_error[away])
-        else np.nan,
+        vertical_z=rms(error_b / shifts.log10_b_T_error[away]) if np.all(shifts.log10_b_T_error[away]) else np.nan,
         storage_inside=share([one.storage(omega) for one in others], rubber.series.storage(omega)),
         loss_inside=share([one.loss(omega) for one in others], rubber.series.loss(omega)),
         friction_inside=share([[mu] for mu in friction(list(warm))], friction([rubber.at(WARM)])),
@@ -267,15 +261,10 @@ def columns(found: list[Judged]) -> list[float]:
     ]
 
 
-def printed(
-    label: str, found: list[tuple[Judged, Judged | None]], failed: int, other: dict[str, str]
-) -> None:
+def printed(label: str, found: list[tuple[Judged, Judged | None]], failed: int, other: dict[str, str]) -> None:
     ours, plain = [one for one, _ in found], [one for _, one in found if one is not None]
     e1, e2, shift, mu, worst = columns(ours)
-    cover = [
-        100.0 * float(np.mean([getattr(o, f"{k}_inside") for o in ours]))
-        for k in ("storage", "loss", "friction")
-    ]
+    cover = [100.0 * float(np.mean([getattr(o, f"{k}_inside") for o in ours])) for k in ("storage", "loss", "friction")]
     z = [rms(np.array([getattr(one, f"{k}_z") for one in ours])) for k in ("shift", "vertical")]
     n1, n2, _, nmu, nworst = columns(plain) if plain else [np.nan] * 5
     print(
@@ -345,9 +334,7 @@ def compare(names: list[str], noises: list[float], seeds: int) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(
-        description="Errors and coverage of conveyor fit on rubbers of known truth."
-    )
+    parser = argparse.ArgumentParser(description="Errors and coverage of conveyor fit on rubbers of known truth.")
     parser.add_argument("--seeds", type=int, default=10)
     parser.add_argument("--noise", type=float, nargs="*", default=[0.01, 0.02, 0.03])
     parser.add_argument("--family", nargs="*", default=list(FAMILIES))

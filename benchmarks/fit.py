@@ -74,9 +74,7 @@ def rms(values: list[np.ndarray]) -> float:
 
 
 def accuracy(storage: float, loss: float, seeds: int) -> None:
-    print(
-        f"\nnoise {storage:.0%} of E', {loss:.0%} of E'', {seeds} seeds; rms [%] against the truth | the data"
-    )
+    print(f"\nnoise {storage:.0%} of E', {loss:.0%} of E'', {seeds} seeds; rms [%] against the truth | the data")
     for kind in TRUTHS:
         print(f"  {kind}")
         for name, options in METHODS.items():
@@ -101,9 +99,7 @@ def accuracy(storage: float, loss: float, seeds: int) -> None:
 
 
 def coverage(seeds: int, replicas: int) -> None:
-    print(
-        f"\n90 % band of {replicas} replicas, {seeds} seeds: share of the truth inside, mean (worst frequency)"
-    )
+    print(f"\n90 % band of {replicas} replicas, {seeds} seeds: share of the truth inside, mean (worst frequency)")
     for storage, loss, memory in NOISES:
         for kind in TRUTHS:
             inside, spent = [], []

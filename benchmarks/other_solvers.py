@@ -142,9 +142,7 @@ def draw(rows: list[dict[str, str]], path: Path) -> None:
 
     figure, axes = plt.subplots(1, len(SCENES), figsize=(9.0, 4.0), sharey=True, layout="constrained")
     for axis, scene in zip(axes, SCENES, strict=True):
-        for solver, style in zip(
-            dict.fromkeys(r["solver"] for r in rows), ("s-", "^-", "o--", "x:"), strict=False
-        ):
+        for solver, style in zip(dict.fromkeys(r["solver"] for r in rows), ("s-", "^-", "o--", "x:"), strict=False):
             at = [r for r in rows if (r["scene"], r["solver"]) == (scene, solver)]
             errors = [max(float(r["error"]), 1e-14) for r in at]
             axis.loglog([float(r["references"]) for r in at], errors, style, ms=4, lw=1.2, label=solver)

@@ -113,9 +113,7 @@ def _inside(place: str, value: Any) -> Iterator[tuple[str, Any]]:
 
 def compare(before: Path, after: Path) -> int:
     """Print what differs; how many files do."""
-    names = sorted(
-        {path.relative_to(top) for top in (before, after) for path in top.rglob("*") if path.is_file()}
-    )
+    names = sorted({path.relative_to(top) for top in (before, after) for path in top.rglob("*") if path.is_file()})
     wrong = 0
     for name in names:
         if not ((before / name).exists() and (after / name).exists()):

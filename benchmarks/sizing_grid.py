@@ -44,9 +44,7 @@ def drawn(count: int = COUNT) -> Iterator[dict[str, Any]]:
     random = np.random.default_rng(SEED)
     for _ in range(count):
         name = str(random.choice(list(MATERIALS)))
-        flow, length = (
-            float(np.exp(random.uniform(*np.log(ends)))) for ends in ((100.0, 8000.0), (30.0, 6000.0))
-        )
+        flow, length = (float(np.exp(random.uniform(*np.log(ends)))) for ends in ((100.0, 8000.0), (30.0, 6000.0)))
         steepest = STEEPEST * length
         lift = float(random.uniform(-min(200.0, steepest), min(300.0, steepest)))
         lift *= float(random.choice([0.0, 1.0, 1.0, 1.0]))

@@ -70,12 +70,8 @@ def contacts(row: Callable[[str, float], None]) -> None:
     for rtol in (1e-3, 1e-6):
         row(f"paper contact, load given, rtol {rtol:g}", median(lambda r=rtol: solve(paper, rtol=r)))
     loads = np.geomspace(0.1, 1.0, 200) * case.pressure
-    row(
-        "200 loads of the conveyor contact, rtol 1e-6", median(lambda: solve_loads(case, loads, rtol=1e-6), 5)
-    )
-    row(
-        "200 loads of the conveyor contact, rtol 1e-3", median(lambda: solve_loads(case, loads, rtol=1e-3), 5)
-    )
+    row("200 loads of the conveyor contact, rtol 1e-6", median(lambda: solve_loads(case, loads, rtol=1e-6), 5))
+    row("200 loads of the conveyor contact, rtol 1e-3", median(lambda: solve_loads(case, loads, rtol=1e-3), 5))
     rng = np.random.default_rng(1)
     scenes = [
         replace(
@@ -91,9 +87,7 @@ def contacts(row: Callable[[str, float], None]) -> None:
         )
         for _ in range(1000)
     ]
-    row(
-        "each of 1,000 different conveyor contacts, rtol 1e-6", median(lambda: solve_many(scenes), 5) / 1000.0
-    )
+    row("each of 1,000 different conveyor contacts, rtol 1e-6", median(lambda: solve_many(scenes), 5) / 1000.0)
     split = ContactProblem("free", 0.3, 0.13, CreepSpectrum(0.1, [0.9], [3.0]), 1.0)
     row("split contact (two strips), rtol 1e-6", median(lambda: solve(split)))
     row("paper contact, penetration given, rtol 1e-6", median(lambda: solve_penetration(paper, 0.1)))

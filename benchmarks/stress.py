@@ -102,9 +102,7 @@ def run(index: int, problem: ContactProblem) -> Outcome:
     seconds = time.process_time() - began
     if found.status is not Status.OK:
         return Outcome(index, scene, found.status.name, seconds, found.stats.order, stiffening=stiffening)
-    if not all(
-        math.isfinite(v) for v in (found.friction, found.half_width, found.penetration, found.peak_pressure)
-    ):
+    if not all(math.isfinite(v) for v in (found.friction, found.half_width, found.penetration, found.peak_pressure)):
         return Outcome(index, scene, "FAULT not finite", seconds, found.stats.order)
     fine = solve(problem, rtol=FINE, throw=False)
     lossy = bool((problem.creep.times > 0.0).any())
@@ -213,9 +211,7 @@ def main(count: int, seed: int, processes: int, first: int) -> int:
     rough = sum(o.ending == "OK" and math.isnan(o.true_error) for o in usual)
     print(f"E∞/E0 up to {USUAL:g}: {len(usual)}, {dict(ways)}; solved but not to {FINE:g}: {rough}")
     refused = [o for o in outcomes if o.ending in ("WRAP_LIMIT", "TOO_THIN", "NOT_CONVERGED")]
-    print(
-        f"refused {len(refused)}, in more than {QUICK} references {sum(o.seconds > QUICK * unit for o in refused)}"
-    )
+    print(f"refused {len(refused)}, in more than {QUICK} references {sum(o.seconds > QUICK * unit for o in refused)}")
     split = [o for o in solved if o.strips > 1]
     gridded = [o for o in solved if not math.isnan(o.grid_off)]
     print(f"split {len(split)}; seen by the grid {len(gridded)}, there with other strips "

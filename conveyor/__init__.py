@@ -117,10 +117,7 @@ __all__ = [
 
 # So are the modules that users reach as attributes.
 _MODULES = {
-    **{
-        name: f"conveyor.{name}"
-        for name in ("contact", "indentation", "rubber", "shelf", "spec", "studies", "units")
-    },
+    **{name: f"conveyor.{name}" for name in ("contact", "indentation", "rubber", "shelf", "spec", "studies", "units")},
     "uncertainty": "conveyor.results.uncertainty",
     "libraries": "conveyor.files.libraries",
 }
@@ -134,9 +131,7 @@ def __getattr__(name: str) -> Any:
     if name == "__version__":
         return import_module("importlib.metadata").version("conveyor")
     if name in __all__:
-        module = next(
-            (module for module, names in _WHERE.items() if name in names), "conveyor.results.analysis"
-        )
+        module = next((module for module, names in _WHERE.items() if name in names), "conveyor.results.analysis")
         return getattr(import_module(module), name)
     if name in _MODULES:
         return import_module(_MODULES[name])

@@ -57,9 +57,7 @@ def check_arguments(function: Callable[P, R]) -> Callable[P, R]:
             if not _is_of_type(value, _annotated_type(function.__module__, written)):
                 expected = str(written).replace(" | None", "")
                 shown = shorten_text(repr(value), _LONGEST_VALUE)
-                raise InputError(
-                    f"{named}: {name}: expected {expected}, got {shown} ({type(value).__name__})"
-                )
+                raise InputError(f"{named}: {name}: expected {expected}, got {shown} ({type(value).__name__})")
         return function(*args, **kwargs)
 
     return called
@@ -125,9 +123,7 @@ def _is_container_of(value: Any, origin: Any, arguments: tuple[Any, ...]) -> boo
     if isinstance(origin, type) and not isinstance(value, origin):
         return False
     if isinstance(value, Mapping) and len(arguments) == 2:
-        return all(
-            _is_of_type(key, arguments[0]) and _is_of_type(item, arguments[1]) for key, item in value.items()
-        )
+        return all(_is_of_type(key, arguments[0]) and _is_of_type(item, arguments[1]) for key, item in value.items())
     if isinstance(value, _LISTS) and arguments and (origin is not tuple or arguments[-1] is Ellipsis):
         return all(_is_of_type(item, arguments[0]) for item in value)
     return True

@@ -204,18 +204,14 @@ def check_against_limit(  # noqa: PLR0917 reads as the sentence it checks
     name = message(subject) if isinstance(subject, str) else subject
     if required is None:
         shortfall = message(missing)
-        return Check(
-            key, name, calculated, None, kind, shown, shortfall, "not checked", None, relation, where
-        )
+        return Check(key, name, calculated, None, kind, shown, shortfall, "not checked", None, relation, where)
     if holds is None:
         holds = calculated >= required if relation == "at least" else calculated <= required
     if asked is None:
         asked = message(f"{relation} {{}}{f' ({source})' if source else ''}", (required, kind))
     if isinstance(why, str):
         figures = {"{calculated}": (calculated, kind), "{required}": (required, kind)}
-        why = Message(
-            _FIGURE_PATTERN.sub("{}", why), tuple(figures[word] for word in _FIGURE_PATTERN.findall(why))
-        )
+        why = Message(_FIGURE_PATTERN.sub("{}", why), tuple(figures[word] for word in _FIGURE_PATTERN.findall(why)))
     judged = pass_or_fail(holds=holds)
     return Check(key, name, calculated, required, kind, shown, asked, judged, why, relation, where)
 
@@ -385,10 +381,7 @@ def belt_sag(result: CalculatedConveyor) -> Iterator[Check]:
     over = [(tension / shape.least).tolist() for tension in lowest]
     for strand in STRANDS:
         places = [
-            (k, i)
-            for k in range(len(running))
-            for i, stretch in enumerate(shape.stretches)
-            if stretch.strand == strand
+            (k, i) for k in range(len(running)) for i, stretch in enumerate(shape.stretches) if stretch.strand == strand
         ]
         k, i = min(places, key=lambda at: over[at[0]][at[1]])
         tension, needed, section = float(lowest[k][i]), float(shape.least[i]), shape.stretches[i].section
@@ -435,9 +428,7 @@ def belt_safety(result: CalculatedConveyor) -> Iterator[Check]:
         (safety, "safety"),
         (needed, "number"),
     )
-    yield check_against_limit(
-        "belt_safety", subject, safety, "at least", needed, "safety", asked=asked, why=why
-    )
+    yield check_against_limit("belt_safety", subject, safety, "at least", needed, "safety", asked=asked, why=why)
 
 
 def belt_rating(result: CalculatedConveyor) -> Iterator[Check]:
@@ -613,9 +604,7 @@ def belt_drift(result: CalculatedConveyor) -> Iterator[Check]:
         yield _drift_check(bend, outside, "outside", -outside.outside, cure)
 
 
-def _drift_check(
-    bend: HorizontalCurveCheck, state: DriftState, way: str, drift: float, cure: Message
-) -> Check:
+def _drift_check(bend: HorizontalCurveCheck, state: DriftState, way: str, drift: float, cure: Message) -> Check:
     room, section = bend.turn.room, escape_braces(bend.section)
     off = math.isinf(drift)
     how = message("runs off its rolls" if off else "drifts by {}", *(() if off else ((drift, "thickness"),)))
@@ -654,9 +643,7 @@ def _transition_check(of: TransitionCheck, least: float | None, fine: str, bad: 
             (of.highest, "belt rating"),
         )
         asked = message("no length helps")
-        return Check(
-            key, subject, length, None, "length", message("{}", (length, "length")), asked, "FAIL", why
-        )
+        return Check(key, subject, length, None, "length", message("{}", (length, "length")), asked, "FAIL", why)
     why = message(
         f"{of.zone.end} transition: {bad} over {{}}; at least {{}} are needed (ISO 5293 taken on to every strip)"
         + ("; or raise the pulley towards half trough" if of.zone.pulley_height < _HALF_TROUGH else ""),
@@ -784,9 +771,7 @@ def starting_force(result: CalculatedConveyor) -> Iterator[Check]:
                 "requires {required}: more power or torque"
             )
             given, limit, relation = start.least, result.balance.settled.force, _AT_LEAST
-        yield check_against_limit(
-            "starting_force", "starting force, motors", given, relation, limit, "force", why=why
-        )
+        yield check_against_limit("starting_force", "starting force, motors", given, relation, limit, "force", why=why)
     given = start.standstill if result.start_of_motors is None else result.start_of_motors
     yield check_against_limit(
         "breakaway", "starting force after standstill", given, "at least", start.breakaway, "force",
@@ -807,9 +792,7 @@ def comes_to_rest(result: CalculatedConveyor) -> Iterator[Check]:
         )
     words = _rest_text(alone, moving.runaway)
     safe = alone is not None or stopped is not None
-    asked = message(
-        "a stop at minimum friction" if brakes == 0.0 else "a stop at minimum friction, or brakes"
-    )
+    asked = message("a stop at minimum friction" if brakes == 0.0 else "a stop at minimum friction, or brakes")
     yield Check(
         "comes_to_rest", message("coast-down stop"), None if alone is None else alone.time, None,
         "duration", words, asked, pass_or_fail(holds=safe), why, _AT_MOST,
@@ -912,9 +895,7 @@ def coasting_time(result: CalculatedConveyor) -> Iterator[Check]:
     inertia = coasting_flywheel(result.line, result.motions)
     figures = () if inertia is None else ((inertia, "inertia"),)
     cure = ": a flywheel of {} at the motors' shafts" if figures else ""
-    why = message(
-        f"the conveyor coasts for {stopped.time:,.1f} s, {wanted:,.1f} s are wanted{cure}", *figures
-    )
+    why = message(f"the conveyor coasts for {stopped.time:,.1f} s, {wanted:,.1f} s are wanted{cure}", *figures)
     yield check_against_limit(
         "coasting_time", "coasting without power", stopped.time, "at least", wanted, "time", why=why,
         wording=message(f"{stopped.time:,.1f} s"), asked=message(f"at least {wanted:,.1f} s"),
@@ -940,9 +921,7 @@ def bulk_slip(result: CalculatedConveyor) -> Iterator[Check]:
         ("bulk_slip_stopping", "on stopping", -hardest, -slip.braking, slip.braking_at),
         ("bulk_slip_start", "on starting", fastest, slip.starting, slip.starting_at),
     ):
-        why = (
-            f'the material slips {when}: {{calculated}}, section "{escape_braces(where)}" allows {{required}}'
-        )
+        why = f'the material slips {when}: {{calculated}}, section "{escape_braces(where)}" allows {{required}}'
         yield check_against_limit(
             key, f"no material slip {when}", occurs, "at most", allowed, "acceleration", why=why, where=where
         )
@@ -1112,9 +1091,7 @@ def _coverage_check(
 
 def unsearched_criteria(line: Line) -> frozenset[str]:
     """Keys of criteria that are checked under the calculated loads only, not under the worst loading."""
-    return _CALCULATED_LOADS_ONLY | (
-        _SECTION_CRITERIA if line.count > SINGLE_CHANGE_SECTIONS else frozenset()
-    )
+    return _CALCULATED_LOADS_ONLY | (_SECTION_CRITERIA if line.count > SINGLE_CHANGE_SECTIONS else frozenset())
 
 
 def rubber_data_suffice(result: CalculatedConveyor) -> bool:

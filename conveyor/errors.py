@@ -63,9 +63,7 @@ class ConveyorError(Exception):
     def told(self, write: Callable[[Any], object]) -> Self:
         """Copy of the error, its parts and those of nested errors written by `write`."""
         twin = copy(self)
-        twin.args = (
-            self._said(lambda part: part.told(write) if isinstance(part, ConveyorError) else write(part)),
-        )
+        twin.args = (self._said(lambda part: part.told(write) if isinstance(part, ConveyorError) else write(part)),)
         return twin
 
     def at(self, place: str) -> ConveyorError:

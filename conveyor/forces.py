@@ -299,9 +299,7 @@ def _guidance_force(stretch: Stretch, _gravity: float) -> float:
 def _guidance_forces(fixed: RubberFreeForces) -> Iterator[Force]:
     if fixed.guidance is not None:
         law = "guiding friction x sine of the skew, derived"
-        yield Force(
-            "guidance", "skewed idlers in horizontal curves", "special", fixed.guidance, law, short="guidance"
-        )
+        yield Force("guidance", "skewed idlers in horizontal curves", "special", fixed.guidance, law, short="guidance")
 
 
 def _lift_force(stretch: Stretch, gravity: float) -> float:
@@ -404,9 +402,7 @@ def _plough_forces(line: Line) -> Iterator[Force]:
     if line.flow == 0.0:
         return
     for i, plough in enumerate(line.ploughs, start=1):
-        force = plough_resistance(
-            plough.width, scraping_factor=plough.scraping_factor, n_ploughs=plough.count
-        )
+        force = plough_resistance(plough.width, scraping_factor=plough.scraping_factor, n_ploughs=plough.count)
         yield Force(
             "plough", f"plough {i} (x{plough.count})", "special", force, "ISO 5048, F_a",
             spot=plough.spot, place=plough.place,
@@ -464,7 +460,5 @@ def _pulley_resistance(line: Line, pulley: BendPulley) -> PulleyResistance:
         )
         for tension in (0.0, _SLOPE_TENSION)
     )
-    turn = pulley_bearing_resistance(
-        1.0, shaft_diameter=pulley.shaft_diameter, pulley_diameter=pulley.diameter
-    )
+    turn = pulley_bearing_resistance(1.0, shaft_diameter=pulley.shaft_diameter, pulley_diameter=pulley.diameter)
     return PulleyResistance(pulley, (slack, (taut - slack) / _SLOPE_TENSION), None if pulley.driven else turn)

@@ -99,9 +99,7 @@ class RollContact:
 
     def __post_init__(self) -> None:
         if (self.support == "belt") != (self.backing is not None):
-            raise InputError(
-                f"backing = {self.backing!r}: support {self.support!r}; a belt, and no other, has one"
-            )
+            raise InputError(f"backing = {self.backing!r}: support {self.support!r}; a belt, and no other, has one")
         for name in ("radius", "spacing", "cover_thickness", "speed"):
             value = getattr(self, name)
             require_number(**{name: value})
@@ -467,9 +465,7 @@ def curve_resistances(curves: Sequence[IndentationCurve], line_loads: Sequence[A
     return [friction * w for friction, w in zip(found, line_loads, strict=True)]
 
 
-def indentation_curve(
-    contact: RollContact, lowest: float, highest: float, rtol: float = 1e-6
-) -> IndentationCurve:
+def indentation_curve(contact: RollContact, lowest: float, highest: float, rtol: float = 1e-6) -> IndentationCurve:
     """Solve a roll's contact for every line load between two.
 
     Parameters

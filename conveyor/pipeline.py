@@ -275,9 +275,7 @@ class CalculatedConveyor:
         return self.contacts.error
 
 
-def common_take_up_duty(
-    loads: Sequence[CalculatedConveyor], temperatures: Iterable[float] = ()
-) -> TakeUpDuty:
+def common_take_up_duty(loads: Sequence[CalculatedConveyor], temperatures: Iterable[float] = ()) -> TakeUpDuty:
     """Setting, mass and travel of the take-up for several loads calculated at one setting.
 
     The travel covers further `temperatures` of the belt [K], too.
@@ -383,9 +381,7 @@ def calculate_many(
             else:
                 refused[i] = one
             tell(len(variants) - len(going), len(loaded))
-        for i, result in _close_all_loops(
-            variants, loaded, _solve_all_contacts(shared, loaded, going, rtol)
-        ).items():
+        for i, result in _close_all_loops(variants, loaded, _solve_all_contacts(shared, loaded, going, rtol)).items():
             if isinstance(result, CalculatedConveyor):
                 made[i] = result
             else:
@@ -620,9 +616,7 @@ class ReuseCache:
         self.covers.clear()
         self.curves.clear()
 
-    def once(
-        self, make: Callable[[], T], what: str, parts: Iterable[object], values: tuple[object, ...] = ()
-    ) -> T:
+    def once(self, make: Callable[[], T], what: str, parts: Iterable[object], values: tuple[object, ...] = ()) -> T:
         """Cached value for the same parts and equal values, made if absent."""
         key = (what, *map(_IdentityKey, parts), *values)
         made: T = self._made.pop(key, _MISSING)
@@ -677,9 +671,7 @@ class _BatchContext:
         asked = [(compound, one.calculation.strain != "off") for one, each in compounds for compound in each]
         self._theories = _missing_theories(self._anchors, asked)
 
-    def loaded(
-        self, asked: Mapping[int, tuple[Variant, CurveLoads]]
-    ) -> Iterator[tuple[int, _PreparedLine | NoAnswer]]:
+    def loaded(self, asked: Mapping[int, tuple[Variant, CurveLoads]]) -> Iterator[tuple[int, _PreparedLine | NoAnswer]]:
         """Lines of variants under the loads on their curves, with their covers at small strain.
 
         An error where the belt lifts off on a concave curve or runs off its rolls on a horizontal one, a compound is
@@ -691,9 +683,7 @@ class _BatchContext:
                 still[i] = self._line_without_drag(variant.conveyor, on_curves)
             except (NoSolutionError, RangeError, InputError) as error:
                 still[i] = error
-        self._drag(
-            [(asked[i][0].conveyor, one) for i, one in still.items() if isinstance(one, _PreparedLine)]
-        )
+        self._drag([(asked[i][0].conveyor, one) for i, one in still.items() if isinstance(one, _PreparedLine)])
         for i, one in still.items():
             try:
                 yield i, self._in_air(asked[i][0], one) if isinstance(one, _PreparedLine) else one
@@ -703,9 +693,7 @@ class _BatchContext:
     def _drag(self, lines: Iterable[tuple[Conveyor, _PreparedLine]]) -> None:
         """Calculate the unknown drags of all rolls in one batch."""
         asked = {
-            (one, _drag_air_temperature(given)): (given, one)
-            for given, line in lines
-            for one in line.line.strands.each
+            (one, _drag_air_temperature(given)): (given, one) for given, line in lines for one in line.line.strands.each
         }
         new = {key: pair for key, pair in asked.items() if key not in self._drags}
         self._drags.update(zip(new, roll_drags_many(list(new.values())), strict=True))
@@ -714,9 +702,7 @@ class _BatchContext:
         """Line with the drags of its rolls and its covers at small strain."""
         given, at = variant.conveyor, variant.covers_at
         compounds = compounds_by_strand(given)
-        rubber = cover_series(
-            given, lambda one: self._kept.once(partial(one.series, at), "series", (one,), (at,))
-        )
+        rubber = cover_series(given, lambda one: self._kept.once(partial(one.series, at), "series", (one,), (at,)))
         gives = given.calculation.support == "belt"
         acted = self._own if still.has_curve_loads else self._kept
         running = acted.once(
@@ -760,9 +746,7 @@ class _BatchContext:
             return work
         rubber, (fastest, slowest) = work.cover.rubber, times
         cut = tuple(rubber.times.searchsorted(times).tolist())
-        less = self._kept.once(
-            lambda: rubber.merged(fastest=fastest, slowest=slowest), "merged", (rubber,), cut
-        )
+        less = self._kept.once(lambda: rubber.merged(fastest=fastest, slowest=slowest), "merged", (rubber,), cut)
         return replace(work, cover=replace(work.cover, rubber=less, merged=2.0 * TERM_MERGE_SHARE * rtol))
 
     def _line_without_drag(self, given: Conveyor, on_curves: CurveLoads) -> _PreparedLine:
@@ -806,9 +790,7 @@ class _BatchContext:
         self._running |= {work: one for work in asked if (one := known.pop(work, None)) is not None}
         new = [work for work in asked if work not in self._running]
         tests = [work for theory in self._theories for work in theory.works]
-        runs = [
-            [loaded[i].works[strand] for i in run if i in loaded] for run in self._runs for strand in STRANDS
-        ]
+        runs = [[loaded[i].works[strand] for i in run if i in loaded] for run in self._runs for strand in STRANDS]
         unknown = set(new)
         covers, soft = softened_covers(new, tests, [run for run in runs if unknown.issuperset(run)])
         self._running.update(zip(new, covers, strict=True))
@@ -819,8 +801,7 @@ class _BatchContext:
             self._anchors += zip(theory.compounds, repeat(theory.softened), levels, strict=False)
         self._theories = []
         return {
-            i: _all_or_error({strand: self._at_level(one, strand) for strand in one.works})
-            for i, one in loaded.items()
+            i: _all_or_error({strand: self._at_level(one, strand) for strand in one.works}) for i, one in loaded.items()
         }
 
     def _at_level(self, loaded: _PreparedLine, strand: Strand) -> CoverState | NoAnswer:

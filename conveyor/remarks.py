@@ -121,11 +121,7 @@ def _rubber_assumption(conveyor: Conveyor) -> str:
     )
     at = "at the strain its data were measured at"
     if softened:
-        rest = (
-            ""
-            if len(softened) == len({c.name for c in compounds_by_strand(conveyor).values()})
-            else f", else {at}"
-        )
+        rest = "" if len(softened) == len({c.name for c in compounds_by_strand(conveyor).values()}) else f", else {at}"
         at = f"at its working strain under the rolls ({', '.join(softened)}{rest})"
     return f"Rubber is linearly viscoelastic {at}; Poisson's ratio is constant."
 
@@ -177,9 +173,7 @@ def _rubber_warnings(conveyor: Conveyor) -> Iterator[Message]:
         if compound.kind == "illustrative":
             yield message(f'compound "{name}" is illustrative, not measured: for comparison, not for design')
         if strand == "return" and conveyor.belt.top_cover.compound is None and not conveyor.route.turned_over:
-            yield message(
-                f'top_cover.compound is not given: the return rolls run on the bottom cover\'s, "{name}"'
-            )
+            yield message(f'top_cover.compound is not given: the return rolls run on the bottom cover\'s, "{name}"')
         if compound.missing and compound.kind == "measured":
             yield message(f'compound "{name}": unknown: {escape_braces("; ".join(compound.missing))}')
 
@@ -227,18 +221,14 @@ def _test_factor_warnings(result: CalculatedConveyor) -> Iterator[Message]:
         level, name = contacts.covers[strand].level, escape_braces(compound.name)
         if level is not None:
             low, high = contacts.test_factor_range(strand)
-            beyond = (
-                "" if level.anchor.tested_at(level.temperature) else ", held beyond the tested temperatures"
-            )
+            beyond = "" if level.anchor.tested_at(level.temperature) else ", held beyond the tested temperatures"
             yield message(
                 f'compound "{name}": indentation of the {strand} rolls {contacts.test_factor(strand):.2f} times '
                 f"the theory ({percent(low - 1.0)} to +{percent(high - 1.0)}), the level of its "
                 f"rolling-resistance tests{beyond}"
             )
         elif compound.tests:
-            why = (
-                "calculation.anchor is off" if calculation.anchor == "off" else "the support is not confined"
-            )
+            why = "calculation.anchor is off" if calculation.anchor == "off" else "the support is not confined"
             yield message(f'compound "{name}": {why}, its rolling-resistance tests are not used')
         else:
             yield message(
@@ -303,9 +293,7 @@ def _omission_warnings(result: CalculatedConveyor) -> Iterator[Message]:
                 (line.pulleys[0].diameter, "thickness"),
             )
         elif line.belt.steel_cord:
-            yield message(
-                "wrap of a steel-cord belt: coefficients are general knowledge, not read in the standard"
-            )
+            yield message("wrap of a steel-cord belt: coefficients are general knowledge, not read in the standard")
         if not line.loading and line.flow > 0.0:
             yield message("route.feeding not given: acceleration of the material and skirts not included")
     if line.loading and line.loading[0].assumed:
@@ -559,9 +547,7 @@ def _drag_warnings(result: CalculatedConveyor) -> Iterator[Message]:
                 drags = _drags_of_roll(result, strand, idlers, roll)
                 bearing, band = assumed_bearing(roll), SERVICE_DRAG
                 condition = ROLL_CONDITION[conveyor.site].value
-                ends = list(
-                    {format_figure(drag, "force"): drag for drag in (min(drags), max(drags))}.values()
-                )
+                ends = list({format_figure(drag, "force"): drag for drag in (min(drags), max(drags))}.values())
                 yield message(
                     f"idlers.{strand}: roll drag not given, {' to '.join('{}' for _ in ends)} a roll assumed (bearings "
                     f"{bearing}, usual grease and seals in service in air of {{}}, {condition:g} times that of rolls "
@@ -635,9 +621,7 @@ def _library_warnings(conveyor: Conveyor) -> Iterator[Message]:
             continue
         given = model.as_data()
         taken = [
-            name
-            for name in entry.fields
-            if name != "name" and name not in without_entry_fields(given, entry.fields)
+            name for name in entry.fields if name != "name" and name not in without_entry_fields(given, entry.fields)
         ]
         if taken:
             spans = "; ".join(f"{name} {entry.range[name]}" for name in taken if name in entry.range)
@@ -692,6 +676,4 @@ def _other_warnings(conveyor: Conveyor) -> Iterator[Message]:
             "one Ky for the whole conveyor"
         )
         if conveyor.route.feeding is not None and conveyor.calculation.cema.skirt_factor is None:
-            yield message(
-                "calculation.cema.skirt_factor not given: of the skirts only the seals are in CEMA's figures"
-            )
+            yield message("calculation.cema.skirt_factor not given: of the skirts only the seals are in CEMA's figures")

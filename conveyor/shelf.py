@@ -32,9 +32,7 @@ def names(extra: Iterable[str | Path] = ()) -> list[str]:
 
 
 @check_arguments
-def compound(
-    name_or_path: str | Path, *, extra: Iterable[str | Path] = (), base: Path | None = None
-) -> RubberCompound:
+def compound(name_or_path: str | Path, *, extra: Iterable[str | Path] = (), base: Path | None = None) -> RubberCompound:
     """Return a compound by its shelf name (in any case) or the path of its file.
 
     Parameters
@@ -58,12 +56,7 @@ def compound(
     'measured'
     """
     text = str(name_or_path)
-    if (
-        isinstance(name_or_path, Path)
-        or Path(text).suffix.lower() in SUFFIXES
-        or "/" in text
-        or os.sep in text
-    ):
+    if isinstance(name_or_path, Path) or Path(text).suffix.lower() in SUFFIXES or "/" in text or os.sep in text:
         return read_compound((base or Path()) / _expand_home(text))
     known = compound_files(extra)
     paths = known.get(text.casefold(), [])
@@ -81,9 +74,7 @@ def _expand_home(text: str) -> Path:
     try:
         return Path(text).expanduser()
     except RuntimeError:
-        raise InputError(
-            f'compound "{text}": no home folder "{Path(text).parts[0]}"; give the path in full'
-        ) from None
+        raise InputError(f'compound "{text}": no home folder "{Path(text).parts[0]}"; give the path in full') from None
 
 
 def read_compound(path: Path) -> RubberCompound:
@@ -108,9 +99,7 @@ def _read_cached(path: Path, _changed: int, _size: int) -> RubberCompound:
     return read_model(RubberCompound, path)
 
 
-def resolver(
-    *, extra: Iterable[str | Path] = (), base: Path | None = None
-) -> Callable[[str], RubberCompound]:
+def resolver(*, extra: Iterable[str | Path] = (), base: Path | None = None) -> Callable[[str], RubberCompound]:
     """Return the function by which models look up compounds while a spec is read.
 
     Raises

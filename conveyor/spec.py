@@ -56,9 +56,7 @@ def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
     if where.suffix.lower() in _TABLE_ENDINGS:
         raise InputError(f"{where}: a workbook or table is read as .xlsx only; save a workbook as .xlsx")
     if where.suffix.lower() not in {".yaml", ".yml", ".json"} and not where.is_dir():
-        raise InputError(
-            f'{where}: expected a file that ends in .yaml, .yml, .json or .xlsx, got "{where.name}"'
-        )
+        raise InputError(f'{where}: expected a file that ends in .yaml, .yml, .json or .xlsx, got "{where.name}"')
     return read_model(Conveyor, where, {"compound": shelf.resolver(extra=shelves, base=where.parent)})
 
 

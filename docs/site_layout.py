@@ -21,10 +21,7 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     root = Path(config.config_file_path).parent
     paths = sorted({p.relative_to(root).as_posix() for part in (*PAGES, *LINKED) for p in root.glob(part)})
     here = [File(path, str(root), config.site_dir, config.use_directory_urls) for path in paths]
-    made = [
-        File.generated(config, f"interface/{name}.md", content=f"# {name}\n\n::: {name}\n")
-        for name in INTERFACE
-    ]
+    made = [File.generated(config, f"interface/{name}.md", content=f"# {name}\n\n::: {name}\n") for name in INTERFACE]
     return Files([*(file for file in files if file.src_dir != config.docs_dir), *here, *made])
 
 

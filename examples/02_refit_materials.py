@@ -204,9 +204,7 @@ def measured_text(compound: Measured) -> str:
     found = refit(compound.name).compound.replace(
         description=compound.description, missing=compound.missing, strain="not stated"
     )
-    return dump(
-        found, "Written by examples/02_refit_materials.py; change the data or the script, not this file."
-    )
+    return dump(found, "Written by examples/02_refit_materials.py; change the data or the script, not this file.")
 
 
 @dataclass(frozen=True)
@@ -276,8 +274,7 @@ def drawn_shapes(cover: Illustrative) -> list[Shape]:
         shapes.append(
             Shape(
                 {rubber: t + GLASS_OFF * off for (rubber, t), off in zip(GLASS.items(), hotter, strict=True)},
-                {first: cover.blend[first] + more}
-                | {rubber: rest * cover.blend[rubber] for rubber in others},
+                {first: cover.blend[first] + more} | {rubber: rest * cover.blend[rubber] for rubber in others},
                 0.6 + SHAPE_OFF * slow,
                 0.3 + SHAPE_OFF * fast,
                 0.12 + TAIL_OFF * tail,
@@ -316,9 +313,7 @@ def payne_lines(cover: Illustrative, series: PronySeries, law: WLF) -> list[str]
     ]
     for celsius in SWEEP_TEMPERATURES:
         far = cover.far + FAR_PER_KELVIN * (celsius - REFERENCE)
-        kraus = KrausLaw(
-            1.0, far, cover.peak, 1.0, CRITICAL_STRAIN, KRAUS_EXPONENT, CRITICAL_STRAIN, KRAUS_EXPONENT
-        )
+        kraus = KrausLaw(1.0, far, cover.peak, 1.0, CRITICAL_STRAIN, KRAUS_EXPONENT, CRITICAL_STRAIN, KRAUS_EXPONENT)
         held = float(kraus.storage(SMALL_STRAIN)), float(kraus.loss(SMALL_STRAIN))
         a_T = 10.0 ** float(law.log10_a_T(celsius + ZERO_CELSIUS))
         modulus = series.modulus(2.0 * math.pi * TARGET_FREQUENCY * a_T)
@@ -337,10 +332,7 @@ def payne_lines(cover: Illustrative, series: PronySeries, law: WLF) -> list[str]
 
 def illustrative_text(cover: Illustrative) -> str:
     series, law = construct(cover)
-    shares = [
-        f"{100.0 * share:.0f} % {rubber} (T_g {GLASS[rubber]:g} degC)"
-        for rubber, share in cover.blend.items()
-    ]
+    shares = [f"{100.0 * share:.0f} % {rubber} (T_g {GLASS[rubber]:g} degC)" for rubber, share in cover.blend.items()]
     blend = f"{', '.join(shares[:-1])} and {shares[-1]}"
     lines = [
         "# Written by examples/02_refit_materials.py; change the script, not this file.",

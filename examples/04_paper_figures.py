@@ -52,9 +52,7 @@ STYLE = {
 }
 
 
-def scene(
-    radius: float, thickness: float, load: float, zeta: float, *, support: str = "free"
-) -> ContactProblem:
+def scene(radius: float, thickness: float, load: float, zeta: float, *, support: str = "free") -> ContactProblem:
     """Problem at R̃, k h, p̃_m, ζ; one retardation time."""
     instantaneous = 1.0 / MODULUS_RATIO
     creep = CreepSpectrum(instantaneous, [1.0 - instantaneous], [zeta])
@@ -94,9 +92,7 @@ class Line:
     split: NDArray[np.bool_]
 
     @classmethod
-    def of(
-        cls, x: ArrayLike, solutions: Sequence[ContactSolution], value: Callable[[ContactSolution], float]
-    ) -> Line:
+    def of(cls, x: ArrayLike, solutions: Sequence[ContactSolution], value: Callable[[ContactSolution], float]) -> Line:
         """Values of the solutions at x."""
         answered = np.array([s.status in {Status.OK, Status.TOO_DEEP} for s in solutions])
         y = [value(s) if good else 0.0 for s, good in zip(solutions, answered, strict=True)]
@@ -145,9 +141,7 @@ def figure_2(points: int) -> tuple[Figure, Tally]:
     near = np.linspace(-1.0, 1.0, 16 * points + 1)
     for column, (thickness, name) in enumerate(((1.0, "a"), (0.8, "b"))):
         top, bottom = axes[:, column]
-        moving, resting = tally.solved(
-            [scene(radius, thickness, load, zeta), scene(radius, thickness, load, 0.0)]
-        )
+        moving, resting = tally.solved([scene(radius, thickness, load, zeta), scene(radius, thickness, load, 0.0)])
         face = moving.profile(x)
         top.fill_between(x, face, 0.75, color="0.93", lw=0)
         top.plot(x, face, color=BLUE)

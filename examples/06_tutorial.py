@@ -39,9 +39,7 @@ result = conveyor.analyse(line)
 power, forces = result.balance.power, result.balance.forces
 print(f"motor {power.motor / 1e3:.1f} kW, effective tension {forces.total / 1e3:.1f} kN")
 print(f"indentation is {forces.indentation / forces.main:.0%} of the main resistance")
-print(
-    f"f = {result.balance.friction_factor:.4f}; the classical estimate took {line.calculation.friction_factor}"
-)
+print(f"f = {result.balance.friction_factor:.4f}; the classical estimate took {line.calculation.friction_factor}")
 for remark in result.assumptions[:3]:
     print("-", remark)
 
@@ -86,9 +84,7 @@ comparison = conveyor.compare_compounds(
     ["standard-cover", "low-rolling-resistance-cover", "s100"],
     temperatures=[f"{celsius} degC" for celsius in range(-20, 41, 10)],
 )
-comparison.ranking[
-    ["compound", "mean motor power [kW]", "peak motor power [kW]", "at temperature [degC]"]
-].round(1)
+comparison.ranking[["compound", "mean motor power [kW]", "peak motor power [kW]", "at temperature [degC]"]].round(1)
 
 # %% [markdown]
 # ## Plot

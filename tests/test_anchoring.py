@@ -14,9 +14,7 @@ from conveyor.measured.rolling_test_table import read_rolling_tests
 from conveyor.results import rolling_test_calibration
 from tests.test_cli import run
 
-HEAD = (
-    "line load [N/mm];resistance [N/m];roll diameter [mm];cover thickness [mm];speed [m/s];temperature [degC]"
-)
+HEAD = "line load [N/mm];resistance [N/m];roll diameter [mm];cover thickness [mm];speed [m/s];temperature [degC]"
 
 
 @pytest.fixture(scope="module")
@@ -91,9 +89,7 @@ def test_resistance_goes_with_the_line_load_as_rolls_have_it(carrier, tmp_path, 
     path.write_text(campaign(carrier, POINTS, lambda load, *_: 1.5 * (load / 2.0) ** tilt), encoding="utf-8")
     tests = read_rolling_tests(path)
     if said == "refused":
-        with pytest.raises(
-            InputError, match=r"line load to the power of \d\.\d+, where rolls have 1\.1 to 1\.[45]"
-        ):
+        with pytest.raises(InputError, match=r"line load to the power of \d\.\d+, where rolls have 1\.1 to 1\.[45]"):
             rolling_test_calibration.calibrate_compound(carrier, tests, softened=False)
         return
     lines = rolling_test_calibration.calibration_notes(
@@ -153,9 +149,7 @@ def test_scatter_of_the_transfer_is_the_band(carrier, tmp_path):
     found = rolling_test_calibration.calibrate_compound(carrier, tests, softened=False)
     assert found.compound.carrier is None
     # residuals are half of ln 1.1 everywhere: 12 rows, 3 parameters
-    assert found.anchor.half_width == pytest.approx(
-        1.644854 * 0.5 * math.log(1.1) * math.sqrt(12 / 9), rel=5e-3
-    )
+    assert found.anchor.half_width == pytest.approx(1.644854 * 0.5 * math.log(1.1) * math.sqrt(12 / 9), rel=5e-3)
     assert any("4 tests" in line for line in rolling_test_calibration.calibration_notes(found))
 
 

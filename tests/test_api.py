@@ -77,9 +77,7 @@ def test_results_are_of_the_type_that_help_states() -> None:
     for function in (conveyor.analyse, conveyor.analyse_cases):
         stated = inspect.signature(function).return_annotation
         assert type(function(line)) is stated
-        assert f"-> {stated.__module__}.{stated.__name__}" in pydoc.render_doc(
-            function, renderer=pydoc.plaintext
-        )
+        assert f"-> {stated.__module__}.{stated.__name__}" in pydoc.render_doc(function, renderer=pydoc.plaintext)
 
 
 def test_options_are_those_of_what_is_called() -> None:
@@ -94,8 +92,7 @@ def test_options_are_those_of_what_is_called() -> None:
     )
     for door, behind in pairs:
         given, wanted = (
-            [p for p in inspect.signature(f).parameters.values() if p.kind is p.KEYWORD_ONLY]
-            for f in (door, behind)
+            [p for p in inspect.signature(f).parameters.values() if p.kind is p.KEYWORD_ONLY] for f in (door, behind)
         )
         assert given == wanted
         assert len(given) >= 2
@@ -103,9 +100,7 @@ def test_options_are_those_of_what_is_called() -> None:
 
 def test_unknown_options_are_refused() -> None:
     line = conveyor.load(SPECS / "shuttle.yaml")
-    with pytest.raises(
-        conveyor.InputError, match="compare: got an unexpected keyword argument 'temperature'"
-    ):
+    with pytest.raises(conveyor.InputError, match="compare: got an unexpected keyword argument 'temperature'"):
         conveyor.compare(line, ["s100"], temperature=["20 degC"])  # type: ignore[call-arg]
     with pytest.raises(conveyor.InputError, match="size: got an unexpected keyword argument 'most'"):
         conveyor.size("duty.yaml", most=3)  # type: ignore[call-arg]
@@ -125,9 +120,7 @@ def test_what_files_hold_is_data_of_the_public_interface() -> None:
 
 
 def test_analyse_says_what_it_takes() -> None:
-    with pytest.raises(
-        conveyor.InputError, match=r"analyse: takes a Conveyor, got str; conveyor\.load\(path\)"
-    ):
+    with pytest.raises(conveyor.InputError, match=r"analyse: takes a Conveyor, got str; conveyor\.load\(path\)"):
         conveyor.analyse("mine.yaml")  # type: ignore[arg-type]
 
 
@@ -142,9 +135,7 @@ def test_what_people_print_is_one_line_with_its_figures() -> None:
     line = conveyor.load(SPECS / "overland_10km.yaml")
     result = conveyor.analyse(line)
     omega = 2.0 * np.pi * np.logspace(-2.0, 4.0, 25)
-    fit = fit_prony(
-        omega / (2.0 * np.pi), SERIES.storage(omega), SERIES.loss(omega), times=SERIES.times[3:-2]
-    )
+    fit = fit_prony(omega / (2.0 * np.pi), SERIES.storage(omega), SERIES.loss(omega), times=SERIES.times[3:-2])
     for shown in (line, line.carry_compound, result.balance, fit, *result.checks):
         assert str(shown) == repr(shown)
         assert len(repr(shown)) < 300
@@ -227,10 +218,7 @@ def test_an_answer_for_one_file_does_not_refuse_another(tmp_path: Path) -> None:
     assert read.storage is not None
     assert read.storage.max() == pytest.approx(SERIES.storage(2.0 * np.pi * 1e4), rel=1e-5)
     isotherms = SPECS.parent / "laboratory" / "isotherms.csv"  # states its temperatures
-    told = [
-        read_with_answers(p, {"temperature": 293.15}, poisson_ratio=0.5, several=True)
-        for p in (isotherms, master)
-    ]
+    told = [read_with_answers(p, {"temperature": 293.15}, poisson_ratio=0.5, several=True) for p in (isotherms, master)]
     assert np.ptp(told[0].temperature) > 80.0  # -36 to 48 degC
     assert told[1].temperature == pytest.approx(293.15)
 
@@ -242,11 +230,7 @@ def test_studies_show_themselves_in_one_line() -> None:
         operation={"price": "0.1 USD/kWh", "duty": [{"hours": "3000 h", "share": "100 %"}]},
     )
     made = conveyor.studies.calculate_studies(line)
-    assert (
-        repr(made)
-        == repr(conveyor.analyse_studies(line))
-        == "Studies(states, cases, duty, uncertainty, flooded)"
-    )
+    assert repr(made) == repr(conveyor.analyse_studies(line)) == "Studies(states, cases, duty, uncertainty, flooded)"
     compared = conveyor.compare_compounds(line, ["s100"])
     for shown in map(repr, (made, made.states, made.cases, made.duty, made.uncertainty, compared)):
         assert len(shown) < 300

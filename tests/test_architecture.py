@@ -74,11 +74,7 @@ def test_labels_hold_no_units():
 def _without_docstrings(name: str, text: str) -> str:
     lines = text.split("\n")
     for node in ast.walk(TREES[name]):
-        if (
-            isinstance(node, ast.Expr)
-            and isinstance(node.value, ast.Constant)
-            and isinstance(node.value.value, str)
-        ):
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str):
             for i in range(node.lineno - 1, node.end_lineno or node.lineno):
                 lines[i] = ""
     return "\n".join(lines)
@@ -128,9 +124,7 @@ def test_public_class_names_stand_once():
 
 def test_a_public_law_has_a_caller_or_a_validation():
     """Else nobody knows whether it is right, and nobody misses it."""
-    validations = "\n".join(
-        path.read_text(encoding="utf-8") for path in (ROOT / "tests" / "validation").glob("*.py")
-    )
+    validations = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "tests" / "validation").glob("*.py"))
     idle = []
     for name, tree in TREES.items():
         if not name.startswith("conveyor.laws"):

@@ -33,9 +33,7 @@ def test_power_json_is_clean_and_complete() -> None:
     assert set(forces) == {
         "indentation", "idler_rotation", "flexure", "misalignment", "secondary", "special", "lift", "total",
     }  # fmt: skip
-    assert forces["total"] == pytest.approx(
-        math.fsum(v for k, v in forces.items() if k != "total"), rel=1e-12
-    )
+    assert forces["total"] == pytest.approx(math.fsum(v for k, v in forces.items() if k != "total"), rel=1e-12)
     assert found["power_kW"]["belt"] == pytest.approx(forces["total"] * 5.0 / 1e3, rel=1e-12)
     assert found["power_kW"]["motor"] == pytest.approx(found["power_kW"]["belt"] / 0.94, rel=1e-12)
     # no part between mains and motor shaft given
@@ -117,9 +115,7 @@ def test_unwritable_workbooks(target: str, tmp_path: Path) -> None:
 
 
 def test_contact_prints_the_reference_case() -> None:
-    arguments = (
-        "--support free --radius 0.4 --thickness 1 --pressure 0.05 --weight 0.9 --time 1 --rtol 1e-9 --json"
-    )
+    arguments = "--support free --radius 0.4 --thickness 1 --pressure 0.05 --weight 0.9 --time 1 --rtol 1e-9 --json"
     done = run("contact", *arguments.split())
     found = json.loads(done.stdout)
     assert found["friction"] == pytest.approx(0.285055390817, rel=1e-9)
@@ -138,9 +134,7 @@ def test_contact_that_splits_shows_its_strips() -> None:
         pytest.approx([-0.57405087749, 0.11803574191], abs=1e-6),
         pytest.approx([0.32586797997, 0.74153527656], abs=1e-6),
     ]
-    assert (
-        "-0.574051 to 0.118036, 0.325868 to 0.741535" in run("contact", *SPLIT, "--pressure", "0.13").stdout
-    )
+    assert "-0.574051 to 0.118036, 0.325868 to 0.741535" in run("contact", *SPLIT, "--pressure", "0.13").stdout
 
 
 def test_contact_of_given_penetration() -> None:
@@ -338,10 +332,7 @@ def test_fit_counts_a_sweep_under_a_percent_sign_from_the_strain_given(tmp_path:
     sweep.write_text("\n".join(["Dehnung;E';E''", "%;MPa;MPa", *rows]), encoding="utf-8")
     done = run("fit", *arguments)
     assert done.returncode == 2
-    assert (
-        'temperature and frequency of the strain sweep not stated; give every row a column "temp'
-        in done.stderr
-    )
+    assert 'temperature and frequency of the strain sweep not stated; give every row a column "temp' in done.stderr
     rows = [f"{row};20;10" for row in rows]
     sweep.write_text("\n".join(["Dehnung;E';E'';T;f", "%;MPa;MPa;degC;Hz", *rows]), encoding="utf-8")
     done = run("fit", *arguments, "-o", compound)

@@ -123,9 +123,7 @@ def test_comparison_writes_a_page_and_figures(tmp_path):
         "v.svg",
     )
     spec = SPECS / "in_plant_us.yaml"
-    shown = run(
-        "compare", spec, *options, *files, "--speed", "550,600 fpm", "--units", "us", cwd=tmp_path
-    ).stdout
+    shown = run("compare", spec, *options, *files, "--speed", "550,600 fpm", "--units", "us", cwd=tmp_path).stdout
     assert {path.name for path in tmp_path.iterdir()} == {"c.html", "c.csv", "t", "t.svg", "v.svg"}
     assert f"tables: {len(list((tmp_path / 't').iterdir()))} in t" in shown
     head, first, *_ = (tmp_path / "c.csv").read_text(encoding="utf-8").splitlines()

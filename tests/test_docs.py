@@ -133,9 +133,7 @@ def merged(base: Any, other: Any) -> Any:
 FRAGMENTS = [(page, i) for page in PAGES for i, b in enumerate(blocks(page)) if b.language == "yaml"]
 
 
-@pytest.mark.parametrize(
-    ("page", "number"), FRAGMENTS, ids=lambda x: named(x) if isinstance(x, Path) else str(x)
-)
+@pytest.mark.parametrize(("page", "number"), FRAGMENTS, ids=lambda x: named(x) if isinstance(x, Path) else str(x))
 def test_fragment_of_a_spec(page: Path, number: int) -> None:
     """A whole spec runs as it stands, a fragment merged into the overland example."""
     fragment = YAML(typ="safe").load(blocks(page)[number].text)
@@ -162,8 +160,7 @@ def test_defaults_on_the_designers_page_do_what_it_says() -> None:
 
     assert f"motor {motor({})} kW)" in text
     drags = [
-        motor({"idlers": {s: {"roll": {"drag": d}} for s in ("carry", "return")}})
-        for d in ("1 N", "1.6 N", "4 N")
+        motor({"idlers": {s: {"roll": {"drag": d}} for s in ("carry", "return")}}) for d in ("1 N", "1.6 N", "4 N")
     ]
     assert f"| 1 / 1.6 / 4 N | {' / '.join(drags)} kW |" in text
     shares = [motor({"calculation": {"flexure_share": share}}) for share in ("5 %", "20 %")]

@@ -57,9 +57,7 @@ def read_ansys(text: str) -> tuple[float, np.ndarray, list[str]]:
         if words[0] == "TBDATA":
             for k, value in enumerate(words[2:]):
                 constants[kind, int(words[1]) + k] = float(value)
-    shear, bulk = (
-        [v for (of, _), v in sorted(constants.items()) if of == name] for name in ("SHEAR", "BULK")
-    )
+    shear, bulk = ([v for (of, _), v in sorted(constants.items()) if of == name] for name in ("SHEAR", "BULK"))
     assert shear == bulk
     count = int(re.search(r"^TB,PRONY,1,,(\d+),SHEAR$", text, re.MULTILINE)[1])  # type: ignore[index]
     assert len(shear) == 2 * count

@@ -34,9 +34,7 @@ LOAD = 10.0 * np.pi
 HERTZ = 1e-4
 """Hertz's parabola and lone roll, against the circle, (a/R)²/8 of them, and rolls 1.2 m apart, (2 π a/λ)²."""
 
-LOSSY = RollContact(
-    radius=0.08, spacing=1.2, cover_thickness=6e-3, speed=4.8, rubber=PronySeries(8e6, [4e6], [1e-3])
-)
+LOSSY = RollContact(radius=0.08, spacing=1.2, cover_thickness=6e-3, speed=4.8, rubber=PronySeries(8e6, [4e6], [1e-3]))
 
 
 @pytest.mark.parametrize(("load", "wider"), [(LOAD, 1.0), (4.0 * LOAD, 2.0)])
@@ -130,9 +128,7 @@ def test_loads_outside_a_curve_are_refused_in_newtons():
 
 
 def test_a_cover_in_millimetres_is_refused():
-    with pytest.raises(
-        InputError, match=r"cover_thickness = 5 m is more than spacing = 1\.2 m: both are in metres"
-    ):
+    with pytest.raises(InputError, match=r"cover_thickness = 5 m is more than spacing = 1\.2 m: both are in metres"):
         replace(RIGID, support="confined", cover_thickness=5.0)
     assert replace(RIGID, support="half-space", cover_thickness=5.0).cover_thickness > RIGID.spacing
 
@@ -140,11 +136,7 @@ def test_a_cover_in_millimetres_is_refused():
 @pytest.mark.parametrize("words", ["80 mm", [0.08], None])
 def test_what_is_no_number_is_refused_by_its_name(words):
     rubber = shelf.compound("s100").series(293.15)
-    with pytest.raises(
-        InputError, match=re.escape(f"radius = {words!r} is not allowed: a number in SI units")
-    ):
+    with pytest.raises(InputError, match=re.escape(f"radius = {words!r} is not allowed: a number in SI units")):
         RollContact(words, 1.5, 0.005, 5.0, rubber)
-    with pytest.raises(
-        InputError, match=re.escape(f"temperature = {words!r} is not allowed: a number in SI")
-    ):
+    with pytest.raises(InputError, match=re.escape(f"temperature = {words!r} is not allowed: a number in SI")):
         shelf.compound("s100").series(words)

@@ -140,9 +140,7 @@ def test_given_shifts_override_those_found(tmp_path: Path, alone):
     changed = np.flatnonzero(found.superposition.log10_a_T != alone.superposition.log10_a_T)
     assert found.superposition.log10_a_T[changed] == pytest.approx([1.5, -1.4])
     assert found.compound.shift.log10_a_t[int(changed[0])] == 1.5
-    assert any(
-        "shift at 0.03 degC given, +1.5000; the isotherms give +1.4" in line for line in found.understood
-    )
+    assert any("shift at 0.03 degC given, +1.5000; the isotherms give +1.4" in line for line in found.understood)
     path.write_text("temperature_degC,log10_aT\n3,1.5\n48,-1.4\n", encoding="utf-8")
     with pytest.raises(InputError, match=r"one\.csv:2: no isotherm at 3\.00 degC"):
         fit_file(FILES[0], Request("x", AT, shift=path))
@@ -239,15 +237,11 @@ def failing(found, conveyor=None) -> set[str]:
 
 
 def test_each_fault_fails_its_own_criterion(tmp_path: Path):
-    head, *rows = [
-        line for line in FILES[0].read_text(encoding="utf-8").splitlines() if not line.startswith("#")
-    ]
+    head, *rows = [line for line in FILES[0].read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
 
     def fitted(change) -> set[str]:
         path = tmp_path / "changed.csv"
-        path.write_text(
-            "\n".join([head, *(",".join(change(*row.split(","))) for row in rows)]), encoding="utf-8"
-        )
+        path.write_text("\n".join([head, *(",".join(change(*row.split(","))) for row in rows)]), encoding="utf-8")
         return failing(fit_file(path, Request("x", AT, replicas=0, accept=frozenset({"contradiction"}))))
 
     assert not fitted(lambda t, f, a, b: (t, f, a, b))
@@ -290,9 +284,6 @@ def test_repeats_are_averaged_where_that_is_asked_for(tmp_path: Path, alone):
     # the geometric mean of both is the file they were made of; printed digits of the sums alone differ
     assert found.superposition.log10_a_T == pytest.approx(alone.superposition.log10_a_T, abs=1e-6)
     assert found.rows.curve[1] == pytest.approx(alone.rows.curve[1], rel=1e-9)
-    assert (
-        sum("averaged at 11 frequencies; their E' differ by up to 8.2 %" in line for line in found.understood)
-        == 15
-    )
+    assert sum("averaged at 11 frequencies; their E' differ by up to 8.2 %" in line for line in found.understood) == 15
     with pytest.raises(InputError, match=r"are none, their E' differs by a factor of 1\.7: .*--exclude"):
         fit_file(pairs(tmp_path / "odd.csv", apart=0.2, factor=1.3), Request("x", AT, repeats=True))

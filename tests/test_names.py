@@ -9,9 +9,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
 FILES = sorted((ROOT / "conveyor").rglob("*.py"))
-GLOSSARY = (
-    (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8").partition("\n## Words\n")[2].partition("\n## ")[0]
-)
+GLOSSARY = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8").partition("\n## Words\n")[2].partition("\n## ")[0]
 
 IRREGULAR = set(
     "begun borne bound bought broken brought built chosen cut done drawn driven fallen felt found given gone grown "

@@ -70,9 +70,7 @@ def peak(radius: float, thickness: float, load: float) -> tuple[float, float]:
     logs = np.linspace(-2.0, 1.0, 13)
     near = logs[np.argmax([at(radius, thickness, load, 10.0**x).friction for x in logs])]
     around, fine = (near - 0.25, near + 0.25), {"xatol": 3e-3}
-    best = minimize_scalar(
-        lambda x: -at(radius, thickness, load, 10.0**x).friction, bounds=around, options=fine
-    )
+    best = minimize_scalar(lambda x: -at(radius, thickness, load, 10.0**x).friction, bounds=around, options=fine)
     return 10.0**best.x, -best.fun
 
 
@@ -126,9 +124,7 @@ def asymptote() -> Judged:
 def faster_smaller() -> Judged:
     a = [at(0.4, 1.0, 0.05, zeta).half_width for zeta in SPEEDS]
     back = [at(0.1, 1.0, 0.13, zeta).half_width for zeta in (0.1, 1.0, 10.0)]
-    numbers = (
-        f"ã {listed(a)} at ζ 0.01 to 100 (R̃ 0.4, kh 1, p̃ₘ 0.05); it grows again where Δ > R: {listed(back)}"
-    )
+    numbers = f"ã {listed(a)} at ζ 0.01 to 100 (R̃ 0.4, kh 1, p̃ₘ 0.05); it grows again where Δ > R: {listed(back)}"
     return verdict(falling(a) and falling(back), falling(a)), f"{numbers} at ζ 0.1, 1, 10 (R̃ 0.1, p̃ₘ 0.13)"
 
 
@@ -345,9 +341,7 @@ def claim_row(place: str, words: str, judge: Callable[[], Judged]) -> str:
 # Tests
 
 NUMBER = re.compile(r"\d+(?:\.(\d+))?(?:e([+-]\d+))?")
-ROWS = [
-    line for line in DOCS.read_text(encoding="utf-8").splitlines() if line.startswith("| ") and "**" in line
-]
+ROWS = [line for line in DOCS.read_text(encoding="utf-8").splitlines() if line.startswith("| ") and "**" in line]
 
 
 @pytest.mark.parametrize("number", range(len(CLAIMS)), ids=[judge.__name__ for _, _, judge in CLAIMS])

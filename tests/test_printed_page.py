@@ -91,9 +91,7 @@ def written() -> str:
 
 def test_the_page_holds():
     number = r"\d+(?:\.\d+)?"
-    page, made = (
-        re.sub(r"(?<=\d),(?=\d)", "", text) for text in (PAGE.read_text(encoding="utf-8"), written())
-    )
+    page, made = (re.sub(r"(?<=\d),(?=\d)", "", text) for text in (PAGE.read_text(encoding="utf-8"), written()))
     assert re.sub(number, "#", page) == re.sub(number, "#", made), "run: python tests/test_printed_page.py"
     for told, got in zip(re.findall(number, page), re.findall(number, made), strict=True):
         assert float(told) == pytest.approx(float(got), rel=0.011), (told, got)  # three printed digits

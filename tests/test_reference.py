@@ -62,9 +62,7 @@ def test_an_example_outside_its_field_would_be_seen() -> None:
 
 
 def test_page_is_what_the_models_say() -> None:
-    assert PAGE.read_text(encoding="utf-8") == markdown_reference(), (
-        "run: conveyor schema --markdown > docs/spec.md"
-    )
+    assert PAGE.read_text(encoding="utf-8") == markdown_reference(), "run: conveyor schema --markdown > docs/spec.md"
 
 
 def test_command_line_prints_the_page() -> None:
@@ -78,20 +76,14 @@ def test_every_field_is_on_the_page() -> None:
     blocks = re.split(r"\n## The (?:duty|compound)\n", text)
     elsewhere = format_fields(Conveyor)
     for model, block in zip(FORMATS, blocks, strict=True):
-        own = [
-            path
-            for path, leaf in format_fields(model).items()
-            if model is Conveyor or elsewhere.get(path) != leaf
-        ]
+        own = [path for path, leaf in format_fields(model).items() if model is Conveyor or elsewhere.get(path) != leaf]
         keys = {path.split(".")[-1] for path in own}
         assert {key for key in keys if f"| `{key}` |" not in block} == set()
 
 
 def test_every_link_has_its_heading_and_every_heading_is_once() -> None:
     text = markdown_reference()
-    headings = [
-        heading_anchor(line.lstrip("#").strip()) for line in text.splitlines() if line.startswith("#")
-    ]
+    headings = [heading_anchor(line.lstrip("#").strip()) for line in text.splitlines() if line.startswith("#")]
     assert len(headings) == len(set(headings))
     assert set(re.findall(r"\]\(#([^)]+)\)", text)) <= set(headings)
 

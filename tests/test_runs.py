@@ -59,9 +59,7 @@ def test_us_units_and_either_place(tmp_path: Path):
 
 
 def test_cells_may_carry_their_units(tmp_path: Path):
-    (run,) = read_runs(
-        table(tmp_path, "motor power,flow,air temperature,temperature", "0.2 MW,500 kg/s,5 degC,8 degC")
-    )
+    (run,) = read_runs(table(tmp_path, "motor power,flow,air temperature,temperature", "0.2 MW,500 kg/s,5 degC,8 degC"))
     assert (run.watts, run.mass_flow) == pytest.approx((2e5, 500.0))
     assert run.state[3] == pytest.approx(278.15)
 

@@ -177,9 +177,7 @@ def test_errors_of_a_compound_file_carry_its_own_lines(tmp_path: Path) -> None:
     write(tmp_path, "name: mine\nkind: guessed\n", "mine.yaml")
     lines = refusal(write(tmp_path, GOOD.replace("standard-cover", "mine.yaml")))
     assert lines[0].startswith(f"{tmp_path}/spec.yaml:6:45 belt.bottom_cover.compound: ")
-    assert any(
-        f"{tmp_path}/mine.yaml:2:7 kind: got \"guessed\", allowed: 'measured'" in line for line in lines
-    )
+    assert any(f"{tmp_path}/mine.yaml:2:7 kind: got \"guessed\", allowed: 'measured'" in line for line in lines)
 
 
 @pytest.mark.parametrize(
@@ -283,9 +281,7 @@ def test_examples_are_filled_like_real_ones(name: str) -> None:
         trough_angle=si(line.idlers.carry.trough_angle),
         surcharge_angle=si(line.material.surcharge_angle),
     )
-    needed = bulk_line_mass(si(line.material.flow), belt_speed=si(line.belt.speed)) / si(
-        line.material.density
-    )
+    needed = bulk_line_mass(si(line.material.flow), belt_speed=si(line.belt.speed)) / si(line.material.density)
     assert 0.4 < needed / section.area < 0.95
 
 

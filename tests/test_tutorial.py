@@ -105,9 +105,7 @@ def test_notebook_holds_the_cells_of_the_script() -> None:
 
 
 def test_cells_are_read_as_editors_read_them() -> None:
-    text = (
-        '"""Head."""\n\n# %% [markdown]\n# # Title\n#\n# text\n\n# %%\na = 1  # %% no cell\n\n# %%\nb = 2\n'
-    )
+    text = '"""Head."""\n\n# %% [markdown]\n# # Title\n#\n# text\n\n# %%\na = 1  # %% no cell\n\n# %%\nb = 2\n'
     assert cells(text) == [
         ("markdown", "# Title\n\ntext"),
         ("code", "a = 1  # %% no cell"),
@@ -128,11 +126,7 @@ def test_tutorial_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
             before = [one for one in cell["outputs"] if one["output_type"] == "stream"]
             same(told, "".join(before[0]["text"]) if before else "")
             kinds = [kind for one in cell["outputs"] for kind in one.get("data", ())]
-            wanted = (
-                []
-                if last is None
-                else ["image/png" if isinstance(last, Figure) else "text/html", "text/plain"]
-            )
+            wanted = [] if last is None else ["image/png" if isinstance(last, Figure) else "text/html", "text/plain"]
             assert kinds == wanted
     for said in ("motor 1214.8 kW", "f = 0.0129", "standard cover:  1305.8 kW", "at -20 degC:  2002.3 kW"):
         assert said in printed

@@ -179,9 +179,7 @@ def key(quantity: str) -> str:
 
 
 def rows_of(text: str) -> list[list[str]]:
-    lines = (
-        line for line in text.splitlines() if line.startswith("| ") and not line.startswith("| quantity")
-    )
+    lines = (line for line in text.splitlines() if line.startswith("| ") and not line.startswith("| quantity"))
     return [[cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in lines]
 
 

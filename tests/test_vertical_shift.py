@@ -84,10 +84,7 @@ def test_curves_that_contradict_themselves_say_so() -> None:
     assert (ends.verdict, "contradict" in ends.why) == ("FAIL", True)
     mended = fit_file(s120[0], Request("s120", shift=s120[1], replicas=0, vertical=True))
     assert mended.entropic_floor is None
-    assert (
-        next(one for one in fit_verdict.fit_criteria(mended) if one.name == "ends of the window").verdict
-        == "pass"
-    )
+    assert next(one for one in fit_verdict.fit_criteria(mended) if one.name == "ends of the window").verdict == "pass"
 
 
 def test_what_cannot_be_told_is_refused(files: tuple[Path, Path], tmp_path: Path) -> None:
@@ -106,9 +103,7 @@ def test_a_verdict_that_fails_is_a_result(tmp_path: Path) -> None:
     from openpyxl import load_workbook
 
     book, compound = tmp_path / "s120.xlsx", tmp_path / "s120.yaml"
-    done = run(
-        "fit", "materials/s120.dma.csv", "--shift", "materials/s120.shift.csv", "-o", book, "-o", compound
-    )
+    done = run("fit", "materials/s120.dma.csv", "--shift", "materials/s120.shift.csv", "-o", book, "-o", compound)
     assert done.returncode == 0, done.stderr
     assert "FAIL  ends of the window" in done.stdout
     sheets = load_workbook(book)

@@ -10,9 +10,7 @@ import pandas as pd
 
 def written_tables(result: Any, folder: Path, **options: Any) -> dict[str, pd.DataFrame]:
     """Every table by the name of its file; figures are rows of "quantity" and "value"."""
-    return {
-        path.stem: pd.read_csv(path, encoding="utf-8-sig") for path in result.to_tables(folder, **options)
-    }
+    return {path.stem: pd.read_csv(path, encoding="utf-8-sig") for path in result.to_tables(folder, **options)}
 
 
 def figures(table: pd.DataFrame) -> pd.Series:

@@ -45,9 +45,7 @@ def anchor(
     source: Annotated[
         str | None, option("Laboratory and report of rows that do not say it; else the file's name.")
     ] = None,
-    output: Annotated[
-        Path | None, option("Write the compound file (.yaml).", "FILE", "-o", "--output")
-    ] = None,
+    output: Annotated[Path | None, option("Write the compound file (.yaml).", "FILE", "-o", "--output")] = None,
 ) -> None:
     """Set the level of a compound's indentation by rolling-resistance tests: measured over calculated."""
     to = session.outputs(compound, tests)
@@ -84,8 +82,5 @@ def _show_tests(anchored: RollingTestCalibration, system: System) -> None:
     ):
         screen.print(report_grid(part, system), "")
     print_lines(
-        *(
-            wrap_line(line, screen.width, further="  ")
-            for line in rolling_test_calibration.calibration_notes(anchored)
-        )
+        *(wrap_line(line, screen.width, further="  ") for line in rolling_test_calibration.calibration_notes(anchored))
     )

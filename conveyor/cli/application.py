@@ -115,13 +115,9 @@ class ImageKind(StrEnum):
 
 Spec = Annotated[Path, argument("Conveyor spec: .yaml, .json or .xlsx.", "SPEC", show_default=False)]
 Workbook = Annotated[Path | None, option("Write the workbook (.xlsx).", "FILE", "-o", "--output")]
-WebPage = Annotated[
-    Path | None, option("Write the report as one page (.html); it prints well.", "FILE", "--html")
-]
+WebPage = Annotated[Path | None, option("Write the report as one page (.html); it prints well.", "FILE", "--html")]
 PdfPage = Annotated[Path | None, option("Write that page as it prints (.pdf).", "FILE", "--pdf")]
-TablesFolder = Annotated[
-    Path | None, option("Write every table to a file of its own in it.", "FOLDER", "--tables")
-]
+TablesFolder = Annotated[Path | None, option("Write every table to a file of its own in it.", "FOLDER", "--tables")]
 AsParquet = Annotated[bool, option("Tables as Parquet files; without it as CSV.", None, "--parquet")]
 Shelves = Annotated[
     list[Path] | None, option("Further folder of compound files; may be repeated.", "FOLDER", "--shelf")
@@ -144,9 +140,7 @@ UnitsOption = Annotated[
         show_default=False,
     ),
 ]
-Force = Annotated[
-    bool, option("Overwrite existing files of any kind; never an input.", None, "--force", "-f")
-]
+Force = Annotated[bool, option("Overwrite existing files of any kind; never an input.", None, "--force", "-f")]
 Quiet = Annotated[bool, option("Print nothing but errors.", None, "--quiet", "-q")]
 Drawing = "to this file (.png, .svg, .pdf)."
 
@@ -210,9 +204,7 @@ def json_text(data: object) -> str:
     try:
         written = json.dumps(data, indent=2, allow_nan=False, ensure_ascii=False)
     except ValueError:
-        raise NoSolutionError(
-            "the result holds figures that are not finite: look for extreme inputs"
-        ) from None
+        raise NoSolutionError("the result holds figures that are not finite: look for extreme inputs") from None
     return escape_json_controls(written) + "\n"
 
 

@@ -39,9 +39,7 @@ def calibrate(
     ],
     error: Annotated[
         str | None,
-        option(
-            'Standard deviation of a measured power, such as "2 %"; else from the differences.', "PERCENT"
-        ),
+        option('Standard deviation of a measured power, such as "2 %"; else from the differences.', "PERCENT"),
     ] = None,
     factors: Annotated[
         list[str] | None,

@@ -64,9 +64,7 @@ def compare(
         ),
     ] = None,
     cover: Annotated[str, option("Cover made of the compounds: bottom, top or both.", "WHICH")] = "bottom",
-    base: Annotated[
-        str | None, option("Name of the compound to compare with; else the first.", "NAME")
-    ] = None,
+    base: Annotated[str | None, option("Name of the compound to compare with; else the first.", "NAME")] = None,
     extra_costs: Annotated[
         list[str] | None,
         option("What its belt costs above the base's; may be repeated.", "NAME=AMOUNT", "--extra-cost"),
@@ -77,9 +75,7 @@ def compare(
     tables: TablesFolder = None,
     parquet: AsParquet = False,
     csv: Annotated[Path | None, option("Write every scene to this file (.csv).", "FILE")] = None,
-    plot: Annotated[
-        Path | None, option("Draw power over temperature to this file (.png, .svg, .pdf).", "FILE")
-    ] = None,
+    plot: Annotated[Path | None, option("Draw power over temperature to this file (.png, .svg, .pdf).", "FILE")] = None,
     speed_plot: Annotated[
         Path | None, option("Draw power over belt speed to this file.", "FILE", "--speed-plot")
     ] = None,
@@ -129,9 +125,7 @@ def compare(
             to.figure(figure(system=system), path)
     from conveyor.cli.terminal import show_comparison
 
-    session.answer(
-        lambda: comparison_tables.comparison_json(comparison), to, lambda: show_comparison(contents)
-    )
+    session.answer(lambda: comparison_tables.comparison_json(comparison), to, lambda: show_comparison(contents))
 
 
 def _all_values(given: list[str] | None, option: str, *units: str) -> list[str] | None:
@@ -146,6 +140,4 @@ def _extra_cost(given: str) -> tuple[str, float]:
             return name.strip(), float(amount)
     except ValueError:
         pass
-    raise InputError(
-        f'--extra-cost: got "{given}", expected NAME=AMOUNT such as "low-rolling-resistance-cover=150000"'
-    )
+    raise InputError(f'--extra-cost: got "{given}", expected NAME=AMOUNT such as "low-rolling-resistance-cover=150000"')

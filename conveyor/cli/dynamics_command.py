@@ -42,9 +42,7 @@ class SizeTarget(StrEnum):
 def dynamics(
     session: Session,
     spec: Spec,
-    scenario: Annotated[
-        list[str] | None, option("Only this one; may be repeated.", "NAME", "--scenario", "-s")
-    ] = None,
+    scenario: Annotated[list[str] | None, option("Only this one; may be repeated.", "NAME", "--scenario", "-s")] = None,
     output: Annotated[
         list[Path] | None,
         option(

@@ -127,9 +127,7 @@ def _closest_option(error: Any, said: str) -> str:
         return ""
     given = getattr(error, "option_name", None)
     if given is not None:
-        known = [
-            name for parameter in error.ctx.command.params for name in parameter.opts if name.startswith("--")
-        ]
+        known = [name for parameter in error.ctx.command.params for name in parameter.opts if name.startswith("--")]
         near = difflib.get_close_matches(str(given), [*known, "--help"], n=1)
         return f"; did you mean {near[0]}?" if near else ""
     quoted = re.fullmatch(r"No such command '(.*)'", said)

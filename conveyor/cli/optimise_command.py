@@ -27,9 +27,7 @@ if TYPE_CHECKING:
 def optimise(
     session: Session,
     plan_file: Annotated[Path, argument("Search: .yaml or .json.", "SEARCH", show_default=False)],
-    output: Annotated[
-        Path, option("Write the best spec (.yaml).", "FILE", "-o", "--output", show_default=False)
-    ],
+    output: Annotated[Path, option("Write the best spec (.yaml).", "FILE", "-o", "--output", show_default=False)],
     workers: Workers = 1,
     scheduler: Scheduler = None,
 ) -> None:
@@ -45,9 +43,7 @@ def optimise(
     line = session.read(spec)
     system = session.system(line)
     with name_plan_file(plan_file):
-        campaign = ParametricStudy.of(
-            plan, line, shelves.resolver(extra=session.shelf or (), base=spec.parent)
-        )
+        campaign = ParametricStudy.of(plan, line, shelves.resolver(extra=session.shelf or (), base=spec.parent))
     to = session.outputs(plan_file, spec)
     to.file("--output", output, *SPEC)
     with ExitStack() as stack:

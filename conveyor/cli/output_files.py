@@ -57,9 +57,7 @@ class Outputs:
             allowed = f"{', '.join(others)} or {last}" if others else last
             raise InputError(f'{option}: {path}: its name ends in {allowed}, got "{path.suffix}"')
         if path.suffix.lower() == ".parquet" and find_spec("pyarrow") is None:
-            raise InputError(
-                f'{option}: {path}: needs pyarrow (pip install "conveyor[parquet]"); without it: .csv'
-            )
+            raise InputError(f'{option}: {path}: needs pyarrow (pip install "conveyor[parquet]"); without it: .csv')
         atomic_write.check_writable(path)
         for other, taken in self._asked:
             if _same_file(path, taken):
@@ -158,9 +156,7 @@ class Outputs:
         """Make a file for each table of a report."""
         from conveyor.report import table_files
 
-        self.add(
-            "tables", folder, table_files.encode_tables(contents, folder, "parquet" if parquet else "csv")
-        )
+        self.add("tables", folder, table_files.encode_tables(contents, folder, "parquet" if parquet else "csv"))
 
     def figure(self, figure: Figure, path: Path) -> None:
         """Make the file of a figure."""
@@ -196,9 +192,7 @@ class Outputs:
         if not kind or self._force or not path.exists():
             return
         try:
-            mark = (
-                output_marks.output_kind(path.read_bytes()) if path.stat().st_size <= _LARGEST_FILE else None
-            )
+            mark = output_marks.output_kind(path.read_bytes()) if path.stat().st_size <= _LARGEST_FILE else None
         except OSError as error:
             raise InputError(f"{path}: exists and cannot be read ({error.strerror or error})") from None
         if mark != kind:

@@ -82,9 +82,7 @@ def fit(
         option('Strain amplitude of the master curve, "0.1 %" or "0.15 % shear"; else a column says it.'),
     ] = None,
     equilibrium: Annotated[str | None, option('Hold the equilibrium modulus, e.g. "4 MPa".')] = None,
-    terms_per_decade: Annotated[
-        float | None, option("Relaxation times per decade; else chosen by AICc.")
-    ] = None,
+    terms_per_decade: Annotated[float | None, option("Relaxation times per decade; else chosen by AICc.")] = None,
     vertical: Annotated[
         bool,
         option(
@@ -98,12 +96,8 @@ def fit(
     repeats: Annotated[
         bool, option("Average sweeps at one temperature, specimens or runs; else they are refused.")
     ] = False,
-    exclude: Annotated[
-        list[str] | None, option("Rows to leave out, 12-15,20; may be repeated.", "[FILE:]ROWS")
-    ] = None,
-    storage_error: Annotated[
-        str | None, option('Standard error of E\', "1 %"; rows weigh by its reciprocal.')
-    ] = None,
+    exclude: Annotated[list[str] | None, option("Rows to leave out, 12-15,20; may be repeated.", "[FILE:]ROWS")] = None,
+    storage_error: Annotated[str | None, option('Standard error of E\', "1 %"; rows weigh by its reciprocal.')] = None,
     loss_error: Annotated[str | None, option("The same of E''; both or neither.")] = None,
     plot: Annotated[Path | None, option("Draw data, fit and band to this file (.png, .svg, .pdf).")] = None,
     poisson: Annotated[float, option("Poisson's ratio; also turns G into E.", None, "--poisson")] = 0.5,
@@ -140,9 +134,7 @@ def fit(
             "FINDING",
         ),
     ] = None,
-    html: Annotated[
-        Path | None, option("Write the page to sign: verdict, figures, glossary (.html).", "FILE")
-    ] = None,
+    html: Annotated[Path | None, option("Write the page to sign: verdict, figures, glossary (.html).", "FILE")] = None,
     pdf: PdfPage = None,
     document: Annotated[
         list[str] | None,
@@ -211,9 +203,7 @@ def fit(
     if plot is not None:
         to.figure(summary.band_figure(fitted), plot)
     for path in compounds:
-        to.add(
-            "compound file", path, {path: shelf_of.dump(fitted.compound, output_marks.FIT_HEADING).encode()}
-        )
+        to.add("compound file", path, {path: shelf_of.dump(fitted.compound, output_marks.FIT_HEADING).encode()})
     if write_shift is not None:
         to.add("shift factors", write_shift, {write_shift: summary.shift_table(fitted).encode()})
     _add_exports(fitted.compound, export, to)
@@ -233,9 +223,7 @@ def _document_field(words: str) -> tuple[str, str]:
 
     name, separator, value = words.partition("=")
     if not separator or name.strip() not in DOCUMENT_FIELDS or not value.strip():
-        raise InputError(
-            f'--document: got "{words}", expected NAME=WORDS with a name of: {", ".join(DOCUMENT_FIELDS)}'
-        )
+        raise InputError(f'--document: got "{words}", expected NAME=WORDS with a name of: {", ".join(DOCUMENT_FIELDS)}')
     return name.strip(), value.strip()
 
 
@@ -384,9 +372,7 @@ def shelf(
             continue
         omega = 2.0 * math.pi * hertz
         storage, tangent = float(modulus(series.storage(omega))), float(series.tan_delta(omega))
-        table.add_row(
-            escape(escape_controls(known)), compound.kind, f"{storage:.3g}", f"{tangent:.3f}", limits
-        )
+        table.add_row(escape(escape_controls(known)), compound.kind, f"{storage:.3g}", f"{tangent:.3f}", limits)
         drawn.append(compound)
     _show_table(console, table, to, plot, lambda plots: plots.loss_tangents(drawn, kelvin))
 

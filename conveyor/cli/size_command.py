@@ -63,10 +63,7 @@ def size(
     with session.progress("designs") as told:
         designs = sizing.size_conveyor(read, best=best, progress=told)
     pictured = (
-        session.as_json
-        or tables is not None
-        or pdf is not None
-        or any(ending not in SPEC for _, ending in asked)
+        session.as_json or tables is not None or pdf is not None or any(ending not in SPEC for _, ending in asked)
     )
     contents = sizing_contents(designs, session.system(read), vary=pictured)
     for path, ending in asked:

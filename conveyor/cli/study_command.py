@@ -72,9 +72,7 @@ def study(
     line = session.read(spec)
     system = session.system(line)
     with name_plan_file(plan_file):
-        campaign = running.ParametricStudy.of(
-            plan, line, shelves.resolver(extra=session.shelf or (), base=spec.parent)
-        )
+        campaign = running.ParametricStudy.of(plan, line, shelves.resolver(extra=session.shelf or (), base=spec.parent))
     table, designed = point_tables.point_table(campaign, system), point_tables.design_table(campaign, system)
     to = session.outputs(plan_file, spec)
     parted = not output.suffix
@@ -111,9 +109,7 @@ def study(
             table.write(output, (row(number, keyed) for number, keyed in running.keyed_points(campaign)))
         evaluated = summarise_study(campaign, running.design_results(campaign, known))
         if designs is not None:
-            designed.write(
-                designs, point_tables.design_rows(evaluated, running.design_results(campaign, known))
-            )
+            designed.write(designs, point_tables.design_rows(evaluated, running.design_results(campaign, known)))
     contents = design_tables.study_contents(evaluated, system)
     _write_study_files(to, campaign, evaluated, contents, plots=plots, specs=specs)
     plain = {"points": count, "calculated": new, "without_an_answer": reasons.total(), "table": str(output)}
@@ -121,9 +117,7 @@ def study(
     def show() -> None:
         show_best(contents, {*evaluated.objectives, *plan.limits})
         rate = f" in {spent:.3g} s, {new / spent:.3g} a second" if new else ""
-        print_lines(
-            f"{count} points, {new} of them calculated now{rate}; {reasons.total()} without an answer"
-        )
+        print_lines(f"{count} points, {new} of them calculated now{rate}; {reasons.total()} without an answer")
         for reason, times in reasons.most_common(_REASONS_SHOWN):
             print_lines(f"{times} without an answer: {reason}")
         print_lines(f"table: {output}", *([] if designs is None else [f"designs: {designs}"]))
@@ -154,10 +148,7 @@ def _write_study_files(
         ranked = enumerate(study.best, start=1)
         made = {specs / f"{rank:02}_design_{one.number}.yaml": one for rank, one in ranked}
         system = contents.system
-        told = {
-            path: design_spec(campaign, one, describe_design(one, campaign, system))
-            for path, one in made.items()
-        }
+        told = {path: design_spec(campaign, one, describe_design(one, campaign, system)) for path, one in made.items()}
         to.add("specs", specs, told)
 
 

@@ -122,9 +122,7 @@ def show_notes(screen: Console, notes: Sequence[str]) -> None:
     """Print notes as two lists, wrapped to the terminal."""
     from conveyor.report.table_model import NOTE_HEADINGS, sort_notes
 
-    for heading, colour, listed in zip(
-        NOTE_HEADINGS, ("bold yellow", "bold"), sort_notes(notes), strict=True
-    ):
+    for heading, colour, listed in zip(NOTE_HEADINGS, ("bold yellow", "bold"), sort_notes(notes), strict=True):
         if listed:
             screen.print(plain_text(f"\n{heading}", style=colour))
         for note in listed:
@@ -159,12 +157,9 @@ def show_power(contents: Contents) -> None:
     if "power_band" in contents:
         _print_uncertainty(screen, contents)
     show_notes(screen, contents.lines("warning"))
-    error, balance = (
-        _result_figure(contents, f"contact_{name}").value for name in ("error_estimate", "energy_error")
-    )
+    error, balance = (_result_figure(contents, f"contact_{name}").value for name in ("error_estimate", "energy_error"))
     screen.print(
-        f"\nrelative error of the contact solutions: at most {error:.0e}; "
-        f"their energy balance closes to {balance:.0e}"
+        f"\nrelative error of the contact solutions: at most {error:.0e}; their energy balance closes to {balance:.0e}"
     )
 
 
@@ -213,13 +208,9 @@ def _force_table(contents: Contents) -> Grid:
         share = percent(value / total, 1) if total else ""
         friction = "" if name in {*_FORCE_SUMS[1:], whole} else f"{value * over:.4f}"
         beside = "" if other is None else force.said(other)
-        made.add_row(
-            name, force.said(value), share, friction, beside, end_section=name in {"misalignment", "lift"}
-        )
+        made.add_row(name, force.said(value), share, friction, beside, end_section=name in {"misalignment", "lift"})
     made.add_section()
-    belt, motor, mains = (
-        _result_figure(contents, f"{name}_power").value for name in ("belt", "motor", "mains")
-    )
+    belt, motor, mains = (_result_figure(contents, f"{name}_power").value for name in ("belt", "motor", "mains"))
     made.add_row("belt power", power.said(belt))
     made.add_row("motor power", power.said(motor), "", "", power.said(sums["motor"][1]), style="bold")
     if mains != motor:
@@ -236,19 +227,14 @@ def _tension_rows(contents: Contents) -> Grid:
     known = {row.key: row for row in contents["results"].rows}
     tight, slack = (force.said(known[f"{side}_side_tension"].value) for side in ("tight", "slack"))
     made = Table.grid(padding=(0, 2))
-    made.add_row(
-        "tensions, T1 / T2" if contents.system == "US" else "tensions, tight / slack", f"{tight} / {slack}"
-    )
+    made.add_row("tensions, T1 / T2" if contents.system == "US" else "tensions, tight / slack", f"{tight} / {slack}")
     made.add_row("take-up", _take_up_text(contents))
     if "specific_energy" in known:
         energy = known["specific_energy"]
         made.add_row("energy", energy.unit(contents.system).said(energy.value))
     year = [known[key] for key in ("energy_per_year", "cost_per_year") if key in known]
     if year:
-        said = (
-            f"{row.unit(contents.system).shown(row.value):,.0f} {row.unit(contents.system).sign}"
-            for row in year
-        )
+        said = (f"{row.unit(contents.system).shown(row.value):,.0f} {row.unit(contents.system).sign}" for row in year)
         made.add_row("in a year", ", ".join(said))
     return made
 
@@ -269,9 +255,7 @@ def _cema_table(contents: Contents) -> Grid:
 def _take_up_text(contents: Contents) -> str:
     """Take-up setting, mass and travel as text."""
     known = {row.key: row for row in contents["take_up"].rows if row.value is not None}
-    force, mass, length = (
-        display_unit(kind, contents.system, large=True) for kind in ("force", "mass", "length")
-    )
+    force, mass, length = (display_unit(kind, contents.system, large=True) for kind in ("force", "mass", "length"))
     said = [force.said(known["take_up_setting"].value)]
     if "take_up_mass" in known:
         said.append(mass.said(known["take_up_mass"].value))
@@ -310,25 +294,17 @@ def _state_table(states: Table, system: System) -> Grid:
     made = plain_table("load states", (*text, *figures.values()), left=text)
     columns = {column.key: column for column in states.columns}
     for row in states.rows:
-        said = [
-            display_unit(columns[key].kind, system, large=True).said(columns[key].get(row)) for key in figures
-        ]
+        said = [display_unit(columns[key].kind, system, large=True).said(columns[key].get(row)) for key in figures]
         at = display_unit("temperature", system).four_digits(columns["temperature"].get(row))
-        made.add_row(
-            plain_text(columns["state"].get(row)), plain_text(columns["sections_loaded"].get(row)), at, *said
-        )
+        made.add_row(plain_text(columns["state"].get(row)), plain_text(columns["sections_loaded"].get(row)), at, *said)
     return made
 
 
 def _case_table(cases: Table, system: System) -> Grid:
-    made = plain_table(
-        "governing load cases", ("figure", "value", "case", "at"), left=("figure", "case", "at")
-    )
+    made = plain_table("governing load cases", ("figure", "value", "case", "at"), left=("figure", "case", "at"))
     get = {column.key: column.get for column in cases.columns}
     for row in cases.rows:
-        at = ", ".join(
-            display_unit(key, system).four_digits(get[key](row)) for key in ("temperature", "speed")
-        )
+        at = ", ".join(display_unit(key, system).four_digits(get[key](row)) for key in ("temperature", "speed"))
         value = display_unit(row.kind, system, large=True).said(get["value"](row))
         made.add_row(row.label, value, plain_text(get["case"](row)), at)
     return made
@@ -348,8 +324,7 @@ def _print_uncertainty(screen: Console, contents: Contents) -> None:
     ends = [band.columns[band.index(key)].get for key in ("motor_power_low", "motor_power_high")]
     said = " to ".join(power.said(end(band.rows[0])) for end in ends)
     exact = [
-        f"; {row[0]}: {' to '.join(power.said(end(row)) for end in ends)}"
-        for row in band.rows[_FIRST_ORDER_ROWS:]
+        f"; {row[0]}: {' to '.join(power.said(end(row)) for end in ends)}" for row in band.rows[_FIRST_ORDER_ROWS:]
     ]
     inputs = contents["sensitivity"]
     first = ", ".join(inputs.columns[0].get(row) for row in inputs.rows[:_INPUTS_NAMED])
@@ -375,9 +350,7 @@ def show_comparison(contents: Contents) -> None:
 
 def _ranking_columns(ranked: Table, costs: Table | None, system: System) -> dict[str, Callable[[Any], str]]:
     """Headings and cell functions of the ranking."""
-    power, speed, warmth = (
-        display_unit(kind, system, large=True) for kind in ("power", "speed", "temperature")
-    )
+    power, speed, warmth = (display_unit(kind, system, large=True) for kind in ("power", "speed", "temperature"))
 
     def band(row: Any) -> str:
         return (
@@ -469,9 +442,7 @@ def show_sizing(contents: Contents) -> None:
             display_unit(column.kind, contents.system).said(column.get(row))
             for column in every.only("top_cover", "bottom_cover", "belt_safety", "why").columns
         )
-        screen.print(
-            plain_text(f"{rank}: {why}; top cover {top}, bottom cover {bottom}, belt safety {safety}")
-        )
+        screen.print(plain_text(f"{rank}: {why}; top cover {top}, bottom cover {bottom}, belt safety {safety}"))
     screen.print(plain_text("\nbasis and limitations", style="bold"))
     for line in merge_notes(contents.lines("assumption")):
         screen.print(plain_text(wrap_line(line, screen.width, first="  - ", further="    ")))

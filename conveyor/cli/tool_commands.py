@@ -51,9 +51,7 @@ def contact(
         raise InputError("give --pressure or --penetration")
     weights = weight or []
     creep = CreepSpectrum(1.0 - sum(weights) if instantaneous is None else instantaneous, weights, time or [])
-    problem = ContactProblem(
-        support, radius, 1.0 if pressure is None else pressure, creep, thickness, poisson
-    )
+    problem = ContactProblem(support, radius, 1.0 if pressure is None else pressure, creep, thickness, poisson)
     solution = solve(problem, rtol) if penetration is None else solve_penetration(problem, penetration, rtol)
     names = ("friction", "half_width", "eccentricity", "penetration", "peak_pressure", "dissipation",
              "error_estimate", "energy_error")  # fmt: skip
@@ -98,9 +96,7 @@ def template(
     from conveyor.starter.template_writer import template_bytes as made
 
     if spec is not None and units is not None:
-        raise InputError(
-            "--units: with --from the spec says the units (report.units); leave one of the two out"
-        )
+        raise InputError("--units: with --from the spec says the units (report.units); leave one of the two out")
     line = None if spec is None else conveyor.load(spec, shelves=shelf or ())
     with name_write_errors(output):  # openpyxl writes temporary files
         content = made(line, shelves=shelf or (), units="US" if units is Units.US else "SI")

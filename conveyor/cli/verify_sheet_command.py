@@ -33,15 +33,11 @@ _AXIS_OPTIONS = {
 )
 def verify_sheet(
     session: Session,
-    compounds: Annotated[
-        list[str], argument("Shelf names or compound files.", "COMPOUND...", show_default=False)
-    ],
+    compounds: Annotated[list[str], argument("Shelf names or compound files.", "COMPOUND...", show_default=False)],
     spec: Annotated[
         Path | None, option("Conveyor whose most loaded carry set is shown as well.", "SPEC", "--spec")
     ] = None,
-    load: Annotated[
-        str | None, option("Line loads: from:to:step or a,b,c; else 1 to 8 N/mm.", "VALUES")
-    ] = None,
+    load: Annotated[str | None, option("Line loads: from:to:step or a,b,c; else 1 to 8 N/mm.", "VALUES")] = None,
     temperature: Annotated[
         str | None, option("Of the cover; else -20 to 40 degC as far as compounds are known.", "VALUES")
     ] = None,
@@ -50,9 +46,7 @@ def verify_sheet(
     cover: Annotated[str | None, option("Thickness of the cover; else 6, 7, 8 mm.", "VALUES")] = None,
     softened: Annotated[
         bool,
-        option(
-            "Moduli at the strain of every roll, where known: half a second a figure.", None, "--softened"
-        ),
+        option("Moduli at the strain of every roll, where known: half a second a figure.", None, "--softened"),
     ] = False,
     output: Workbook = None,
     html: WebPage = None,

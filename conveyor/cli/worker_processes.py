@@ -20,9 +20,7 @@ LOCAL = "local"
 Workers = Annotated[int, option("Processes, or workers of the cluster.", "N", min=1, max=1024)]
 Scheduler = Annotated[
     str | None,
-    option(
-        "Of a Dask cluster (package distributed), or local for one that ends with the command.", "ADDRESS"
-    ),
+    option("Of a Dask cluster (package distributed), or local for one that ends with the command.", "ADDRESS"),
 ]
 
 
@@ -94,9 +92,7 @@ def open_executor(scheduler: str | None, workers: int) -> Iterator[Executor | No
     logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # a lost scheduler is reported below
     try:
         alone = scheduler == LOCAL
-        cluster = (
-            LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) if alone else None
-        )
+        cluster = LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) if alone else None
         client = Client(scheduler if cluster is None else cluster, timeout="10s")
     except (OSError, ValueError) as error:
         raise InputError(f"--scheduler: {scheduler}: no cluster answers ({error})") from None

@@ -124,9 +124,7 @@ class ContactProblem:
         if not 0.0 <= self.poisson <= 0.5:
             raise InputError(f"poisson = {self.poisson!r}: Poisson's ratio lies in [0, 0.5]")
         for name in ("radius", "thickness", "pressure", "poisson"):
-            object.__setattr__(
-                self, name, float(getattr(self, name))
-            )  # single precision would go on into every scale
+            object.__setattr__(self, name, float(getattr(self, name)))  # single precision would go on into every scale
         self._check_support()
 
     def _check_support(self) -> None:
@@ -134,9 +132,7 @@ class ContactProblem:
             raise InputError(f"poisson = {self.poisson!r}: the covers of a Belt are incompressible, 0.5")
         if isinstance(self.support, str) and self.support not in _SUPPORTS:
             raise InputError(f"support = {self.support!r}: allowed are {', '.join(_SUPPORTS)} or a Layer")
-        if not isinstance(self.support, str) and not all(
-            hasattr(self.support, name) for name in ("reach", "symbol")
-        ):
+        if not isinstance(self.support, str) and not all(hasattr(self.support, name) for name in ("reach", "symbol")):
             raise InputError(f"support = {self.support!r}: allowed are {', '.join(_SUPPORTS)} or a Layer")
         if not isinstance(self.support, (str, BeltSupport)):
             _check_symbol(self.support, self.creep)

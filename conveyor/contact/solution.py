@@ -196,9 +196,7 @@ class ContactSolution:
         if not isinstance(problem.support, str):
             raise NoSolutionError("mean_shift: the mean compression of a Layer of your own is not known here")
         if problem.support == "half-space" or math.isinf(problem.thickness):
-            raise NoSolutionError(
-                "mean_shift: a compressible half-space under a mean load sinks without bound"
-            )
+            raise NoSolutionError("mean_shift: a compressible half-space under a mean load sinks without bound")
         return (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu) ** 2) * problem.pressure * problem.thickness
 
     @property
@@ -306,9 +304,7 @@ class ContactSolution:
         """
         solved = self._need()
         at = self._beside_roll(x)
-        touching = ((at[..., None] >= self.patches[:, 0]) & (at[..., None] <= self.patches[:, 1])).any(
-            axis=-1
-        )
+        touching = ((at[..., None] >= self.patches[:, 0]) & (at[..., None] <= self.patches[:, 1])).any(axis=-1)
         out = np.asarray(self.penetration - 1.0 + np.sqrt(1.0 - np.where(touching, at, 0.0) ** 2))
         out[~touching] = solved.fields.outside(at[~touching] * self.problem.rho)
         return out

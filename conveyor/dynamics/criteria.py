@@ -123,9 +123,7 @@ def _belt_sag(scenario: ScenarioResult) -> Iterator[Check]:
     i = int(scenario.sag.argmax())
     sag, at = float(scenario.sag[i]), f"{scenario.place(i)}, {scenario.record.lowest_at[i]:.1f} s"
     least = float(scenario.cells.slack[i])
-    help_ = (
-        "raise the take-up's tension (--size take-up says how far), or slow the motion by ramps or flywheels"
-    )
+    help_ = "raise the take-up's tension (--size take-up says how far), or slow the motion by ramps or flywheels"
     yield check_against_limit(
         "dynamic_slack", "belt is taut", float(scenario.record.lowest[i]), "at least", least, "force", where=at,
         why=f"the belt goes slack in {escape_braces(scenario.place(i))} at {scenario.record.lowest_at[i]:.1f} s: "
@@ -290,9 +288,7 @@ def dynamics_checks(dynamics: CalculatedDynamics) -> tuple[Check, ...]:
     most: dict[Message, Check] = {}
     for check in every:
         if check.key == "dynamic_backstop":
-            most[check.subject] = max(
-                most.get(check.subject, check), check, key=lambda one: one.calculated or 0.0
-            )
+            most[check.subject] = max(most.get(check.subject, check), check, key=lambda one: one.calculated or 0.0)
     return tuple(check for check in every if check is most.get(check.subject, check))
 
 

@@ -208,9 +208,7 @@ class CutLoop:
         mass, weight, friction, stuck = lying[0], lying[1], lying[2:5], lying[5]
         before[5] += before[2]
         lumps = np.array(sorted(rubbing.difference(nodes.tolist())), dtype=int)
-        return Cells(
-            at, mass, self.stiffness / np.diff(at), weight, friction, stuck, nodes, before, lumps, sag
-        )
+        return Cells(at, mass, self.stiffness / np.diff(at), weight, friction, stuck, nodes, before, lumps, sag)
 
 
 @dataclass(frozen=True, eq=False)
@@ -235,9 +233,7 @@ class Cells:
 
     def resisting(self, speed: float, friction: float) -> Array:
         """Friction of every mass at a speed [N]."""
-        return np.asarray(
-            friction * (self.friction[0] + speed * (self.friction[1] + speed * self.friction[2]))
-        )
+        return np.asarray(friction * (self.friction[0] + speed * (self.friction[1] + speed * self.friction[2])))
 
     def sticking(self, friction: float) -> Array:
         """Force up to which every mass stays at rest [N], without friction that grows with speed."""

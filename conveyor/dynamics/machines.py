@@ -91,9 +91,7 @@ class ScenarioSetup:
         line, torques = self.loop.line, []
         for drive in self.drives:
             if drive.power is None:
-                largest = max(
-                    abs(self.loop.steady.balance.settled.force), abs(self.given.steady.balance.settled.force)
-                )
+                largest = max(abs(self.loop.steady.balance.settled.force), abs(self.given.steady.balance.settled.force))
                 torques.append(max(drive.share, 1.0 / len(self.drives)) * largest)
             else:
                 torques.append(start_force(drive.power, torque_factor=1.0, efficiency=line.efficiency,
@@ -173,17 +171,13 @@ class ScenarioSetup:
                 share = np.where(now, 0.0, share)
             elif told.do == "start":
                 led: Array = np.ones_like(times)
-                if (
-                    unit.kind == "inverter" and unit.time
-                ):  # all drives share one ramp, whenever they are switched on
+                if unit.kind == "inverter" and unit.time:  # all drives share one ramp, whenever they are switched on
                     led = ramp_speed((times - told.at) / unit.time, shape=unit.ramp)
                 reference = np.where(now, led, reference)
                 share, brake = np.where(now, _torque_share(unit, since), share), np.where(now, 0.0, brake)
             else:
                 time = self._stop_time(d)
-                led = float(np.interp(told.at, times, reference)) * (
-                    1.0 - ramp_speed(since / time, shape=unit.ramp)
-                )
+                led = float(np.interp(told.at, times, reference)) * (1.0 - ramp_speed(since / time, shape=unit.ramp))
                 reference = np.where(now, led, reference)
                 over = since > time  # then power off and brake on
                 share, brake = np.where(over, 0.0, share), np.where(over, force, brake)

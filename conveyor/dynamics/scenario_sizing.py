@@ -98,9 +98,7 @@ def size_and_simulate(
     """Size every scenario and simulate it at its size; arguments and errors as of `size_scenario` and `follow`."""
     sizes = tuple(size_scenario(conveyor, one, sought) for one in scenarios)
     _, given = prepare_setups(conveyor, scenarios)
-    return CalculatedDynamics(
-        conveyor, given, *simulate_to_error([one.setup for one in sizes], error, **how), sizes
-    )
+    return CalculatedDynamics(conveyor, given, *simulate_to_error([one.setup for one in sizes], error, **how), sizes)
 
 
 def _ramp_variants(setup: ScenarioSetup) -> tuple[Callable[[float], ScenarioSetup], tuple[float, float], str]:
@@ -119,9 +117,7 @@ def _brake_variants(
     setup: ScenarioSetup,
 ) -> tuple[Callable[[float], ScenarioSetup], tuple[float, float], str]:
     if all(happening.do != "brake" for happening in setup.scene.drive_events):
-        raise InputError(
-            f'scenario "{setup.scene.name}": no brake grips in it; give it an event {{do: brake}}'
-        )
+        raise InputError(f'scenario "{setup.scene.name}": no brake grips in it; give it an event {{do: brake}}')
     given = np.array(setup.brakes, dtype=float)
     shares = given / given.sum() if given.sum() > 0.0 else np.array([drive.share for drive in setup.drives])
     rated = float(setup.rated.sum())
@@ -168,9 +164,7 @@ _LABELS: Final = {
 }
 
 
-def _simulate_trials(
-    made: Callable[[float], ScenarioSetup], values: list[float], k: int
-) -> list[ScenarioResult]:
+def _simulate_trials(made: Callable[[float], ScenarioSetup], values: list[float], k: int) -> list[ScenarioResult]:
     """Simulate all trial values in one batch, with cells half as long every round."""
     setups = [made(value) for value in values]
     return simulate_batch(setups, max(float(setup.loop.travel[-1]) for setup in setups) / (_CELLS * 2**k))
@@ -189,9 +183,7 @@ def _failed_checks(scenario: ScenarioResult) -> list[Check]:
 def _failure_reasons(failing: list[Check]) -> Message:
     """Reasons of failed checks in one sentence."""
     why = [check.why for check in failing if check.why is not None]
-    return Message(
-        "; ".join(one.words for one in why), tuple(figure for one in why for figure in one.figures)
-    )
+    return Message("; ".join(one.words for one in why), tuple(figure for one in why for figure in one.figures))
 
 
 def _least_value(
@@ -224,9 +216,7 @@ def _least_value(
     return high, most, low, fails
 
 
-def _best_delay(
-    setup: ScenarioSetup, made: Callable[[float], ScenarioSetup], low: float, high: float
-) -> ScenarioSize:
+def _best_delay(setup: ScenarioSetup, made: Callable[[float], ScenarioSetup], low: float, high: float) -> ScenarioSize:
     """Delay with the lowest peak among those that keep every criterion."""
     best: tuple[float, float, ScenarioResult] | None = None
     for k in range(_ROUNDS):
@@ -273,9 +263,7 @@ def _take_up_size(conveyor: Conveyor, scenario: Scenario, size: ScenarioSize) ->
     def mass(tension: float | None) -> float | None:
         if tension is None:
             return None
-        return take_up_mass(
-            tension, reeving=line.take_up.reeving, gravity=line.gravity, strands=line.take_up.strands
-        )
+        return take_up_mass(tension, reeving=line.take_up.reeving, gravity=line.gravity, strands=line.take_up.strands)
 
     value = mass(size.value)
     assert value is not None  # noqa: S101 it has a tension

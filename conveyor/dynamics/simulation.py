@@ -46,9 +46,7 @@ _RETRIES = 2  # refinements of a scenario without an answer: its cells may be to
 _SIZES = 4  # cell sizes for an error estimate
 _SAFETY = 1.25  # for three sizes and more: P. J. Roache, J. Fluids Eng. 116 (1994) 405
 _SLOWEST, _FASTEST = math.sqrt(2.0), 2.0  # ratio of changes: at a jump of speed, at first order
-_HALVING_HELPS = (
-    0.75  # ratio of errors up to which halving helps: 1/2 at first order, 1/√2 at a jump of speed
-)
+_HALVING_HELPS = 0.75  # ratio of errors up to which halving helps: 1/2 at first order, 1/√2 at a jump of speed
 _REST = 1e-3  # of the steady speed, below which a belt away from the drives is at rest
 _COURANT = 0.95  # of the longest stable step: at that step itself cell-to-cell oscillations are never damped
 
@@ -378,10 +376,7 @@ def simulate_to_error(
                 peaks[i].append(_Peaks.of(now))
                 answers[i] = replace(now, error=_peak_error(peaks[i]))
     return _split_refusals(
-        [
-            _unconverged_refusal(one, peaks[i]) if _needs_refinement(one, error) else one
-            for i, one in enumerate(answers)
-        ]
+        [_unconverged_refusal(one, peaks[i]) if _needs_refinement(one, error) else one for i, one in enumerate(answers)]
     )
 
 
@@ -448,9 +443,7 @@ def _split_refusals(
         for one in refused:
             named.setdefault(one.reason, []).append(f'"{one.scenario}"')
         of_reason = ((", ".join(of), why) for why, of in named.items())
-        raise NoSolutionError(
-            "\n".join(["scenario {}: {}"] * len(named)), *itertools.chain.from_iterable(of_reason)
-        )
+        raise NoSolutionError("\n".join(["scenario {}: {}"] * len(named)), *itertools.chain.from_iterable(of_reason))
     return followed, refused
 
 
@@ -519,8 +512,7 @@ def prepare_setups(
         for one in (conveyor, *loaded.values()) for share in SPEEDS
     ])  # fmt: skip
     loops = [
-        CutLoop.of(one, slower[len(SPEEDS) * i : len(SPEEDS) * (i + 1)])
-        for i, one in enumerate((loads.own, *steady))
+        CutLoop.of(one, slower[len(SPEEDS) * i : len(SPEEDS) * (i + 1)]) for i, one in enumerate((loads.own, *steady))
     ]
     of_key = dict(zip(loaded, loops[1:], strict=True))
     setups = [
@@ -558,8 +550,7 @@ def _dynamics_assumptions(dynamics: CalculatedDynamics) -> Iterator[str]:
         yield "belt.carcass.stiffness not given: the usual multiple of strength or rating"
     if any(not pulley.driven for pulley in line.pulleys):
         yield (
-            f"pulleys not driven turn like {percent(PULLEY_INERTIA.value)} of their mass, not given: "
-            "general knowledge"
+            f"pulleys not driven turn like {percent(PULLEY_INERTIA.value)} of their mass, not given: general knowledge"
         )
     if line.take_up.kind == "slack side":
         yield "route.take_up not given: a weight on the slack side of the drive"

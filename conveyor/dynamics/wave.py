@@ -290,9 +290,7 @@ class _BeltLaw:
             self.sag = np.where(self.bears, chain.sag, 1.0)
             tension = np.where(self.bears, tension, 1.0)
             if tension.min() <= 0.0:
-                raise NoSolutionError(
-                    "a belt that hangs between idlers bears tension only: the begin is slack"
-                )
+                raise NoSolutionError("a belt that hangs between idlers bears tension only: the begin is slack")
         self.gives, self.softens = 1.0 / self.k, 2.0 * self.k * self.sag
         self.root = self.tension = tension
         self.apart = self.gives * tension - (self.sag / tension**2 if self.hangs else 0.0)
@@ -306,9 +304,7 @@ class _BeltLaw:
     def _ease(self) -> None:
         """Tangent stiffness of the cells over k at their tension; 1 without sag."""
         self.eased = (
-            1.0 / (1.0 + self.softens / (self.root * self.root * self.root))
-            if self.hangs
-            else np.ones_like(self.root)
+            1.0 / (1.0 + self.softens / (self.root * self.root * self.root)) if self.hangs else np.ones_like(self.root)
         )
 
     def stretch(self, way: Array) -> Array:
@@ -340,9 +336,7 @@ class _BeltLaw:
     def stored(self) -> tuple[Array, Array]:
         """Energy stored in springs and sag, and in the relaxing branch, of every belt [J]."""
         own = 0.5 * self.root**2 / self.k - (2.0 * self.sag / self.root if self.hangs else 0.0)
-        held = np.divide(
-            self.branch**2, 2.0 * self.branch_k, out=np.zeros_like(own), where=self.branch_k > 0.0
-        )
+        held = np.divide(self.branch**2, 2.0 * self.branch_k, out=np.zeros_like(own), where=self.branch_k > 0.0)
         return np.where(self.bears, own, 0.0).sum(axis=1), held.sum(axis=1)
 
 
@@ -386,9 +380,7 @@ class _ImpulseResponse:
         )
 
 
-def _flat_indices(
-    places: Integers, masses: int, first: int, count: int
-) -> tuple[Integers, Integers, Integers]:
+def _flat_indices(places: Integers, masses: int, first: int, count: int) -> tuple[Integers, Integers, Integers]:
     """Flat indices, in `count` columns, of speeds of places by all impulses, by their own, and of their neighbours."""
     s, d = places.shape
     rows = masses * (count * np.arange(s)[:, None] + first + np.arange(d))
@@ -471,9 +463,7 @@ class _Solver:
         return change - self.pair * lacking[:, None], lacking
 
 
-def simulate_belts(
-    chain: Chain, machines: Machines, start: InitialState, *, step: float, samples: int = 300
-) -> Record:
+def simulate_belts(chain: Chain, machines: Machines, start: InitialState, *, step: float, samples: int = 300) -> Record:
     """Simulate belts through time.
 
     Parameters
@@ -502,9 +492,7 @@ def simulate_belts(
 class _Motion:
     """Belts in motion: the state from step to step, and its record."""
 
-    def __init__(
-        self, chain: Chain, machines: Machines, start: InitialState, step: float, samples: int
-    ) -> None:
+    def __init__(self, chain: Chain, machines: Machines, start: InitialState, step: float, samples: int) -> None:
         self.chain, self.machines, self.dt = chain, machines, step
         self.steps = machines.reference.shape[0]
         self.every = max(1, self.steps // samples)
@@ -522,9 +510,7 @@ class _Motion:
         self.begun = start.rims
         self.gripping = np.ones(chain.nodes.shape, dtype=bool)
         self.rubbing = start.resisting[self.rows, self.at]
-        self.on_pulleys = start.speed[
-            self.rows, self.at
-        ]  # exactly 0 at rest, which rounding in the solver would blur
+        self.on_pulleys = start.speed[self.rows, self.at]  # exactly 0 at rest, which rounding in the solver would blur
         self.lumps_rest = start.speed[self.rows, chain.lumps] == 0.0
         self.pulled, self.taken, self.winding = chain.held, np.zeros(s), np.zeros(s)
         self.extremes, self.speeds = _Extremes((s, n)), _Extremes((s, n + 1))
@@ -845,16 +831,12 @@ def _solve_pulleys(
     for tried in range(2):
         # mean of both ends while a step resolves a rim's approach to the characteristic, else later: no oscillation
         gives = step * slope
-        late = np.maximum(
-            0.5, 1.0 - np.divide(chain.rim, gives, out=np.full_like(gives, 0.5), where=gives > 0.0)
-        )
+        late = np.maximum(0.5, 1.0 - np.divide(chain.rim, gives, out=np.full_like(gives, 0.5), where=gives > 0.0))
         mass = chain.rim + late * gives
         alone = (chain.rim * rim + step * (base - (1.0 - late) * slope * rim)) / mass
         together = 1.0 / answer + mass
         stop = step * (brake + friction) / together
-        common = _speed_after_friction(
-            (free / answer + mass * alone) / together, stop, np.where(back, np.inf, stop)
-        )
+        common = _speed_after_friction((free / answer + mass * alone) / together, stop, np.where(back, np.inf, stop))
         against = np.sign(common) * friction
         rubbed = sides + shares * against
         force = (common - free) / (answer * step) + against
@@ -927,9 +909,7 @@ class _EnergyLedger:
     def _stored(self, speed: Array, rims: Array, law: _BeltLaw) -> tuple[Array, Array, Array]:
         apart = speed[self.rows, self.chain.end] - speed[:, 0]
         mass = np.where(np.isinf(self.chain.carriage), 0.0, self.chain.carriage)
-        moving = np.einsum("sn,sn->s", self.chain.mass, speed**2) + np.einsum(
-            "sd,sd->s", self.chain.rim, rims**2
-        )
+        moving = np.einsum("sn,sn->s", self.chain.mass, speed**2) + np.einsum("sd,sd->s", self.chain.rim, rims**2)
         return 0.5 * (moving + mass * apart**2), *law.stored()
 
     def closed(self, speed: Array, rims: Array, law: _BeltLaw) -> dict[str, Array]:

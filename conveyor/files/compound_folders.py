@@ -42,9 +42,7 @@ def folders(extra: Iterable[str | Path] = ()) -> list[Path]:
     for folder in listed:
         if not folder.is_dir():
             why = "is a file, no folder" if folder.is_file() else "no such folder"
-            raise InputError(
-                f"shelf {folder}: {why} (given by --shelf, shelves= or the variable {ENVIRONMENT})"
-            )
+            raise InputError(f"shelf {folder}: {why} (given by --shelf, shelves= or the variable {ENVIRONMENT})")
     return [*listed, built_in()]
 
 

@@ -162,9 +162,7 @@ def read_document(path: Path) -> Document:
     if not isinstance(root, MappingNode):
         given = "a list" if isinstance(root, SequenceNode) else "a single value"
         place = _node_place(root)
-        raise InputError(
-            f"{path}:{place.line}:{place.column} file: expected fields (key: value), got {given}"
-        )
+        raise InputError(f"{path}:{place.line}:{place.column} file: expected fields (key: value), got {given}")
     reader = _NodeReader(str(path))
     read = reader.value(root, ())
     return Document(str(path), data if is_json else read, root, tuple(reader.findings))
@@ -176,9 +174,7 @@ def _file_text(path: Path) -> str:
         if content.startswith(mark):
             raise InputError(f"{path}:1:1 file: {encoding} text, expected UTF-8; save it as UTF-8")
     if b"\0" in content[:_BYTES_PROBED]:
-        raise InputError(
-            f"{path}:1:1 file: holds null bytes: UTF-16 without its mark, or no text; save it as UTF-8"
-        )
+        raise InputError(f"{path}:1:1 file: holds null bytes: UTF-16 without its mark, or no text; save it as UTF-8")
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -302,9 +298,7 @@ class _NodeReader:
         content = str(node.value)
         try:
             return (
-                content.encode("utf-16", "surrogatepass").decode("utf-16")
-                if _SURROGATES.search(content)
-                else content
+                content.encode("utf-16", "surrogatepass").decode("utf-16") if _SURROGATES.search(content) else content
             )
         except UnicodeDecodeError:
             line, column = _node_place(node)

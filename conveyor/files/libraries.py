@@ -71,9 +71,7 @@ def library_entries(library: Library) -> Mapping[str, LibraryEntry]:
     '159 mm'
     """
     data = read_document(_FOLDER / f"{library}.yaml").data
-    return MappingProxyType(
-        {str(name): LibraryEntry(str(name), **held) for name, held in data["entries"].items()}
-    )
+    return MappingProxyType({str(name): LibraryEntry(str(name), **held) for name, held in data["entries"].items()})
 
 
 def library_entry(library: Library, name: str) -> LibraryEntry:
@@ -139,10 +137,7 @@ def widest_spacings() -> dict[str, float]:
     {'carry': 3.0, 'return': 6.0}
     """
     guidance = library_entries("spacing")
-    return {
-        strand: read_si(guidance[f"{strand}, overland"].fields["to"], "length")
-        for strand in ("carry", "return")
-    }
+    return {strand: read_si(guidance[f"{strand}, overland"].fields["to"], "length") for strand in ("carry", "return")}
 
 
 def _library_table(library: Library) -> pd.DataFrame:

@@ -95,9 +95,7 @@ def output_kind(content: bytes) -> str | None:
 
 
 def _is_report(content: bytes) -> bool:
-    with suppress(
-        zipfile.BadZipFile, KeyError, ET.ParseError, NotImplementedError, RuntimeError, EOFError, OSError
-    ):
+    with suppress(zipfile.BadZipFile, KeyError, ET.ParseError, NotImplementedError, RuntimeError, EOFError, OSError):
         with zipfile.ZipFile(BytesIO(content)) as archive, archive.open("docProps/core.xml") as stream:
             properties = stream.read(_LARGEST_PROPERTIES)
         if b"<!DOCTYPE" not in properties:

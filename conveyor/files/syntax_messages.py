@@ -7,9 +7,7 @@ from typing import Final
 
 _YAML_MEANING = "it has a meaning in YAML: put the text in quotes"
 _BACKSLASH = "a backslash in double quotes begins a code; write it twice, or the text in other quotes or none"
-_INDENT_HINT = (
-    "indent with the same number of blanks as the lines that belong together, one blank after each colon"
-)
+_INDENT_HINT = "indent with the same number of blanks as the lines that belong together, one blank after each colon"
 
 _YAML_MESSAGES: Final[tuple[tuple[str, str], ...]] = (
     (r"flow mapping .*'<stream end>'", "a brace { is opened here and not closed; add the }"),

@@ -135,10 +135,7 @@ def read_sheets(content: bytes, place: str, limits: ArchiveLimits) -> tuple[Shee
 def _archive_problem(archive: zipfile.ZipFile, limits: ArchiveLimits) -> str:
     parts = archive.infolist()
     if len(parts) > limits.parts or sum(part.file_size for part in parts) > limits.content:
-        return (
-            f"unpacks to more than {limits.content:,} bytes or {limits.parts:,} parts; "
-            f"this is no {limits.expected}"
-        )
+        return f"unpacks to more than {limits.content:,} bytes or {limits.parts:,} parts; this is no {limits.expected}"
     if any(part.flag_bits & 1 for part in parts):
         return "protected by a password; save it without one"
     seen = _ArchiveScan(limits)

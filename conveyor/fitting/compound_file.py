@@ -104,13 +104,9 @@ def _describe_band(band: ReplicaBand) -> dict[str, Any]:
     }
     shifts = {"log10_aT": band.log10_a_T, "log10_bT": band.log10_b_T}
     described |= {
-        key: [[_six_digits(y) for y in row] for row in rows]
-        for key, rows in shifts.items()
-        if rows is not None
+        key: [[_six_digits(y) for y in row] for row in rows] for key, rows in shifts.items() if rows is not None
     }
-    return described | (
-        {"shift": [_describe_law(law, _BAND_DIGITS) for law in band.laws]} if band.laws else {}
-    )
+    return described | ({"shift": [_describe_law(law, _BAND_DIGITS) for law in band.laws]} if band.laws else {})
 
 
 def _describe_law(law: ShiftLaw, digits: int) -> dict[str, Any]:

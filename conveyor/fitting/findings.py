@@ -73,9 +73,7 @@ def check_findings(
     return tuple(seen)
 
 
-def _curve_findings(
-    frequency: FloatArray, storage: FloatArray, loss: FloatArray, *, shear: float
-) -> Iterator[Finding]:
+def _curve_findings(frequency: FloatArray, storage: FloatArray, loss: FloatArray, *, shear: float) -> Iterator[Finding]:
     count, decades = np.unique(frequency).size, float(np.log10(frequency.max() / frequency.min()))
     if count >= FEWEST_FREQUENCIES:
         yield from _contradiction_finding(frequency, storage, loss, shear)
@@ -106,8 +104,7 @@ def _contradiction_finding(
     if left < LEAST_SCATTER:
         return
     seen = (
-        "E' and E'' contradict each other: the best of all positive spectra misses them by "
-        f"{100.0 * left:.2g} % (rms)"
+        f"E' and E'' contradict each other: the best of all positive spectra misses them by {100.0 * left:.2g} % (rms)"
     )
     near = _near_readings(frequency, storage, loss) if frequency.size >= FEWEST_NEAR_ROWS else ()
     readings = [(NEAR_SHARE, *one) for one in near]
@@ -163,11 +160,7 @@ def _other_readings(
                 "if what is named E'' is tan delta: name the column 'tan delta'",
             )
         first, second = storage / unit, loss / unit
-        if (
-            np.ptp(first) > 0.0
-            and _is_within(first, _LOGARITHM_RANGE)
-            and _is_within(second, _LOGARITHM_RANGE)
-        ):
+        if np.ptp(first) > 0.0 and _is_within(first, _LOGARITHM_RANGE) and _is_within(second, _LOGARITHM_RANGE):
             moduli = (10.0**first, 10.0**second)
             yield (frequency, *moduli), "if the moduli are log10: name them log10 E' and log10 E''"
             if _is_within(frequency, _LOGARITHM_RANGE):

@@ -45,9 +45,7 @@ def build_page(
         PagePart("verdict", "Verdict", _verdict_sheet(fitted, criteria)),
         PagePart("figures", "Figures", join_html(drawn)),
         PagePart("tables", "Shifts and files", join_html(_figure_tables(fitted))),
-        PagePart(
-            "read", "What was read and done", element("div", bullet_list(fitted.understood), class_="note")
-        ),
+        PagePart("read", "What was read and done", element("div", bullet_list(fitted.understood), class_="note")),
         PagePart("unknown", "Not known", bullet_list(compound.missing)),
         PagePart("glossary", "Glossary", _glossary_list()),
     )
@@ -60,9 +58,7 @@ def build_page(
 def _verdict_sheet(fitted: FittedCompound, criteria: Sequence[Criterion]) -> Html:
     """First sheet: verdict, facts, criteria and signature lines."""
     count = {word: sum(one.verdict == word for one in criteria) for word in ("pass", "FAIL", "not checked")}
-    counted = join_html(
-        part for word, n in count.items() if n for part in (f"{n} ", mark(word), Html("&ensp;"))
-    )
+    counted = join_html(part for word, n in count.items() if n for part in (f"{n} ", mark(word), Html("&ensp;")))
     word = "pass" if is_accepted(tuple(criteria)) else "FAIL"
     line = element("p", element("strong", "Master curve: "), mark(word), Html("&ensp; Criteria: "), counted)
     shown = table_html(fit_tables.criteria_table(criteria), "Every criterion, and what it requires")

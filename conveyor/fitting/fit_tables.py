@@ -110,9 +110,7 @@ def law_table(fitted: FittedCompound) -> Table:
         Column("a shift left out is missed by", "decades", "left_out"),
         Column("remark", "text", "remark"),
     )
-    return Table(
-        "laws", "Shifts", "Shift laws", columns, tuple(law for law in fitted.laws if law.law is not None)
-    )
+    return Table("laws", "Shifts", "Shift laws", columns, tuple(law for law in fitted.laws if law.law is not None))
 
 
 def file_table(fitted: FittedCompound) -> Table:
@@ -139,12 +137,7 @@ def master_curve_table(fitted: FittedCompound) -> Table:
         rows.temperature, rows.frequency, rows.storage, rows.loss, f, storage, loss, made.storage(omega),
         made.loss(omega), *fitted.fit.errors,
     ]).T.tolist()  # fmt: skip
-    kinds = (
-        ("temperature", "frequency", "pressure", "pressure")
-        + ("frequency",)
-        + ("pressure",) * 4
-        + ("share",) * 2
-    )
+    kinds = ("temperature", "frequency", "pressure", "pressure") + ("frequency",) + ("pressure",) * 4 + ("share",) * 2
     names = (
         "temperature", "frequency", "E'", "E''", "reduced frequency", "reduced E'", "reduced E''", "E' of the series",
         "E'' of the series", "error of E'", "error of E''",
@@ -159,8 +152,7 @@ def series_table(fitted: FittedCompound) -> Table:
     made = fitted.fit.series
     rows = [("E_e", None, made.equilibrium)]
     rows += [
-        (f"E_{k}", tau, e)
-        for k, (tau, e) in enumerate(zip(made.times.tolist(), made.moduli.tolist(), strict=True), 1)
+        (f"E_{k}", tau, e) for k, (tau, e) in enumerate(zip(made.times.tolist(), made.moduli.tolist(), strict=True), 1)
     ]
     columns = _tuple_columns(("term", "relaxation time", "modulus"), ("text", "time", "pressure"))
     return Table("series", "Series", "Prony series at the reference temperature", columns, rows)

@@ -89,9 +89,7 @@ class Criterion:
     def line(self) -> str:
         """Criterion in one line."""
         why = f"; {self.why}" if self.verdict == "FAIL" else ""
-        return f"{self.name}: " + (
-            f"{self.calculated} ({self.required}){why}" if self.calculated else self.why
-        )
+        return f"{self.name}: " + (f"{self.calculated} ({self.required}){why}" if self.calculated else self.why)
 
 
 def fit_criteria(fitted: FittedCompound, conveyor: Conveyor | None = None) -> tuple[Criterion, ...]:
@@ -191,11 +189,7 @@ def _shift_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
     law = compound_law(fitted)
     missed = law.left_out if law.name == "table" else law.rms
     farthest = f"; worst {law.worst:+.2f} at {to_celsius(law.worst_temperature):.0f} °C"
-    what = (
-        "a shift left out, predicted by its neighbours"
-        if law.name == "table"
-        else f"shifts about the law{farthest}"
-    )
+    what = "a shift left out, predicted by its neighbours" if law.name == "table" else f"shifts about the law{farthest}"
     yield _at_most(
         f"smoothness of the shifts ({law.name})", missed, LEFT_OUT_LIMIT, _decades_text,
         what,
@@ -281,9 +275,7 @@ def _collapse_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
 def _consistency_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
     why = "more is in the data: two strains, two set-ups, an outlier"
     if fitted.entropic_floor is not None:
-        why = (
-            f"with b_T = T/T_ref {percent(fitted.entropic_floor, 1)}: a vertical shift is missing, --vertical"
-        )
+        why = f"with b_T = T/T_ref {percent(fitted.entropic_floor, 1)}: a vertical shift is missing, --vertical"
     yield _at_most(
         "best positive spectrum of E' and E''",
         fitted.fit.consistency_floor,

@@ -179,17 +179,12 @@ def _compound_of_table(read: DmaData, request: Request) -> TabulatedCompound:
     return TabulatedCompound(
         _build_compound(described, Path((shifts or read).source)),
         tuple(
-            f"{Path(each.source).name}: {line}"
-            for each in (read, shifts, strains)
-            if each
-            for line in each.understood
+            f"{Path(each.source).name}: {line}" for each in (read, shifts, strains) if each for line in each.understood
         ),
     )
 
 
-def _law_of_table(
-    shifts: DmaData | None, described: Mapping[str, Any], request: Request
-) -> WLF | Arrhenius | None:
+def _law_of_table(shifts: DmaData | None, described: Mapping[str, Any], request: Request) -> WLF | Arrhenius | None:
     reference = parse_kelvin(described["reference_temperature"])
     return chosen_law(compare_laws(None, shifts, reference), reference, request)
 
@@ -298,18 +293,14 @@ def _read_by_kind(
         if len(others[kind]) > 1:
             raise InputError(f"{others[kind][1].source}: a second file of {kind}; give one")
     if not curves:
-        raise InputError(
-            f"{paths[0]}: no file holds a master curve, isotherms, relaxation or a temperature sweep"
-        )
+        raise InputError(f"{paths[0]}: no file holds a master curve, isotherms, relaxation or a temperature sweep")
     shifts, strains = (next(iter(others[kind]), None) for kind in others)
     return curves, shifts, strains, said
 
 
 def _read_files(paths: Sequence[Path], request: Request) -> tuple[list[DmaData], tuple[str, ...]]:
     """Read every file, of a workbook every matching sheet; with notes on excluded rows."""
-    tables = [
-        (path, sheet) for path in paths for sheet in matching_sheets(path, request.reading.get("sheet"))
-    ]
+    tables = [(path, sheet) for path in paths for sheet in matching_sheets(path, request.reading.get("sheet"))]
     several = len(tables) > 1 or request.shift is not None or request.strain is not None
     rows = excluded_rows(
         tables, request.exclude, [path for path in (request.shift, request.strain) if path is not None]

@@ -88,8 +88,7 @@ def isotherm_disagreement(rows: MeasuredRows, fit: PronyFit) -> tuple[float, flo
     if np.count_nonzero(counts > 2) < 2 or None in pooled or None in within:
         return None
     first, second = (
-        float(np.sqrt(max(0.0, (p or 0.0) ** 2 - (w or 0.0) ** 2)))
-        for p, w in zip(pooled, within, strict=True)
+        float(np.sqrt(max(0.0, (p or 0.0) ** 2 - (w or 0.0) ** 2))) for p, w in zip(pooled, within, strict=True)
     )
     return first, second
 
@@ -126,13 +125,9 @@ def excluded_rows(
     for given in exclude:
         match = _ROW_RANGES.fullmatch(given.strip())
         if match is None:
-            raise InputError(
-                f'--exclude: got "{given}", expected rows such as 12-15,20 or isotherms.csv:12-15,20'
-            )
+            raise InputError(f'--exclude: got "{given}", expected rows such as 12-15,20 or isotherms.csv:12-15,20')
         named = [k for k, table in enumerate(tables) if _names_table(match["file"], *table)]
-        other = [
-            path for path in others if match["file"] is not None and _names_table(match["file"], path, None)
-        ]
+        other = [path for path in others if match["file"] is not None and _names_table(match["file"], path, None)]
         if len(other) == 1 and not named:
             continue
         if len(named) != 1 or other:
@@ -208,9 +203,7 @@ def _mean_sweep(sweeps: Sequence[FrequencySweep]) -> tuple[FrequencySweep, str]:
     points = (np.flatnonzero(level == k) for k in np.unique(level))
     common = [point for point in points if sweep[point].tolist() == list(range(len(ones)))]
     if len(common) < LEAST_ROWS:
-        raise InputError(
-            f"--repeats: {said} have {len(common)} frequencies in common, {LEAST_ROWS} are needed"
-        )
+        raise InputError(f"--repeats: {said} have {len(common)} frequencies in common, {LEAST_ROWS} are needed")
     spread = max(float(np.ptp(rows[1, point])) for point in common)
     if spread > np.log(UNLIKE_RATIO):
         raise InputError(
@@ -252,9 +245,7 @@ def _relaxation_sweeps(read: DmaData, number: int, stated: Mapping[int, float]) 
     if read.temperature is not None:
         groups = temperature_groups(read.temperature, read.run)
     if groups is None:
-        raise InputError(
-            f"{read.source}: the temperature is a ramp; relaxation is taken at one temperature at a time"
-        )
+        raise InputError(f"{read.source}: the temperature is a ramp; relaxation is taken at one temperature at a time")
     for group in np.unique(groups):
         rows = groups == group
         at = (
@@ -284,9 +275,7 @@ def override_shifts(superposition: Superposition, given: DmaData) -> tuple[Super
                 f"{given.source}:{given.row_numbers[k]}: no isotherm at {t - 273.15:.2f} degC; those measured are at "
                 + ", ".join(f"{kelvin - 273.15:.2f}" for kelvin in superposition.temperatures.tolist())
             )
-        said.append(
-            f"shift at {t - 273.15:.2f} degC given, {a:+.4f}; the isotherms give {shift[at]:+.4f} decades"
-        )
+        said.append(f"shift at {t - 273.15:.2f} degC given, {a:+.4f}; the isotherms give {shift[at]:+.4f} decades")
         shift[at], error[at] = a, 0.0
         covariance[at] = covariance[:, at] = 0.0
         if own.log10_b_T is not None:
@@ -314,9 +303,7 @@ def entropic_shift(read: DmaData, shifts: DmaData | None, reference: float) -> A
             "tell; give them with --shift"
         )
     if given.log10_b_T is not None:
-        raise InputError(
-            f"{shifts.source}: has vertical shifts, the curve is laid with them; leave out --vertical"
-        )
+        raise InputError(f"{shifts.source}: has vertical shifts, the curve is laid with them; leave out --vertical")
     order = np.argsort(given.temperatures)
     kelvin, a = given.temperatures[order], given.log10_a_T[order]
     middle = 0.5 * (np.log10(frequency.max() * frequency.min()) - a[0] - a[-1])
@@ -335,9 +322,7 @@ def shift_rows(
     columns: list[tuple[Any, ...]] = []
     vertical: dict[float, float] = {}
     if superposition is not None:
-        vertical = dict(
-            zip(superposition.temperatures.tolist(), superposition.log10_b_T.tolist(), strict=True)
-        )
+        vertical = dict(zip(superposition.temperatures.tolist(), superposition.log10_b_T.tolist(), strict=True))
     for part in parts:
         one = part.isotherm
         a = 0.0 if law is None else float(law.log10_a_T(one.temperature))
@@ -353,17 +338,13 @@ def shift_rows(
     for number, read in ramps:
         frequency, storage, loss = measured_moduli(read)
         if read.temperature is None or law is None:
-            raise InputError(
-                f"{read.source}: a temperature sweep needs shift factors: isotherms beside it, or --shift"
-            )
+            raise InputError(f"{read.source}: a temperature sweep needs shift factors: isotherms beside it, or --shift")
         if any(vertical.values()) or (whole is not None and np.any(whole[3])):
             raise InputError(
                 f"{read.source}: a temperature sweep has no vertical shift of its own; leave out --vertical"
             )
         known = getattr(law, "temperatures", None) if superposition is None else superposition.temperatures
-        low, high = (
-            (read.temperature.min(), read.temperature.max()) if known is None else (known[0], known[-1])
-        )
+        low, high = (read.temperature.min(), read.temperature.max()) if known is None else (known[0], known[-1])
         inside = (read.temperature >= low) & (read.temperature <= high)
         t = read.temperature[inside]
         a_T = law.log10_a_T(t) if t.size else t
@@ -372,9 +353,7 @@ def shift_rows(
             f"{Path(read.source).name}: {t.size} of {inside.size} rows laid on the master curve"
             + ("" if inside.all() else "; the others are beyond the shift factors")
         )
-    return MeasuredRows(*(np.concatenate(column) for column in zip(*columns, strict=True))).ordered(), tuple(
-        said
-    )
+    return MeasuredRows(*(np.concatenate(column) for column in zip(*columns, strict=True))).ordered(), tuple(said)
 
 
 def measured_moduli(read: DmaData) -> tuple[Array, Array, Array]:

@@ -40,9 +40,7 @@ def fit_figures(fitted: FittedCompound) -> Iterator[tuple[str, str, Figure]]:
             "Shift factors with their standard errors, and the laws; below: law less shift.",
             shift_figure(fitted),
         )
-    caption = (
-        "Free of frequency: van Gurp-Palmen above, Cole-Cole below. Rows of one material lie on one curve."
-    )
+    caption = "Free of frequency: van Gurp-Palmen above, Cole-Cole below. Rows of one material lie on one curve."
     yield "collapse", caption, frequency_free_figure(fitted)
     caption = "Series less data, over data, row by row; shaded: scatter of the rows themselves."
     yield "residuals", caption, residual_figure(fitted)
@@ -105,9 +103,7 @@ def isotherm_figure(fitted: FittedCompound) -> Figure:
         _plot_marks(below, reduced[here], loss[here] / 1e6, shade, None, filled=False)
 
     _draw_by_temperature(rows, draw)
-    above.set(
-        xscale="log", yscale="log", xlabel="frequency [Hz]", ylabel="E', E'' [MPa]", title="as measured"
-    )
+    above.set(xscale="log", yscale="log", xlabel="frequency [Hz]", ylabel="E', E'' [MPa]", title="as measured")
     below.set(xscale="log", yscale="log", xlabel=_reduced_axis_label(fitted), ylabel="E', E'' [MPa]")
     _label_marks(above)
     return made
@@ -134,9 +130,7 @@ def shift_figure(fitted: FittedCompound) -> Figure:
         above.plot(at - ZERO_CELSIUS, drawn, color=curve_colour(k), label=f"{law.name}, rms {law.rms:.2f}")
         if law.name != "table":
             missed = zero + shift.log10_a_T(kelvin) - decades
-            below.plot(
-                kelvin - ZERO_CELSIUS, missed, "o-", color=curve_colour(k), markersize=3.5, label=law.name
-            )
+            below.plot(kelvin - ZERO_CELSIUS, missed, "o-", color=curve_colour(k), markersize=3.5, label=law.name)
     below.fill_between(
         kelvin - ZERO_CELSIUS, -error, error, color="0.5", alpha=0.25, linewidth=0, label="standard error"
     )
@@ -164,9 +158,7 @@ def frequency_free_figure(fitted: FittedCompound) -> Figure:
     series = fitted.fit.series
     omega = 2.0 * np.pi * np.geomspace(low, high, _POINTS)
     storage, loss = series.storage(omega), series.loss(omega)
-    above.plot(
-        np.hypot(storage, loss) / 1e6, np.degrees(np.arctan2(loss, storage)), color="0.1", label="series"
-    )
+    above.plot(np.hypot(storage, loss) / 1e6, np.degrees(np.arctan2(loss, storage)), color="0.1", label="series")
     below.plot(storage / 1e6, loss / 1e6, color="0.1")
     above.set(xscale="log", xlabel="|E*|/b_T [MPa]", ylabel="δ [°]")
     above.set_ylim(bottom=0.0)

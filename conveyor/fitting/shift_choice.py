@@ -52,9 +52,7 @@ _REFERENCE_NAMES = frozenset(
         "bezugstemperatur",
     }
 )
-_ENTROPIC_NOTE = (
-    "vertical shift of an entropic network, b_T = T/T_ref, each row at the temperature of its shift factor"
-)
+_ENTROPIC_NOTE = "vertical shift of an entropic network, b_T = T/T_ref, each row at the temperature of its shift factor"
 _TEMPERATURE_TEXT = re.compile(r"\s*([+-]?\d+(?:[.,]\d*)?)\s*(degC|degF|K|°C|°F)?(?![\w.,])")
 _SMALLEST_ERROR = 1e-3  # of log10 a_T in comparing laws: a measured reference has none of its own [decades]
 
@@ -73,9 +71,7 @@ def master_curve_rows(
     ramps = [(k, each) for k, each in enumerate(read) if each.kind == "temperature sweep"]
     stated = {k: parse_kelvin(t) for k, each in enumerate(read) for _, t in _stated_temperatures(each)}
     parts, said = (
-        ([], ())
-        if whole
-        else _collect_sweeps(read, {0: kelvin} | stated if len(read) == 1 else stated, request)
+        ([], ()) if whole else _collect_sweeps(read, {0: kelvin} | stated if len(read) == 1 else stated, request)
     )
     if request.vertical and whole is None and len(parts) < 2:
         raise InputError(f"{read[0].source}: --vertical shifts isotherms; this file holds a {read[0].kind}")
@@ -145,13 +141,9 @@ def chosen_law(laws: Sequence[ShiftComparison], reference: float, request: Reque
     if request.law == "table":
         return None
     if request.vertical:
-        raise InputError(
-            f"--law {request.law}: it has no vertical shift; keep the table, or leave out --vertical"
-        )
+        raise InputError(f"--law {request.law}: it has no vertical shift; keep the table, or leave out --vertical")
     if not laws:
-        raise InputError(
-            f"--law {request.law}: shifts at {LEAST_TEMPERATURES} temperatures and more are needed"
-        )
+        raise InputError(f"--law {request.law}: shifts at {LEAST_TEMPERATURES} temperatures and more are needed")
     (law_asked,) = (law for law in laws if law.name.lower() == request.law)
     if isinstance(law_asked.law, WLF | Arrhenius):
         return _law_at_reference(law_asked.law, reference)
@@ -190,9 +182,7 @@ def find_reference(read: Sequence[DmaData], request: Request) -> str:
         stated = [text for each in read if each.kind == "isotherms" for _, text in _stated_temperatures(each)]
         if given or stated:
             return given or stated[0]
-        told = {
-            k: parse_kelvin(text) for k, each in enumerate(read) for _, text in _stated_temperatures(each)
-        }
+        told = {k: parse_kelvin(text) for k, each in enumerate(read) for _, text in _stated_temperatures(each)}
         middle = sorted(part.isotherm.temperature for part in frequency_sweeps(read, told)[0])
         if middle:
             return f"{middle[len(middle) // 2] - ZERO_CELSIUS:.{SERIES_DIGITS}g} degC"
@@ -232,9 +222,7 @@ def _stated_temperatures(read: DmaData) -> Iterator[tuple[str, str]]:
         number = _TEMPERATURE_TEXT.match(value)
         place = f'{data}:{read.metadata_rows[key]}: "{key}"'
         if number is None or number[2] is None:
-            raise InputError(
-                f'{place}: {value[:40]!r} is no temperature with its unit; write it as in "40 degC"'
-            )
+            raise InputError(f'{place}: {value[:40]!r} is no temperature with its unit; write it as in "40 degC"')
         temperature = f"{number[1].replace(',', '.')} {number[2].replace('°', 'deg')}"
         parse_kelvin(temperature, place)
         yield place, temperature

@@ -112,9 +112,7 @@ def _series_lines(fitted: FittedCompound) -> Iterator[str]:
         f"{compound.name}: {fit.active_terms} terms, E_e {fit.series.equilibrium / 1e6:.4g} MPa, "
         f"E_inf {fit.series.glassy / 1e6:.4g} MPa"
     )
-    yield (
-        f"  data window {fit.window[0]:.4g} to {fit.window[1]:.4g} Hz at {text(compound.reference_temperature)}"
-    )
+    yield (f"  data window {fit.window[0]:.4g} to {fit.window[1]:.4g} Hz at {text(compound.reference_temperature)}")
     for label, misfit in (("E'", fit.storage), ("E''", fit.loss), ("tan delta", fit.tan_delta)):
         yield (
             f"  {label:>9}: rms {percent(misfit.rms, 1)}, worst {percent(misfit.worst, 1, signed=True)} at "
@@ -136,8 +134,7 @@ def _outlier_lines(fit: PronyFit) -> Iterator[str]:
         stray = np.flatnonzero(kept < OUTLIER_TRUST)
         if stray.size:
             rows = ", ".join(
-                f"{f[k]:.3g} Hz ({percent(1.0 / (1.0 + error[k]) - 1.0, signed=True)})"
-                for k in stray[:_MOST_OUTLIERS]
+                f"{f[k]:.3g} Hz ({percent(1.0 / (1.0 + error[k]) - 1.0, signed=True)})" for k in stray[:_MOST_OUTLIERS]
             )
             more = f" and {stray.size - _MOST_OUTLIERS} more" if stray.size > _MOST_OUTLIERS else ""
             beyond = "more than four times what the fit misses of others"
@@ -213,9 +210,7 @@ def band_figure(rubber: FittedCompound | TabulatedCompound) -> Figure:
         axis.plot(f, data, color=curve_colour(k), marker="o", markersize=3, linestyle="none", alpha=0.6)
         axis.plot(at, model(series), color=curve_colour(k), label=label)
         if replicas:
-            bottom, top = np.quantile(
-                [model(replica) for replica in replicas], (0.05, 0.95), axis=0, method="weibull"
-            )
+            bottom, top = np.quantile([model(replica) for replica in replicas], (0.05, 0.95), axis=0, method="weibull")
             axis.fill_between(at, bottom, top, color=curve_colour(k), alpha=0.2, linewidth=0)
     reference = text(rubber.compound.reference_temperature)
     above.set(

@@ -134,8 +134,7 @@ def _read_quantity(leaf: FormField, value: CellValue, unit: str | None) -> Any:
         return f"{text} {unit}" if unit else text
     if unit and match[2].strip() != unit:
         raise InputError(
-            f'got "{text}" beside the unit "{unit}"; give the number alone in the value cell, '
-            "its unit in the unit cell"
+            f'got "{text}" beside the unit "{unit}"; give the number alone in the value cell, its unit in the unit cell'
         )
     return text
 
@@ -175,9 +174,7 @@ def _read_list(leaf: FormField, value: CellValue) -> Any:
     try:
         lines = list(csv.reader(io.StringIO(value), delimiter=_SEPARATOR, skipinitialspace=True, strict=True))
     except csv.Error as error:
-        raise InputError(
-            f'got "{value[:80]}", expected values separated by "{_SEPARATOR}" ({error})'
-        ) from None
+        raise InputError(f'got "{value[:80]}", expected values separated by "{_SEPARATOR}" ({error})') from None
     texts = [text if item.kind == "text" else text.strip() for line in lines for text in line]
     ended = len(texts) > 1 and texts[-1] == ""
     items = [from_cells(item, text) for text in (texts[:-1] if ended else texts)]

@@ -105,16 +105,10 @@ def model_layout(model: type[BaseModel]) -> FieldGroup:
     Examples
     --------
     >>> from conveyor.models import Cleaner
-    >>> [
-    ...     (part.key, part.required, part.allowed)
-    ...     for part in model_layout(Cleaner).parts
-    ...     if part.key == "width"
-    ... ]
+    >>> [(part.key, part.required, part.allowed) for part in model_layout(Cleaner).parts if part.key == "width"]
     [('width', True, '> 0 m, ≤ 5 m')]
     """
-    return FieldGroup(
-        key="", doc=first_paragraph(model.__doc__), required=True, parts=_model_parts(model, ())
-    )
+    return FieldGroup(key="", doc=first_paragraph(model.__doc__), required=True, parts=_model_parts(model, ()))
 
 
 def first_paragraph(text: str | None) -> str:
@@ -142,9 +136,7 @@ def _model_parts(model: type[BaseModel], seen: tuple[type[BaseModel], ...]) -> t
 def _field_part(key: str, info: FieldInfo, doc: str | None, seen: tuple[type[BaseModel], ...]) -> Part:
     outer = (*info.metadata, *((info,) if info.discriminator else ()))
     base, marks = _split_annotation(info.annotation, outer)
-    about = _FieldHead(
-        key=key, doc=first_paragraph(doc), required=info.is_required(), default=_default_data(info)
-    )
+    about = _FieldHead(key=key, doc=first_paragraph(doc), required=info.is_required(), default=_default_data(info))
     return _build_part(about, base, marks, seen)
 
 
@@ -175,9 +167,7 @@ def _union_members(base: Any) -> tuple[Any, ...]:
     return get_args(base) if get_origin(base) in {Union, UnionType} else (base,)
 
 
-def _build_part(
-    about: _FieldHead, base: Any, marks: tuple[Any, ...], seen: tuple[type[BaseModel], ...]
-) -> Part:
+def _build_part(about: _FieldHead, base: Any, marks: tuple[Any, ...], seen: tuple[type[BaseModel], ...]) -> Part:
     models = [_split_annotation(arm, ())[0] for arm in _union_members(base)]
     if all(isinstance(model, type) and issubclass(model, BaseModel) for model in models):
         if any(isinstance(mark, _REFERENCE) for mark in marks):
@@ -252,14 +242,10 @@ def _item_type(base: Any) -> Any:
 
 
 def _make_leaf(about: _FieldHead, kind: LeafKind, **more: Any) -> FormField:
-    return FormField(
-        key=about.key, doc=about.doc, required=about.required, default=about.default, kind=kind, **more
-    )
+    return FormField(key=about.key, doc=about.doc, required=about.required, default=about.default, kind=kind, **more)
 
 
-def _scalar_leaf(
-    about: _FieldHead, base: Any, marks: tuple[Any, ...], seen: tuple[type[BaseModel], ...]
-) -> FormField:
+def _scalar_leaf(about: _FieldHead, base: Any, marks: tuple[Any, ...], seen: tuple[type[BaseModel], ...]) -> FormField:
     measure = next((mark for mark in marks if isinstance(mark, Measure)), None)
     if measure is not None:
         units = tuple(unit for unit in dict.fromkeys(KINDS[measure.kind].units.values()) if unit)
@@ -285,18 +271,13 @@ def _union_leaf(about: _FieldHead, base: Any, seen: tuple[type[BaseModel], ...])
     """Field of a union: quantity or choice, list or single item; None for other unions."""
     if len(_union_members(base)) != 2:
         return None
-    arms = [
-        _build_part(_FieldHead(key=about.key), *_split_annotation(arm, ()), seen)
-        for arm in _union_members(base)
-    ]
+    arms = [_build_part(_FieldHead(key=about.key), *_split_annotation(arm, ()), seen) for arm in _union_members(base)]
     by_kind = {arm.kind: arm for arm in arms if isinstance(arm, FormField)}
     if set(by_kind) == {"quantity", "choice"}:
         words = by_kind["choice"].choices
         allowed = " or ".join(filter(None, (by_kind["quantity"].allowed, *map(str, words))))
         of = by_kind["quantity"]
-        return _make_leaf(
-            about, "quantity", units=of.units, measure=of.measure, choices=words, allowed=allowed
-        )
+        return _make_leaf(about, "quantity", units=of.units, measure=of.measure, choices=words, allowed=allowed)
     if set(by_kind) == {"text", "list"} and by_kind["list"].item == by_kind["text"]:
         return _make_leaf(about, "list", item=by_kind["text"], single=True)
     return None
@@ -357,9 +338,7 @@ def _limit_text(match: re.Match[str], value: Any) -> str:
     digits = _DIGITS - 1 - (math.floor(math.log10(abs(number))) if number else 0)
     towards = math.ceil if match[1] in ">≥" else math.floor
     near = round(number, digits)  # 19999.999999999996 is 20000
-    inward = (
-        near if math.isclose(near, number, rel_tol=1e-9) else towards(number * 10.0**digits) / 10.0**digits
-    )
+    inward = near if math.isclose(near, number, rel_tol=1e-9) else towards(number * 10.0**digits) / 10.0**digits
     return f"{match[1]} {_plain_number(inward)} {unit}"
 
 

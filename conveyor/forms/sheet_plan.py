@@ -126,9 +126,7 @@ def plan_model(model: type[BaseModel]) -> SheetPlan:
     )
     forms = [_form_sheet(names.new((model.__name__,)), own, ())]
     forms += [
-        _form_sheet(names.new((part.key,)), part, (part.key,))
-        for part in root.parts
-        if isinstance(part, FieldGroup)
+        _form_sheet(names.new((part.key,)), part, (part.key,)) for part in root.parts if isinstance(part, FieldGroup)
     ]
     return SheetPlan(root, tuple(forms), tuple(_list_sheets(root, (), None, names)))
 
@@ -168,9 +166,7 @@ def referenced_models(part: Part) -> dict[str, type[BaseModel]]:
 
 
 def _form_sheet(name: str, group: FieldGroup, path: Path) -> Form:
-    return Form(
-        name, group.doc, path, tuple(_form_rows(group, path, 0, certain=group.required)), group.required
-    )
+    return Form(name, group.doc, path, tuple(_form_rows(group, path, 0, certain=group.required)), group.required)
 
 
 def _form_rows(group: FieldGroup, path: Path, depth: int, *, certain: bool) -> Iterator[FormRow]:
@@ -184,9 +180,7 @@ def _form_rows(group: FieldGroup, path: Path, depth: int, *, certain: bool) -> I
             yield from _form_rows(part, here, depth + 1, certain=needed)
 
 
-def _list_sheets(
-    group: FieldGroup, path: Path, parent: str | None, names: _SheetNames
-) -> Iterator[ListSheet]:
+def _list_sheets(group: FieldGroup, path: Path, parent: str | None, names: _SheetNames) -> Iterator[ListSheet]:
     """Sheets of all lists of a group, nested lists after the list that holds them."""
     for part in group.parts:
         here = (*path, part.key)

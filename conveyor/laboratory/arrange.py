@@ -77,9 +77,7 @@ def _sweep_groups(kind: str, columns: Mapping[str, FloatArray], labels: IntArray
     return group if group is None or kind == "isotherms" else _number_pairs(group, level)
 
 
-def check_trend(
-    table: DataTable, kind: str, columns: Mapping[str, FloatArray], arrangement: Arrangement
-) -> None:
+def check_trend(table: DataTable, kind: str, columns: Mapping[str, FloatArray], arrangement: Arrangement) -> None:
     """Refuse a series that runs the wrong way, or two shift factors at one temperature.
 
     Notes

@@ -109,8 +109,7 @@ def read_columns(table: DataTable, given: Mapping[str, ColumnUnit]) -> TableValu
     read = TableValues({}, labels, notes, [])
     for quantity, columns in used.items():
         in_si = [
-            _column_in_si(table, column, _cell_numbers(cells[column.index], mark), given, read)
-            for column in columns
+            _column_in_si(table, column, _cell_numbers(cells[column.index], mark), given, read) for column in columns
         ]
         read.series[quantity] = in_si[0] if len(in_si) == 1 else _check_frequencies(table, *in_si)
     notes += [*(f"{table.label(c)} is not needed" for c in unneeded), *spare]
@@ -146,11 +145,7 @@ def _select_columns(
             continue
         others = used.setdefault(column.meaning.quantity, [])
         first = next((other for other in others if _column_identity(other) == _column_identity(column)), None)
-        if (
-            first is None
-            and others
-            and (len(others) > 1 or (others[0].index in angular) == (column.index in angular))
-        ):
+        if first is None and others and (len(others) > 1 or (others[0].index in angular) == (column.index in angular)):
             first = others[0]
         if first is not None:
             if _is_repetition(cells[first.index], cells[column.index]) and _column_identity(
@@ -245,9 +240,7 @@ def _check_cells(table: DataTable, columns: Sequence[DataColumn], cells: Mapping
                 faults.append((column, f"the cell is empty ({hint}); complete or delete the row", row))
             elif not label and not is_number(cell):
                 line = table.rows[row]
-                faults.append(
-                    (column, why_not_a_number(cell if any(map(is_number, line.cells)) else line.text), row)
-                )
+                faults.append((column, why_not_a_number(cell if any(map(is_number, line.cells)) else line.text), row))
             elif not label and not math.isfinite(float(cell.replace(",", "."))):
                 faults.append((column, f"'{cell}' is too large for a number; repair or delete the row", row))
     first = {row: (column, text, row) for column, text, row in reversed(faults)}
@@ -321,9 +314,7 @@ def _column_in_si(
     return ColumnSeries(column, meaning, values, unit, override is not None)
 
 
-def _unit_problem(
-    meaning: Meaning, dimension: str, written: list[str], stated: list[ColumnUnit | None]
-) -> str:
+def _unit_problem(meaning: Meaning, dimension: str, written: list[str], stated: list[ColumnUnit | None]) -> str:
     if not written:
         which = "Hz or rad/s? " if dimension == "frequency" else ""
         return f"{which}{quantity_words(meaning)} has no unit; {unit_remedy(dimension)}"

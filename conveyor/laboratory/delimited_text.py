@@ -55,9 +55,7 @@ def table_lines(text: str, is_header: Callable[[Sequence[str]], bool] | None = N
     written = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
     said = [line for _, line in written if not line.lstrip().startswith("#")]
     usual = max("\t;,", key=(said[0] if said else "").count)
-    headers = (
-        s for line in said for s in "\t;," if is_header is not None and is_header(_quoted_cells(line, s))
-    )
+    headers = (s for line in said for s in "\t;," if is_header is not None and is_header(_quoted_cells(line, s)))
     separator = next(headers, usual)
     return [
         TextLine(number, _quoted_cells(line, separator), line.strip(), line.lstrip().startswith("#"))

@@ -178,9 +178,7 @@ class DmaData:
         strain, e1, e2 = self.columns("strain sweeps", "strain", "storage", "loss")
         sweeps = []
         for run, rows in self._sweeps("strain sweeps", strain):
-            t, f = (
-                None if c is None else float(np.mean(c[rows])) for c in (self.temperature, self.frequency)
-            )
+            t, f = (None if c is None else float(np.mean(c[rows])) for c in (self.temperature, self.frequency))
             sweeps.append(StrainRows(t, f, strain[rows], e1[rows], e2[rows], run, self.row_numbers[rows]))
         return tuple(sweeps)
 

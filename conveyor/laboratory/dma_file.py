@@ -226,9 +226,7 @@ def _read_grid(
     return replace(data, understood=tuple(notes), shear=shear), table
 
 
-def read_with_answers(
-    path: Path, answers: Mapping[str, Any], *, poisson_ratio: float, several: bool
-) -> DmaData:
+def read_with_answers(path: Path, answers: Mapping[str, Any], *, poisson_ratio: float, several: bool) -> DmaData:
     """Read a file with the answers of a command, keywords of `read_dma`.
 
     With several files, answers on units, temperatures and column names that this file contradicts or lacks are not
@@ -278,9 +276,7 @@ def matching_sheets(path: Path, pattern: str | None) -> list[str | None]:
     return found
 
 
-def _check_options(
-    poisson_ratio: float, temperature: float | None, kind: str | None, letter: str | None
-) -> None:
+def _check_options(poisson_ratio: float, temperature: float | None, kind: str | None, letter: str | None) -> None:
     low, high = TEMPERATURE_RANGE
     if not 0.0 <= poisson_ratio <= 0.5:
         raise InputError(f"poisson_ratio = {poisson_ratio:g} (--poisson) must be 0 to 0.5")
@@ -305,11 +301,7 @@ def _load_grid(path: Path, sheet: str | None) -> TextGrid:
         return text_grid(text, path.name, note)
     grids = workbook_grids(data, path.name)
     names = ", ".join(repr(grid.sheet) for grid in grids)
-    tables = (
-        [grid for grid in grids if has_table(grid)]
-        if sheet is None
-        else [g for g in grids if g.sheet == sheet]
-    )
+    tables = [grid for grid in grids if has_table(grid)] if sheet is None else [g for g in grids if g.sheet == sheet]
     if not tables:
         what = f"no table on any sheet ({names}); one of them needs {EXAMPLE_HEADER}"
         if sheet is not None:
@@ -350,9 +342,7 @@ def _si_quantities(
     columns = {q: s.values for q, s in series.items() if q in direct}
     if {"term", "share"} & series.keys():
         columns |= {
-            name: series[q].values
-            for name, q in (("tau", "time"), ("tau", "tau"), ("share", "share"))
-            if q in series
+            name: series[q].values for name, q in (("tau", "time"), ("tau", "tau"), ("share", "share")) if q in series
         }
         columns.pop("time", None)
     arrays = {name: series[q].values for name, q in _OTHER_MODULI.items() if q in series}
@@ -382,9 +372,7 @@ def _si_quantities(
     return columns, notes + _apply_shares(table, series, columns, asked.instantaneous), shear
 
 
-def _table_letter(
-    table: DataTable, series: Mapping[str, ColumnSeries], answer: str | None
-) -> ModulusLetter | None:
+def _table_letter(table: DataTable, series: Mapping[str, ColumnSeries], answer: str | None) -> ModulusLetter | None:
     """Letter of the moduli of a table, tensile or shear; None without moduli."""
     used = [s for s in series.values() if DIMENSIONS[s.meaning.quantity] == "modulus"]
     return modulus_letter(table, used, series.get("strain"), answer) if used else None
@@ -463,9 +451,7 @@ def _table_kind(
     reduced = "frequency" in read.series and read.series["frequency"].meaning.reduced
     decided, reason = decide_kind(columns, labels, reduced=reduced)
     if not decided:
-        what = (
-            f'{reason}; else give kind, for example kind="{choices[0]}" (--kind), one of {", ".join(choices)}'
-        )
+        what = f'{reason}; else give kind, for example kind="{choices[0]}" (--kind), one of {", ".join(choices)}'
         raise table.refusal(table.columns[0], what)
     return decided, reason
 
@@ -474,9 +460,7 @@ def _missing_columns_error(table: DataTable, present: set[str], what: str) -> In
     unknown = next((c for c in table.columns if c.meaning is None), table.columns[-1])
     compliance = next((c for c in table.columns if c.meaning is None and _COMPLIANCE.search(c.header)), None)
     if compliance is not None:
-        return table.refusal(
-            compliance, "compliances are not read; give moduli: E' = D'/(D'^2 + D''^2), E'' likewise"
-        )
+        return table.refusal(compliance, "compliances are not read; give moduli: E' = D'/(D'^2 + D''^2), E'' likewise")
     have = ", ".join(sorted(present | {c.meaning.quantity for c in table.columns if c.meaning is not None}))
     advice = "; give temperature (--temperature)" if {"storage", "loss", "frequency"} <= present else ""
     return table.refusal(
@@ -509,9 +493,7 @@ def _source_name(path: str | Path, table: DataTable) -> str:
     return f"{path}[{table.grid.sheet}]" if table.grid.sheet else str(path)
 
 
-def _assemble_data(
-    table: DataTable, kind: str, columns: Mapping[str, FloatArray], arrangement: Arrangement
-) -> DmaData:
+def _assemble_data(table: DataTable, kind: str, columns: Mapping[str, FloatArray], arrangement: Arrangement) -> DmaData:
     """Sort and freeze the columns; `understood` is still empty."""
 
     def ordered(values: NDArray[T]) -> NDArray[T]:

@@ -122,6 +122,4 @@ def _is_korean(text: str, codec: str) -> bool:
     """True if all beyond ASCII is Korean, with two syllables in a row: a single one is "°C" of CP1252."""
     foreign = re.findall(r"[^\x00-\x7f]+", text)
     certain = codec == "euc_kr" and any(sign in text for sign in "℃℉")
-    return all(map(_KOREAN.fullmatch, foreign)) and (
-        certain or any(re.search("[가-힣]{2}", run) for run in foreign)
-    )
+    return all(map(_KOREAN.fullmatch, foreign)) and (certain or any(re.search("[가-힣]{2}", run) for run in foreign))

@@ -72,9 +72,7 @@ def _cluster_numbers(values: FloatArray, gap: float) -> IntArray:
     return members
 
 
-def duplicate_runs(
-    values: FloatArray, group: IntArray, *, tolerance: float, merged: bool = False
-) -> IntArray | None:
+def duplicate_runs(values: FloatArray, group: IntArray, *, tolerance: float, merged: bool = False) -> IntArray | None:
     """Number the run of each row within its group; None without repeats.
 
     Notes
@@ -102,9 +100,7 @@ def duplicate_runs(
         repeats = np.unique(points).size < rows.size
         shortest = _SHORTEST_RUN if repeats else _SHORTEST_OTHER_RUN
         parts = np.split(points if merged else values[rows], np.flatnonzero(np.diff(stretch)) + 1)
-        run[rows] = (
-            stretch if _is_swept_again(parts, shortest, exactly=merged) else _occurrence_counts(points)
-        )
+        run[rows] = stretch if _is_swept_again(parts, shortest, exactly=merged) else _occurrence_counts(points)
     return run if run.any() else None
 
 

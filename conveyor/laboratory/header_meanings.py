@@ -92,9 +92,7 @@ _LONGEST_NAME = 80
 """Longer cells are sentences."""
 _OTHER_LETTERS = {"e", "g"}
 """Lower-case letters that are no modulus: e is often a strain, F without a frequency unit a force."""
-_PRIMES = str.maketrans(
-    {"’": "'", "‘": "'", "′": "'", "`": "'", "´": "'", "″": "''", '"': "''", "”": "''", "“": "''"}
-)
+_PRIMES = str.maketrans({"’": "'", "‘": "'", "′": "'", "`": "'", "´": "'", "″": "''", '"': "''", "”": "''", "“": "''"})
 _BRACKETED_UNITS: Final = (
     r"(?P<name>.+?)\s*\[(?P<unit>[^\[\]]*)\]",
     r"(?P<name>.+?)\s*\((?P<unit>[^()]*)\)",
@@ -204,11 +202,7 @@ def _linear_meaning(text: str) -> Meaning | None:
     for split in (*_BRACKETED_UNITS, *_LOOSE_UNITS):
         match = re.fullmatch(split, text)
         sense = _name_meaning(match["name"], match["unit"]) if match else None
-        if (
-            match
-            and sense
-            and (split in _BRACKETED_UNITS or find_unit(DIMENSIONS[sense.quantity], match["unit"]))
-        ):
+        if match and sense and (split in _BRACKETED_UNITS or find_unit(DIMENSIONS[sense.quantity], match["unit"])):
             return sense._replace(unit=match["unit"].strip())
     return None
 

@@ -53,13 +53,9 @@ def _set_point_columns(table: DataTable) -> SetPointColumns:
         return {}
     first = next(iter(groups.values()))
     for point, columns in groups.items():
-        if [_without_set_point(column) for column in columns] != [
-            _without_set_point(column) for column in first
-        ]:
+        if [_without_set_point(column) for column in columns] != [_without_set_point(column) for column in first]:
             what = f"{point.number} {point.unit} has other columns than the first, {len(first)} from this name on"
-            raise table.refusal(
-                first[0], f"{what}; give all the same, or remove those of {point.number} {point.unit}"
-            )
+            raise table.refusal(first[0], f"{what}; give all the same, or remove those of {point.number} {point.unit}")
     return groups
 
 

@@ -51,11 +51,7 @@ def decide_kind(columns: Mapping[str, FloatArray], run: IntArray | None, *, redu
     if "Prony series" in kinds:
         return "Prony series", "relaxation times with their moduli or shares"
     if not {"storage", "loss"} <= set(columns):
-        return (
-            (kinds[0], " and ".join(NEEDED_COLUMNS[kinds[0]]))
-            if len(kinds) == 1
-            else ("", "several kinds fit")
-        )
+        return (kinds[0], " and ".join(NEEDED_COLUMNS[kinds[0]])) if len(kinds) == 1 else ("", "several kinds fit")
     for kind, what in (("relaxation", "E(t)"), ("shift factors", "shift factors")):
         if kind in kinds:
             return "", f"dynamic moduli stand beside {what}"

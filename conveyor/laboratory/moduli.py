@@ -60,9 +60,7 @@ def dynamic_moduli(table: DataTable, series: Mapping[str, ColumnSeries]) -> Modu
     return None if angle is None else _moduli_by_angle(storage or whole, loss, angle)
 
 
-def _moduli_by_angle(
-    known: ColumnSeries | None, loss: ColumnSeries | None, angle: ColumnSeries
-) -> Moduli | None:
+def _moduli_by_angle(known: ColumnSeries | None, loss: ColumnSeries | None, angle: ColumnSeries) -> Moduli | None:
     """E' and E'' of one modulus, E', |E*| or E'', and the angle."""
     tangent, name = _loss_tangent(angle)
     if loss:
@@ -113,9 +111,7 @@ def _check_angle(table: DataTable, moduli: Moduli, angle: ColumnSeries | None) -
     return replace(moduli, note="; ".join(filter(None, (moduli.note, note))))
 
 
-def _refuse_another_reading(
-    table: DataTable, moduli: Moduli, angle: ColumnSeries, printed: FloatArray
-) -> None:
+def _refuse_another_reading(table: DataTable, moduli: Moduli, angle: ColumnSeries, printed: FloatArray) -> None:
     """Refuse columns that another reading fits better than their names, within digits and scatter.
 
     Only rows count in which the other reading differs by more than twice what their digits allow.
@@ -185,9 +181,7 @@ def modulus_letter(
     first = used[0].column
     if len(letters) > 1:
         other = next(s.column for s in used if s.meaning.letter == "G")
-        raise table.refusal(
-            other, "a shear modulus beside a tensile one; keep two E or two G and rename the rest"
-        )
+        raise table.refusal(other, "a shear modulus beside a tensile one; keep two E or two G and rename the rest")
     named = next(iter(letters), "")
     said = dict(_letter_evidence(table, strain, beside=not named))
     against = said.get("G" if named == "E" else "E", "") if named and named not in said else ""
@@ -212,9 +206,7 @@ def modulus_letter(
     return ModulusLetter("E", "", Question(first, what))
 
 
-def _letter_evidence(
-    table: DataTable, strain: ColumnSeries | None, *, beside: bool
-) -> Iterator[tuple[str, str]]:
+def _letter_evidence(table: DataTable, strain: ColumnSeries | None, *, beside: bool) -> Iterator[tuple[str, str]]:
     """Letters implied by text of the file, and where; with `beside` by other columns and modulus names in text, too."""
     for line in reversed(table.grid.lines):
         before = line.number < table.rows[0].number and line.number != table.header_row

@@ -12,9 +12,7 @@ _THOUSANDS: Final = (
     r"[+-]?\d[\d,' ]*[,' ][\d,' ]*\.?\d*(?:[eE][+-]?\d+)?|[+-]?\d[\d.' ]*[.' ][\d.' ]*,\d*(?:[eE][+-]?\d+)?"
 )
 _GROUPED_DIGITS: Final = re.compile(r"[+-]?\d{1,3}(?:(?:[.']\d{3})+,\d*|(?:[,']\d{3})+\.\d*)")
-_DATE: Final = (
-    r"\d{1,4}[./-]\d{1,2}[./-]\d{1,4}.*|\d{1,2}[-. ]{1,2}(?:[A-Za-zäÄ]{3,9})\.?.*|.*\d{1,2}:\d{2}.*"
-)
+_DATE: Final = r"\d{1,4}[./-]\d{1,2}[./-]\d{1,4}.*|\d{1,2}[-. ]{1,2}(?:[A-Za-zäÄ]{3,9})\.?.*|.*\d{1,2}:\d{2}.*"
 _REASONS: Final = (
     (_THOUSANDS, "has a thousands separator; export the numbers without it"),
     (_DATE, "looks like a date or time; restore the number (Excel turns 1.2 into 1 Feb)"),
@@ -37,9 +35,7 @@ PERCENT_MARK: Final = "percent-format "
 """Prefix of a workbook cell shown as a percentage."""
 
 
-_HALF_WIDTH: Final = {code: code - 0xFEE0 for code in range(0xFF01, 0xFF5F)} | str.maketrans(
-    "−　【】", "- []"
-)
+_HALF_WIDTH: Final = {code: code - 0xFEE0 for code in range(0xFF01, 0xFF5F)} | str.maketrans("−　【】", "- []")
 """Full-width signs of Chinese and Japanese, the minus sign, the wide blank."""
 
 

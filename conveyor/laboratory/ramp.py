@@ -43,9 +43,7 @@ def isotherms_of_ramp(columns: Mapping[str, FloatArray]) -> RampIsotherms | None
     Examples
     --------
     >>> f, t = np.tile([1.0, 10.0, 100.0], 5), np.arange(15.0) + 273.0
-    >>> made = isotherms_of_ramp(
-    ...     {"frequency": f, "temperature": t, "storage": np.exp(-t), "loss": np.exp(-t)}
-    ... )
+    >>> made = isotherms_of_ramp({"frequency": f, "temperature": t, "storage": np.exp(-t), "loss": np.exp(-t)})
     >>> made.columns["temperature"].tolist()[::3], made.group.tolist()[:6]
     ([277.0, 280.0, 283.0], [0, 0, 0, 1, 1, 1])
     """
@@ -59,10 +57,7 @@ def isotherms_of_ramp(columns: Mapping[str, FloatArray]) -> RampIsotherms | None
     if len(sweeps) < LEAST_FREQUENCIES or min(rows.size for rows in sweeps) < FEWEST_TEMPERATURES:
         return None
     steps = [np.diff(temperature[rows]) for rows in sweeps]
-    if (
-        min(float(step.min()) for step in steps) <= 0.0
-        or max(float(step.max()) for step in steps) > LARGEST_STEP
-    ):
+    if min(float(step.min()) for step in steps) <= 0.0 or max(float(step.max()) for step in steps) > LARGEST_STEP:
         return None
     middle = sorted(sweeps, key=lambda rows: float(np.mean(temperature[rows])))[len(sweeps) // 2]
     low = max(float(temperature[rows[0]]) for rows in sweeps)

@@ -20,9 +20,7 @@ from conveyor.laboratory.numbers import is_number
 _ROW_RANGES: Final = re.compile(r"\d{1,9}(?:-\d{1,9})?(?:,\d{1,9}(?:-\d{1,9})?)*")
 _LISTED_NAME: Final = re.compile(r"[A-Za-z]+ ?(\d{1,2})")
 EXAMPLE_HEADER: Final = "a header row such as 'frequency_Hz,E'_MPa,E''_MPa'"
-_SUPERPOSITION_TITLE: Final = re.compile(
-    r"\btts\b|master\s*(?:curve|kurve)|masterkurve|superposition", re.IGNORECASE
-)
+_SUPERPOSITION_TITLE: Final = re.compile(r"\btts\b|master\s*(?:curve|kurve)|masterkurve|superposition", re.IGNORECASE)
 _TITLE_LINES: Final = 3
 """Lines above a header that may hold a title."""
 _MOST_ROWS_NAMED: Final = 6
@@ -68,10 +66,7 @@ class DataTable:
         numbers = row_spans([self.rows[each].number for each in rows])
         first = str(self.refusal(column, f"{message}, or {exclude_advice(numbers)}", row))
         others = [(c, what, each) for c, what, each in faults if each != row]
-        also = [
-            str(self.refusal(c, what, each)).split(":", 1)[1]
-            for c, what, each in others[: _MOST_ROWS_NAMED - 1]
-        ]
+        also = [str(self.refusal(c, what, each)).split(":", 1)[1] for c, what, each in others[: _MOST_ROWS_NAMED - 1]]
         more = f" and {len(others) - len(also)} more" if len(others) > len(also) else ""
         text = first + "".join(f"; likewise row {each}" for each in also) + more
         return AnswerableError(text, option="exclude", value=numbers)
@@ -119,9 +114,7 @@ def row_numbers(rows: str) -> set[int]:
 
 def has_table(grid: TextGrid) -> bool:
     """True if a header names two or more known quantities, one of them measured, and rows of numbers follow."""
-    return any(
-        _names_measurement(grid.lines[header]) for header in _headers_with_rows(grid, _header_positions(grid))
-    )
+    return any(_names_measurement(grid.lines[header]) for header in _headers_with_rows(grid, _header_positions(grid)))
 
 
 def find_table(grid: TextGrid) -> DataTable:
@@ -144,9 +137,7 @@ def find_table(grid: TextGrid) -> DataTable:
     if body > starts[0] + 1:
         notes.append(f"row {grid.lines[starts[0] + 1].number} holds the units")
     notes += [
-        f"row {grid.lines[h].number} also names columns, but no numbers follow it"
-        for h in headers
-        if h not in tables
+        f"row {grid.lines[h].number} also names columns, but no numbers follow it" for h in headers if h not in tables
     ]
     notes += [
         f"row {grid.lines[t].number} begins a table that names no modulus and is not read"
@@ -176,9 +167,7 @@ def find_table(grid: TextGrid) -> DataTable:
         notes.append(f"{len(starts)} blocks with the same header are read one after the other")
     silent = [line.number for line in grid.lines[starts[0] :] if line.comment and _number_count(line) >= 2]
     if silent:
-        notes.append(
-            f"{len(silent)} row(s) of numbers are marked as remarks and not read, first row {silent[0]}"
-        )
+        notes.append(f"{len(silent)} row(s) of numbers are marked as remarks and not read, first row {silent[0]}")
     said = {key: (value, row) for key, value, row in _metadata_lines(grid, starts[0])}
     first = grid.lines[starts[0]].number
     return DataTable(grid, first, columns, tuple(rows), tuple(blocks), said, tuple(notes))
@@ -190,18 +179,14 @@ def _check_unread_table(grid: TextGrid, start: int, end: int) -> None:
     for line in filter(_is_data, grid.lines[start + 1 : end]):
         if len(line.cells) > width:
             what = f"more cells than row {grid.lines[start].number} has names, which begins a table without a modulus"
-            raise grid.refusal(
-                line.number, width, f"{what}; name every column, or remove that row if it is a remark"
-            )
+            raise grid.refusal(line.number, width, f"{what}; name every column, or remove that row if it is a remark")
 
 
 def without_rows(grid: TextGrid, exclude: str) -> TextGrid:
     """Grid without rows given by their number in the file, as 12-15,20."""
     if not _ROW_RANGES.fullmatch(exclude):
         raise InputError(f'exclude = "{exclude}" (--exclude): expected rows such as 12-15,20')
-    ranges = [
-        (int(low), int(high or low)) for low, _, high in (part.partition("-") for part in exclude.split(","))
-    ]
+    ranges = [(int(low), int(high or low)) for low, _, high in (part.partition("-") for part in exclude.split(","))]
     lines = tuple(line for line in grid.lines if not any(low <= line.number <= high for low, high in ranges))
     if len(lines) == len(grid.lines) or not any(map(_is_data, lines)):
         what = "the table has no such rows" if len(lines) == len(grid.lines) else "no row would be left"
@@ -221,16 +206,11 @@ def without_columns(table: DataTable, ignore: Sequence[str]) -> DataTable:
             k
             for k, column in enumerate(columns)
             if column.header
-            and _comparable_name(name)
-            in {_comparable_name(column.header), _comparable_name(bare_name(column.header))}
-        ] or [
-            k for k, column in enumerate(columns) if name.strip().upper() == table.grid.column(column.index)
-        ]
+            and _comparable_name(name) in {_comparable_name(column.header), _comparable_name(bare_name(column.header))}
+        ] or [k for k, column in enumerate(columns) if name.strip().upper() == table.grid.column(column.index)]
         if not known:
             names = ", ".join(column.header for column in columns if column.header)
-            raise table.refusal(
-                columns[0], f'ignore = "{name}" (--ignore): no such column; there are: {names}'
-            )
+            raise table.refusal(columns[0], f'ignore = "{name}" (--ignore): no such column; there are: {names}')
         for k in known:
             columns[k] = replace(columns[k], meaning=None)
     notes = tuple(f"column left aside as asked: {name}" for name in ignore)
@@ -254,17 +234,14 @@ def with_column_names(grid: TextGrid, columns: Mapping[str, str]) -> TextGrid:
                 continue
             named = tuple(
                 _with_unit_of(cell, given)
-                if cell
-                and _comparable_name(name) in {_comparable_name(cell), _comparable_name(bare_name(cell))}
+                if cell and _comparable_name(name) in {_comparable_name(cell), _comparable_name(bare_name(cell))}
                 else cell
                 for cell in cells
             )
             if named != cells:
                 lines[k], found = line._replace(cells=named), True
         if not found:
-            raise InputError(
-                f'{grid.name}: columns: "{name}={given}" (--column): no column has the name "{name}"'
-            )
+            raise InputError(f'{grid.name}: columns: "{name}={given}" (--column): no column has the name "{name}"')
         notes.append(f'"{name}" is {given} as given')
     return replace(grid, lines=tuple(lines), notes=(*grid.notes, *notes))
 
@@ -330,9 +307,7 @@ def _header_positions(grid: TextGrid) -> list[int]:
     headers = []
     for position, line in enumerate(grid.lines):
         if len(line.cells) >= 2 and not _number_count(line):
-            quantities = {
-                m.quantity for cell in line.cells if cell and (m := header_meaning(cell)) is not None
-            }
+            quantities = {m.quantity for cell in line.cells if cell and (m := header_meaning(cell)) is not None}
             if len(quantities) >= 2:
                 headers.append(position)
     return headers
@@ -376,16 +351,12 @@ def _header_columns(grid: TextGrid, position: int) -> tuple[tuple[DataColumn, ..
 def _is_superposed_table(grid: TextGrid, start: int, steps: Sequence[DataColumn]) -> bool:
     """True if a table below isotherms holds their shift factors or master curve, by its names and title."""
     first = {column.meaning.quantity for column in steps if column.meaning is not None}
-    here = {
-        m.quantity for cell in grid.lines[start].cells if cell and (m := header_meaning(cell)) is not None
-    }
+    here = {m.quantity for cell in grid.lines[start].cells if cell and (m := header_meaning(cell)) is not None}
     if not {"frequency", "temperature"} <= first or not first & {"storage", "loss", "complex"}:
         return False
     if "a_T" in here and not here & {"storage", "loss", "complex"}:
         return True
-    title = " ".join(
-        line.text for line in grid.lines[max(0, start - _TITLE_LINES) : start] if not _is_data(line)
-    )
+    title = " ".join(line.text for line in grid.lines[max(0, start - _TITLE_LINES) : start] if not _is_data(line))
     return "temperature" not in here and _SUPERPOSITION_TITLE.search(title) is not None
 
 
@@ -422,14 +393,10 @@ def _no_table_error(grid: TextGrid, headers: Sequence[int]) -> InputError:
     if data is None:
         row = grid.lines[headers[0] if headers else 0].number if grid.lines else 1
         what = "a header but no row of numbers below it" if headers else "no row of two or more numbers"
-        return grid.refusal(
-            row, 0, f"{what}; the file needs {EXAMPLE_HEADER} and one row for each measurement"
-        )
+        return grid.refusal(row, 0, f"{what}; the file needs {EXAMPLE_HEADER} and one row for each measurement")
     named = [line for line in grid.lines[:data] if len(line.cells) >= 2 and not _number_count(line)]
     if not named:
-        return grid.refusal(
-            grid.lines[data].number, 0, f"numbers without a header; put {EXAMPLE_HEADER} above them"
-        )
+        return grid.refusal(grid.lines[data].number, 0, f"numbers without a header; put {EXAMPLE_HEADER} above them")
     header = named[-1]
     if all(map(is_any_unit, filter(None, header.cells))) and len(named) > 1:
         header = named[-2]

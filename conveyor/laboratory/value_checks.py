@@ -38,9 +38,7 @@ _POSITIVE_ADVICE: Final = {
     "relaxation": "; if the column is log10 E, name it so, else " + _DELETE_ADVICE,
     "a_T": "; if the column is log10, name it 'log10 a_T'",
     "b_T": "; if the column is log10, name it 'log10 b_T'",
-} | dict.fromkeys(
-    ("strain", "complex", "tau", "term", "share", "instant", "tan_delta", "phase"), f"; {_DELETE_ADVICE}"
-)
+} | dict.fromkeys(("strain", "complex", "tau", "term", "share", "instant", "tan_delta", "phase"), f"; {_DELETE_ADVICE}")
 """Quantities that must be > 0, with advice."""
 
 
@@ -55,9 +53,7 @@ def check_possible(table: DataTable, series: Mapping[str, ColumnSeries]) -> None
         values = column.values
         if quantity not in _UNLIMITED_QUANTITIES and column.meaning.log_base is None:
             overload = np.abs(values / column.unit.factor) > OVERLOAD_READING
-            _refuse_rows(
-                table, column, overload, f"is no reading but an overload of the instrument; {_DELETE_ADVICE}"
-            )
+            _refuse_rows(table, column, overload, f"is no reading but an overload of the instrument; {_DELETE_ADVICE}")
         _refuse_rows(
             table,
             column,
@@ -86,9 +82,7 @@ def _row_question(table: DataTable, series: ColumnSeries, row: int, text: str) -
     return Question(series.column, f"{series.name} = {value} {text}", row)
 
 
-def doubtful_values(
-    table: DataTable, series: Mapping[str, ColumnSeries], moduli: Moduli | None
-) -> Iterator[Question]:
+def doubtful_values(table: DataTable, series: Mapping[str, ColumnSeries], moduli: Moduli | None) -> Iterator[Question]:
     """Questions on values implausible in the stated unit, each at its first row."""
     for quantity in ("storage", "complex", "relaxation"):
         if quantity in series:
@@ -122,9 +116,7 @@ def _loss_doubts(table: DataTable, moduli: Moduli) -> Iterator[Question]:
             " rename the columns, or correct the units in the header or unit row"
         )
         if moduli.loss_from.meaning.quantity == "tan_delta":
-            what = (
-                f"is too much; rubber stays {limit}: a phase angle in degrees? name the column 'phase [deg]'"
-            )
+            what = f"is too much; rubber stays {limit}: a phase angle in degrees? name the column 'phase [deg]'"
         yield _row_question(table, moduli.loss_from, row, what)
 
 
@@ -136,9 +128,7 @@ def _temperature_doubts(table: DataTable, series: ColumnSeries) -> Iterator[Ques
     if not outside.any():
         outside[0] = series.values.min() > KELVIN_AS_CELSIUS
     if impossible.any():
-        yield _row_question(
-            table, series, int(np.argmax(impossible)), f"{unit} is below absolute zero; {advice}"
-        )
+        yield _row_question(table, series, int(np.argmax(impossible)), f"{unit} is below absolute zero; {advice}")
     elif outside.any() and not series.explicit:
         what = (
             f"{unit} is outside {low - 273.15:g} to {high - 273.15:g} degC, or all above"

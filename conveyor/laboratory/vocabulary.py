@@ -48,13 +48,8 @@ def word_lists(name: str) -> Iterator[tuple[str, list[str]]]:
 
 def _word_pattern(words: list[str], *, as_written: bool) -> re.Pattern[str]:
     """Pattern of whole words; Chinese, Japanese and Korean ones match anywhere."""
-    one = [
-        re.escape(word).replace(r"\*", r"\w*").replace(r"\#", r"\d+").replace(r"\ ", r"\s+") for word in words
-    ]
-    whole = [
-        each if ord(word[0]) > 0x2E00 else rf"(?<!\w){each}(?!\w)"
-        for word, each in zip(words, one, strict=True)
-    ]
+    one = [re.escape(word).replace(r"\*", r"\w*").replace(r"\#", r"\d+").replace(r"\ ", r"\s+") for word in words]
+    whole = [each if ord(word[0]) > 0x2E00 else rf"(?<!\w){each}(?!\w)" for word, each in zip(words, one, strict=True)]
     return re.compile("|".join(whole), re.NOFLAG if as_written else re.IGNORECASE)
 
 

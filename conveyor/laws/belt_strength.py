@@ -147,9 +147,7 @@ def belt_safety(largest_tension: float, *, nominal_strength: float, belt_width: 
     >>> belt_safety(200e3, nominal_strength=1.6e6, belt_width=1.0)
     8.0
     """
-    require_positive(
-        largest_tension=largest_tension, nominal_strength=nominal_strength, belt_width=belt_width
-    )
+    require_positive(largest_tension=largest_tension, nominal_strength=nominal_strength, belt_width=belt_width)
     return nominal_strength * belt_width / largest_tension
 
 
@@ -184,9 +182,7 @@ def required_strength(largest_per_width: float, *, splice_strength: float, s0: f
     1246667
     """
     require_positive(largest_per_width=largest_per_width)
-    require(
-        0.0 < splice_strength <= 1.0, "splice_strength", splice_strength, "above 0 and at most 1 is needed"
-    )
+    require(0.0 < splice_strength <= 1.0, "splice_strength", splice_strength, "above 0 and at most 1 is needed")
     for name, value in (("s0", s0), ("s1", s1)):
         require(1.0 <= value < math.inf, name, value, "at least 1 is needed")
     return largest_per_width * s0 * s1 / splice_strength

@@ -24,9 +24,7 @@ EDGE_LEAST: Final = 0.023
 TIME_STEP: Final = 0.05
 """Between the points of a trajectory [s]; CEMA draws one every 1/20 s."""
 
-_SERIES_BELOW: Final = (
-    0.02  # half angle of a segment [rad] below which series are as good as the closed forms, 1e-8
-)
+_SERIES_BELOW: Final = 0.02  # half angle of a segment [rad] below which series are as good as the closed forms, 1e-8
 _ROOT_TOLERANCE: Final = 1e-18  # of a root that may be as small as 1e-6 [rad]
 
 
@@ -121,9 +119,7 @@ def bulk_on_pulley(area: float, *, width: float) -> BulkOnPulley:
     if half < _SERIES_BELOW:
         return BulkOnPulley(height, height * (0.4 + 3.0 / 350.0 * half**2))
     radius = 0.5 * width / math.sin(half)
-    return BulkOnPulley(
-        height, radius * (2.0 * math.sin(half) ** 3 / (3.0 * _segment_factor(half)) - math.cos(half))
-    )
+    return BulkOnPulley(height, radius * (2.0 * math.sin(half) ** 3 / (3.0 * _segment_factor(half)) - math.cos(half)))
 
 
 def _segment_factor(half: float) -> float:
@@ -238,9 +234,7 @@ def slipping_discharge(
 
     Examples
     --------
-    >>> found = slipping_discharge(
-    ...     1.0, radius=0.5, inclination=0.0, friction=0.6, sliding_friction=0.5, gravity=9.81
-    ... )
+    >>> found = slipping_discharge(1.0, radius=0.5, inclination=0.0, friction=0.6, sliding_friction=0.5, gravity=9.81)
     >>> [round(math.degrees(a), 2) for a in (found.slip_angle, found.angle)], round(found.speed, 3)
     ([24.94, 52.9], 1.72)
     """

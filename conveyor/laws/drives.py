@@ -20,9 +20,7 @@ _POUND_FOOT: Final = 0.45359237 * 0.3048**2  # lb ft² [kg m²]
 BACKSTOP_SHARE_FACTOR: Final = Default(
     1.4, 1.2, 2.0, "load of one of several backstops over an even share: 70 % of two", True
 )  # [-]
-GEAR_SERVICE: Final = Default(
-    1.5, 1.25, 1.75, "rated torque of a conveyor's gear over that of its motor", True
-)  # [-]
+GEAR_SERVICE: Final = Default(1.5, 1.25, 1.75, "rated torque of a conveyor's gear over that of its motor", True)  # [-]
 DISC_HEAT: Final = Default(460.0, 450.0, 500.0, "specific heat of a steel brake disc", True)  # [J/(kg K)]
 _R10: Final = (1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0)  # ISO 3
 _R20: Final = (*_R10, 1.12, 1.4, 1.8, 2.24, 2.8, 3.55, 4.5, 5.6, 7.1, 9.0)  # ISO 3
@@ -82,9 +80,7 @@ def allowed_starts(rated_power: float, *, poles: Poles, load_inertia: float) -> 
     above = [row for row in _STARTS if row[0] >= size * (1.0 - _SHARE_TOLERANCE)]
     below = [row for row in _STARTS if row[0] <= size * (1.0 + _SHARE_TOLERANCE)]
     if not above or not below:
-        raise RangeError(
-            f"{size:.4g} hp is outside NEMA's table of starts, 1 to 250 hp: ask the motor's maker"
-        )
+        raise RangeError(f"{size:.4g} hp is outside NEMA's table of starts, 1 to 250 hp: ask the motor's maker")
     column = poles // 2
     most, product = above[0][column][0], below[-1][column][1]  # type: ignore[index]
     return min(most, product * _POUND_FOOT / load_inertia)
@@ -192,9 +188,7 @@ def flywheel_inertia(
     >>> flywheel_inertia(20.0, retarding_force=25e3, moving_mass=50e3, belt_speed=5.0, radius=0.5, ratio=16.0)
     48.828125
     """
-    require_positive(
-        time=time, retarding_force=retarding_force, moving_mass=moving_mass, belt_speed=belt_speed
-    )
+    require_positive(time=time, retarding_force=retarding_force, moving_mass=moving_mass, belt_speed=belt_speed)
     require_positive(radius=radius, ratio=ratio)
     missing = retarding_force * time / belt_speed - moving_mass
     return max(0.0, missing) * (radius / ratio) ** 2
@@ -331,16 +325,12 @@ def shared_forces(
     --------
     >>> [
     ...     round(f)
-    ...     for f in shared_forces(
-    ...         80e3, rated=[50e3] * 2, slips=[0.02] * 2, diameters=[1.0] * 2, strains=[0.0] * 2
-    ...     )
+    ...     for f in shared_forces(80e3, rated=[50e3] * 2, slips=[0.02] * 2, diameters=[1.0] * 2, strains=[0.0] * 2)
     ... ]
     [40000, 40000]
     >>> [
     ...     round(f)
-    ...     for f in shared_forces(
-    ...         80e3, rated=[50e3] * 2, slips=[0.02] * 2, diameters=[1.0, 0.99], strains=[0.0] * 2
-    ...     )
+    ...     for f in shared_forces(80e3, rated=[50e3] * 2, slips=[0.02] * 2, diameters=[1.0, 0.99], strains=[0.0] * 2)
     ... ]
     [52362, 27638]
     """

@@ -114,9 +114,7 @@ def duty_sums(steps: Sequence[DutyStep]) -> DutySums:
     """
     require(len(steps) > 0, "steps", list(steps), "at least one step is needed")
     time = math.fsum(step.time for step in steps)
-    require(
-        time <= YEAR, "steps", list(steps), f"at most 8784 h are in a year, these are {time / 3600.0:.6g} h"
-    )
+    require(time <= YEAR, "steps", list(steps), f"at most 8784 h are in a year, these are {time / 3600.0:.6g} h")
     return DutySums(
         time=time,
         drawn_kwh=math.fsum(step.time * step.power for step in steps if step.power > 0.0) / JOULE_PER_KWH,

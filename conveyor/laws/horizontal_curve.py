@@ -124,9 +124,7 @@ def outward_force_factors(
     require_angle(0.0, trough_angle=trough_angle, banking_angle=banking_angle, inner_angle=inner_angle)
     require_angle(0.0, sum_of_trough_and_banking=trough_angle + banking_angle)
     require_positive(trough_angle=trough_angle)
-    require(
-        inner_angle <= trough_angle, "inner_angle", inner_angle, f"at most {trough_angle!r} rad is needed"
-    )
+    require(inner_angle <= trough_angle, "inner_angle", inner_angle, f"at most {trough_angle!r} rad is needed")
     angles = roll_angles(rolls, trough_angle=trough_angle, inner_angle=inner_angle)
     pushes = []
     for i, (angle, friction) in enumerate(zip(angles, frictions, strict=True)):
@@ -335,9 +333,7 @@ class FlatDrift:
 
     Examples
     --------
-    >>> flat = FlatDrift(
-    ...     1000.0, banking_angle=0.0, skew=0.0, friction=0.35, full_slip=0.05, length=100.0, reach=0.7
-    ... )
+    >>> flat = FlatDrift(1000.0, banking_angle=0.0, skew=0.0, friction=0.35, full_slip=0.05, length=100.0, reach=0.7)
     >>> round(flat.force(0.5), 6), round(flat.drift(94.85), 6), flat.drift(400.0)  # 0.35 (1 - 0.9³) W
     (94.85, 0.5, inf)
     """
@@ -362,9 +358,7 @@ class FlatDrift:
 
     def guiding_force(self, drift: float) -> float:
         """Guiding friction along the roll [N] at a drift to the inside [m]."""
-        held = guide_friction(
-            self.skew + drift / self.length, friction=self.friction, full_slip=self.full_slip
-        )
+        held = guide_friction(self.skew + drift / self.length, friction=self.friction, full_slip=self.full_slip)
         return self.weight * math.cos(self.banking_angle) * held
 
     def force(self, drift: float) -> float:

@@ -127,10 +127,7 @@ def rated_set_load(cema_class: CemaClass, *, belt_width: float, trough_angle: fl
 
     Examples
     --------
-    >>> [
-    ...     round(rated_set_load("C", belt_width=0.914, trough_angle=math.radians(a), rolls=3))
-    ...     for a in (20, 35, 45)
-    ... ]
+    >>> [round(rated_set_load("C", belt_width=0.914, trough_angle=math.radians(a), rolls=3)) for a in (20, 35, 45)]
     [4003, 3723, 3603]
     >>> round(rated_set_load("D", belt_width=1.2, trough_angle=0.0, rolls=1))
     1890
@@ -206,9 +203,7 @@ def lump_load_factor(lump: float, *, density: float) -> float:
     )
 
 
-def flap_frequency(
-    tension: float, *, line_mass: float, spacing: float, belt_speed: float, mode: int = 1
-) -> float:
+def flap_frequency(tension: float, *, line_mass: float, spacing: float, belt_speed: float, mode: int = 1) -> float:
     """Natural frequency of the belt between two sets, n (c² - v²)/(2 a c) with c = sqrt(T/m').
 
     Parameters
@@ -288,10 +283,7 @@ def resonance_margin(roll_frequency: float, *, lowest: float, highest: float) ->
     require_positive(roll_frequency=roll_frequency)
     require_not_negative(lowest=lowest)
     require(lowest <= highest < math.inf, "highest", highest, f"at least lowest = {lowest!r} Hz is needed")
-    over = [
-        (n * lowest / roll_frequency - 1.0, 1.0 - n * highest / roll_frequency)
-        for n in range(1, FLAP_MODES + 1)
-    ]
+    over = [(n * lowest / roll_frequency - 1.0, 1.0 - n * highest / roll_frequency) for n in range(1, FLAP_MODES + 1)]
     return max(0.0, min(max(pair) for pair in over))
 
 

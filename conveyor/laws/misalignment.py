@@ -21,12 +21,8 @@ def _angle_default(value: float, low: float, high: float, source: str) -> Defaul
 
 
 MISALIGNMENT: Final[dict[Site, Default]] = {
-    "overland": _angle_default(
-        0.1, 0.05, 0.38, "aligned by laser; high: CEMA 7, precise alignment procedures"
-    ),
-    "plant": _angle_default(
-        0.5, 0.38, 0.75, "CEMA 7, installed without measurement; precise, imprecise footings"
-    ),
+    "overland": _angle_default(0.1, 0.05, 0.38, "aligned by laser; high: CEMA 7, precise alignment procedures"),
+    "plant": _angle_default(0.5, 0.38, 0.75, "CEMA 7, installed without measurement; precise, imprecise footings"),
     "poor": _angle_default(1.0, 0.75, 1.5, "CEMA 7, between imprecise footings and roof hung"),
 }
 """Standard deviation of the angles of the sets' axes from square to the belt [rad], by site.

@@ -122,9 +122,7 @@ def run_up_time(speeds: Sequence[float], forces: Sequence[float], *, mass: float
     25.0
     """
     require_positive(mass=mass)
-    require(
-        len(speeds) == len(forces) > 1, "forces", list(forces), "one for each of the speeds, two at least"
-    )
+    require(len(speeds) == len(forces) > 1, "forces", list(forces), "one for each of the speeds, two at least")
     stuck = next((v for v, force in zip(speeds, forces, strict=True) if force <= 0.0), None)
     if stuck is not None:
         raise NoSolutionError(f"the motors do not accelerate the belt at {stuck:.4g} m/s")
@@ -136,9 +134,7 @@ def run_up_time(speeds: Sequence[float], forces: Sequence[float], *, mass: float
     return time
 
 
-def start_force(
-    rated_power: float, *, torque_factor: float, efficiency: float, rated_belt_speed: float
-) -> float:
+def start_force(rated_power: float, *, torque_factor: float, efficiency: float, rated_belt_speed: float) -> float:
     """Force at the belt at the start, F = k η P/v.
 
     Parameters

@@ -122,9 +122,7 @@ def recommended_speed(belt_width: float, *, abrasiveness: Severity) -> float:
         abrasiveness,
         f"one of {', '.join(RECOMMENDED_SPEEDS)} is needed",
     )
-    return next(
-        FOOT_PER_MINUTE * fpm for widest, fpm in RECOMMENDED_SPEEDS[abrasiveness] if belt_width <= widest
-    )
+    return next(FOOT_PER_MINUTE * fpm for widest, fpm in RECOMMENDED_SPEEDS[abrasiveness] if belt_width <= widest)
 
 
 def standard_edge_distance(belt_width: float) -> float:
@@ -247,9 +245,7 @@ def carcass_mass(strength: float, *, thickness: float, steel_cord: bool) -> floa
     if not steel_cord:
         return TEXTILE_DENSITY * thickness
     steel = strength / CORD_STRESS
-    require(
-        steel < thickness, "thickness", thickness, f"more than the cords' steel, {steel:.3g} m, is needed"
-    )
+    require(steel < thickness, "thickness", thickness, f"more than the cords' steel, {steel:.3g} m, is needed")
     return STEEL_DENSITY * steel + CARCASS_RUBBER * (thickness - steel)
 
 

@@ -65,18 +65,14 @@ def heavier_bearing_load(
 
     Examples
     --------
-    >>> load = heavier_bearing_load(
-    ...     600.0, belt_force=100.0, loaded_length=0.4, bearing_distance=0.4, triangular=True
-    ... )
+    >>> load = heavier_bearing_load(600.0, belt_force=100.0, loaded_length=0.4, bearing_distance=0.4, triangular=True)
     >>> round(load, 6)
     450.0
     """
     require_not_negative(bulk_force=bulk_force, belt_force=belt_force)
     require_positive(loaded_length=loaded_length, bearing_distance=bearing_distance)
     shell = bearing_distance + 2.0 * inset
-    require(
-        shell > 0.0, "inset", inset, f"above -bearing_distance/2 = {-bearing_distance / 2.0!r} m is needed"
-    )
+    require(shell > 0.0, "inset", inset, f"above -bearing_distance/2 = {-bearing_distance / 2.0!r} m is needed")
     allowed = f"at most bearing_distance + 2 inset = {shell!r} m is needed"
     ok = loaded_length <= shell * (1.0 + SHELL_ROUNDING)
     require(ok, "loaded_length", loaded_length, allowed)
@@ -85,9 +81,7 @@ def heavier_bearing_load(
     return bulk_force * (1.0 - bulk_centre) + belt_force * (1.0 - belt_centre)
 
 
-def rating_life_hours(
-    load: float, *, dynamic_rating: float, rotation: float, exponent: float = BALL_EXPONENT
-) -> float:
+def rating_life_hours(load: float, *, dynamic_rating: float, rotation: float, exponent: float = BALL_EXPONENT) -> float:
     """Basic rating life, L10h = (C/P)^p 1e6/(3600 n) (ISO 281).
 
     Parameters

@@ -226,8 +226,7 @@ def soften_covers(works: Sequence[SofteningCover]) -> list[SoftCover | NoSolutio
         for (depths, points), members in alike.items():
             strained = working_strains([solved[i] for i in members], depths=depths, points=points)
             worked |= {
-                i: _strain_and_frequency(works[i].contact, *pair)
-                for i, pair in zip(members, strained, strict=True)
+                i: _strain_and_frequency(works[i].contact, *pair) for i, pair in zip(members, strained, strict=True)
             }
         return [worked[i] if i in worked else NoSolutionError(solved[i].message) for i in asked]
 
@@ -270,9 +269,7 @@ def soften_at_strains(
     >>> contact = RollContact(
     ...     radius=0.08, spacing=1.5, cover_thickness=0.006, speed=5.0, rubber=PronySeries(8e6, [3e6], [1e-3])
     ... )
-    >>> [(series, at)] = soften_at_strains(
-    ...     [SofteningCover(contact, 3000.0, factors, 293.15)], [(1e-4, 600.0)]
-    ... )
+    >>> [(series, at)] = soften_at_strains([SofteningCover(contact, 3000.0, factors, 293.15)], [(1e-4, 600.0)])
     >>> round(at.storage_factor, 6), round(at.loss_factor, 6)
     (1.0, 1.0)
     """

@@ -177,9 +177,7 @@ class TakeUpTravel:
     @property
     def whole(self) -> float:
         """Total travel [m]."""
-        return math.fsum(
-            (self.tensioning, self.load, self.motion, self.permanent, self.temperature, self.reserve)
-        )
+        return math.fsum((self.tensioning, self.load, self.motion, self.permanent, self.temperature, self.reserve))
 
 
 def take_up_travel(

@@ -32,9 +32,7 @@ who finds them conservatively high."""
 
 def _require_drive(friction: float, wrap_angle: float) -> None:
     require(0.0 < friction <= LARGEST_FRICTION, "friction", friction, "above 0 and at most 2 is needed")
-    require(
-        0.0 < wrap_angle <= LARGEST_WRAP, "wrap_angle", wrap_angle, "above 0 and at most 8 pi rad is needed"
-    )
+    require(0.0 < wrap_angle <= LARGEST_WRAP, "wrap_angle", wrap_angle, "above 0 and at most 8 pi rad is needed")
 
 
 def grip_tension(drive_force: float, *, friction: float, wrap_angle: float) -> float:
@@ -204,9 +202,7 @@ def drive_tensions(
     require(1.0 <= start_factor < math.inf, "start_factor", start_factor, "at least 1 is needed")
     grip = grip_tension(start_factor * drive_force, friction=friction, wrap_angle=wrap_angle)
     governed_by, slack = governing_tension({"grip": grip, "sag": slack_for_sag})
-    return DriveSideTensions(
-        tight=slack + start_factor * abs(drive_force), slack=slack, governed_by=governed_by
-    )
+    return DriveSideTensions(tight=slack + start_factor * abs(drive_force), slack=slack, governed_by=governed_by)
 
 
 def least_pulley_diameter(carcass_thickness: float, *, carcass: Carcass) -> float:
@@ -266,9 +262,7 @@ def steel_cord_stiffness(nominal_strength: float) -> float:
     return STEEL_CORD_STIFFNESS_FACTOR * nominal_strength
 
 
-def usual_stiffness(
-    nominal_strength: float | None, *, rating: float | None = None, carcass: str
-) -> float | None:
+def usual_stiffness(nominal_strength: float | None, *, rating: float | None = None, carcass: str) -> float | None:
     """Usual tensile stiffness of a belt per width, a multiple of its strength or rated tension.
 
     Parameters

@@ -8,9 +8,7 @@ from typing import Final
 from conveyor.laws.resistance import Default
 from conveyor.require import require, require_not_negative, require_positive
 
-SKIRT_SECONDS: Final = Default(
-    1.2, 1.2, 1.8, "CEMA: 2 ft of skirtboard for every 100 fpm of belt speed", True
-)  # [s]
+SKIRT_SECONDS: Final = Default(1.2, 1.2, 1.8, "CEMA: 2 ft of skirtboard for every 100 fpm of belt speed", True)  # [s]
 SKIRT_LEAST: Final = Default(0.9144, 0.9144, 0.9144, "CEMA: no less than 3 ft", True)  # [m]
 IMPACT_CLASSES: Final = ((271.2, "light"), (1355.8, "medium"), (2711.6, "heavy"))
 """Largest lump energy of the impact bed classes of CEMA 575: 200, 1000, 2000 lbf ft [J]; general knowledge."""

@@ -84,12 +84,8 @@ def transition_stretch(
 
     Examples
     --------
-    >>> full = transition_stretch(
-    ...     1.2, middle_roll_length=0.4, trough_angle=math.radians(35), pulley_height=0.0
-    ... )
-    >>> half = transition_stretch(
-    ...     1.2, middle_roll_length=0.4, trough_angle=math.radians(35), pulley_height=0.5
-    ... )
+    >>> full = transition_stretch(1.2, middle_roll_length=0.4, trough_angle=math.radians(35), pulley_height=0.0)
+    >>> half = transition_stretch(1.2, middle_roll_length=0.4, trough_angle=math.radians(35), pulley_height=0.5)
     >>> round(full.edge, 5), round(full.middle, 5), round(half.edge, 5), round(half.middle, 5)
     (0.02251, -0.00643, 0.00496, 0.00234)
     """
@@ -144,9 +140,7 @@ def transition_length(
     >>> transition_length(100e3, stretch=0.02, stiffness_per_width=72e6, limit_per_width=140e3)
     6.0
     """
-    require(
-        0.0 <= tension_per_width < math.inf, "tension_per_width", tension_per_width, "at least 0 is needed"
-    )
+    require(0.0 <= tension_per_width < math.inf, "tension_per_width", tension_per_width, "at least 0 is needed")
     require_positive(stiffness_per_width=stiffness_per_width)
     require(math.isfinite(limit_per_width), "limit_per_width", limit_per_width, "a finite number is needed")
     if stretch == 0.0:

@@ -208,7 +208,5 @@ def buckling_radius(
     require_not_negative(least_per_width=least_per_width, distance=distance)
     require_positive(stiffness_per_width=stiffness_per_width)
     ok = least_per_width < tension_per_width < math.inf
-    require(
-        ok, "tension_per_width", tension_per_width, f"more than the least {least_per_width:.6g} N/m is needed"
-    )
+    require(ok, "tension_per_width", tension_per_width, f"more than the least {least_per_width:.6g} N/m is needed")
     return stiffness_per_width * distance / (tension_per_width - least_per_width)

@@ -24,9 +24,7 @@ BELT_RETARDATION: Final = Default(
 )  # [s]
 MOTOR_SLIP: Final = Default(0.02, 0.005, 0.05, "slip of motor and coupling at rated torque", True)  # [-]
 TORQUE_LIMIT: Final = Default(1.6, 1.3, 2.2, "largest torque of a motor over the rated one", True)  # [-]
-INITIAL_TORQUE: Final = Default(
-    0.3, 0.1, 0.5, "torque at which soft starters and couplings begin", True
-)  # [-]
+INITIAL_TORQUE: Final = Default(0.3, 0.1, 0.5, "torque at which soft starters and couplings begin", True)  # [-]
 PULLEY_INERTIA: Final = Default(
     0.6,
     0.5,
@@ -35,13 +33,9 @@ PULLEY_INERTIA: Final = Default(
     True,
 )  # [-]
 
-DRIVE_DRAG: Final = Default(
-    0.5, 0.3, 0.7, "drag of a drive without power over its loss at rated power", True
-)  # [-]
+DRIVE_DRAG: Final = Default(0.5, 0.3, 0.7, "drag of a drive without power over its loss at rated power", True)  # [-]
 SLACK_SAG: Final = Default(0.1, 0.05, 0.2, "sag over the span from which on a belt is slack", True)  # [-]
-MOVING_SAG: Final = Default(
-    0.05, 0.03, 0.1, "sag over the span allowed while a conveyor starts or stops", True
-)  # [-]
+MOVING_SAG: Final = Default(0.05, 0.03, 0.1, "sag over the span allowed while a conveyor starts or stops", True)  # [-]
 
 
 def sag_factor(line_mass: float, *, spacing: float, inclination: float, gravity: float) -> float:
@@ -139,10 +133,7 @@ def ramp_speed(share: ArrayLike, *, shape: str) -> NDArray[np.float64]:
 
     Examples
     --------
-    >>> [
-    ...     ramp_speed([0.0, 0.25, 0.5, 1.0], shape=shape).round(3).tolist()
-    ...     for shape in ("linear", "cosine", "S")
-    ... ]
+    >>> [ramp_speed([0.0, 0.25, 0.5, 1.0], shape=shape).round(3).tolist() for shape in ("linear", "cosine", "S")]
     [[0.0, 0.25, 0.5, 1.0], [0.0, 0.146, 0.5, 1.0], [0.0, 0.125, 0.5, 1.0]]
     """
     x = np.clip(np.asarray(share, dtype=float), 0.0, 1.0)

@@ -285,9 +285,7 @@ def solve_belt_contacts(
     contacts_of: list[BeltContacts | NoSolutionError] = []
     for one, pull, own in zip(held, pulls, keys, strict=True):
         why = next((refused[key] for key in own if key in refused), None)
-        contacts_of.append(
-            _read_belt_contacts(one, pull, [known[key] for key in own]) if why is None else why
-        )
+        contacts_of.append(_read_belt_contacts(one, pull, [known[key] for key in own]) if why is None else why)
     return contacts_of
 
 
@@ -336,9 +334,7 @@ def _solve_tension_curves(
         for key in curves.keys() - curves_of.keys():
             middle, half = (0.5 * np.log(spans[key][1]) @ pair for pair in ((1.0, 1.0), (-1.0, 1.0)))
             for j in range(degree + 1) if degree == _INTERPOLATION_DEGREES[0] else range(1, degree, 2):
-                contact = _contact_at_tension(
-                    key[0], float(np.exp(middle + half * lobatto_points(degree)[j]))
-                )
+                contact = _contact_at_tension(key[0], float(np.exp(middle + half * lobatto_points(degree)[j])))
                 jobs.setdefault(key[1], []).append((key, j, contact))
         for rtol, asked in jobs.items():
             lowest, highest = zip(*(spans[key][0] for key, _, _ in asked), strict=True)
@@ -381,9 +377,7 @@ def _accept_interpolation(
 
 def _has_loss(contact: RollContact) -> bool:
     behind = contact.backing
-    inside = behind is not None and (
-        behind.rubber.moduli.size > 0 or behind.bending * behind.bending_loss > 0.0
-    )
+    inside = behind is not None and (behind.rubber.moduli.size > 0 or behind.bending * behind.bending_loss > 0.0)
     return inside or contact.rubber.moduli.size > 0
 
 

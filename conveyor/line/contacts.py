@@ -151,15 +151,11 @@ class Contacts:
 
     def slowest_excited(self, strand: Strand) -> float | None:
         """Lower end of the excited band [Hz]."""
-        return min(
-            (f for one in self.curves_of(strand) if (f := one.slowest_excited) is not None), default=None
-        )
+        return min((f for one in self.curves_of(strand) if (f := one.slowest_excited) is not None), default=None)
 
     def fastest_excited(self, strand: Strand) -> float | None:
         """Upper end of the excited band [Hz]."""
-        return max(
-            (f for one in self.curves_of(strand) if (f := one.fastest_excited) is not None), default=None
-        )
+        return max((f for one in self.curves_of(strand) if (f := one.fastest_excited) is not None), default=None)
 
     def losing_load(self, strand: Strand) -> float:
         """Mean line load of a strand's rolls, weighted by energy loss [N/m]."""
@@ -211,15 +207,9 @@ class Contacts:
         asked: dict[Strand, list[RollContact]] = {}
         for strand, cover in self.covers.items():
             level = cover.level
-            if (
-                level is None
-                or level.compound.prony.band is None
-                or level.anchor.tested_at(level.temperature)
-            ):
+            if level is None or level.compound.prony.band is None or level.anchor.tested_at(level.temperature):
                 continue
-            heaviest = max(
-                (kind for kind in self.line.kinds if kind.strand == strand), key=lambda kind: kind.highest
-            )
+            heaviest = max((kind for kind in self.line.kinds if kind.strand == strand), key=lambda kind: kind.highest)
             contact, load = roll_contact(self.line, heaviest, cover), self.losing_load(strand)
             asked[strand] = [
                 coarsen_rubber(replace(contact, rubber=rubber), load, _REPLICA_MERGE_TOLERANCE)
@@ -351,9 +341,7 @@ def _read_contacts(
             at_level = part if level is None else part * level.factor(kind.distinct)
             drags[i][k] = integrate_along_rolls(kind, at_level[kind.which])
     return [
-        Contacts(line, cover, own, tuple(found[k] for k in range(len(own))))
-        if isinstance(own, tuple)
-        else own
+        Contacts(line, cover, own, tuple(found[k] for k in range(len(own)))) if isinstance(own, tuple) else own
         for line, cover, own, found in zip(lines, covers, curves, drags, strict=True)
     ]
 

@@ -80,9 +80,7 @@ def compounds_by_strand(conveyor: Conveyor) -> dict[Strand, RubberCompound]:
     return {"carry": conveyor.carry_compound, "return": conveyor.return_compound}
 
 
-def cover_series(
-    conveyor: Conveyor, series: Callable[[RubberCompound], PronySeries]
-) -> dict[CoverName, PronySeries]:
+def cover_series(conveyor: Conveyor, series: Callable[[RubberCompound], PronySeries]) -> dict[CoverName, PronySeries]:
     """Prony series of each strand's rubber and of the top cover's; one for each compound.
 
     Raises
@@ -216,9 +214,7 @@ def softened_covers(
         sweeps that do not reach it.
     """
     asked = {work: worked for work in works if (worked := work.worked()) is not None}
-    threes = {
-        three: part for run in runs for part in _speed_groups(run) for three in [_interpolation_nodes(part)]
-    }
+    threes = {three: part for run in runs for part in _speed_groups(run) for three in [_interpolation_nodes(part)]}
     between = {work for three, part in threes.items() for work in part if work not in three}
     found = soften_covers([*tests, *(worked for work, worked in asked.items() if work not in between)])
     soft = dict(zip([work for work in asked if work not in between], found[len(tests) :], strict=True))
@@ -271,8 +267,7 @@ def _interpolate_strains(
     if np.any(np.minimum(miss, 4.0 * miss * miss / span) > STRAIN_INTERPOLATION_TOLERANCE):
         return {}
     return {
-        work: (strain, omega)
-        for work, (strain, omega) in zip(between, np.exp(straight + bend).tolist(), strict=True)
+        work: (strain, omega) for work, (strain, omega) in zip(between, np.exp(straight + bend).tolist(), strict=True)
     }
 
 

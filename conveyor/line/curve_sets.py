@@ -208,13 +208,9 @@ def sets_on_curve(
     wind = 0.0
     if bare and wind_speed:
         angles = roll_angles(idlers.rolls, trough_angle=trough, inner_angle=inner)
-        depth = math.fsum(
-            load.length * abs(math.sin(angle)) for load, angle in zip(loads, angles, strict=True)
-        )
+        depth = math.fsum(load.length * abs(math.sin(angle)) for load, angle in zip(loads, angles, strict=True))
         height = thickness + 0.5 * depth
-        wind = wind_force(
-            wind_speed, height=height, length=spacing, drag=WIND_DRAG.value, air_density=AIR_DENSITY
-        )
+        wind = wind_force(wind_speed, height=height, length=spacing, drag=WIND_DRAG.value, air_density=AIR_DENSITY)
     return CurveSets(
         side=given.side,
         radius=given.radius,

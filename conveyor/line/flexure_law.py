@@ -79,10 +79,7 @@ class FlexureLaw:
             raise NoSolutionError(
                 "the flexure of the belt is not known at a tension of {}: m' v² is {}; give a larger "
                 "calculation.flexure.belt.tension",
-                *(
-                    MessageQuantity(each, "force", f"{each:.5g} N", digits=5)
-                    for each in (tension, tension - effective)
-                ),
+                *(MessageQuantity(each, "force", f"{each:.5g} N", digits=5) for each in (tension, tension - effective)),
             )
         return bulk + belt_flexure_resistance(
             load,

@@ -547,9 +547,7 @@ def _belt_body(conveyor: Conveyor) -> BeltBody:
         duty=carcass.duty,
         permanent_stretch=_si_or_none(carcass.permanent_stretch),
         retardation=_si_or_none(carcass.retardation_time),
-        bending=CARCASS_BENDING.value
-        if carcass.bending_stiffness is None
-        else si(carcass.bending_stiffness) / width,
+        bending=CARCASS_BENDING.value if carcass.bending_stiffness is None else si(carcass.bending_stiffness) / width,
         bending_loss=carcass.bending_loss,
         relaxing=None
         if carcass.relaxing_stiffness is None or carcass.relaxation_time is None
@@ -585,9 +583,7 @@ def _loading_points(conveyor: Conveyor, places: LoopPositions) -> tuple[LoadingP
     return tuple(_loading_point(conveyor, point, places, assumed=assumed) for point in points)
 
 
-def _loading_point(
-    conveyor: Conveyor, point: Feeding, places: LoopPositions, *, assumed: bool
-) -> LoadingPoint:
+def _loading_point(conveyor: Conveyor, point: Feeding, places: LoopPositions, *, assumed: bool) -> LoadingPoint:
     route, flow = conveyor.route, si(conveyor.material.flow)
     spot = places.landing(point.section)
     names = [section.name for section in route.sections]
@@ -633,9 +629,7 @@ def _head_discharge(conveyor: Conveyor) -> HeadDischarge | None:
     given, last = conveyor.route.discharge, conveyor.route.sections[-1]
     if given is None:
         return None
-    at_head = (
-        pulley.diameter for pulley in usual_parts.route_pulleys(conveyor)[0] if pulley.position == "head"
-    )
+    at_head = (pulley.diameter for pulley in usual_parts.route_pulleys(conveyor)[0] if pulley.position == "head")
     return HeadDischarge(
         diameter=si(given.pulley_diameter or next(at_head)),
         slope=math.asin(last.rise / si(last.length)) if given.slope is None else si(given.slope),
@@ -737,9 +731,7 @@ def _transition_zones(conveyor: Conveyor) -> tuple[TransitionZone, ...]:
     )
 
 
-def _pulley_position(
-    conveyor: Conveyor, pulley: Pulley, places: LoopPositions, *, driven: bool
-) -> LoopPosition:
+def _pulley_position(conveyor: Conveyor, pulley: Pulley, places: LoopPositions, *, driven: bool) -> LoopPosition:
     """Position of a pulley; one next to a driven one is behind the drive at the head, before it elsewhere."""
     if pulley.position == "take-up":
         return places.take_up(conveyor.route.take_up)

@@ -59,9 +59,7 @@ class LoopPositions:
 
     def landing(self, section: str | None) -> LoopPosition:
         """Position where bulk lands on a section, behind all other items at its tail end."""
-        return LoopPosition(
-            self.count + (0 if section is None else self._index[section]), BoundaryOrder.LANDING
-        )
+        return LoopPosition(self.count + (0 if section is None else self._index[section]), BoundaryOrder.LANDING)
 
     def name(self, landing: LoopPosition) -> str:
         """Name of a landing position for reports."""

@@ -68,16 +68,13 @@ def roll_drags_many(asked: Sequence[tuple[Conveyor, OneStrand]]) -> list[StrandD
             refused[k] = error
     for alike in served.values():
         loads_of = [np.array(asked[k][1].distinct_sets[0])[:, places] for k, places, _ in alike]
-        for (k, places, _), one in zip(
-            alike, _service_drags([law for *_, law in alike], loads_of), strict=True
-        ):
+        for (k, places, _), one in zip(alike, _service_drags([law for *_, law in alike], loads_of), strict=True):
             if isinstance(one, InputError):
                 refused.setdefault(k, one)
             else:
                 drags[k][:, places] = one
     return [
-        refused[k] if k in refused else _drags_of_stretches(strand, drags[k])
-        for k, (_, strand) in enumerate(asked)
+        refused[k] if k in refused else _drags_of_stretches(strand, drags[k]) for k, (_, strand) in enumerate(asked)
     ]
 
 
@@ -115,9 +112,7 @@ class _ServiceRoll:
 def _service_drags(laws: Sequence[_ServiceRoll], loads: Sequence[Array]) -> list[Array | InputError]:
     """Drags of rolls of one size under their loads [N]; after an error each law by itself."""
     sizes = [one.size for one in loads]
-    speed, air = (
-        np.repeat(each, sizes) for each in zip(*((law.speed, law.air) for law in laws), strict=True)
-    )
+    speed, air = (np.repeat(each, sizes) for each in zip(*((law.speed, law.air) for law in laws), strict=True))
     try:
         whole = service_roll_drag(
             np.concatenate([one.ravel() for one in loads]),
@@ -131,9 +126,7 @@ def _service_drags(laws: Sequence[_ServiceRoll], loads: Sequence[Array]) -> list
             return [InputError("{}: drag not given: {}", laws[0].field, error)]
         return [_service_drags([law], [one])[0] for law, one in zip(laws, loads, strict=True)]
     parts = np.split(whole, np.cumsum(sizes)[:-1])
-    return [
-        law.condition * part.reshape(one.shape) for law, part, one in zip(laws, parts, loads, strict=True)
-    ]
+    return [law.condition * part.reshape(one.shape) for law, part, one in zip(laws, parts, loads, strict=True)]
 
 
 def _roll_field(idlers: IdlerSet, roll: Roll, strand: Strand) -> str:
@@ -145,13 +138,9 @@ def _drag_law(roll: Roll, conveyor: Conveyor, field: str) -> DragLaw | _ServiceR
     diameter, law = si(roll.diameter), roll.drag_law
     speed, air = si(conveyor.belt.speed), si(conveyor.ambient.temperature)
     if isinstance(law, MakerDrag):
-        return _name_error_field(
-            _maker_drag(law, roll_rotation(speed, roll_diameter=diameter)), f"{field}.drag_law"
-        )
+        return _name_error_field(_maker_drag(law, roll_rotation(speed, roll_diameter=diameter)), f"{field}.drag_law")
     if isinstance(law, BearingDrag):
-        return _name_error_field(
-            _bearing_drag(law, diameter, speed, air, f"{field}.drag_law"), f"{field}.drag_law"
-        )
+        return _name_error_field(_bearing_drag(law, diameter, speed, air, f"{field}.drag_law"), f"{field}.drag_law")
     if roll.drag is None and conveyor.calculation.roll_drag == "in service":
         condition = ROLL_CONDITION[conveyor.site].value
         return _ServiceRoll(diameter, si(roll.length), speed, air, condition, field)

@@ -197,9 +197,7 @@ class RollingTestTheory:
             for w in _load_nodes(points.line_load, few=factors is not None):
                 self._asked[i, w] = contact
                 if factors is not None:
-                    works[i, w] = SofteningCover(
-                        contact, w, factors, points.temperature, swept, COARSE_SAMPLING
-                    )
+                    works[i, w] = SofteningCover(contact, w, factors, points.temperature, swept, COARSE_SAMPLING)
         self._worked, self.works = list(works), list(works.values())
 
     def levels(
@@ -210,11 +208,7 @@ class RollingTestTheory:
         for compound, rows in zip(self.compounds, self.rows(covers), strict=True):
             try:
                 levels.append(
-                    rows
-                    if not isinstance(rows, tuple)
-                    else factor_from_rows(compound, rows)
-                    if rows
-                    else None
+                    rows if not isinstance(rows, tuple) else factor_from_rows(compound, rows) if rows else None
                 )
             except InputError as error:
                 levels.append(error)
@@ -230,9 +224,7 @@ class RollingTestTheory:
         for compound in self.compounds:
             each = [(next(points), next(theory)) for _ in compound.tests]
             refused = next((ours for _, ours in each if isinstance(ours, NoSolutionError | RangeError)), None)
-            rows_of.append(
-                refused or tuple(itertools.chain.from_iterable(starmap(_rows_of_test, enumerate(each))))
-            )
+            rows_of.append(refused or tuple(itertools.chain.from_iterable(starmap(_rows_of_test, enumerate(each)))))
         return rows_of
 
     def _resistances(

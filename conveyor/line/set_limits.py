@@ -68,9 +68,7 @@ class SetLimits:
         load = math.fsum(roll.belt_force + (lumps or 1.0) * roll.bulk_force for roll in stretch.loads)
         load += raised_set_load(max(tension, 0.0), height=raised_height(stretch), spacing=stretch.spacing)
         ratings = {
-            name: rating
-            for name in CEMA_CLASSES
-            if (rating := _class_rating(name, stretch, belt_width)) is not None
+            name: rating for name in CEMA_CLASSES if (rating := _class_rating(name, stretch, belt_width)) is not None
         }
         rated = given.cema_class is not None or given.rating is not None
         own = None if given.cema_class is None else ratings.get(given.cema_class)
@@ -93,9 +91,7 @@ def raised_height(stretch: Stretch) -> float:
 def _class_rating(name: CemaClass, stretch: Stretch, belt_width: float) -> float | None:
     """Rating of a class [N]; None where it has no such set."""
     try:
-        return rated_set_load(
-            name, belt_width=belt_width, trough_angle=stretch.trough_angle, rolls=len(stretch.loads)
-        )
+        return rated_set_load(name, belt_width=belt_width, trough_angle=stretch.trough_angle, rolls=len(stretch.loads))
     except RangeError:
         return None
 
@@ -105,12 +101,7 @@ def _steepest_axle(stretch: Stretch, belt_speed: float) -> AxleSlope | None:
     slopes = []
     for place, load in enumerate(stretch.loads):
         life, bearing = roll_life(stretch, place, belt_speed), stretch.idlers.roll_at(place).bearing
-        if (
-            life is None
-            or bearing is None
-            or bearing.axle_diameter is None
-            or bearing.support_distance is None
-        ):
+        if life is None or bearing is None or bearing.axle_diameter is None or bearing.support_distance is None:
             continue
         apart = si(bearing.distance)
         moment = hub_moment(

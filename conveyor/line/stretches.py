@@ -164,9 +164,7 @@ def strand_stretches(
     return tuple(made.stretch(section) for section in along)
 
 
-def masses_on_rolls(
-    belt_mass: float, bulk_mass: float, pressing: float, *, where: str
-) -> tuple[float, float]:
+def masses_on_rolls(belt_mass: float, bulk_mass: float, pressing: float, *, where: str) -> tuple[float, float]:
     """Masses of belt and bulk as they press on the rolls of a vertical curve [kg/m].
 
     A concave curve's negative mass relieves the belt first, then the bulk; the sum is kept.
@@ -182,10 +180,7 @@ def masses_on_rolls(
             "the belt lifts off in {}: on a concave curve its tension pulls up like {}, belt and bulk are {}; choose a "
             "larger curve_radius or less tension",
             where,
-            *(
-                MessageQuantity(each, "line mass", f"{each:.4g} kg/m")
-                for each in (-pressing, belt_mass + bulk_mass)
-            ),
+            *(MessageQuantity(each, "line mass", f"{each:.4g} kg/m") for each in (-pressing, belt_mass + bulk_mass)),
         )
     return (belt, bulk_mass) if belt >= 0.0 else (0.0, bulk_mass + belt)
 
@@ -199,9 +194,7 @@ def misalignment_angle(conveyor: Conveyor, idlers: IdlerSet) -> float:
 def _misalignment_frictions(conveyor: Conveyor, idlers: IdlerSet) -> tuple[float, ...]:
     """Drag of each roll of a set by misalignment over its load [-]: a wing roll turns by cos λ of the set's angle."""
     angle = misalignment_angle(conveyor, idlers)
-    slopes = roll_angles(
-        idlers.rolls, trough_angle=si(idlers.trough_angle), inner_angle=idlers.inner_wing.angle
-    )
+    slopes = roll_angles(idlers.rolls, trough_angle=si(idlers.trough_angle), inner_angle=idlers.inner_wing.angle)
     turned = {slope: misalignment_friction(angle * math.cos(slope)) for slope in map(abs, slopes)}
     return tuple(turned[abs(slope)] for slope in slopes)
 
@@ -250,9 +243,7 @@ class _StretchBuilder:
         turned = self._turn(section, spacing, inclination, flow)
         if turned is not None and (section.name, self.strand) in self.acting.drift:
             loads = turned.drifted(loads)
-        least = sag_tension(
-            self.belt_mass + flow, spacing=spacing, relative_sag=self.sag, gravity=self.gravity
-        )
+        least = sag_tension(self.belt_mass + flow, spacing=spacing, relative_sag=self.sag, gravity=self.gravity)
         return Stretch(
             section=section.name,
             strand=self.strand,
@@ -275,9 +266,7 @@ class _StretchBuilder:
             turn=turned,
         )
 
-    def _turn(
-        self, section: RouteSection, spacing: float, inclination: float, flow: float
-    ) -> CurveSets | None:
+    def _turn(self, section: RouteSection, spacing: float, inclination: float, flow: float) -> CurveSets | None:
         """Sets of a section on a horizontal curve; None on the straight."""
         if section.horizontal is None:
             return None
@@ -295,9 +284,7 @@ class _StretchBuilder:
             drift=self.acting.drift.get((section.name, self.strand), 0.0),
             wind_speed=0.0 if wind is None else si(wind),
             spacing=spacing,
-            thickness=si(belt.top_cover.thickness)
-            + si(belt.bottom_cover.thickness)
-            + si(belt.carcass.thickness),
+            thickness=si(belt.top_cover.thickness) + si(belt.bottom_cover.thickness) + si(belt.carcass.thickness),
         )
 
     def _span(self, flow: float, spacing: float, inclination: float, least: float) -> float | None:

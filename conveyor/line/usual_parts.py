@@ -46,9 +46,7 @@ def route_cleaners(conveyor: Conveyor) -> tuple[tuple[Cleaner, ...], bool]:
     given = conveyor.route.cleaners
     if given or not _uses_usual_values(conveyor):
         return given, False
-    usual = Cleaner(
-        count=CLEANER_COUNT, width=conveyor.belt.width, thickness=quantity(CLEANER_THICKNESS, "thickness")
-    )
+    usual = Cleaner(count=CLEANER_COUNT, width=conveyor.belt.width, thickness=quantity(CLEANER_THICKNESS, "thickness"))
     return (usual,), True
 
 

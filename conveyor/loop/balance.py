@@ -164,9 +164,7 @@ class Balance:
         return found
 
 
-def close_loop(
-    frame: LoopLayout, along: tuple[Force, ...], unit_main: float, setting: float | None = None
-) -> Balance:
+def close_loop(frame: LoopLayout, along: tuple[Force, ...], unit_main: float, setting: float | None = None) -> Balance:
     """Close the loop of tensions around the forces along the belt.
 
     Parameters
@@ -191,9 +189,7 @@ def close_loop(
 
 def with_take_up_at(loops: Iterable[Balance], kept: TakeUpSetting) -> list[Balance]:
     """Close the loops anew with the take-up at a setting."""
-    return raise_first_error(
-        close_loops([OpenLoop.of(one.frame, one.along, one.unit_main, kept) for one in loops])
-    )
+    return raise_first_error(close_loops([OpenLoop.of(one.frame, one.along, one.unit_main, kept) for one in loops]))
 
 
 def raise_first_error(found: Sequence[Balance | NoSolutionError]) -> list[Balance]:
@@ -213,9 +209,7 @@ class OpenLoop(NamedTuple):
     setting: float | None = None
 
     @classmethod
-    def of(
-        cls, frame: LoopLayout, along: tuple[Force, ...], unit_main: float, kept: TakeUpSetting | None
-    ) -> OpenLoop:
+    def of(cls, frame: LoopLayout, along: tuple[Force, ...], unit_main: float, kept: TakeUpSetting | None) -> OpenLoop:
         """Loop with the take-up at a setting, on its side of the drives."""
         if kept is None:
             return cls(frame, along, unit_main)
@@ -244,11 +238,7 @@ def close_loops(asked: Sequence[OpenLoop]) -> list[Balance | NoSolutionError]:
 def _length_coefficient_forces(one: OpenLoop) -> tuple[Force, ...]:
     """Secondary resistance by the length coefficient, where it is not itemised."""
     frame = one.frame
-    return (
-        (length_coefficient_force(frame.line, frame.landing, one.along),)
-        if frame.line.secondary == "C"
-        else ()
-    )
+    return (length_coefficient_force(frame.line, frame.landing, one.along),) if frame.line.secondary == "C" else ()
 
 
 def _tension_points(settled: Equilibrium, state: MotionState) -> Iterator[TensionPoint]:

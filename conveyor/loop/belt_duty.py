@@ -198,9 +198,7 @@ def belt_duty(balance: Balance, states: Sequence[MotionState] = ()) -> BeltDuty:
         per_width_steady=steady / belt.width,
         per_width=largest / belt.width,
         rating=belt.rating,
-        strength_needed={}
-        if belt.splice_strength is None
-        else _splice_strengths(balance, belt.splice_strength),
+        strength_needed={} if belt.splice_strength is None else _splice_strengths(balance, belt.splice_strength),
         pulleys=tuple(_pulley_checks(balance)),
         drive_diameter=_drive_diameter(balance.line),
         curves=tuple(_curve_checks(balance, states)),
@@ -253,9 +251,7 @@ def _pulley_checks(balance: Balance) -> Iterator[PulleyCheck]:
             continue
         group, used, full = _pulley_group(pulley), None, 1.0
         if allowed is not None:
-            used = full = max(0.0, *pulley_tensions(balance, i, balance.settled.steady)) / (
-                line.belt.width * allowed
-            )
+            used = full = max(0.0, *pulley_tensions(balance, i, balance.settled.steady)) / (line.belt.width * allowed)
         least = pulley_group_diameter(drive, group=group, utilisation=full)
         size = None
         if line.us_sizes:
@@ -363,11 +359,7 @@ def _transition_check(line: Line, zone: TransitionZone, states: Sequence[MotionS
     lowest, highest = min(tensions) / width, max(tensions) / width
     rated, stiffness = allowed_tension(line), line.belt.tensile_stiffness
     if rated is None or stiffness is None:
-        missing = (
-            "belt.carcass.strength and rating not given"
-            if rated is None
-            else "belt.carcass.stiffness not given"
-        )
+        missing = "belt.carcass.strength and rating not given" if rated is None else "belt.carcass.stiffness not given"
         return TransitionCheck(zone, lowest, highest, missing=missing)
     zone_length = transition_stretch(
         width,
@@ -379,9 +371,7 @@ def _transition_check(line: Line, zone: TransitionZone, states: Sequence[MotionS
     allowed = EDGE_OVER_RATED * rated
 
     def least(tension: float, stretch: float, limit: float) -> float:
-        return transition_length(
-            tension, stretch=stretch, stiffness_per_width=stiffness, limit_per_width=limit
-        )
+        return transition_length(tension, stretch=stretch, stiffness_per_width=stiffness, limit_per_width=limit)
 
     most = lower = None
     if zone.length is not None:

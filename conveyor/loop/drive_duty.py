@@ -79,9 +79,7 @@ class DriveDuty:
         """Gear size for one motor by its rated torque, of the preferred numbers [N m]; None without power."""
         if self.drive.power is None or self.rotation is None:
             return None
-        return next_preferred_number(
-            gear_torque(self.drive.power / self.parts.motors, rotation=self.rotation)
-        )
+        return next_preferred_number(gear_torque(self.drive.power / self.parts.motors, rotation=self.rotation))
 
     @cached_property
     def holding(self) -> float | None:
@@ -192,12 +190,7 @@ def coasting_flywheel(line: Line, moving: StartAndStop) -> float | None:
     """
     first, stopped = line.drives[0], moving.coasting
     ratio = None if first.parts is None else first.parts.ratio
-    if (
-        ratio is None
-        and first.parts is not None
-        and first.parts.rotation is not None
-        and first.radius is not None
-    ):
+    if ratio is None and first.parts is not None and first.parts.rotation is not None and first.radius is not None:
         ratio = 2.0 * math.pi * first.radius * first.parts.rotation / line.speed
     if line.coast_time is None or stopped is None or ratio is None or first.radius is None:
         return None

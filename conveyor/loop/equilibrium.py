@@ -197,11 +197,7 @@ class Equilibrium:
     @property
     def short(self) -> dict[str, float]:
         """Conditions that need more than the take-up's setting, and what they need [N]."""
-        return {
-            name: needed
-            for name, needed in self.conditions.items()
-            if not tension_suffices(self.setting, needed)
-        }
+        return {name: needed for name, needed in self.conditions.items() if not tension_suffices(self.setting, needed)}
 
 
 @dataclass(frozen=True, eq=False)
@@ -319,9 +315,7 @@ def solve_equilibria(
 
 
 def _divergence_error() -> NoSolutionError:
-    return NoSolutionError(
-        "the tensions round the belt do not settle: check pulley diameters and drive friction"
-    )
+    return NoSolutionError("the tensions round the belt do not settle: check pulley diameters and drive friction")
 
 
 def _secant_step(last: tuple[Array, Array], step: tuple[Array, Array]) -> Array:
@@ -394,17 +388,13 @@ class _StateSet:
         if LEAST in self.names:
             occurs[:, 2:4] = (self.uncertain & (resistance[:, 2] < 0.0))[:, None]
         if BRAKES in self.names:
-            slows, acceleration[:, -1], forces[:, -1] = _coasting_motion(
-                loops, resistance[:, -1], standing.brakes
-            )
+            slows, acceleration[:, -1], forces[:, -1] = _coasting_motion(loops, resistance[:, -1], standing.brakes)
             occurs[:, -1] = slows & self.braked
         moving = loops.moving(self.friction, acceleration, forces, bends, resistance[:, 0] >= 0.0)
         return LoopStates(self.names, resistance, rubbing, moving, occurs)
 
 
-def _coasting_motion(
-    loops: LoopBatch, resistance: Array, brakes: Array
-) -> tuple[NDArray[np.bool_], Array, Array]:
+def _coasting_motion(loops: LoopBatch, resistance: Array, brakes: Array) -> tuple[NDArray[np.bool_], Array, Array]:
     """With drives off and brakes on [N]: mask of belts that slow down, acceleration [m/s²], drive forces [N]."""
     own = loops.standing.pull.own
     retarding = resistance + brakes.sum(axis=-1)

@@ -68,9 +68,7 @@ def classical_estimate(line: Line, forces: ForceSums, unit_main: float) -> Class
         friction_factor=line.friction_factor,
         main=main,
         secondary=secondary_resistance(main, length=line.length) if tabled else forces.secondary,
-        secondary_by="(C-1) F_H"
-        if tabled
-        else f"itemised (C is tabled for {SHORTEST_FOR_FACTOR:g} to 5000 m)",
+        secondary_by="(C-1) F_H" if tabled else f"itemised (C is tabled for {SHORTEST_FOR_FACTOR:g} to 5000 m)",
         special=forces.special,
         lift=forces.lift,
     )
@@ -110,9 +108,7 @@ def cema_estimate(line: Line, unit_main: float) -> CemaEstimate | None:
     parts = [_section_tension(stretch, given) for stretch in line.stretches[: line.count]]
     pulleys = given.pulleys
     if pulleys is None:
-        pulleys = cema_pulley_friction(
-            [_pulley_place(pulley) for pulley in line.pulleys if not pulley.driven]
-        )
+        pulleys = cema_pulley_friction([_pulley_place(pulley) for pulley in line.pulleys if not pulley.driven])
     over = [
         slope_resistance(point.flow / line.speed, lift=point.lift, gravity=STANDARD_GRAVITY)
         for point in line.loading
@@ -178,8 +174,7 @@ def _section_tension(stretch: Stretch, factors: CemaFactors) -> CemaTension:
 
 def _acceleration_force(line: Line) -> float:
     return math.fsum(
-        cema_acceleration(point.flow, belt_speed=line.speed, initial_speed=point.speed)
-        for point in line.loading
+        cema_acceleration(point.flow, belt_speed=line.speed, initial_speed=point.speed) for point in line.loading
     )
 
 

@@ -94,9 +94,7 @@ class HorizontalCurveCheck:
         return min(self.states, key=lambda state: (state.outside, state.most))
 
 
-def horizontal_curve_checks(
-    balance: Balance, states: Sequence[MotionState]
-) -> tuple[HorizontalCurveCheck, ...]:
+def horizontal_curve_checks(balance: Balance, states: Sequence[MotionState]) -> tuple[HorizontalCurveCheck, ...]:
     """Check every horizontal curve on both strands in every state, carry strand first.
 
     Parameters
@@ -130,9 +128,7 @@ def _curve_check(
     return HorizontalCurveCheck(stretch.section, stretch.strand, stretch.turn, made, *edges)
 
 
-def _entry_drifts(
-    turn: CurveSets, before: HorizontalCurveCheck | None, states: int
-) -> Sequence[tuple[float, float]]:
+def _entry_drifts(turn: CurveSets, before: HorizontalCurveCheck | None, states: int) -> Sequence[tuple[float, float]]:
     """Inward and outward drift at the start of a curve: on flat sets that at the end of the curve just before."""
     if before is None or not turn.flat:
         return [(0.0, 0.0)] * states
@@ -161,14 +157,10 @@ def _drift_state(
         outside=came_out if off_out else came_out + min(law.drift(slack - turn.wind) for law in loose),
         least=math.inf
         if off_in
-        else _radius_at_pull(
-            turn.radius, drawn, min(law.force(turn.room - came_in) for law in tight) - turn.wind
-        ),
+        else _radius_at_pull(turn.radius, drawn, min(law.force(turn.room - came_in) for law in tight) - turn.wind),
         most=0.0
         if off_out
-        else _radius_at_pull(
-            turn.radius, slack, max(law.force(-turn.room - came_out) for law in loose) + turn.wind
-        ),
+        else _radius_at_pull(turn.radius, slack, max(law.force(-turn.room - came_out) for law in loose) + turn.wind),
     )
 
 

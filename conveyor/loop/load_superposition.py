@@ -206,9 +206,7 @@ class SectionLoadings:
             HOLDING_DOWN: max(0.0, -lift - rubbing),
         }
         if len(grips) > 1:
-            named |= {
-                f"grip, {drive.name}": grip for drive, grip in zip(self.line.drives, grips, strict=True)
-            }
+            named |= {f"grip, {drive.name}": grip for drive, grip in zip(self.line.drives, grips, strict=True)}
         return named
 
     def resistance(self, friction: float) -> tuple[float, Array]:
@@ -277,9 +275,7 @@ class SectionLoadings:
         acceleration, forces = self._motion(state, self._total(state.friction, loading), mass)
         return float(acceleration), np.asarray(forces)
 
-    def _motion(
-        self, state: _MotionCase, resistance: Array | float, mass: Array | float
-    ) -> tuple[Array, Array]:
+    def _motion(self, state: _MotionCase, resistance: Array | float, mass: Array | float) -> tuple[Array, Array]:
         """Acceleration and drive forces, shape (d,) or (d, m), at one or many resistances and masses."""
         resistance, mass = np.asarray(resistance), np.asarray(mass)
         if state.over is None:
@@ -494,11 +490,7 @@ def _loop_events(full: Balance, empty: Balance) -> _LoopEvents:
                 more = (laden[0] - bare[0], laden[1] - bare[1], laden[2] - bare[2])
                 rows.append((*bare, *more, boundary - count))
     if frame.anchor is None:
-        held = (
-            int(drives[frame.station[-1]]) + 1
-            if full.settled.take_up.behind
-            else int(drives[frame.station[0]])
-        )
+        held = int(drives[frame.station[-1]]) + 1 if full.settled.take_up.behind else int(drives[frame.station[0]])
     columns = list(zip(*rows, strict=True))
     values = [np.array(column, dtype=float) for column in columns[:-1]]
     force, certain, mass, more_force, more_certain, more_mass = values

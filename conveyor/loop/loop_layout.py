@@ -118,9 +118,7 @@ class LoopConstants:
                 for name, column in columns.items()
             }
 
-        return cls(
-            **stacked(list(unlike)) | {"pull": StartingForces(**stacked([one.pull for one in unlike]))}
-        )
+        return cls(**stacked(list(unlike)) | {"pull": StartingForces(**stacked([one.pull for one in unlike]))})
 
 
 def _stack_rows(column: Sequence[Array], rows: Sequence[int]) -> Array:
@@ -194,9 +192,7 @@ class LoopLayout:
         made = copy(self)
         made.points = tuple(map(change, self.points))
         units = (next(bend.forces(1.0, 1.0)) for bend in self.bends)
-        made.bends = tuple(
-            bend.times(change(unit).total) for bend, unit in zip(self.bends, units, strict=True)
-        )
+        made.bends = tuple(bend.times(change(unit).total) for bend, unit in zip(self.bends, units, strict=True))
         made.standing = _loop_constants(made)
         return made
 

@@ -142,9 +142,7 @@ class PulleyDuty:
         rating, load = self.pulley.bearing_rating, 0.5 * self.steady.resultant
         if rating is None or load == 0.0:
             return None
-        return rating_life_hours(
-            load, dynamic_rating=rating, rotation=self.rotation, exponent=ROLLER_EXPONENT
-        )
+        return rating_life_hours(load, dynamic_rating=rating, rotation=self.rotation, exponent=ROLLER_EXPONENT)
 
     @property
     def bearing_seconds(self) -> float | None:
@@ -160,10 +158,7 @@ def pulley_duty(balance: Balance, states: Sequence[MotionState]) -> tuple[Pulley
             pulley,
             line.belt.width,
             line.speed,
-            tuple(
-                _load_in_state(line, pulley, state.name, *pulley_tensions(balance, i, state))
-                for state in states
-            ),
+            tuple(_load_in_state(line, pulley, state.name, *pulley_tensions(balance, i, state)) for state in states),
         )
         for i, pulley in enumerate(line.pulleys)
         if not pulley.assumed
@@ -202,11 +197,7 @@ def pulley_tensions(balance: Balance, i: int, state: MotionState) -> tuple[float
 
 def _tension_steps(balance: Balance, pulley: BendPulley, state: MotionState, count: int) -> Iterator[float]:
     """Tension before the first of the driven pulleys at a place, then behind each."""
-    sides = [
-        side
-        for drive, side in zip(balance.line.drives, state.drives, strict=True)
-        if drive.spot == pulley.spot
-    ]
+    sides = [side for drive, side in zip(balance.line.drives, state.drives, strict=True) if drive.spot == pulley.spot]
     yield sides[0].arriving
     if len(sides) == count:
         yield from (side.leaving for side in sides)

@@ -116,9 +116,7 @@ def run_up(line: Line, steady: float, mass: float) -> RunUp:
     together = None if rated is None else math.fsum(rated)
     standstill = least = largest = None
     if together is not None and torques:
-        standstill, least, largest = (
-            torque * together for torque in (torques[0], min(torques), max(torques))
-        )
+        standstill, least, largest = (torque * together for torque in (torques[0], min(torques), max(torques)))
     if is_start_uncontrolled(line):
         return RunUp(forces, acceleration, factor, None, together, standstill, least, largest)
     own = float(pull.own.sum()) / mass
@@ -128,9 +126,7 @@ def run_up(line: Line, steady: float, mass: float) -> RunUp:
 
     if rated is not None and torques:
         least = of_motors(float(_possible_start_factor(pull, np.asarray(steady), np.asarray(mass))))
-    return RunUp(
-        forces, acceleration, factor, of_motors(line.start_over_steady), together, standstill, least, largest
-    )
+    return RunUp(forces, acceleration, factor, of_motors(line.start_over_steady), together, standstill, least, largest)
 
 
 def is_start_uncontrolled(line: Line) -> bool:
@@ -145,11 +141,7 @@ def start_motion(pull: StartingForces, steady: Array, mass: Array) -> tuple[Arra
         acceleration = np.maximum(free / (mass + pull.own.sum(axis=-1)), 0.0)
         pulled = pull.most - pull.own * acceleration[..., None]
         return acceleration, np.where(acceleration[..., None] > 0.0, pulled, pull.share * steady[..., None])
-    asked = (
-        pull.factor
-        if pull.kind == "asked"
-        else np.minimum(pull.factor, _possible_start_factor(pull, steady, mass))
-    )
+    asked = pull.factor if pull.kind == "asked" else np.minimum(pull.factor, _possible_start_factor(pull, steady, mass))
     factor = np.maximum(1.0, asked)
     return (factor - 1.0) * steady / mass, pull.share * (factor * steady)[..., None]
 

@@ -93,6 +93,4 @@ def _natural_frequency(stretch: Stretch, tension: float, belt_speed: float) -> f
     """First natural frequency between two sets at a tension [Hz]; 0 at tensions up to m' v²."""
     if tension <= stretch.line_mass * belt_speed**2:
         return 0.0
-    return flap_frequency(
-        tension, line_mass=stretch.line_mass, spacing=stretch.spacing, belt_speed=belt_speed
-    )
+    return flap_frequency(tension, line_mass=stretch.line_mass, spacing=stretch.spacing, belt_speed=belt_speed)

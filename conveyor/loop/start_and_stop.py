@@ -116,9 +116,7 @@ class StartAndStop:
     def hardest(self) -> tuple[float, float]:
         """Hardest deceleration (negative) and highest acceleration that occur [m/s²]."""
         accelerations = [0.0, self.start.acceleration]
-        accelerations += [
-            -s.deceleration for s in (self.coasting, self.coasting_least, self.braked) if s is not None
-        ]
+        accelerations += [-s.deceleration for s in (self.coasting, self.coasting_least, self.braked) if s is not None]
         return min(accelerations), max(accelerations)
 
 
@@ -153,9 +151,7 @@ def start_and_stop(balance: Balance) -> StartAndStop:
         runaway=-least / whole if least < 0.0 else None,
         gripping_speed=gripping,
         braking_heat=heat,
-        brake_to_stop=None
-        if wanted is None
-        else max(0.0, brake_force(wanted, resistance=least, moving_mass=whole)),
+        brake_to_stop=None if wanted is None else max(0.0, brake_force(wanted, resistance=least, moving_mass=whole)),
         brake_to_hold=hold,
         rolls_back=back,
         slip=_slip_limits(line),
@@ -198,9 +194,7 @@ def _conveyor_start(balance: Balance, mass: float, rotating: float) -> Start:
         factor = line.start_over_steady
         braking = (factor - 1.0) * steady / mass
         time = line.speed / abs(braking) if braking else None
-        return Start(
-            factor * steady, braking, time, factor, None, None, None, None, factor * steady, steady + stuck
-        )
+        return Start(factor * steady, braking, time, factor, None, None, None, None, factor * steady, steady + stuck)
     made = run_up(line, steady, mass)
     given = made.force + rotating * made.acceleration
     time = line.speed / made.acceleration if made.acceleration > 0.0 else None
@@ -208,9 +202,7 @@ def _conveyor_start(balance: Balance, mass: float, rotating: float) -> Start:
     if made.asked is None and made.rated is not None and made.standstill is not None:
         time = _start_time(line, made.rated, steady, mass + rotating)
         standstill = steady + (made.standstill - steady) * mass / (mass + rotating)
-    elif (
-        made.rated is not None
-    ):  # a controlled start rises until the belt breaks away, to the rated force at least
+    elif made.rated is not None:  # a controlled start rises until the belt breaks away, to the rated force at least
         standstill = max(standstill, made.rated)
     return Start(
         force=made.force,
@@ -244,9 +236,7 @@ def _slip_limits(line: Line) -> SlipLimits | None:
         if stretch.bulk_mass == 0.0:
             continue
         try:
-            low, high = bulk_slip_limits(
-                line.bulk_on_belt, inclination=stretch.inclination, gravity=line.gravity
-            )
+            low, high = bulk_slip_limits(line.bulk_on_belt, inclination=stretch.inclination, gravity=line.gravity)
         except NoSolutionError:
             sliding.append(stretch.section)
             continue

@@ -22,9 +22,7 @@ from conveyor.loop.tensions import MotionState
 from conveyor.loop.ties import first_maximum
 
 _MAX_SETTING_STEPS = 50  # wraps add about 1e-3 of the tension: a few are enough
-_SETTING_TOLERANCE = (
-    1e-12  # of the setting: checks to 1e-9 pass also for tensions that are a small part of it
-)
+_SETTING_TOLERANCE = 1e-12  # of the setting: checks to 1e-9 pass also for tensions that are a small part of it
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,9 +127,7 @@ def take_up_duty(
     governing = first_maximum(range(len(loops)), lambda i: loops[i].settled.needed)
     settled = loops[governing].settled
     means = [loop.settled.steady.mean(loop.line.loop.length) for loop in loops]
-    every = [
-        state.mean(loop.line.loop.length) for loop, of in zip(loops, states, strict=True) for state in of
-    ]
+    every = [state.mean(loop.line.loop.length) for loop, of in zip(loops, states, strict=True) for state in of]
     known = list(temperatures)
     warmth = max(known) - min(known)
     unit, setting, steady = line.take_up, settled.setting, (min(means), max(means))

@@ -175,9 +175,7 @@ def belt_drifts(line: Line, steady: MotionState) -> dict[tuple[str, Strand], flo
     return by_stretch
 
 
-def _run_off_error(
-    stretch: Stretch, radius: float, pull: float, law: DriftLaw | FlatDrift
-) -> NoSolutionError:
+def _run_off_error(stretch: Stretch, radius: float, pull: float, law: DriftLaw | FlatDrift) -> NoSolutionError:
     """Error of a belt that runs off its rolls; the radius named would just hold it."""
     most = law.most
     way, cure, radii = "outside", "less banking or skew", list[MessageQuantity]()

@@ -141,9 +141,7 @@ class LoopBatch:
     def _means(self) -> Array:
         """Mean of each running sum over its value where its run begins, shape (b, 3, 1)."""
         lengths = self.standing.lengths[:, None]
-        mean = ((self.along[..., :-1] + self.along[..., 1:]) * lengths).sum(axis=-1) / (
-            2.0 * lengths.sum(axis=-1)
-        )
+        mean = ((self.along[..., :-1] + self.along[..., 1:]) * lengths).sum(axis=-1) / (2.0 * lengths.sum(axis=-1))
         begun = self.along[..., self.plan.boundaries[:-1]] * self._shares[:, None]
         return np.asarray((mean - begun.sum(axis=-1))[..., None])
 

@@ -27,9 +27,7 @@ def first_maximum(items: Iterable[T], value: Callable[[T], float]) -> T:
     """
     values = [(item, value(item)) for item in items]
     most = max(known for _, known in values)
-    return next(
-        item for item, known in values if known == most or math.isclose(known, most, rel_tol=TIE_RTOL)
-    )
+    return next(item for item, known in values if known == most or math.isclose(known, most, rel_tol=TIE_RTOL))
 
 
 def first_minimum(items: Iterable[T], value: Callable[[T], float]) -> T:

@@ -74,9 +74,7 @@ def _point_duty(line: Line, point: LoadingPoint) -> LoadingPointDuty:
         if point.lump_mass is not None:
             energy = point.lump_mass * gravity * drop
             if point.idler_stiffness is not None:
-                lump = lump_impact(
-                    point.lump_mass, drop_height=drop, stiffness=point.idler_stiffness, gravity=gravity
-                )
+                lump = lump_impact(point.lump_mass, drop_height=drop, stiffness=point.idler_stiffness, gravity=gravity)
     return LoadingPointDuty(
         point,
         point.acceleration_length(line.speed, gravity),

@@ -35,9 +35,7 @@ SINGLE_CHANGE_SECTIONS: Final = 40
 """Number of sections up to which they are changed one by one and every curve and raised set is evaluated."""
 _SLIP_CANDIDATES: Final = 3  # sections whose bulk slips first
 _MAX_ROUNDS: Final = 20  # of changes; every one makes a figure worse, and few take more than five
-_MAX_CORNERS: Final = (
-    64  # of each pair of sums on a long route; a sixty-fourth of a turn costs 1e-3 of their range
-)
+_MAX_CORNERS: Final = 64  # of each pair of sums on a long route; a sixty-fourth of a turn costs 1e-3 of their range
 _ROUNDING: Final = 1e-9  # of a figure: rounding
 
 LoadingRows = NDArray[np.bool_]
@@ -78,9 +76,7 @@ class CriterionLoadings(SectionLoadings):
             every = np.array(list(itertools.product([True, False], repeat=self.count)))
             return _distinct_rows(np.concatenate([standard, every]))
         of_drives = np.array(list(self.worst().values()))
-        return _distinct_rows(
-            np.concatenate([standard, of_drives, self._corners(), np.array(list(self._by_signs()))])
-        )
+        return _distinct_rows(np.concatenate([standard, of_drives, self._corners(), np.array(list(self._by_signs()))]))
 
     def _corners(self) -> LoadingRows:
         """Loadings at corners of the sums of resistance and mass, with sections that slip first."""
@@ -269,9 +265,7 @@ class CriterionLoadings(SectionLoadings):
                 if state.name == STEADY:
                     figures[f"{name}, steady"] = values
             for drive, d, force in zip(line.drives, self.drive_at.tolist(), forces, strict=True):
-                asked = grip_tension(1.0, friction=drive.friction, wrap_angle=drive.wrap_angle) * np.abs(
-                    force
-                )
+                asked = grip_tension(1.0, friction=drive.friction, wrap_angle=drive.wrap_angle) * np.abs(force)
                 slack = np.minimum(tensions[:, d], tensions[:, d + 1])
                 pulls = asked > 0.0
                 over = -slack / np.where(pulls, asked, 1.0)
@@ -282,9 +276,7 @@ class CriterionLoadings(SectionLoadings):
                 figures["speed of the carriage"] = np.abs((means[START] - means[STEADY]) * acceleration)
         return figures
 
-    def _over_the_take_up(
-        self, friction: float, flags: LoadingRows, acceleration: Array, forces: Array
-    ) -> Array:
+    def _over_the_take_up(self, friction: float, flags: LoadingRows, acceleration: Array, forces: Array) -> Array:
         """Tension before and behind every event over the take-up's [N], shape (m, e + 1)."""
         events = self.events
         step = events.certain + friction * (events.force - events.certain)
@@ -330,9 +322,7 @@ class CriterionLoadings(SectionLoadings):
             )
 
 
-def _state_names(
-    state: str, here: NDArray[np.bool_], steady: Array
-) -> Iterator[tuple[str, NDArray[np.bool_]]]:
+def _state_names(state: str, here: NDArray[np.bool_], steady: Array) -> Iterator[tuple[str, NDArray[np.bool_]]]:
     """Names of a state and masks of the loadings that have them: a belt that drives brakes instead of starting."""
     if state != START:
         yield state, here

@@ -119,9 +119,7 @@ def measured_rows(grid: TextGrid, kind: TableKind) -> tuple[MeasuredRow, ...]:
         )
     columns = _known_columns(grid, head, kind)
     mark = _decimal_mark(grid, columns, rows)
-    return tuple(
-        _measured_row(grid, columns, row, width=len(head.cells), mark=mark, kind=kind) for row in rows
-    )
+    return tuple(_measured_row(grid, columns, row, width=len(head.cells), mark=mark, kind=kind) for row in rows)
 
 
 def read_grid(path: str | Path, kind: TableKind, *, form: str = "") -> TextGrid:
@@ -132,9 +130,7 @@ def read_grid(path: str | Path, kind: TableKind, *, form: str = "") -> TextGrid:
         filled = [grid for grid in workbook_grids(data, path.name) if grid.lines]
         filled = [grid for grid in filled if grid.sheet == form] or filled
         if len(filled) != 1:
-            raise InputError(
-                f"{path}: {len(filled)} sheets hold cells; keep the {kind.one}s on one, and save it alone"
-            )
+            raise InputError(f"{path}: {len(filled)} sheets hold cells; keep the {kind.one}s on one, and save it alone")
         return filled[0]
     text, _ = decode_text(data, path.name)
     return TextGrid(path.name, tuple(table_lines(text, partial(_is_header, kind=kind))), ())
@@ -165,9 +161,7 @@ def _known_columns(grid: TextGrid, head: TextLine, kind: TableKind) -> list[_Col
     there = {column.field for column in heads.values()}
     missing = [wanted for field, wanted in kind.needed.items() if field not in there]
     if missing:
-        raise grid.refusal(
-            head.number, 0, f"no column {' and none '.join(missing)}; name it as in {kind.example}"
-        )
+        raise grid.refusal(head.number, 0, f"no column {' and none '.join(missing)}; name it as in {kind.example}")
     return list(heads.values())
 
 
@@ -181,10 +175,7 @@ def _filled_cells(row: TextLine, columns: list[_Column]) -> Iterator[tuple[_Colu
 def _decimal_mark(grid: TextGrid, columns: list[_Column], rows: list[TextLine]) -> str:
     """Decimal mark of all numbers together."""
     numbers = [
-        (row, *each)
-        for row in rows
-        for each in _filled_cells(row, columns)
-        if each[0].unit and is_number(each[1])
+        (row, *each) for row in rows for each in _filled_cells(row, columns) if each[0].unit and is_number(each[1])
     ]
     mark, doubtful = decimal_mark(cell for *_, cell in numbers)
     if doubtful is not None:
@@ -218,9 +209,7 @@ def _measured_row(
     for field, wanted in kind.needed.items():
         if field not in given:
             index = next(column.index for column in columns if column.field == field)
-            raise grid.refusal(
-                row.number, index, f"{wanted} is missing in the row; complete or delete the row"
-            )
+            raise grid.refusal(row.number, index, f"{wanted} is missing in the row; complete or delete the row")
     return MeasuredRow(row.number, given, heads, grid)
 
 

@@ -116,14 +116,9 @@ def _test_rows(path: str | Path) -> Iterator[MeasuredRow]:
         names = [*common]
         names[beside] = f"line load [{asked[2]}]"
         names[at] = "resistance" + "".join(head.cells[at].partition(" [")[1:])
-        rows = [
-            line._replace(cells=(*line.cells[:beside], asked[1], *line.cells[beside + 1 :]))
-            for line in given[at]
-        ]
+        rows = [line._replace(cells=(*line.cells[:beside], asked[1], *line.cells[beside + 1 :])) for line in given[at]]
         if rows:
-            yield from measured_rows(
-                replace(grid, lines=(head._replace(cells=tuple(names)), *rows)), _TEST_TABLE
-            )
+            yield from measured_rows(replace(grid, lines=(head._replace(cells=tuple(names)), *rows)), _TEST_TABLE)
 
 
 def _maker_columns(grid: TextGrid, head: TextLine) -> dict[int, tuple[int, re.Match[str]]]:

@@ -169,9 +169,7 @@ class Model(BaseModel):
                 ) from None
 
         def __delattr__(self, name: str) -> None:
-            raise InputError(
-                f"{name}: a {type(self).__name__} does not change; replace() makes a changed copy"
-            )
+            raise InputError(f"{name}: a {type(self).__name__} does not change; replace() makes a changed copy")
 
     @classmethod
     def model_validate(cls, obj: Any, **options: Any) -> Self:

@@ -185,15 +185,11 @@ class Belt(LibraryItem):
             )
         low, high = self.lowest_temperature, self.highest_temperature
         if low is not None and high is not None and si(low) >= si(high):
-            message = (
-                f"got {text(high)}, not more than lowest_temperature {text(low)}; correct one of the two"
-            )
+            message = f"got {text(high)}, not more than lowest_temperature {text(low)}; correct one of the two"
             problems.append(Problem(("highest_temperature",), message))
         if self.mass is None and self.carcass.mass is None:
             problems.append(
-                Problem(
-                    ("mass",), "missing: give belt.mass or belt.carcass.mass, the belt's mass is not known"
-                )
+                Problem(("mass",), "missing: give belt.mass or belt.carcass.mass, the belt's mass is not known")
             )
         elif self.mass is not None and si(self.mass) <= 0.0:
             problems.append(Problem(("mass",), f"got {text(self.mass)}, allowed: > 0"))

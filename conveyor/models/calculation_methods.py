@@ -14,9 +14,7 @@ from conveyor.units import Angle, BendingStiffness, Bounds, Force, LineForce, Th
 class BeltFlexure(Model):
     """Loss of the belt that bends over the idler sets: a tensioned beam with a loss tangent."""
 
-    bending_stiffness: Annotated[BendingStiffness, Bounds(ge="0 N*m^2", le="100000 N*m^2")] = quantity(
-        "0 N*m^2"
-    )
+    bending_stiffness: Annotated[BendingStiffness, Bounds(ge="0 N*m^2", le="100000 N*m^2")] = quantity("0 N*m^2")
     """Of the whole belt as it lies, lengthwise; 0 is the limit of a limp belt, which loses most."""
     loss_tangent: Annotated[Number, Field(ge=0, le=1)]
     """tan δ of the belt in bending at the frequency of the idler sets."""
@@ -60,9 +58,7 @@ class Cema(Model):
     """Cs of the bulk on the skirts, from the book's table; without it the seals alone."""
     skirt_depth: Annotated[Thickness, Bounds(ge="0 mm", le="2 m")] | None = None
     """Depth of the bulk that touches the skirts, hs; needed beside skirt_factor."""
-    skirt_seals: Annotated[LineForce, Bounds(ge="0 N/m", le="10 kN/m")] = quantity(
-        f"{SEALS_PER_FOOT.value:g} lbf/ft"
-    )
+    skirt_seals: Annotated[LineForce, Bounds(ge="0 N/m", le="10 kN/m")] = quantity(f"{SEALS_PER_FOOT.value:g} lbf/ft")
     """Friction of the rubber seals of both skirts along them."""
     cleaner_friction: Annotated[LineForce, Bounds(ge="0 N/m", le="10 kN/m")] = quantity(
         f"{CLEANER_PER_INCH.value:g} lbf/in"

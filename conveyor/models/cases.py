@@ -37,18 +37,14 @@ class LoadCase(Model):
     def _share_of_part_load(self) -> Self:
         problems = []
         if self.loading == "part load" and self.share is None:
-            problems.append(
-                Problem(("share",), 'missing: loading "part load" needs its share of material.flow')
-            )
+            problems.append(Problem(("share",), 'missing: loading "part load" needs its share of material.flow'))
         elif self.loading != "part load" and self.share is not None:
             message = f'got {text(self.share)} with loading "{self.loading}"; remove it, or set loading to "part load"'
             problems.append(Problem(("share",), message))
         if (self.loading == "sections") != bool(self.sections):
             message = 'missing: loading "sections" needs their names'
             if self.sections:
-                message = (
-                    f'got {len(self.sections)} names with loading "{self.loading}"; set loading to "sections"'
-                )
+                message = f'got {len(self.sections)} names with loading "{self.loading}"; set loading to "sections"'
             problems.append(Problem(("sections",), message))
         raise_problems("LoadCase", problems)
         return self
@@ -75,9 +71,7 @@ def standard_cases(
     ['full', 'empty', 'inclines only', 'declines only']
     """
     return tuple(
-        LoadCase.from_data(
-            {"name": loading, "loading": loading, "temperatures": temperatures, "speeds": speeds}
-        )
+        LoadCase.from_data({"name": loading, "loading": loading, "temperatures": temperatures, "speeds": speeds})
         for loading in STANDARD_LOADINGS
     )
 

@@ -103,9 +103,7 @@ class RubberCompound(Model):
             except (InputError, RangeError) as error:
                 problems.append(Problem(tuple(name.split(".")), str(error)))
         if self.carrier is not None and not self.tests:
-            problems.append(
-                Problem(("tests",), "missing; with a carrier's spectrum the tests are all that is known")
-            )
+            problems.append(Problem(("tests",), "missing; with a carrier's spectrum the tests are all that is known"))
         raise_problems("RubberCompound", problems)
         return self
 
@@ -200,9 +198,7 @@ class RubberCompound(Model):
                 _temperature_amount(si(at)),
             )
         if (frequencies is None) != (temperatures is None):
-            raise InputError(
-                "frequencies and temperatures: the range of the data needs both, or neither is given"
-            )
+            raise InputError("frequencies and temperatures: the range of the data needs both, or neither is given")
         if kind == "measured" and source is None:
             raise InputError('source: missing; a measured compound states its "origin" and its "licence"')
         unknown = {
@@ -358,9 +354,7 @@ class RubberCompound(Model):
         if not isinstance(self.shift, TableShift):
             raise InputError("band: log10_aT belongs to a table; the compound's shift is none")
         vertical = band.log10_b_t or (self.shift.log10_b_t,) * count
-        return tuple(
-            self.shift.replace(log10_aT=a, log10_bT=b) for a, b in zip(band.log10_a_t, vertical, strict=True)
-        )
+        return tuple(self.shift.replace(log10_aT=a, log10_bT=b) for a, b in zip(band.log10_a_t, vertical, strict=True))
 
     def _reference_replicas(self) -> tuple[PronySeries, ...]:
         band, terms = self.prony.band, self.prony.terms
@@ -419,11 +413,7 @@ class RubberCompound(Model):
 
 def _temperature_quantity(given: float | str | Quantity) -> Quantity:
     """Temperature as a quantity; a plain number is in kelvin."""
-    return (
-        from_si(given, "temperature", "K")
-        if isinstance(given, int | float)
-        else quantity(given, "temperature")
-    )
+    return from_si(given, "temperature", "K") if isinstance(given, int | float) else quantity(given, "temperature")
 
 
 def _prony_data(series: PronySeries) -> dict[str, Any]:
@@ -452,9 +442,7 @@ def _shift_data(
             "log10_bT": vertical,
         }
     if log10_b_T is not None:
-        raise InputError(
-            "log10_b_T: belongs to the temperatures of a ShiftTable; give one as shift, or leave it out"
-        )
+        raise InputError("log10_b_T: belongs to the temperatures of a ShiftTable; give one as shift, or leave it out")
     if law is None:
         return None
     if isinstance(law, WLF):
@@ -483,9 +471,7 @@ def _strain_data(factors: AmplitudeFactors) -> dict[str, Any]:
 
 def _temperature_amount(temperature: float) -> MessageQuantity:
     """Temperature [K] for a message."""
-    return MessageQuantity(
-        temperature, "temperature", format_si(temperature, "temperature", digits=6), digits=6
-    )
+    return MessageQuantity(temperature, "temperature", format_si(temperature, "temperature", digits=6), digits=6)
 
 
 def _stated_amount(temperature: Quantity) -> MessageQuantity:
@@ -515,9 +501,7 @@ class _CompoundMarker:
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.with_info_before_validator_function(_resolve_compound, handler(source))
 
-    def __get_pydantic_json_schema__(
-        self, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         return {"anyOf": [{"type": "string"}, handler(schema)]}
 
 

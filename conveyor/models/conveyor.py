@@ -50,9 +50,7 @@ class Conveyor(ConveyorParts):
 
     @model_validator(mode="after")
     def _parts_fit(self) -> Self:
-        raise_problems(
-            "Conveyor", [problem for check in CHECKS for problem in check(self)], self.report.units
-        )
+        raise_problems("Conveyor", [problem for check in CHECKS for problem in check(self)], self.report.units)
         return self
 
     def with_parts(

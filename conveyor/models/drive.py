@@ -86,14 +86,10 @@ class DrivePulley(Model):
     def _placed(self) -> Self:
         problems = position_problem(self.position, self.section)
         if self.inertia is not None and self.reduced_mass is not None:
-            message = (
-                f"got {text(self.inertia)} beside reduced_mass {text(self.reduced_mass)}; give one of the two"
-            )
+            message = f"got {text(self.inertia)} beside reduced_mass {text(self.reduced_mass)}; give one of the two"
             problems.append(Problem(("inertia",), message))
         elif (self.inertia is None) != (self.gear_ratio is None):
-            missing, given = (
-                ("gear_ratio", "inertia") if self.gear_ratio is None else ("inertia", "gear_ratio")
-            )
+            missing, given = ("gear_ratio", "inertia") if self.gear_ratio is None else ("inertia", "gear_ratio")
             problems.append(Problem((missing,), f"missing: {given} is given and needs it, or remove {given}"))
         for field, value, asked, other in (
             ("starts_per_hour", self.starts_per_hour, self.motor_speed, "motor_speed"),
@@ -102,9 +98,7 @@ class DrivePulley(Model):
             ("brake_heat", self.brake_heat, self.brake_force, "brake_force"),
         ):
             if value is not None and asked is None:
-                problems.append(
-                    Problem((other,), f"missing: {field} is given and needs it, or remove {field}")
-                )
+                problems.append(Problem((other,), f"missing: {field} is given and needs it, or remove {field}"))
         if self.backstop is False and self.backstop_torque is not None:
             message = f"got {text(self.backstop_torque)} of a drive without a backstop (backstop: false); remove one"
             problems.append(Problem(("backstop_torque",), message))
@@ -212,9 +206,7 @@ class Drive(DrivePulley):
             )
         for i, (slower, faster) in enumerate(itertools.pairwise(speeds), start=1):
             if faster <= slower:
-                message = (
-                    f"got {text(self.torque_curve[i].speed)}, not faster than the point before; sort them"
-                )
+                message = f"got {text(self.torque_curve[i].speed)}, not faster than the point before; sort them"
                 yield Problem(("torque_curve", i, "speed"), message)
 
     def _train_problems(self) -> list[Problem]:
@@ -239,18 +231,14 @@ class Drive(DrivePulley):
         given = [pulley.share is not None for pulley in self.pulleys]
         if any(given):
             if not all(given):
-                message = (
-                    "missing: another drive has a share of the force; give it for all drives or for none"
-                )
+                message = "missing: another drive has a share of the force; give it for all drives or for none"
                 return [Problem((*places[i], "share"), message) for i, ok in enumerate(given) if not ok]
             total = math.fsum(si(pulley.share) for pulley in self.pulleys if pulley.share is not None)
             if abs(total - 1.0) > SHARE_SUM_TOLERANCE:
                 message = f"got a sum of {total:.6g}, the shares of all drives must add up to 1 (100 %)"
                 return [Problem(("share",), message)]
         elif self.further_drives:
-            message = (
-                "missing: several drives share the force by installed power; give it, or share, for each"
-            )
+            message = "missing: several drives share the force by installed power; give it, or share, for each"
             return [
                 Problem((*place, "installed_power"), message)
                 for place, pulley in zip(places, self.pulleys, strict=True)

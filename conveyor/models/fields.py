@@ -98,9 +98,7 @@ def with_fields(
     made = {name: part for name, (_, part) in new.items()}
     if not made:
         return conveyor
-    alike = all(
-        isinstance(part, Model) and type(part) is type(getattr(conveyor, name)) for name, part in made.items()
-    )
+    alike = all(isinstance(part, Model) and type(part) is type(getattr(conveyor, name)) for name, part in made.items())
     return conveyor.with_parts(made, numbers, parts.fit) if alike else _replace_with_path(conveyor, made, "")
 
 
@@ -204,9 +202,7 @@ def _replace_fields(old: Model, below: Mapping[str, Any], path: str, resolve: Co
     except InputError as error:
         known = {*wrong, *(alias for alias, name in _names_by_alias(type(old)).items() if name in wrong)}
         said = str(error).splitlines()
-        refused += [
-            f"{path}.{line}" for line in said if re.split(r"[.:\[]", line, maxsplit=1)[0] not in known
-        ]
+        refused += [f"{path}.{line}" for line in said if re.split(r"[.:\[]", line, maxsplit=1)[0] not in known]
     raise InputError("\n".join(refused))
 
 
@@ -261,11 +257,7 @@ def _replace_with_path(old: Model, made: Mapping[str, Any], path: str) -> Any:
 
 
 def _plain_changes(below: Any) -> Any:
-    return (
-        below.value
-        if isinstance(below, _NewValue)
-        else {key: _plain_changes(lower) for key, lower in below.items()}
-    )
+    return below.value if isinstance(below, _NewValue) else {key: _plain_changes(lower) for key, lower in below.items()}
 
 
 def _change_key(below: Any) -> object:

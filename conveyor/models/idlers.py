@@ -244,11 +244,7 @@ class IdlerSet(Model):
             )
             return [Problem((name,), message)] if needed else []
         if len(shares) != self.rolls:
-            return [
-                Problem(
-                    (name,), f"got {len(shares)} shares for rolls: {self.rolls}; give one share for each roll"
-                )
-            ]
+            return [Problem((name,), f"got {len(shares)} shares for rolls: {self.rolls}; give one share for each roll")]
         total = math.fsum(si(share) for share in shares)
         if abs(total - 1.0) > SHARE_SUM_TOLERANCE:
             return [Problem((name,), f"got a sum of {total:.6g}, the shares must add up to 1 (100 %)")]

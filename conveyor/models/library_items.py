@@ -35,9 +35,7 @@ class LibraryItem(Model):
         return merge_fields(entry.fields, data)
 
     @classmethod
-    def __get_pydantic_json_schema__(
-        cls, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
+    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         """JSON schema: fields that an entry may supply are required only where none is named."""
         described = handler.resolve_ref_schema(handler(schema))
         known = {name for entry in libraries.library_entries(cls.library).values() for name in entry.fields}

@@ -50,9 +50,7 @@ class Starter(Model):
         problems = []
         if self.kind != "inverter" and self.stop_time is not None:
             problems.append(
-                Problem(
-                    ("stop_time",), f"given with kind {self.kind}: only an inverter leads a stop; remove it"
-                )
+                Problem(("stop_time",), f"given with kind {self.kind}: only an inverter leads a stop; remove it")
             )
         if self.kind == "direct" and self.time is not None:
             problems.append(Problem(("time",), "given with kind direct: nothing is led; remove it"))
@@ -60,9 +58,7 @@ class Starter(Model):
             problems.append(Problem(("initial_torque",), f"given with kind {self.kind}; remove it"))
         if self.fill:
             if self.kind != "fluid coupling":
-                problems.append(
-                    Problem(("fill",), f"given with kind {self.kind}: only a fluid coupling fills")
-                )
+                problems.append(Problem(("fill",), f"given with kind {self.kind}: only a fluid coupling fills"))
             beside = [name for name in ("time", "initial_torque") if getattr(self, name) is not None]
             problems += [Problem((name,), "given beside fill, which says it; remove one") for name in beside]
             times = [si(point.at) for point in self.fill]

@@ -70,9 +70,7 @@ def _match_pattern(pattern: re.Pattern[str], value: Any, kind: str, wanted: str)
 def _read_price(value: Any) -> Any:
     if isinstance(value, EnergyPrice):
         return value
-    match = _match_pattern(
-        PRICE_PATTERN, value, "price", 'a price with the currency\'s code such as "0.12 EUR/kWh"'
-    )
+    match = _match_pattern(PRICE_PATTERN, value, "price", 'a price with the currency\'s code such as "0.12 EUR/kWh"')
     return EnergyPrice(float(match[1]), match[2])
 
 

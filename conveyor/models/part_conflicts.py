@@ -227,9 +227,7 @@ def _drive_section_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Refuse drives at sections that the route does not have."""
     drive = conveyor.drive
     named: dict[Location, str | None] = {("drive", "section"): drive.section}
-    named |= {
-        ("drive", "further_drives", i, "section"): d.section for i, d in enumerate(drive.further_drives)
-    }
+    named |= {("drive", "further_drives", i, "section"): d.section for i, d in enumerate(drive.further_drives)}
     for location, name in named.items():
         if name is not None:
             yield from conveyor.route.section_problem(location, name)
@@ -250,9 +248,7 @@ def _inertia_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     places += [("drive", "further_drives", i) for i in range(len(conveyor.drive.further_drives))]
     for place, drive in zip(places, conveyor.drive.pulleys, strict=True):
         if drive.inertia is not None and drive_diameter(conveyor, drive) is None:
-            message = (
-                "missing: inertia acts over the pulley's radius; give it, or the pulley in route.pulleys"
-            )
+            message = "missing: inertia acts over the pulley's radius; give it, or the pulley in route.pulleys"
             yield Problem((*place, "pulley_diameter"), message)
 
 
@@ -311,10 +307,7 @@ def _length_coefficient_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
             InputError(
                 'got "C", but route.sections are {} long together and C holds for more than {}; set '
                 'calculation.secondary to "itemised"',
-                *(
-                    MessageQuantity(each, "length", format_si(each, "length"))
-                    for each in (length, SHORTEST_FOR_FACTOR)
-                ),
+                *(MessageQuantity(each, "length", format_si(each, "length")) for each in (length, SHORTEST_FOR_FACTOR)),
             ),
         )
 

@@ -36,9 +36,7 @@ def implausible_inputs(conveyor: Conveyor) -> Iterator[Message]:
     efficiency = si(conveyor.drive.efficiency)
     if efficiency < POOREST_DRIVE:
         lost = percent(1.0 - efficiency)
-        yield message(
-            f"drive.efficiency {text(conveyor.drive.efficiency)}: {lost} of the power is lost; look again"
-        )
+        yield message(f"drive.efficiency {text(conveyor.drive.efficiency)}: {lost} of the power is lost; look again")
 
 
 def _check_flow(conveyor: Conveyor) -> Iterator[Message]:
@@ -71,9 +69,7 @@ def _check_carcass(conveyor: Conveyor) -> Iterator[Message]:
     try:
         usual = carcass_mass(strength, thickness=si(carcass.thickness), steel_cord=steel)
     except InputError:
-        yield message(
-            f"belt.carcass.thickness {text(carcass.thickness)}: cords of this strength need more steel"
-        )
+        yield message(f"belt.carcass.thickness {text(carcass.thickness)}: cords of this strength need more steel")
         return
     left = belt.line_mass / si(belt.width) - belt.top_cover.area_mass - belt.bottom_cover.area_mass
     if CARCASS_MASS_RATIO[0] * usual <= left <= CARCASS_MASS_RATIO[1] * usual:

@@ -18,9 +18,7 @@ class Plough(Model):
     """Ploughs that sweep at the same time."""
     width: Annotated[Length, Bounds(gt="0 m", le="5 m")]
     """Width of the belt that is swept."""
-    scraping_factor: Annotated[LineForce, Bounds(ge="0 N/m", le="20 kN/m")] = quantity(
-        f"{SCRAPING_FACTOR.value:g} N/m"
-    )
+    scraping_factor: Annotated[LineForce, Bounds(ge="0 N/m", le="20 kN/m")] = quantity(f"{SCRAPING_FACTOR.value:g} N/m")
     """Force per width, k_a."""
     position: Literal["head", "carry"] = "head"
     """Right before the head, or behind a section of the carry strand."""

@@ -134,9 +134,7 @@ class Prices(Model):
         if not isinstance(data, dict):
             return data
         euro = _PRICE_PATTERN.fullmatch(str(data.get("euro")))
-        return merge_fields(
-            {name: _converted_price(price, euro) for name, price in library_prices().items()}, data
-        )
+        return merge_fields({name: _converted_price(price, euro) for name, price in library_prices().items()}, data)
 
     @model_validator(mode="after")
     def _one_currency(self) -> Self:
@@ -163,11 +161,7 @@ class Prices(Model):
     def amounts(self) -> dict[str, float]:
         """Figures by field: prices per SI unit, lives in years, seconds or metres."""
         return {
-            name: value.amount
-            if isinstance(value, UnitPrice)
-            else value
-            if isinstance(value, float)
-            else si(value)
+            name: value.amount if isinstance(value, UnitPrice) else value if isinstance(value, float) else si(value)
             for name, value in self
             if value is not None
         }
@@ -176,9 +170,7 @@ class Prices(Model):
 def library_prices() -> dict[str, Any]:
     """Library prices, as in specs."""
     return {
-        name: value
-        for entry in libraries.library_entries("prices").values()
-        for name, value in entry.fields.items()
+        name: value for entry in libraries.library_entries("prices").values() for name, value in entry.fields.items()
     }
 
 

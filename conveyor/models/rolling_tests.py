@@ -91,9 +91,7 @@ class RollingTest(Model):
             problems.append(Problem(("resistance",), f"{count}, one per line load is needed"))
         elif self.law is not None and not si(self.law.line_load[0]) < si(self.law.line_load[1]):
             low, high = map(text, self.law.line_load)
-            problems.append(
-                Problem(("law", "line_load"), f"got {low} to {high}, expected the lower value first")
-            )
+            problems.append(Problem(("law", "line_load"), f"got {low} to {high}, expected the lower value first"))
         else:
             points = self.points()
             friction = points.resistance / points.line_load
@@ -106,9 +104,7 @@ class RollingTest(Model):
                 problems.append(Problem(place, said))
         if self.shared > self.relative_uncertainty:
             whole = f"uncertainty is {100.0 * self.relative_uncertainty:g} %"
-            problems.append(
-                Problem(("shared_uncertainty",), f"is a part of uncertainty, at most as much; {whole}")
-            )
+            problems.append(Problem(("shared_uncertainty",), f"is a part of uncertainty, at most as much; {whole}"))
         raise_problems("RollingTest", problems)
         return self
 

@@ -72,9 +72,7 @@ class BearingDrag(Model):
     """Temperature of the second viscosity."""
     seal_moment: Annotated[Moment, Bounds(ge="0 N*m", le="10 N*m")]
     """Friction moment of the seals of one end."""
-    warming: Annotated[TemperatureDifference, Bounds(ge="0 K", le="100 K")] = quantity(
-        "0 K", "temperature difference"
-    )
+    warming: Annotated[TemperatureDifference, Bounds(ge="0 K", le="100 K")] = quantity("0 K", "temperature difference")
     """How much warmer than the air the running bearings are; none is on the safe side."""
     f0: Annotated[Number, Field(ge=0, le=20)] = BEARING_F0.value
     """Factor of the no-load moment, from bearing type and lubrication."""
@@ -155,9 +153,7 @@ class Roll(LibraryItem):
         problems = []
         axle = None if self.bearing is None else self.bearing.axle_diameter
         if axle is not None and si(axle) >= si(self.diameter):
-            message = (
-                f"got {text(axle)}, but the roll's diameter is {text(self.diameter)}; correct one of the two"
-            )
+            message = f"got {text(axle)}, but the roll's diameter is {text(self.diameter)}; correct one of the two"
             problems.append(Problem(("bearing", "axle_diameter"), message))
         if self.drag is not None and self.drag_law is not None:
             message = f"given beside drag {text(self.drag)}; give one of the two, remove the other"

@@ -129,9 +129,7 @@ class Section(Model):
         if (self.curve is None) == (self.curve_radius is None):
             return []
         missing, given = ("curve", "curve_radius") if self.curve is None else ("curve_radius", "curve")
-        return [
-            Problem((missing,), f"missing: {given} is given; a vertical curve needs both, or remove {given}")
-        ]
+        return [Problem((missing,), f"missing: {given} is given; a vertical curve needs both, or remove {given}")]
 
     def _upright_problems(self, radius: Quantity) -> list[Problem]:
         length = si(self.length)
@@ -154,9 +152,7 @@ class Section(Model):
             message = f"missing: {given} is given; a horizontal curve needs both, or remove {given}"
             yield Problem((missing,), message)
         elif radius is not None and (turn := si(self.length) / si(radius)) > _LARGEST_TURN:
-            least = from_si(
-                float(f"{si(self.length) / _LARGEST_TURN:.6g}"), "length", text(radius).split()[1]
-            )
+            least = from_si(float(f"{si(self.length) / _LARGEST_TURN:.6g}"), "length", text(radius).split()[1])
             yield Problem(
                 ("horizontal_radius",),
                 f"got {text(radius)}, with which {text(self.length)} turn by {math.degrees(turn):.0f} deg, more than "
@@ -250,9 +246,7 @@ class Discharge(Model):
     @model_validator(mode="after")
     def _slides_easier(self) -> Self:
         if self.sliding_friction is not None and self.sliding_friction > self.friction:
-            message = (
-                f"got {self.sliding_friction:g}, more than friction {self.friction:g}; correct one of the two"
-            )
+            message = f"got {self.sliding_friction:g}, more than friction {self.friction:g}; correct one of the two"
             raise_problems("Discharge", [Problem(("sliding_friction",), message)])
         return self
 
@@ -272,9 +266,7 @@ class Cleaner(Model):
     """Of the blade on the belt."""
     friction: Friction = CLEANER_FRICTION.value
     """Friction of blade on belt μ3."""
-    efficiency: Annotated[Fraction, Bounds(ge="0 %", lt="100 %")] = quantity(
-        CLEANER_EFFICIENCY.value, "fraction"
-    )
+    efficiency: Annotated[Fraction, Bounds(ge="0 %", lt="100 %")] = quantity(CLEANER_EFFICIENCY.value, "fraction")
     """Share of what clings to the belt that one takes off; general knowledge without it."""
 
 
@@ -378,9 +370,7 @@ class TakeUp(Model):
     def _one_setting(self) -> Self:
         problems = position_problem(self.position, self.section)
         if self.mass is not None and self.kind != "gravity":
-            message = (
-                f'got {text(self.mass)} with kind "{self.kind}"; give the tension, or set kind to "gravity"'
-            )
+            message = f'got {text(self.mass)} with kind "{self.kind}"; give the tension, or set kind to "gravity"'
             problems.append(Problem(("mass",), message))
         elif self.mass is not None and self.tension is not None:
             message = f"got {text(self.mass)} and tension {text(self.tension)}; give one of the two"
@@ -390,9 +380,7 @@ class TakeUp(Model):
                 Problem(("winch_speed",), f'given with kind "{self.kind}"; remove it, or set kind to "winch"')
             )
         if self.winch_run_up is not None and self.winch_speed is None:
-            problems.append(
-                Problem(("winch_run_up",), "given without winch_speed; give the speed too, or remove it")
-            )
+            problems.append(Problem(("winch_run_up",), "given without winch_speed; give the speed too, or remove it"))
         raise_problems("TakeUp", problems)
         return self
 
@@ -490,11 +478,7 @@ class Route(Model):
             return True
         if point.share is None or si(point.share) != 1.0:
             return False
-        turns = {
-            p.section
-            for p in self.pulleys
-            if p.position == "carry" and si(p.wrap_angle) > _LARGEST_HOLDING_WRAP
-        }
+        turns = {p.section for p in self.pulleys if p.position == "carry" and si(p.wrap_angle) > _LARGEST_HOLDING_WRAP}
         return any(
             section.name in turns and after.name == point.section
             for section, after in itertools.pairwise(self.sections)
@@ -508,9 +492,7 @@ class Route(Model):
                 yield Problem(("feeding", "share"), message)
             return
         if self.feeding is None:
-            yield Problem(
-                ("feeding",), "missing: further_feeding is given; the first loading point stands here"
-            )
+            yield Problem(("feeding",), "missing: further_feeding is given; the first loading point stands here")
             return
         total, certain = 0.0, True
         fresh = [(i, point) for i, point in enumerate(self.further_feeding) if not self.feeds_back(point)]

@@ -67,17 +67,11 @@ class Scenario(Model):
     def _consistent(self) -> Self:
         problems = []
         if self.loading == "part load" and self.share is None:
-            problems.append(
-                Problem(("share",), 'missing: loading "part load" needs its share of material.flow')
-            )
+            problems.append(Problem(("share",), 'missing: loading "part load" needs its share of material.flow'))
         elif self.loading != "part load" and self.share is not None:
-            problems.append(
-                Problem(("share",), f'got {text(self.share)} with loading "{self.loading}"; remove it')
-            )
+            problems.append(Problem(("share",), f'got {text(self.share)} with loading "{self.loading}"; remove it'))
         if (self.loading == "sections") != bool(self.sections):
-            problems.append(
-                Problem(("sections",), 'loading "sections" needs names, and names need loading "sections"')
-            )
+            problems.append(Problem(("sections",), 'loading "sections" needs names, and names need loading "sections"'))
         raise_problems("Scenario", problems)
         return self
 
@@ -87,14 +81,10 @@ def scenario_problems(scenarios: Iterable[Scenario], drives: Iterable[str]) -> I
     names, known = set(), tuple(drives)
     for i, scenario in enumerate(scenarios):
         if scenario.name in names:
-            yield Problem(
-                ("scenarios", i, "name"), f'got "{scenario.name}" again; give each scenario its own name'
-            )
+            yield Problem(("scenarios", i, "name"), f'got "{scenario.name}" again; give each scenario its own name')
         names.add(scenario.name)
         for j, event in enumerate(scenario.events):
             for k, name in enumerate(event.drives):
                 if name not in known:
                     allowed = ", ".join(known)
-                    yield Problem(
-                        ("scenarios", i, "events", j, "drives", k), f'got "{name}", drives are: {allowed}'
-                    )
+                    yield Problem(("scenarios", i, "events", j, "drives", k), f'got "{name}", drives are: {allowed}')

@@ -233,9 +233,7 @@ class SizingDuty(Model):
         if self.lift is not None and self.length is None:
             yield Problem(("lift",), "given without length; give the lifts of the route's sections")
         elif self.lift is not None and self.length is not None and abs(si(self.lift)) >= si(self.length):
-            yield Problem(
-                ("lift",), "is not less than length, which is along the belt; correct one of the two"
-            )
+            yield Problem(("lift",), "is not less than length, which is along the belt; correct one of the two")
         if self.route is not None:
             yield from self._sized_problems(self.route)
         if si(self.material.flow) == 0.0:
@@ -245,9 +243,7 @@ class SizingDuty(Model):
         for i, width in enumerate(self.rules.widths):
             if not any(same_width(si(width), si(row.belt)) for row in rows):
                 place = ("rules", "widths", i)
-                yield Problem(
-                    place, f"got {text(width)}, the series has {listed} (rules.series {self.series})"
-                )
+                yield Problem(place, f"got {text(width)}, the series has {listed} (rules.series {self.series})")
         yield from self._price_problems()
 
     @staticmethod
@@ -264,9 +260,7 @@ class SizingDuty(Model):
                 (*place, "return_spacing"): section.return_spacing,
             }
         yield from (
-            Problem(place, "is what the sizing is to find; remove it")
-            for place, value in given.items()
-            if value
+            Problem(place, "is what the sizing is to find; remove it") for place, value in given.items() if value
         )
 
     def _price_problems(self) -> Iterator[Problem]:

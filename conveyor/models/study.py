@@ -47,9 +47,7 @@ def _axis_values(given: Any) -> Any:
     if isinstance(given, list | tuple):
         for value in given:
             if not isinstance(value, Value) or (isinstance(value, float) and not math.isfinite(value)):
-                raise _axis_error(
-                    f"got {shown_value(value)} among the values, expected numbers, texts, true or false"
-                )
+                raise _axis_error(f"got {shown_value(value)} among the values, expected numbers, texts, true or false")
         return given
     numbers, _, sign = str(given).strip().partition(" ")
     if not isinstance(given, str) or numbers.count(":") != 2:
@@ -268,9 +266,7 @@ class VariedSpec(Model):
                 yield (*self._ranged, path, name), path, end
         for name, rows in (("together", self.together), ("states", self.rows)):
             for i, row in enumerate(rows):
-                yield from (
-                    ((name, i, path), path, value) for path, value in row.items() if path != HOURS_KEY
-                )
+                yield from (((name, i, path), path, value) for path, value in row.items() if path != HOURS_KEY)
 
     @property
     def _ranged(self) -> Location:
@@ -379,9 +375,7 @@ class StudyPlan(VariedSpec):
     def count(self) -> int:
         """Number of points."""
         samples = 1 if self.samples is None else self.samples.count
-        designs = (
-            math.prod(len(values) for values in self.axes.values()) * max(len(self.together), 1) * samples
-        )
+        designs = math.prod(len(values) for values in self.axes.values()) * max(len(self.together), 1) * samples
         return designs * max(len(self.rows), 1)
 
     def designs(self) -> Iterator[dict[str, Value]]:

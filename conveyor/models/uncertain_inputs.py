@@ -79,13 +79,9 @@ class Uncertainty(Model):
     def _drawn(self) -> Self:
         problems, seen = [], set()
         if 0 < self.draws < FEWEST_DRAWS:
-            problems.append(
-                Problem(("draws",), f"got {self.draws}, expected at least {FEWEST_DRAWS}, or 0 for none")
-            )
+            problems.append(Problem(("draws",), f"got {self.draws}, expected at least {FEWEST_DRAWS}, or 0 for none"))
         if self.correlations and not self.draws:
-            problems.append(
-                Problem(("correlations",), "only draws take them: give draws: 256, or leave them out")
-            )
+            problems.append(Problem(("correlations",), "only draws take them: give draws: 256, or leave them out"))
         for i, pair in enumerate(self.correlations):
             named = frozenset(pair.between)
             missing = [name for name in pair.between if getattr(self, name) is None]

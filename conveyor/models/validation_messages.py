@@ -53,9 +53,7 @@ def error_message(item: dict[str, Any], model: type[BaseModel]) -> str:
         "literal_error": lambda: (
             f"got {shown_value(given)}, allowed: {context['expected']}{_closest_word(given, context['expected'])}"
         ),
-        "too_short": lambda: (
-            f"got {context['actual_length']} entries, at least {context['min_length']} needed"
-        ),
+        "too_short": lambda: f"got {context['actual_length']} entries, at least {context['min_length']} needed",
         "too_long": lambda: f"got more than {context['max_length']} entries, the most allowed",
         "string_too_short": lambda: "empty; give some text",
     }
@@ -102,9 +100,7 @@ def shown_value(value: Any) -> str:
 
 def _unknown_key(model: type[BaseModel], location: Location) -> str:
     allowed = [
-        field.alias or name
-        for owner in _models_at(model, location[:-1])
-        for name, field in owner.model_fields.items()
+        field.alias or name for owner in _models_at(model, location[:-1]) for name, field in owner.model_fields.items()
     ]
     near = difflib.get_close_matches(str(location[-1]), allowed, n=1)
     guess = f'; did you mean "{near[0]}"?' if near else ""
@@ -122,9 +118,7 @@ def _expected_value(model: type[BaseModel], location: Location) -> str:
     measure = next((mark for mark in field.metadata if isinstance(mark, Measure)), None)
     if measure is not None:
         bounds = [mark for mark in field.metadata if isinstance(mark, Bounds)]
-        return expected_text(
-            measure.kind, lambda given: all(one.allows(measure.kind, given) for one in bounds)
-        )
+        return expected_text(measure.kind, lambda given: all(one.allows(measure.kind, given) for one in bounds))
     listed = get_origin(field.annotation) in {tuple, list}
     marks = (*field.metadata, *(part for arg in get_args(field.annotation) for part in get_args(arg)))
     wanted = next((mark.wanted for mark in marks if hasattr(mark, "wanted")), None)

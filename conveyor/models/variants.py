@@ -67,9 +67,7 @@ def with_case(conveyor: Conveyor, case: LoadCase, *, speed: Quantity | None = No
         named = frozenset(case.sections)
         sections = [_load_section(section, case, named) for section in conveyor.route.sections]
         if any(new is not old for new, old in zip(sections, conveyor.route.sections, strict=True)):
-            changes["route"] = _feed_sections(
-                conveyor, sections, conveyor.belt.speed if speed is None else speed
-            )
+            changes["route"] = _feed_sections(conveyor, sections, conveyor.belt.speed if speed is None else speed)
     return conveyor.replace(**changes) if changes else conveyor
 
 
@@ -77,8 +75,7 @@ def at_reduced_speed(conveyor: Conveyor, share: float) -> Conveyor:
     """Conveyor at a share of its belt speed [-], with the bulk line mass of full speed."""
     speed = scale_quantity(conveyor.belt.speed, share)
     points = [
-        point if si(point.speed) <= si(speed) else point.replace(speed=speed)
-        for point in conveyor.route.feeding_points
+        point if si(point.speed) <= si(speed) else point.replace(speed=speed) for point in conveyor.route.feeding_points
     ]
     route = conveyor.route
     if points:
@@ -167,8 +164,7 @@ def crossed_settings(
     """
     air = conveyor.idlers.drag_follows_air
     given = [
-        (si(at), _field_changes("ambient", _temperature_changes(conveyor, at)) if air else {})
-        for at in temperatures
+        (si(at), _field_changes("ambient", _temperature_changes(conveyor, at)) if air else {}) for at in temperatures
     ]
     known = PartCache()
     for speed in speeds:

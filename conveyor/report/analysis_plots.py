@@ -77,9 +77,7 @@ def resistance_breakdown(balance: Balance, *, system: System = "SI") -> Figure:
     names = [*parts, *_SUMS]
     width = _BAR_HEIGHT / (1 + len(estimates))
     sums_here = balance.forces
-    forces = force(
-        [*(sums_here.parts[name] for name in parts), *(getattr(sums_here, name) for name in _SUMS)]
-    )
+    forces = force([*(sums_here.parts[name] for name in parts), *(getattr(sums_here, name) for name in _SUMS)])
     columns = [("this calculation", list(range(len(names))), forces)]
     sums = list(range(len(parts), len(names)))
     columns += [(label, sums, force([getattr(made, name) for name in _SUMS])) for label, made in estimates]
@@ -130,9 +128,7 @@ def pressure_under_rolls(contacts: Contacts, *, system: System = "SI") -> Figure
         A contact that was interpolated between others has no answer of its own.
     """
     figure, (axis,) = stacked_axes(1, 3.6)
-    stress, way, line = (
-        display_unit(kind, system, large=True) for kind in ("pressure", "thickness", "line force")
-    )
+    stress, way, line = (display_unit(kind, system, large=True) for kind in ("pressure", "thickness", "line force"))
     strands: tuple[Strand, ...] = ("carry", "return")
     for k, strand in enumerate(strands):
         roll = governing_roll(contacts, strand)
@@ -191,9 +187,7 @@ def excited_master_curve(
 
 
 @own_settings()
-def case_power(
-    study: CalculatedCases, over: PowerAxis, at: float | None = None, *, system: System = "SI"
-) -> Figure:
+def case_power(study: CalculatedCases, over: PowerAxis, at: float | None = None, *, system: System = "SI") -> Figure:
     """Motor power [kW, hp] of every load case over temperature at one speed [m/s], or over speed at a temperature [K].
 
     By default the speed or temperature that most cases have.
@@ -260,9 +254,7 @@ def tornado_chart(study: CalculatedRanges, *, system: System = "SI") -> Figure:
 
 
 @own_settings()
-def interval_convergence(
-    exact: MonteCarlo, first_order: tuple[float, float], *, system: System = "SI"
-) -> Figure:
+def interval_convergence(exact: MonteCarlo, first_order: tuple[float, float], *, system: System = "SI") -> Figure:
     """Ends of the 90 % interval of the motor power [kW, hp] over the number of draws, and those of first order."""
     figure, (axis,) = stacked_axes(1, 3.6)
     power, rows = display_unit("power", system, large=True), exact.convergence
@@ -271,9 +263,7 @@ def interval_convergence(
         values = power([getattr(row, name) for row in rows])
         between = [power([getattr(row, f"{name}_between")[side] for row in rows]) for side in (0, 1)]
         axis.fill_between(draws, *between, color=curve_colour(k), alpha=0.15, linewidth=0)
-        axis.plot(
-            draws, values, color=curve_colour(k), marker="o", markersize=4, label=f"{name} end, draws in full"
-        )
+        axis.plot(draws, values, color=curve_colour(k), marker="o", markersize=4, label=f"{name} end, draws in full")
         axis.axhline(float(power(end)), color=curve_colour(k), linestyle=":", linewidth=1.2)
     axis.plot([], [], ":", color="0.3", label="first order")
     axis.set_xscale("log", base=2)
@@ -314,9 +304,7 @@ def _from_tail(boundary: int, sections: int) -> int:
 def tension_fault(line: Line, state: MotionState) -> str:
     """Suffix for the name of a motion state whose belt is slack or slips; else empty."""
     slips = any(
-        not tension_suffices(
-            side.slack, grip_tension(side.force, friction=drive.friction, wrap_angle=drive.wrap_angle)
-        )
+        not tension_suffices(side.slack, grip_tension(side.force, friction=drive.friction, wrap_angle=drive.wrap_angle))
         for drive, side in zip(line.drives, state.drives, strict=True)
     )
     wrong = [what for what, so in (("slack belt", state.slack), ("belt slips", slips)) if so]
@@ -340,9 +328,7 @@ def route_profile(
         )  # fmt: skip
     for i, section in enumerate(conveyor.route.sections):
         if section.curve is not None:
-            axis.plot(
-                x[i : i + 2], z[i : i + 2], color="#A61C3C", linewidth=3, label=f"{section.curve} curve"
-            )
+            axis.plot(x[i : i + 2], z[i : i + 2], color="#A61C3C", linewidth=3, label=f"{section.curve} curve")
     if np.ptp(z) == 0.0:
         axis.set_ylim(-_LEVEL_MARGIN * np.ptp(x), _LEVEL_MARGIN * np.ptp(x))
     elif np.ptp(x) < _ASPECT * np.ptp(z):
@@ -431,9 +417,7 @@ def plan_view(line: Line, *, system: System = "SI") -> Figure:
         points = np.concatenate([[at], at + np.cumsum(steps, axis=0)])
         x, y = length(points.T)
         label = "straight" if section.horizontal is None else "horizontal curve"
-        axis.plot(
-            x, y, color="#1F4E79" if section.horizontal is None else "#A61C3C", linewidth=3, label=label
-        )
+        axis.plot(x, y, color="#1F4E79" if section.horizontal is None else "#A61C3C", linewidth=3, label=label)
         axis.plot(x[:1], y[:1], ".", color="0.3")
         at = points[-1]
     axis.plot(*length(at[:, None]), "o", color="#C55A11", fillstyle="none", label="head")
@@ -443,9 +427,7 @@ def plan_view(line: Line, *, system: System = "SI") -> Figure:
 
 
 @own_settings()
-def drift_diagram(
-    loads: Sequence[tuple[str, Sequence[HorizontalCurveCheck]]], *, system: System = "SI"
-) -> Figure:
+def drift_diagram(loads: Sequence[tuple[str, Sequence[HorizontalCurveCheck]]], *, system: System = "SI") -> Figure:
     """Range of belt drift over all states of each load in every horizontal curve; the free roll width in grey."""
     bends, size = loads[0][1], display_unit("size", system)
     figure, (axis,) = stacked_axes(1, 1.4 + 0.7 * len(bends))
@@ -457,9 +439,7 @@ def drift_diagram(
         for k, (name, turns) in enumerate(loads):
             outside, inside = turns[i].farthest_out.outside, turns[i].farthest_in.inside
             y, ends = i - 0.4 + (k + 0.5) * thick, (outside, inside)
-            low, high = (
-                math.copysign(_OFF_ROLLS * room, end) if math.isinf(end) else float(size(end)) for end in ends
-            )
+            low, high = (math.copysign(_OFF_ROLLS * room, end) if math.isinf(end) else float(size(end)) for end in ends)
             runs_off = any(map(math.isinf, ends))
             axis.plot(
                 [low, high], [y, y], color=curve_colour(k), linewidth=max(1.5, 14.0 * thick), label=name,
@@ -487,20 +467,14 @@ def tension_diagram(balance: Balance, moving: StartAndStop | None = None, *, sys
         tensions = np.stack([state.starts, state.ends], axis=1).ravel()
         x = np.concatenate([[0.0], way, way[-1:]])
         y = np.concatenate([[state.leaving], tensions, [state.arriving]])
-        axis.plot(
-            x, force(y), color=curve_colour(k), label=f"{state.name}{tension_fault(balance.line, state)}"
-        )
+        axis.plot(x, force(y), color=curve_colour(k), label=f"{state.name}{tension_fault(balance.line, state)}")
         if state.slack:
             low = force(np.minimum(y, 0.0))
             axis.fill_between(x, low, 0.0, color=_FAILS, alpha=0.35, linewidth=0, zorder=0)
-    axis.plot(
-        way, force(np.repeat(shape.least, 2)), color="0.6", linestyle=":", label="minimum tension (sag)"
-    )
+    axis.plot(way, force(np.repeat(shape.least, 2)), color="0.6", linestyle=":", label="minimum tension (sag)")
     tail = float(length(shape.way[len(shape.length) // 2]))
     axis.axvline(tail, color="0.8", zorder=0)
-    axis.annotate(
-        "tail", (tail, 0.0), xycoords=("data", "axes fraction"), color="0.4", ha="center", va="bottom"
-    )
+    axis.annotate("tail", (tail, 0.0), xycoords=("data", "axes fraction"), color="0.4", ha="center", va="bottom")
     return finish_figure(
         figure, length.beside(_LOOP_DISTANCE), force.beside("tension"), "Tension round the loop", group="xy"
     )
@@ -531,13 +505,9 @@ def flap_diagram(result: CalculatedConveyor, *, system: System = "SI") -> Figure
         drawn(f"belt, {strand}, second mode", ink, "--", x, [2.0 * swing for swing in duty.swings])
         for each in dict.fromkeys(duty.rotations):
             drawn("rotation of the rolls", _FAILS, "-", x, [each, each])
-            axis.fill_between(
-                x, each * (1 - margin), each * (1 + margin), color=_FAILS, alpha=0.15, linewidth=0
-            )
+            axis.fill_between(x, each * (1 - margin), each * (1 + margin), color=_FAILS, alpha=0.15, linewidth=0)
     for label, (ink, line, ways, values) in lines.items():
         axis.plot(ways, values, line, color=ink, label=label)
     axis.set_ylim(bottom=0.0)
     title = "Belt between the idlers and rotation of the rolls"
-    return finish_figure(
-        figure, length.beside(_LOOP_DISTANCE), frequency.beside("frequency"), title, group="x"
-    )
+    return finish_figure(figure, length.beside(_LOOP_DISTANCE), frequency.beside("frequency"), title, group="x")

@@ -173,9 +173,7 @@ def analysis_contents(
         *material_flow_tables(analysis),
         convergence_table(analysis),
         *studied,
-        what_if_table(
-            analysis, studies.duty, first_maximum((load.found.governing_motor_power for load in loads), abs)
-        ),
+        what_if_table(analysis, studies.duty, first_maximum((load.found.governing_motor_power for load in loads), abs)),
         belt_support(analysis),
         contact_solutions(analysis),
         indentation_table(analysis),
@@ -199,9 +197,7 @@ def _every_check(
     return every_check(analysis, studies.states, studies.cases, () if further is None else further.checks)
 
 
-def report_head(
-    conveyor: Conveyor, kind: str, system: System, facts: tuple[tuple[str, str], ...] = ()
-) -> ReportHead:
+def report_head(conveyor: Conveyor, kind: str, system: System, facts: tuple[tuple[str, str], ...] = ()) -> ReportHead:
     """Head of a report of a conveyor."""
     report = conveyor.report
     names = ("project", "client", "number", "revision", "engineer", "reviewer", "approval")
@@ -220,13 +216,9 @@ def identity_table(conveyor: Conveyor, system: System) -> Table:
     def idlers(of: Any) -> str:
         inner = "" if of.inner_trough_angle is None else f"{shown(of.inner_trough_angle, 'angle')} and "
         lying = f" at {inner}{shown(of.trough_angle, 'angle')}" if of.rolls > 1 else ""
-        return (
-            f"{of.rolls} x {shown(of.roll.diameter, 'thickness')}{lying}, every {shown(of.spacing, 'length')}"
-        )
+        return f"{of.rolls} x {shown(of.roll.diameter, 'thickness')}{lying}, every {shown(of.spacing, 'length')}"
 
-    strength = (
-        "" if carcass.strength is None else f", breaking {belt_strength_text(carcass.strength, system)}"
-    )
+    strength = "" if carcass.strength is None else f", breaking {belt_strength_text(carcass.strength, system)}"
     rating = "" if carcass.rating is None else f", rated {belt_rating_text(carcass.rating, system)}"
     above = "rubber of the bottom cover" if top.compound is None else top.compound.name
     rows = (
@@ -405,9 +397,7 @@ def resistance_table(a: CalculatedConveyor) -> Table:
     )
     rows = (*by_strand, *((each.name, each.kind, each.total, each.source) for each in a.balance.singles))
     heading = "Resistances and their sources"
-    return Table(
-        "resistances", "Resistances", heading, columns, rows, "resistances", foot="effective tension"
-    )
+    return Table("resistances", "Resistances", heading, columns, rows, "resistances", foot="effective tension")
 
 
 def _share_or_nan(part: float, whole: float) -> float:
@@ -537,8 +527,7 @@ def distinct_rolls(a: CalculatedConveyor, every: Table) -> Table:
         values = tuple(column.get(row) for column in shown[1:])
         if values not in looks:
             looks[values] = tuple(
-                display_unit(column.kind).short(value)
-                for column, value in zip(shown[1:], values, strict=True)
+                display_unit(column.kind).short(value) for column, value in zip(shown[1:], values, strict=True)
             )
         by_look.setdefault(looks[values], []).append(row)
     columns = (
@@ -547,9 +536,7 @@ def distinct_rolls(a: CalculatedConveyor, every: Table) -> Table:
     )
     heading = "Rolls of a set at their highest line load, identical ones once"
     note = f"Relative error of the contacts: at most {a.error_estimate:.0e}."
-    return Table(
-        "distinct_rolls", "Sections", heading, columns, tuple(by_look.values()), "rolls", note, named=3
-    )
+    return Table("distinct_rolls", "Sections", heading, columns, tuple(by_look.values()), "rolls", note, named=3)
 
 
 def idler_sets(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
@@ -858,9 +845,7 @@ def brake_table(a: CalculatedConveyor) -> Table:
     columns = (
         Column("drive", "text", "name"),
         Column("brake force", "force", "brake"),
-        Column(
-            "brake torque at the pulley", "torque", lambda d: None if d.radius is None else d.brake * d.radius
-        ),
+        Column("brake torque at the pulley", "torque", lambda d: None if d.radius is None else d.brake * d.radius),
         Column("heat of a stop", "heat", lambda d: None if heat is None else heat * d.brake / whole),
     )
     rows = tuple(drive for drive in a.line.drives if drive.brake is not None)
@@ -953,9 +938,7 @@ def pulley_loads(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
     rows = []
     for own in a.pulley_duty:
         of = [(label, duty) for label, duty in every if duty.pulley.name == own.pulley.name]
-        rows.append(
-            (own, *first_maximum(of, lambda pair: pair[1].largest.resultant), [duty for _, duty in of])
-        )
+        rows.append((own, *first_maximum(of, lambda pair: pair[1].largest.resultant), [duty for _, duty in of]))
 
     columns = (
         Column("pulley", "text", "0.pulley.name"),
@@ -1139,9 +1122,7 @@ def transition_table(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
     )
     if a.line.transitions and a.line.belt.stiffness is None:
         note += f" {_USUAL_STIFFNESS}"
-    note += "".join(
-        f" Not known: {missing}." for missing in {row.missing for row in a.belt_duty.transitions} - {""}
-    )
+    note += "".join(f" Not known: {missing}." for missing in {row.missing for row in a.belt_duty.transitions} - {""})
     every = [load.found.belt_duty.transitions for load in loads]
     rows = _worst_of_cases(every, lowest=min, highest=max, stretched=max, slackened=max, most=max, least=min)
     return Table("transitions", "Curves", heading, columns, rows, "belt", note)
@@ -1223,9 +1204,7 @@ def indentation_table(a: CalculatedConveyor) -> Table:
             for curve in roll.curve.solved:
                 pull = curve.contact.pull
                 held = (
-                    ""
-                    if pull is None
-                    else f", {display_unit('line force', a.conveyor.report.units).four_digits(pull)}"
+                    "" if pull is None else f", {display_unit('line force', a.conveyor.report.units).four_digits(pull)}"
                 )
                 seen.setdefault(curve, (f"{r.stretch.strand}, {size}, {apart}{held}", r.cover.level))
     rows: list[tuple[Any, ...]] = []
@@ -1368,9 +1347,7 @@ def _moduli_table(compound: RubberCompound, strand: str, at: float) -> Table:
         Column("tan delta", "friction", "3"),
     )
     rows = tuple(zip(*(value.tolist() for value in values), strict=True))
-    return Table(
-        f"moduli_{strand}", "Rubber", "Moduli at the belt's temperature", columns, rows, printed=False
-    )
+    return Table(f"moduli_{strand}", "Rubber", "Moduli at the belt's temperature", columns, rows, printed=False)
 
 
 class CheckRow(NamedTuple):
@@ -1457,9 +1434,7 @@ def provenance_table(spec: str, sheet: str = "Checks and notes") -> Table:
     return Table("provenance", sheet, "Provenance", columns, tuple(facts.items()), page)
 
 
-def drifts_by_case(
-    loads: Sequence[Load], system: System
-) -> list[tuple[str, tuple[HorizontalCurveCheck, ...]]]:
+def drifts_by_case(loads: Sequence[Load], system: System) -> list[tuple[str, tuple[HorizontalCurveCheck, ...]]]:
     """Horizontal curves of every case, with its name."""
     return [(load.label.text(system).removeprefix("load state "), load.found.horizontal) for load in loads]
 

@@ -89,9 +89,7 @@ def _round_ticks(low: float, high: float) -> list[float]:
     return [k * step for k in range(math.ceil(low / step), math.floor(high / step) + 1)]
 
 
-def _panel_svg(
-    panel: Panel, across: Array, room: tuple[float, float], begin: dict[str, str], mark: float
-) -> Html:
+def _panel_svg(panel: Panel, across: Array, room: tuple[float, float], begin: dict[str, str], mark: float) -> Html:
     """Scale, band and animated curve of a panel; `room` is its top and height [px]."""
     top, height = room
     low, high = min(0.0, float(panel.band[0].min())), float(panel.band[1].max())

@@ -37,9 +37,7 @@ def factor_table(calibration: CalculatedCalibration) -> Table:
     )
     held = ", ".join(name.replace("_", " ") for name in calibration.held)
     note = f"held at 1: {held}" if held else ""
-    return Table(
-        "factors", SHEET, "Factors with their 90 % interval", columns, calibration.factors, note=note
-    )
+    return Table("factors", SHEET, "Factors with their 90 % interval", columns, calibration.factors, note=note)
 
 
 def run_table(calibration: CalculatedCalibration) -> Table:
@@ -104,8 +102,7 @@ def calibration_json(calibration: CalculatedCalibration) -> dict[str, Any]:
     return {
         "calibration": calibration.calibration.factors | {"source": calibration.calibration.source},
         "factors": [
-            {"on": list(f.forces), "value": f.value, "low": f.low, "high": f.high}
-            for f in calibration.factors
+            {"on": list(f.forces), "value": f.value, "low": f.low, "high": f.high} for f in calibration.factors
         ],
         "held_at_1": list(calibration.held),
         "correlation": calibration.correlation.tolist(),

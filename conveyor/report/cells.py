@@ -83,9 +83,7 @@ def cell_text(words: str) -> str:
     return shown[: CELL_CHARACTERS - len(mark)] + mark
 
 
-def write_value(
-    cell: Cell | MergedCell, value: Any, font: Font | None = None, shown: str | None = None
-) -> None:
+def write_value(cell: Cell | MergedCell, value: Any, font: Font | None = None, shown: str | None = None) -> None:
     """Write one value: text always as text, numbers as numbers, nothing for None."""
     if isinstance(cell, MergedCell) or value is None or (isinstance(value, float) and math.isnan(value)):
         return  # pandas writes a missing number of a mixed column as NaN
@@ -127,9 +125,7 @@ def write_table(
         _header_cell(sheet.cell(row, j), name, right=not text)
         at = row + 1, j
         patterns = [shown.unit(each, item, system).pattern for item in shown.rows]
-        longest = (
-            _text_column(sheet, at, values, widest) if text else _number_column(sheet, at, values, patterns)
-        )
+        longest = _text_column(sheet, at, values, widest) if text else _number_column(sheet, at, values, patterns)
         if each.kind == "verdict":
             _colour_verdicts(sheet, at, values)
         if each.asked:
@@ -283,17 +279,13 @@ def write_totals(sheet: Worksheet, row: int, shown: Table, system: System, first
         cell.border = TOTAL
 
 
-def set_up_print(
-    sheet: Worksheet, name: str, last: int, *, paper: str = "A4", portrait: bool = False
-) -> None:
+def set_up_print(sheet: Worksheet, name: str, last: int, *, paper: str = "A4", portrait: bool = False) -> None:
     """Set up printing: fit to the paper's width, to one page where legible, with the project's name as header."""
     sheet.page_setup.orientation = "portrait" if portrait else "landscape"
     sheet.page_setup.paperSize = sheet.PAPERSIZE_LETTER if paper == "Letter" else sheet.PAPERSIZE_A4
     sheet.page_setup.fitToWidth = sheet.page_setup.fitToWidth or 1
     if sheet.page_setup.fitToHeight is None:
-        sheet.page_setup.fitToHeight = int(
-            last <= _PAGE_ROWS[sheet.page_setup.orientation]
-        )  # 0: as many as it takes
+        sheet.page_setup.fitToHeight = int(last <= _PAGE_ROWS[sheet.page_setup.orientation])  # 0: as many as it takes
     sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
     margins = sheet.page_margins
     margins.left = margins.right = 0.5

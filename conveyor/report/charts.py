@@ -170,9 +170,7 @@ def tension_chart(sheet: Worksheet, place: TablePlace, system: System) -> Scatte
 
 def profile_chart(sheet: Worksheet, place: TablePlace, system: System) -> ScatterChart:
     """Profile of the route, with feeding points, drives and take-up."""
-    words = tuple(
-        label_for_people(name, "length", system) for name in ("horizontal distance from the tail", "height")
-    )
+    words = tuple(label_for_people(name, "length", system) for name in ("horizontal distance from the tail", "height"))
     first = place.keys.index("height")
     what = place.keys[first:]
     chart = _column_curves(sheet, place, "horizontal", what, title="Profile of the route", words=words)
@@ -188,9 +186,7 @@ def profile_chart(sheet: Worksheet, place: TablePlace, system: System) -> Scatte
     return chart
 
 
-def trajectory_chart(
-    sheet: Worksheet, place: TablePlace, outline: TablePlace, system: System
-) -> ScatterChart:
+def trajectory_chart(sheet: Worksheet, place: TablePlace, outline: TablePlace, system: System) -> ScatterChart:
     """Discharge trajectory and belt at the head pulley, both axes to one scale."""
     words = [label_for_people(name, "spacing", system) for name in ("forward of the axis", "over the axis")]
     chart = _scatter_chart("Discharge over the head pulley, to scale", *words)
@@ -198,9 +194,7 @@ def trajectory_chart(
     spans: list[list[float]] = [[], []]
     for at, name, title in drawn:
         columns = [at.column(f"{name}_{axis}") for axis in ("forward", "up")]
-        across, up = (
-            Reference(sheet, min_col=column, min_row=at.header + 1, max_row=at.last) for column in columns
-        )
+        across, up = (Reference(sheet, min_col=column, min_row=at.header + 1, max_row=at.last) for column in columns)
         _add_line(chart, up, across, title.replace("booth", "Booth"))
         for span, column in zip(spans, columns, strict=True):
             cells = (sheet.cell(row, column).value for row in range(at.header + 1, at.last + 1))
@@ -230,9 +224,7 @@ def moduli_chart(sheet: Worksheet, name: str, place: TablePlace, system: System)
         label_for_people("frequency", "frequency", system),
         label_for_people("modulus", "pressure", system),
     )
-    chart = _column_curves(
-        sheet, place, "frequency", ("storage", "loss"), title=f"Moduli of {name}", words=words
-    )
+    chart = _column_curves(sheet, place, "frequency", ("storage", "loss"), title=f"Moduli of {name}", words=words)
     chart.x_axis.scaling.logBase = chart.y_axis.scaling.logBase = 10
     chart.x_axis.number_format, chart.y_axis.number_format = "0E+0", "General"
     chart.x_axis.tickLblPos = chart.y_axis.tickLblPos = "low"

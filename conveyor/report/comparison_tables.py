@@ -79,11 +79,7 @@ def comparison_contents(comparison: CalculatedComparison, system: System) -> Con
 
 
 def _value_range(values: list[float], kind: str, system: System) -> str:
-    ends = (
-        [display_unit(kind, system).four_digits(value) for value in (min(values), max(values))]
-        if values
-        else []
-    )
+    ends = [display_unit(kind, system).four_digits(value) for value in (min(values), max(values))] if values else []
     return " to ".join(dict.fromkeys(ends)) or "none answered"
 
 
@@ -258,9 +254,7 @@ def _year_columns(comparison: CalculatedComparison, rows: tuple[RankedCompound, 
         "energy per year", "energy", _energy_getter("net_kwh"), sparse=True,
         formula=where("year", f"({of[0]}-{of[1]}){what_if.HOURS_RATIO}"),
     )  # fmt: skip
-    yield Column(
-        "cost per year", money, "cost", sparse=True, formula=where("cost", what_if.cost_formula(*of))
-    )
+    yield Column("cost per year", money, "cost", sparse=True, formula=where("cost", what_if.cost_formula(*of)))
     yield Column("saving per year", money, "saving", sparse=True, formula=saving)
     yield Column(
         "carbon dioxide per year", "carbon dioxide", "emission", sparse=True,
@@ -283,9 +277,7 @@ def _energy_getter(name: str) -> Callable[[RankedCompound], float | None]:
 def what_if_table(comparison: CalculatedComparison) -> Table:
     """Hours, prices and emission factors, for the reader to change."""
     operation = comparison.conveyor.operation
-    rows = (
-        () if operation is None else what_if.year_inputs(operation, operation.seconds_per_year, emission=True)
-    )
+    rows = () if operation is None else what_if.year_inputs(operation, operation.seconds_per_year, emission=True)
     return figure_table(
         "what_if", "Ranking", "What if: change the yellow cells, extra costs of the belts too", rows,
         note="Energy, cost, saving, carbon dioxide and payback follow; power does not.", prefix="what_if_",
@@ -449,9 +441,7 @@ def power_tables(comparison: CalculatedComparison, system: System) -> Iterator[T
             *(Column(name, "power", _power_getter(name, power)) for name in names),
         )
         said = display_unit("speed", system).four_digits(speed)
-        yield Table(
-            f"power_{number}", "Power", f"Motor power over temperature at {said}", columns, rows, note=said
-        )
+        yield Table(f"power_{number}", "Power", f"Motor power over temperature at {said}", columns, rows, note=said)
 
 
 def _power_getter(name: str, powers: dict[tuple[str, float], float]) -> Any:
@@ -493,9 +483,7 @@ def comparison_drawings(comparison: CalculatedComparison, system: System) -> Ite
         )
     speeds, warmth = {scene.speed for scene in comparison.scenes}, plots.fixed_condition(comparison, "speed")
     if len({scene.temperature for scene in comparison.scenes}) > 1:
-        at = display_unit("speed", system).four_digits(
-            plots.fixed_condition(comparison, "temperature") or 0.0
-        )
+        at = display_unit("speed", system).four_digits(plots.fixed_condition(comparison, "temperature") or 0.0)
         yield Drawing(
             "power-temperature",
             f"Motor power over the belt's temperature at {at}, dotted beyond the data; shaded: bands.",
@@ -504,9 +492,7 @@ def comparison_drawings(comparison: CalculatedComparison, system: System) -> Ite
         )
     if len(speeds) > 1 and warmth is not None:
         at = display_unit("temperature", system).four_digits(warmth)
-        turning = (
-            " The ranking changes with temperature: see the notes." if ranking_changes(comparison) else ""
-        )
+        turning = " The ranking changes with temperature: see the notes." if ranking_changes(comparison) else ""
         yield Drawing(
             "power-speed",
             f"Motor power over belt speed at {at}, next to the spec's of those every compound has an answer for."
@@ -525,9 +511,7 @@ def comparison_drawings(comparison: CalculatedComparison, system: System) -> Ite
 def _compound_label(row: RankedCompound, comparison: CalculatedComparison, system: System) -> str:
     """Label of a ranked compound, with its speed if there are several."""
     several = len({scene.speed for scene in comparison.scenes}) > 1
-    return (
-        f"{row.compound}, {display_unit('speed', system).four_digits(row.speed)}" if several else row.compound
-    )
+    return f"{row.compound}, {display_unit('speed', system).four_digits(row.speed)}" if several else row.compound
 
 
 def _untested_notes(comparison: CalculatedComparison) -> Iterator[str]:
@@ -584,14 +568,8 @@ def comparison_notes(comparison: CalculatedComparison, system: System = "SI") ->
         rows = [row for row in comparison.coverage if row.compound == compound.name and not row.covered]
         if rows:
             at = _temperature_list([row.temperature for row in rows], system)
-            lacking = (
-                "do not cover what the rolls excite"
-                if compound.range
-                else "state no range, it counts for none"
-            )
-            lines.append(
-                f'compound "{compound.name}": its data {lacking} at {at}: not averaged, ranked, priced'
-            )
+            lacking = "do not cover what the rolls excite" if compound.range else "state no range, it counts for none"
+            lines.append(f'compound "{compound.name}": its data {lacking} at {at}: not averaged, ranked, priced')
         reasons = {row.reason: row for row in comparison.refused if row.compound == compound.name}
         lines.extend(f'compound "{compound.name}": no answer for some scenes: {reason}' for reason in reasons)
     lines += ranking_changes(comparison, system)
@@ -599,9 +577,7 @@ def comparison_notes(comparison: CalculatedComparison, system: System = "SI") ->
     if not price:
         lines.append("operation.price not given: no cost, saving or payback")
     elif not comparison.conveyor.drive.knows_mains:
-        lines.append(
-            "energy and cost are those of the motors' shafts: drive.train has no part on the mains' side"
-        )
+        lines.append("energy and cost are those of the motors' shafts: drive.train has no part on the mains' side")
     fed_back = any(scene.motor < 0.0 for scene in comparison.scenes) or any(
         study.year.fed_back_kwh > 0.0 for study in comparison.years.values()
     )
@@ -615,9 +591,7 @@ def comparison_notes(comparison: CalculatedComparison, system: System = "SI") ->
             for compound in comparison.compounds
             if compound.name not in comparison.years
         ]
-    lines.append(
-        "means over temperatures give each the same weight; only indentation follows the temperature"
-    )
+    lines.append("means over temperatures give each the same weight; only indentation follows the temperature")
     return (*lines, *_band_notes(comparison))
 
 
@@ -642,26 +616,18 @@ def ranking_changes(comparison: CalculatedComparison, system: System = "SI") -> 
             if scene.temperature in shared:
                 shared[scene.temperature].append(scene)
         grouped = {
-            warmth: comparison.groups(RankedPower.of([scene]) for scene in row)
-            for warmth, row in shared.items()
+            warmth: comparison.groups(RankedPower.of([scene]) for scene in row) for warmth, row in shared.items()
         }
         by_order: dict[tuple[frozenset[str], ...], list[float]] = {}
         for warmth, groups in grouped.items():
-            by_order.setdefault(
-                tuple(frozenset(one.compound for one in group) for group in groups), []
-            ).append(warmth)
+            by_order.setdefault(tuple(frozenset(one.compound for one in group) for group in groups), []).append(warmth)
         together = any(len(group) > 1 for groups in grouped.values() for group in groups)
         if len(by_order) > 1 or together:
             run = display_unit("speed", system).four_digits(speed)
             orders = (
-                f"{_temperature_list(warm, system)}: {_order_text(grouped[warm[0]])}"
-                for warm in by_order.values()
+                f"{_temperature_list(warm, system)}: {_order_text(grouped[warm[0]])}" for warm in by_order.values()
             )
-            said = (
-                "the ranking changes with temperature"
-                if len(by_order) > 1
-                else "the ranking at a temperature"
-            )
+            said = "the ranking changes with temperature" if len(by_order) > 1 else "the ranking at a temperature"
             lines.append(f"{said}; least motor power first, at {run}: {'; '.join(orders)}")
     return lines
 

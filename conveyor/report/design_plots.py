@@ -78,8 +78,7 @@ class DesignPlots:
             effects = self.found.effects(field)
             at = [effect.at for effect in effects]
             low, middle, high = (
-                self.units[0]([getattr(effect, name) for effect in effects])
-                for name in ("least", "mean", "most")
+                self.units[0]([getattr(effect, name) for effect in effects]) for name in ("least", "mean", "most")
             )
             axis.fill_between(at, low, high, color=curve_colour(0), alpha=0.12, linewidth=0)
             axis.plot(at, middle, color=curve_colour(0), marker="o", markersize=4)
@@ -123,9 +122,7 @@ class DesignPlots:
         """Value of the k-th objective as text."""
         return f"{value:{self.units[k].digits}}"
 
-    def _cells(
-        self, axis: Axes, at: tuple[Array, Array], shown: Array, fields: tuple[VariedField, VariedField]
-    ) -> Any:
+    def _cells(self, axis: Axes, at: tuple[Array, Array], shown: Array, fields: tuple[VariedField, VariedField]) -> Any:
         """Draw one cell per pair of values, with its number."""
         columns, rows = (np.unique(values) for values in at)
         least = next(iter(self.found.objectives.values())) == "least"
@@ -161,9 +158,7 @@ class DesignPlots:
             axis.plot(x[rows], y[rows], ".", color=ink, markersize=5, label=label)
         on = np.flatnonzero(figures.front)
         on = on[np.argsort(x[on], kind="stable")]
-        axis.plot(
-            x[on], y[on], "-o", color=curve_colour(1), markersize=5, linewidth=1.0, label="beaten by none"
-        )
+        axis.plot(x[on], y[on], "-o", color=curve_colour(1), markersize=5, linewidth=1.0, label="beaten by none")
         for row in on[:_NUMBERED_DESIGNS]:
             number = f"{figures.numbers[row]}"
             axis.annotate(number, (x[row], y[row]), textcoords="offset points", xytext=(5, 4), fontsize=8)
@@ -180,34 +175,24 @@ class DesignPlots:
 
         figures = self.found
         figure, (axis,) = stacked_axes(1, 4.6)
-        heads = [_field_heading(field) for field in figures.fields] + [
-            self.axis(k) for k in range(len(self.units))
-        ]
+        heads = [_field_heading(field) for field in figures.fields] + [self.axis(k) for k in range(len(self.units))]
         columns = [*figures.values.T, *(self.objectives(k) for k in range(len(self.units)))]
         ends = [(float(column.min()), float(column.max())) for column in columns]
-        level = [
-            (column - low) / ((high - low) or 1.0) for column, (low, high) in zip(columns, ends, strict=True)
-        ]
+        level = [(column - low) / ((high - low) or 1.0) for column, (low, high) in zip(columns, ends, strict=True)]
         order = np.argsort(figures.costs[:, 0], kind="stable")[::-1]
         share = np.linspace(0.0, 1.0, len(order))
         for k in _spread_indices(len(order), _MOST_LINES):
             row = order[k]
             shade = colormaps[_SHADES](1.0 - share[k]) if figures.keeps[row] else "0.85"
             axis.plot([one[row] for one in level], color=shade, linewidth=0.8, alpha=0.7)
-        axis.set_xticks(
-            range(len(heads)), [_wrap_label(head) for head in heads], fontsize=8, parse_math=False
-        )
+        axis.set_xticks(range(len(heads)), [_wrap_label(head) for head in heads], fontsize=8, parse_math=False)
         axis.set_yticks([])
         for k, (low, high) in enumerate(ends):
             axis.axvline(k, color="0.3", linewidth=0.8)
             field = figures.fields[k] if k < len(figures.fields) else None
             named = range(len(field.words)) if field is not None and field.words else (low, high)
             for value in named:
-                words = (
-                    self._number(k - len(figures.fields), value)
-                    if field is None
-                    else _value_label(field, value)
-                )
+                words = self._number(k - len(figures.fields), value) if field is None else _value_label(field, value)
                 place = (value - low) / ((high - low) or 1.0)
                 axis.annotate(
                     words, (k, place), textcoords="offset points", xytext=(4, 2), fontsize=8, parse_math=False

@@ -57,8 +57,7 @@ def study_contents(study: StudySummary, system: System) -> Contents:
         ("sought", _order_text(study)),
         (
             "limits",
-            "; ".join(_limit_text(study.figures[name].label, one) for name, one in study.plan.limits.items())
-            or "none",
+            "; ".join(_limit_text(study.figures[name].label, one) for name, one in study.plan.limits.items()) or "none",
         ),
     )
     about = report_head(study.base, "Study of designs", system, facts)
@@ -111,10 +110,7 @@ def pareto_front(study: StudySummary) -> Table:
     rows.sort(key=lambda i: float(study.costs[i, 0]))
     columns = (
         Column("design", "count", lambda i: int(study.numbers[i])),
-        *(
-            Column(field.label, "text", _value_getter(study, k), key=field.path)
-            for k, field in enumerate(study.fields)
-        ),
+        *(Column(field.label, "text", _value_getter(study, k), key=field.path) for k, field in enumerate(study.fields)),
         *(
             Column(
                 study.figures[name].label,

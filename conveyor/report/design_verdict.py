@@ -23,9 +23,7 @@ from conveyor.units.sentences import Message, format_figure, percent
 
 _TAKE_UP_CRITERIA: Final = ("take_up_tension", "sag", "drive_grip")
 """Criteria that the minimum take-up setting is determined by."""
-_NO_MARGIN: Final = (
-    1e-6  # [-], margin of the take-up below which its setting is the minimum; it is exact to rounding
-)
+_NO_MARGIN: Final = 1e-6  # [-], margin of the take-up below which its setting is the minimum; it is exact to rounding
 _DOMINANT_SHARE: Final = 0.3
 """Indentation share of the main resistance above which the quality of the rubber data is reported."""
 _FAILURES_SHOWN: Final = 3  # failures reported in full
@@ -159,13 +157,9 @@ def _rubber_quality(a: CalculatedConveyor) -> Iterator[GoverningRow]:
                 )
         else:
             quality.append("constructed spectrum, not for design")
-        level = any(
-            a.contacts.covers[strand].level is not None for strand in a.contacts.covers if strand in strands
-        )
+        level = any(a.contacts.covers[strand].level is not None for strand in a.contacts.covers if strand in strands)
         tested = "level from rolling-resistance tests" if level else "level not tested"
-        yield GoverningRow(
-            f"rubber {name}", compound.kind, "; ".join([" and ".join(strands), *quality, tested])
-        )
+        yield GoverningRow(f"rubber {name}", compound.kind, "; ".join([" and ".join(strands), *quality, tested]))
 
 
 def verdict_sentence(governing: Sequence[Check], system: System) -> str:
@@ -175,9 +169,7 @@ def verdict_sentence(governing: Sequence[Check], system: System) -> str:
     if failed:
         fails = "; ".join(_check_text(check, system) for check in failed[:_FAILURES_SHOWN])
         more = f"; and {len(failed) - _FAILURES_SHOWN} more" if len(failed) > _FAILURES_SHOWN else ""
-        done = "; ".join(
-            dict.fromkeys(c.why.text(system) for c in failed[:_FAILURES_SHOWN] if c.why is not None)
-        )
+        done = "; ".join(dict.fromkeys(c.why.text(system) for c in failed[:_FAILURES_SHOWN] if c.why is not None))
         first = f"Not adequate as given: {count['FAIL']} of {len(governing)} checks failed; {fails}{more}."
         return f"{first} Action required: {done}." if done else first
     margins = [(c.margin, c) for c in governing if c.verdict == "pass" and c.margin is not None]

@@ -75,9 +75,7 @@ def dynamics_contents(dynamics: CalculatedDynamics, system: System) -> Contents:
 def report_additions(dynamics: CalculatedDynamics, system: System) -> ReportAdditions:
     """Checks, tables and drawings of the scenarios for the report of the conveyor."""
     shown, drawn = tuple(scenario_tables(dynamics)), tuple(dynamics_drawings(dynamics, system))
-    return ReportAdditions(
-        dynamics_checks(dynamics), shown, drawn, dynamics.assumptions, scenarios_json(dynamics)
-    )
+    return ReportAdditions(dynamics_checks(dynamics), shown, drawn, dynamics.assumptions, scenarios_json(dynamics))
 
 
 def scenario_tables(dynamics: CalculatedDynamics) -> Iterator[Table]:
@@ -267,9 +265,7 @@ def history_table(dynamics: CalculatedDynamics) -> Table:
         Column("tension leaving", "force", of("leaving")),
         Column("force on the belt", "force", of("force")),
         Column("force of the motor", "force", of("motor")),
-        Column(
-            "tension at the take-up", "force", lambda row: float(row[1].record.take_up["tension"][row[2]])
-        ),
+        Column("tension at the take-up", "force", lambda row: float(row[1].record.take_up["tension"][row[2]])),
         Column("travel of the carriage", "length", lambda row: float(row[1].travel[row[2]])),
     )
     return Table("histories", "Histories", "Drives and take-up over time", columns, rows, named=2)
@@ -295,9 +291,7 @@ def dynamics_drawings(dynamics: CalculatedDynamics, system: System) -> Iterator[
             ("speeds", "speeds at drives and tail"),
             ("forces", "tensions at drives, tail and take-up, forces of the motors"),
         ):
-            draw = (
-                partial(tension_animation, one) if name == "profile" else partial(scenario_figure, one, name)
-            )
+            draw = partial(tension_animation, one) if name == "profile" else partial(scenario_figure, one, name)
             draw = partial(draw, system=system)
             yield Drawing(f"{slug(one.name)}_{name}", f"{one.name}: {words}.", draw, "through-time")
 
@@ -377,19 +371,13 @@ def _draw_tension_map(axis: Axes, scenario: ScenarioResult, system: System) -> N
     kept = np.unique(np.linspace(0, record.times.size - 1, _MAP_POINTS).astype(int))
     cells = np.unique(np.linspace(0, order.size - 1, _MAP_POINTS).astype(int))
     tension = force(record.tensions[np.ix_(kept, order[cells])])
-    shaded = axis.contourf(
-        length(distance[cells]), record.times[kept], tension, levels=_LEVELS, cmap="viridis"
-    )
+    shaded = axis.contourf(length(distance[cells]), record.times[kept], tension, levels=_LEVELS, cmap="viridis")
     taut = record.tensions[np.ix_(kept, order[cells])] / scenario.cells.slack[order[cells]]
     if float(taut.min()) < 1.0 < float(taut.max()):
-        axis.contour(
-            length(distance[cells]), record.times[kept], taut, levels=[1.0], colors="red", linewidths=1.0
-        )
+        axis.contour(length(distance[cells]), record.times[kept], taut, levels=[1.0], colors="red", linewidths=1.0)
     axis.axvline(float(length(scenario.line.loop.way[scenario.line.count])), color="white", linewidth=0.8)
     axis.grid(visible=False)
-    label_axes(
-        axis, length.beside(_LOOP_DISTANCE), display_unit("duration", system).beside("time"), group="x"
-    )
+    label_axes(axis, length.beside(_LOOP_DISTANCE), display_unit("duration", system).beside("time"), group="x")
     beside = axis.inset_axes((1.02, 0.0, 0.03, 1.0))  # no axes of its own: those bind the figure's layout
     axis.figure.colorbar(shaded, cax=beside, label=force.beside("tension"))
 
@@ -398,9 +386,7 @@ def _draw_envelope(axis: Axes, scenario: ScenarioResult, system: System) -> None
     force, length = display_unit("force", system, large=True), display_unit("length", system, large=True)
     order, distance = scenario.round_loop
     x, record = length(distance), scenario.record
-    axis.fill_between(
-        x, force(record.lowest[order]), force(record.highest[order]), color="#1F4E79", alpha=0.15
-    )
+    axis.fill_between(x, force(record.lowest[order]), force(record.highest[order]), color="#1F4E79", alpha=0.15)
     for k, (name, values) in enumerate(
         (("highest", record.highest), ("lowest", record.lowest), ("at the start", record.tensions[0]))
     ):

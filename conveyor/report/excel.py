@@ -132,10 +132,7 @@ def workbook_files(contents: Contents, path: Path) -> dict[Path, bytes]:
         with name_write_errors(path):
             book.save(content)  # by way of temporary files
     long = [part for part in contents.tables if len(part.rows) > MOST_ROWS]
-    beside = {
-        path.with_name(long_table_file(path.stem, part)): csv_bytes(part.frame(contents.system))
-        for part in long
-    }
+    beside = {path.with_name(long_table_file(path.stem, part)): csv_bytes(part.frame(contents.system)) for part in long}
     values = {(book.sheetnames.index(sheet) + 1, cell): value for (sheet, cell), value in live.items()}
     return beside | {path: add_formula_values(content.getvalue(), values)}
 
@@ -174,9 +171,7 @@ def build_workbook(
             set_up_print(page.sheet, header, last, paper=about.paper, portrait=title in _PORTRAIT)
     if front:  # its charts refer to tables of the other sheets
         summary_sheet.write_summary(SheetWriter(book[SUMMARY_SHEET], contents, stem), placed)
-        set_up_print(
-            book[SUMMARY_SHEET], header, book[SUMMARY_SHEET].max_row, paper=about.paper, portrait=True
-        )
+        set_up_print(book[SUMMARY_SHEET], header, book[SUMMARY_SHEET].max_row, paper=about.paper, portrait=True)
     return book
 
 

@@ -86,9 +86,7 @@ def _page_part(contents: Contents, name: str, heading: str) -> PagePart:
         places = [place for place in shown.places if place.part == name]
         for place in places:
             if place == shown.places[0] and shown.key != name:
-                content += [
-                    _page_drawing(drawing) for drawing in contents.drawings if drawing.above == shown.key
-                ]
+                content += [_page_drawing(drawing) for drawing in contents.drawings if drawing.above == shown.key]
             made = _page_table(shown.on_page(place), place.caption, contents.system)
             content.append(made if place.printed else fold_away(place.caption, made))
         if any(place.printed for place in places) and shown.note and shown.key != "defaults":
@@ -134,11 +132,7 @@ def _key_figures(contents: Contents) -> Html:
 def _warning_lists(contents: Contents) -> Html:
     """Lists of warnings: action required, then basis and limitations."""
     lists = zip(NOTE_HEADINGS, sort_notes(contents.lines("warning")), strict=True)
-    shown = [
-        (element("h3", heading.capitalize()), bullet_list(lines, "warnings"))
-        for heading, lines in lists
-        if lines
-    ]
+    shown = [(element("h3", heading.capitalize()), bullet_list(lines, "warnings")) for heading, lines in lists if lines]
     return join_html(part for pair in shown for part in pair) if shown else bullet_list(())
 
 

@@ -25,9 +25,7 @@ def input_rows(conveyor: Conveyor) -> tuple[InputRow, ...]:
     return tuple(_value_rows((), conveyor, "spec"))
 
 
-def _value_rows(
-    place: tuple[str | int, ...], value: Any, origin: Origin, entry: Any = None
-) -> Iterator[InputRow]:
+def _value_rows(place: tuple[str | int, ...], value: Any, origin: Origin, entry: Any = None) -> Iterator[InputRow]:
     """Rows of a value; `entry` is the value of the library entry that is named, if any."""
     field = field_path(place)
     if value is None:

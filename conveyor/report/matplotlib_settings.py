@@ -39,9 +39,7 @@ def load_matplotlib() -> Any:
     try:
         import matplotlib as mpl
     except (ValueError, OSError) as error:
-        given = [
-            f'{name}="{shorten_text(os.environ[name])}"' for name in _START_VARIABLES if name in os.environ
-        ]
+        given = [f'{name}="{shorten_text(os.environ[name])}"' for name in _START_VARIABLES if name in os.environ]
         variables = ", ".join(given) or f"none of {', '.join(_START_VARIABLES)} is set"
         said = str(error).partition(";")[0].splitlines()[0]
         raise InputError(

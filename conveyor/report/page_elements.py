@@ -214,10 +214,7 @@ def table_html(shown: Table, caption: str, system: System = "SI", *, kind: str =
     """Return a table of results: headers with scope, units beside names, numbers as in the workbook."""
     columns = [[_cell_html(shown, column, row, system) for row in shown.rows] for column in shown.columns]
     values = [[column.get(row) for row in shown.rows] for column in shown.columns]
-    empty = [
-        column.asked and all(map(_is_missing, given))
-        for column, given in zip(shown.columns, values, strict=True)
-    ]
+    empty = [column.asked and all(map(_is_missing, given)) for column, given in zip(shown.columns, values, strict=True)]
     classes = [
         "asked" if empty[j] else None if kind else _column_class(given, named=j < shown.named)
         for j, given in enumerate(values)
@@ -262,11 +259,7 @@ def _column_class(values: Sequence[object], *, named: bool) -> str | None:
         return "n"
     width = max((len(value) for value in given if isinstance(value, str)), default=0)
     return (
-        "long"
-        if width > _LONG
-        else "name"
-        if 0 < width <= (_NAME_CHARACTERS if named else _WORD_CHARACTERS)
-        else None
+        "long" if width > _LONG else "name" if 0 < width <= (_NAME_CHARACTERS if named else _WORD_CHARACTERS) else None
     )
 
 
@@ -318,14 +311,9 @@ def notebook_html(
     notes: Mapping[str, Sequence[object]] = MappingProxyType({}),
 ) -> Html:
     """Return tables cut to their first rows, and notes folded away."""
-    shown = (
-        (caption, replace(part.on_sheet(), rows=part.rows[:_NOTEBOOK_ROWS], foot=""))
-        for caption, part in tables
-    )
+    shown = ((caption, replace(part.on_sheet(), rows=part.rows[:_NOTEBOOK_ROWS], foot="")) for caption, part in tables)
     every = [(figure_list if part.figures else table_html)(part, caption, system) for caption, part in shown]
-    below = [
-        fold_away(f"{name} ({len(lines)})", bullet_list(lines)) for name, lines in notes.items() if lines
-    ]
+    below = [fold_away(f"{name} ({len(lines)})", bullet_list(lines)) for name, lines in notes.items() if lines]
     return join_html([*every, *below])
 
 
@@ -338,9 +326,7 @@ def notebook_summary(contents: Contents) -> Html:
     key = figure_table("key", "", "", contents.figures_for("notebook"))
     shown = notebook_html(contents.system, [(contents.document.title, key)])
     said = [element("p", line) for line in lines]
-    return join_html(
-        [shown, *said, notebook_html(contents.system, (), {"warnings": contents.lines("warning")})]
-    )
+    return join_html([shown, *said, notebook_html(contents.system, (), {"warnings": contents.lines("warning")})])
 
 
 def figure_list(shown: Table, caption: str, system: System = "SI") -> Html:
@@ -408,9 +394,7 @@ def bullet_list(lines: Sequence[object], kind: str | None = None) -> Html:
     return element("ul", *(element("li", line) for line in lines), class_=kind)
 
 
-def page_html(
-    title: str, kind: str, top: Html, parts: Sequence[PagePart], foot: str, *, paper: Paper = "A4"
-) -> Html:
+def page_html(title: str, kind: str, top: Html, parts: Sequence[PagePart], foot: str, *, paper: Paper = "A4") -> Html:
     """Return the whole document.
 
     Parameters
@@ -434,9 +418,7 @@ def page_html(
         element("title", f"{title} – {kind}"),
         element("style", Html(style_sheet(paper))),
     )
-    contents = element(
-        "ol", *(element("li", element("a", part.heading, href=f"#{part.name}")) for part in parts)
-    )
+    contents = element("ol", *(element("li", element("a", part.heading, href=f"#{part.name}")) for part in parts))
     sections = [
         element(
             "section",

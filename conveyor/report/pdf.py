@@ -84,9 +84,7 @@ class _PageReader(HTMLParser):
 
     def handle_endtag(self, tag: str) -> None:
         if self.open.pop().tag != tag:
-            raise ValueError(
-                f"an element is closed as {tag} that was not opened as one"
-            )  # a page of ours has none
+            raise ValueError(f"an element is closed as {tag} that was not opened as one")  # a page of ours has none
 
     def handle_data(self, data: str) -> None:
         self.open[-1].content.append(data)

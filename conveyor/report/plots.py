@@ -69,9 +69,7 @@ def set_title(figure: Figure, title: str, note: str = "") -> None:
     axis = figure.axes[0]
     axis.set_title(title, parse_math=False, pad=20.0 if note else None)
     if note:
-        words = axis.annotate(
-            note, (0.5, 1.02), xycoords="axes fraction", fontsize=9, color="0.3", ha="center"
-        )
+        words = axis.annotate(note, (0.5, 1.02), xycoords="axes fraction", fontsize=9, color="0.3", ha="center")
         words.set_parse_math(False)
 
 
@@ -191,17 +189,13 @@ def fixed_condition(comparison: PowerScenes, over: PowerAxis) -> float | None:
         spec, answered = comparison.conveyor.belt_speed, [{scene.speed for scene in comparison.scenes}]
     else:
         spec = comparison.conveyor.temperature
-        answered = [
-            {s.temperature for s in comparison.scenes if s.compound == c.name} for c in comparison.compounds
-        ]
+        answered = [{s.temperature for s in comparison.scenes if s.compound == c.name} for c in comparison.compounds]
     known = sorted(set.intersection(*answered))
     return min(known, key=lambda given: abs(given - spec), default=spec if over == "temperature" else None)
 
 
 @own_settings()
-def power_over(
-    comparison: PowerScenes, over: PowerAxis, at: float | None = None, *, system: System = "SI"
-) -> Figure:
+def power_over(comparison: PowerScenes, over: PowerAxis, at: float | None = None, *, system: System = "SI") -> Figure:
     """Motor power of every compound over temperature at one speed [m/s], or over belt speed at one temperature [K].
 
     By default that of `fixed_condition`. Bands of the fit's replicas are shaded; dotted beyond the rubber's data.
@@ -230,9 +224,7 @@ def condition_text(name: str, value: float, system: System) -> str:
 
 
 @own_settings()
-def _power_lines(
-    comparison: PowerScenes, scenes: Sequence[ComparedScene], over: str, system: System
-) -> Figure:
+def _power_lines(comparison: PowerScenes, scenes: Sequence[ComparedScene], over: str, system: System) -> Figure:
     """Power of scenes over temperature or speed, one line per compound."""
     figure, (axis,) = stacked_axes(1, 4.0)
     power, along = display_unit("power", system, large=True), display_unit(over, system, large=True)
@@ -254,18 +246,14 @@ def _power_lines(
         high = [s.motor_high for s in mine if s.motor_high is not None]
         if mine and len(low) == len(mine):
             where = ~np.array(outside)
-            axis.fill_between(
-                at, power(low), power(high), where=where, color=curve_colour(k), alpha=0.15, linewidth=0
-            )
+            axis.fill_between(at, power(low), power(high), where=where, color=curve_colour(k), alpha=0.15, linewidth=0)
     if dotted:
         axis.plot([], [], ":", color="0.3", linewidth=1, label="beyond the data")
     return finish_figure(figure, along.beside(f"belt {over}"), power.beside("motor power"), group="y")
 
 
 @own_settings()
-def power_differences(
-    rows: Sequence[tuple[str, float, tuple[float | None, float | None]]], base: str
-) -> Figure:
+def power_differences(rows: Sequence[tuple[str, float, tuple[float | None, float | None]]], base: str) -> Figure:
     """Difference of motor power to a base in per cent, one dot per compound with its band."""
     figure, (axis,) = stacked_axes(1, 1.4 + 0.36 * len(rows))
     for i, (_, change, (low, high)) in enumerate(rows):
@@ -338,10 +326,7 @@ def compared_loss_tangents(
     NoSolutionError
         No temperature is solved for every compound.
     """
-    at = [
-        {row.temperature for row in comparison.coverage if row.compound == c.name}
-        for c in comparison.compounds
-    ]
+    at = [{row.temperature for row in comparison.coverage if row.compound == c.name} for c in comparison.compounds]
     common = set.intersection(*at)
     if not common:
         raise NoSolutionError("no temperature that every compound has an answer for")
@@ -353,9 +338,7 @@ def compared_loss_tangents(
 
 
 @own_settings()
-def master_curve(
-    compound: RubberCompound, temperature: float | None = None, *, system: System = "SI"
-) -> Figure:
+def master_curve(compound: RubberCompound, temperature: float | None = None, *, system: System = "SI") -> Figure:
     """E', E'' and tan δ of a compound at a temperature [K], by default its reference temperature."""
     figure, (above, below) = stacked_axes(2, 7.0)
     modulus, warmth = (

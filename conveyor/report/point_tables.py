@@ -63,9 +63,7 @@ class StudyTable:
     ) -> None:
         self._fields = fields
         self._shown = [display_unit(money_kind(kind, currency), system) for _, kind in figures]
-        headed = [
-            label_with_unit(label, sign.label) for (label, _), sign in zip(figures, self._shown, strict=True)
-        ]
+        headed = [label_with_unit(label, sign.label) for (label, _), sign in zip(figures, self._shown, strict=True)]
         inputs = (label_with_unit(field.path, field.unit) for field in fields)
         self.headings = (row, *inputs, *headed, output_marks.NO_ANSWER_COLUMN)
         given = ("text" if field.words else "number" for field in fields)
@@ -81,9 +79,7 @@ class StudyTable:
         if isinstance(answer, str):
             return (number, *given, *(None for _ in self._shown), answer)
         stored = self._kinds[1 + len(given) : -1]
-        shown = (
-            _storage_value(x, sign, kind) for x, sign, kind in zip(answer, self._shown, stored, strict=True)
-        )
+        shown = (_storage_value(x, sign, kind) for x, sign, kind in zip(answer, self._shown, stored, strict=True))
         return (number, *given, *shown, None)
 
     def write(self, path: Path, points: Iterable[PointRow]) -> int:
@@ -155,9 +151,7 @@ class PartedTable:
         The folder cannot be written, or holds other files than parts of such a table.
     """
 
-    def __init__(
-        self, table: StudyTable, folder: Path, count: int, row: Callable[[int, KeyedPoint], PointRow]
-    ) -> None:
+    def __init__(self, table: StudyTable, folder: Path, count: int, row: Callable[[int, KeyedPoint], PointRow]) -> None:
         self._table, self._folder, self._count, self._row = table, folder, count, row
         self._ending = ".csv" if find_spec("pyarrow") is None else ".parquet"
         self._waiting: dict[int, dict[int, KeyedPoint]] = {}
@@ -166,9 +160,7 @@ class PartedTable:
             older = sorted(folder.iterdir())
             for path in older:
                 if _PART_NAME.fullmatch(path.name) is None:
-                    raise InputError(
-                        f"{path}: is no part of such a table; give an empty folder, or a new one"
-                    )
+                    raise InputError(f"{path}: is no part of such a table; give an empty folder, or a new one")
                 if output_marks.output_kind(path.read_bytes()) not in {
                     output_marks.TABLE,
                     output_marks.STUDY,
@@ -210,9 +202,7 @@ def _csv_line(cells: Iterable[Any]) -> str:
 def point_table(campaign: ParametricStudy, system: System) -> StudyTable:
     """Table of a study's points."""
     figures = [(OUTPUTS[key].label, OUTPUTS[key].kind) for key in campaign.outputs]
-    return StudyTable(
-        "point", varied_fields(campaign.listed, campaign.plan.paths), figures, system, campaign.currency
-    )
+    return StudyTable("point", varied_fields(campaign.listed, campaign.plan.paths), figures, system, campaign.currency)
 
 
 def design_table(campaign: ParametricStudy, system: System) -> StudyTable:

@@ -17,9 +17,7 @@ def _value_of_type(*kinds: str, of: str = "") -> Schema:
     return said | ({"description": of} if of else {})
 
 
-def _object_of(
-    keys: Mapping[str, Schema], *, also: Mapping[str, Schema] | None = None, of: str = ""
-) -> Schema:
+def _object_of(keys: Mapping[str, Schema], *, also: Mapping[str, Schema] | None = None, of: str = "") -> Schema:
     """Schema of an object with required keys, and optional ones in `also`."""
     said: Schema = {"type": "object", "properties": {**keys, **(also or {})}, "required": list(keys)}
     return said | ({"description": of} if of else {})
@@ -66,16 +64,12 @@ _CHECK: Final = _object_of(
         ),
         "calculated": _value_of_type("number", "null", of="in `unit`"),
         "relation": _one_of("at least", "at most") | {"description": "how calculated must stand to required"},
-        "required": _value_of_type(
-            "number", "null", of="in `unit`; null where the spec does not say or nothing helps"
-        ),
+        "required": _value_of_type("number", "null", of="in `unit`; null where the spec does not say or nothing helps"),
         "unit": _value_of_type("string", of="- of ratios"),
         "margin": _value_of_type("number", "null", of="over what is required, negative where it fails"),
         "verdict": _one_of("pass", "fail", "not checked"),
         "why": _value_of_type("string", "null", of="what to say where it does not pass"),
-        "governs": _value_of_type(
-            "boolean", of="whether its margin is the least of its key and subject in all cases"
-        ),
+        "governs": _value_of_type("boolean", of="whether its margin is the least of its key and subject in all cases"),
     }
 )
 

@@ -84,9 +84,7 @@ class TablePlace:
 
 def _centre_vertically(kept: Any) -> Alignment:
     """Copy of an alignment, vertically centred."""
-    return Alignment(
-        horizontal=kept.horizontal, indent=kept.indent, wrap_text=kept.wrap_text, vertical="center"
-    )
+    return Alignment(horizontal=kept.horizontal, indent=kept.indent, wrap_text=kept.wrap_text, vertical="center")
 
 
 @dataclass(frozen=True)

@@ -83,9 +83,7 @@ def uncertainty_sheet(page: SheetWriter) -> None:
     if place.whole and place.last - place.header <= _MOST_BARS:
         rows = place.header, place.last
         swing = place.column("swing")
-        chart = charts.bar_chart(
-            page.sheet, "Sensitivity of motor power", rows, label=place.first_column, value=swing
-        )
+        chart = charts.bar_chart(page.sheet, "Sensitivity of motor power", rows, label=place.first_column, value=swing)
         page.sheet.add_chart(chart, f"{get_column_letter(place.first_column)}{place.last + 4}")
 
 
@@ -134,9 +132,7 @@ def notes_sheet(page: SheetWriter) -> None:
         ("Notes of the spec", "note of the spec"),
     ):
         lines = contents.lines(kind)
-        pieces = [
-            line[i : i + _CELL_CHARACTERS] for line in lines for i in range(0, len(line), _CELL_CHARACTERS)
-        ]
+        pieces = [line[i : i + _CELL_CHARACTERS] for line in lines for i in range(0, len(line), _CELL_CHARACTERS)]
         row = write_paragraphs(sheet, row, heading, pieces, columns=6)
     page.rest(page.place("provenance", row, widest=34).last + 4, but=("remarks",))
 
@@ -149,9 +145,7 @@ def about_sheet(page: SheetWriter) -> None:
         write_value(sheet.cell(row, 1), name, GREY)
         write_value(sheet.cell(row, 2), value)
     sheet.column_dimensions["A"].width, sheet.column_dimensions["B"].width = 26, 60
-    row = write_paragraphs(
-        sheet, len(head.facts) + 3, "What these figures are", page.contents.lines("assumption")
-    )
+    row = write_paragraphs(sheet, len(head.facts) + 3, "What these figures are", page.contents.lines("assumption"))
     page.rest(row, but=("remarks",))
 
 
@@ -171,9 +165,7 @@ def ranking_sheet(page: SheetWriter) -> None:
     sheet, contents, about = page.sheet, page.contents, page.contents.document
     facts = dict(about.facts)
     write_value(sheet["A1"], f"Compounds compared: {about.title}", TITLE)
-    stamp = (
-        f"conveyor {package_version('conveyor')}, {date.today().isoformat()}, spec {about.fingerprint[:16]}"
-    )
+    stamp = f"conveyor {package_version('conveyor')}, {date.today().isoformat()}, spec {about.fingerprint[:16]}"
     write_value(sheet["A2"], "; ".join(filter(None, (about.document_line, stamp))), GREY)
     words = f"{facts['cover']} cover of each compound; base of savings: {facts['savings against']}"
     write_value(sheet["A3"], words, GREY)

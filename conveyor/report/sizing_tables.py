@@ -105,9 +105,7 @@ def design_table(sizing: CalculatedSizing) -> Table:
         Column("over the best", "share", lambda row: row[1].year / saved - 1.0, json="over_the_best"),
         Column("why", "text", lambda row: _cost_reason(sizing, row[0] - 1), json="why"),
     )  # fmt: skip
-    caption = (
-        "Designs, the cheapest in a year first; every one calculated exactly at its own belt class and motors"
-    )
+    caption = "Designs, the cheapest in a year first; every one calculated exactly at its own belt class and motors"
     rows = tuple(enumerate(sizing.designs, start=1))
     return Table("designs", "Designs", caption, columns, rows, "designs")
 
@@ -149,9 +147,7 @@ def cost_table(sizing: CalculatedSizing) -> Table:
     )
     caption = "Capital and cost of a year by part: annuity over its life, upkeep, energy"
     note = "prices are general knowledge, known to a factor of two, unless the duty gives them"
-    return Table(
-        "costs", "Costs", caption, columns, rows, (PagePlacement("costs", caption, printed=False),), note
-    )
+    return Table("costs", "Costs", caption, columns, rows, (PagePlacement("costs", caption, printed=False),), note)
 
 
 def sweep_table(sizing: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> Table:
@@ -270,19 +266,13 @@ def cost_shares(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
 
 
 @own_settings()
-def cost_lines(
-    sizing: CalculatedSizing, varied: tuple[VariedChoice, ...], *, system: System = "SI"
-) -> Figure:
+def cost_lines(sizing: CalculatedSizing, varied: tuple[VariedChoice, ...], *, system: System = "SI") -> Figure:
     """Yearly cost of energy, idlers, belt and the rest, one choice varied around the best design."""
     money = display_unit(f"{MONEY}{sizing.duty.prices.currency}", system, large=True)
     figure, axes = stacked_axes(len(varied), _PANEL_HEIGHT * len(varied))
     for axis, sweep in zip(axes, varied, strict=True):
         kind = display_unit(sweep.kind, system)
-        points = [
-            (x, one)
-            for x, one in zip(sweep.values, sweep.designs, strict=True)
-            if isinstance(one, SizedDesign)
-        ]
+        points = [(x, one) for x, one in zip(sweep.values, sweep.designs, strict=True) if isinstance(one, SizedDesign)]
         at = kind(np.array([x for x, _ in points]))
         parts = {
             "energy": [float(one.costs.yearly["energy"]) for _, one in points],

@@ -46,9 +46,7 @@ _CONDITIONS = (
 )
 
 
-def tables_and_drawings(
-    studies: CalculatedStudies | None, system: System
-) -> tuple[list[Table], list[Drawing]]:
+def tables_and_drawings(studies: CalculatedStudies | None, system: System) -> tuple[list[Table], list[Drawing]]:
     """Tables and drawings of the studies of a conveyor."""
     if studies is None:
         return [], []
@@ -93,9 +91,7 @@ def load_states(study: CalculatedStates) -> Table:
         Column("slack side tension", "force", "balance.tensions.slack", page=None),
         Column("maximum tension", "force", "balance.tensions.largest", key="largest_tension"),
         Column("minimum tension, steady", "force", "balance.tensions.smallest", key="smallest_tension"),
-        Column(
-            "required take-up tension", "force", "balance.settled.needed", key="take_up_tension_asked_for"
-        ),
+        Column("required take-up tension", "force", "balance.settled.needed", key="take_up_tension_asked_for"),
         Column("governed by", "text", "balance.settled.governing", page=None),
     )
     note = (
@@ -167,9 +163,7 @@ def case_table(study: CalculatedCases) -> Table:
         "all cases."
     )
     covered = all(row.covered for row in study.results)
-    return Table(
-        "load_cases", "Load cases", "Load cases", columns, study.results, note="" if covered else note
-    )
+    return Table("load_cases", "Load cases", "Load cases", columns, study.results, note="" if covered else note)
 
 
 def governing_cases(study: CalculatedCases, governing: Sequence[GoverningLoad]) -> Table:
@@ -371,9 +365,7 @@ def studies_json(studies: CalculatedStudies) -> dict[str, Any]:
         named = {key: _state_json(state) for state in studies.states.states for key in state.keys}
         parts["states"] = {key: named[key] for key in _STATE_KEYS if key in named}
         parts["worst_states"] = [_state_json(state) for state in studies.states.states if state.worst_for]
-        parts["flooded"] = (
-            None if studies.flooded is None else flooded_belt(studies.flooded).series("").to_dict()
-        )
+        parts["flooded"] = None if studies.flooded is None else flooded_belt(studies.flooded).series("").to_dict()
         parts["take_up"] = take_up_json(*take_up_demand(studies.states.own, studies.states, studies.cases))
     study = studies.cases
     if study is not None:

@@ -40,9 +40,7 @@ _CHART_WIDTHS, _CHART_HEIGHT = (11.0, 20.4), 6.4  # [cm]
 _RULE: Final = Border(bottom=Side(style="thin", color=ACCENT))
 _HAIR: Final = Border(bottom=Side(style="hair", color="A6A6A6"))
 _SIGNATURES: Final = ("engineer", "reviewer", "approval")
-_ADEQUATE = CellStyle(
-    Font(name="Calibri", size=12, bold=True, color="1E6B34"), PatternFill("solid", fgColor="E2F0E5")
-)
+_ADEQUATE = CellStyle(Font(name="Calibri", size=12, bold=True, color="1E6B34"), PatternFill("solid", fgColor="E2F0E5"))
 _INADEQUATE = CellStyle(
     Font(name="Calibri", size=12, bold=True, color="9B1C1C"), PatternFill("solid", fgColor="FDEBEB")
 )
@@ -67,9 +65,7 @@ def write_summary(page: SheetWriter, places: Mapping[str, tuple[Worksheet, Table
     row = _check_rows(page, row)
     hidden = [each.title for each in sheet.parent or () if each.sheet_state == "hidden"]
     if hidden:
-        write_value(
-            sheet.cell(row, 1), f"Hidden data sheets (right-click a tab, Unhide): {', '.join(hidden)}", GREY
-        )
+        write_value(sheet.cell(row, 1), f"Hidden data sheets (right-click a tab, Unhide): {', '.join(hidden)}", GREY)
     sheet.page_setup.fitToHeight = 1
     sheet.print_options.horizontalCentered = True
 

@@ -61,9 +61,7 @@ def restyle_figure(figure: Figure) -> None:
     from matplotlib.ticker import NullLocator
 
     rows, _ = _axes_grid(figure)
-    height = min(
-        _MOST_HEIGHT * max(1.0, rows / 2.0), figure.get_figheight() * min(1.0, _WIDTH / figure.get_figwidth())
-    )
+    height = min(_MOST_HEIGHT * max(1.0, rows / 2.0), figure.get_figheight() * min(1.0, _WIDTH / figure.get_figwidth()))
     figure.set_size_inches(_WIDTH, height)
     for axis in figure.axes:
         axis.set_title("", pad=None)
@@ -94,9 +92,7 @@ def _fit_margins(figure: Figure) -> None:
     for axis in figure.axes:
         inner, outer = axis.get_window_extent(renderer), axis.get_tightbbox(renderer)
         if outer is not None:
-            needed.append(
-                (inner.x0 - outer.x0, outer.x1 - inner.x1, inner.y0 - outer.y0, outer.y1 - inner.y1)
-            )
+            needed.append((inner.x0 - outer.x0, outer.x1 - inner.x1, inner.y0 - outer.y0, outer.y1 - inner.y1))
     left, right, below, above = (max(sides) + _PAD * figure.dpi for sides in zip(*needed, strict=True))
     gaps = [
         (ends := first + last) / max(1.0, (whole - count * ends) / count)

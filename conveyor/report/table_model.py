@@ -240,9 +240,7 @@ class Table:
     printed: bool = True
 
     def __post_init__(self) -> None:
-        kept = tuple(
-            c for c in self.columns if not c.sparse or any(c.get(row) is not None for row in self.rows)
-        )
+        kept = tuple(c for c in self.columns if not c.sparse or any(c.get(row) is not None for row in self.rows))
         shown_first = tuple(sorted(kept, key=lambda column: column.page is None))
         object.__setattr__(self, "columns", shown_first)
 
@@ -283,9 +281,7 @@ class Table:
     def name(self, column: Column, system: System) -> str:
         """Name of a column with its unit."""
         return (
-            column.label
-            if column.kind in {ROW_KIND, FIGURE_NAME}
-            else column_name(column.label, column.kind, system)
+            column.label if column.kind in {ROW_KIND, FIGURE_NAME} else column_name(column.label, column.kind, system)
         )
 
     def head(self, column: Column, system: System) -> str:
@@ -318,9 +314,7 @@ class Table:
 
     def totals(self) -> tuple[Any, ...]:
         """Line of totals, SI: its label, then sums of the columns that have one."""
-        sums = (
-            sum(column.get(row) for row in self.rows) if column.total else None for column in self.columns[1:]
-        )
+        sums = (sum(column.get(row) for row in self.rows) if column.total else None for column in self.columns[1:])
         return (self.foot, *sums)
 
     def frame(self, system: System = "SI") -> pd.DataFrame:
@@ -347,10 +341,7 @@ class Table:
                 cells[name] = [row.label for row in self.rows] if named else self.cells(column, "SI")
             if column.kind == ROW_KIND:
                 cells["unit"] = [row.unit("SI").label for row in self.rows]
-        return [
-            {name: _finite_or_none(values[i]) for name, values in cells.items()}
-            for i in range(len(self.rows))
-        ]
+        return [{name: _finite_or_none(values[i]) for name, values in cells.items()} for i in range(len(self.rows))]
 
     def plain(self) -> list[dict[str, Any]]:
         """Rows as plain SI data under the keys of `to_dict`."""
@@ -488,9 +479,7 @@ class Contents:
 
     def lines(self, kind: str) -> tuple[str, ...]:
         """Remarks of a kind."""
-        return (
-            tuple(row.text for row in self["remarks"].rows if row.kind == kind) if "remarks" in self else ()
-        )
+        return tuple(row.text for row in self["remarks"].rows if row.kind == kind) if "remarks" in self else ()
 
     def figures_for(self, where: str) -> list[Figure]:
         """Figures of all tables that are shown in a place: tile, large, notebook."""

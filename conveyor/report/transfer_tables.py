@@ -77,9 +77,7 @@ def loading_point_table(a: CalculatedConveyor) -> Table:
         *(Column(name, ROW_KIND, f"value.{i}", key=f"point_{i}") for i, name in enumerate(points)),
     )
     found = [(label, kind, tuple(map(path_getter(path), shown))) for label, kind, path in every]
-    known = tuple(
-        Figure(label, kind, each) for label, kind, each in found if any(value is not None for value in each)
-    )
+    known = tuple(Figure(label, kind, each) for label, kind, each in found if any(value is not None for value in each))
     heading = "Loading points"
     note = (
         "Stream: its momentum; lump: energy on the spring under it, without loss; the larger one falls on one set. "
@@ -168,15 +166,11 @@ def trajectory_table(a: CalculatedConveyor) -> Table:
         Column("speed", "speed", part(0, 1)),
         *(
             Column(f"{name}, {axis}", "spacing", part(i, k))
-            for i, name in enumerate(
-                ("centre", "lower edge", "upper edge", "lower edge after Booth"), start=1
-            )
+            for i, name in enumerate(("centre", "lower edge", "upper edge", "lower edge after Booth"), start=1)
             for k, axis in enumerate(("forward", "up"))
         ),
     )
-    return Table(
-        "trajectory", SHEET, "Trajectory from the axis of the head pulley", columns, rows, printed=False
-    )
+    return Table("trajectory", SHEET, "Trajectory from the axis of the head pulley", columns, rows, printed=False)
 
 
 def _stream_edges(stream: Trajectory) -> tuple[tuple[Any, Any], tuple[Any, Any]]:

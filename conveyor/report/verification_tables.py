@@ -88,9 +88,7 @@ def fill_in_table() -> Table:
         Column("of the test", "text", lambda row: row),
         Column("maker", "text", lambda _: None, asked=True),
     )
-    return Table(
-        "to_fill_in", ABOUT, "To fill in", columns, _TO_FILL_IN, (PagePlacement("to-fill-in", "Of the test"),)
-    )
+    return Table("to_fill_in", ABOUT, "To fill in", columns, _TO_FILL_IN, (PagePlacement("to-fill-in", "Of the test"),))
 
 
 def resistance_per_width(sheet: CalculatedVerification, system: System) -> Table:

@@ -84,9 +84,7 @@ class Analysis(CalculatedConveyor):
         if states is None:
             return self
         own = states.own
-        return replace(
-            self, contacts=own.contacts, balance=own.balance, fixed=own.fixed, convergence=own.convergence
-        )
+        return replace(self, contacts=own.contacts, balance=own.balance, fixed=own.fixed, convergence=own.convergence)
 
     def contents(self, studies: Studies | None = None, *, system: System | None = None) -> Contents:
         """Contents of a report in a system of units, with `conveyor.studies` if given."""
@@ -135,9 +133,7 @@ class Analysis(CalculatedConveyor):
         return analysis_json(self.beside(studies), studies, _scenario_additions(studies, "SI"))
 
     @check_arguments
-    def to_excel(
-        self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
-    ) -> Path:
+    def to_excel(self, path: str | Path, studies: Studies | None = None, *, system: System | None = None) -> Path:
         """Write the workbook, with the sheets of `conveyor.studies` if given.
 
         Parameters
@@ -191,9 +187,7 @@ class Analysis(CalculatedConveyor):
         return write_tables(self.contents(studies, system=system), Path(folder), kind)
 
     @check_arguments
-    def to_html(
-        self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
-    ) -> Path:
+    def to_html(self, path: str | Path, studies: Studies | None = None, *, system: System | None = None) -> Path:
         """Write the HTML report, one static page, with the parts of `conveyor.studies` if given.
 
         Parameters
@@ -215,9 +209,7 @@ class Analysis(CalculatedConveyor):
         return write_page(self.contents(studies, system=system), Path(path))
 
     @check_arguments
-    def to_pdf(
-        self, path: str | Path, studies: Studies | None = None, *, system: System | None = None
-    ) -> Path:
+    def to_pdf(self, path: str | Path, studies: Studies | None = None, *, system: System | None = None) -> Path:
         """Write the HTML report as a PDF; as `to_html`, to a name ending in ``.pdf``.
 
         Raises
@@ -334,9 +326,7 @@ class Studies(study.CalculatedStudies):
     def _repr_html_(self) -> str:
         """For notebooks: every study present."""
         held = (self.states, self.cases, self.duty, self.uncertainty)
-        return (
-            "".join(study._repr_html_() for study in held if study is not None) or "<p>nothing to study</p>"
-        )
+        return "".join(study._repr_html_() for study in held if study is not None) or "<p>nothing to study</p>"
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers of the studies present for JSON; units in the keys."""
@@ -410,9 +400,7 @@ def analyse_studies(
         states=None if made.states is None else as_results_class(made.states, StateStudy),
         cases=None if made.cases is None else as_results_class(made.cases, CaseStudy),
         duty=None if made.duty is None else as_results_class(made.duty, DutyStudy),
-        uncertainty=None
-        if made.uncertainty is None
-        else as_results_class(made.uncertainty, UncertaintyStudy),
+        uncertainty=None if made.uncertainty is None else as_results_class(made.uncertainty, UncertaintyStudy),
         flooded=made.flooded,
         dynamics=_scenario_results(conveyor, made, progress) if conveyor.scenarios else None,
     )

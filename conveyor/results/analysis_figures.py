@@ -164,9 +164,7 @@ class AnalysisPlots:
         varied = _sweep_conveyor(conveyor, [conveyor.ambient.belt], given)
         return plots.power_over(varied, "speed", system=self._in(system))
 
-    def every(
-        self, studies: CalculatedStudies | None = None, *, system: System | None = None
-    ) -> dict[str, Figure]:
+    def every(self, studies: CalculatedStudies | None = None, *, system: System | None = None) -> dict[str, Figure]:
         """All figures by name, and those of the studies if given."""
         result, conveyor = self.analysis, self.analysis.conveyor
         rubbers = _STRANDS[: 1 if conveyor.carry_compound.name == conveyor.return_compound.name else 2]
@@ -197,9 +195,7 @@ class _ConveyorSweep:
     coverage: tuple[Coverage, ...]
 
 
-def _sweep_conveyor(
-    conveyor: Conveyor, temperatures: list[Quantity], speeds: list[Quantity]
-) -> _ConveyorSweep:
+def _sweep_conveyor(conveyor: Conveyor, temperatures: list[Quantity], speeds: list[Quantity]) -> _ConveyorSweep:
     compound = conveyor.carry_compound
     varied = calculate_compound(conveyor, compound, temperatures, speeds, cover="bottom", rtol=_RTOL)
     if not varied.scenes:
@@ -230,15 +226,11 @@ class ComparisonPlots:
 
     comparison: CalculatedComparison
 
-    def power_against_temperature(
-        self, speed: float | None = None, *, system: System | None = None
-    ) -> Figure:
+    def power_against_temperature(self, speed: float | None = None, *, system: System | None = None) -> Figure:
         """Motor power of every compound over temperature at one speed [m/s], by default that next to the spec's."""
         return plots.power_over(self.comparison, "temperature", speed, system=self._in(system))
 
-    def power_against_speed(
-        self, temperature: float | None = None, *, system: System | None = None
-    ) -> Figure:
+    def power_against_speed(self, temperature: float | None = None, *, system: System | None = None) -> Figure:
         """Motor power of every compound over speed at one temperature [K], by default that next to the spec's."""
         return plots.power_over(self.comparison, "speed", temperature, system=self._in(system))
 

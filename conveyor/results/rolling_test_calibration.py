@@ -142,11 +142,7 @@ def calibration_notes(anchored: RollingTestCalibration) -> tuple[str, ...]:
     left = [abs(anchored.left(row)) for row in anchored.rows]
     level, tests = anchored.anchor, anchored.compound.tests
     moved = {(test.points().radius, test.points().cover_thickness, test.points().speed) for test in tests}
-    strain = (
-        "at the strain of each test"
-        if anchored.softened and anchored.compound.strain_dependence
-        else "linear"
-    )
+    strain = "at the strain of each test" if anchored.softened and anchored.compound.strain_dependence else "linear"
     count = "1 test" if len(tests) == 1 else f"{len(tests)} tests"
     said = [
         f"{level.points} points of {count}; residual {percent(float(np.median(left)), 1)} in the median, "

@@ -75,9 +75,7 @@ def _is_ascending_spectrum(w: FloatArray, t: FloatArray) -> bool:
     )
 
 
-def _sort_spectrum(
-    weight_name: str, weights: ArrayLike, unit: str, times: ArrayLike
-) -> tuple[FloatArray, FloatArray]:
+def _sort_spectrum(weight_name: str, weights: ArrayLike, unit: str, times: ArrayLike) -> tuple[FloatArray, FloatArray]:
     w = positive_vector(weight_name, weights, unit)
     t = positive_vector("times", times, "s")
     if w.shape != t.shape:
@@ -86,7 +84,5 @@ def _sort_spectrum(
     w, t = w[order], t[order]
     equal = np.flatnonzero(np.diff(t) == 0.0)
     if equal.size:
-        raise InputError(
-            f"times must be distinct; {t[equal[0]]:g} s occurs twice: add its {weight_name} into one term"
-        )
+        raise InputError(f"times must be distinct; {t[equal[0]]:g} s occurs twice: add its {weight_name} into one term")
     return w, t

@@ -105,9 +105,7 @@ class ReplicaBand:
             for e, m in zip(self.equilibrium, self.moduli, strict=True)
         )
 
-    def between(
-        self, of: Callable[[PronySeries], FloatArray], *, level: float = 0.9
-    ) -> tuple[FloatArray, FloatArray]:
+    def between(self, of: Callable[[PronySeries], FloatArray], *, level: float = 0.9) -> tuple[FloatArray, FloatArray]:
         """Band of any curve of a series.
 
         Parameters
@@ -243,9 +241,7 @@ def bootstrap(
     kept: list[_ReplicaShift] = []
     draws = None
     if superposition is not None:
-        draws = _draw_shifts(
-            superposition, _row_temperatures(superposition, temperature, size), law, generator
-        )
+        draws = _draw_shifts(superposition, _row_temperatures(superposition, temperature, size), law, generator)
     for _ in range(DRAWS_PER_REPLICA * replicas):
         starts = generator.integers(0, size, -(-size // block))
         taken = ((starts[:, None] + np.arange(block)) % size).ravel()[:size]

@@ -27,9 +27,7 @@ _LARGEST_STEP = math.log(3.0)
 _MOST_STEPS = 30
 
 
-def soften_series(
-    series: PronySeries, *, storage_factor: float, loss_factor: float, omega: float
-) -> PronySeries:
+def soften_series(series: PronySeries, *, storage_factor: float, loss_factor: float, omega: float) -> PronySeries:
     """Equivalent-linear series at a working strain.
 
     Parameters
@@ -73,9 +71,7 @@ def soften_series(
         positive_number("storage_factor", storage_factor, "-"),
         positive_number("loss_factor", loss_factor, "-"),
     )
-    (soft,) = _soften_many(
-        [series], np.array([factors]), np.array([positive_number("omega", omega, "rad/s")])
-    )
+    (soft,) = _soften_many([series], np.array([factors]), np.array([positive_number("omega", omega, "rad/s")]))
     if isinstance(soft, NoSolutionError):
         raise soft
     return soft
@@ -337,23 +333,17 @@ def _softening_factors(
             strain = np.exp([asked[i][0] for i in chosen])
             at = [tasks[i].temperature for i in chosen]
             try:
-                pairs = zip(
-                    factors.storage(strain, at).tolist(), factors.loss(strain, at).tolist(), strict=True
-                )
+                pairs = zip(factors.storage(strain, at).tolist(), factors.loss(strain, at).tolist(), strict=True)
                 found.update(zip(chosen, pairs, strict=True))
             except RangeError as error:
                 if len(chosen) > 1:
                     together += [[i] for i in chosen]
                 else:
                     answers[chosen[0]] = error
-    return {
-        i: _factors_beyond_sweeps(tasks[i], found[i], omega) for i, (_, omega) in asked.items() if i in found
-    }
+    return {i: _factors_beyond_sweeps(tasks[i], found[i], omega) for i, (_, omega) in asked.items() if i in found}
 
 
-def _factors_beyond_sweeps(
-    task: StrainTask, factors: tuple[float, float], omega: float
-) -> tuple[float, float]:
+def _factors_beyond_sweeps(task: StrainTask, factors: tuple[float, float], omega: float) -> tuple[float, float]:
     """Factors that change each modulus at most by as much as at the nearest temperature swept."""
     if task.swept is None:
         return factors

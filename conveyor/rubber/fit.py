@@ -118,9 +118,7 @@ class PronyFit:
     def errors(self) -> FloatArray:
         """Relative errors of E', then of E'', series over data minus one, shape `(2, n)` [-]."""
         rows, omega = self.rows, self.rows.omega
-        return (
-            np.array([self.series.storage(omega) / rows.storage, self.series.loss(omega) / rows.loss]) - 1.0
-        )
+        return np.array([self.series.storage(omega) / rows.storage, self.series.loss(omega) / rows.loss]) - 1.0
 
     def __repr__(self) -> str:
         low, high = self.window

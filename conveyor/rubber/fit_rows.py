@@ -116,9 +116,7 @@ def held_equilibrium(equilibrium: float, storage: FloatArray) -> float:
     """Equilibrium modulus to hold [Pa], refused unless below every E'."""
     value = positive_number("equilibrium", equilibrium, "Pa")
     if value >= storage.min():
-        raise InputError(
-            f"equilibrium = {value:g} Pa must be below the smallest storage modulus, {storage.min():g} Pa"
-        )
+        raise InputError(f"equilibrium = {value:g} Pa must be below the smallest storage modulus, {storage.min():g} Pa")
     return value
 
 

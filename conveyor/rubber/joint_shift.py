@@ -136,9 +136,7 @@ class JointShift:
         state = self._choose_smoothing(place, weight, share)
         for turn in range(ROUNDS):
             moved, covariance, share, curves = self._descend(place, state)
-            far = np.abs(moved - place) > np.maximum(
-                STEP_TOLERANCE * np.sqrt(np.diagonal(covariance)), ROUNDING_STEP
-            )
+            far = np.abs(moved - place) > np.maximum(STEP_TOLERANCE * np.sqrt(np.diagonal(covariance)), ROUNDING_STEP)
             place = moved
             if not far.any():
                 return self._placed(place, covariance, state, curves)
@@ -174,9 +172,7 @@ class JointShift:
         freedom = np.maximum(weight.sum(axis=1) - PENALTY_ORDER - share, 1.0)
         rates = self.rates @ place
         uneven = np.diff(self.rates, axis=0) / (RATE_SCATTER * max(float(np.mean(np.abs(rates))), LEAST_RATE))
-        return _RoundState(
-            spacing, best, np.maximum(cost / freedom, SCATTER_FLOOR**2), weight, uneven.T @ uneven
-        )
+        return _RoundState(spacing, best, np.maximum(cost / freedom, SCATTER_FLOOR**2), weight, uneven.T @ uneven)
 
     def _descend(
         self, place: FloatArray, state: _RoundState
@@ -207,10 +203,7 @@ class JointShift:
                 splines, curves = self._fit(place, state)
                 break
         inverse = _invert_normal_matrix(whole)
-        wide = [
-            _variance_widening(c.residual * np.sqrt(w), self.of)
-            for c, w in zip(curves, state.weight, strict=True)
-        ]
+        wide = [_variance_widening(c.residual * np.sqrt(w), self.of) for c, w in zip(curves, state.weight, strict=True)]
         told = np.einsum("k,kij->ij", np.array(wide), parts) + state.evenness
         covariance = inverse @ told @ inverse
         share = np.array([float(np.sum(inverse * part)) for part in parts])

@@ -220,9 +220,7 @@ def _one_sided_spectrum(rows: FitRows, tau: FloatArray, ignored: slice) -> tuple
 
 def _errors_by_decade(f: FloatArray, loss: FloatArray, storage: FloatArray) -> tuple[DecadeError, ...]:
     """Mean errors by decade, counted from the lowest frequency."""
-    number = np.minimum(
-        np.floor(np.log10(f / f[0])).astype(int), max(0, int(np.ceil(np.log10(f[-1] / f[0]))) - 1)
-    )
+    number = np.minimum(np.floor(np.log10(f / f[0])).astype(int), max(0, int(np.ceil(np.log10(f[-1] / f[0]))) - 1))
     return tuple(
         DecadeError(
             float(f[number == k].min()),

@@ -132,9 +132,7 @@ def fit_kraus(sweep: StrainSweep, *, shared: bool = False) -> KrausFit:
         )
     (plateau, far), missed = _branch_moduli(strain, sweep.storage, 0, places[0])
     (far_loss, peak_loss), missed_loss = _branch_moduli(strain, sweep.loss, 1, places[1])
-    law = KrausLaw(
-        plateau, far, peak_loss, far_loss, *np.exp(places[0]).tolist(), *np.exp(places[1]).tolist()
-    )
+    law = KrausLaw(plateau, far, peak_loss, far_loss, *np.exp(places[0]).tolist(), *np.exp(places[1]).tolist())
     return KrausFit(
         law,
         float(np.sqrt(np.mean(missed**2))),

@@ -105,8 +105,7 @@ def scatter_within(frequency: FloatArray, modulus: FloatArray, group: FloatArray
     (True, True)
     """
     squares = [
-        _scatter_squares(frequency[rows], modulus[rows])
-        for rows in (group == each for each in np.unique(group))
+        _scatter_squares(frequency[rows], modulus[rows]) for rows in (group == each for each in np.unique(group))
     ]
     joined = np.concatenate(squares)
     return float(np.sqrt(np.mean(joined))) if joined.size else None

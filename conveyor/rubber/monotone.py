@@ -53,9 +53,7 @@ class MonotoneCubic:
         step, rise = self._x[i + 1] - low, self._y[i + 1] - base
         t = (at - low) / step
         first, last = step * self._slope[i], step * self._slope[i + 1]
-        return np.asarray(
-            base + t * (first + t * (3.0 * rise - 2.0 * first - last + t * (first + last - 2.0 * rise)))
-        )
+        return np.asarray(base + t * (first + t * (3.0 * rise - 2.0 * first - last + t * (first + last - 2.0 * rise))))
 
 
 def _end_slope(near: float, far: float, secant: float, next_secant: float) -> float:

@@ -37,11 +37,7 @@ def non_negative_least_squares(matrix: FloatArray, target: FloatArray) -> FloatA
         solution = np.asarray(nnls(matrix, target)[0])
     except (RuntimeError, np.linalg.LinAlgError):
         return active_set(matrix, target)
-    return (
-        solution
-        if largest_slope(matrix, target, solution) <= SLOPE_SLACK * ROUNDING
-        else active_set(matrix, target)
-    )
+    return solution if largest_slope(matrix, target, solution) <= SLOPE_SLACK * ROUNDING else active_set(matrix, target)
 
 
 def largest_slope(matrix: FloatArray, target: FloatArray, weights: FloatArray) -> float:

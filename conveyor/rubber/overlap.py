@@ -97,9 +97,7 @@ def shift_limits(cold: LogIsotherm, hot: LogIsotherm, share: float = LEAST_OVERL
     return float(hot.x[0] - cold.x[-1]) + least, float(hot.x[-1] - cold.x[0]) - least
 
 
-def first_guess(
-    cold: LogIsotherm, hot: LogIsotherm, *, moduli: tuple[int, ...], vertical: bool
-) -> tuple[float, float]:
+def first_guess(cold: LogIsotherm, hot: LogIsotherm, *, moduli: tuple[int, ...], vertical: bool) -> tuple[float, float]:
     """Shift [decades] and ln b_T [-] of the least mean square difference in the overlap, on a grid."""
     _check_common_modulus(cold, hot)
     nearest, farthest = shift_limits(cold, hot, FIRST_OVERLAP)
@@ -116,9 +114,7 @@ def first_guess(
     return float(grid[best]), float(offset[best])
 
 
-def measure_overlap(
-    cold: LogIsotherm, hot: LogIsotherm, shift: float, offset: float, *, held: bool
-) -> Overlap:
+def measure_overlap(cold: LogIsotherm, hot: LogIsotherm, shift: float, offset: float, *, held: bool) -> Overlap:
     """Length and differences at a shift [decades] and offset of ln b_T; `held`: at a limit of `shift_limits`."""
     decades = min(cold.x[-1] + shift, hot.x[-1]) - max(cold.x[0] + shift, hot.x[0])
     error = modulus_differences(cold, hot, np.array([shift])) - offset

@@ -84,9 +84,7 @@ class PronySeries:
     def __post_init__(self) -> None:
         """Check, copy, sort, freeze."""
         moduli, times = checked_spectrum("moduli", self.moduli, "Pa", self.times)
-        object.__setattr__(
-            self, "equilibrium", positive_number("equilibrium", self.equilibrium, "Pa", _FLUID_ADVICE)
-        )
+        object.__setattr__(self, "equilibrium", positive_number("equilibrium", self.equilibrium, "Pa", _FLUID_ADVICE))
         object.__setattr__(self, "moduli", moduli)
         object.__setattr__(self, "times", times)
 
@@ -291,9 +289,7 @@ class CreepSeries:
     def __post_init__(self) -> None:
         """Check, copy, sort, freeze."""
         compliances, times = checked_spectrum("compliances", self.compliances, "1/Pa", self.times)
-        object.__setattr__(
-            self, "instantaneous", positive_number("instantaneous", self.instantaneous, "1/Pa")
-        )
+        object.__setattr__(self, "instantaneous", positive_number("instantaneous", self.instantaneous, "1/Pa"))
         object.__setattr__(self, "compliances", compliances)
         object.__setattr__(self, "times", times)
 
@@ -332,9 +328,7 @@ class CreepSeries:
             J*, complex with imaginary part <= 0, shape of `omega` [1/Pa].
         """
         _, loss, storage = _debye_functions(omega, self.times)
-        return np.asarray(self.instantaneous + storage @ self.compliances - 1j * (loss @ self.compliances))[
-            ()
-        ]
+        return np.asarray(self.instantaneous + storage @ self.compliances - 1j * (loss @ self.compliances))[()]
 
     def relaxation(self) -> PronySeries:
         """Convert exactly to the relaxation form, the inverse of `PronySeries.creep`.
@@ -350,9 +344,7 @@ class CreepSeries:
             If the compliances are beyond the range of double precision.
         """
         excess, moduli = invert_spectrum(self.instantaneous, self.compliances, self.times, reciprocal=True)
-        return PronySeries(
-            1.0 / self.equilibrium, *_merge_equal_times(moduli, self.times[::-1] / (1.0 + excess))
-        )
+        return PronySeries(1.0 / self.equilibrium, *_merge_equal_times(moduli, self.times[::-1] / (1.0 + excess)))
 
 
 def creep_forms(series: Iterable[PronySeries]) -> list[CreepSeries]:
@@ -381,9 +373,7 @@ def creep_forms(series: Iterable[PronySeries]) -> list[CreepSeries]:
     for same in alike.values():
         for start in range(0, len(same), _SPECTRA_AT_ONCE):
             chosen = same[start : start + _SPECTRA_AT_ONCE]
-            moduli, times = (
-                np.stack(part) for part in zip(*((s.moduli, s.times) for s in chosen), strict=True)
-            )
+            moduli, times = (np.stack(part) for part in zip(*((s.moduli, s.times) for s in chosen), strict=True))
             excess, compliances = invert_spectrum([s.equilibrium for s in chosen], moduli, times)
             for one, over, weights in zip(chosen, excess, compliances, strict=True):
                 terms = _merge_equal_times(weights, one.times * (1.0 + over))

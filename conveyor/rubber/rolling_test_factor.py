@@ -155,15 +155,11 @@ def fit_test_factor(
     at = positive_vector("temperature", temperature, "K")
     y = np.log(positive_vector("ratio", ratio, "-"))
     if not w.size == at.size == y.size > 0:
-        raise InputError(
-            f"line_load, temperature, ratio: one length of at least 1, got {w.size}, {at.size}, {y.size}"
-        )
+        raise InputError(f"line_load, temperature, ratio: one length of at least 1, got {w.size}, {at.size}, {y.size}")
     if not 0.0 <= uncertainty < math.inf:
         raise InputError(f"uncertainty = {uncertainty!r}: a finite number of at least 0 is needed")
     if not 0.0 <= shared <= uncertainty:
-        raise InputError(
-            f"shared = {shared!r}: at least 0 and at most uncertainty = {uncertainty!r} is needed"
-        )
+        raise InputError(f"shared = {shared!r}: at least 0 and at most uncertainty = {uncertainty!r} is needed")
     levels = _temperature_numbers(at)
     middle = float(np.exp(np.mean(np.log(w))))
     low, high = float(w.min()), float(w.max())

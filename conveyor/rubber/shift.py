@@ -34,9 +34,7 @@ def _check_kelvin(temperature: ArrayLike) -> FloatArray:
     array = np.asarray(temperature, dtype=np.float64)
     bad = array[~(np.isfinite(array) & (array > 0.0))]
     if bad.size:
-        raise InputError(
-            f"temperature = {bad.flat[0]:g} K must be finite and > 0 K (this floor counts in kelvin)"
-        )
+        raise InputError(f"temperature = {bad.flat[0]:g} K must be finite and > 0 K (this floor counts in kelvin)")
     return array
 
 

@@ -102,12 +102,8 @@ def fit_wlf(
     grid = np.linspace(np.log(POLE_DISTANCE[0]), np.log(POLE_DISTANCE[1]), SEARCH_POINTS)
     best = int(np.argmin([cost(float(v)) for v in grid]))
     if best in {0, SEARCH_POINTS - 1}:
-        raise NoSolutionError(
-            "the shifts do not follow a WLF law (its pole leaves the searched range): use a table"
-        )
-    least = minimize_scalar(
-        cost, bounds=(grid[best - 1], grid[best + 1]), method="bounded", options={"xatol": 1e-10}
-    )
+        raise NoSolutionError("the shifts do not follow a WLF law (its pole leaves the searched range): use a table")
+    least = minimize_scalar(cost, bounds=(grid[best - 1], grid[best + 1]), method="bounded", options={"xatol": 1e-10})
     c1, _ = slope(float(least.x))
     if c1 <= 0.0:
         raise NoSolutionError("the shifts rise with temperature: no WLF law; reversed sign, or log of 1/a_T?")
@@ -145,9 +141,7 @@ def fit_arrhenius(
 
     Examples
     --------
-    >>> fit = fit_arrhenius(
-    ...     [273.0, 313.0], Arrhenius(120e3, 293.0).log10_a_T([273.0, 313.0]), reference=293.0
-    ... )
+    >>> fit = fit_arrhenius([273.0, 313.0], Arrhenius(120e3, 293.0).log10_a_T([273.0, 313.0]), reference=293.0)
     >>> round(fit.law.activation_energy)
     120000
     """
@@ -156,9 +150,7 @@ def fit_arrhenius(
     basis = -x / (t * reference * GAS_CONSTANT * np.log(10.0))
     energy = float((weight * basis) @ y / ((weight * basis) @ basis))
     if energy <= 0.0:
-        raise NoSolutionError(
-            "the shifts rise with temperature: no Arrhenius law; reversed sign, or log of 1/a_T?"
-        )
+        raise NoSolutionError("the shifts rise with temperature: no Arrhenius law; reversed sign, or log of 1/a_T?")
     return _with_residuals(Arrhenius(energy, float(reference)), t, y)
 
 
@@ -183,9 +175,7 @@ def _shift_weights(x: FloatArray, error: ArrayLike | None) -> FloatArray:
         return np.asarray(away, dtype=np.float64)
     sigma = non_negative_array("error", error, "decades")
     if sigma.shape != x.shape:
-        raise InputError(
-            f"error must hold one standard uncertainty per shift, shape {x.shape}; got {sigma.shape}"
-        )
+        raise InputError(f"error must hold one standard uncertainty per shift, shape {x.shape}; got {sigma.shape}")
     if np.any(sigma[away] == 0.0):
         raise InputError("error must be > 0 decades except at the reference: 0 would be an exact measurement")
     weight = np.zeros_like(x)

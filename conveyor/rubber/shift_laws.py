@@ -171,9 +171,7 @@ def _check_shifts(
         if sigma.shape != t.shape:
             raise InputError(f"error must hold one uncertainty per shift, shape {t.shape}; got {sigma.shape}")
         if np.any(sigma[t != t_ref] == 0.0):
-            raise InputError(
-                "error must be > 0 decades except at the reference: 0 would be an exact measurement"
-            )
+            raise InputError("error must be > 0 decades except at the reference: 0 would be an exact measurement")
         sigma = sigma[order]
         away = t[order] != t_ref
         weight = np.zeros_like(t)

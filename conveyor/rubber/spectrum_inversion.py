@@ -112,9 +112,7 @@ def _root_residues(
     return np.asarray(np.prod(distance / roots, axis=-1))
 
 
-def _solve_quadratic(
-    c: FloatArray, q: FloatArray, t: FloatArray, span: FloatArray
-) -> tuple[FloatArray, FloatArray]:
+def _solve_quadratic(c: FloatArray, q: FloatArray, t: FloatArray, span: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Solve c + t/w = q/z, z + w = span: both unknowns by the form of the formula without cancellation."""
     cr = c * span
     root = np.hypot(cr + t - q, 2.0 * np.sqrt(q * t))

@@ -178,9 +178,7 @@ class AmplitudeFactors:
     def __post_init__(self) -> None:
         """Check and freeze; evaluate the sweeps, so that a bad reference strain is refused here."""
         object.__setattr__(self, "sweeps", tuple(sorted(self.sweeps, key=lambda s: s.temperature)))
-        object.__setattr__(
-            self, "reference_strain", positive_number("reference_strain", self.reference_strain, "-")
-        )
+        object.__setattr__(self, "reference_strain", positive_number("reference_strain", self.reference_strain, "-"))
         if not self.sweeps:
             raise InputError("sweeps: at least one strain sweep is needed")
         _ = self._runs
@@ -296,6 +294,4 @@ class AmplitudeFactors:
 
     def _temperature_weights(self, temperature: FloatArray) -> FloatArray:
         """Linear interpolation weights of the sweep temperatures, shape (t, n), held beyond the last ones."""
-        return np.array(
-            [np.interp(temperature, self.temperatures, one) for one in np.eye(self.temperatures.size)]
-        )
+        return np.array([np.interp(temperature, self.temperatures, one) for one in np.eye(self.temperatures.size)])

@@ -246,9 +246,7 @@ _ScoredFit = tuple[Candidate, FloatArray, FloatArray]
 """A candidate, its times [s], and its moduli, equilibrium first [Pa]."""
 
 
-def _score_candidate(
-    rows: FitRows, problem: PenalisedFit, density: float, strength: float
-) -> list[_ScoredFit]:
+def _score_candidate(rows: FitRows, problem: PenalisedFit, density: float, strength: float) -> list[_ScoredFit]:
     """Fit and score one candidate; none where the criterion does not exist."""
     target = rows.target
     one = problem.judged(target, strength)

@@ -327,8 +327,7 @@ def _add_vertical_uncertainty(
     chance = 2.0 / np.sqrt(superposition.frequency.size)
     if (
         np.ptp(other.log10_b_T) < LEAST_VERTICAL
-        or np.max(np.abs(np.diff(apart[:n])))
-        > LONGEST_STEP  # the slopes hardly separate one shift from the other
+        or np.max(np.abs(np.diff(apart[:n]))) > LONGEST_STEP  # the slopes hardly separate one shift from the other
         or other.correlation > max(chance, 0.5 * superposition.correlation)  # it does not make them one curve
     ):
         return superposition
@@ -354,9 +353,7 @@ def _place_isotherms(sheets: list[LogIsotherm], moduli: tuple[int, ...], *, vert
     return joint.minimum(np.array(start).T)
 
 
-def _find_resonances(
-    sheets: list[LogIsotherm], moduli: tuple[int, ...], placed: JointMinimum
-) -> tuple[Resonance, ...]:
+def _find_resonances(sheets: list[LogIsotherm], moduli: tuple[int, ...], placed: JointMinimum) -> tuple[Resonance, ...]:
     """Frequencies whose rows are outliers in more than half of the isotherms that hold them."""
     x = np.concatenate([sheet.x for sheet in sheets])
     stray = np.min([hampel_weights(one) for one in placed.residual], axis=0) < OUTLIER_TRUST
@@ -403,8 +400,7 @@ def _check_isotherms(isotherms: Sequence[Isotherm], reference: float) -> tuple[l
             f" {celsius_in_message(float(t[-1]))}; shifts are not extrapolated: choose a reference inside"
         )
     return [
-        LogIsotherm(one.temperature, np.log10(one.frequency), np.log([one.storage, one.loss]))
-        for one in ordered
+        LogIsotherm(one.temperature, np.log10(one.frequency), np.log([one.storage, one.loss])) for one in ordered
     ], t_ref
 
 

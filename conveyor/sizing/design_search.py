@@ -61,9 +61,7 @@ BRAKE_RESERVE: Final = 1.3
 _SIZINGS: Final = 8  # rounds of belt class, motors and brake against their own tensions
 _SCREENINGS: Final = 2  # calibrations of the estimate by calculated candidates
 _DRAWS: Final = 20  # of further candidates while designs are missing
-_NEAR_LIMIT: Final = (
-    1.1  # estimated use of a limit up to which candidates are calculated if there is no design
-)
+_NEAR_LIMIT: Final = 1.1  # estimated use of a limit up to which candidates are calculated if there is no design
 _ALIKE_DRAWS: Final = (
     4  # draws in a row without a design, a failed series limit or progress, after which the search ends
 )
@@ -133,9 +131,7 @@ class CalculatedSizing:
         return self.designs[0]
 
 
-def size_conveyor(
-    duty: SizingDuty, *, best: int = 3, progress: ProgressCallback | None = None
-) -> CalculatedSizing:
+def size_conveyor(duty: SizingDuty, *, best: int = 3, progress: ProgressCallback | None = None) -> CalculatedSizing:
     """Size a conveyor from its duty.
 
     Parameters
@@ -175,9 +171,7 @@ def size_conveyor(
         final = _rank_designs([*final, *_final_designs(search, ranked, best - len(final))])
         if len(final) >= best:
             break
-        new = search.draw(CANDIDATES_AT_ONCE + len(list(search.designs))) or search.nearest(
-            CANDIDATES_AT_ONCE
-        )
+        new = search.draw(CANDIDATES_AT_ONCE + len(list(search.designs))) or search.nearest(CANDIDATES_AT_ONCE)
         nearest = search.nearest_over
         if not new:
             break
@@ -331,9 +325,7 @@ def _final_designs(search: _Search, designs: Iterable[SizedDesign], best: int) -
 def _rank_designs(designs: Iterable[SizedDesign]) -> list[SizedDesign]:
     """Designs by yearly cost, only the cheapest of those that differ in graduated spacings alone."""
     cheapest_last = sorted(designs, key=_yearly_cost, reverse=True)
-    return sorted(
-        {replace(one.choice, graduated=()): one for one in cheapest_last}.values(), key=_yearly_cost
-    )
+    return sorted({replace(one.choice, graduated=()): one for one in cheapest_last}.values(), key=_yearly_cost)
 
 
 def _yearly_cost(design: SizedDesign) -> float:
@@ -419,9 +411,7 @@ def _calculate_candidates(
     anchors: KnownTestFactors,
 ) -> list[SizedDesign | Shortfall]:
     """Calculate candidates exactly."""
-    begin = [
-        (choices[i], _estimated_parts(task, choices[i], estimate, i), float(estimate.cost[i])) for i in chosen
-    ]
+    begin = [(choices[i], _estimated_parts(task, choices[i], estimate, i), float(estimate.cost[i])) for i in chosen]
     return size_parts(task, begin, anchors)
 
 
@@ -518,9 +508,7 @@ def _required_parts(
         except (NoSolutionError, RangeError, InputError) as error:
             asked[i] = _RequiredParts(short=_without_answer(error))
             continue
-        asked[i] = _select_parts(
-            task, begin[i][0], now[i], _RequiredParts(loads, milder), every_load=every_load
-        )
+        asked[i] = _select_parts(task, begin[i][0], now[i], _RequiredParts(loads, milder), every_load=every_load)
     return asked
 
 
@@ -549,9 +537,7 @@ def _calculate_specs(
     return {**known, **dict(zip(new, calculate_many(list(new.values()), RTOL, anchors=anchors), strict=True))}
 
 
-def _design_loads(
-    answer: CalculatedConveyor | NoAnswer, *, every_load: bool
-) -> tuple[CalculatedConveyor, ...]:
+def _design_loads(answer: CalculatedConveyor | NoAnswer, *, every_load: bool) -> tuple[CalculatedConveyor, ...]:
     """The full belt, and every other load at one take-up setting if requested.
 
     Raises
@@ -594,12 +580,8 @@ def _select_parts(
             "motor power": ((power * task.rules.motor_reserve, "power"), (rated, "power")),
             "take-up travel": ((travel(last), "length"), (task.take_up_travel, "length")),
         }[limit]
-        return replace(
-            asked, short=Shortfall(limit, message(_LIMIT_MESSAGES[limit], *figures), uses[limit], uses)
-        )
-    carcass = next(
-        one for one in classes if strength(one) <= one.strength and travel(one) <= task.take_up_travel
-    )
+        return replace(asked, short=Shortfall(limit, message(_LIMIT_MESSAGES[limit], *figures), uses[limit], uses))
+    carcass = next(one for one in classes if strength(one) <= one.strength and travel(one) <= task.take_up_travel)
     if before.settling and carcass.strength < before.carcass.strength:
         carcass = before.carcass
     motor = task.motors(power)
@@ -632,9 +614,7 @@ def _take_up_setting(before: float, loads: Sequence[CalculatedConveyor]) -> floa
     return before if needed <= before * (1.0 + RTOL) else TAKE_UP_STEP * math.ceil(needed / TAKE_UP_STEP)
 
 
-def _required_strength(
-    carcass: CarcassClass, choice: DesignChoice, loads: Sequence[CalculatedConveyor]
-) -> float:
+def _required_strength(carcass: CarcassClass, choice: DesignChoice, loads: Sequence[CalculatedConveyor]) -> float:
     """Belt strength required by the tensions [N/m]; of a class with a rating also while starting and stopping."""
     tension = highest_tension(loads)
     if carcass.rating is not None:
@@ -642,9 +622,7 @@ def _required_strength(
     return carcass.safety * tension / choice.trough.width.belt
 
 
-def _take_up_travel(
-    now: CarcassClass, loads: Sequence[CalculatedConveyor]
-) -> Callable[[CarcassClass], float]:
+def _take_up_travel(now: CarcassClass, loads: Sequence[CalculatedConveyor]) -> Callable[[CarcassClass], float]:
     """Take-up travel as a function of the belt class [m], by Hooke at the calculated tensions."""
     duty = common_take_up_duty(loads)
     parts = duty.travel
@@ -698,9 +676,7 @@ def _foresee_parts(task: SizingTask, design: SizedDesign) -> SelectedParts:
     top, bottom = task.covers(design.choice, carcass)
     motors = (max(motor, *chosen.motors),) * len(chosen.motors)
     backstop = _backstop_torque(task, carcass, design.pair)
-    return replace(
-        chosen, carcass=carcass, top=top, bottom=bottom, motors=motors, backstop=backstop, settling=False
-    )
+    return replace(chosen, carcass=carcass, top=top, bottom=bottom, motors=motors, backstop=backstop, settling=False)
 
 
 def _drive_powers(one: CalculatedConveyor) -> list[float]:
@@ -750,9 +726,7 @@ def _failed_criteria(task: SizingTask, asked: _RequiredParts) -> Iterator[Shortf
     if travel is not None and travel.whole > task.take_up_travel:
         figures = (travel.whole, "length"), (task.take_up_travel, "length")
         over = travel.whole / task.take_up_travel
-        yield Shortfall(
-            "take-up travel", message(_LIMIT_MESSAGES["take-up travel"], *figures), over, asked.uses
-        )
+        yield Shortfall("take-up travel", message(_LIMIT_MESSAGES["take-up travel"], *figures), over, asked.uses)
 
 
 def _graduated_designs(
@@ -767,7 +741,5 @@ def _graduated_designs(
     ]
     made = size_parts(task, [(choice, even.chosen, even.estimate) for even, choice in tried], anchors)
     return [
-        new
-        for (even, _), new in zip(tried, made, strict=True)
-        if isinstance(new, SizedDesign) and new.year < even.year
+        new for (even, _), new in zip(tried, made, strict=True) if isinstance(new, SizedDesign) and new.year < even.year
     ]

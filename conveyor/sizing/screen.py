@@ -32,13 +32,9 @@ Array = NDArray[np.float64]
 _LOAD_EXPONENT: Final = 4.0 / 3.0  # exponent of the line load
 _WING_LOAD_FACTOR: Final = 2.0**_LOAD_EXPONENT / (_LOAD_EXPONENT + 1.0)  # a triangular load over an even one
 _CLEANERS: Final = 2.0 * 0.008 * CLEANER_PRESSURE.value * 0.6  # [N/m] of belt width: `line.defaults`
-_SKIRTS: Final = (
-    2.0 * 0.7 * 9.81 / 0.625**2
-)  # [m/s²]: both zones of the usual skirts, over (Q/v)²/(ρ B²) and 1 m
+_SKIRTS: Final = 2.0 * 0.7 * 9.81 / 0.625**2  # [m/s²]: both zones of the usual skirts, over (Q/v)²/(ρ B²) and 1 m
 _SET_LIFE_SHARE: Final = 0.5  # bearing life of a set over that of its most loaded bearing
-_START_MEAN_SHARE: Final = (
-    0.375  # mean round the loop of a start's extra force, over it; 1/4 of the mass returns
-)
+_START_MEAN_SHARE: Final = 0.375  # mean round the loop of a start's extra force, over it; 1/4 of the mass returns
 _ROUNDS: Final = 4  # of belt class, mass and tensions
 
 
@@ -134,9 +130,7 @@ class Candidates:
         task = self.task
         trough, speed, filling, roll = self.running[ran]
         apart = task.spacings[0][carry], task.spacings[1][back]
-        return DesignChoice(
-            trough, speed, filling, roll, *apart, cover, task.kinds[kind], task.rules.drives[drives]
-        )
+        return DesignChoice(trough, speed, filling, roll, *apart, cover, task.kinds[kind], task.rules.drives[drives])
 
     def runs(self, get: Callable[[TroughAtSpeed], float]) -> Array:
         """Figure of trough, speed and rolls for each candidate."""
@@ -221,9 +215,7 @@ class _BeltSeries(NamedTuple):
             stiffnesses,
             np.array([[one.mass for one in row] for row in filled]),
             np.array([[task.pulley_mass(one, 1.0) for one in row] for row in filled]),
-            np.array(
-                [[[task.worn_covers(one, addition) for addition in wear] for one in row] for row in filled]
-            ),
+            np.array([[[task.worn_covers(one, addition) for addition in wear] for one in row] for row in filled]),
             np.array([len(each) - 1 for each in kinds]),
             np.array([each[-1].strength for each in kinds]),
             np.array([each[-1].stiffness for each in kinds]),
@@ -339,9 +331,7 @@ def _estimate_loop(
     ])  # fmt: skip
     sags = np.array(task.sags)[:, None]
     bent = FLEXURE_COEFFICIENT.value * g * sags * np.array([belt + bulk, belt])
-    square = (
-        1.0 - (1.0 - of_bulk) * np.sin(every.runs(lambda on: on.trough.angle)) ** 2
-    )  # wings turn by cos λ
+    square = 1.0 - (1.0 - of_bulk) * np.sin(every.runs(lambda on: on.trough.angle)) ** 2  # wings turn by cos λ
     askew = task.misalignment_friction * g * np.array([(belt + bulk) * square, belt])
     friction = indentation / length + levels.drag * np.array([3.0 / carry, count / back]) + bent + askew
     up = np.outer(bulk + belt, g * sections[:, 1]) + np.outer(friction[0], sections[:, 0])

@@ -77,9 +77,7 @@ def vary_choices(task: SizingTask, design: SizedDesign) -> tuple[VariedChoice, .
     )
 
 
-def _choice_axes(
-    task: SizingTask, base: DesignChoice, bottom: float
-) -> Iterator[tuple[str, str, float, list[_Point]]]:
+def _choice_axes(task: SizingTask, base: DesignChoice, bottom: float) -> Iterator[tuple[str, str, float, list[_Point]]]:
     """Name, kind, present value and points of each varied choice; None at points that a rule forbids."""
     carry, back = task.spacings
     yield (
@@ -111,9 +109,7 @@ def _choice_axes(
 
 def _choice_at_speed(task: SizingTask, base: DesignChoice, speed: float) -> DesignChoice | None:
     """Choice at another speed, with the narrowest belt within the rules and the smallest rolls."""
-    alike = sorted(
-        (one for one in task.troughs if one.angle == base.trough.angle), key=lambda one: one.width.belt
-    )
+    alike = sorted((one for one in task.troughs if one.angle == base.trough.angle), key=lambda one: one.width.belt)
     fits = [(one, filling) for one in alike if (filling := task.filling(one, speed)) is not None]
     rolls = [
         roll

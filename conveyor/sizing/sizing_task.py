@@ -54,9 +54,7 @@ from conveyor.units import Quantity, from_si, read_si, si, text
 from conveyor.units.sentences import format_figure, percent
 
 _BEARING_INSET: Final = 0.02  # [m], middle of a bearing inside the tube's end; general knowledge
-_OVERLAND_LENGTH: Final = (
-    1000.0  # [m], length from which spacings are those of overland belts; general knowledge
-)
+_OVERLAND_LENGTH: Final = 1000.0  # [m], length from which spacings are those of overland belts; general knowledge
 _V_ANGLE: Final = math.radians(10.0)
 
 
@@ -376,9 +374,7 @@ class SizingTask:
             ("return", rules.return_spacings, self.sizes.return_spacings),
         ):
             widest = read_si(libraries.library_entries("spacing")[f"{strand}{wide}"].fields["to"], "length")
-            pairs.append(
-                tuple(map(si, asked)) or tuple(a for a in map(si, series) if within_limit(a, widest))
-            )
+            pairs.append(tuple(map(si, asked)) or tuple(a for a in map(si, series) if within_limit(a, widest)))
         return pairs[0], pairs[1]
 
     @property
@@ -432,9 +428,7 @@ class SizingTask:
             wide, free edges too narrow, rolls too fast.
         """
         duty, rules, system = self.duty, self.rules, self.duty.report.units
-        lumps = least_width_for_lumps(
-            si(duty.lump), surcharge_angle=duty.material.surcharge, share=duty.lumps
-        )
+        lumps = least_width_for_lumps(si(duty.lump), surcharge_angle=duty.material.surcharge, share=duty.lumps)
         widest = max(map(si, rules.widths or [row.belt for row in self.sizes.widths]))
         if not within_limit(lumps, widest):
             asked, had = (format_figure(width, "thickness", system) for width in (lumps, widest))
@@ -516,9 +510,7 @@ class SizingTask:
     def allows(self, trough: TroughSize, speed: float) -> bool:
         """True if the rules allow the belt speed [m/s]."""
         given = self.rules.fastest
-        fastest = (
-            si(given) if given else recommended_speed(trough.width.belt, abrasiveness=self.duty.abrasiveness)
-        )
+        fastest = si(given) if given else recommended_speed(trough.width.belt, abrasiveness=self.duty.abrasiveness)
         return within_limit(speed, fastest)
 
     def filling(self, trough: TroughSize, speed: float) -> float | None:

@@ -77,9 +77,7 @@ def section_spacings(task: SizingTask, design: SizedDesign) -> Iterator[SectionS
     rolls = {"carry": (3, width.three), "return": width.return_rolls[:2]}
     for k, strand in enumerate(("carry", "return")):
         number, long = rolls[strand]
-        one_set = (
-            number * (prices["roll"] + prices["roll_mass"] * roll.mass(long)) + prices["set"] * width.belt
-        )
+        one_set = number * (prices["roll"] + prices["roll_mass"] * roll.mass(long)) + prices["set"] * width.belt
         for i, (length, _) in enumerate(task.sections):
             at = i if strand == "carry" else 2 * count - 1 - i
             stretch, forces = line.stretches[at], design.found.stretches[at].forces
@@ -121,9 +119,7 @@ def graduated_spacings(task: SizingTask, design: SizedDesign) -> Iterator[tuple[
         yield tuple(min(_allowed_spacings(task, design, one, let_down), key=one.cost) for one in carry)
 
 
-def _allowed_spacings(
-    task: SizingTask, design: SizedDesign, one: SectionSpacing, let_down: float
-) -> tuple[float, ...]:
+def _allowed_spacings(task: SizingTask, design: SizedDesign, one: SectionSpacing, let_down: float) -> tuple[float, ...]:
     """Spacings of the series allowed in a section; the present one is allowed at its own tensions."""
     widest = min(one.sag - let_down / one.tension_per_spacing, one.bearings, design.choice.back)
     borne = tuple(a for a in task.spacings[0] if a <= widest or (a == one.built and let_down == 0.0))
@@ -137,9 +133,7 @@ def _sag_reserve(design: SizedDesign) -> float:
         min(
             one.balance.settled.setting
             - max(
-                needed
-                for name, needed in one.balance.settled.conditions.items()
-                if not name.startswith("sag, carry")
+                needed for name, needed in one.balance.settled.conditions.items() if not name.startswith("sag, carry")
             )
             for one in design.pair
         ),

@@ -81,9 +81,7 @@ class _SheetFiller:
         return sheets
 
     def _group(self, group: FieldGroup, data: dict[str, Any], at: _Cursor) -> None:
-        written = [
-            self._part(part, data[part.key], at.down(part.key)) for part in group.parts if part.key in data
-        ]
+        written = [self._part(part, data[part.key], at.down(part.key)) for part in group.parts if part.key in data]
         if not any(written) and not group.required:
             # an empty form means "not given": a model given without any field shows its defaults
             for part in group.parts:
@@ -109,9 +107,7 @@ class _SheetFiller:
         for item in data:
             row = FilledRow(len(rows) + 1, at.number, {})
             rows.append(row)
-            self._group(
-                replace(table.item, required=False), item, _Cursor(at.sheets, row.cells, (), row.number)
-            )
+            self._group(replace(table.item, required=False), item, _Cursor(at.sheets, row.cells, (), row.number))
 
     def _reference(self, model: type[BaseModel], data: dict[str, Any]) -> str:
         """Name of a model on the shelf, or of its own sheet in this workbook."""

@@ -107,9 +107,7 @@ def example_value(model: type[BaseModel], path: str) -> ExampleValue | None:
     shown = (_value_at(_starter_data(kind), first) for kind in kinds)
     listed = _extra_examples()[_FORMATS[model]].get(first)
     written = (
-        _shown_default(leaf.default, leaf)
-        if leaf.default not in _EMPTY_VALUES
-        else next(iter(leaf.choices), None)
+        _shown_default(leaf.default, leaf) if leaf.default not in _EMPTY_VALUES else next(iter(leaf.choices), None)
     )
     return next((given for given in (*shown, listed, written) if given is not None), None)
 

@@ -29,9 +29,7 @@ def read_values(name: str) -> dict[str, Any]:
     return read
 
 
-def starter_values(
-    kind: Kind | Literal["duty"], units: System = "SI", *, optional: bool = False
-) -> dict[str, Any]:
+def starter_values(kind: Kind | Literal["duty"], units: System = "SI", *, optional: bool = False) -> dict[str, Any]:
     """Return the plain data of a starter.
 
     Parameters

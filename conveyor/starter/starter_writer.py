@@ -126,9 +126,7 @@ class _SpecWriter:
             yield ""
         if isinstance(part, FormField):
             value = in_units(data, self._units)
-            yield from _with_comment(
-                f"{indent}{part.key}: {_scalar_text(value)}", self._comment(part, path, value)
-            )
+            yield from _with_comment(f"{indent}{part.key}: {_scalar_text(value)}", self._comment(part, path, value))
             return
         yield from _with_comment(f"{indent}{part.key}:", self._comment(part, path))
         if isinstance(part, FieldGroup):
@@ -148,9 +146,7 @@ class _SpecWriter:
             comment = self._comment(part, (*path, part.key), value)
             yield from _wrap_comment(opening, f"{indent}# {' ' * widest}  ", comment)
         for row in data:
-            cells = ", ".join(
-                f"{key}: {_scalar_text(in_units(value, self._units))}" for key, value in row.items()
-            )
+            cells = ", ".join(f"{key}: {_scalar_text(in_units(value, self._units))}" for key, value in row.items())
             yield f"{indent}- {{{cells}}}"
 
     def _comment(self, part: Part, path: tuple[str, ...], value: Any = None) -> str:

@@ -146,8 +146,7 @@ HOW_TO: Final = (
     "Sheets that few conveyors need are hidden while they are empty: right-click a tab, Unhide. Paper leaves them out.",
     "Write numbers as your spreadsheet program shows numbers; cells may refer to other sheets of your own, "
     "which are ignored.",
-    'Rows and sheets are found by the names in the column "Key" and by the sheets\' names: leave those as they '
-    "are.",
+    'Rows and sheets are found by the names in the column "Key" and by the sheets\' names: leave those as they are.',
     "Calculate with: conveyor power input.xlsx -o report.xlsx",
 )
 
@@ -212,11 +211,7 @@ class TemplateBook:
             row += 1
             if closed and line.path[: len(closed)] == closed:
                 sheet.row_dimensions[row].outlineLevel, sheet.row_dimensions[row].hidden = 1, True
-            elif (
-                isinstance(line.part, FieldGroup)
-                and not line.part.required
-                and not _has_values(sheets, line.path)
-            ):
+            elif isinstance(line.part, FieldGroup) and not line.part.required and not _has_values(sheets, line.path):
                 closed = line.path
             if isinstance(line.part, FieldGroup):
                 _draw_heading(sheet, row, line)
@@ -232,9 +227,7 @@ class TemplateBook:
             raise TypeError("a heading has no cells")
         leaf = in_system(leaf, self.system, (cells[1],))
         name, value, unit, allowed, default, meaning, key = (sheet.cell(row, c) for c in range(1, 8))
-        write_value(
-            name, key_label(leaf.key) + (" *" if leaf.required else ""), BOLD if leaf.required else None
-        )
+        write_value(name, key_label(leaf.key) + (" *" if leaf.required else ""), BOLD if leaf.required else None)
         name.alignment = Alignment(horizontal="left", indent=1 + line.depth, vertical="top")
         name.comment = _field_note(leaf, ".".join(line.path))
         self._input(value, leaf)
@@ -382,9 +375,7 @@ def _field_note(leaf: FormField, path: str) -> Comment:
     ]
     lines.append("Needed." if leaf.required else "")
     text = "\n".join(filter(None, lines))
-    return Comment(
-        text, _AUTHOR, height=20 + 17 * sum(_line_count(line, 42) for line in text.split("\n")), width=300
-    )
+    return Comment(text, _AUTHOR, height=20 + 17 * sum(_line_count(line, 42) for line in text.split("\n")), width=300)
 
 
 def _line_count(text: str, width: int) -> int:
@@ -432,9 +423,7 @@ def _write_key(cell: Cell | MergedCell, key: str) -> None:
 def _draw_heading(sheet: Worksheet, row: int, line: FormRow) -> None:
     """Draw the heading of a nested model across the form."""
     doc = line.part.doc if line.part.required else f"{line.part.doc} May be left empty."
-    write_value(
-        sheet.cell(row, 1), ": ".join(key_label(key) for key in line.path[-1 - line.depth :]), HEADING
-    )
+    write_value(sheet.cell(row, 1), ": ".join(key_label(key) for key in line.path[-1 - line.depth :]), HEADING)
     sheet.cell(row, 1).alignment = Alignment(horizontal="left", indent=1 + line.depth, vertical="center")
     write_value(sheet.cell(row, 4), doc, GREY)
     sheet.cell(row, 4).alignment = Alignment(horizontal="left", vertical="center", indent=1)

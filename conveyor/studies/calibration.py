@@ -46,9 +46,7 @@ POOR_FIT: Final = 0.01
 LARGEST_FACTOR: Final = 10.0
 _BY_LOAD: Final = ("flexure", "misalignment")
 _DIGITS: Final = 6
-_STEP: Final = (
-    1e-3  # of a factor for derivatives; the power is linear but for wraps and the take-up's conditions
-)
+_STEP: Final = 1e-3  # of a factor for derivatives; the power is linear but for wraps and the take-up's conditions
 _STEP_TOLERANCE: Final = 1e-7
 _MOST_ITERATIONS: Final = 30
 
@@ -138,9 +136,7 @@ class CalculatedCalibration:
     def fragment(self) -> str:
         """YAML of the calibration, to paste into a spec."""
         lines = [f"    {name}: {value:g}" for name, value in self.calibration.factors.items()]
-        return "\n".join(
-            ["calculation:", "  calibration:", *lines, f'    source: "{self.calibration.source}"', ""]
-        )
+        return "\n".join(["calculation:", "  calibration:", *lines, f'    source: "{self.calibration.source}"', ""])
 
     def __repr__(self) -> str:
         told = ", ".join(f"{f.name} {f.value:.3f} ({f.low:.3f} to {f.high:.3f})" for f in self.factors)
@@ -235,13 +231,9 @@ def _check_runs(
     """Reject runs that cannot be fitted."""
     unknown = [name for name in factors or () if name not in CALIBRATED_FORCES]
     if unknown or (factors is not None and not factors):
-        raise InputError(
-            f"factors: got {', '.join(unknown) or 'none'}, allowed: {', '.join(CALIBRATED_FORCES)}"
-        )
+        raise InputError(f"factors: got {', '.join(unknown) or 'none'}, allowed: {', '.join(CALIBRATED_FORCES)}")
     if error is not None and not 0.0 < error < 1.0:
-        raise InputError(
-            f"error = {error:g}: a standard deviation over the power, between 0 and 1, is needed"
-        )
+        raise InputError(f"error = {error:g}: a standard deviation over the power, between 0 and 1, is needed")
     wanted = 1 if factors is None else len(set(factors))
     if len(runs) < wanted or not runs:
         raise InputError(f"{len(runs)} runs for {wanted} factors: give as many runs as factors at least")
@@ -339,9 +331,7 @@ class _SolvedRuns:
             )
             for one in runs
         ]
-        power = {
-            one: made.power for one, made in zip(runs, raise_first_error(close_loops(loops)), strict=True)
-        }
+        power = {one: made.power for one, made in zip(runs, raise_first_error(close_loops(loops)), strict=True)}
         pairs = zip(self.found, self.at, strict=True)
         return np.array([power[one].mains if at == "mains" else power[one].motor for one, at in pairs])
 
@@ -359,9 +349,7 @@ class _SolvedRuns:
 
 
 def _grouped_calibration(grouping: Grouping, values: Sequence[float]) -> Calibration:
-    return Calibration(
-        **{name: value for group, value in zip(grouping, values, strict=True) for name in group}
-    )
+    return Calibration(**{name: value for group, value in zip(grouping, values, strict=True) for name in group})
 
 
 def _free_factors(scene: _SolvedRuns, factors: Sequence[str] | None) -> tuple[Grouping, list[str]]:
@@ -516,9 +504,7 @@ def _fit_with_bands(
         )
     weighed = slopes / sigma[:, None]
     covariance = np.linalg.inv(weighed.T @ weighed)
-    covariance += _joined_covariance(
-        scene, grouping, values, power, covariance @ (weighed / sigma[:, None]).T
-    )
+    covariance += _joined_covariance(scene, grouping, values, power, covariance @ (weighed / sigma[:, None]).T)
     spread = np.sqrt(np.diag(covariance))
     factors = tuple(
         FittedFactor(group, value, value - ends * one, value + ends * one)

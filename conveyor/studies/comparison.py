@@ -242,9 +242,7 @@ def compare_compounds(
     answers: list[_CompoundAnswer] = []
     if progress is not None:
         progress(0, len(chosen))
-    for some in (
-        _run_serially(job, chosen) if executor is None else _run_on_executor(executor, workers, job, chosen)
-    ):
+    for some in _run_serially(job, chosen) if executor is None else _run_on_executor(executor, workers, job, chosen):
         answers += some
         if progress is not None:
             progress(len(answers), len(chosen))
@@ -294,9 +292,7 @@ class _ComparisonJob:
         return _CompoundAnswer(study, _duty_year(self.conveyor, compound, self.cover, self.rtol))
 
 
-def _run_serially(
-    job: _ComparisonJob, compounds: Sequence[RubberCompound]
-) -> Iterator[list[_CompoundAnswer]]:
+def _run_serially(job: _ComparisonJob, compounds: Sequence[RubberCompound]) -> Iterator[list[_CompoundAnswer]]:
     """Calculate compounds one after the other, reusing common results."""
     kept = ReuseCache()
     return ([job.of(compound, kept)] for compound in compounds)
@@ -322,9 +318,7 @@ def _run_group(job: _ComparisonJob, compounds: Sequence[RubberCompound]) -> list
     return [answer for some in _run_serially(job, compounds) for answer in some]
 
 
-def _duty_year(
-    conveyor: Conveyor, compound: RubberCompound, cover: CoverChoice, rtol: float
-) -> CalculatedYear | None:
+def _duty_year(conveyor: Conveyor, compound: RubberCompound, cover: CoverChoice, rtol: float) -> CalculatedYear | None:
     """The year of a duty; None without a duty, or if a bar has no answer or no data."""
     if not conveyor.duty:
         return None
@@ -343,9 +337,7 @@ def _resolve_compounds(
     given: Iterable[str | RubberCompound], shelves: Iterable[str | Path]
 ) -> tuple[RubberCompound, ...]:
     extra = tuple(shelves)
-    chosen = tuple(
-        item if isinstance(item, RubberCompound) else shelf.compound(item, extra=extra) for item in given
-    )
+    chosen = tuple(item if isinstance(item, RubberCompound) else shelf.compound(item, extra=extra) for item in given)
     if not chosen:
         raise InputError("compounds: give at least one; `conveyor shelf` lists those at hand")
     names = [compound.name for compound in chosen]

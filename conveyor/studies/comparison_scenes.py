@@ -247,9 +247,7 @@ def _indentation_band(
     roll = _highest_loss_roll(middle, strands)
     tested = [strand for strand in strands if middle.contacts.covers[strand].level is not None]
     if tested:
-        both = [
-            [middle.contacts.test_factor_range(strand, own=own) for strand in tested] for own in (False, True)
-        ]
+        both = [[middle.contacts.test_factor_range(strand, own=own) for strand in tested] for own in (False, True)]
         whole, own = ((min(low for low, _ in each), max(high for _, high in each)) for each in both)
         return whole, own
     replicas = compound.replicas(temperature)

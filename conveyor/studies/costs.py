@@ -69,9 +69,7 @@ class Costs:
         return sum((value for name, value in self.yearly.items() if name != "energy"), 0.0)
 
 
-def conveyor_costs(
-    parts: Parts, prices: Mapping[str, float], *, seconds: float, energy: Value | None
-) -> Costs:
+def conveyor_costs(parts: Parts, prices: Mapping[str, float], *, seconds: float, energy: Value | None) -> Costs:
     """Capital and yearly costs of a conveyor.
 
     Parameters
@@ -152,8 +150,7 @@ def conveyor_parts(one: CalculatedConveyor) -> Parts | None:
     return Parts(
         width=belt.width,
         length=line.length,
-        strength=belt.strength
-        or RATED_SAFETY["steel cord" if belt.steel_cord else "textile"] * (belt.rating or 0.0),
+        strength=belt.strength or RATED_SAFETY["steel cord" if belt.steel_cord else "textile"] * (belt.rating or 0.0),
         steel_cord=float(belt.steel_cord),
         cover=top if special else top + bottom,
         special_cover=bottom if special else 0.0,

@@ -156,18 +156,14 @@ def _cleaner_pressure_share(result: CalculatedConveyor, force: Force) -> float:
 def _cleaners_band(result: CalculatedConveyor) -> tuple[float, float]:
     """Band from one usual cleaner to CEMA's force on each."""
     line = result.line
-    usual = math.fsum(
-        force.total for force in result.balance.singles if force.key == "cleaner" and force.assumed
-    )
+    usual = math.fsum(force.total for force in result.balance.singles if force.key == "cleaner" and force.assumed)
     by_cema = CLEANER_PER_INCH.value * POUND_FORCE / INCH * line.belt.width
     return 0.5, by_cema * math.fsum(scraper.count for scraper in line.scrapers) / usual
 
 
 def _pulleys_band(result: CalculatedConveyor) -> tuple[float, float]:
     """Band from half the resistance of usual pulleys to CEMA's with a take-up and its bends."""
-    usual = math.fsum(
-        force.total for force in result.balance.singles if force.key in _PULLEYS and force.assumed
-    )
+    usual = math.fsum(force.total for force in result.balance.singles if force.key in _PULLEYS and force.assumed)
     return 0.5, max(2.0, cema_pulley_friction(_CEMA_PULLEYS) / usual)
 
 
@@ -287,9 +283,7 @@ def power_range(result: CalculatedConveyor) -> PowerRange:
     left out and noted.
     """
     motor = result.balance.power.motor
-    using = [
-        one for one in DEFAULTS if any(_uses_default(one, result, force) for force in result.balance.every)
-    ]
+    using = [one for one in DEFAULTS if any(_uses_default(one, result, force) for force in result.balance.every)]
     bands = [assumed.ends(result) for assumed in using]
     pairs = zip(using, bands, strict=True)
     closed = close_loops([_scale_loop(result, assumed, factor) for assumed, ends in pairs for factor in ends])
@@ -298,9 +292,7 @@ def power_range(result: CalculatedConveyor) -> PowerRange:
     for assumed, ends, *both in zip(using, bands, closed[::2], closed[1::2], strict=True):
         why = next((end for end in both if isinstance(end, NoSolutionError)), None)
         if why is not None:
-            notes.append(
-                f"{assumed.what} at an end of its band: {error_in_units(why, result.conveyor.report.units)}"
-            )
+            notes.append(f"{assumed.what} at an end of its band: {error_in_units(why, result.conveyor.report.units)}")
             continue
         low, high = (end.power.motor for end in both if isinstance(end, Balance))
         frictions.append([_friction_force(end) / computed for end in both if isinstance(end, Balance)])

@@ -135,9 +135,7 @@ def _parse_figure(name: str, plan: VariedSpec, operation: Operation | None, weig
     output, many = OUTPUTS[key], len(weights) > 1
     if how is None and key in _YEARLY and (many or plan.hours is not None):
         return _yearly_figure(key, plan, operation, weights)
-    if how is None and (
-        key in _PARTS_FIGURES or output.of == "loads"
-    ):  # a take-up follows from the worst state
+    if how is None and (key in _PARTS_FIGURES or output.of == "loads"):  # a take-up follows from the worst state
         return DesignFigure(output.label, output.kind, (key,), lambda values, _: float(np.max(values[0])))
     if how is None or how == "mean":
         label = f"{output.label}, mean" if many else output.label
@@ -152,9 +150,7 @@ def _parse_figure(name: str, plan: VariedSpec, operation: Operation | None, weig
         raise InputError(
             f'figure "{name}": expected a percentile above 0 and below 100 %; of all there is {key} highest'
         )
-    return DesignFigure(
-        label, output.kind, (key,), lambda values, _: weighted_percentile(values[0], weights, share)
-    )
+    return DesignFigure(label, output.kind, (key,), lambda values, _: weighted_percentile(values[0], weights, share))
 
 
 def _yearly_figure(key: str, plan: VariedSpec, operation: Operation | None, hours: Array) -> DesignFigure:

@@ -166,9 +166,7 @@ def analyse_duty(
         if factor is None
         else duty_emission(year, factor=factor.amount, credit_factor=0.0 if saved is None else saved.amount),
         emission_source=operation.emission_source,
-        energy_per_tonne_km=duty_specific_energy(year, length=conveyor.route.length)
-        if year.mass > 0.0
-        else None,
+        energy_per_tonne_km=duty_specific_energy(year, length=conveyor.route.length) if year.mass > 0.0 else None,
     )
 
 

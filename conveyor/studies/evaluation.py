@@ -156,9 +156,7 @@ class StudySummary:
         else:
             edges = np.linspace(different[0], different[-1], RANGE_BINS + 1)
             place = np.clip(np.searchsorted(edges, at, side="right") - 1, 0, RANGE_BINS - 1)
-            groups = [
-                (float(edges[k] + edges[k + 1]) / 2.0, np.flatnonzero(place == k)) for k in range(RANGE_BINS)
-            ]
+            groups = [(float(edges[k] + edges[k + 1]) / 2.0, np.flatnonzero(place == k)) for k in range(RANGE_BINS)]
         return tuple(
             MainEffect(
                 value,
@@ -203,9 +201,7 @@ def study_objectives(plan: StudyPlan, figures: Iterable[str], base: Conveyor) ->
     Safeties and the flow are maximised, all others minimised.
     """
     known, operation = tuple(figures), base.operation
-    priced = (
-        operation is not None and operation.price is not None and (plan.hours is not None or not base.duty)
-    )
+    priced = operation is not None and operation.price is not None and (plan.hours is not None or not base.duty)
     cost = "total_cost_per_year" if plan.figures and "total_cost_per_year" in known else "cost_per_year"
     usual = tuple(name for name in (cost, "energy_per_year") if priced and name in known)
     return dict(plan.best) or {name: OUTPUTS[name.partition(" ")[0]].better for name in usual or known[:1]}
@@ -242,9 +238,7 @@ def summarise_study(campaign: ParametricStudy, designs: Iterable[Design]) -> Stu
         keeps.append(design.keeps)
         numbers.append(design.number)
         rank = (design.keeps, -float(told[0] * sign[0]), -design.number)
-        heapq.heappush(best, (rank, design)) if len(best) < MOST_LISTED else heapq.heappushpop(
-            best, (rank, design)
-        )
+        heapq.heappush(best, (rank, design)) if len(best) < MOST_LISTED else heapq.heappushpop(best, (rank, design))
     costs = np.array(reached).reshape(-1, len(sought))
     kept = np.frombuffer(keeps, dtype=bool)
     beaten_by_none = np.zeros(len(kept), dtype=bool)
@@ -270,8 +264,7 @@ def varied_fields(plan: StudyPlan, paths: Sequence[str] = ()) -> tuple[VariedFie
     """Varied fields at the given paths; by default those that differ between designs."""
     every = paths or plan.design_fields
     return tuple(
-        replace(_varied_field(path, _field_values(plan, path)), label=_field_label(path, every))
-        for path in every
+        replace(_varied_field(path, _field_values(plan, path)), label=_field_label(path, every)) for path in every
     )
 
 

@@ -225,9 +225,7 @@ def _require_answer(result: CalculatedConveyor | NoAnswer) -> CalculatedConveyor
     return result
 
 
-def hypercube_band(
-    motor: float, effects: Sequence[Effect], *, samples: int, seed: int
-) -> tuple[float, float]:
+def hypercube_band(motor: float, effects: Sequence[Effect], *, samples: int, seed: int) -> tuple[float, float]:
     """Band of the first-order model on a seeded Latin hypercube of normal inputs [W].
 
     Parameters
@@ -257,9 +255,7 @@ def hypercube_band(
     return quantile_band(power)
 
 
-def _input_variations(
-    calculated: CalculatedConveyor, ranges: Uncertainty, notes: list[str]
-) -> Iterator[_Variation]:
+def _input_variations(calculated: CalculatedConveyor, ranges: Uncertainty, notes: list[str]) -> Iterator[_Variation]:
     conveyor = calculated.conveyor
     half = ranges.half_width("roll_drag")
     if half is not None:
@@ -289,9 +285,7 @@ def _change_input(name: str, change: Callable[[], Conveyor]) -> Conveyor:
 
 def _vary_flexure(conveyor: Conveyor, ends: Sequence[Quantity]) -> _Variation:
     calculation = conveyor.calculation
-    scenes = tuple(
-        Variant(conveyor.replace(calculation=calculation.replace(flexure_share=share))) for share in ends
-    )
+    scenes = tuple(Variant(conveyor.replace(calculation=calculation.replace(flexure_share=share))) for share in ends)
     low, high = (text(share) for share in ends)
     given = "by law" if calculation.flexure_share is None else text(calculation.flexure_share)
     drawn = DrawnInput("flexure_share", partial(_with_flexure, ends=ends))
@@ -313,8 +307,7 @@ def _vary_temperature(conveyor: Conveyor, change: float) -> _Variation:
         for sign in (-1.0, 1.0)
     ]
     low, given, high = (
-        format_figure(c.temperature, "temperature", conveyor.report.units)
-        for c in (ends[0], conveyor, ends[1])
+        format_figure(c.temperature, "temperature", conveyor.report.units) for c in (ends[0], conveyor, ends[1])
     )
     drawn = DrawnInput("temperature", lambda given, away: with_belt_temperature_changed(given, away * change))
     return _Variation("temperature of the belt", low, given, high, tuple(map(Variant, ends)), drawn=drawn)
@@ -412,9 +405,7 @@ def _vary_rubber(result: CalculatedConveyor, notes: list[str]) -> Iterator[_Vari
         factors = compound.amplitude_factors()
         if factors is not None and cover.strain is not None and not factors.known_at(result.temperature):
             linear = with_alternative(conveyor, compound, compound.replace(strain_dependence=None))
-            nearest = format_figure(
-                factors.nearest(result.temperature), "temperature", result.conveyor.report.units
-            )
+            nearest = format_figure(factors.nearest(result.temperature), "temperature", result.conveyor.report.units)
             held = f"held from {nearest}"
             ends = (Variant(linear), Variant(conveyor))
             yield _Variation(f'strain of "{name}"', "that of the master curve", held, held, ends)

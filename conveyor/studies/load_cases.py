@@ -213,9 +213,7 @@ class CalculatedCases:
             Nothing has an answer.
         """
         own = [] if self.as_given is None else [self.as_given]
-        loads = [*own, *(result.found for result in self.designing)] or [
-            result.found for result in self.results
-        ]
+        loads = [*own, *(result.found for result in self.designing)] or [result.found for result in self.results]
         if not loads:
             raise NoSolutionError("no load has an answer: see why each case has none")
         return common_take_up_duty(loads, self.temperatures)

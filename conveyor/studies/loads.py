@@ -139,9 +139,7 @@ def take_up_demand(
     loads = design_loads(own, states, cases)
     duty = common_take_up_duty([load.found for load in loads], () if cases is None else cases.temperatures)
     condition, label = escape_braces(duty.governed_by), loads[duty.governing].label
-    return duty, message(condition) if len(loads) == 1 else message(
-        f"{label.words}: {condition}", *label.figures
-    )
+    return duty, message(condition) if len(loads) == 1 else message(f"{label.words}: {condition}", *label.figures)
 
 
 def every_check(

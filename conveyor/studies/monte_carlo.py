@@ -100,14 +100,10 @@ def power_percentiles(power: Array) -> Percentiles:
     low, high = quantile_band(power)
 
     def between(share: float) -> tuple[float, float]:
-        first, last = (
-            int(binom.ppf(0.5 + sign * 0.5 * PERCENTILE_CONFIDENCE, count, share)) for sign in (-1.0, 1.0)
-        )
+        first, last = (int(binom.ppf(0.5 + sign * 0.5 * PERCENTILE_CONFIDENCE, count, share)) for sign in (-1.0, 1.0))
         return float(ranked[first - 1]), float(ranked[last])
 
-    return Percentiles(
-        count, low, between(0.5 - 0.5 * BAND_COVERAGE), high, between(0.5 + 0.5 * BAND_COVERAGE)
-    )
+    return Percentiles(count, low, between(0.5 - 0.5 * BAND_COVERAGE), high, between(0.5 + 0.5 * BAND_COVERAGE))
 
 
 def calculate_draws(
@@ -148,8 +144,7 @@ def calculate_draws(
     """
     rng = np.random.default_rng(ranges.seed)
     normal = (
-        rng.standard_normal((ranges.draws, len(inputs)))
-        @ _correlation_root([one.name for one in inputs], ranges).T
+        rng.standard_normal((ranges.draws, len(inputs))) @ _correlation_root([one.name for one in inputs], ranges).T
     )
     power: list[float] = []
     anchors: KnownTestFactors = []
@@ -171,9 +166,7 @@ def calculate_draws(
             progress(min(at + _BATCH, ranges.draws), ranges.draws)
     if len(power) < FEWEST_DRAWS:
         why = "; ".join(refused)
-        raise NoSolutionError(
-            f"uncertainty.draws: {len(power)} of {ranges.draws} draws have an answer: {why}"
-        )
+        raise NoSolutionError(f"uncertainty.draws: {len(power)} of {ranges.draws} draws have an answer: {why}")
     return MonteCarlo(np.array(power), dict(refused.most_common()))
 
 
@@ -183,9 +176,7 @@ def _correlation_root(names: Sequence[str], ranges: Uncertainty) -> Array:
     for pair in ranges.correlations:
         for name in pair.between:
             if name not in names:
-                raise InputError(
-                    f"uncertainty.correlations: {name} is not drawn; give it a range that matters"
-                )
+                raise InputError(f"uncertainty.correlations: {name} is not drawn; give it a range that matters")
         i, j = (names.index(name) for name in pair.between)
         matrix[i, j] = matrix[j, i] = pair.coefficient
     try:
@@ -194,9 +185,7 @@ def _correlation_root(names: Sequence[str], ranges: Uncertainty) -> Array:
         raise InputError("uncertainty.correlations: contradict each other: no inputs have them all") from None
 
 
-def _draw_variant(
-    conveyor: Conveyor, inputs: Sequence[DrawnInput], row: Sequence[float], end: float
-) -> Variant:
+def _draw_variant(conveyor: Conveyor, inputs: Sequence[DrawnInput], row: Sequence[float], end: float) -> Variant:
     """Variant of one draw."""
     made, drag = conveyor, 1.0
     level: dict[Strand, float] = {}

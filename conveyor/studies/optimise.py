@@ -154,9 +154,7 @@ class _Search:
             return math.inf
         limits = self._plan.limits.items()
         kinds = self._campaign.figures
-        return math.fsum(
-            limit_excess(one, name, kinds[name].kind, design.figures[name]) for name, one in limits
-        )
+        return math.fsum(limit_excess(one, name, kinds[name].kind, design.figures[name]) for name, one in limits)
 
     def told(self, name: str) -> str:
         """Text of a figure of the best design and the limit it exceeds."""
@@ -167,9 +165,7 @@ class _Search:
         )
         if value is None:
             return f"no {name}"
-        shown = display_unit(f"{MONEY}{self._campaign.currency}" if kind == "money" else kind).four_digits(
-            value
-        )
+        shown = display_unit(f"{MONEY}{self._campaign.currency}" if kind == "money" else kind).four_digits(value)
         ends = (("least", limit.least), ("most", limit.most))
         kept = " and ".join(f"{word} {end}" for word, end in ends if end is not None)
         return f"{name} {shown} against {kept}"

@@ -107,15 +107,10 @@ class ParametricStudy:
         refuse_unknown(plan, base, resolve)
         columns = {path: field_of(base, path) for path in plan.paths}
         rubber = [path for path, value in columns.items() if isinstance(value, RubberCompound)]
-        given = {
-            path: plan.axes.get(path, tuple(row[path] for row in plan.together if path in row))
-            for path in rubber
-        }
+        given = {path: plan.axes.get(path, tuple(row[path] for row in plan.together if path in row)) for path in rubber}
         named = {value for values in given.values() for value in values if isinstance(value, str)}
         needed = dict.fromkeys(key for figure in figures_by_name(plan, base).values() for key in figure.needs)
-        asked = plan.outputs or (
-            () if plan.figures or plan.best or plan.limits else tuple(select_outputs(()))
-        )
+        asked = plan.outputs or (() if plan.figures or plan.best or plan.limits else tuple(select_outputs(())))
         outputs = tuple(select_outputs((*asked, *(key for key in needed if key not in asked))))
         for key in plan.outputs:
             require_year(key, plan, base)
@@ -163,9 +158,7 @@ class ParametricStudy:
         if not self._costed:
             return price_answer(known[key], self.asked, self.outputs, {}, 0.0)
         hours, operation = self.plan.hours, self.operation(point)
-        seconds = (
-            operation.seconds_per_year if hours is None and operation else 3600.0 * math.fsum(hours or ())
-        )
+        seconds = operation.seconds_per_year if hours is None and operation else 3600.0 * math.fsum(hours or ())
         return price_answer(known[key], self.asked, self.outputs, self.plan.prices.amounts, seconds)
 
     @cached_property
@@ -193,12 +186,8 @@ class ParametricStudy:
     @cached_property
     def _rubber(self) -> dict[str, dict[Value, str]]:
         """Hashes of the compounds named by points, by field."""
-        known: dict[Value, str] = {
-            name: _json_hash(one.as_data()).hexdigest() for name, one in self.compounds.items()
-        }
-        return {
-            path: known for path in self.plan.paths if isinstance(field_of(self.base, path), RubberCompound)
-        }
+        known: dict[Value, str] = {name: _json_hash(one.as_data()).hexdigest() for name, one in self.compounds.items()}
+        return {path: known for path in self.plan.paths if isinstance(field_of(self.base, path), RubberCompound)}
 
     def key(self, point: Changes) -> bytes:
         """Hash of all inputs of a point's answer."""
@@ -277,9 +266,7 @@ class ResultStore:
         (mark,) = self._file.execute("PRAGMA application_id").fetchone()
         (pages,) = self._file.execute("PRAGMA page_count").fetchone()
         if pages and mark != _MARK:
-            raise InputError(
-                f"{self._path}: holds something else than answers of a study of this version; remove it"
-            )
+            raise InputError(f"{self._path}: holds something else than answers of a study of this version; remove it")
         with self._file:
             self._file.execute("BEGIN IMMEDIATE")
             self._file.execute(f"PRAGMA application_id = {_MARK}")
@@ -391,9 +378,7 @@ def run_study(
     ConveyorError
         A worker was lost, or answers cannot be written; what is done is kept, the same call goes on from there.
     """
-    whole, every = (
-        (campaign.listed.count, campaign.listed.points()) if points is None else (len(points), points)
-    )
+    whole, every = (campaign.listed.count, campaign.listed.points()) if points is None else (len(points), points)
     asked: dict[Future[list[Answer]], Batch] = {}
     new, most = (
         point_batches(campaign, known, every, whole),
@@ -486,7 +471,5 @@ def design_result(campaign: ParametricStudy, known: ResultStore, design: Changes
     """A design over its states, whose points have answers."""
     keyed = ((campaign.key(point), point) for point in campaign.plan.points_of(design))
     answers = [campaign.answer(known, one) for one in keyed]
-    made = reduce_states(
-        campaign.plan, campaign.figures, campaign.outputs, answers, campaign.operation(design)
-    )
+    made = reduce_states(campaign.plan, campaign.figures, campaign.outputs, answers, campaign.operation(design))
     return Design(number, design, *made)

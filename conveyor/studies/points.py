@@ -55,9 +55,7 @@ OUTPUTS: Final[Mapping[str, Output]] = {
     "motor_power": Output("motor power", "power", attrgetter("balance.power.motor")),
     "mains_power": Output("mains power", "power", attrgetter("balance.power.mains")),
     "flow": Output("mass flow", "mass flow", attrgetter("line.flow"), better="most"),
-    "energy_per_tonne_km": Output(
-        "energy", "specific energy", attrgetter("balance.power.energy_per_tonne_km")
-    ),
+    "energy_per_tonne_km": Output("energy", "specific energy", attrgetter("balance.power.energy_per_tonne_km")),
     "effective_tension": Output("effective tension", "force", attrgetter("balance.settled.force")),
     "indentation": Output("indentation", "force", attrgetter("balance.forces.indentation")),
     "friction_factor": Output("equivalent DIN f", "friction", attrgetter("balance.friction_factor")),
@@ -109,9 +107,7 @@ OUTPUTS: Final[Mapping[str, Output]] = {
         of="loads",
         needs=("drive.installed_power", "drive.pulleys"),
     ),
-    "all_loads_tension": Output(
-        "largest tension, all loads", "force", attrgetter("largest_tension"), of="loads"
-    ),
+    "all_loads_tension": Output("largest tension, all loads", "force", attrgetter("largest_tension"), of="loads"),
     "all_loads_belt_safety": Output(
         "belt safety, steady, lowest of all loads",
         "ratio",
@@ -123,9 +119,7 @@ OUTPUTS: Final[Mapping[str, Output]] = {
     "all_loads_belt_use": Output(
         "belt utilisation, highest of all loads", "ratio", attrgetter("belt_use"), of="loads", needs=_BELT
     ),
-    "all_loads_take_up": Output(
-        "setting of the take-up for all loads", "force", attrgetter("take_up"), of="loads"
-    ),
+    "all_loads_take_up": Output("setting of the take-up for all loads", "force", attrgetter("take_up"), of="loads"),
     "error_estimate": Output("largest error estimate of the contacts", "error", attrgetter("error_estimate")),
 }
 """Figures by key."""
@@ -184,10 +178,7 @@ def price_answer(
     if amounts and parts is not None:
         costed = conveyor_costs(Parts(*parts), amounts, seconds=seconds, energy=known.get("cost_per_year"))
     read = ((OUTPUTS[key], key) for key in outputs)
-    return [
-        (None if costed is None else one.get(costed)) if one.of == "parts" else known[key]
-        for one, key in read
-    ]
+    return [(None if costed is None else one.get(costed)) if one.of == "parts" else known[key] for one, key in read]
 
 
 @dataclass(frozen=True)
@@ -236,9 +227,7 @@ class _UnpackedJob:
         self.compounds: Mapping[str, RubberCompound]
         self.base, self.asked, self.compounds, self._met, levels = pickle.loads(job.packed)  # noqa: S301 by this program
         every = zip(_all_compounds(self.base, self.compounds), levels, strict=True)
-        self.anchors: KnownTestFactors = [
-            (compound, how, level) for compound, known in every for how, level in known
-        ]
+        self.anchors: KnownTestFactors = [(compound, how, level) for compound, known in every for how, level in known]
         self.kept = ReuseCache()
         self._loads: dict[tuple[tuple[str, Value], ...], Loads] = {}
 

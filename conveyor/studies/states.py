@@ -104,9 +104,7 @@ class LoadState:
     def loaded_in_words(self) -> str:
         """Names of the sections that bear bulk, or of those that do not if that is shorter."""
         names, bearing = [section.name for section in self.balance.line.sections], frozenset(self.loaded)
-        loaded, empty = (
-            _section_list(names, [(name in bearing) is on for name in names]) for on in (True, False)
-        )
+        loaded, empty = (_section_list(names, [(name in bearing) is on for name in names]) for on in (True, False))
         if not loaded or not empty:
             return "all" if loaded else "none"
         return min(loaded, f"all but {empty}", key=len)
@@ -179,19 +177,13 @@ class CalculatedStates:
     def checks(self) -> tuple[Check, ...]:
         """Every criterion that needs no contacts, in every state but the spec's own load."""
         return tuple(
-            replace(check, case=load.label)
-            for load in self.loads
-            for check in run_checks(load.found, contacts=False)
+            replace(check, case=load.label) for load in self.loads for check in run_checks(load.found, contacts=False)
         )
 
 
 def _section_list(names: Sequence[str], on: Sequence[bool]) -> str:
     """Names of the selected sections; of three or more in a row the first and the last."""
-    runs = [
-        [name for name, _ in run]
-        for is_on, run in groupby(zip(names, on, strict=True), itemgetter(1))
-        if is_on
-    ]
+    runs = [[name for name, _ in run] for is_on, run in groupby(zip(names, on, strict=True), itemgetter(1)) if is_on]
     return ", ".join(", ".join(run) if len(run) < _ROW else f"{run[0]} to {run[-1]}" for run in runs)
 
 
@@ -371,9 +363,7 @@ def _with_candidates(states: CalculatedStates, cases: CalculatedCases | None) ->
     return replace(states, states=(*standing, *candidates), refused=(*states.refused, *refused))
 
 
-def _existing_loadings(
-    states: CalculatedStates, cases: CalculatedCases | None
-) -> set[tuple[float, tuple[str, ...]]]:
+def _existing_loadings(states: CalculatedStates, cases: CalculatedCases | None) -> set[tuple[float, tuple[str, ...]]]:
     """Temperature and loaded sections of every load calculated at the spec's speed and full cross-section."""
     there = {(state.temperature, state.loaded) for state in states.states if state.keys}
     for result in () if cases is None else cases.designing:
@@ -476,9 +466,7 @@ def _full_and_empty(
     every = [] if cases is None else [r for r in cases.results if r.speed == own.line.speed]
     beyond = {r.temperature for r in every if not r.covered}
     results = [r for r in every if r.temperature not in beyond]
-    known: dict[tuple[float, str], CalculatedConveyor] = {
-        (r.temperature, r.case.loading): r.found for r in results
-    }
+    known: dict[tuple[float, str], CalculatedConveyor] = {(r.temperature, r.case.loading): r.found for r in results}
     at = own.temperature
     wanted = [(t, name) for t in dict.fromkeys([at, *(t for t, _ in known)]) for name in ("full", "empty")]
     asked: dict[tuple[float, str], Conveyor] = {}
@@ -508,9 +496,7 @@ def _full_and_empty(
     return ends, refused
 
 
-def _load_conveyor(
-    conveyor: Conveyor, case: LoadCase, temperature: float, own: CalculatedConveyor
-) -> Conveyor:
+def _load_conveyor(conveyor: Conveyor, case: LoadCase, temperature: float, own: CalculatedConveyor) -> Conveyor:
     """Conveyor under a load case at a temperature; the same object if nothing changes."""
     loaded = with_case(conveyor, case)
     if temperature == own.temperature:

@@ -90,23 +90,18 @@ def _problem_lines(document: Document, error: PlanError) -> str:
         if place[0] == "states" and len(place) == 3 and isinstance(table, str) and table != DUTY_STATES:
             of_states.append((place[1], place[2], said))
         else:
-            faults.append(
-                Fault(document.place(place, of_key=True), field_path(place), _strip_place(place, said))
-            )
+            faults.append(Fault(document.place(place, of_key=True), field_path(place), _strip_place(place, said)))
     lines = [fault_lines(document.path, sorted(faults, key=lambda fault: fault.place))] if faults else []
     if of_states:
         path = Path(document.path).parent / str(table)
         firsts: dict[tuple[tuple[str, Value], ...], int] = {}
         rows = _state_rows(path)
         for number, row in rows:
-            firsts.setdefault(
-                tuple((name, value) for name, value in row.items() if name != HOURS_KEY), number
-            )
+            firsts.setdefault(tuple((name, value) for name, value in row.items() if name != HOURS_KEY), number)
         numbers = list(firsts.values())
         columns = list(rows[0][1])
         lines += [
-            str(cell_error(str(path), numbers[int(i)], columns.index(str(field)), said))
-            for i, field, said in of_states
+            str(cell_error(str(path), numbers[int(i)], columns.index(str(field)), said)) for i, field, said in of_states
         ]
     return "\n".join(lines)
 
@@ -163,9 +158,7 @@ def _state_rows(path: Path) -> list[tuple[int, dict[str, Value]]]:
     heads = [_HEADER_PATTERN.fullmatch(name) for name in head.cells]
     named = [(one[1], one[2] or "") for one in heads if one is not None]
     if not lines or len(named) < len(heads):
-        raise InputError(
-            f'{path}: expected a column a field, such as "ambient.temperature [degC]", and hours [h]'
-        )
+        raise InputError(f'{path}: expected a column a field, such as "ambient.temperature [degC]", and hours [h]')
     names = [name for name, _ in named]
     wrong = [
         cell_error(str(path), head.number, i, f"{name} has a column already; leave one of both")

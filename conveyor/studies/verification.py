@@ -207,9 +207,7 @@ def verify_compounds(
     warmth = _axis_values("temperatures", TEMPERATURES if temperatures is None else temperatures)
     count = len(chosen) * len(loads) * len(warmth) * len(scenes)
     if count > MOST_POINTS:
-        raise InputError(
-            f"{count:,} figures are requested, at most {MOST_POINTS:,} are calculated; give fewer values"
-        )
+        raise InputError(f"{count:,} figures are requested, at most {MOST_POINTS:,} are calculated; give fewer values")
     rows: list[VerificationRow] = []
     sets: list[SetRow] = []
     for done, compound in enumerate(chosen):
@@ -313,9 +311,7 @@ def _fill_row(
     return replace(row, resistances=tuple(lost))
 
 
-def _set_rows(
-    conveyor: Conveyor, compound: RubberCompound, temperatures: Sequence[float]
-) -> Iterator[SetRow]:
+def _set_rows(conveyor: Conveyor, compound: RubberCompound, temperatures: Sequence[float]) -> Iterator[SetRow]:
     """Loss of the most loaded carry set of a conveyor on a compound at every temperature."""
     try:
         made = with_compound(conveyor, compound, "bottom")

@@ -59,11 +59,7 @@ def name_value_table(caption: str, rows: Iterable[tuple[str, object]]) -> Html:
 
     Examples
     --------
-    >>> print(
-    ...     name_value_table("roll", [("width", "1 m")]).replace(
-    ...         ' style="text-align:left;vertical-align:top"', ""
-    ...     )
-    ... )
+    >>> print(name_value_table("roll", [("width", "1 m")]).replace(' style="text-align:left;vertical-align:top"', ""))
     <table><caption>roll</caption><tbody><tr><th scope="row">width</th><td>1 m</td></tr></tbody></table>
     """
     body = [
@@ -94,9 +90,7 @@ def record_table(caption: str, rows: Sequence[Mapping[str, Any]]) -> Html:
 def _value_html(value: object) -> Html:
     """Plain data as markup: mappings folded, lists of records as tables, long lists cut."""
     if isinstance(value, Mapping):
-        return _details_element(
-            _count_text(len(value), "field", "fields"), name_value_table("", value.items())
-        )
+        return _details_element(_count_text(len(value), "field", "fields"), name_value_table("", value.items()))
     if isinstance(value, list | tuple):
         if value and all(isinstance(item, Mapping) for item in value):
             return _details_element(_count_text(len(value), "entry", "entries"), record_table("", value))

@@ -109,9 +109,7 @@ def _value_text(value: object) -> str:
         return "several fields" if isinstance(value, dict) else "a list"
     if isinstance(value, bool):
         return str(value).lower()
-    return shorten_text(
-        f'"{escape_line_breaks(value)}"' if isinstance(value, str) else repr(value), LONGEST_TEXT
-    )
+    return shorten_text(f'"{escape_line_breaks(value)}"' if isinstance(value, str) else repr(value), LONGEST_TEXT)
 
 
 def escape_line_breaks(text: str) -> str:
@@ -177,16 +175,10 @@ def _unit_reason(number: str, unit: str, kind: str | None, allows: Callable[[str
     others = [name for name, other in KINDS.items() if unit in other.units]
     if others:
         hint = next(
-            (
-                _CONFUSION_HINTS[kind or "", other]
-                for other in others
-                if (kind or "", other) in _CONFUSION_HINTS
-            ),
+            (_CONFUSION_HINTS[kind or "", other] for other in others if (kind or "", other) in _CONFUSION_HINTS),
             None,
         )
-        return f" ({KINDS[others[0]].noun}), expected {expected_text(kind, allows)}" + (
-            f"; {hint}" if hint else ""
-        )
+        return f" ({KINDS[others[0]].noun}), expected {expected_text(kind, allows)}" + (f"; {hint}" if hint else "")
     if re.search(r"\b(short |long )?tons?\b", unit, re.IGNORECASE):
         rest = re.sub(r"^.*?tons?", "", unit, flags=re.IGNORECASE)
         both = {f"{number} t{rest}": " (metric)", f"{number} short_ton{rest}": ""}

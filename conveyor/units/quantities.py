@@ -212,9 +212,9 @@ def interpolate_quantity(low: Quantity, high: Quantity, share: float) -> Quantit
     if low.dimensionality != high.dimensionality:
         raise InputError(f"got {text(low)} and {text(high)}, expected two of one kind")
     base, other = low.to_base_units(), high.to_base_units()
-    built: Quantity = _make_quantity(
-        base.magnitude + share * (other.magnitude - base.magnitude), base.units
-    ).to(low.units)
+    built: Quantity = _make_quantity(base.magnitude + share * (other.magnitude - base.magnitude), base.units).to(
+        low.units
+    )
     return _make_quantity(float(f"{built.magnitude:.9g}"), low.units)
 
 
@@ -401,9 +401,7 @@ class Measure:
     def _reads(self, allows: TextTest) -> Callable[[Any], Quantity]:
         return _pydantic_validator(partial(_read_quantity, kind=self.kind, allows=allows))
 
-    def __get_pydantic_json_schema__(
-        self, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         """Describe the field as text with a pattern (a fraction as a number too)."""
         kind = KINDS[self.kind]
         units = "|".join(re.escape(form) for form in sorted(kind.units, key=len, reverse=True) if form)

@@ -51,9 +51,7 @@ KINDS: dict[str, Kind] = {
     "mass": Kind("a mass", "kg g t lb short_ton", "15.5 kg", "kg", "lb"),
     "line mass": Kind("a mass per length", "kg/m lb/ft t/m", "16.4 kg/m", "kg/m", "lb/ft"),
     "area mass": Kind("a mass per area", "kg/m^2 lb/ft^2", "27 kg/m^2", "kg/m^2", "lb/ft^2"),
-    "belt mass": Kind(
-        "a mass per area or per length", "kg/m^2 lb/ft^2 kg/m lb/ft", "27 kg/m^2", "kg/m^2", "lb/ft^2"
-    ),
+    "belt mass": Kind("a mass per area or per length", "kg/m^2 lb/ft^2 kg/m lb/ft", "27 kg/m^2", "kg/m^2", "lb/ft^2"),
     "set mass": Kind("a mass of a set or per length", "kg g lb kg/m lb/ft", "15.5 kg", "kg", "lb"),
     "density": Kind("a density", "kg/m^3 t/m^3 lb/ft^3 g/cm^3", "850 kg/m^3", "kg/m^3", "lb/ft^3"),
     "force": Kind("a force", "N kN MN lbf", "2.5 N", "N", "lbf"),
@@ -72,9 +70,7 @@ KINDS: dict[str, Kind] = {
     "bending stiffness": Kind("a bending stiffness", "N*m^2 lbf*in^2", "30 N*m^2", "N*m^2", "lbf*in^2"),
     "viscosity": Kind("a kinematic viscosity", "mm^2/s cSt m^2/s", "100 mm^2/s", "mm^2/s", "cSt"),
     "temperature": Kind("a temperature", _TEMPERATURES, "20 degC", "degC", "degF"),
-    "temperature difference": Kind(
-        "a temperature difference", _DIFFERENCES, "50 K", "delta_degC", "delta_degF"
-    ),
+    "temperature difference": Kind("a temperature difference", _DIFFERENCES, "50 K", "delta_degC", "delta_degF"),
     "angle": Kind("an angle", "deg rad °", "35 deg", "deg", "deg"),
     "mass flow": Kind("a mass flow", "t/h tph kg/s short_ton/h stph lb/h kg/h", "2400 t/h", "t/h", "stph"),
     "volume flow": Kind("a volume flow", "m^3/h m^3/s ft^3/min", "2800 m^3/h", "m^3/h", "ft^3/min"),

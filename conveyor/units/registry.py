@@ -70,9 +70,7 @@ pound_per_inch_width = force_pound / inch = PIW
 """Definitions as in pint's file, and fpm, tph, stph, PIW."""
 
 
-REGISTRY: Final[pint.UnitRegistry[Any]] = pint.UnitRegistry(
-    _DEFINITIONS.splitlines(), on_redefinition="ignore"
-)
+REGISTRY: Final[pint.UnitRegistry[Any]] = pint.UnitRegistry(_DEFINITIONS.splitlines(), on_redefinition="ignore")
 REGISTRY.formatter.default_format = "~P"
 _PINT_NAMES: Final = {
     "°": "degree",

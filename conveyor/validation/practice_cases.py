@@ -82,9 +82,7 @@ def practice_figures() -> Iterator[PracticeFigure]:
         In the order of the collection.
     """
     folder = Path(str(resources.files("conveyor") / "_reference" / "practice"))
-    cases: list[dict[str, Any]] = YAML(typ="safe", pure=True).load(
-        (folder / "cases.yaml").read_text(encoding="utf-8")
-    )
+    cases: list[dict[str, Any]] = YAML(typ="safe", pure=True).load((folder / "cases.yaml").read_text(encoding="utf-8"))
     for case in cases:
         conveyor = load(folder / f"{case['spec']}.yaml")
         for figure in case["figures"]:

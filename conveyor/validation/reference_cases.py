@@ -161,9 +161,7 @@ def reference_cases() -> tuple[ReferenceCase, ...]:
                 radius=case["radius_over_spacing"],
                 thickness=math.inf if case["thickness_kh"] is None else case["thickness_kh"],
                 pressure=case["mean_pressure"],
-                creep=CreepSpectrum(
-                    case["instantaneous_compliance"], case["creep_weights"], case["creep_times_zeta"]
-                ),
+                creep=CreepSpectrum(case["instantaneous_compliance"], case["creep_weights"], case["creep_times_zeta"]),
             ),
             friction=case.get("friction"),
             half_width=case.get("half_width_over_R"),
@@ -214,9 +212,7 @@ def run_checks() -> list[ReferenceCheck]:
     return [check for group in groups for check in group]
 
 
-def _relative_check(
-    source: str, quantity: str, expected: float, got: float, tolerance: float
-) -> ReferenceCheck:
+def _relative_check(source: str, quantity: str, expected: float, got: float, tolerance: float) -> ReferenceCheck:
     return ReferenceCheck(source, quantity, expected, got, abs(got / expected - 1.0), tolerance)
 
 
@@ -236,9 +232,7 @@ def _reference_contacts() -> Iterator[ReferenceCheck]:
             off = 0.0 if strips > 1 else math.inf
             yield ReferenceCheck(_PROTOTYPE, f"strips, {case.name}", "several", str(strips), off, 0.0)
             continue
-        yield _relative_check(
-            _PROTOTYPE, f"friction μ [-], {case.name}", case.friction, contact.friction, _RTOL
-        )
+        yield _relative_check(_PROTOTYPE, f"friction μ [-], {case.name}", case.friction, contact.friction, _RTOL)
         for place in ("half_width", "eccentricity", "penetration"):
             expected, got = getattr(case, place), getattr(contact, place)
             off = abs(got - expected)
@@ -254,16 +248,10 @@ def _split_contacts() -> Iterator[ReferenceCheck]:
         creep = CreepSpectrum(0.1, [0.9], [3.0])
         contact = solve(ContactProblem("free", radius, 0.13, creep, 1.0), rtol=1e-9)
         name = f"R/λ {radius}"
-        yield _relative_check(
-            _STRIPS, f"friction μ [-], {name}", friction, contact.friction, _STRIP_TOLERANCE
-        )
-        yield _relative_check(
-            _STRIPS, f"penetration over R [-], {name}", depth, contact.penetration, _STRIP_TOLERANCE
-        )
+        yield _relative_check(_STRIPS, f"friction μ [-], {name}", friction, contact.friction, _STRIP_TOLERANCE)
+        yield _relative_check(_STRIPS, f"penetration over R [-], {name}", depth, contact.penetration, _STRIP_TOLERANCE)
         for k, (expected, got) in enumerate(zip(strips, contact.patches.ravel(), strict=True), 1):
-            yield _relative_check(
-                _STRIPS, f"edge {k} over R [-], {name}", expected, float(got), _STRIP_TOLERANCE
-            )
+            yield _relative_check(_STRIPS, f"edge {k} over R [-], {name}", expected, float(got), _STRIP_TOLERANCE)
 
 
 def _isolated_contact(modulus_ratio: float, memory: float) -> tuple[ContactSolution, float]:
@@ -329,9 +317,7 @@ def _iso_5048() -> Iterator[ReferenceCheck]:
         "skirt_friction": 0.7,
         "gravity": g,
     }
-    zone_skirt = resistance.acceleration_skirt_resistance(
-        **chute, length=zone, belt_speed=speed, initial_speed=0.0
-    )
+    zone_skirt = resistance.acceleration_skirt_resistance(**chute, length=zone, belt_speed=speed, initial_speed=0.0)
     special = resistance.skirt_resistance(**chute, length=4.8, bulk_speed=speed)
     special += resistance.cleaner_resistance(4 * 1.2 * 0.008, pressure=3e4, friction=0.6)
     secondary = acceleration + zone_skirt + 2 * 360.0  # two wraps of 360 N
@@ -363,9 +349,7 @@ def _pulley_shaft() -> Iterator[ReferenceCheck]:
     whole = pulley.pulley_resultant(pull(*start), weight=weight, pull_angle=math.radians(92.0))
     moment = pulley.hub_moment(whole, bearing_centres=2.56, hub_centres=1.8)
     # tensions printed to 0.01 kN: half a unit added
-    yield _printed_check(
-        _HELIX, "half resultant, run [kN]", "121.45", pull(120.75e3, 122.14e3) / 2e3, units=1.0
-    )
+    yield _printed_check(_HELIX, "half resultant, run [kN]", "121.45", pull(120.75e3, 122.14e3) / 2e3, units=1.0)
     yield _printed_check(_HELIX, "half resultant, start [kN]", "169.76", pull(*start) / 2e3)
     yield _printed_check(_HELIX, "bending moment at the hub [kN m]", "64.58", moment / 1e3)
     yield _printed_check(_HELIX, "torque [N m]", "1748", 0.5 * (start[1] - start[0]) * 0.874)
@@ -397,9 +381,7 @@ def _take_up_and_sag() -> Iterator[ReferenceCheck]:
     ):  # fmt: skip
         whole = line_mass + loading.bulk_line_mass(flow / 3.6, belt_speed=speed)
         least = tension.sag_tension(whole, spacing=spacing, relative_sag=sag, gravity=g)
-        yield _printed_check(
-            _HELIX_PRINTED, f"tension for {100 * sag:g} % sag, {name} [kN]", figure, least / 1e3
-        )
+        yield _printed_check(_HELIX_PRINTED, f"tension for {100 * sag:g} % sag, {name} [kN]", figure, least / 1e3)
 
 
 def _motor_starts() -> Iterator[ReferenceCheck]:
@@ -416,13 +398,9 @@ def _transition_lengths() -> Iterator[ReferenceCheck]:
     # M, ΔT: induced in the edge against the middle
     expected = wing * math.sqrt(stiffness / induced * (1.0 - math.cos(lam)))
     got = math.sqrt(stiffness * (zone.edge - zone.middle) / induced)
-    yield _relative_check(
-        _TRANSITION, "length [m], 1.2 m, 35 deg, ΔT 40 N/mm", expected, got, _IDENTITY_TOLERANCE
-    )
+    yield _relative_check(_TRANSITION, "length [m], 1.2 m, 35 deg, ΔT 40 N/mm", expected, got, _IDENTITY_TOLERANCE)
     for depth in (1.0, 0.5):  # of the trough, from the pulley to its edge: z = h, z = h/2
-        zone = transition.transition_stretch(
-            1.2, middle_roll_length=0.4, trough_angle=lam, pulley_height=1.0 - depth
-        )
+        zone = transition.transition_stretch(1.2, middle_roll_length=0.4, trough_angle=lam, pulley_height=1.0 - depth)
         raised = (1.0 - depth) * wing * math.sin(lam)
         expected = math.sqrt(0.5 * stiffness / induced) * math.hypot(
             wing * (1.0 - math.cos(lam)), depth * wing * math.sin(lam)
@@ -485,9 +463,7 @@ def _transfer_figures() -> Iterator[ReferenceCheck]:
         loading.usable_width(1.4), middle_roll_length=0.53, trough_angle=math.radians(45.0),
         surcharge_angle=math.radians(30.0),
     )  # fmt: skip
-    yield _relative_check(
-        _SANDVIK, "load of the middle roll [N]", 1856.0, 1.2 * share * set_load, 0.005 / 0.70
-    )
+    yield _relative_check(_SANDVIK, "load of the middle roll [N]", 1856.0, 1.2 * share * set_load, 0.005 / 0.70)
     stream = transfer.stream_impact(1.0 / 3.6, drop_height=1.0, gravity=9.81)
     yield _printed_check(_RULMECA, "t/h √m over the impact [1/kgf]", "8", 9.81 / stream)
 
@@ -496,13 +472,9 @@ def _horizontal_curve() -> Iterator[ReferenceCheck]:
     """Empty belt of 0.8 m that has drifted inside by 60 mm: 156.71475 N a set, 30 deg, banked by 1.46 deg."""
     weight, wing, middle = 156.71475, 0.2425, 0.315
     angles = {"trough_angle": math.radians(30.0), "banking_angle": math.radians(1.46)}
-    centred = [
-        loading.RollLoad("", 0.0, weight * width / 0.8, width, "uniform") for width in (wing, middle, wing)
-    ]
+    centred = [loading.RollLoad("", 0.0, weight * width / 0.8, width, "uniform") for width in (wing, middle, wing)]
     drifted = horizontal_curve.drifted_loads(centred, 0.06, roll_length=middle)
-    for name, width, load in zip(
-        ("inside", "middle", "outside"), (0.3025, 0.315, 0.1825), drifted, strict=True
-    ):
+    for name, width, load in zip(("inside", "middle", "outside"), (0.3025, 0.315, 0.1825), drifted, strict=True):
         yield _relative_check(_CURVE, f"belt on the {name} roll [m]", width, load.length, _IDENTITY_TOLERANCE)
     bare = horizontal_curve.outward_force_factors((0.0, 0.0, 0.0), **angles)
     factors = (1.1, 0.9, 1.1)  # load factors of the wings and of the middle, Part II
@@ -513,17 +485,11 @@ def _horizontal_curve() -> Iterator[ReferenceCheck]:
         weights,
         strict=True,
     ):
-        yield _relative_check(
-            _CURVE, f"weight outward on the {name} roll [N]", printed, got, _CURVE_TOLERANCE
-        )
-    yield _relative_check(
-        _CURVE, "weight outward, set [N]", 16.6458157575333, math.fsum(weights), _CURVE_TOLERANCE
-    )
+        yield _relative_check(_CURVE, f"weight outward on the {name} roll [N]", printed, got, _CURVE_TOLERANCE)
+    yield _relative_check(_CURVE, "weight outward, set [N]", 16.6458157575333, math.fsum(weights), _CURVE_TOLERANCE)
     guided = horizontal_curve.outward_force_factors((0.0, 0.70 * 0.279588668362082, 0.0), **angles)
     force = horizontal_curve.outward_force(drifted, guided) - horizontal_curve.outward_force(drifted, bare)
-    yield _relative_check(
-        _CURVE, "friction outward of the middle roll [N]", 16.77059015, force, _CURVE_TOLERANCE
-    )
+    yield _relative_check(_CURVE, "friction outward of the middle roll [N]", 16.77059015, force, _CURVE_TOLERANCE)
 
 
 def _flat_sets() -> Iterator[ReferenceCheck]:
@@ -547,9 +513,7 @@ def _flat_sets() -> Iterator[ReferenceCheck]:
     settles = tension_ * apart / (weight * slope)  # length over which the course turns back [m]
     expected, got = 1e3 * turned, 1e3 * drift / length
     yield _relative_check(_FLAT, "drift per metre inside the curve [mm]", expected, got, _CURVE_TOLERANCE)
-    yield _relative_check(
-        _FLAT, "drift at the end of the curve [m]", way, drift, settles / (length - settles)
-    )
+    yield _relative_check(_FLAT, "drift at the end of the curve [m]", way, drift, settles / (length - settles))
 
 
 def _five_rolls() -> Iterator[ReferenceCheck]:
@@ -578,9 +542,7 @@ def _five_rolls() -> Iterator[ReferenceCheck]:
     weight, expected = 250.0, 250.0 * (point(0.9)[1] - point(0.7)[1])
     half = [
         wing.length
-        for wing in loading.wing_pieces(
-            1.6, middle_roll_length=roll, trough_angle=angles[1], inner_wing=inner
-        )
+        for wing in loading.wing_pieces(1.6, middle_roll_length=roll, trough_angle=angles[1], inner_wing=inner)
     ]
     belt = [loading.RollLoad("", 0.0, weight * on, on, "uniform") for on in (*reversed(half), roll, *half)]
     pushes = horizontal_curve.outward_force_factors(
@@ -639,13 +601,7 @@ def _starts_and_stops() -> Iterator[ReferenceCheck]:
         yield _relative_check(_NORDELL, f"arrival of the front of a stop {where} [s]", measured, got, 0.015)
     start = harrison_start()
     yield _relative_check(_HARRISON, "return belt at rest after the start until [s]", 7.6, start.still, 0.07)
-    yield _relative_check(
-        _HARRISON, "way of the take-up's carriage at 7 s, about [m]", 2.0, start.carriage, 0.1
-    )
-    yield _relative_check(
-        _HARRISON, "slow period of the take-up, motors not printed [s]", 24.9, start.period, 0.15
-    )
+    yield _relative_check(_HARRISON, "way of the take-up's carriage at 7 s, about [m]", 2.0, start.carriage, 0.1)
+    yield _relative_check(_HARRISON, "slow period of the take-up, motors not printed [s]", 24.9, start.period, 0.15)
     for shape, printed in (("linear", 0.0246), ("cosine", 0.0303), ("S", 0.0382)):
-        yield _relative_check(
-            _LODEWIJKS, f"peak strain, 30 s, {shape} ramp [-]", printed, lodewijks_start(shape), 0.15
-        )
+        yield _relative_check(_LODEWIJKS, f"peak strain, 30 s, {shape} ramp [-]", printed, lodewijks_start(shape), 0.15)

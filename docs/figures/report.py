@@ -55,9 +55,7 @@ def main() -> None:
         book, page, compared = folder / "a.xlsx", folder / "a.html", folder / "c.xlsx"
         sheets = folder / "sheets.pdf"
         run("conveyor", "power", SPECS / "overland_10km.yaml", "-o", book, "--html", page, "--pdf", sheets)
-        run(
-            "conveyor", "compare", SPECS / "overland.yaml", *covers, "--temperature=-20:40:20", "-o", compared
-        )
+        run("conveyor", "compare", SPECS / "overland.yaml", *covers, "--temperature=-20:40:20", "-o", compared)
         of_workbook(book, "workbook")
         of_pdf(sheets, "pdf")
         of_workbook(compared, "comparison")

@@ -259,9 +259,7 @@ def test_a_belt_tells_what_the_short_rules_do_to_it(rtol):
 def test_a_belt_carries_the_load_it_is_asked_for():
     # where its load rises with the half width unlike that of the low order, the load is met all the same
     creep = CreepSpectrum(0.0151929, [0.03258744, 0.95221966], [1.57812578, 1.10680536])
-    top = CreepSpectrum(
-        0.03783249, [0.09653433, 0.24264424, 0.62298894], [101.80438, 725.213112, 3.40981167e-7]
-    )
+    top = CreepSpectrum(0.03783249, [0.09653433, 0.24264424, 0.62298894], [101.80438, 725.213112, 3.40981167e-7])
     belt = Belt(
         0.00462876377,
         0.00462876377,

@@ -35,9 +35,7 @@ by_scene = pytest.mark.parametrize("name", SCENES)
 
 
 def at(problem, pressure):
-    return ContactProblem(
-        problem.support, problem.radius, pressure, problem.creep, problem.thickness, problem.poisson
-    )
+    return ContactProblem(problem.support, problem.radius, pressure, problem.creep, problem.thickness, problem.poisson)
 
 
 @by_scene

@@ -87,9 +87,7 @@ def test_one_load_is_a_curve_too():
     assert curve.at(HIGH[0]).friction == pytest.approx(solve(SCENES[0], 1e-6).friction, rel=1.1e-4)
 
 
-@pytest.mark.parametrize(
-    ("low", "high"), [([1.0], [0.5]), ([0.0], [1.0]), ([0.1, 0.1], [1.0, 1.0]), ([np.nan], [1.0])]
-)
+@pytest.mark.parametrize(("low", "high"), [([1.0], [0.5]), ([0.0], [1.0]), ([0.1, 0.1], [1.0, 1.0]), ([np.nan], [1.0])])
 def test_ranges_are_refused(low, high):
     with pytest.raises(InputError, match=r"one of each for every scene, 0 < lowest <= highest"):
         load_curves(SCENES[:1], low, high)

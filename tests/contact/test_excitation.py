@@ -50,9 +50,7 @@ def test_narrow_band_is_that_of_the_plain_sum():
 
 
 def test_band_moves_with_the_speed_and_narrows_with_one_sharp_time():
-    slow, fast = (
-        solve(replace(NARROW, creep=CreepSpectrum(0.9, [0.1], [zeta]))).excitation() for zeta in (1e-2, 1e-4)
-    )
+    slow, fast = (solve(replace(NARROW, creep=CreepSpectrum(0.9, [0.1], [zeta]))).excitation() for zeta in (1e-2, 1e-4))
     # the loss sits where mζ is one, or where the contact's width ends, whichever is lower
     assert slow[1] < fast[1]
     assert slow[1] < 1.0 / 1e-2 * 3.0

@@ -103,9 +103,7 @@ def test_depth_in_place_of_load(name):
 
 def test_elastic_contact_is_symmetric():
     found = solve_grid(replace(SCENES["free"], creep=CreepSpectrum(1.0)), 1024)
-    np.testing.assert_allclose(
-        found.pressure, found.pressure[::-1], rtol=0, atol=1e-10 * found.pressure.max()
-    )
+    np.testing.assert_allclose(found.pressure, found.pressure[::-1], rtol=0, atol=1e-10 * found.pressure.max())
     assert abs(found.friction) < 1e-12
     assert found.friction_by_loss == 0.0
 
@@ -143,9 +141,7 @@ def test_load_and_compliance_scale(name):
         problem,
         pressure=2.0 * problem.pressure,
         # an instant term of long memory takes half of the compliance out of play
-        creep=CreepSpectrum(
-            0.5 * problem.creep.instantaneous, [*(0.5 * problem.creep.weights), 0.5], [*times, 1e12]
-        ),
+        creep=CreepSpectrum(0.5 * problem.creep.instantaneous, [*(0.5 * problem.creep.weights), 0.5], [*times, 1e12]),
     )
     soft, hard = solve_grid(problem, 512), solve_grid(stiff, 512)
     np.testing.assert_allclose(hard.pressure, 2.0 * soft.pressure, rtol=0, atol=1e-9 * hard.pressure.max())
@@ -205,9 +201,7 @@ def test_exchanges_are_bounded(monkeypatch):
 
 
 # a thin free plate on whose grid block exchanges run in circles
-PLATE = ContactProblem(
-    "free", 0.259, 3.33e-4, CreepSpectrum(1.5e-6, [0.5, 0.4999985], [149.0, 2.56e6]), 0.00167, 0.16
-)
+PLATE = ContactProblem("free", 0.259, 3.33e-4, CreepSpectrum(1.5e-6, [0.5, 0.4999985], [149.0, 2.56e6]), 0.00167, 0.16)
 
 
 class TestRaisedFromNothing:

@@ -81,9 +81,7 @@ def test_shapes_obey_equilibrium_and_compatibility(shapes, q, poisson):
     domain, bulk = (0.0, q), 1.0 - 2.0 * poisson
 
     def component(index):
-        return Chebyshev.interpolate(
-            lambda y: shapes(np.array([q]), y, q - y, poisson)[index], DEGREE, domain=domain
-        )
+        return Chebyshev.interpolate(lambda y: shapes(np.array([q]), y, q - y, poisson)[index], DEGREE, domain=domain)
 
     D, T, H, U = (component(index) for index in range(4))
     y = np.linspace(0.0, q, 33)
@@ -95,9 +93,7 @@ def test_shapes_obey_equilibrium_and_compatibility(shapes, q, poisson):
     assert T.deriv()(y) == pytest.approx(-(H + D)(y), abs=tolerance)
     assert (H - D).deriv()(y) == pytest.approx(T(y), abs=tolerance)
     assert U.deriv()(y) == pytest.approx((bulk * H - D)(y), abs=tolerance * max(1.0, np.abs(U(y)).max()))
-    assert (U - (D + bulk * H).deriv())(y) == pytest.approx(
-        2.0 * T(y), abs=tolerance * max(1.0, np.abs(U(y)).max())
-    )
+    assert (U - (D + bulk * H).deriv())(y) == pytest.approx(2.0 * T(y), abs=tolerance * max(1.0, np.abs(U(y)).max()))
 
 
 @pytest.mark.parametrize("poisson", [0.5, 0.3, 0.0])
@@ -116,9 +112,7 @@ def test_faces(q, poisson):
         bending = max(1.0, 6.0 / q**2) if shapes is free_shapes else 1.0
         assert (H - D)[0] == pytest.approx(-1.0, abs=1e-14 * bending)
         assert T[0] == pytest.approx(0.0, abs=1e-14 * bending)
-        if (
-            q > 1e-3 or shapes is free_shapes
-        ):  # below, its cancelling displacement is smaller than its own rounding
+        if q > 1e-3 or shapes is free_shapes:  # below, its cancelling displacement is smaller than its own rounding
             assert U[0] == pytest.approx(2.0 * (1.0 - poisson) * symbol[0], rel=1e-9)
     D, T, H, U = confined_shapes(*bottom, poisson)
     assert (D + (1.0 - 2.0 * poisson) * H)[0] == pytest.approx(0.0, abs=1e-15)  # u_x
@@ -222,9 +216,7 @@ def test_surface_is_the_profile(name):
     assert fields.displacement_z[0] == pytest.approx(found.profile(x), abs=5e-5 * depth)
     inner = slice(0, 3)
     mean = sum(found.pressure(np.linspace(-math.pi, math.pi, 200_001) / found.problem.rho)[:-1]) / 200_000
-    assert fields.stress_zz[0, inner] - mean == pytest.approx(
-        -found.pressure(x[inner]), abs=1e-4 * found.peak_pressure
-    )
+    assert fields.stress_zz[0, inner] - mean == pytest.approx(-found.pressure(x[inner]), abs=1e-4 * found.peak_pressure)
     assert fields.stress_xz[0] == pytest.approx(0.0, abs=1e-12)
 
 
@@ -260,9 +252,7 @@ def test_far_face_of_a_free_layer_carries_nothing(name):
 def test_spacing_does_not_matter_to_aconfined_shapes_layer():
     """Spacing 1, 2, 4: R/λ, k h and ζ shrink, p̃_m = (1-ν²) w/(π E0 R) stays."""
     problems = [
-        ContactProblem(
-            "confined", 0.066 / n, 0.0037, CreepSpectrum(0.2, [0.4, 0.4], [0.02 / n, 0.2 / n]), 0.0314 / n
-        )
+        ContactProblem("confined", 0.066 / n, 0.0037, CreepSpectrum(0.2, [0.4, 0.4], [0.02 / n, 0.2 / n]), 0.0314 / n)
         for n in (1, 2, 4)
     ]
     first, *others = [interior(s, depths=12) for s in solve_many(problems, rtol=1e-9)]
@@ -325,9 +315,7 @@ def test_mean_wave_number_of_a_slow_belt():
     reach = 4.0 * 192.0
     # J1² ~ 1/(πx): what lies beyond the reach is 2/(π reach) of the weight, times ln(reach) + 1
     missed = 2.0 / (math.pi * 0.62 * reach) * (math.log(reach) + 1.0)
-    assert math.log(inside.wave_number * alpha) == pytest.approx(
-        0.5 + math.log(2.0) - np.euler_gamma, abs=1.5 * missed
-    )
+    assert math.log(inside.wave_number * alpha) == pytest.approx(0.5 + math.log(2.0) - np.euler_gamma, abs=1.5 * missed)
 
 
 @by_scene
@@ -364,9 +352,7 @@ def test_elastic_layers_have_no_dissipation_to_weight_with():
     inside = interior(hertz())
     assert inside.friction == inside.energy_error == inside.wave_number == 0.0
     assert 1e-3 < inside.error_estimate < 0.1  # 16 depths over the six decades from a to λ
-    with pytest.raises(
-        NoSolutionError, match="an elastic layer dissipates nothing to weight with; use maximum"
-    ):
+    with pytest.raises(NoSolutionError, match="an elastic layer dissipates nothing to weight with; use maximum"):
         _ = inside.working_strain
 
 

@@ -15,7 +15,6 @@ from conveyor.contact import (
     Free,
     HalfSpace,
     Status,
-    one_strip_batch,
     solve,
     solve_many,
 )
@@ -32,7 +31,7 @@ from conveyor.contact.galerkin.short_rule import (
 from conveyor.contact.galerkin.spectral import Contact, assemble_matrix
 from conveyor.contact.layers.creep import CreepBatch
 from conveyor.contact.layers.layer_models import PlainLayerBatch
-from conveyor.contact.solvers import load_control
+from conveyor.contact.solvers import load_control, one_strip_batch
 from conveyor.contact.solvers.acceptance import WRAP_EXTENT, pressure_signs
 from conveyor.contact.solvers.one_strip import HalfWidthStart, solve_one_strip
 from conveyor.contact.solvers.one_strip_batch import UnsolvedReason, solve_batch
@@ -60,9 +59,7 @@ def test_a_half_width_with_no_place_on_the_roll_is_half_way_back_to_the_last_too
 @pytest.mark.parametrize(("tolerated", "pressing"), [(1.2, True), (0.8, False)])
 def test_a_contact_presses_where_its_tension_carries_no_more_than_is_tolerated(tolerated, pressing):
     # p = sin θ + 0.6 sin 2θ = sin θ (1 + 1.2 cos θ) pulls where cos θ < -1/1.2; the load is π/2
-    pull, _ = integrate.quad(
-        lambda t: -(np.sin(t) ** 2) * (1.0 + 1.2 * np.cos(t)), np.arccos(-1.0 / 1.2), np.pi
-    )
+    pull, _ = integrate.quad(lambda t: -(np.sin(t) ** 2) * (1.0 + 1.2 * np.cos(t)), np.arccos(-1.0 / 1.2), np.pi)
     one = np.ones(1)
     contact = Contact(one, 0.0 * one, np.array([[1.0, 0.6, *[0.0] * 6]]), one, one, one > 0.0)
     found = pressure_signs(contact, tolerated * pull / (0.5 * np.pi))
@@ -151,9 +148,7 @@ def test_short_rules_make_the_matrix_of_the_full_rule(support, half_width, thick
 def test_the_batch_agrees_with_the_general_way(rtol):
     problems = conveyors(12)
     for problem, left in zip(problems, solve_batch(problems, rtol), strict=True):
-        outcome = (
-            solve_one_strip(SolverState.of(problem), rtol, left) if isinstance(left, HalfWidthStart) else left
-        )
+        outcome = solve_one_strip(SolverState.of(problem), rtol, left) if isinstance(left, HalfWidthStart) else left
         exact = solve_one_strip(SolverState.of(problem), 1e-10).found
         true_error = abs(outcome.found.friction / exact.friction - 1.0)
         assert true_error <= rtol
@@ -206,9 +201,7 @@ def test_wide_contacts_agree_with_the_general_way(support, pressure, zeta, rtol)
     exact = solve_one_strip(SolverState.of(problem), 1e-12).found
     (outcome,) = solve_batch([problem], rtol)
     outcome = (
-        solve_one_strip(SolverState.of(problem), rtol, outcome)
-        if isinstance(outcome, HalfWidthStart)
-        else outcome
+        solve_one_strip(SolverState.of(problem), rtol, outcome) if isinstance(outcome, HalfWidthStart) else outcome
     )
     assert abs(outcome.found.friction / exact.friction - 1.0) <= outcome.found.error_estimate <= rtol
     assert outcome.found.half_width == pytest.approx(exact.half_width, abs=10.0 * rtol)
@@ -222,9 +215,7 @@ def test_layers_of_ones_own_are_narrow_too(own):
         def symbol(self, m, creep):
             return own.symbol(m, creep)
 
-    scenes = [
-        ContactProblem(layer, 0.1, 1e-4, CreepSpectrum(0.1, [0.9], [0.1])) for layer in (own, Wrapped())
-    ]
+    scenes = [ContactProblem(layer, 0.1, 1e-4, CreepSpectrum(0.1, [0.9], [0.1])) for layer in (own, Wrapped())]
     known, asked = solve_many(scenes)
     assert asked.stats.way == known.stats.way == "narrow"
     assert asked.friction == pytest.approx(known.friction, rel=1e-7)
@@ -261,9 +252,7 @@ def test_friction_keeps_its_relative_precision_however_small(pressure, zeta):
     exact = solve_one_strip(SolverState.of(problem), 1e-10).found
     (outcome,) = solve_batch([problem], 1e-6)
     outcome = (
-        solve_one_strip(SolverState.of(problem), 1e-6, outcome)
-        if isinstance(outcome, HalfWidthStart)
-        else outcome
+        solve_one_strip(SolverState.of(problem), 1e-6, outcome) if isinstance(outcome, HalfWidthStart) else outcome
     )
     assert abs(outcome.found.friction / exact.friction - 1.0) <= outcome.found.error_estimate <= 1e-6
 

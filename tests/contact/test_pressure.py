@@ -114,9 +114,7 @@ def test_orders_are_asked_for_down_to_the_lengths_in_which_rubber_flows():
         for later in (1.0, 10.0):
             creep = CreepSpectrum(instantaneous, [1.0 - instantaneous], [1.0 / (later * seen)])
             expected = n * math.sqrt(later / instantaneous)
-            assert flow_order(creep, alpha, n) == pytest.approx(
-                expected, rel=0.06
-            )  # 24 wave numbers a decade
+            assert flow_order(creep, alpha, n) == pytest.approx(expected, rel=0.06)  # 24 wave numbers a decade
     assert flow_order(CreepSpectrum(0.3, [0.7], [1e-6]), alpha, n) == n  # tangent 0.64 at most
     assert flow_order(CreepSpectrum(1.0), alpha, n) == n
     # six decades in which pressure falls before two in which it grows

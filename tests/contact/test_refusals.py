@@ -105,9 +105,7 @@ FIGURES = (
 
 class TestWrapped:
     def test_raises_with_advice(self):
-        with pytest.raises(
-            NoSolutionError, match=r"beyond its half circle.*lower the load, or enlarge the radius"
-        ):
+        with pytest.raises(NoSolutionError, match=r"beyond its half circle.*lower the load, or enlarge the radius"):
             solve(WRAPPED)
 
     def test_is_returned_for_batches(self):
@@ -132,9 +130,7 @@ class TestWrapped:
 
 class TestNotConverged:
     def test_raises_with_advice(self):
-        with pytest.raises(
-            NoSolutionError, match=r"did not reach the tolerance: see error_estimate; ask for"
-        ):
+        with pytest.raises(NoSolutionError, match=r"did not reach the tolerance: see error_estimate; ask for"):
             solve(SHARP, rtol=1e-12)
 
     def test_has_figures_with_their_error(self):
@@ -153,17 +149,13 @@ def test_limit_of_the_load_is_said():
     near = solve(problem(support="half-space", pressure=0.9 * limit))
     assert near.status is Status.OK
     assert near.outer_edge > 0.95
-    assert (
-        solve(problem(support="half-space", pressure=10.0 * limit), throw=False).status is Status.WRAP_LIMIT
-    )
+    assert solve(problem(support="half-space", pressure=10.0 * limit), throw=False).status is Status.WRAP_LIMIT
 
 
 def test_every_status_but_ok_says_what_to_change():
     for status in Status:
         assert status.message
-        assert (status is Status.OK) != any(
-            word in status.message for word in ("lower", "smaller", "ask for")
-        )
+        assert (status is Status.OK) != any(word in status.message for word in ("lower", "smaller", "ask for"))
 
 
 def test_a_batch_goes_on_after_a_refusal():
@@ -202,9 +194,7 @@ def test_deeper_than_the_radius_is_a_status_of_its_own():
 
 def test_a_load_far_beyond_the_limit_is_refused_on_a_coarse_grid():
     # 15 s on grids of up to 4096 nodes on the roll before; the limit was not always named
-    thin = ContactProblem(
-        "free", 0.00112, 0.239, CreepSpectrum(8.5e-6, [1.0 - 8.5e-6], [16.92]), 0.00166, 0.49
-    )
+    thin = ContactProblem("free", 0.00112, 0.239, CreepSpectrum(8.5e-6, [1.0 - 8.5e-6], [16.92]), 0.00166, 0.49)
     found = solve(thin, throw=False)
     assert found.status is Status.WRAP_LIMIT
     assert float(found.message.rsplit(" ", 1)[1]) == pytest.approx(7e-6, rel=0.2)
@@ -213,9 +203,7 @@ def test_a_load_far_beyond_the_limit_is_refused_on_a_coarse_grid():
 
 @pytest.mark.parametrize("given", [np.zeros_like, lambda m: np.nan * m, lambda m: -1.0 / m, lambda m: m[:2]])
 def test_a_layer_that_is_none_is_refused(given):
-    with pytest.raises(
-        InputError, match=r"5 wave numbers must be as many finite complex numbers with a positive"
-    ):
+    with pytest.raises(InputError, match=r"5 wave numbers must be as many finite complex numbers with a positive"):
         problem(support=SimpleNamespace(reach=1.0, symbol=lambda m, _: given(m)))
 
 

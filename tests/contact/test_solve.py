@@ -121,9 +121,7 @@ def test_surface_repeats_from_roll_to_roll(solutions, name):
     period = 1.0 / found.problem.radius  # λ/R
     x = np.array([-0.4, -0.1, 0.0, 0.3]) * period
     # cos(m X) of X larger by 2π keeps m 2π times rounding
-    np.testing.assert_allclose(
-        found.profile(x + period), found.profile(x), rtol=0, atol=1e-9 * abs(found.penetration)
-    )
+    np.testing.assert_allclose(found.profile(x + period), found.profile(x), rtol=0, atol=1e-9 * abs(found.penetration))
 
 
 @by_scene
@@ -192,9 +190,7 @@ class TestCreepSpectrum:
         problem = SCENES[name]
         given = problem.creep
         part = 0.4 * given.instantaneous
-        creep = CreepSpectrum(
-            given.instantaneous - part, np.append(given.weights, part), np.append(given.times, 0.0)
-        )
+        creep = CreepSpectrum(given.instantaneous - part, np.append(given.weights, part), np.append(given.times, 0.0))
         same(problem, changed(problem, creep))
 
     def test_order_of_the_terms_does_not_matter(self, name):
@@ -209,9 +205,7 @@ class TestCreepSpectrum:
         given = problem.creep
         gap = 1e-5
         weights = np.concatenate([[0.5 * given.weights[0]] * 2, given.weights[1:]])
-        times = np.concatenate(
-            [given.times[:1] * (1.0 - gap), given.times[:1] * (1.0 + gap), given.times[1:]]
-        )
+        times = np.concatenate([given.times[:1] * (1.0 - gap), given.times[:1] * (1.0 + gap), given.times[1:]])
         same(
             problem,
             changed(problem, CreepSpectrum(given.instantaneous, weights, times)),
@@ -233,9 +227,7 @@ def test_a_relaxed_modulus_scales_the_pressure():
 @pytest.mark.parametrize("zeta", [1e-9, 1e-12, 1e-30, 1e-95])
 def test_friction_of_a_short_memory_is_linear_to_the_last_digit(zeta):
     # isolated half-space: μ = (Vτ/R)(1 - j∞) = ζ (1 - j∞)/ρ; circle (a/R)² = 4e-8 and images α² = 2e-12 remain
-    found = solve(
-        ContactProblem("half-space", 1e-3, 1e-8, CreepSpectrum(0.1, [0.9], [zeta * 1e-5])), rtol=1e-6
-    )
+    found = solve(ContactProblem("half-space", 1e-3, 1e-8, CreepSpectrum(0.1, [0.9], [zeta * 1e-5])), rtol=1e-6)
     assert found.friction == pytest.approx(0.9 * zeta * 1e-5 / found.problem.rho, rel=1e-6)
     assert found.eccentricity > 0.0
 
@@ -243,10 +235,7 @@ def test_friction_of_a_short_memory_is_linear_to_the_last_digit(zeta):
 @pytest.mark.parametrize("name", ["free", "confined", "half-space", "thin"])
 def test_short_memories_are_proportional(name):
     problem = SCENES[name]
-    per_time = [
-        solve(changed(problem, CreepSpectrum(0.1, [0.9], [z])), rtol=1e-6).friction / z
-        for z in (1e-10, 1e-12)
-    ]
+    per_time = [solve(changed(problem, CreepSpectrum(0.1, [0.9], [z])), rtol=1e-6).friction / z for z in (1e-10, 1e-12)]
     # next term of the order of ζ/α ln(α/ζ), α > 0.01
     assert per_time[0] == pytest.approx(per_time[1], rel=1e-6)
 
@@ -434,8 +423,7 @@ def test_strips_that_a_grid_makes_of_an_edge_layer_are_one():
     times = [0.00487, 0.0829, 0.0594, 432.0, 0.0149]
     creep = CreepSpectrum(3.7e-6, [0.00927, 0.113, 0.0204, 0.503, 0.3543263], times)
     lighter, found, heavier = (
-        solve(ContactProblem("free", 8e-4, pressure, creep, 0.35), throw=False)
-        for pressure in (0.09, 0.0954, 0.1)
+        solve(ContactProblem("free", 8e-4, pressure, creep, 0.35), throw=False) for pressure in (0.09, 0.0954, 0.1)
     )
     assert found.status is Status.TOO_DEEP
     assert len(found.patches) == 1
@@ -466,12 +454,8 @@ def test_edges_and_peak_keep_their_error_estimates(instantaneous, time):
 
 SHARP = {
     "half-space": ContactProblem("half-space", 0.188, 0.0204, CreepSpectrum(0.00168, [0.99832], [0.00943])),
-    "thin confined": ContactProblem(
-        "confined", 0.36, 0.0371, CreepSpectrum(0.000851, [0.999149], [0.00397]), 0.0395
-    ),
-    "confined": ContactProblem(
-        "confined", 0.31, 0.00249, CreepSpectrum(0.00118, [0.99882], [0.00267]), 0.089
-    ),
+    "thin confined": ContactProblem("confined", 0.36, 0.0371, CreepSpectrum(0.000851, [0.999149], [0.00397]), 0.0395),
+    "confined": ContactProblem("confined", 0.31, 0.00249, CreepSpectrum(0.00118, [0.99882], [0.00267]), 0.089),
     "free": ContactProblem("free", 0.248, 0.0602, CreepSpectrum(0.0005, [0.9995], [0.0502]), 1.73),
 }
 

@@ -54,9 +54,7 @@ def test_matrix_is_the_plain_sum(layer, creep):
     rule = build_rule(layer, creep, alpha)
     matrix = assemble_matrix(rule, creep, np.array([alpha]), ORDER)[0]
     # the rest of the plain sum: J J <= 2/(π m α), so at most 2 v Σ_{m>M} 2/(π α m²) = 4 v/(π α M) with α M = 3e4
-    np.testing.assert_allclose(
-        matrix, _plain_sum(layer, creep, alpha), rtol=0, atol=4 * ORDER / (math.pi * 3e4)
-    )
+    np.testing.assert_allclose(matrix, _plain_sum(layer, creep, alpha), rtol=0, atol=4 * ORDER / (math.pi * 3e4))
 
 
 @by_layer
@@ -122,15 +120,13 @@ def test_a_batch_is_its_members():
 def test_elastic_half_space_matrix_is_the_identity_with_images():
     # Σ_m J_v J_i/m → ∫: the diagonal of the isolated half-space is -1, images fall with α²
     alpha = 1e-4
-    matrix = assemble_matrix(
-        build_rule(HalfSpace(), TERMS["elastic"], alpha), TERMS["elastic"], np.array([alpha]), 8
-    )[0]
+    matrix = assemble_matrix(build_rule(HalfSpace(), TERMS["elastic"], alpha), TERMS["elastic"], np.array([alpha]), 8)[
+        0
+    ]
     np.testing.assert_allclose(matrix[1:], -np.eye(8), rtol=0, atol=alpha**2)
     np.testing.assert_allclose(matrix[0], 0.0, rtol=0, atol=alpha**2)
 
 
 def test_a_layer_too_thin_for_the_contact_is_refused_with_the_reason():
-    with pytest.raises(
-        NoSolutionError, match=r"too wide for so thin a layer .*thicker layer or a smaller load"
-    ):
+    with pytest.raises(NoSolutionError, match=r"too wide for so thin a layer .*thicker layer or a smaller load"):
         build_rule(Confined(1e-9), TERMS["near"], 1.0)

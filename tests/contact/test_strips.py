@@ -47,9 +47,9 @@ def solved(problem, rtol=1e-9):
 def quadrature(low, high, points=400):
     """Nodes and weights of the second kind: exact for sqrt(1-s²) times a polynomial."""
     angle = np.arange(1, points) * math.pi / points
-    return 0.5 * (low + high) + 0.5 * (high - low) * np.cos(angle), 0.5 * (
-        high - low
-    ) * math.pi / points * np.sin(angle)
+    return 0.5 * (low + high) + 0.5 * (high - low) * np.cos(angle), 0.5 * (high - low) * math.pi / points * np.sin(
+        angle
+    )
 
 
 def roll(found, x):

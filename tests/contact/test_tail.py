@@ -73,16 +73,12 @@ class TestAgainstAllOrdersAtOnce:
             assert solve_equilibrium(shorter, place, problem.rho).friction == pytest.approx(exact, rel=1e-12)
         # the correction ends at m α = 60 · 0.03: all of it lies within order 32
         for smaller in (half_core, most_core):
-            assert solve_equilibrium(smaller, place, problem.rho).friction == pytest.approx(
-                whole.friction, rel=1e-12
-            )
+            assert solve_equilibrium(smaller, place, problem.rho).friction == pytest.approx(whole.friction, rel=1e-12)
 
     def test_level_and_loss_are_the_same(self, dense_and_closed):
         problem, rule, _, ik, tail, _, whole, core = dense_and_closed
         place, creep = np.array([ALPHA]), problem.creep
-        here = mean_displacement(rule, creep, place, core.c.shape[1])[0] @ core.c[0] + tail.level(
-            ik, core.c[0]
-        )
+        here = mean_displacement(rule, creep, place, core.c.shape[1])[0] @ core.c[0] + tail.level(ik, core.c[0])
         beyond = mean_displacement(rule, creep, place, whole.c.shape[1])[0] @ whole.c[0]
         assert here == pytest.approx(beyond, rel=1e-12)
         weights = creep.weights * creep.times
@@ -110,9 +106,7 @@ def test_a_long_tail_gives_what_a_dense_matrix_does():
     # order 128 meets 1e-8 here; the same scene by a core of 64 and a tail to 1024
     problem = ContactProblem("confined", 0.1, 1e-3, CreepSpectrum(0.05, [0.95], [0.01]), 0.5)
     dense = solve(problem, rtol=1e-8)
-    long = solve_one_strip(
-        SolverState.of(problem), 1e-8, HalfWidthStart(np.log(dense.half_width * problem.rho), 2.0)
-    )
+    long = solve_one_strip(SolverState.of(problem), 1e-8, HalfWidthStart(np.log(dense.half_width * problem.rho), 2.0))
     assert long.order == 1024
     assert long.found.friction == pytest.approx(dense.friction, rel=2e-8)
     assert long.found.fields.depth() == pytest.approx(dense.penetration, rel=1e-8)
@@ -122,9 +116,7 @@ def test_a_long_tail_gives_what_a_dense_matrix_does():
 def test_a_core_that_the_energy_doubts_is_lengthened_not_its_tail():
     # a thin cover, its contact 17 times as wide: a core of 64 left 7e-9 at any tail
     creep = CreepSpectrum(0.37120710068382384, [0.62879289931617616], [2.61086272e-05])
-    problem = ContactProblem(
-        "confined", 0.22029309106284228, 0.018418492740884012, creep, 0.0047395977, 0.38083557
-    )
+    problem = ContactProblem("confined", 0.22029309106284228, 0.018418492740884012, creep, 0.0047395977, 0.38083557)
     found = solve(problem, rtol=1e-9)
     assert found.status is Status.OK
     assert found.stats.order == 1024

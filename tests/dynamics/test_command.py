@@ -97,12 +97,8 @@ def test_standard_scenarios_fit_the_drives():
     one = {scenario.name for scenario in standard_scenarios(line())}
     assert one == {"start full", "start empty", "stop full", "emergency stop full"}
     drive = {"further_drives": [SECOND], "torque_factor": 1.4, "brake_force": "10 kN", "brake_delay": "2 s"}
-    several = {
-        scenario.name: scenario for scenario in standard_scenarios(line(drive=data()["drive"] | drive))
-    }
-    assert {"power failure of drive", "power failure of second", "power failure full, brakes fail"} <= set(
-        several
-    )
+    several = {scenario.name: scenario for scenario in standard_scenarios(line(drive=data()["drive"] | drive))}
+    assert {"power failure of drive", "power failure of second", "power failure full, brakes fail"} <= set(several)
     assert "stop full" not in several
     assert [event.do for event in several["emergency stop full"].events] == ["power off", "brake"]
 
@@ -158,9 +154,7 @@ def test_peaks_that_do_not_hold_are_refused_with_both_figures_and_what_helps(mon
     assert "shorter cells bring them no closer" in why
     assert "larger error" in why
     once = from_data(data() | {"scenarios": [STOP], "drive": data()["drive"] | {"reduced_mass": "4 t"}})
-    peaks = (
-        r'scenario "power failure": highest and lowest tension are .* {0} and .* {0} at .* they come closer: '
-    )
+    peaks = r'scenario "power failure": highest and lowest tension are .* {0} and .* {0} at .* they come closer: '
     for system, unit in (("SI", "kN"), ("US", "lbf")):
         with pytest.raises(NoSolutionError, match=peaks.format(unit)):
             simulate_scenarios(once.replace(report={"units": system}), error=1e-6)
@@ -179,9 +173,7 @@ def test_a_scenario_that_the_longest_cells_cannot_answer_is_followed_in_shorter_
 
     side_by_side = following.simulate_batch
     monkeypatch.setattr(following, "simulate_batch", beside)
-    found = simulate_scenarios(
-        from_data(data(drive={"reduced_mass": "4 t"}) | {"scenarios": [STOP]}), error=0.05
-    )
+    found = simulate_scenarios(from_data(data(drive={"reduced_mass": "4 t"}) | {"scenarios": [STOP]}), error=0.05)
     assert [one.name for one in found.followed] == ["power failure"]
     assert found.refused == ()
 
@@ -239,9 +231,7 @@ def test_the_shortest_ramp_keeps_every_criterion():
         NoSolutionError, match=r"nothing from 224\.8 lbf to 449\.6 lbf keeps every check; at best: .* lbf;"
     ):
         size_scenario(us, scenario, "take-up", between=(1e3, 2e3))
-    with pytest.raises(
-        NoSolutionError, match=r"nothing from 1000 to 2000 \(SI\) keeps every check; at best: .* N;"
-    ):
+    with pytest.raises(NoSolutionError, match=r"nothing from 1000 to 2000 \(SI\) keeps every check; at best: .* N;"):
         size_scenario(conveyor, scenario, "take-up", between=(1e3, 2e3))
 
 

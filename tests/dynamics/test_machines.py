@@ -97,9 +97,7 @@ def test_the_tension_at_a_pulley_falls_after_a_power_cut_as_a_damped_rod_says(ce
     tension = np.full((1, cells), PULL)
     tension[:, :node] += force
     step = 0.95 * chain.longest_step
-    found = simulate_belts(
-        chain, idle(2, 1), begun(chain, tension=tension, driving=np.array([[force]])), step=step
-    )
+    found = simulate_belts(chain, idle(2, 1), begun(chain, tension=tension, driving=np.array([[force]])), step=step)
     falls = PULL + force - found.drives["arriving"][0, 0, 0]
     assert found.drives["leaving"][0, 0, 0] - PULL == pytest.approx(falls, rel=1e-9)
     # the mean over a step of a root, 2/3 of its end; a cell resolves that to some per cent
@@ -169,9 +167,7 @@ def test_the_lowest_tension_beside_a_drive_switched_on_late_is_that_of_its_close
     ratio = math.sqrt(before / behind)
     slack = (arriving + ratio * leaving) / (math.exp(drive.friction * drive.wrap_angle) + ratio)
     # friction of half a cell, 2.3 kN at most, turns as the belt breaks loose: it was 22.7, 18.4 and 14.1 kN of 25.0
-    assert drives["leaving"][on, 1] == pytest.approx(
-        slack, abs=0.2 * float(cells.sticking(1.0)[k]) + 0.01 * slack
-    )
+    assert drives["leaving"][on, 1] == pytest.approx(slack, abs=0.2 * float(cells.sticking(1.0)[k]) + 0.01 * slack)
     assert found.lowest == pytest.approx(slack, rel=0.02)  # it was 31.2, 32.2 and 33.2 kN
 
 
@@ -466,9 +462,7 @@ def test_bulk_that_is_not_fed_holds_no_belt_at_rest():
 
 
 def test_a_backstop_that_is_assumed_is_said():
-    found = followed(
-        steep(), {"begins": "at rest", "events": [{"do": "power off"}], "duration": "5 s"}, step=0.1
-    )
+    found = followed(steep(), {"begins": "at rest", "events": [{"do": "power off"}], "duration": "5 s"}, step=0.1)
     said = {check.key: check for check in checks_of_one(found)}
     assert found.setup.assumed_backstop
     assert said["dynamic_backstop"].verdict == "not checked"
@@ -482,9 +476,7 @@ def test_drag_brakes_a_drive_without_power_whose_belt_slips():
         backstop=np.array([[False]]), **clamped(cells, 1),
     )  # fmt: skip
     start = begun(chain, rims=np.array([[3.0]]))
-    found = simulate_belts(
-        chain, replace(idle(60, 1), drag=np.array([[drag]])), start, step=chain.longest_step
-    )
+    found = simulate_belts(chain, replace(idle(60, 1), drag=np.array([[drag]])), start, step=chain.longest_step)
     rims = found.drives["rim"][:, 0, 0]
     assert np.diff(rims) == pytest.approx(-drag / rim * found.step, rel=1e-9)
 
@@ -584,9 +576,7 @@ def test_splice_pulleys_and_curves_are_checked_at_their_own_highest_tensions():
     lifts = {check.subject.text(): check for check in said if check.key == "dynamic_lift_off"}
     assert len(lifts) == 2
     radius = lifts["empty belt stays down, hollow, carry"].required
-    slope = found.line.loop.stretches[
-        [s.section for s in found.line.loop.stretches].index("hollow")
-    ].inclination
+    slope = found.line.loop.stretches[[s.section for s in found.line.loop.stretches].index("hollow")].inclination
     assert radius == pytest.approx(
         there["carry"].highest / (20.0 * 9.80665 * np.cos(abs(slope) + 30.0 / 900.0)), rel=1e-3
     )

@@ -102,9 +102,7 @@ def test_every_bad_file_has_its_case() -> None:
 
 
 @pytest.mark.parametrize(("name", "row", "column", "what", "remedy"), CASES, ids=[case[0] for case in CASES])
-def test_refusal_names_file_row_column_and_remedy(
-    name: str, row: int, column: str, what: str, remedy: str
-) -> None:
+def test_refusal_names_file_row_column_and_remedy(name: str, row: int, column: str, what: str, remedy: str) -> None:
     place = rf"^{re.escape(name)}(\[\w+\])?:{row}: column {column}( \".*?\")?: "
     with pytest.raises(InputError, match=place) as refused:
         read_dma(BAD / name)
@@ -176,9 +174,7 @@ def test_options_are_checked(options: dict[str, object], message: str) -> None:
 
 
 def test_temperature_given_twice() -> None:
-    with pytest.raises(
-        InputError, match=r"isotherms_set\.csv:1: column 4 \"T\": the file has its temperatures"
-    ):
+    with pytest.raises(InputError, match=r"isotherms_set\.csv:1: column 4 \"T\": the file has its temperatures"):
         read_dma(BAD.parent / "good" / "isotherms_set.csv", temperature=293.15)
 
 

@@ -22,13 +22,10 @@ def moduli(middle: float) -> tuple[np.ndarray, np.ndarray]:
     return storage, storage * np.tan(angle)
 
 
-def written(
-    folder: Path, columns: tuple[np.ndarray, ...], digits: int, names: tuple[str, ...] = NAMES
-) -> Path:
+def written(folder: Path, columns: tuple[np.ndarray, ...], digits: int, names: tuple[str, ...] = NAMES) -> Path:
     file = folder / "three.csv"
     rows = [
-        ",".join([f"{f:.6g}", *(f"{v:.{digits}g}" for v in row)])
-        for f, *row in zip(FREQUENCY, *columns, strict=True)
+        ",".join([f"{f:.6g}", *(f"{v:.{digits}g}" for v in row)]) for f, *row in zip(FREQUENCY, *columns, strict=True)
     ]
     file.write_text("\n".join([",".join(["f [Hz]", *names]), *rows]) + "\n", encoding="utf-8")
     return file
@@ -63,16 +60,12 @@ def test_what_a_column_really_holds_is_named(tmp_path: Path, reading: str, middl
 
 @pytest.mark.parametrize("middle", [0.05, 0.1, 0.2, 0.5, 1.0])
 @pytest.mark.parametrize("digits", [2, 3, 4, 6])
-def test_what_is_right_is_read_with_any_digits_and_scatter(
-    tmp_path: Path, middle: float, digits: int
-) -> None:
+def test_what_is_right_is_read_with_any_digits_and_scatter(tmp_path: Path, middle: float, digits: int) -> None:
     storage, loss = moduli(middle)
     for seed in range(10):
         noise = np.random.default_rng(seed).standard_normal((3, FREQUENCY.size))
         for scatter in (0.0, 0.001, 0.01) if digits > 2 else (0.0,):  # two digits are 5 % themselves
-            columns = (
-                c * (1.0 + scatter * e) for c, e in zip((storage, loss, loss / storage), noise, strict=True)
-            )
+            columns = (c * (1.0 + scatter * e) for c, e in zip((storage, loss, loss / storage), noise, strict=True))
             assert told(written(tmp_path, tuple(columns), digits)) == ""
 
 
@@ -83,9 +76,7 @@ def test_digits_and_scatter_that_hide_the_difference_say_nothing(tmp_path: Path)
     assert "is |E*|" in told(written(tmp_path, three, 4))
     assert told(written(tmp_path, three, 2)) == ""
     noise = np.random.default_rng(1).standard_normal((3, FREQUENCY.size))
-    quiet, loud = (
-        tuple(c * (1.0 + of * e) for c, e in zip(three, noise, strict=True)) for of in (0.002, 0.01)
-    )
+    quiet, loud = (tuple(c * (1.0 + of * e) for c, e in zip(three, noise, strict=True)) for of in (0.002, 0.01))
     assert "is |E*|" in told(written(tmp_path, quiet, 4))
     assert "is |E*|" not in told(written(tmp_path, loud, 4))
 
@@ -98,9 +89,7 @@ def test_a_misprint_neither_hides_nor_makes_a_reading(tmp_path: Path) -> None:
     assert "is |E*|" in told(written(tmp_path, (np.hypot(storage, loss), loss, tangent), 4))
 
 
-@pytest.mark.parametrize(
-    "names", [("|G*| [MPa]", "G'' [MPa]", "tan delta"), ("|G*| [MPa]", "G'' [MPa]", "note")]
-)
+@pytest.mark.parametrize("names", [("|G*| [MPa]", "G'' [MPa]", "tan delta"), ("|G*| [MPa]", "G'' [MPa]", "note")])
 def test_complex_modulus_and_loss_give_the_storage(tmp_path: Path, names: tuple[str, ...]) -> None:
     storage, loss = moduli(0.3)
     read = read_dma(written(tmp_path, (np.hypot(storage, loss), loss, loss / storage), 7, names))

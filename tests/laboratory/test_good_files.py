@@ -98,9 +98,7 @@ def test_shear_by_poisson_ratio(poisson_ratio: float) -> None:
 def test_unit_given_overrides_the_file_and_says_so() -> None:
     data = read_dma(GOOD / "rad_per_second.csv", frequency_unit="Hz", strain_unit="%")
     np.testing.assert_allclose(data.frequency, np.array(FREQUENCY) * 2.0 * math.pi, rtol=ROUNDING)
-    assert (
-        'column 1 "omega [rad/s]": frequency, in Hz as given, overriding rad/s of the file' in data.understood
-    )
+    assert 'column 1 "omega [rad/s]": frequency, in Hz as given, overriding rad/s of the file' in data.understood
     assert "strain_unit % was given, but the file has no such column" in data.understood
 
 
@@ -160,9 +158,7 @@ def test_temperature_sweeps() -> None:
     data = read_dma(GOOD / "temperature_sweep.csv")
     assert data.kind == "temperature sweep"
     np.testing.assert_allclose(data.temperature, [243.15, 263.15, 283.15, 303.15, 323.15], rtol=ROUNDING)
-    np.testing.assert_allclose(
-        data.loss, np.array([90.5, 20.1, 9.0, 6.5, 5.5]) * [8e5, 4e5, 2e5, 1.2e5, 0.9e5]
-    )
+    np.testing.assert_allclose(data.loss, np.array([90.5, 20.1, 9.0, 6.5, 5.5]) * [8e5, 4e5, 2e5, 1.2e5, 0.9e5])
     ramp = read_dma(GOOD / "temperature_ramp.csv")
     assert ramp.kind == "temperature sweep"
     assert ramp.temperature is not None
@@ -170,9 +166,7 @@ def test_temperature_sweeps() -> None:
 
 
 def test_ramp_forms_no_isotherms() -> None:
-    with pytest.raises(
-        InputError, match=r'a temperature sweep, not isotherms; give kind="isotherms" \(--kind\)'
-    ):
+    with pytest.raises(InputError, match=r'a temperature sweep, not isotherms; give kind="isotherms" \(--kind\)'):
         read_dma(GOOD / "temperature_ramp.csv").isotherms()
     ramp = read_dma(GOOD / "temperature_ramp.csv", kind="isotherms")
     with pytest.raises(InputError, match=r"temperature_ramp\.csv:2: the temperature is a ramp"):
@@ -184,9 +178,7 @@ def test_strain_sweep_of_double_amplitudes_in_shear() -> None:
     assert data.kind == "strain sweep"
     (sweep,) = data.strain_sweeps()
     # DSA % is twice the amplitude in percent; E = 3 G
-    np.testing.assert_allclose(
-        sweep.strain, np.array([0.0005, 0.005, 0.05, 0.1]) / np.sqrt(3.0), rtol=ROUNDING
-    )
+    np.testing.assert_allclose(sweep.strain, np.array([0.0005, 0.005, 0.05, 0.1]) / np.sqrt(3.0), rtol=ROUNDING)
     np.testing.assert_allclose(sweep.storage, [9e6, 7.2e6, 4.5e6, 3.6e6], rtol=ROUNDING)
     assert sweep.frequency == pytest.approx(10.0)
     assert sweep.temperature == pytest.approx(333.15)

@@ -109,9 +109,7 @@ def test_rows_that_cannot_be_are_refused(tmp_path: Path, rows: str, message: str
 def test_more_cells_than_are_read_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     few = replace(laboratory.sheet_grids.LIMITS, elements=100)
     monkeypatch.setattr(laboratory.sheet_grids, "LIMITS", few)
-    with pytest.raises(
-        InputError, match=r"holds more than 100 cells and other elements; .* export it as CSV"
-    ):
+    with pytest.raises(InputError, match=r"holds more than 100 cells and other elements; .* export it as CSV"):
         read_dma(workbook(tmp_path, TABLE + '<row r="20">' + "<c/>" * 100 + "</row>"))
 
 

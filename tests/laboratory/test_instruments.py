@@ -37,9 +37,7 @@ def test_the_dynamic_strain_makes_a_strain_sweep(tmp_path: Path, name: str) -> N
 
 def test_moduli_that_differ_at_one_set_point_are_asked_for(tmp_path: Path) -> None:
     path = written(tmp_path, SWEEP.format("amplitude"))
-    with pytest.raises(
-        InputError, match=r"differs by a factor of 2 at one temperature .*'strain \[%\]'.*\(--kind\)"
-    ):
+    with pytest.raises(InputError, match=r"differs by a factor of 2 at one temperature .*'strain \[%\]'.*\(--kind\)"):
         read_dma(path)
     assert read_dma(path, kind="temperature sweep").kind == "temperature sweep"
 
@@ -47,10 +45,7 @@ def test_moduli_that_differ_at_one_set_point_are_asked_for(tmp_path: Path) -> No
 def test_titles_with_numbers_between_blocks(tmp_path: Path) -> None:
     head = "Interval data:\tPoint No.\tFrequency\tStorage Modulus\tLoss Modulus\tTemperature\n"
     head += "\t\t[Hz]\t[Pa]\t[Pa]\t[°C]\n"
-    rows = {
-        t: "".join(f"\t{k}\t{f}\t{2e6 + k * 1e5}\t3e5\t{t}\n" for k, f in enumerate((1, 2, 5)))
-        for t in (0, 20)
-    }
+    rows = {t: "".join(f"\t{k}\t{f}\t{2e6 + k * 1e5}\t3e5\t{t}\n" for k, f in enumerate((1, 2, 5))) for t in (0, 20)}
     title = "Result:\tFrequency sweep {} °C\nInterval and data points:\t1\t3\n"
     data = read_dma(written(tmp_path, "".join(title.format(t) + head + rows[t] for t in rows)), letter="E")
     assert data.row_numbers.tolist() == [5, 6, 7, 12, 13, 14]
@@ -110,9 +105,7 @@ def test_frequencies_in_the_headers_make_rows(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_headers_with_set_points_are_refused_in_their_place(
-    tmp_path: Path, header: str, row: str, place: str
-) -> None:
+def test_headers_with_set_points_are_refused_in_their_place(tmp_path: Path, header: str, row: str, place: str) -> None:
     with pytest.raises(InputError, match=re.escape(place)):
         read_dma(written(tmp_path, header + row + row))
 
@@ -125,9 +118,7 @@ def test_names_listed_above_the_numbers(tmp_path: Path) -> None:
         "Storage Modulus (MPa)",
         "Loss Modulus (MPa)",
     )
-    head = "Instrument\tDMA Q800\nnsig\t5\n" + "".join(
-        f"Sig{k}\t{name}\n" for k, name in enumerate(names, start=1)
-    )
+    head = "Instrument\tDMA Q800\nnsig\t5\n" + "".join(f"Sig{k}\t{name}\n" for k, name in enumerate(names, start=1))
     rows = "1.0\t20.1\t1.0\t5.6\t0.56\n2.0\t20.0\t10.0\t6.8\t0.68\n"
     data = read_dma(written(tmp_path, head + "Clamp\tTension\nTime\t09:14:07\nStartOfData\n" + rows))
     assert data.row_numbers.tolist() == [11, 12]
@@ -195,9 +186,7 @@ def test_sheets_of_one_rubber_are_taken_together(tmp_path: Path) -> None:
     book.save(path)
     with pytest.raises(InputError, match=r"15 sheets hold a table: .*--sheet '\*'"):
         compound_from_files(path, Request("pad", "20 degC"))
-    with pytest.raises(
-        InputError, match=r"no sheet 'Temp\*' holds a table; .*'Sheet', 'Frequency sweep - 1'"
-    ):
+    with pytest.raises(InputError, match=r"no sheet 'Temp\*' holds a table; .*'Sheet', 'Frequency sweep - 1'"):
         compound_from_files(path, Request("pad", "20 degC", reading={"sheet": "Temp*"}))
     found = compound_from_files(path, Request("pad", "20 degC", replicas=0, reading={"sheet": "Freq*"}))
     beside = fit_file(ISOTHERMS, Request("pad", "20 degC", replicas=0))

@@ -225,11 +225,7 @@ def test_files_cut_anywhere_are_read_or_refused_in_a_line_each(tmp_path: Path) -
     assert len(messages) > 100
     # one line each, and one for the options together
     names = tuple(file.name for file in (FILES / "good").iterdir())
-    assert all(
-        line.startswith((*names, "these at once: --"))
-        for message in messages
-        for line in message.splitlines()
-    )
+    assert all(line.startswith((*names, "these at once: --")) for message in messages for line in message.splitlines())
 
 
 def test_ten_thousand_rows_in_half_a_second(tmp_path: Path) -> None:
@@ -245,9 +241,7 @@ def test_ten_thousand_rows_in_half_a_second(tmp_path: Path) -> None:
     assert data.row_numbers.size == 10_000
 
 
-@pytest.mark.parametrize(
-    "word", ["Instrument: ARES", "rotational rheometer", "Mode: shear", "Scherversuch", "전단"]
-)
+@pytest.mark.parametrize("word", ["Instrument: ARES", "rotational rheometer", "Mode: shear", "Scherversuch", "전단"])
 def test_modulus_without_letter_in_a_shear_test_is_asked_about(tmp_path: Path, word: str) -> None:
     rows = "frequency_Hz,storage_MPa,loss_MPa\n1,5.6,0.56\n10,6.8,0.748\n"
     with pytest.raises(InputError, match=r"pad\.csv:2: column 2 .*E or G\?.*row 1 speaks of .*--poisson"):
@@ -261,16 +255,12 @@ def test_modulus_without_letter_in_a_shear_test_is_asked_about(tmp_path: Path, w
 def test_pooled_temperatures_are_no_isotherm(tmp_path: Path) -> None:
     rows = "1,20,5,0.5\n10,20,6,0.6\n100,0,7,0.7\n"
     data = read_dma(write(tmp_path, f"f*aT [Hz],T [degC],E' [MPa],E'' [MPa]\n{rows}"))
-    with pytest.raises(
-        InputError, match=r"pad\.csv:2: the rows of this master curve span 20 K, not one temperature"
-    ):
+    with pytest.raises(InputError, match=r"pad\.csv:2: the rows of this master curve span 20 K, not one temperature"):
         data.isotherms()
 
 
 def test_plain_number_with_a_unit_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(
-        InputError, match=r":1: column 2 .*unit 'T_ref = 20' of a_T.*write - or nothing as its unit"
-    ):
+    with pytest.raises(InputError, match=r":1: column 2 .*unit 'T_ref = 20' of a_T.*write - or nothing as its unit"):
         read_dma(write(tmp_path, "T [degC],log aT (T_ref = 20)\n0,3\n20,0\n"))
 
 

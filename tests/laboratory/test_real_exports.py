@@ -77,15 +77,11 @@ def check(data_of: Path, **answers: object) -> tuple[str, ...]:
     ],
 )
 @pytest.mark.parametrize("unicode", [True, False])
-def test_names_in_many_languages_and_encodings(
-    tmp_path: Path, header: str, encoding: str, unicode: bool
-) -> None:
+def test_names_in_many_languages_and_encodings(tmp_path: Path, header: str, encoding: str, unicode: bool) -> None:
     check(written(tmp_path, table(header), "utf-8" if unicode else encoding))
 
 
-@pytest.mark.parametrize(
-    "header", ["temperature_c,freq_hz,e'_mpa,e''_mpa", "T [DEGC],f [HZ],Ep [MPA],Epp [mpa]"]
-)
+@pytest.mark.parametrize("header", ["temperature_c,freq_hz,e'_mpa,e''_mpa", "T [DEGC],f [HZ],Ep [MPA],Epp [mpa]"])
 def test_capitals_of_units_do_not_count(tmp_path: Path, header: str) -> None:
     check(written(tmp_path, table(header, separator=",")))
 
@@ -104,18 +100,14 @@ def test_a_column_twice(tmp_path: Path) -> None:
     same = written(tmp_path, table(header, [(*row, row[0]) for row in ROWS]))
     assert any("column 5" in said and "repeats column 1" in said for said in check(same))
     other = written(tmp_path, table(header, [(*row, row[0] + 1.5) for row in ROWS]))
-    with pytest.raises(
-        InputError, match=r"pad\.csv:1: column 5 .*a second column for temperature.*--ignore 5"
-    ):
+    with pytest.raises(InputError, match=r"pad\.csv:1: column 5 .*a second column for temperature.*--ignore 5"):
         read_dma(other)
     check(other, ignore=["5"])
     with pytest.raises(InputError, match=r'ignore = "G" \(--ignore\): no such column; there are: T'):
         read_dma(other, ignore=["G"])
 
 
-@pytest.mark.parametrize(
-    "name", ["Strain (cmd) [%]", "Commanded strain [%]", "Soll-Dehnung [%]", "Strain, target [%]"]
-)
+@pytest.mark.parametrize("name", ["Strain (cmd) [%]", "Commanded strain [%]", "Soll-Dehnung [%]", "Strain, target [%]"])
 def test_what_was_measured_goes_before_what_was_commanded(tmp_path: Path, name: str) -> None:
     header = f"T [degC];f [Hz];E' [MPa];E'' [MPa];{name};Strain [%]"
     file = written(tmp_path, table(header, [(*row, 0.1, 0.0995) for row in ROWS]))
@@ -139,9 +131,7 @@ def test_tables_that_the_instrument_made_of_the_steps(tmp_path: Path) -> None:
     assert sum("made of the steps" in line for line in said) == 2
     # a table of another test is none of these, and --exclude answers
     other = "".join(steps) + table("T [degC];f [Hz];E' [MPa];tan delta", [(0, 1, 9.0, 0.5)])
-    with pytest.raises(
-        InputError, match=r"pad\.csv:9: column 4 .*a second table begins here.*--exclude 9-10"
-    ):
+    with pytest.raises(InputError, match=r"pad\.csv:9: column 4 .*a second table begins here.*--exclude 9-10"):
         read_dma(written(tmp_path, other))
     check(written(tmp_path, other), exclude="9-10")
 
@@ -159,10 +149,7 @@ def test_all_findings_of_a_file_at_once(tmp_path: Path) -> None:
         (7, "an overload of the instrument"),
         (9, "'OVL' is not"),
     ):
-        assert any(
-            line.startswith(f"pad.csv:{row}: ") and what in line and f"--exclude {row}" in line
-            for line in said
-        )
+        assert any(line.startswith(f"pad.csv:{row}: ") and what in line and f"--exclude {row}" in line for line in said)
     assert said[-1] == "these at once: --exclude 3,7,9 --ignore 5"
     data = read_dma(file, exclude="3,7,9", ignore=["5"])
     assert data.row_numbers.tolist() == [2, 4, 5, 6, 8, 10, 11]
@@ -170,9 +157,7 @@ def test_all_findings_of_a_file_at_once(tmp_path: Path) -> None:
 
 def test_rows_at_fault_are_named_together(tmp_path: Path) -> None:
     rows = [(0, 10**k, 6.0, -0.1 if k in {1, 3, 4} else 0.6) for k in range(9)]
-    with pytest.raises(
-        InputError, match=r"pad\.csv:3: .*--exclude 3,5-6\); likewise row 5: .*likewise row 6: "
-    ):
+    with pytest.raises(InputError, match=r"pad\.csv:3: .*--exclude 3,5-6\); likewise row 5: .*likewise row 6: "):
         read_dma(written(tmp_path, table("T [degC];f [Hz];E' [MPa];E'' [MPa]", rows)))
     assert row_spans([1, 3, 4, 5, 9]) == "1,3-5,9"
 
@@ -238,18 +223,14 @@ def test_every_way_of_saying_tension(tmp_path: Path, words: str) -> None:
 def test_where_nothing_says_which_it_is_asked(tmp_path: Path, words: str) -> None:
     assert not list(find_deformations(words))
     file = written(tmp_path, f"# {words}\n" + table("T [degC];f [Hz];storage [MPa];loss [MPa]"))
-    with pytest.raises(
-        InputError, match=r"E or G\?.*nothing in the file says whether tension or shear.*--moduli E"
-    ):
+    with pytest.raises(InputError, match=r"E or G\?.*nothing in the file says whether tension or shear.*--moduli E"):
         read_dma(file)
     check(file, letter="E")
     check(written(tmp_path, f"# {words}\n" + table("T [degC];f [Hz];E' [MPa];E'' [MPa]")))
 
 
 def test_a_shear_strain_beside_tensile_moduli_is_named(tmp_path: Path) -> None:
-    file = written(
-        tmp_path, table("T [degC];f [Hz];E' [MPa];E'' [MPa];Shear strain [%]", [(*r, 0.1) for r in ROWS])
-    )
+    file = written(tmp_path, table("T [degC];f [Hz];E' [MPa];E'' [MPa];Shear strain [%]", [(*r, 0.1) for r in ROWS]))
     with pytest.raises(InputError, match=r"says E, but column 5 .*is a shear strain"):
         read_dma(file)
 
@@ -269,9 +250,7 @@ def test_a_slow_ramp_of_several_frequencies_makes_isotherms(tmp_path: Path) -> N
     temperature = -20.0 + RAMP * np.arange(frequency.size)
     storage, loss = law(temperature, frequency)
     rows = np.stack([temperature, frequency, storage, loss], axis=1)
-    text = "\n".join(
-        ["T [degC];f [Hz];E' [MPa];E'' [MPa]", *(";".join(f"{v:.9g}" for v in row) for row in rows)]
-    )
+    text = "\n".join(["T [degC];f [Hz];E' [MPa];E'' [MPa]", *(";".join(f"{v:.9g}" for v in row) for row in rows)])
     data = read_dma(written(tmp_path, text))
     isotherms = data.isotherms()
     # every cycle but the first and the last, which the others do not reach on both sides

@@ -39,9 +39,7 @@ def test_korean_shift_factors() -> None:
 @pytest.mark.parametrize("name", ["S100", "S120"])
 def test_strain_sweep_asks_for_both_units(name: str) -> None:
     file = REAL / f"{name}_strain_sweep.txt"
-    with pytest.raises(
-        InputError, match=rf"^{name}_strain_sweep\.txt:2: column 3 \"Strain\": strain has no unit"
-    ) as e:
+    with pytest.raises(InputError, match=rf"^{name}_strain_sweep\.txt:2: column 3 \"Strain\": strain has no unit") as e:
         read_dma(file)
     assert 'column 4 "E\'(Pa)": storage = 1' in str(e.value)
     assert 'modulus_unit="MPa" (--modulus-unit MPa)' in str(e.value)
@@ -52,10 +50,7 @@ def test_strain_sweep_asks_for_both_units(name: str) -> None:
 def test_strain_sweep_with_units_given() -> None:
     data = read_dma(REAL / "S100_strain_sweep.txt", modulus_unit="MPa", strain_unit="%")
     assert data.kind == "strain sweep"
-    assert (
-        'column 4 "E\'(Pa)": storage, in MPa as given, overriding Pa of the file, times 1e+06'
-        in data.understood
-    )
+    assert 'column 4 "E\'(Pa)": storage, in MPa as given, overriding Pa of the file, times 1e+06' in data.understood
     sweeps = data.strain_sweeps()
     assert [sweep.strain.size for sweep in sweeps] == [29, 29, 29, 28]
     cold = sweeps[0]
@@ -72,16 +67,12 @@ def test_two_runs_sorted_into_each_other() -> None:
     assert (second.run, second.row_numbers.tolist()) == (1, [4])
     assert first.storage[1] > 16.9e6
     assert second.storage[0] == pytest.approx(12.8436e6, rel=1e-14)
-    assert any(
-        "duplicate runs: 1 row(s)" in sentence and "first row 4" in sentence for sentence in data.understood
-    )
+    assert any("duplicate runs: 1 row(s)" in sentence and "first row 4" in sentence for sentence in data.understood)
 
 
 def test_pyvisco_isotherms() -> None:
     data = read_dma(REAL / "pyvisco_freq_user_raw.csv")
-    plain = np.genfromtxt(
-        REAL / "pyvisco_freq_user_raw.csv", delimiter=",", skip_header=2, encoding="utf-8-sig"
-    )
+    plain = np.genfromtxt(REAL / "pyvisco_freq_user_raw.csv", delimiter=",", skip_header=2, encoding="utf-8-sig")
     isotherms = data.isotherms()
     assert data.kind == "isotherms"
     assert [isotherm.run for isotherm in isotherms] == list(range(21))

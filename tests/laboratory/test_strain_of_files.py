@@ -23,9 +23,7 @@ def rubber(temperature: float, frequency: np.ndarray) -> tuple[np.ndarray, np.nd
     return storage, storage * math.tan(0.05 * math.pi)
 
 
-def isotherms(
-    folder: Path, strains: dict[int, float], *, letter: str = "E", column: str = "Strain [%]"
-) -> Path:
+def isotherms(folder: Path, strains: dict[int, float], *, letter: str = "E", column: str = "Strain [%]") -> Path:
     """A file of isotherms at temperatures [degC], each at a strain [%]; no column where its name is empty."""
     factor = 3.0 if letter == "G" else 1.0
     lines = [f"T [degC];f [Hz];{letter}' [MPa];{letter}'' [MPa]" + (f";{column}" if column else "")]
@@ -40,9 +38,7 @@ def isotherms(
 
 def sweep(folder: Path, largest: float) -> Path:
     """A strain sweep up to a strain [%], E' falling by a tenth a decade."""
-    rows = [
-        f"20;10;{s:.6g};{6.0 * s**-0.05:.6g};{0.9 * s**-0.02:.6g}" for s in np.geomspace(0.01, largest, 9)
-    ]
+    rows = [f"20;10;{s:.6g};{6.0 * s**-0.05:.6g};{0.9 * s**-0.02:.6g}" for s in np.geomspace(0.01, largest, 9)]
     path = folder / "sweep.csv"
     path.write_text("\n".join(["T [degC];f [Hz];strain [%];E' [MPa];E'' [MPa]", *rows]), encoding="utf-8")
     return path
@@ -51,12 +47,8 @@ def sweep(folder: Path, largest: float) -> Path:
 ALIKE = dict.fromkeys((0, 10, 20, 30), 0.1)
 
 
-def fit(
-    path: Path, strain: Path | None = None, given: str | None = None, **reading: object
-) -> FittedCompound:
-    return fit_file(
-        path, Request("pad", "20 degC", strain=strain, reference_strain=given, replicas=0, reading=reading)
-    )
+def fit(path: Path, strain: Path | None = None, given: str | None = None, **reading: object) -> FittedCompound:
+    return fit_file(path, Request("pad", "20 degC", strain=strain, reference_strain=given, replicas=0, reading=reading))
 
 
 def reference(fitted: FittedCompound) -> float:
@@ -71,9 +63,7 @@ def test_the_column_is_the_reference(tmp_path: Path) -> None:
     assert reference(fitted) == pytest.approx(1e-3, rel=1e-5)  # written with six digits
     assert fitted.compound.strain == "0.1 %"
     assert reference(fit(path, swept, "0.105 %")) == pytest.approx(1.05e-3, rel=1e-5)
-    with pytest.raises(
-        InputError, match=r"column of the strain says 0\.1 %, --reference-strain 1 %: leave out"
-    ):
+    with pytest.raises(InputError, match=r"column of the strain says 0\.1 %, --reference-strain 1 %: leave out"):
         fit(path, swept, "1 %")
     with pytest.raises(InputError, match=r"at which strain was the master curve measured\?"):
         fit(isotherms(tmp_path, ALIKE, column=""), swept)
@@ -102,9 +92,7 @@ def test_a_remark_states_it_too(tmp_path: Path) -> None:
     path.write_text("# Strain: 0,1 %\n" + path.read_text(encoding="utf-8"), encoding="utf-8")
     swept = sweep(tmp_path, 10.0)
     assert reference(fit(path, swept)) == pytest.approx(1e-3, rel=1e-5)
-    with pytest.raises(
-        InputError, match=r'isotherms\.csv:1: "Strain" says 0\.1 %, --reference-strain 0\.3 %'
-    ):
+    with pytest.raises(InputError, match=r'isotherms\.csv:1: "Strain" says 0\.1 %, --reference-strain 0\.3 %'):
         fit(path, swept, "0.3 %")
 
 
@@ -126,9 +114,7 @@ def test_isotherms_at_different_strains_fail(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("largest", "short"), [(0.5, True), (90.0 * WORKING_STRAIN, True), (110.0 * WORKING_STRAIN, False)]
 )
-def test_sweeps_that_end_below_the_working_strain_are_told(
-    tmp_path: Path, largest: float, short: bool
-) -> None:
+def test_sweeps_that_end_below_the_working_strain_are_told(tmp_path: Path, largest: float, short: bool) -> None:
     fitted = fit(isotherms(tmp_path, ALIKE), sweep(tmp_path, largest))
     said = [line for line in fitted.compound.missing if "where the sweeps end" in line]
     assert bool(said) == short

@@ -83,9 +83,7 @@ TABLE_SIZES = {size / 1e3 for rows in TABLE.values() for row in rows for size in
 @pytest.mark.parametrize("drive", TABLE)
 def test_standard_pulleys_as_printed(drive):
     for used, sizes in zip((0.61, 0.31, 0.3), TABLE[drive], strict=True):
-        found = [
-            belt_check.standard_pulley_diameter(drive / 1e3, group=group, utilisation=used) for group in "ABC"
-        ]
+        found = [belt_check.standard_pulley_diameter(drive / 1e3, group=group, utilisation=used) for group in "ABC"]
         assert found == pytest.approx([size / 1e3 for size in sizes], rel=ROUNDING)
 
 

@@ -33,11 +33,7 @@ def _public(module: ModuleType) -> Iterator[tuple[str, Callable[..., Any]]]:
             yield name, law
 
 
-LAWS = [
-    pytest.param(law, id=f"{module.__name__}.{name}")
-    for module in _modules()
-    for name, law in _public(module)
-]
+LAWS = [pytest.param(law, id=f"{module.__name__}.{name}") for module in _modules() for name, law in _public(module)]
 
 
 def test_every_file_is_looked_into() -> None:

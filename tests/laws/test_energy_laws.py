@@ -73,9 +73,7 @@ def test_motor_is_the_next_of_the_series():
 
 
 def test_too_much_for_one_motor():
-    with pytest.raises(
-        RangeError, match=r"1100 kW is more than the largest motor of the series, 1000 kW: share"
-    ):
+    with pytest.raises(RangeError, match=r"1100 kW is more than the largest motor of the series, 1000 kW: share"):
         energy.next_motor(1e6, reserve=1.1)
 
 

@@ -65,14 +65,10 @@ def test_load_and_sag_are_the_soft_belt_with_its_loss_as_coefficient():
     # h/a = q a/(8 T), c = 4 tan δ/π
     sag, c = 1500.0 * 1.2 / (8 * 50e3), 4 / math.pi * 0.1
     law = flexure.sag_flexure_resistance(1500.0, spacing=1.2, relative_sag=sag, coefficient=c)
-    assert law == pytest.approx(
-        flexure.belt_flexure_resistance(1500.0, bending_stiffness=0.0, **SPAN), rel=ROUNDING
-    )
+    assert law == pytest.approx(flexure.belt_flexure_resistance(1500.0, bending_stiffness=0.0, **SPAN), rel=ROUNDING)
     for refused in ({"relative_sag": 0.2}, {"spacing": 0.0}, {"coefficient": -1.0}):
         with pytest.raises(InputError, match=next(iter(refused))):
-            flexure.sag_flexure_resistance(
-                1.0, **{"spacing": 1.0, "relative_sag": 0.01, "coefficient": 0.1} | refused
-            )
+            flexure.sag_flexure_resistance(1.0, **{"spacing": 1.0, "relative_sag": 0.01, "coefficient": 0.1} | refused)
 
 
 def test_stiff_belt_is_the_continuous_beam():
@@ -87,13 +83,9 @@ def test_stiff_belt_is_the_continuous_beam():
 def test_belt_flexure_falls_with_tension_and_grows_with_the_square_of_the_load():
     soft = {"spacing": 1.2, "loss_tangent": 0.1, "bending_stiffness": 0.0}
     one = flexure.belt_flexure_resistance(1500.0, tension=50e3, **soft)
-    assert flexure.belt_flexure_resistance(1500.0, tension=100e3, **soft) == pytest.approx(
-        one / 2, rel=ROUNDING
-    )
+    assert flexure.belt_flexure_resistance(1500.0, tension=100e3, **soft) == pytest.approx(one / 2, rel=ROUNDING)
     stiff = SPAN | {"bending_stiffness": 30.0}
-    ratio = flexure.belt_flexure_resistance(3000.0, **stiff) / flexure.belt_flexure_resistance(
-        1500.0, **stiff
-    )
+    ratio = flexure.belt_flexure_resistance(3000.0, **stiff) / flexure.belt_flexure_resistance(1500.0, **stiff)
     assert ratio == pytest.approx(4, rel=ROUNDING)
 
 
@@ -116,8 +108,7 @@ def test_bulk_bound_is_the_moment_of_the_pressure_times_the_angle():
     n = 2000
     step = 0.3 / n
     moment = sum(
-        850.0 * 9.81 * (0.3 - s) * math.sin(math.radians(35)) * s * step
-        for s in ((i + 0.5) * step for i in range(n))
+        850.0 * 9.81 * (0.3 - s) * math.sin(math.radians(35)) * s * step for s in ((i + 0.5) * step for i in range(n))
     )
     law = flexure.bulk_flexure_bound(0.02, **BULK)
     # midpoint rule: relative error of ∫(b-s)s of n points is 1/(2 n²)
@@ -137,9 +128,7 @@ def test_a_fluid_a_flat_belt_and_empty_wings_cost_nothing(changed):
             r"tension = 0\.0",
         ),
         (
-            lambda: flexure.belt_flexure_resistance(
-                1.0, bending_stiffness=0.0, **SPAN | {"loss_tangent": 1.1}
-            ),
+            lambda: flexure.belt_flexure_resistance(1.0, bending_stiffness=0.0, **SPAN | {"loss_tangent": 1.1}),
             r"loss_tangent = 1\.1 is not allowed: from 0 to 1",
         ),
         (

@@ -45,9 +45,7 @@ def test_share_is_the_area_above_the_roll(shape):
 def test_the_whole_heap_on_one_roll_and_none_on_no_roll():
     flat = {"trough_angle": 0.3, "surcharge_angle": 0.3}
     for shape in ("parabola", "triangle"):
-        assert heap.shares_by_area(1.0, middle_roll_length=1.0, **flat, heap=shape) == pytest.approx(
-            (1, 0), rel=1e-13
-        )
+        assert heap.shares_by_area(1.0, middle_roll_length=1.0, **flat, heap=shape) == pytest.approx((1, 0), rel=1e-13)
         assert heap.shares_by_area(1.0, middle_roll_length=0.0, **flat, heap=shape) == (0, 0.5)
 
 

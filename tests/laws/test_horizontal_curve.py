@@ -52,9 +52,7 @@ def test_drift_keeps_the_sum_and_comes_back(loads):
             whole = math.fsum(getattr(load, part) for load in loads)
             assert math.fsum(getattr(load, part) for load in moved) == pytest.approx(whole, rel=ROUNDING)
         mirrored = curve.drifted_loads(loads[::-1], -drift, roll_length=10.0)
-        assert [one.force for one in mirrored[::-1]] == pytest.approx(
-            [one.force for one in moved], rel=ROUNDING
-        )
+        assert [one.force for one in mirrored[::-1]] == pytest.approx([one.force for one in moved], rel=ROUNDING)
     assert curve.drifted_loads(loads, 0.0, roll_length=10.0) == tuple(loads)
 
 
@@ -109,9 +107,7 @@ def test_a_flat_set_holds_the_course_of_its_belt():
     middle = -0.002 * 40.0  # where the belt runs square to its rolls
     assert law.force(middle + 1e-6) - law.force(middle) == pytest.approx(slope * 1e-6, rel=1e-4)
     assert law.force(middle) == pytest.approx(200.0 * math.sin(law.banking_angle))
-    assert law.most == pytest.approx(
-        200.0 * (math.sin(law.banking_angle) + 0.35 * math.cos(law.banking_angle))
-    )
+    assert law.most == pytest.approx(200.0 * (math.sin(law.banking_angle) + 0.35 * math.cos(law.banking_angle)))
     assert law.drift(1.001 * law.most) == math.inf
     assert law.drift(-law.most) == -math.inf
 

@@ -18,9 +18,7 @@ SPAN = {"line_mass": 20.0, "spacing": 3.0}
 
 def rated(name, inches, degrees, rolls):
     return (
-        idler_sets.rated_set_load(
-            name, belt_width=inches * INCH, trough_angle=math.radians(degrees), rolls=rolls
-        )
+        idler_sets.rated_set_load(name, belt_width=inches * INCH, trough_angle=math.radians(degrees), rolls=rolls)
         / POUND
     )
 
@@ -65,18 +63,14 @@ def test_a_raised_set_by_the_formula_of_the_book():
 def test_a_belt_at_rest_swings_as_a_string():
     at_rest = idler_sets.flap_frequency(32e3, **SPAN, belt_speed=0.0)
     assert at_rest == pytest.approx(math.sqrt(32e3 / 20.0) / 6.0, rel=ROUNDING)
-    assert idler_sets.flap_frequency(32e3, **SPAN, belt_speed=0.0, mode=3) == pytest.approx(
-        3 * at_rest, rel=ROUNDING
-    )
+    assert idler_sets.flap_frequency(32e3, **SPAN, belt_speed=0.0, mode=3) == pytest.approx(3 * at_rest, rel=ROUNDING)
 
 
 def test_a_wave_goes_there_and_back_in_a_period():
     # c + v with the belt, c - v against it
     wave, speed = math.sqrt(32e3 / 20.0), 6.0
     period = 3.0 / (wave + speed) + 3.0 / (wave - speed)
-    assert 1.0 / idler_sets.flap_frequency(32e3, **SPAN, belt_speed=speed) == pytest.approx(
-        period, rel=ROUNDING
-    )
+    assert 1.0 / idler_sets.flap_frequency(32e3, **SPAN, belt_speed=speed) == pytest.approx(period, rel=ROUNDING)
 
 
 def test_near_its_waves_speed_the_belt_has_no_frequency():
@@ -98,9 +92,7 @@ def test_the_still_spacing_is_as_far_from_resonance_as_wanted(margin):
     low = idler_sets.flap_frequency(32e3, **SPAN, belt_speed=5.0)
     spacing = idler_sets.resonance_free_spacing(9.0, lowest=low, spacing=3.0, margin=margin)
     there = idler_sets.flap_frequency(32e3, line_mass=20.0, spacing=spacing, belt_speed=5.0)
-    assert idler_sets.resonance_margin(9.0, lowest=there, highest=2 * there) == pytest.approx(
-        margin, abs=1e-12
-    )
+    assert idler_sets.resonance_margin(9.0, lowest=there, highest=2 * there) == pytest.approx(margin, abs=1e-12)
 
 
 @pytest.mark.parametrize("density", [800.0, 1200.0, 1600.0, 2000.0, 2400.0, 2800.0, 3200.0])

@@ -121,9 +121,7 @@ def test_load_is_proportional_to_spacing_and_gravity():
 def test_uphill_and_downhill_load_alike():
     up, down = loading.roll_loads(**SET), loading.roll_loads(**SET | {"inclination": -0.1})
     for one, other in zip(up, down, strict=True):
-        assert (one.bulk_force, one.belt_force) == pytest.approx(
-            (other.bulk_force, other.belt_force), rel=ULPS
-        )
+        assert (one.bulk_force, one.belt_force) == pytest.approx((other.bulk_force, other.belt_force), rel=ULPS)
 
 
 def test_cross_section_of_two_rolls_is_a_triangle_below_and_of_a_flat_belt_nothing():
@@ -141,9 +139,7 @@ def test_cross_section_of_two_rolls_is_a_triangle_below_and_of_a_flat_belt_nothi
 def test_cross_section_below_the_water_line_is_the_trapezium_of_its_corners():
     middle, b, lam = 0.436, 1.03, math.radians(45)
     wing = (b - middle) / 2
-    x = np.array(
-        [-middle / 2, middle / 2, middle / 2 + wing * math.cos(lam), -middle / 2 - wing * math.cos(lam)]
-    )
+    x = np.array([-middle / 2, middle / 2, middle / 2 + wing * math.cos(lam), -middle / 2 - wing * math.cos(lam)])
     y = np.array([0, 0, wing * math.sin(lam), wing * math.sin(lam)])
     shoelace = 0.5 * abs(np.dot(x, np.roll(y, 1)) - np.dot(y, np.roll(x, 1)))
     section = loading.cross_section(b, middle_roll_length=middle, trough_angle=lam, surcharge_angle=0.0)
@@ -223,9 +219,7 @@ def test_refusals_of_roll_loads(change, message):
             r"middle_roll_length = 1\.1 is not allowed: 0 to the width 1\.0 m",
         ),
         (
-            lambda: loading.cross_section(
-                1.0, middle_roll_length=0.4, trough_angle=0.5, surcharge_angle=-0.2
-            ),
+            lambda: loading.cross_section(1.0, middle_roll_length=0.4, trough_angle=0.5, surcharge_angle=-0.2),
             r"surcharge_angle = -0\.2 is not allowed",
         ),
         (
@@ -256,9 +250,7 @@ def test_four_rolls_bear_the_shares_they_are_given():
     )
     assert [load.name for load in loads] == ["left wing", "left inner", "right inner", "right wing"]
     assert [load.shape for load in loads] == ["triangular", "uniform", "uniform", "triangular"]
-    assert [load.bulk_force for load in loads] == pytest.approx(
-        [share * 100.0 * 9.81 * 1.2 for share in shares]
-    )
+    assert [load.bulk_force for load in loads] == pytest.approx([share * 100.0 * 9.81 * 1.2 for share in shares])
     assert math.fsum(load.force for load in loads) == pytest.approx(120.0 * 9.81 * 1.2)
     # the belt by the width on each roll: outer ones reach 0.25 m to its edge
     assert [load.length for load in loads] == pytest.approx([0.25, 0.3, 0.3, 0.25])

@@ -29,8 +29,7 @@ def test_mean_of_the_friction_law_over_a_normal_distribution(degrees):
 
     corner = min(SLIP, 10.0 * spread)
     expected = sum(
-        quad(lost, *ends, epsabs=0.0, epsrel=1e-11)[0]
-        for ends in ((0.0, corner), (corner, corner + 10.0 * spread))
+        quad(lost, *ends, epsabs=0.0, epsrel=1e-11)[0] for ends in ((0.0, corner), (corner, corner + 10.0 * spread))
     )
     assert misalignment_friction(spread, friction=0.35) == pytest.approx(expected, rel=1e-9)
 
@@ -47,9 +46,7 @@ def test_rolls_that_slide_altogether_have_the_full_friction():
     """Slip reached at once: μ E[sin ε], half-normal: μ σ sqrt(2/π) less σ³."""
     spread = math.radians(0.5)
     expected = 0.35 * spread * math.sqrt(2.0 / math.pi)
-    assert misalignment_friction(spread, friction=0.35, full_slip=1e-9) == pytest.approx(
-        expected, rel=spread**2
-    )
+    assert misalignment_friction(spread, friction=0.35, full_slip=1e-9) == pytest.approx(expected, rel=spread**2)
 
 
 @pytest.mark.parametrize("degrees", [-0.1, 5.1, math.nan])
@@ -71,10 +68,7 @@ def test_force_by_hand():
     trough = math.radians(line.idlers.carry.trough_angle.magnitude)
     for stretch, newtons in zip(result.line.stretches, force.newtons, strict=True):
         if stretch.strand == "carry":
-            turned = [
-                misalignment_friction(math.radians(0.8) * c)
-                for c in (math.cos(trough), 1.0, math.cos(trough))
-            ]
+            turned = [misalignment_friction(math.radians(0.8) * c) for c in (math.cos(trough), 1.0, math.cos(trough))]
             set_ = sum(mu * load.force for mu, load in zip(turned, stretch.loads, strict=True))
             assert newtons == pytest.approx(set_ * stretch.length / stretch.spacing, rel=1e-12)
 

@@ -33,9 +33,7 @@ def test_a_shaft_in_pounds_and_inches():
     assert slope == pytest.approx(by_hand, rel=1e-12)
     fatigue = 0.8 * SHAFT**-0.19 * 0.897 * 0.63 * 41000.0
     root = math.sqrt((LOAD * arm / 2.0 / fatigue) ** 2 + 0.75 * (TORQUE / 45000.0) ** 2)
-    found = shaft_safety(
-        moment, torque=TORQUE * POUND * INCH, diameter=SHAFT * INCH, steel="C1045", keyway="profiled"
-    )
+    found = shaft_safety(moment, torque=TORQUE * POUND * INCH, diameter=SHAFT * INCH, steel="C1045", keyway="profiled")
     assert found == pytest.approx(math.pi * SHAFT**3 / (32.0 * root), rel=1e-12)
 
 

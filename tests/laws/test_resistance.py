@@ -34,17 +34,13 @@ def test_splitting_a_section_changes_nothing():
     assert sum(parts) == pytest.approx(resistance.section_main_resistance(**CARRY), rel=ROUNDING)
     rolls = {"n_rolls": 3, "spacing": 1.3}
     drags = [resistance.idler_rotation_resistance(2.0, length=part, **rolls) for part in (123.0, 377.0)]
-    assert sum(drags) == pytest.approx(
-        resistance.idler_rotation_resistance(2.0, length=500.0, **rolls), rel=ROUNDING
-    )
+    assert sum(drags) == pytest.approx(resistance.idler_rotation_resistance(2.0, length=500.0, **rolls), rel=ROUNDING)
 
 
 def test_equivalent_friction_factor_gives_back_the_factor():
     unit = resistance.main_resistance(**WHOLE | {"friction_factor": 1.0})
     force = resistance.main_resistance(**WHOLE)
-    assert resistance.equivalent_friction_factor(force, unit_main_force=unit) == pytest.approx(
-        0.02, rel=ROUNDING
-    )
+    assert resistance.equivalent_friction_factor(force, unit_main_force=unit) == pytest.approx(0.02, rel=ROUNDING)
 
 
 def test_main_resistance_is_even_in_the_slope_and_rolls_do_not_feel_it():
@@ -56,18 +52,14 @@ def test_main_resistance_is_even_in_the_slope_and_rolls_do_not_feel_it():
 
 def test_slope_resistance_is_the_work_per_distance():
     assert resistance.slope_resistance(100.0, lift=20.0, gravity=9.81) == pytest.approx(19620.0, rel=ROUNDING)
-    assert resistance.slope_resistance(100.0, lift=-20.0, gravity=9.81) == pytest.approx(
-        -19620.0, rel=ROUNDING
-    )
+    assert resistance.slope_resistance(100.0, lift=-20.0, gravity=9.81) == pytest.approx(-19620.0, rel=ROUNDING)
 
 
 def test_length_coefficient_falls_from_node_to_node_without_overshoot():
     nodes = resistance.LENGTH_COEFFICIENTS
     for (short, high), (long, low) in pairwise(nodes):
         assert low < resistance.length_coefficient(math.sqrt(short * long)) < high
-        assert resistance.length_coefficient(math.sqrt(short * long)) == pytest.approx(
-            (low + high) / 2, rel=1e-12
-        )
+        assert resistance.length_coefficient(math.sqrt(short * long)) == pytest.approx((low + high) / 2, rel=1e-12)
 
 
 @pytest.mark.parametrize("length", [2.9, 5001.0, math.nan, -1.0])
@@ -111,9 +103,7 @@ def test_bulk_that_passes_a_later_feeding_point_lies_between_its_skirts_too():
     }
     law = resistance.acceleration_skirt_resistance
     still = law(**skirt, volume_flow=0.3, passing=0.4, belt_speed=4.0, initial_speed=4.0)
-    assert still == pytest.approx(
-        resistance.skirt_resistance(**skirt, volume_flow=0.7, bulk_speed=4.0), rel=ROUNDING
-    )
+    assert still == pytest.approx(resistance.skirt_resistance(**skirt, volume_flow=0.7, bulk_speed=4.0), rel=ROUNDING)
     # from rest the fresh bulk lies at half the speed, twice as deep: 2 * 0.3 + 0.4 beside 0.7
     slow = law(**skirt, volume_flow=0.3, passing=0.4, belt_speed=4.0, initial_speed=0.0)
     assert slow == pytest.approx(still * (1.0 / 0.7) ** 2, rel=ROUNDING)
@@ -171,9 +161,7 @@ def test_idler_without_tilt_costs_nothing():
     assert resistance.idler_tilt_resistance(**tilt, tilt_angle=0.0) == 0
     some = resistance.idler_tilt_resistance(**tilt, tilt_angle=math.radians(30))
     assert some == pytest.approx(0.4 * 0.35 * 100 * 100 * 9.81 / 2, rel=ROUNDING)
-    steep = resistance.idler_tilt_resistance(
-        **tilt | {"inclination": math.radians(60)}, tilt_angle=math.radians(30)
-    )
+    steep = resistance.idler_tilt_resistance(**tilt | {"inclination": math.radians(60)}, tilt_angle=math.radians(30))
     assert steep == pytest.approx(some / 2, rel=ROUNDING)
 
 
@@ -239,9 +227,7 @@ def test_every_default_lies_in_its_range_and_names_a_source():
             r"pulley_diameter = 0\.0",
         ),
         (
-            lambda: resistance.pulley_load(
-                tight_tension=-1.0, slack_tension=0.0, pulley_mass=0.0, gravity=9.8
-            ),
+            lambda: resistance.pulley_load(tight_tension=-1.0, slack_tension=0.0, pulley_mass=0.0, gravity=9.8),
             r"tight_tension = -1\.0",
         ),
         (

@@ -25,9 +25,7 @@ def test_half_the_load_lives_two_to_the_p_longer(exponent):
 
 def test_faster_is_shorter_in_hours():
     slow = roll_life.rating_life_hours(1e3, **ROLL)
-    assert roll_life.rating_life_hours(1e3, **ROLL | {"rotation": 20.0}) == pytest.approx(
-        slow / 2, rel=ROUNDING
-    )
+    assert roll_life.rating_life_hours(1e3, **ROLL | {"rotation": 20.0}) == pytest.approx(slow / 2, rel=ROUNDING)
 
 
 def test_even_load_over_the_whole_roll_halves():

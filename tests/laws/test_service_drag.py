@@ -32,9 +32,7 @@ def drag(load, diameter=0.159, air=293.15, speed=None):
 @pytest.mark.parametrize("diameter", [0.089, 0.108, 0.127, 0.133, 0.152, 0.159, 0.178, 0.194, 0.219])
 def test_a_roll_in_service_drags_about_what_acceptance_allows(diameter):
     # 3.0 N at 650 rpm under 250 N; 1.28 N rim drag is the least limit, of rolls to 153 mm
-    assert (
-        1.28 < drag(250.0, diameter).force < 3.0 * 1.02
-    )  # bearings step with the diameter, the limit does not
+    assert 1.28 < drag(250.0, diameter).force < 3.0 * 1.02  # bearings step with the diameter, the limit does not
 
 
 def test_the_seal_is_set_by_the_limit_of_a_159_mm_roll():

@@ -29,9 +29,7 @@ def test_without_interest_a_sum_is_paid_in_equal_parts():
     [(20.0, "mixed", 3.0), (20.0, "sized", 5.0), (30.0, "mixed", 6.0), (25.0, "sized", 7.5)],
 )
 def test_widths_for_lumps_are_those_of_cema(surcharge, share, lumps):
-    found = preliminary_sizing.least_width_for_lumps(
-        0.1, surcharge_angle=math.radians(surcharge), share=share
-    )
+    found = preliminary_sizing.least_width_for_lumps(0.1, surcharge_angle=math.radians(surcharge), share=share)
     assert found == pytest.approx(0.1 * lumps)
 
 
@@ -70,17 +68,12 @@ def test_carcasses_weigh_what_listed_belts_do(name, covers):
 def test_a_tube_weighs_its_area_times_its_length():
     outer, wall, length = 0.133, 0.004, 0.38
     area = math.pi / 4.0 * (outer**2 - (outer - 2.0 * wall) ** 2)
-    assert preliminary_sizing.roll_shell_mass(outer, wall=wall, length=length) == pytest.approx(
-        7850.0 * area * length
-    )
+    assert preliminary_sizing.roll_shell_mass(outer, wall=wall, length=length) == pytest.approx(7850.0 * area * length)
 
 
 def test_recommended_speeds_rise_with_width_and_fall_with_wear():
     for severity in preliminary_sizing.SEVERITIES:
-        speeds = [
-            preliminary_sizing.recommended_speed(width, abrasiveness=severity)
-            for width in (0.5, 0.8, 1.2, 2.0)
-        ]
+        speeds = [preliminary_sizing.recommended_speed(width, abrasiveness=severity) for width in (0.5, 0.8, 1.2, 2.0)]
         assert speeds == sorted(speeds)
     assert preliminary_sizing.recommended_speed(1.2, abrasiveness="high") == pytest.approx(600 * 0.3048 / 60)
 
@@ -96,7 +89,6 @@ def test_what_is_out_of_range_is_refused():
 def test_a_border_in_inches_and_pounds_is_that_border(lump, density):
     rest = {"round_time": 30.0, "abrasiveness": "medium", "loading": "medium"}
     on, by_inch = (
-        preliminary_sizing.wear_addition(lump=k * lump, density=k * density, **rest)
-        for k in (1.0, 1.0 + 1e-15)
+        preliminary_sizing.wear_addition(lump=k * lump, density=k * density, **rest) for k in (1.0, 1.0 + 1e-15)
     )
     assert on == by_inch

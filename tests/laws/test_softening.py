@@ -67,17 +67,12 @@ def test_factors_are_the_compounds_at_that_strain(compound, contact, softened):
     assert float(series.storage(omega)) == pytest.approx(
         found.storage_factor * float(contact.rubber.storage(omega)), rel=2e-3
     )
-    assert float(series.loss(omega)) == pytest.approx(
-        found.loss_factor * float(contact.rubber.loss(omega)), rel=1e-12
-    )
+    assert float(series.loss(omega)) == pytest.approx(found.loss_factor * float(contact.rubber.loss(omega)), rel=1e-12)
 
 
 def test_heavier_rolls_work_it_harder(compound, contact):
     factors = compound.amplitude_factors()
-    found = [
-        soften_or_raise([SofteningCover(contact, load, factors, AT)])[0][1]
-        for load in (1000.0, 2000.0, 4000.0)
-    ]
+    found = [soften_or_raise([SofteningCover(contact, load, factors, AT)])[0][1] for load in (1000.0, 2000.0, 4000.0)]
     assert all(np.diff([f.strain for f in found]) > 0.0)
     assert all(np.diff([f.storage_factor for f in found]) < 0.0)
     # wider contacts are passed more slowly
@@ -164,12 +159,8 @@ def test_outside_the_sweeps_their_factors_are_held_and_it_says_so(line):
 
 def test_mean_load_weighs_by_what_rolls_lose():
     """8^(4/3) is 16: two rolls at 8 N/m and one at 1 lose 16 to 1 each; a load that all share is the mean."""
-    assert loss_weighted_load(np.array([8.0, 1.0]), np.array([2.0, 1.0])) == pytest.approx(
-        257.0 / 33.0, rel=1e-14
-    )
-    assert loss_weighted_load(np.array([5.0, 5.0, 5.0]), np.array([1.0, 2.0, 0.0])) == pytest.approx(
-        5.0, rel=1e-14
-    )
+    assert loss_weighted_load(np.array([8.0, 1.0]), np.array([2.0, 1.0])) == pytest.approx(257.0 / 33.0, rel=1e-14)
+    assert loss_weighted_load(np.array([5.0, 5.0, 5.0]), np.array([1.0, 2.0, 0.0])) == pytest.approx(5.0, rel=1e-14)
     with pytest.raises(InputError, match=r"^line_loads = 0\.0 is not allowed: a roll that carries something"):
         loss_weighted_load(np.zeros(2), np.ones(2))
 

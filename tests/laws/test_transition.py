@@ -61,16 +61,14 @@ def test_a_flat_belt_needs_no_transition():
 
 def test_the_strip_bears_its_limit_at_the_length_found():
     """36 MN/m · 0.01 m²/L² = 90 - 50 kN/m gives L = 3 m; slackened: 40 kN/m lost of 40."""
-    assert transition_length(
-        50e3, stretch=0.01, stiffness_per_width=36e6, limit_per_width=90e3
-    ) == pytest.approx(3.0, rel=1e-14)
-    assert transition_length(
-        40e3, stretch=-0.01, stiffness_per_width=36e6, limit_per_width=0.0
-    ) == pytest.approx(3.0, rel=1e-14)
+    assert transition_length(50e3, stretch=0.01, stiffness_per_width=36e6, limit_per_width=90e3) == pytest.approx(
+        3.0, rel=1e-14
+    )
+    assert transition_length(40e3, stretch=-0.01, stiffness_per_width=36e6, limit_per_width=0.0) == pytest.approx(
+        3.0, rel=1e-14
+    )
     for tension, stretch, limit in ((90e3, 0.01, 90e3), (0.0, -0.01, 0.0)):
-        assert math.isinf(
-            transition_length(tension, stretch=stretch, stiffness_per_width=36e6, limit_per_width=limit)
-        )
+        assert math.isinf(transition_length(tension, stretch=stretch, stiffness_per_width=36e6, limit_per_width=limit))
 
 
 def test_refusals():

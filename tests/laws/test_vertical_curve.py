@@ -63,9 +63,7 @@ def test_the_wind_lifts_what_the_tension_leaves():
 
     calm = curve.lift_off_radius(60e3, **belt)
     assert uplift(speed) == pytest.approx(20.0 * 9.81 * math.cos(0.1), rel=1e-14)
-    assert curve.lift_off_radius(60e3, **belt, uplift=uplift(0.5 * speed)) == pytest.approx(
-        calm / 0.75, rel=1e-14
-    )
+    assert curve.lift_off_radius(60e3, **belt, uplift=uplift(0.5 * speed)) == pytest.approx(calm / 0.75, rel=1e-14)
     assert curve.lift_off_radius(60e3, **belt, uplift=uplift(1.01 * speed)) == math.inf
 
 
@@ -85,9 +83,7 @@ def test_the_wind_lifts_what_the_tension_leaves():
             r"tension = -1\.0",
         ),
         (
-            lambda: curve.overstress_radius(
-                2e5, distance=0.1, stiffness_per_width=72e6, allowed_per_width=2e5
-            ),
+            lambda: curve.overstress_radius(2e5, distance=0.1, stiffness_per_width=72e6, allowed_per_width=2e5),
             r"allowed_per_width = 200000\.0 is not allowed: more than the mean 200000 N/m",
         ),
         (

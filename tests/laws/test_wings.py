@@ -93,9 +93,7 @@ def test_rolls_in_line_are_the_set_of_fewer_rolls():
             lambda given: vertical_curve.trough_section(WIDTH, **given).middle_below,
             lambda given: curve.half_span(WIDTH, **given),
             *(
-                lambda given, of=of: getattr(
-                    transition.transition_stretch(WIDTH, **given, pulley_height=0.6), of
-                )
+                lambda given, of=of: getattr(transition.transition_stretch(WIDTH, **given, pulley_height=0.6), of)
                 for of in ("edge", "middle", "least")
             ),
         ):
@@ -151,9 +149,7 @@ def test_without_friction_the_force_is_the_slope_of_the_potential_energy(given, 
         x, y = _place(given, abs(place))
         return y * math.cos(banking) + math.copysign(x, place) * math.sin(banking)
 
-    pushes = curve.outward_force_factors(
-        (0.0,) * rolls, trough_angle=OUTER, banking_angle=banking, inner_angle=INNER
-    )
+    pushes = curve.outward_force_factors((0.0,) * rolls, trough_angle=OUTER, banking_angle=banking, inner_angle=INNER)
     assert pushes == pytest.approx([math.sin(angle + banking) for angle in angles], rel=ROUNDING)
     edges = height(0.5 * WIDTH + drift) - height(-0.5 * WIDTH + drift)
     law = curve.DriftLaw.of(loads, pushes)
@@ -168,9 +164,7 @@ def test_a_wing_presses_on_every_roll_that_it_slides_toward():
     for at, bend in ((1, OUTER - INNER), (2, INNER)):
         frictions = [0.0] * 5
         frictions[at] = 0.2
-        pushes = curve.outward_force_factors(
-            frictions, trough_angle=OUTER, banking_angle=0.0, inner_angle=INNER
-        )
+        pushes = curve.outward_force_factors(frictions, trough_angle=OUTER, banking_angle=0.0, inner_angle=INNER)
         assert pushes[0] == pytest.approx(math.sin(OUTER) * (1.0 + 0.2 * math.sin(bend)), rel=ROUNDING)
         outside = -math.sin(OUTER) * (1.0 - (0.2 * math.sin(bend) if at == 2 else 0.0))
         assert pushes[4] == pytest.approx(outside, rel=ROUNDING)

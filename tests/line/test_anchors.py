@@ -87,9 +87,7 @@ def test_softened_theory_between_its_loads_is_the_softened_contact():
     compound = shelf.compound("s100").replace(tests=[one_test((1.0, 8.0), (2.0, 16.0), (5.0, 60.0))])
     rows = rolling_test_rows(compound, softened=True)
     alone = [
-        rolling_test_rows(
-            shelf.compound("s100").replace(tests=[one_test((load_, 10.0 * load_))]), softened=True
-        )[0]
+        rolling_test_rows(shelf.compound("s100").replace(tests=[one_test((load_, 10.0 * load_))]), softened=True)[0]
         for load_ in (1.0, 2.0, 5.0)
     ]
     for row, single in zip(rows, alone, strict=True):
@@ -120,9 +118,7 @@ def test_the_level_is_shown_wherever_its_result_is(line):
     assert carry["level_from"] < carry["level_factor"] < carry["level_to"]
     # 15 % of the test, in the logarithm, and what its fit leaves
     assert math.log(carry["level_to"] / carry["level_factor"]) == pytest.approx(0.15, abs=0.01)
-    assert any(
-        "times the theory" in warning and "rolling-resistance tests" in warning for warning in result.warnings
-    )
+    assert any("times the theory" in warning and "rolling-resistance tests" in warning for warning in result.warnings)
     bare = calculate(with_compound(line, linear("s100"), "both"))
     assert any("level not tested" in warning for warning in told(bare))
 

@@ -103,9 +103,7 @@ def test_splitting_a_section_changes_nothing(found):
     route = found.conveyor.route
     old = route.sections[3]
     halves = [
-        old.replace(
-            name=name, length=quantity(f"{si(old.length) / 2.0!r} m"), lift=quantity(f"{old.rise / 2.0!r} m")
-        )
+        old.replace(name=name, length=quantity(f"{si(old.length) / 2.0!r} m"), lift=quantity(f"{old.rise / 2.0!r} m"))
         for name in ("one", "other")
     ]
     sections = [*route.sections[:3], *halves, *route.sections[4:]]

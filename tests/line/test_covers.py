@@ -19,9 +19,7 @@ SPEEDS = ("4.5 m/s", "5 m/s", "5.6 m/s", "6.3 m/s", "7.2 m/s")
 @pytest.fixture(scope="module")
 def line():
     given = load("examples/specs/overland.yaml")
-    return given.replace(
-        calculation=given.calculation.replace(anchor="off")
-    )  # tests have covers of their own
+    return given.replace(calculation=given.calculation.replace(anchor="off"))  # tests have covers of their own
 
 
 @pytest.fixture
@@ -40,9 +38,7 @@ def solved(monkeypatch):
 def calculated(line, speeds, *, runs=(), kept=None):
     at = [quantity("0 degC", "temperature")]
     settings = crossed_settings(line, at, [quantity(speed, "speed") for speed in speeds])
-    answers = calculate_many(
-        [Variant(one.conveyor, one.temperature) for one in settings], 1e-4, runs=runs, kept=kept
-    )
+    answers = calculate_many([Variant(one.conveyor, one.temperature) for one in settings], 1e-4, runs=runs, kept=kept)
     assert all(isinstance(one, CalculatedConveyor) for one in answers)
     return answers
 

@@ -43,9 +43,7 @@ def test_the_loop_closes_and_power_is_force_times_speed(name):
     speed = si(found.conveyor.belt.speed)
     assert found.balance.power.belt == pytest.approx(forces.total * speed, rel=1e-14)
     assert all(point.tension >= point.least_for_sag * (1.0 - 1e-12) for point in points)
-    assert found.balance.tensions.slack == pytest.approx(
-        min(points[0].tension, points[-1].tension), rel=1e-12
-    )
+    assert found.balance.tensions.slack == pytest.approx(min(points[0].tension, points[-1].tension), rel=1e-12)
 
 
 def test_lift_is_that_of_the_bulk_alone(line, result):
@@ -66,9 +64,7 @@ def test_splitting_a_section_changes_nothing(line, result):
     old = sections[3]
     length, rise = si(old.length), old.rise
     halves = [
-        old.replace(
-            name=f"half {i}", length=quantity(f"{length / 2.0!r} m"), lift=quantity(f"{rise / 2.0!r} m")
-        )
+        old.replace(name=f"half {i}", length=quantity(f"{length / 2.0!r} m"), lift=quantity(f"{rise / 2.0!r} m"))
         for i in (1, 2)
     ]
     split = line.replace(route=line.route.replace(sections=[*sections[:3], *halves, *sections[4:]]))
@@ -128,16 +124,12 @@ def test_the_forces_along_a_stretch_add_up(result):
 
 def test_the_forces_add_up_by_kind():
     along = {"indentation": 1000.0, "rotation": 200.0, "flexure": 130.0}
-    forces = [
-        Force(name, name, "main", np.array([force - 50.0, 50.0]), "test") for name, force in along.items()
-    ]
+    forces = [Force(name, name, "main", np.array([force - 50.0, 50.0]), "test") for name, force in along.items()]
     tilt = Force("tilt", "tilt", "special", np.array([20.0, 30.0]), "test")
     lift = Force("lift", "lift", "lift", np.array([-500.0, 200.0]), "test")
     whole = ForceSums.of([*forces, tilt, lift, Force("wrap", "wrap", "secondary", 7.0, "test")])
     assert whole.main == pytest.approx(1330.0, rel=1e-15)
-    assert whole.parts == pytest.approx(
-        along | {"secondary": 7.0, "special": 50.0, "lift": -300.0}, rel=1e-15
-    )
+    assert whole.parts == pytest.approx(along | {"secondary": 7.0, "special": 50.0, "lift": -300.0}, rel=1e-15)
     assert whole.total == pytest.approx(1087.0, rel=1e-15)
     assert lift.by_strand() == pytest.approx({"carry": -500.0, "return": 200.0}, rel=1e-15)
 
@@ -150,9 +142,7 @@ def test_a_wing_integrated_by_single_solves(result):
     w = 2.0 * roll.load.bulk_force / length * (1.0 - y / length) + roll.load.belt_force / length
     assert 0.5 * length * weights @ w == pytest.approx(roll.load.force, rel=1e-12)
     level = result.contacts.covers["carry"].level
-    single = [
-        float(level.factor(load) * indentation_resistance(contact, float(load)).resistance) for load in w
-    ]
+    single = [float(level.factor(load) * indentation_resistance(contact, float(load)).resistance) for load in w]
     # a kink where the tests' loads end: 1e-4 of quadratures with 8 and 12 points
     assert roll.resistance == pytest.approx(0.5 * length * weights @ np.array(single), rel=1e-4)
 
@@ -191,9 +181,7 @@ def test_secondary_by_length_coefficient(line):
         calculation=line.calculation.replace(secondary="C"),
     )
     found = calculate(short).balance
-    assert found.forces.secondary == pytest.approx(
-        (length_coefficient(1020.0) - 1.0) * found.forces.main, rel=1e-12
-    )
+    assert found.forces.secondary == pytest.approx((length_coefficient(1020.0) - 1.0) * found.forces.main, rel=1e-12)
 
 
 def test_iso_5048_example_beside_ours():

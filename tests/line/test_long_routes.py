@@ -71,9 +71,7 @@ def test_rolls_read_side_by_side_are_those_read_alone() -> None:
                 "peak_error",
                 "resistance",
             ):
-                assert float(getattr(roll.peak, name)) == pytest.approx(
-                    float(getattr(alone, name)), rel=1e-11
-                ), name
+                assert float(getattr(roll.peak, name)) == pytest.approx(float(getattr(alone, name)), rel=1e-11), name
             assert roll.cover_penetration == pytest.approx(
                 float(roll.curve.penetration(roll.load.peak_line_load)), rel=1e-11
             )

@@ -62,8 +62,7 @@ def test_load_and_sag_are_the_default(result):
     # c of one site: 11 % of 61.7 N a set under 4302 N at 1 % sag; sag 1 % carry, 2 % return
     c, sag = 0.11 * 61.7 / (4302.0 * 0.01), {"carry": 0.01, "return": 0.02}
     expected = [
-        c * sag[s.strand] * s.line_mass * 9.81 * math.cos(s.inclination) * s.length
-        for s in result.line.stretches
+        c * sag[s.strand] * s.line_mass * 9.81 * math.cos(s.inclination) * s.length for s in result.line.stretches
     ]
     assert along(result, "flexure") == pytest.approx(np.array(expected), rel=1e-12)
     assert any("load x sag x 0.158 (0.079 to 0.316) assumed" in w for w in told(result))
@@ -98,9 +97,7 @@ def test_a_share_is_one_on_request(line):
     others = along(found, "indentation") + along(found, "idler_rotation")
     assert along(found, "flexure") == pytest.approx(0.11 / 0.89 * others, rel=1e-12)
     assert not any("calculation.flexure not given" in w for w in told(found))
-    assert any(
-        "Flexure of belt and bulk is 11 % of the main resistance" in a for a in analysis_assumptions(made)
-    )
+    assert any("Flexure of belt and bulk is 11 % of the main resistance" in a for a in analysis_assumptions(made))
 
 
 def test_flexure_of_the_belt_at_the_least_tension(line):
@@ -150,9 +147,7 @@ def test_splitting_a_section_changes_no_flexure(line, laws):
 
 def test_the_laws_say_how_far_to_trust_them(line):
     made = with_flexure(line, belt=BELT)
-    assert any(
-        "at the least tension that the sag allows, on the safe side" in a for a in analysis_assumptions(made)
-    )
+    assert any("at the least tension that the sag allows, on the safe side" in a for a in analysis_assumptions(made))
     said = told(calculate(made))
     assert "calculation.flexure.bulk not given: flexure of the bulk is not in the figures" in said
     assert not any("flexure_share" in w for w in said)
@@ -162,9 +157,7 @@ def test_the_laws_say_how_far_to_trust_them(line):
 
 def test_a_tension_below_the_belts_momentum_is_refused(line):
     slack = with_flexure(line, belt=BELT | {"tension": "3 kN"})
-    with pytest.raises(
-        NoSolutionError, match=r"m' v² is .* give a larger calculation\.flexure\.belt\.tension"
-    ):
+    with pytest.raises(NoSolutionError, match=r"m' v² is .* give a larger calculation\.flexure\.belt\.tension"):
         calculate(slack)
 
 
@@ -183,9 +176,7 @@ def test_contradictions_are_refused(line, calculation, message):
 
 def test_five_rolls_have_no_law_for_the_bulk(line):
     roll = line.idlers.carry.roll.replace(length="300 mm")
-    five = line.idlers.carry.replace(
-        rolls=5, inner_trough_angle="20 deg", roll=roll, share_rule="cross-section"
-    )
+    five = line.idlers.carry.replace(rolls=5, inner_trough_angle="20 deg", roll=roll, share_rule="cross-section")
     made = line.replace(idlers=line.idlers.replace(carry=five))
     with pytest.raises(InputError, match=r"calculation\.flexure\.bulk: given, but the wings of 5 rolls"):
         with_flexure(made, bulk=BULK)
@@ -193,9 +184,7 @@ def test_five_rolls_have_no_law_for_the_bulk(line):
 
 def test_ploughs_are_special_resistances_at_their_place(line, result):
     plough = {"count": 2, "width": "1 m", "position": "carry", "section": "plateau"}
-    made = line.replace(
-        route=line.route.replace(ploughs=[plough, {"width": "0.8 m", "scraping_factor": "2 kN/m"}])
-    )
+    made = line.replace(route=line.route.replace(ploughs=[plough, {"width": "0.8 m", "scraping_factor": "2 kN/m"}]))
     found = calculate(made)
     singles = {single.name: single for single in found.balance.singles if single.name.startswith("plough")}
     assert {name: (single.total, single.place) for name, single in singles.items()} == {

@@ -51,9 +51,7 @@ def carry_stretches(line):
 def carry_drags(line):
     """Drags of the rolls of a set on every carry stretch, beside the stretch."""
     made = Line.of(line)
-    return [
-        (s, drags) for s, drags in zip(made.stretches, made.roll_drags, strict=True) if s.strand == "carry"
-    ]
+    return [(s, drags) for s, drags in zip(made.stretches, made.roll_drags, strict=True) if s.strand == "carry"]
 
 
 def told(found):
@@ -242,8 +240,7 @@ def test_remarks_follow_the_law(line):
     made = carry_roll(cold, drag_law=BEARING)
     said = told(calculate(made))
     assert any(
-        "Roll drag: carry over load, speed and air temperature by Palmgren" in a
-        for a in analysis_assumptions(made)
+        "Roll drag: carry over load, speed and air temperature by Palmgren" in a for a in analysis_assumptions(made)
     )
     assert any("f0, f1_factor, f1_exponent not given" in w for w in said)
     assert any("mm²/s at -10 °C: bearings warm themselves" in w for w in said)
@@ -303,10 +300,7 @@ def test_roller_bearings_and_single_rolls(line):
 
 def test_a_short_life_is_warned_of(line):
     weak = calculate(carry_roll(line, bearing=LIFE | {"dynamic_rating": "6 kN"}))
-    assert any(
-        "carry rolls: L10 of all bearings of a set in " in w and "of the middle alone" in w
-        for w in told(weak)
-    )
+    assert any("carry rolls: L10 of all bearings of a set in " in w and "of the middle alone" in w for w in told(weak))
     strong = calculate(carry_roll(line, bearing=LIFE))
     assert not any("L10" in w for w in told(strong))
 

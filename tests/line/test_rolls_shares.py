@@ -229,10 +229,7 @@ def test_an_offset_changes_no_load_and_says_so(line):
     made = with_carry(line, offset="150 mm")
     plain = calculate(line).balance.forces.parts
     assert calculate(made).balance.forces.parts == pytest.approx(plain, rel=ROUNDING)
-    assert any(
-        "idlers.carry.offset: the loads of the rolls are those of a set in one plane" in w
-        for w in warned(made)
-    )
+    assert any("idlers.carry.offset: the loads of the rolls are those of a set in one plane" in w for w in warned(made))
 
 
 def test_five_rolls_with_their_shares(line):
@@ -241,9 +238,7 @@ def test_five_rolls_with_their_shares(line):
     made = with_carry(line, rolls=5, inner_trough_angle="20 deg", roll=roll, load_shares=shares)
     loads = loads_of(made)
     total = math.fsum(load.bulk_force for load in loads)
-    assert [load.bulk_force / total for load in loads] == pytest.approx(
-        [0.05, 0.15, 0.6, 0.15, 0.05], rel=1e-12
-    )
+    assert [load.bulk_force / total for load in loads] == pytest.approx([0.05, 0.15, 0.6, 0.15, 0.05], rel=1e-12)
     assert len(Line.of(made).roll_drags[1]) == 5
 
 
@@ -275,13 +270,10 @@ def test_the_assumptions_name_the_rule(line):
         return next(a for a in analysis_assumptions(made) if a.startswith("Load shares"))
 
     assert (
-        told(line)
-        == "Load shares of the rolls after VDI 2341; bulk uniform on inner rolls, triangular on outer ones."
+        told(line) == "Load shares of the rolls after VDI 2341; bulk uniform on inner rolls, triangular on outer ones."
     )
     by_area = with_carry(line, share_rule="cross-section")
-    assert "area of bulk above each roll at the section's filling, the heap a parabola (ISO 5048)" in told(
-        by_area
-    )
+    assert "area of bulk above each roll at the section's filling, the heap a parabola (ISO 5048)" in told(by_area)
     given = with_carry(line, load_shares=["20 %", "60 %", "20 %"])
     assert "after the spec (idlers.carry.load_shares)" in told(given)
 
@@ -289,6 +281,4 @@ def test_the_assumptions_name_the_rule(line):
 def test_spacings_beyond_practice_are_warned_of(line):
     wide = with_carry(line, spacing=quantity("3.5 m"))
     told = warned(wide)
-    assert any(
-        "idlers.carry: sets 3.5 m apart, the widest in use on overland conveyors are 3 m" in w for w in told
-    )
+    assert any("idlers.carry: sets 3.5 m apart, the widest in use on overland conveyors are 3 m" in w for w in told)

@@ -17,10 +17,7 @@ def test_the_classical_estimate_is_that_of_din_22101():
     one = balanced()
     found = one.classical
     # F_H = f g Σ l (m'_R + (2 m'_belt + m'_bulk) cos δ), f 0.02; C is 1.09 at 1000 m
-    weights = [
-        length * (ROLLS + (2.0 * BELT + BULK) * math.cos(math.asin(rise / length)))
-        for length, rise in SECTIONS
-    ]
+    weights = [length * (ROLLS + (2.0 * BELT + BULK) * math.cos(math.asin(rise / length))) for length, rise in SECTIONS]
     main = 0.02 * GRAVITY * sum(weights)
     assert main == pytest.approx(26.7e3, rel=5e-3)
     assert found.main == pytest.approx(main, rel=1e-12)

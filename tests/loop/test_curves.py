@@ -64,9 +64,7 @@ def test_tension_and_loads_agree_within_the_bound(hill):
     fine = curved(HILL, calculation={"rtol": 2e-7})
     finer = calculate(fine)
     # the contacts' own tolerance comes on top of the bound
-    assert hill.balance.tensions.largest == pytest.approx(
-        finer.balance.tensions.largest, rel=found.bound + 1e-6
-    )
+    assert hill.balance.tensions.largest == pytest.approx(finer.balance.tensions.largest, rel=found.bound + 1e-6)
     again = Strands.of(fine, CurveLoads(pressing_masses(finer.line, finer.balance.settled.steady)))
     assert _borne(again) == pytest.approx(_borne(finer.line), rel=1e-6)
 
@@ -83,9 +81,7 @@ def test_a_hill_costs_a_valley_saves_and_an_endless_radius_does_neither(hill):
     far = calculate(curved([*HILL[:2], HILL[2] | {"curve_radius": "100 km"}, HILL[3]]))
     # the difference goes with 1/r: 400 m over 100 km of the hill's, tolerance of the contacts beside
     extra = (hill.balance.forces.indentation - indentation) * 400.0 / 100e3
-    assert far.balance.forces.indentation - indentation == pytest.approx(
-        extra, rel=0.1, abs=2e-6 * indentation
-    )
+    assert far.balance.forces.indentation - indentation == pytest.approx(extra, rel=0.1, abs=2e-6 * indentation)
 
 
 def test_a_relieved_belt_keeps_the_sum_of_its_loads():
@@ -173,8 +169,7 @@ def test_strength_is_needed_per_width():
         "return": sets["return"] | {"roll": sets["return"]["roll"] | {"length": "1400 mm"}},
     }
     narrow, duty = (
-        belt_duty(closed(made))
-        for made in (line(belt={"carcass": wide["carcass"]}), line(belt=wide, idlers=long))
+        belt_duty(closed(made)) for made in (line(belt={"carcass": wide["carcass"]}), line(belt=wide, idlers=long))
     )
     factor = narrow.strength_needed["steady"] / narrow.largest_steady  # the belt is 1 m wide there
     assert duty.strength_needed["steady"] == pytest.approx(factor * duty.largest_steady / 1.2, rel=1e-12)
@@ -204,10 +199,7 @@ def test_safety_and_diameters():
     assert duty.safety_steady == pytest.approx(630e3 / steady, rel=1e-14)
     assert duty.strength_needed["steady"] == pytest.approx(steady * 1.1 * 1.9 / 0.45, rel=1e-14)
     assert duty.drive_diameter == pytest.approx(145 * 0.005, rel=1e-14)
-    groups = {
-        pulley.name: (pulley.group, round(1e3 * pulley.least, 2), pulley.large_enough)
-        for pulley in duty.pulleys
-    }
+    groups = {pulley.name: (pulley.group, round(1e3 * pulley.least, 2), pulley.large_enough) for pulley in duty.pulleys}
     used = {pulley.name: pulley.utilisation for pulley in duty.pulleys}
     assert used["head"] > 0.6 > max(used["bend"], used["tail"], used["snub"])  # of 630/6.7 N/mm
     assert groups == {

@@ -29,9 +29,7 @@ def test_an_uncontrolled_start_brings_all_torque_to_the_belt_but_what_the_drive_
     start = start_and_stop(found).start
     assert start.acceleration == pytest.approx(acceleration, rel=ROUNDING)
     assert started(found).force == pytest.approx(1.8 * RATED - 10e3 * acceleration, rel=ROUNDING)
-    assert started(found).force == pytest.approx(
-        steady + mass * acceleration, rel=ROUNDING
-    )  # Newton, of the belt
+    assert started(found).force == pytest.approx(steady + mass * acceleration, rel=ROUNDING)  # Newton, of the belt
     assert start.torque_factor == pytest.approx(1.8, rel=ROUNDING)
     assert start.time == pytest.approx(4.0 / acceleration, rel=ROUNDING)
     assert found.tensions.tight_start - found.tensions.tight > 0.5 * (1.8 * RATED - steady)
@@ -157,9 +155,7 @@ def test_without_power_a_downhill_belt_runs_away_and_its_brakes_stop_it_after_th
     assert moving.gripping_speed == pytest.approx(fast, rel=ROUNDING)
     slowing = (400e3 + least) / mass
     assert moving.braked.time == pytest.approx(2.0 + fast / slowing, rel=ROUNDING)
-    assert moving.braked.distance == pytest.approx(
-        0.5 * (4.0 + fast) * 2.0 + fast**2 / (2.0 * slowing), rel=ROUNDING
-    )
+    assert moving.braked.distance == pytest.approx(0.5 * (4.0 + fast) * 2.0 + fast**2 / (2.0 * slowing), rel=ROUNDING)
     # energy: the brakes take what the belt had when they gripped, and what gravity gave less friction on the way
     energy = 0.5 * mass * fast**2 - least * fast**2 / (2.0 * slowing)
     assert moving.braking_heat == pytest.approx(energy, rel=ROUNDING)
@@ -192,9 +188,7 @@ def test_a_tripper_lifts_its_bulk_before_the_booster_and_speeds_it_up_behind():
     without = balanced(drive={"further_drives": [BOOSTER]})
     route = {"further_feeding": [TRIPPER]}
     found = balanced(route=route, drive={"further_drives": [BOOSTER]})
-    added = {
-        force.name: force for force in found.singles if "tripper" in force.name or force.name.endswith(", c")
-    }
+    added = {force.name: force for force in found.singles if "tripper" in force.name or force.name.endswith(", c")}
     gravity, flow = found.line.gravity, 1200.0 / 3.6
     assert added["lift over the tripper, c"].total == pytest.approx(flow / 4.0 * gravity * 4.0, rel=ROUNDING)
     assert added["acceleration of the bulk, c"].total == pytest.approx(flow * 3.0, rel=ROUNDING)
@@ -215,9 +209,7 @@ def test_the_tension_round_a_tripper_closes_by_hand():
     booster = state.drives[1]
     assert booster.arriving == pytest.approx(end + singles["lift over the tripper, c"], rel=ROUNDING)
     assert booster.leaving == pytest.approx(booster.arriving - booster.force, rel=ROUNDING)
-    behind = math.fsum(
-        value for name, value in singles.items() if name.endswith(", c") and "lift" not in name
-    )
+    behind = math.fsum(value for name, value in singles.items() if name.endswith(", c") and "lift" not in name)
     assert start == pytest.approx(booster.leaving + behind, rel=ROUNDING)
 
 
@@ -240,8 +232,7 @@ def test_bulk_that_leaves_a_turning_belt_and_lands_whole_is_the_same_bulk():
 
 def test_a_tripper_behind_a_section_without_bulk_has_none():
     sections = [
-        section | ({"loaded": False} if section["name"] == "b" else {})
-        for section in DATA["route"]["sections"]
+        section | ({"loaded": False} if section["name"] == "b" else {}) for section in DATA["route"]["sections"]
     ]
     found = balanced(route={"sections": sections, "further_feeding": [TRIPPER]})
     assert not [force for force in found.singles if force.key == "tripper_lift"]

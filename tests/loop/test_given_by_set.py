@@ -40,9 +40,7 @@ def test_a_reduced_mass_lightens_the_start_only():
     reduced = balanced(idlers=idlers(rotating_mass="12 kg", reduced_mass="9 kg"))
     assert reduced.forces.main == pytest.approx(rolls.forces.main, rel=ROUNDING)
     less = rolls.line.loop.mass.sum() - reduced.line.loop.mass.sum()
-    assert less == pytest.approx(
-        3.0 / 1.2 * 1000.0, rel=1e-9
-    )  # of a difference of sums a thousand times larger
+    assert less == pytest.approx(3.0 / 1.2 * 1000.0, rel=1e-9)  # of a difference of sums a thousand times larger
 
 
 def test_a_section_with_its_own_spacing_has_the_same_sets():
@@ -85,9 +83,7 @@ def test_a_rated_belt_is_judged_by_the_tension_it_works_at():
 def test_a_rating_below_the_tension_fails_and_up_to_half_as_much_again_may_start():
     steady = belt_duty(closed(rated(rating="600 PIW"))).per_width_steady / 1e3
     tight, over = rated(rating=f"{0.99 * steady} N/mm"), rated(rating=f"{1.01 * steady} N/mm")
-    assert (
-        sum("the belt is rated for" in why for why in told(tight, closed(tight))) == 1
-    )  # steady; starts within 1.5
+    assert sum("the belt is rated for" in why for why in told(tight, closed(tight))) == 1  # steady; starts within 1.5
     assert not any("the belt is rated for" in why for why in told(over, closed(over)))
 
 

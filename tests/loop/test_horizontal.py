@@ -135,9 +135,7 @@ def test_a_sharp_curve_fails_and_a_sharper_one_has_no_answer(found):
     failing = [check for check in belt_drift(sharp) if check.failed]
     assert failing
     assert "the belt drifts by" in failing[0].why.text() or "runs off" in failing[0].why.text()
-    with pytest.raises(
-        NoSolutionError, match=r'to the inside of the horizontal curve in section "bend", .*well above'
-    ):
+    with pytest.raises(NoSolutionError, match=r'to the inside of the horizontal curve in section "bend", .*well above'):
         calculate(conveyor({"horizontal_radius": "100 m"}))
     with pytest.raises(NoSolutionError, match=r"to the outside of .*: choose less banking or skew"):
         calculate(conveyor({"horizontal_radius": "100 km", "return_banking": "20 deg"}))
@@ -146,10 +144,7 @@ def test_a_sharp_curve_fails_and_a_sharper_one_has_no_answer(found):
 def test_banking_and_skew_bring_the_belt_out(found):
     raised = calculate(conveyor({"carry_banking": "6 deg"}))
     skewed = calculate(conveyor({"carry_skew": "0.5 deg"}))
-    drift = {
-        name: one.horizontal[0].turn.drift
-        for name, one in (("as", found), ("raised", raised), ("skew", skewed))
-    }
+    drift = {name: one.horizontal[0].turn.drift for name, one in (("as", found), ("raised", raised), ("skew", skewed))}
     assert drift["raised"] < drift["as"]
     assert drift["skew"] < drift["as"]
     (guidance,) = (force for force in skewed.balance.along if force.key == "guidance")
@@ -166,9 +161,7 @@ def test_wind_moves_the_empty_strand_both_ways_and_none_under_bulk(found):
     carry, back = windy.horizontal
     assert carry == found.horizontal[0]
     calm = found.horizontal[1]
-    assert back.turn.wind == pytest.approx(
-        1.3 * 0.5 * 1.25 * 64.0 * 3.0 * (0.015 + 0.5 * math.sin(math.radians(15)))
-    )
+    assert back.turn.wind == pytest.approx(1.3 * 0.5 * 1.25 * 64.0 * 3.0 * (0.015 + 0.5 * math.sin(math.radians(15))))
     assert back.farthest_in.inside > calm.farthest_in.inside
     assert back.farthest_out.outside < calm.farthest_out.outside
     assert back.turn.drift == calm.turn.drift
@@ -206,9 +199,7 @@ def test_the_table_is_of_all_cases(found):
     assert table["farthest inside [mm]"].tolist() == pytest.approx([1e3 * x for x in inside])
     assert table["farthest outside [mm]"].tolist() == pytest.approx([1e3 * x for x in outside])
     assert inside[0] > found.horizontal[0].farthest_in.inside
-    assert table["drift, steady [mm]"].tolist() == pytest.approx(
-        [1e3 * bend.turn.drift for bend in found.horizontal]
-    )
+    assert table["drift, steady [mm]"].tolist() == pytest.approx([1e3 * bend.turn.drift for bend in found.horizontal])
 
 
 def test_the_wind_lifts_what_has_no_bulk_on_it(found):
@@ -239,9 +230,7 @@ def test_the_plan_turns_by_length_over_radius(found):
     assert math.atan2(y1 - y0, x1 - x0) == pytest.approx(0.5 * angle, rel=1e-9)
     # chords of equal turn: 24 of them for the arc
     chord = 24 * 2.0 * 1800.0 * math.sin(angle / 48.0)
-    assert math.hypot(x1 - x0, y1 - y0) == pytest.approx(
-        2.0 * 1800.0 * math.sin(0.5 * angle) * 300.0 / chord, rel=1e-9
-    )
+    assert math.hypot(x1 - x0, y1 - y0) == pytest.approx(2.0 * 1800.0 * math.sin(0.5 * angle) * 300.0 / chord, rel=1e-9)
 
 
 def test_edges_bear_the_bend_as_plane_sections_say(found):
@@ -314,9 +303,7 @@ def test_a_flat_strand_drifts_along_its_curve():
     halves = flat({"length": "30 m", "name": "one"}, {"length": "30 m", "name": "two"})
     last, first = of_return(halves)  # the return strand comes from the head
     assert (first.section, last.section) == ("one", "two")
-    back = flat(
-        {"length": "30 m", "name": "one"}, {"length": "30 m", "name": "two", "horizontal_curve": "right"}
-    )
+    back = flat({"length": "30 m", "name": "one"}, {"length": "30 m", "name": "two", "horizontal_curve": "right"})
     turned, _ = of_return(back)
     for one, two, both, other in zip(last.states, first.states, bend.states, turned.states, strict=True):
         assert one.inside < two.inside <= both.inside * (1.0 + 1e-6)  # by the highest tension of each half
@@ -326,9 +313,7 @@ def test_a_flat_strand_drifts_along_its_curve():
 
 
 def test_a_flat_strand_falls_off_a_long_curve():
-    with pytest.raises(
-        NoSolutionError, match=r"runs off its rolls to the inside .* more banking or a trough"
-    ):
+    with pytest.raises(NoSolutionError, match=r"runs off its rolls to the inside .* more banking or a trough"):
         flat({"horizontal_radius": "600 m", "return_banking": "0 deg", "carry_banking": "6 deg"})
 
 
@@ -338,9 +323,7 @@ def test_a_flat_strand_that_ran_off_in_one_curve_is_off_in_the_next():
         bends = [CURVE | {"return_banking": "1.5 deg", "length": "30 m", "name": name, "horizontal_curve": turned}
                  for name, turned in (("one", side), ("two", "left"))]  # fmt: skip
         route = {"sections": [*bends, {"name": "c", "length": "200 m", "lift": "10 m"}], "pulleys": PULLEYS}
-        given = data(
-            idlers=FLAT, route=route, ambient={"wind_speed": "60 m/s"}, calculation={"strain": "off"}
-        )
+        given = data(idlers=FLAT, route=route, ambient={"wind_speed": "60 m/s"}, calculation={"strain": "off"})
         second, first = sorted(of_return(calculate(from_data(given))), key=lambda bend: bend.section)
         assert (first.section, second.section) == ("two", "one")  # the return strand comes from the head
         for bend in (first, second):
@@ -351,9 +334,7 @@ def test_a_flat_strand_that_ran_off_in_one_curve_is_off_in_the_next():
 def test_rolls_that_hold_no_belt_are_refused_in_a_curve():
     pair = {"rolls": 2, "spacing": "3 m", "roll": _ROLL}
     bad = data(idlers={"return": pair}, route={"sections": [CURVE], "pulleys": PULLEYS})
-    with pytest.raises(
-        InputError, match=r"idlers.return.trough_angle: got 0 deg, .*take a trough, or rolls: 1"
-    ):
+    with pytest.raises(InputError, match=r"idlers.return.trough_angle: got 0 deg, .*take a trough, or rolls: 1"):
         from_data(bad)
 
 
@@ -397,20 +378,14 @@ def test_a_garland_of_five_holds_its_belt_in_a_curve(found):
 
 
 def test_more_than_half_a_turn_is_refused():
-    with pytest.raises(
-        InputError, match=r"turn by 344 deg, more than 180 deg in a section: take 95.493 m or more"
-    ):
-        from_data(
-            data(idlers=BACK, route={"sections": [CURVE | {"horizontal_radius": "50 m"}], "pulleys": PULLEYS})
-        )
+    with pytest.raises(InputError, match=r"turn by 344 deg, more than 180 deg in a section: take 95.493 m or more"):
+        from_data(data(idlers=BACK, route={"sections": [CURVE | {"horizontal_radius": "50 m"}], "pulleys": PULLEYS}))
 
 
 def test_before_the_drift_is_known_no_pull_presses_on_the_rolls():
     """Of 5 deg of skew the centred belt is pushed outward by more than its tension ever draws it inward."""
     made = conveyor({"carry_skew": "5 deg", "carry_banking": "0 deg"})
-    lane = conveyor(
-        dict.fromkeys(("horizontal_curve", "horizontal_radius", "carry_banking", "return_banking"))
-    )
+    lane = conveyor(dict.fromkeys(("horizontal_curve", "horizontal_radius", "carry_banking", "return_banking")))
     curved, straight = (Strands.of(one).each[0].stretches[1] for one in (made, lane))
     assert curved.loads == straight.loads
     assert min(load.force for load in calculate(made).line.stretches[1].loads) > 0.0

@@ -80,13 +80,10 @@ def test_the_loop_closes_in_every_state(case):
             roll_mass = 12.0 / 1.2 if result.stretch.strand == "carry" else 9.0 / 3.0
             mass = result.stretch.length * (result.stretch.line_mass + roll_mass)
             step = result.lift + state.friction * (result.total - result.lift) + state.acceleration * mass
-            assert state.ends[i] - state.starts[i] == pytest.approx(
-                step, rel=CLOSED, abs=CLOSED * state.largest
-            )
+            assert state.ends[i] - state.starts[i] == pytest.approx(step, rel=CLOSED, abs=CLOSED * state.largest)
             level += step
         level += sum(
-            single.total * (1.0 if "acceleration" in single.name else state.friction)
-            for single in found.singles
+            single.total * (1.0 if "acceleration" in single.name else state.friction) for single in found.singles
         )
         level -= sum(side.force for side in state.drives)
         assert level == pytest.approx(state.leaving, abs=CLOSED * state.largest), state.name
@@ -175,9 +172,7 @@ def test_one_drive_is_the_law():
     law = tension.drive_tensions(
         found.forces.total, friction=0.35, wrap_angle=math.radians(200.0), start_factor=1.3, slack_for_sag=0.0
     )
-    assert (found.tensions.slack, found.tensions.tight_start) == pytest.approx(
-        (law.slack, law.tight), rel=1e-12
-    )
+    assert (found.tensions.slack, found.tensions.tight_start) == pytest.approx((law.slack, law.tight), rel=1e-12)
     assert found.tensions.governed_by == "grip"
     assert found.settled.governing == "grip, drive, start"
 
@@ -249,9 +244,7 @@ def test_bulk_lies_behind_its_feeding_points_only():
     assert inertia["acceleration of the bulk, first"] == pytest.approx(0.7 * one, rel=1e-14)
     assert inertia["acceleration of the bulk, c"] == pytest.approx(0.3 * one, rel=1e-14)
     late = line(route={"feeding": ROUTE["feeding"] | {"section": "c"}})
-    assert [s.bulk_mass for s in closed(late).line.stretches[:4]] == pytest.approx(
-        [0.0, 0.0, whole, whole], rel=1e-15
-    )
+    assert [s.bulk_mass for s in closed(late).line.stretches[:4]] == pytest.approx([0.0, 0.0, whole, whole], rel=1e-15)
 
 
 def test_least_friction_is_on_the_safe_side():
@@ -270,9 +263,7 @@ def test_least_friction_is_on_the_safe_side():
 def test_a_given_take_up_is_held_and_judged():
     needed = balanced(route={"take_up": {"kind": "gravity", "position": "head"}}).settled.needed
     for factor, short in ((1.05, False), (0.9, True)):
-        conveyor = line(
-            route={"take_up": {"kind": "gravity", "position": "head", "tension": f"{factor * needed} N"}}
-        )
+        conveyor = line(route={"take_up": {"kind": "gravity", "position": "head", "tension": f"{factor * needed} N"}})
         found = closed(conveyor)
         assert found.settled.steady.starts[0] == pytest.approx(factor * needed, rel=1e-12)
         held = [w for w in told(conveyor, found) if w.startswith("the take-up holds")]
@@ -285,18 +276,14 @@ def test_a_given_take_up_is_held_and_judged():
 
 def slack_line(tension, **changes):
     """The line of these tests with a winch at the tail that holds too little."""
-    return line(
-        route={"take_up": {"kind": "winch", "position": "tail", "tension": f"{tension} N"}, **changes}
-    )
+    return line(route={"take_up": {"kind": "winch", "position": "tail", "tension": f"{tension} N"}, **changes})
 
 
 def test_a_slack_belt_is_calculated_and_fails_with_what_would_cure_it():
     found = closed(slack_line(100.0), 0.03)
     lowest = min(state.smallest for state in motion_states(found, start_and_stop(found)))
     assert lowest < 0.0
-    (words,) = {
-        w for w in told(slack_line(100.0), found) if w.startswith("the belt goes slack") and '"start"' in w
-    }
+    (words,) = {w for w in told(slack_line(100.0), found) if w.startswith("the belt goes slack") and '"start"' in w}
     cured = float(re.search(r"from 100 N to about ([\d.]+) kN", words).group(1)) * 1e3
     start = found.settled.states["start"].smallest
     assert cured == pytest.approx(100.0 - start, rel=5e-3)  # three digits
@@ -342,9 +329,7 @@ def test_start_and_stop_are_newton():
     conveyor = line(drive={"reduced_mass": "20 t", "torque_factor": 1.5, "start_factor": 1.4})
     found = closed(conveyor)
     moving = start_and_stop(found)
-    mass = sum(
-        s.length * (s.line_mass + (10.0 if s.strand == "carry" else 3.0)) for s in found.line.stretches
-    )
+    mass = sum(s.length * (s.line_mass + (10.0 if s.strand == "carry" else 3.0)) for s in found.line.stretches)
     assert moving.moving_mass == pytest.approx(mass, rel=1e-12)
     force = found.forces.total
     assert moving.start.acceleration == pytest.approx(0.4 * force / mass, rel=1e-12)

@@ -96,8 +96,7 @@ def test_travel_is_the_belts_elongation_over_the_strands():
     duty = take_up_duty(found, states, [253.15, 313.15, 293.15])
     lengths = found[0].line.loop.length
     steady = [
-        float(0.5 * (one.settled.steady.starts + one.settled.steady.ends) @ lengths / lengths.sum())
-        for one in found
+        float(0.5 * (one.settled.steady.starts + one.settled.steady.ends) @ lengths / lengths.sum()) for one in found
     ]
     moved, travel = lengths.sum() / 4.0, duty.travel
     assert travel.load == pytest.approx(moved * (max(steady) - min(steady)) / BELT, rel=1e-9)

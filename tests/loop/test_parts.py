@@ -67,9 +67,7 @@ def test_the_load_of_a_set_is_belt_lumps_and_a_raised_set():
         on_rolls = (20.0 + 1.2 * bulk) * 9.81 * 1.2 * math.cos(level)
         assert duty.limits.load == pytest.approx(on_rolls + lifted, rel=1e-9)
     check = only(set_rating(found))
-    assert check.required == pytest.approx(
-        1200 * 4.4482216152605, rel=1e-12
-    )  # 39.4 in: of the column of 42 in
+    assert check.required == pytest.approx(1200 * 4.4482216152605, rel=1e-12)  # 39.4 in: of the column of 42 in
     assert check.calculated == pytest.approx(max(duty.limits.load for duty in found.set_duty))
 
 
@@ -82,9 +80,7 @@ def test_lumps_say_the_factor_where_none_is_given():
         )
 
     # 1600 kg/m³: 1.1 to 300 mm, 1.2 to 500 mm, none printed beyond
-    factors = {
-        lump: {duty.limits.lump_factor for duty in of(lump).set_duty} for lump in ("0.3 m", "0.5 m", "0.6 m")
-    }
+    factors = {lump: {duty.limits.lump_factor for duty in of(lump).set_duty} for lump in ("0.3 m", "0.5 m", "0.6 m")}
     assert factors == {"0.3 m": {1.1}, "0.5 m": {1.2}, "0.6 m": {None}}
     assert {duty.limits.lump_factor for duty in of("0.6 m", lump_factor=1.4).set_duty} == {1.4}
     check = only(set_rating(of("0.6 m")))
@@ -139,9 +135,7 @@ def test_temperatures_of_the_belt():
     within = list(belt_temperature(belt(lowest_temperature="-20 degC", highest_temperature="60 degC")))
     assert [check.failed for check in within] == [False, False]
     assert only(belt_temperature(belt(lowest_temperature="25 degC"))).failed
-    with pytest.raises(
-        InputError, match="highest_temperature: got 5 degC, not more than lowest_temperature 10 degC"
-    ):
+    with pytest.raises(InputError, match="highest_temperature: got 5 degC, not more than lowest_temperature 10 degC"):
         belt(lowest_temperature="10 degC", highest_temperature="5 degC")
 
 
@@ -152,9 +146,7 @@ def test_a_splice_bears_strips_and_starts():
     needed = found.belt_duty.strength_needed
     factor = 1.1 * 1.7 / 0.45
     assert needed["steady"] == pytest.approx(factor * found.belt_duty.per_width_steady, rel=1e-12)
-    assert needed["starting and stopping"] == pytest.approx(
-        factor * found.belt_duty.per_width / 1.5, rel=1e-12
-    )
+    assert needed["starting and stopping"] == pytest.approx(factor * found.belt_duty.per_width / 1.5, rel=1e-12)
     assert needed["strips of transitions and curves, steady"] > needed["steady"]
     assert len(list(splice_strength(found))) == 3
 
@@ -211,8 +203,7 @@ def test_a_backstop_that_friction_spares_has_no_size():
     found = calculated(drive=DATA["drive"] | PARTS | {"backstop": True}, route={"sections": sections})
     assert [duty.holding for duty in found.drive_duty] == [0.0]
     assert (
-        "backstop size [N m]"
-        not in analysis_tables.drive_parts(found, design_loads(found, None, None)).frame().columns
+        "backstop size [N m]" not in analysis_tables.drive_parts(found, design_loads(found, None, None)).frame().columns
     )
 
 

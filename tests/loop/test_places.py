@@ -183,9 +183,7 @@ def test_only_the_driven_pulley_leaves_its_bearings_to_the_drive(position, drive
     }
     conveyor = line(route=route, drive={"position": position})
     found = closed(conveyor)
-    with_bearings = {
-        s.name.removeprefix("bearings, ") for s in found.singles if s.name.startswith("bearings")
-    }
+    with_bearings = {s.name.removeprefix("bearings, ") for s in found.singles if s.name.startswith("bearings")}
     assert with_bearings == {"beside", "head", "bend", "tail"} - {driven}
     # 0.005 d0/D over the vector sum of the belt's tensions and the weight, where the return strand meets it
     (side,) = found.settled.steady.drives

@@ -78,9 +78,7 @@ def test_two_drives_at_the_head_share_two_pulleys():
     assert head.leaving == pytest.approx(other.arriving, rel=1e-12)
     assert (head.torque, other.torque) == pytest.approx((0.5 * one.force, 0.4 * two.force), rel=1e-9)
     # one drive round both: its force in equal parts
-    both = calculated(
-        route={"pulleys": [HEAD, second, TAIL]}, drive=DATA["drive"] | {"wrap_angle": "400 deg"}
-    )
+    both = calculated(route={"pulleys": [HEAD, second, TAIL]}, drive=DATA["drive"] | {"wrap_angle": "400 deg"})
     (side,) = both.balance.settled.steady.drives
     head, other = duties(both)["head"].steady, duties(both)["second"].steady
     assert (head.torque, other.torque) == pytest.approx((0.25 * side.force, 0.2 * side.force), rel=1e-9)
@@ -186,17 +184,13 @@ def test_transitions_bear_the_tensions_of_every_state():
         ("head", 5.0, 0.0, [float(state.ends[-1]) for state in states]),
         ("tail", 3.0, 0.5, [float(state.starts[made.line.count]) for state in states]),
     ):
-        strips = transition_stretch(
-            1.0, middle_roll_length=0.38, trough_angle=math.radians(35.0), pulley_height=height
-        )
+        strips = transition_stretch(1.0, middle_roll_length=0.38, trough_angle=math.radians(35.0), pulley_height=height)
         zone = found[end]
         assert (zone.lowest, zone.highest) == pytest.approx((min(tensions), max(tensions)), rel=1e-12)
         assert zone.most == pytest.approx(zone.highest + stiffness * strips.largest / length**2, rel=1e-12)
         assert zone.least == pytest.approx(zone.lowest + stiffness * strips.least / length**2, rel=1e-12)
         # at its least length the strip bears just what it may
-        assert zone.highest + stiffness * strips.largest / zone.stretched**2 == pytest.approx(
-            allowed, rel=1e-12
-        )
+        assert zone.highest + stiffness * strips.largest / zone.stretched**2 == pytest.approx(allowed, rel=1e-12)
         assert zone.lowest + stiffness * strips.least / zone.slackened**2 == pytest.approx(0.0, abs=1e-6)
     verdicts = {(check.subject.text(), check.verdict) for check in belt_transitions(made)}
     for end, zone in found.items():
@@ -208,9 +202,7 @@ def test_transitions_bear_the_tensions_of_every_state():
 def test_a_transition_too_short_fails_and_one_without_length_shows_what_it_needs():
     short = calculated(route={"head_transition": {"length": "1 m"}})
     said = [check.why.text() for check in belt_transitions(short) if check.failed]
-    assert any(
-        "head transition: a strip of the belt is overstressed over 1 m; at least" in why for why in said
-    )
+    assert any("head transition: a strip of the belt is overstressed over 1 m; at least" in why for why in said)
     assert all("raise the pulley towards half trough" in why for why in said)
     bare = calculated(route={"head_transition": {}})
     (zone,) = bare.belt_duty.transitions
@@ -239,9 +231,7 @@ def test_a_belt_that_is_not_known_is_not_checked(changes, missing):
     carcass = DATA["belt"]["carcass"] | {"kind": "EP"} | changes
     kept = {key: value for key, value in carcass.items() if value is not None}
     found = calculated(route={"head_transition": {"length": "5 m"}}, belt=DATA["belt"] | {"carcass": kept})
-    assert [(check.verdict, check.asked.text()) for check in belt_transitions(found)] == [
-        ("not checked", missing)
-    ] * 2
+    assert [(check.verdict, check.asked.text()) for check in belt_transitions(found)] == [("not checked", missing)] * 2
 
 
 PLACES = {

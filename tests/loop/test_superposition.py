@@ -64,9 +64,7 @@ def bearing(conveyor, loading):
     names = [s.name for s, on in zip(conveyor.route.sections, loading, strict=True) if on]
     if not names:
         flagged = [section.replace(loaded=False) for section in conveyor.route.sections]
-        return conveyor.replace(
-            route=conveyor.route.replace(sections=flagged, feeding=None, further_feeding=())
-        )
+        return conveyor.replace(route=conveyor.route.replace(sections=flagged, feeding=None, further_feeding=()))
     return with_case(conveyor, LoadCase(name="some", loading="sections", sections=names))
 
 
@@ -79,9 +77,7 @@ def looked_for(found):
     """The figures by the loop itself."""
     settled = found.settled
     grips = {
-        drive.name: max(
-            asked for name, asked in settled.conditions.items() if name.startswith(f"grip, {drive.name}, ")
-        )
+        drive.name: max(asked for name, asked in settled.conditions.items() if name.startswith(f"grip, {drive.name}, "))
         for drive in found.line.drives
     }
     moving = start_and_stop(found)
@@ -150,9 +146,7 @@ def test_signs_by_hand():
     # a level, b up, c steeply down: bulk on c drives, on the others it drags
     sections = [{"name": "a", "length": "300 m"}, {"name": "b", "length": "400 m", "lift": "20 m"},
                 {"name": "c", "length": "200 m", "lift": "-20 m"}]  # fmt: skip
-    found = added(
-        line(route={"sections": sections, "pulleys": [], "take_up": {"kind": "gravity", "position": "head"}})
-    )
+    found = added(line(route={"sections": sections, "pulleys": [], "take_up": {"kind": "gravity", "position": "head"}}))
     worst = found.worst()
     assert worst[DRIVE_FORCE].tolist() == [True, True, False]
     # the belt is tightest at the end of the climb; behind it bulk on c pulls towards the head and relieves nothing

@@ -44,16 +44,12 @@ def test_tables_are_what_was_calculated(name, tmp_path):
     if safety is not None:
         assert float(safety) == pytest.approx(done.belt_duty.safety_steady, rel=1e-14)
     lines = {line.get_label(): line for line in done.plots.tensions().axes[0].lines}
-    assert 1e3 * lines["steady"].get_ydata()[1:-1] == pytest.approx(
-        states["steady [N]"].to_numpy(), rel=1e-12
-    )
+    assert 1e3 * lines["steady"].get_ydata()[1:-1] == pytest.approx(states["steady [N]"].to_numpy(), rel=1e-12)
     assert done.plots.profile().axes[0].lines
 
 
 @pytest.mark.parametrize("name", ["shuttle", "downhill_brakes"])
 def test_plain_data_for_json(name):
     told = conveyor.analyse(conveyor.load(SPECS / f"{name}.yaml")).to_dict()
-    assert math.fsum(d["force_N"] for d in told["drives"]) == pytest.approx(
-        told["forces_N"]["total"], rel=1e-12
-    )
+    assert math.fsum(d["force_N"] for d in told["drives"]) == pytest.approx(told["forces_N"]["total"], rel=1e-12)
     assert told["take_up"]["setting_N"] >= told["take_up"]["least_setting_N"] * (1.0 - 1e-12)

@@ -60,9 +60,7 @@ def test_impact_is_the_lump_on_its_spring_over_what_rests_there(found):
     lump = weight + math.sqrt(weight**2 + 2.0 * 400e3 * weight * 1.5)
     resting = (stretch.belt_mass + stretch.bulk_mass) * found.line.gravity * 0.4
     assert landing.load == pytest.approx(resting + lump, rel=1e-12)
-    assert landing.stream == pytest.approx(
-        found.line.flow * math.sqrt(2.0 * found.line.gravity * 1.5), rel=1e-12
-    )
+    assert landing.stream == pytest.approx(found.line.flow * math.sqrt(2.0 * found.line.gravity * 1.5), rel=1e-12)
     (check,) = impact_load(found)
     assert (check.failed, check.required) == (True, 15e3)
     (boards,) = skirtboards(found)

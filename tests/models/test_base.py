@@ -48,9 +48,7 @@ def test_every_way_in_refuses_with_all_places(
     with pytest.raises(SpecError, match=r"speed: got 50 m/s, allowed: > 0 m/s and <= 20 m/s") as caught:
         make(conveyor_data)
     found = dict(caught.value.problems)
-    assert found[path.replace("speed", "width")] == (
-        'got "1200 kg" (a mass), expected a length such as "1200 mm"'
-    )
+    assert found[path.replace("speed", "width")] == ('got "1200 kg" (a mass), expected a length such as "1200 mm"')
     assert str(caught.value).splitlines() == [f"{at}: {what}" for at, what in caught.value.problems]
     twin = pickle.loads(pickle.dumps(caught.value))  # noqa: S301 made here
     assert (str(twin), twin.problems) == (str(caught.value), caught.value.problems)

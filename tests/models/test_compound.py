@@ -58,9 +58,7 @@ def test_without_shift_only_the_reference(compound_data: dict[str, Any]) -> None
     compound = RubberCompound.model_validate(compound_data)
     assert compound.shift_law() is None
     assert compound.series(293.15).equilibrium == 4e6
-    with pytest.raises(
-        RangeError, match='"test rubber" has no temperature shift: it is known at 20 degC only'
-    ):
+    with pytest.raises(RangeError, match='"test rubber" has no temperature shift: it is known at 20 degC only'):
         compound.series(294.15)
 
 
@@ -88,9 +86,7 @@ REFUSED = [
 
 
 @pytest.mark.parametrize(("location", "value", "message"), REFUSED)
-def test_refused(
-    compound_data: dict[str, Any], location: tuple[Any, ...], value: object, message: str
-) -> None:
+def test_refused(compound_data: dict[str, Any], location: tuple[Any, ...], value: object, message: str) -> None:
     RubberCompound.model_validate(compound_data)
     inner = compound_data
     for part in location[:-1]:

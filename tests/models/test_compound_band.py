@@ -85,9 +85,7 @@ def test_replicas_go_with_their_own_shifts(banded: dict[str, Any]) -> None:
         ({"log10_aT": [[0.0] * 9] * 2}, "a shift table needs >= 2 temperatures and one log10 a_T for each"),
     ],
 )
-def test_shifts_of_replicas_that_do_not_fit(
-    banded: dict[str, Any], change: dict[str, Any], message: str
-) -> None:
+def test_shifts_of_replicas_that_do_not_fit(banded: dict[str, Any], change: dict[str, Any], message: str) -> None:
     banded["prony"]["band"] |= change
     with pytest.raises(SpecError, match=message):
         RubberCompound.model_validate(banded)

@@ -69,9 +69,7 @@ def test_analyse_and_compare_take_it_and_a_file_holds_it(tmp_path: Path) -> None
     powers = [conveyor.analyse(one).balance.power.motor for one in (line, twin)]
     assert powers[1] == pytest.approx(powers[0], rel=1e-9)
     table = conveyor.compare(line, [given, made])
-    assert table["motor power [kW]"].tolist() == pytest.approx(
-        [powers[0] / 1e3] * 2, rel=line.calculation.rtol
-    )
+    assert table["motor power [kW]"].tolist() == pytest.approx([powers[0] / 1e3] * 2, rel=line.calculation.rtol)
     path = tmp_path / "arrays.yaml"
     path.write_text(shelf.dump(made), encoding="utf-8")
     assert shelf.compound(path) == made
@@ -86,9 +84,7 @@ def test_analyse_and_compare_take_it_and_a_file_holds_it(tmp_path: Path) -> None
     ],
     ids=["wlf", "arrhenius", "table"],
 )
-@pytest.mark.parametrize(
-    "reference", [293.15, "20 degC", quantity("293.15 K")], ids=["number", "text", "quantity"]
-)
+@pytest.mark.parametrize("reference", [293.15, "20 degC", quantity("293.15 K")], ids=["number", "text", "quantity"])
 def test_times_move_by_the_law_that_was_given(shift: Any, law: str, reference: Any) -> None:
     made = RubberCompound.from_series(SERIES, name="mine", reference_temperature=reference, shift=shift)
     assert made.shift is not None

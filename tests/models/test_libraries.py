@@ -106,9 +106,7 @@ def test_unknown_names_are_refused_with_a_guess(library, name, message):
 
 def test_a_refused_name_is_told_at_its_field(conveyor_data):
     conveyor_data["material"] = {"listed": "hart coal", "flow": "2000 t/h"}
-    with pytest.raises(
-        InputError, match=r'^material\.listed: "hart coal" is not in .* did you mean "hard coal"\?'
-    ):
+    with pytest.raises(InputError, match=r'^material\.listed: "hart coal" is not in .* did you mean "hard coal"\?'):
         from_data(conveyor_data)
 
 
@@ -169,18 +167,14 @@ def test_general_knowledge_is_warned_of_until_the_spec_gives_it(conveyor_data):
     told = _library_remarks(from_data(conveyor_data))
     assert any('density, surcharge_angle assumed as of "lignite": general knowledge' in line for line in told)
     conveyor_data["material"] |= {"density": "700 kg/m^3", "surcharge_angle": "18 deg"}
-    assert not any(
-        '"lignite" are general knowledge' in line for line in _library_remarks(from_data(conveyor_data))
-    )
+    assert not any('"lignite" are general knowledge' in line for line in _library_remarks(from_data(conveyor_data)))
 
 
 def test_a_listed_mass_under_other_covers_is_warned_of(conveyor_data):
     conveyor_data["belt"]["listed"] = "ST4000"
     conveyor_data["belt"]["carcass"] = {}
     told = _library_remarks(from_data(conveyor_data))
-    assert any(
-        "belt.mass 54 kg/m^2 is listed for a top_cover of 14 mm, the spec has 6 mm" in line for line in told
-    )
+    assert any("belt.mass 54 kg/m^2 is listed for a top_cover of 14 mm, the spec has 6 mm" in line for line in told)
 
 
 def _library_remarks(line):

@@ -55,9 +55,7 @@ def _whole(field: FieldInfo) -> Any:
 
 _FIELDS = {
     f"{model.__name__}.{name}": annotation
-    for model in {
-        k: m for top in (Conveyor, RubberCompound, SizingDuty) for k, m in _models(top, {}).items()
-    }.values()
+    for model in {k: m for top in (Conveyor, RubberCompound, SizingDuty) for k, m in _models(top, {}).items()}.values()
     for name, annotation in _quantities(model)
 }
 

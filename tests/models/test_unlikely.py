@@ -15,9 +15,7 @@ SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
 PUBLISHED = Path(__file__).parent.parent / "validation" / "conveyors"
 
 
-@pytest.mark.parametrize(
-    "path", sorted([*SPECS.glob("*.yaml"), *PUBLISHED.glob("*.yaml")]), ids=lambda path: path.stem
-)
+@pytest.mark.parametrize("path", sorted([*SPECS.glob("*.yaml"), *PUBLISHED.glob("*.yaml")]), ids=lambda path: path.stem)
 def test_nothing_is_asked_about_examples_and_published_conveyors(path):
     assert list(implausible_inputs(load(path))) == []
 
@@ -53,14 +51,9 @@ def test_what_is_hardly_meant_is_asked_about(changes, words):
 
 
 def test_tonnes_are_no_question_in_a_metric_report():
-    assert (
-        list(implausible_inputs(with_fields(load(SPECS / "overland.yaml"), {"material.flow": "2000 tph"})))
-        == []
-    )
+    assert list(implausible_inputs(with_fields(load(SPECS / "overland.yaml"), {"material.flow": "2000 tph"}))) == []
 
 
 def test_a_belt_too_small_for_metric_tonnes_says_that_tph_are_metric():
-    with pytest.raises(
-        InputError, match=r"needs a cross-section .*; tph are metric tonnes per hour, short tons"
-    ):
+    with pytest.raises(InputError, match=r"needs a cross-section .*; tph are metric tonnes per hour, short tons"):
         with_fields(load(SPECS / "in_plant_us.yaml"), {"material.flow": "9000 tph"})

@@ -110,9 +110,7 @@ def test_splitting_a_term_changes_nothing(problem, share):
 @FEW
 @given(problems())
 def test_load_and_width_grow_together(problem):
-    light, heavy = (
-        solve(replace(problem, pressure=f * problem.pressure), rtol=RTOL, throw=False) for f in (1.0, 1.5)
-    )
+    light, heavy = (solve(replace(problem, pressure=f * problem.pressure), rtol=RTOL, throw=False) for f in (1.0, 1.5))
     assume(light.status is Status.OK and heavy.status is Status.OK)
     # strongly wrapped contacts may narrow as they move round the roll
     assume(heavy.half_width + abs(heavy.eccentricity) < 0.5)

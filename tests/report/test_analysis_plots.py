@@ -60,9 +60,7 @@ def test_bars_are_the_forces(result):
     names = ("main", "secondary", "special", "lift", "total")
     parts = [forces.parts[name] for name in ("indentation", "idler_rotation", "flexure", "misalignment")]
     drawn = bars(axis, "this calculation")
-    assert drawn == pytest.approx(
-        [newtons / 1e3 for newtons in (*parts, *(getattr(forces, name) for name in names))]
-    )
+    assert drawn == pytest.approx([newtons / 1e3 for newtons in (*parts, *(getattr(forces, name) for name in names))])
     assert sum(drawn[:4]) == pytest.approx(drawn[4])
     assert sum(drawn[4:8]) == pytest.approx(drawn[8])
     assert bars(axis, f"ISO 5048 / DIN 22101, f = {classical.friction_factor:g}") == pytest.approx(
@@ -161,12 +159,8 @@ def test_tornado_is_the_study(line):
     study = uncertain(line.replace(uncertainty={"roll_drag": "30 %", "flow": "5 %"}))
     (axis,) = plots.tornado_chart(study).axes
     assert [label.get_text() for label in axis.get_yticklabels()] == [effect.name for effect in study.effects]
-    assert bars(axis, "at the low end") == pytest.approx(
-        [(e.motor_low - study.motor) / 1e3 for e in study.effects]
-    )
-    assert bars(axis, "at the high end") == pytest.approx(
-        [(e.motor_high - study.motor) / 1e3 for e in study.effects]
-    )
+    assert bars(axis, "at the low end") == pytest.approx([(e.motor_low - study.motor) / 1e3 for e in study.effects])
+    assert bars(axis, "at the high end") == pytest.approx([(e.motor_high - study.motor) / 1e3 for e in study.effects])
 
 
 def test_restyled_curves_keep_their_house_colours_and_differ_in_dashes(cases):
@@ -199,14 +193,10 @@ def test_a_master_curve_is_that_of_the_series(line):
     upper, lower = master_curve(compound).axes
     series = compound.series(compound.reference)
     for axis, values in ((upper, (series.storage, series.loss)), (lower, (series.tan_delta,))):
-        solid = [
-            curve for curve in axis.lines if curve.get_linestyle() == "-"
-        ]  # dotted ones are beyond the data
+        solid = [curve for curve in axis.lines if curve.get_linestyle() == "-"]  # dotted ones are beyond the data
         for curve, value in zip(solid, values, strict=True):
             unit = 1e-6 if axis is upper else 1.0  # [MPa]
-            assert curve.get_ydata() == pytest.approx(
-                unit * value(2.0 * np.pi * curve.get_xdata()), rel=1e-12
-            )
+            assert curve.get_ydata() == pytest.approx(unit * value(2.0 * np.pi * curve.get_xdata()), rel=1e-12)
 
 
 def test_a_level_route_is_drawn_with_room_above_and_below(line):

@@ -51,9 +51,7 @@ def told(result: CalculatedConveyor) -> tuple[str, float]:
 
 def governing(found: CaseStudy, key: str, subject: str = "") -> Check:
     (one,) = [
-        check
-        for check in governing_by_subject(found.checks)
-        if check.key == key and subject in check.subject.text()
+        check for check in governing_by_subject(found.checks) if check.key == key and subject in check.subject.text()
     ]
     return one
 
@@ -70,9 +68,7 @@ def test_a_case_is_checked_as_its_conveyor_alone(plain: CaseStudy) -> None:
     result = next(r for r in given.results if r.case.loading == "empty")
     alone = calculate(with_temperature(with_case(given.conveyor, result.case), quantity("-20 degC")))
     expected = run_checks(alone)
-    assert [(c.key, c.subject, c.verdict) for c in result.checks] == [
-        (c.key, c.subject, c.verdict) for c in expected
-    ]
+    assert [(c.key, c.subject, c.verdict) for c in result.checks] == [(c.key, c.subject, c.verdict) for c in expected]
     for mine, other in zip(result.checks, expected, strict=True):
         assert mine.case is not None
         assert mine.case.text() == "empty, -20 °C"
@@ -102,16 +98,12 @@ def test_every_case_has_every_criterion(plain: CaseStudy) -> None:
     ],
 )
 def test_the_margin_is_what_is_left_over_the_limit(calculated, relation, required, margin) -> None:
-    one = Check(
-        "k", message("s"), calculated, required, "force", message(""), message(""), "pass", None, relation
-    )
+    one = Check("k", message("s"), calculated, required, "force", message(""), message(""), "pass", None, relation)
     assert one.margin == (None if margin is None else pytest.approx(margin, rel=1e-12))
 
 
 def made(case: str, verdict: str, calculated: float | None, subject: str = "s", key: str = "k") -> Check:
-    return Check(
-        key, message(subject), calculated, 1.0, "force", message(""), message(""), verdict, case=message(case)
-    )
+    return Check(key, message(subject), calculated, 1.0, "force", message(""), message(""), verdict, case=message(case))
 
 
 def test_a_margin_of_many_times_the_limit_is_told_as_more_than_all_of_it() -> None:
@@ -130,8 +122,7 @@ def test_a_failure_governs_then_the_least_margin_then_the_first() -> None:
     assert [case_of(one) for one in governing_by_subject(every)] == ["b"]
     assert [case_of(one) for one in governing_by_subject([*every, made("e", "FAIL", 0.9)])] == ["e"]
     assert [
-        case_of(one)
-        for one in governing_by_subject([*every, made("e", "FAIL", 0.9), made("f", "FAIL", None)])
+        case_of(one) for one in governing_by_subject([*every, made("e", "FAIL", 0.9), made("f", "FAIL", None)])
     ] == ["f"]
 
 
@@ -184,9 +175,7 @@ def test_a_weight_for_one_temperature_fails_at_another(plain: CaseStudy) -> None
 def test_safety_is_the_least_of_all_cases(plain: CaseStudy) -> None:
     line = plain.conveyor
     strength = line.belt.carcass.strength.to("N/m").magnitude * line.belt.width.to("m").magnitude
-    least = min(
-        strength / max(point.tension for point in result.found.balance.points) for result in plain.results
-    )
+    least = min(strength / max(point.tension for point in result.found.balance.points) for result in plain.results)
     assert governing(plain, "belt_safety").calculated == pytest.approx(least, rel=1e-12)
 
 
@@ -218,9 +207,7 @@ def test_the_least_margin_told_is_the_least_there_is_where_the_take_up_has_one(p
     """A least setting is told as such; with more than that, grip, sag and setting count like any other criterion."""
     given = plain.conveyor.replace(cases=[])
     settled = calculate(given)
-    assert (
-        "; the take-up holds the least that grip and sag ask for; otherwise least margin" in told(settled)[0]
-    )
+    assert "; the take-up holds the least that grip and sag ask for; otherwise least margin" in told(settled)[0]
     unit = {"kind": "gravity", "tension": f"{1.001 * settled.balance.settled.needed:.9g} N"}
     words, least = told(calculate(with_fields(given, {"route.take_up": unit})))
     assert f"are met; least margin {percent(least, 1)}, " in words
@@ -303,9 +290,7 @@ def test_reports_say_what_is_not_to_design_by(cold: tuple[Analysis, CaseStudy]) 
     assert contents["load_cases"].frame()["covered"].tolist() == ["NO", "yes", "yes"]
     assert "winter, -25 °C" in contents["governing_cases"].note
     rows = {row.subject: row for row in contents["checks"].rows}
-    assert (
-        rows["rubber data over the excitation band, carry"].case == "winter, -25 °C; worst loading not sought"
-    )
+    assert rows["rubber data over the excitation band, carry"].case == "winter, -25 °C; worst loading not sought"
     assert any(line.startswith("winter, -90 °C: ") for line in contents.lines("warning"))
     kept = contents["case_checks"].frame()
     assert set(kept[kept["case"] == "winter, -25 °C"]["verdict"]) == {"FAIL", "not checked"}

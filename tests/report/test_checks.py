@@ -66,12 +66,9 @@ def test_data_cover_the_excited_band_where_they_reach_beyond_both_its_ends(low, 
     stated = [limit.m_as("Hz") for limit in compound.range.frequency]
     # as stated at the reference temperature, shifted like those of the file
     reach = [
-        f"{share * end / now * then!r} Hz"
-        for share, end, now, then in zip((low, high), band, at, stated, strict=True)
+        f"{share * end / now * then!r} Hz" for share, end, now, then in zip((low, high), band, at, stated, strict=True)
     ]
-    cover = given.belt.bottom_cover.replace(
-        compound=compound.replace(range=compound.range.replace(frequency=reach))
-    )
+    cover = given.belt.bottom_cover.replace(compound=compound.replace(range=compound.range.replace(frequency=reach)))
     line = given.replace(belt=given.belt.replace(bottom_cover=cover))
     assert found(line)["rubber data over the excitation band, carry"].verdict == verdict
 
@@ -221,9 +218,7 @@ def test_units_of_tables():
     assert list(shown.columns) == ["strand", "force [lbf]", "at [degF]", "w [lbf/in]", "f [Hz]"]
     assert shown.iloc[0].tolist() == ["carry", 1.0, 212.0, pytest.approx(5.710147163), 5.0]
     assert table.frame().iloc[0].tolist() == ["carry", 4.4482216152605, 100.0, 1.0, 5.0]
-    rows = figure_table(
-        "t", "T", "T", (Figure("length", "length", 0.3048), Figure("f", "ratio", float("inf")))
-    )
+    rows = figure_table("t", "T", "T", (Figure("length", "length", 0.3048), Figure("f", "ratio", float("inf"))))
     shown = rows.frame("US")
     assert shown["quantity"].tolist() == ["length [ft]", "f [-]"]
     assert shown["value"].tolist() == [1.0, float("inf")]
@@ -254,13 +249,9 @@ def test_filling_is_bulk_over_what_the_belt_holds(line, all_of):
     (percent,) = re.findall(r"(\d+) % of the level cross-section", filled.found)
     share = float(percent) / 100.0
     flow = line.material.flow
-    line.replace(
-        material={**line.material.as_data(), "flow": f"{1.5 * flow.magnitude / (share + 0.005):.6g} stph"}
-    )
+    line.replace(material={**line.material.as_data(), "flow": f"{1.5 * flow.magnitude / (share + 0.005):.6g} stph"})
     with pytest.raises(conveyor.InputError, match="needs a cross-section"):
-        line.replace(
-            material={**line.material.as_data(), "flow": f"{1.5 * flow.magnitude / (share - 0.005):.6g} stph"}
-        )
+        line.replace(material={**line.material.as_data(), "flow": f"{1.5 * flow.magnitude / (share - 0.005):.6g} stph"})
 
 
 def test_on_a_slope_the_belt_holds_less():
@@ -275,9 +266,7 @@ def test_on_a_slope_the_belt_holds_less():
     assert check.required == pytest.approx(trough + k1 * (level - trough), rel=1e-12)
     steep = {"sections": [{"name": name, "length": "250 m", "slope": "12 deg"} for name in "abcd"]}
     flow = 0.5 * (level + trough) * 1600.0 * 4.0 * 3.6
-    (check,) = belt_filling(
-        calculated(material={"surcharge_angle": "10 deg", "flow": f"{flow} t/h"}, route=steep)
-    )
+    (check,) = belt_filling(calculated(material={"surcharge_angle": "10 deg", "flow": f"{flow} t/h"}, route=steep))
     assert check.failed
     assert check.required == pytest.approx(trough, rel=1e-12)
 

@@ -53,18 +53,14 @@ def probed(result, monkeypatch):
 
     monkeypatch.setattr(analysis_tables, "section_table", with_column)
     monkeypatch.setattr(analysis_tables, "result_table", with_figure)
-    monkeypatch.setattr(
-        analysis_tables, "vertical_curves", with_table
-    )  # its place in the list; none in this spec
+    monkeypatch.setattr(analysis_tables, "vertical_curves", with_table)  # its place in the list; none in this spec
     return analysis_tables.analysis_contents(result.in_units("SI"))
 
 
 def cells(book, name):
     sheet, where = next(iter(book.defined_names[name].destinations))
     left, top, right, bottom = range_boundaries(where.replace("$", ""))
-    return list(
-        book[sheet].iter_rows(min_row=top, max_row=bottom, min_col=left, max_col=right, values_only=True)
-    )
+    return list(book[sheet].iter_rows(min_row=top, max_row=bottom, min_col=left, max_col=right, values_only=True))
 
 
 def test_in_the_workbook(probed, result, tmp_path):
@@ -144,9 +140,7 @@ def strained():
 
         def weak(found):
             why = message("the probe bears {}", (found.line.speed, "speed"))
-            yield check_against_limit(
-                "probe", "strength of the probe", 1.0, "at least", 2.0, "force", why=why
-            )
+            yield check_against_limit("probe", "strength of the probe", 1.0, "at least", 2.0, "force", why=why)
 
         patch.setattr(pipeline, "forces_along_belt", with_force)
         patch.setattr(criteria, "CRITERIA", (*criteria.CRITERIA, weak))

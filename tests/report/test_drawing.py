@@ -24,9 +24,7 @@ RTOL = 3e-4
 @pytest.fixture(scope="module")
 def line():
     return conveyor.load(SPECS / "in_plant_us.yaml").replace(
-        cases=[
-            {"name": "full $x_1$", "temperatures": ["0 degC", "20 degC"], "speeds": ["550 fpm", "600 fpm"]}
-        ],
+        cases=[{"name": "full $x_1$", "temperatures": ["0 degC", "20 degC"], "speeds": ["550 fpm", "600 fpm"]}],
         uncertainty={"roll_drag": "30 %"},
         report={"units": "SI"},
     )
@@ -55,9 +53,7 @@ def test_every_figure_there_is(figures):
 def test_units_are_on_every_axis(figures, system):
     for name, figure in figures[system].items():
         labels = [figure.axes[-1].get_xlabel(), *(axis.get_ylabel() for axis in figure.axes)]
-        named = (
-            labels[:1] if name in {"resistances", "ranges"} else labels
-        )  # bars have names on the other axis
+        named = labels[:1] if name in {"resistances", "ranges"} else labels  # bars have names on the other axis
         assert all(WITH_UNIT.search(label) for label in named), (name, labels)
         foreign = r"\[(lbf|hp|psi|ft|in|fpm|°F)\]" if system == "SI" else r"\[(kN|kW|MPa|mm?|m/s|°C)\]"
         assert not any(re.search(foreign, label) for label in labels), (name, labels)
@@ -134,9 +130,7 @@ def test_scales_agree_with_units(kind):
     assert us(123.4) == pytest.approx(in_report_unit(123.4, kind, "US"))
     assert us.label == KINDS[kind].us
     # 123.4 in SI, written in the axis' own unit, is the same quantity
-    assert si(123.4) * {"kN": 1e3, "kW": 1e3, "MPa": 1e6, "mm": 1e-3}.get(si.label, 1.0) == pytest.approx(
-        123.4
-    )
+    assert si(123.4) * {"kN": 1e3, "kW": 1e3, "MPa": 1e6, "mm": 1e-3}.get(si.label, 1.0) == pytest.approx(123.4)
 
 
 def test_temperatures_have_an_offset():
@@ -150,9 +144,7 @@ def test_a_level_route_is_drawn_level():
     assert (low, high) == pytest.approx((-0.05 * 24.0, 0.05 * 24.0))
 
 
-@pytest.mark.parametrize(
-    ("spec", "more"), [("curved", {"plan", "drift"}), ("transfer", {"trajectory", "flap"})]
-)
+@pytest.mark.parametrize(("spec", "more"), [("curved", {"plan", "drift"}), ("transfer", {"trajectory", "flap"})])
 def test_what_a_spec_asks_for_is_drawn(studied, monkeypatch, spec, more):
     result, _ = studied(spec)
     for name in ("power_against_temperature", "power_against_speed"):  # of every conveyor, and slow

@@ -69,9 +69,7 @@ def test_facts_of_the_cover_stand_over_lines(book):
     assert lined(rows["length [m]"]) == "ABDEFG"  # figures on the left, words on the right, nothing between
     verdict = next(str(value) for value in rows if str(value).startswith(("Adequate", "Not adequate")))
     assert sheet.cell(rows[verdict], 1).font.b
-    assert {"maximum motor power", "maximum belt tension", "minimum belt tension", "belt utilisation"} <= set(
-        rows
-    )
+    assert {"maximum motor power", "maximum belt tension", "minimum belt tension", "belt utilisation"} <= set(rows)
     assert {"engineer", "reviewer", "approval"} <= {cell.value for row in sheet["A3:D8"] for cell in row}
 
 
@@ -120,8 +118,8 @@ def test_every_axis_is_shown_and_every_reference_holds_numbers(book, overland):
                     assert known
                     assert all(isinstance(value, int | float) for value in known)
                     count += 1
-    assert (
-        count == 1 + 2 * (len(states) + 1 + 4 + 2 * 2)
+    assert count == 1 + 2 * (
+        len(states) + 1 + 4 + 2 * 2
     )  # bars; x and y of the tensions and the sag, the profile and what stands along it, 2 moduli of 2 compounds
 
 
@@ -172,18 +170,14 @@ def test_tables_are_the_analysis_to_the_last_digit(book, overland, sheet, name):
     assert list(read.columns) == list(expected.columns)
     for column in expected:
         if expected[column].dtype.kind == "f":
-            assert read[column].astype(float).tolist() == pytest.approx(
-                expected[column].tolist(), rel=DIGITS
-            ), column
+            assert read[column].astype(float).tolist() == pytest.approx(expected[column].tolist(), rel=DIGITS), column
         else:
             assert read[column].tolist() == expected[column].tolist(), column
 
 
 def test_results_hold_every_figure_and_its_name(book, overland):
     read = openpyxl.load_workbook(book)
-    rows = list(
-        read["Results"].iter_rows(min_row=3, max_row=2 + len(overland.summary), max_col=3, values_only=True)
-    )
+    rows = list(read["Results"].iter_rows(min_row=3, max_row=2 + len(overland.summary), max_col=3, values_only=True))
     known = {name.replace("resistance [-]", "resistance"): value for name, value in overland.summary.items()}
     assert {row[0]: row[1] for row in rows} == pytest.approx(known, rel=DIGITS)
     for i, (_, _, name) in enumerate(rows, start=3):
@@ -196,9 +190,7 @@ def test_totals_are_the_sums_of_their_columns(book, overland):
     rows = len(overland.resistances)
     assert forces.cell(rows + 3, 1).value == "effective tension"
     above = math.fsum(forces.cell(i, 3).value for i in range(3, rows + 3))
-    assert forces.cell(rows + 3, 3).value == pytest.approx(
-        above, rel=1e-12
-    )  # sums of 1e2 terms in another order
+    assert forces.cell(rows + 3, 3).value == pytest.approx(above, rel=1e-12)  # sums of 1e2 terms in another order
     sections = read["Sections"]
     last = len(overland.sections) + 3
     for name in ("indentation [N]", "idler rotation [N]", "flexure [N]"):
@@ -440,9 +432,7 @@ def test_a_year_of_a_comparison_follows_its_formulas(covers):
     rows = list(_recalculated(covers, {}))
     assert len(rows) == 2 * 5  # energy, cost, saving, carbon dioxide, payback of two covers
     for at, found, saved in rows:
-        assert found == (
-            pytest.approx(saved, rel=1e-12, abs=1e-6) if isinstance(saved, float) else saved or ""
-        ), at
+        assert found == (pytest.approx(saved, rel=1e-12, abs=1e-6) if isinstance(saved, float) else saved or ""), at
 
 
 def test_twice_the_price_costs_twice_and_pays_back_in_half_the_time(covers):

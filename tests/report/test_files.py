@@ -44,9 +44,7 @@ def test_files_hold_the_figures(result, tmp_path):
         result.to_tables(tmp_path, system=system)
         read = pd.read_csv(tmp_path / "resistances.csv", encoding="utf-8-sig")
         expected = result.tables["resistances"].frame(system)
-        assert read[f"force [{unit}]"].tolist() == pytest.approx(
-            expected[f"force [{unit}]"].tolist(), rel=DIGITS
-        )
+        assert read[f"force [{unit}]"].tolist() == pytest.approx(expected[f"force [{unit}]"].tolist(), rel=DIGITS)
 
 
 def test_a_comparison_has_its_files(tmp_path):
@@ -128,9 +126,7 @@ def test_nothing_half_written_stays(tmp_path, monkeypatch):
 def lengthened(found, key, rows):
     """Contents with one table repeated to so many rows."""
     parts = tuple(
-        replace(part, rows=(tuple(part.rows) * -(-rows // len(part.rows)))[:rows])
-        if part.key == key
-        else part
+        replace(part, rows=(tuple(part.rows) * -(-rows // len(part.rows)))[:rows]) if part.key == key else part
         for part in found.parts
     )
     return replace(found, parts=parts)

@@ -37,9 +37,7 @@ def isotherms(path: Path, vertical: float, resonance: float) -> Path:
             omega = 2.0 * np.pi * f * 10.0**shift
             b = (1.0 + vertical) ** ((celsius - 20) / 10.0) * np.exp(0.01 * rng.standard_normal(2))
             off = 1.0 + resonance * (f > 99.0)
-            rows.append(
-                f"{celsius},{f:.6g},{series.storage(omega) * b[0] * off},{series.loss(omega) * b[1] * off}"
-            )
+            rows.append(f"{celsius},{f:.6g},{series.storage(omega) * b[0] * off},{series.loss(omega) * b[1] * off}")
     path.write_text("\n".join(rows), encoding="utf-8")
     return path
 

@@ -111,9 +111,7 @@ def test_nothing_is_fetched_and_nothing_runs(either):
     found = Page(either)
     tags = {tag for tag, _ in found.tags}
     assert not tags & {"script", "link", "img", "iframe", "object", "embed", "image"}
-    assert not [
-        key for _, attributes in found.tags for key in attributes if key == "src" or key.startswith("on")
-    ]
+    assert not [key for _, attributes in found.tags for key in attributes if key == "src" or key.startswith("on")]
     outside = re.findall(r"https?://[^\s\"'<]+", either)
     assert set(outside) <= {"http://www.w3.org/2000/svg"}
     assert "@import" not in either
@@ -174,17 +172,13 @@ def contrast(one, other):
 
 def test_contrast_itself():
     assert contrast("#000000", "#FFFFFF") == pytest.approx(21.0)
-    assert contrast("#777777", "#FFFFFF") == pytest.approx(
-        4.48, abs=0.005
-    )  # the well-known grey that just fails
+    assert contrast("#777777", "#FFFFFF") == pytest.approx(4.48, abs=0.005)  # the well-known grey that just fails
 
 
 def test_contrast_of_every_text(text):
     """Every colour of text on the ground its rule gives it, else on every ground that may lie below."""
     style = re.search(r"<style>(.*?)</style>", text, re.DOTALL)[1]
-    light, dark = (
-        dict(re.findall(r"--([\w-]+): (#\w+);", roots)) for roots in re.findall(r":root \{([^}]*)\}", style)
-    )
+    light, dark = (dict(re.findall(r"--([\w-]+): (#\w+);", roots)) for roots in re.findall(r":root \{([^}]*)\}", style))
     assert (light, dark) == (COLOURS, DARK)
     rules = re.findall(r"([^{}]+)\{([^{}]*)\}", style)
     pairs = []
@@ -244,9 +238,7 @@ def test_numbers_are_those_of_the_analysis(result, page, studied):
         assert remark in page.prose
     # the belt loaded on its incline alone rolls back with more than the full one: its level feed holds
     (asked,) = (one.required for one in result.checks if one.key == "holding_brake")
-    (worst,) = (
-        one.required for one in governing_by_subject(studied.states.checks) if one.key == "holding_brake"
-    )
+    (worst,) = (one.required for one in governing_by_subject(studied.states.checks) if one.key == "holding_brake")
     assert worst > asked
     assert f"needs a backstop of {sentences.format_figure(worst, 'force')} at the belt" in page.prose
 
@@ -280,9 +272,7 @@ def test_us_units(result):
 
 @pytest.fixture(scope="module")
 def hostile(line):
-    sections = [
-        section.replace(name=f"{HOSTILE.strip()}{i}") for i, section in enumerate(line.route.sections)
-    ]
+    sections = [section.replace(name=f"{HOSTILE.strip()}{i}") for i, section in enumerate(line.route.sections)]
     named = line.replace(
         name=HOSTILE.strip(),
         notes=f"{HOSTILE}\n</style></body>\x07",

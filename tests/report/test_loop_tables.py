@@ -45,9 +45,7 @@ def test_strength_in_newtons_a_millimetre_and_diameters_in_millimetres():
 
 
 def test_a_curve_beside_its_least_radii():
-    (row,) = (
-        analysis_tables.vertical_curves(OF_DUTY, [SimpleNamespace(found=OF_DUTY)]).frame().to_dict("records")
-    )
+    (row,) = analysis_tables.vertical_curves(OF_DUTY, [SimpleNamespace(found=OF_DUTY)]).frame().to_dict("records")
     assert row["radius [m]"] == pytest.approx(250.0)
     assert row["minimum against lift-off [m]"] == pytest.approx(255.0)
     assert row["minimum against overstress [m]"] == pytest.approx(70.0)

@@ -76,9 +76,7 @@ def test_results_in_a_notebook(result, comparison):
 
 def test_contact_in_a_notebook():
     creep = CreepSpectrum(instantaneous=0.1, weights=[0.9], times=[1.0])
-    problem = ContactProblem(
-        support="free", radius=0.4, thickness=1.0, pressure=0.05, creep=creep, poisson=0.5
-    )
+    problem = ContactProblem(support="free", radius=0.4, thickness=1.0, pressure=0.05, creep=creep, poisson=0.5)
     solution = solve(problem, rtol=1e-4)
     prose = Page(solution._repr_html_()).prose
     assert f"{solution.friction:.8g}" in prose
@@ -87,9 +85,7 @@ def test_contact_in_a_notebook():
 
 def test_refused_contact_in_a_notebook_says_why():
     creep = CreepSpectrum(instantaneous=0.1, weights=[0.9], times=[1.0])
-    problem = ContactProblem(
-        support="free", radius=0.1, thickness=1.0, pressure=50.0, creep=creep, poisson=0.5
-    )
+    problem = ContactProblem(support="free", radius=0.1, thickness=1.0, pressure=50.0, creep=creep, poisson=0.5)
     solution = solve(problem, throw=False)
     prose = Page(solution._repr_html_()).prose
     assert escape_html(solution.status.message) in escape_html(prose)

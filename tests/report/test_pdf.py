@@ -37,9 +37,7 @@ class Printed(HTMLParser):
 
     def handle_starttag(self, tag, attrs):
         if tag not in VOID:
-            self.open.append(
-                tag in NOT_PRINTED or (dict(attrs).get("class") or "") in {"unprinted", "further"}
-            )
+            self.open.append(tag in NOT_PRINTED or (dict(attrs).get("class") or "") in {"unprinted", "further"})
             self.hidden += self.open[-1]
 
     def handle_endtag(self, _):
@@ -91,9 +89,7 @@ def test_what_is_not_printed_is_not_in_it(built):
 @pytest.mark.parametrize(("paper", "size"), [("A4", (595.28, 841.89)), ("Letter", (612.0, 792.0))])
 def test_paper_title_and_bookmarks_are_those_of_the_page(paper, size):
     parts = [page_elements.PagePart("x", "Forces", page_elements.bullet_list(["one"]))]
-    made = read(
-        pdf.page_pdf(page_elements.page_html("Ore 1", "a report", Html(""), parts, "foot", paper=paper))
-    )
+    made = read(pdf.page_pdf(page_elements.page_html("Ore 1", "a report", Html(""), parts, "foot", paper=paper)))
     (sheet,) = made.pages
     assert (float(sheet.mediabox.width), float(sheet.mediabox.height)) == pytest.approx(size, abs=0.01)
     assert made.metadata is not None
@@ -106,9 +102,7 @@ def test_a_table_has_its_heads_on_every_page():
     shown = page_elements.table_html(Table("t", "", "", (column,), range(200)), "Forces")
     made = read(
         pdf.page_pdf(
-            page_elements.page_html(
-                "Ore 1", "r", Html(""), [page_elements.PagePart("x", "Forces", shown)], "foot"
-            )
+            page_elements.page_html("Ore 1", "r", Html(""), [page_elements.PagePart("x", "Forces", shown)], "foot")
         )
     )
     assert len(made.pages) > 2
@@ -118,15 +112,12 @@ def test_a_table_has_its_heads_on_every_page():
 def test_words_of_a_wide_table_are_whole():
     words = "extraordinarily"
     columns = tuple(
-        Column(f"{words} {k}", "text", lambda _, k=k: f"{words} {words}{k}" if k % 2 else "x")
-        for k in range(12)
+        Column(f"{words} {k}", "text", lambda _, k=k: f"{words} {words}{k}" if k % 2 else "x") for k in range(12)
     )
     shown = page_elements.table_html(Table("t", "", "", columns, range(3)), "Wide")
     made = read(
         pdf.page_pdf(
-            page_elements.page_html(
-                "Ore 1", "r", Html(""), [page_elements.PagePart("x", "Wide", shown)], "foot"
-            )
+            page_elements.page_html("Ore 1", "r", Html(""), [page_elements.PagePart("x", "Wide", shown)], "foot")
         )
     )
     text = made.pages[0].extract_text().split()
@@ -139,24 +130,18 @@ def test_a_table_wider_than_its_paper_has_smaller_letters():
     shown = page_elements.table_html(Table("t", "", "", columns, range(2)), "Wide")
     made = read(
         pdf.page_pdf(
-            page_elements.page_html(
-                "Ore 1", "r", Html(""), [page_elements.PagePart("x", "Wide", shown)], "foot"
-            )
+            page_elements.page_html("Ore 1", "r", Html(""), [page_elements.PagePart("x", "Wide", shown)], "foot")
         )
     )
     assert {f"head{k}" for k in range(40)} <= set(made.pages[0].extract_text().split())
 
 
-@pytest.mark.parametrize(
-    "words", [HOSTILE, '#panic("x") [a] *b* _c_ `d` $e$ <f> @g \\ // /* "', "Ωμ °C ≥ δ ✓ – é ß ж"]
-)
+@pytest.mark.parametrize("words", [HOSTILE, '#panic("x") [a] *b* _c_ `d` $e$ <f> @g \\ // /* "', "Ωμ °C ≥ δ ✓ – é ß ж"])
 def test_words_are_not_markup(words):
     parts = [page_elements.PagePart("p", words, page_elements.bullet_list([words]))]
     made = page_elements.page_html(words, words, page_elements.fact_list([(words, words)]), parts, words)
     (as_printed,) = Printed(page_elements.bullet_list([words])).words
-    assert (
-        text_of(pdf.page_pdf(made)).count(bare(as_printed)) == 7
-    )  # kind, title, fact twice, heading, line, foot
+    assert text_of(pdf.page_pdf(made)).count(bare(as_printed)) == 7  # kind, title, fact twice, heading, line, foot
 
 
 def sheets(*content):
@@ -172,9 +157,7 @@ def sheets(*content):
         (page_elements.bullet_list(["x" * 400]), 160),
         (page_elements.fact_list([("client", "x" * 60)]), 30),
         (
-            page_elements.table_html(
-                Table("t", "", "", (Column("head", "text", lambda _: "x" * 400),), range(2)), "T"
-            ),
+            page_elements.table_html(Table("t", "", "", (Column("head", "text", lambda _: "x" * 400),), range(2)), "T"),
             160,
         ),
     ],
@@ -249,9 +232,7 @@ def test_results_write_it(report, tmp_path):
     analysis, asked = report
     assert analysis.to_pdf(tmp_path / "a.pdf", asked, system="SI") == tmp_path / "a.pdf"
     (tmp_path / "a.pdf").read_bytes()
-    assert float(read((tmp_path / "a.pdf").read_bytes()).pages[0].mediabox.width) == pytest.approx(
-        595.28, abs=0.01
-    )
+    assert float(read((tmp_path / "a.pdf").read_bytes()).pages[0].mediabox.width) == pytest.approx(595.28, abs=0.01)
 
 
 @pytest.mark.parametrize(

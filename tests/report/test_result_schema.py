@@ -45,9 +45,7 @@ def faults(value: Any, schema: dict[str, Any], whole: dict[str, Any], at: str = 
     kinds = schema.get("type", list(TYPES))
     allowed = [kinds] if isinstance(kinds, str) else kinds
     fits = [kind for kind in allowed if isinstance(value, TYPES[kind])]
-    if (isinstance(value, bool) and "boolean" not in fits) or (
-        isinstance(value, float) and not math.isfinite(value)
-    ):
+    if (isinstance(value, bool) and "boolean" not in fits) or (isinstance(value, float) and not math.isfinite(value)):
         fits = []
     if not fits:
         yield f"{at}: {value!r} is no {kinds}"
@@ -60,9 +58,7 @@ def faults(value: Any, schema: dict[str, Any], whole: dict[str, Any], at: str = 
             yield from faults(inside, schema["items"], whole, f"{at}[{i}]")
 
 
-def faults_of_keys(
-    value: dict[str, Any], schema: dict[str, Any], whole: dict[str, Any], at: str
-) -> Iterator[str]:
+def faults_of_keys(value: dict[str, Any], schema: dict[str, Any], whole: dict[str, Any], at: str) -> Iterator[str]:
     """Of the keys of an object and what they hold."""
     yield from (f"{at}.{key}: missing" for key in schema.get("required", ()) if key not in value)
     for key, inside in value.items():

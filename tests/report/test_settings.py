@@ -49,9 +49,7 @@ def _drawn_elsewhere(folder, **variables):
     """A figure drawn by a process of its own, in a folder and with variables."""
     program = "from conveyor.cli import main; main()"
     command = [sys.executable, "-c", program, "shelf", "s100", "--plot", "f.png"]
-    return subprocess.run(
-        command, cwd=folder, env=os.environ | variables, capture_output=True, text=True, check=False
-    )
+    return subprocess.run(command, cwd=folder, env=os.environ | variables, capture_output=True, text=True, check=False)
 
 
 def test_a_matplotlibrc_in_the_folder_is_left_alone(tmp_path):

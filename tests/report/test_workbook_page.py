@@ -131,9 +131,7 @@ def written(studied):
     """Contents of every example in both systems, and of the rare spec."""
     found = [studied(path.stem) for path in sorted(SPECS.glob("*.yaml"))]
     found += _of_a_rare_spec()
-    pairs = [
-        tuple(result.contents(asked, system=system) for system in ("SI", "US")) for result, asked in found
-    ]
+    pairs = [tuple(result.contents(asked, system=system) for system in ("SI", "US")) for result, asked in found]
     line = conveyor.load(SPECS / "in_plant_us.yaml")
     line = line.replace(operation=line.operation.replace(emission="0.4 kg/kWh", emission_source="x"))
     options = {

@@ -64,9 +64,7 @@ def tables(book):
             sheet, cells = next(iter(defined.destinations))
             left, top, right, bottom = range_boundaries(cells.replace("$", ""))
             rows = list(
-                book[sheet].iter_rows(
-                    min_row=top, max_row=bottom, min_col=left, max_col=right, values_only=True
-                )
+                book[sheet].iter_rows(min_row=top, max_row=bottom, min_col=left, max_col=right, values_only=True)
             )
             yield name, rows[0], rows[1:]
 
@@ -259,11 +257,7 @@ def test_the_spec_says_units_paper_and_head(brakes, tmp_path):
     book = openpyxl.load_workbook(result.to_excel(tmp_path / "u.xlsx"))
     assert book["Results"]["A3"].value == "length [ft]"
     assert int(book["Summary"].page_setup.paperSize) == 9
-    said = {
-        (a.value, b.value)
-        for row in book["Summary"]["A1:E6"]
-        for a, b in ((row[0], row[1]), (row[3], row[4]))
-    }
+    said = {(a.value, b.value) for row in book["Summary"]["A1:E6"] for a, b in ((row[0], row[1]), (row[3], row[4]))}
     assert {
         ("project", "=Quarry"),
         ("number", "C-101"),
@@ -310,8 +304,7 @@ def test_comparison_in_us_units(tmp_path):
         extra_costs={"S100": 1000},
     )
     books = [
-        openpyxl.load_workbook(found.to_excel(tmp_path / f"{system}.xlsx", system=system))
-        for system in ("SI", "US")
+        openpyxl.load_workbook(found.to_excel(tmp_path / f"{system}.xlsx", system=system)) for system in ("SI", "US")
     ]
     assert books[0].sheetnames == ["Ranking", "Power", "Scenes", "Coverage", "Notes"]
     si_power, us_power = (

@@ -131,9 +131,7 @@ def template() -> bytes:
         return write_template(Path(folder) / "input.xlsx").read_bytes()
 
 
-def book(
-    change: Callable[[bytes], bytes], *options: str, name: str = "input.xlsx"
-) -> Callable[[Path], Arguments]:
+def book(change: Callable[[bytes], bytes], *options: str, name: str = "input.xlsx") -> Callable[[Path], Arguments]:
     def arrange(folder: Path) -> Arguments:
         (folder / name).write_bytes(change(template()))
         return ("power", name, *options)
@@ -208,9 +206,7 @@ def entities(content: bytes) -> bytes:
     return stream.getvalue()
 
 
-PROTECTED = (
-    b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(600) + "EncryptedPackage".encode("utf-16-le") + bytes(400)
-)
+PROTECTED = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(600) + "EncryptedPackage".encode("utf-16-le") + bytes(400)
 OLD_XLS = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(1000)
 
 # -- compounds and laboratory files
@@ -244,9 +240,7 @@ def laboratory(content: str | bytes, *arguments: str, name: str = "data.csv") ->
     return arrange
 
 
-MASTER = "frequency_Hz,E'_MPa,E''_MPa\n" + "".join(
-    f"{10.0**k:g},{5.0 + k:g},{0.5 + 0.1 * k:g}\n" for k in range(6)
-)
+MASTER = "frequency_Hz,E'_MPa,E''_MPa\n" + "".join(f"{10.0**k:g},{5.0 + k:g},{0.5 + 0.1 * k:g}\n" for k in range(6))
 
 # -- disks
 

@@ -97,9 +97,7 @@ def _scaled(data: Data, seeded: random.Random) -> str:
 
 def _other_unit(data: Data, seeded: random.Random) -> str:
     """Give a value another unit of its kind, or of another, the number as it was."""
-    place = seeded.choice(
-        _places(data, lambda value: isinstance(value, str) and _figure_in(value) is not None)
-    )
+    place = seeded.choice(_places(data, lambda value: isinstance(value, str) and _figure_in(value) is not None))
     number, unit = _figure_in(place[0][place[1]]).groups()
     own = [kind for kind in KINDS.values() if unit in kind.units]
     kind = seeded.choice(own if own and seeded.random() < 0.8 else list(KINDS.values()))
@@ -202,9 +200,7 @@ def _forces_add_up(result: conveyor.Analysis) -> None:
     force, every = balance.settled.force, [one.total for one in balance.every]
     amount = math.fsum(abs(one) for one in every) + 1.0
     assert abs(math.fsum(every) - force) <= _ROUNDING * amount
-    assert (
-        abs(math.fsum(drive.force for drive in balance.settled.steady.drives) - force) <= _ROUNDING * amount
-    )
+    assert abs(math.fsum(drive.force for drive in balance.settled.steady.drives) - force) <= _ROUNDING * amount
     assert math.isclose(balance.power.belt, force * balance.line.speed, rel_tol=_ROUNDING, abs_tol=1e-6)
     for state in balance.settled.states.values():
         largest = max(map(abs, (state.smallest, *(drive.arriving for drive in state.drives))))

@@ -77,9 +77,7 @@ def specs() -> Iterator[Case]:
             "",
         )
         if not line.startswith("name"):
-            yield Case(
-                "spec", f"{line.strip()[:40]}: a bracket more", power(SPEC.replace(line, line + " ]", 1)), ""
-            )
+            yield Case("spec", f"{line.strip()[:40]}: a bracket more", power(SPEC.replace(line, line + " ]", 1)), "")
     for cut in range(20, len(SPEC) - 60, max(1, len(SPEC) // 12)):
         yield Case("spec", f"cut after {cut} letters", power(SPEC[:cut]), "")
     whole = {
@@ -110,12 +108,8 @@ def jsons() -> Iterator[Case]:
         "a key of 100,000 letters": '{"' + "k" * 100_000 + '": 1}',
     }.items():  # fmt: skip
         for old in ('"1000 mm"', '"900 t/h"', "0.35"):
-            yield Case(
-                "JSON", f"{old}: {title}", as_json(lambda text, o=old, v=value: text.replace(o, v, 1)), ""
-            )
-    yield Case(
-        "JSON", "names of lone surrogates", as_json(lambda text: text.replace('"Small"', r'"\ud83d"')), ""
-    )
+            yield Case("JSON", f"{old}: {title}", as_json(lambda text, o=old, v=value: text.replace(o, v, 1)), "")
+    yield Case("JSON", "names of lone surrogates", as_json(lambda text: text.replace('"Small"', r'"\ud83d"')), "")
 
 
 @cache

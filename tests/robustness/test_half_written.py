@@ -54,9 +54,7 @@ OUTPUTS: dict[str, Callable[[Path], object]] = {
     "scenes.csv": lambda path: save_files({path: (_comparison().table.to_csv(index=False) * 20).encode()}),
     "figure.png": _figure,
     "figure.svg": _figure,
-    "compound.yaml": lambda path: save_files(
-        {path: shelf.dump(shelf.compound("s100"), "From a test").encode()}
-    ),
+    "compound.yaml": lambda path: save_files({path: shelf.dump(shelf.compound("s100"), "From a test").encode()}),
     "template.xlsx": lambda path: write_template(path, _line()),
     "starter.yaml": lambda path: save_files({path: starter.starter_text("overland").encode()}),
 }
@@ -77,9 +75,7 @@ def _full_disk() -> Iterator[None]:
 
 
 @pytest.mark.parametrize("name", OUTPUTS)
-def test_a_full_disk_leaves_the_folder_as_it_was(
-    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_full_disk_leaves_the_folder_as_it_was(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / name
     path.write_bytes(b"from before")
     before = files(tmp_path)
@@ -93,9 +89,7 @@ def test_a_full_disk_leaves_the_folder_as_it_was(
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")  # of openpyxl's own generators
 @pytest.mark.parametrize("older", [True, False])
 @pytest.mark.parametrize("name", [*CHEAP, "report.xlsx", "template.xlsx"])
-def test_a_disk_that_is_really_full_leaves_the_folder_as_it_was(
-    name: str, older: bool, tmp_path: Path
-) -> None:
+def test_a_disk_that_is_really_full_leaves_the_folder_as_it_was(name: str, older: bool, tmp_path: Path) -> None:
     OUTPUTS[name](tmp_path / name)  # what is written once, such as a cache of fonts, is there
     (tmp_path / name).unlink()
     path = tmp_path / name
@@ -130,9 +124,7 @@ def test_ctrl_c_while_it_writes_leaves_the_folder_as_it_was(
 
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")  # of openpyxl's own generators
 @pytest.mark.parametrize("command", [("template", "t.xlsx"), ("power", "spec.yaml", "-o", "t.xlsx")])
-def test_a_command_names_the_file_whose_temporary_ones_found_no_room(
-    command: tuple[str, ...], tmp_path: Path
-) -> None:
+def test_a_command_names_the_file_whose_temporary_ones_found_no_room(command: tuple[str, ...], tmp_path: Path) -> None:
     (tmp_path / "spec.yaml").write_text(SPEC, encoding="utf-8")
     before = files(tmp_path)
     with _full_disk():

@@ -27,9 +27,7 @@ def test_starters_say_what_their_values_say(kind: starter.Kind, units: System, t
 
 
 @pytest.mark.parametrize(("kind", "units"), KINDS)
-def test_starters_with_every_comment_taken_in_are_valid(
-    kind: starter.Kind, units: System, tmp_path: Path
-) -> None:
+def test_starters_with_every_comment_taken_in_are_valid(kind: starter.Kind, units: System, tmp_path: Path) -> None:
     text = re.sub(
         r"^( {0,6})# (?= {0,6}(?:[a-z_]+: |- \{))",
         r"\1",
@@ -85,9 +83,7 @@ def test_limits_are_in_the_unit_of_the_value_and_what_they_say_is_allowed() -> N
 def test_the_systems_of_units_describe_about_the_same_conveyor() -> None:
     """US values are rounded to what is sold there: a tenth or so apart, a slipped unit is a factor of two and more."""
     for kind in starter.KINDS:
-        si, us = (
-            conveyor.analyse(spec.from_data(starter.starter_values(kind, units))) for units in ("SI", "US")
-        )
+        si, us = (conveyor.analyse(spec.from_data(starter.starter_values(kind, units))) for units in ("SI", "US"))
         assert us.balance.forces.lift == pytest.approx(si.balance.forces.lift, rel=0.2)
         assert us.balance.forces.main == pytest.approx(si.balance.forces.main, rel=0.2)
 

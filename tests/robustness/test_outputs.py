@@ -55,9 +55,7 @@ def test_links_in_a_circle_are_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("later", range(3))
-def test_a_rename_that_fails_takes_the_others_back(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, later: int
-) -> None:
+def test_a_rename_that_fails_takes_the_others_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, later: int) -> None:
     """As where one of the files is open in a spreadsheet program of Windows."""
     older, new, folder = tmp_path / "older.txt", tmp_path / "new.txt", tmp_path / "made"
     older.write_bytes(b"older")
@@ -114,8 +112,7 @@ def test_own_outputs_are_known_and_replaced(tmp_path: Path, result: conveyor.Ana
 def test_the_same_figure_has_the_same_bytes() -> None:
     for ending in (".svg", ".pdf", ".png"):
         one, two = (
-            plots.figure_bytes(plots.master_curve(shelf.compound("s100")), Path(f"f{ending}"))
-            for _ in range(2)
+            plots.figure_bytes(plots.master_curve(shelf.compound("s100")), Path(f"f{ending}")) for _ in range(2)
         )
         assert one == two
 
@@ -123,9 +120,7 @@ def test_the_same_figure_has_the_same_bytes() -> None:
 def test_pages_made_in_threads_are_those_made_in_turn(result: conveyor.Analysis) -> None:
     expected = html.build_page(result.contents())
     made: list[str] = []
-    threads = [
-        threading.Thread(target=lambda: made.append(html.build_page(result.contents()))) for _ in range(4)
-    ]
+    threads = [threading.Thread(target=lambda: made.append(html.build_page(result.contents()))) for _ in range(4)]
     for thread in threads:
         thread.start()
     for thread in threads:

@@ -58,30 +58,22 @@ def test_a_printed_design_fails_its_filling_with_what_it_takes_and_holds(printed
     held = (0.465 + 0.5 * across) * up + heap * top
     assert filling["required"] == pytest.approx(held, rel=1e-12)
     words = filling["why"]
-    assert words.startswith(
-        'the bulk takes 0.194 m², 117 % of the 0.166 m² that section "all" holds on its slope'
-    )
-    assert words.endswith(
-        "reduce material.flow to 1,820 t/h, raise belt.speed to 4.18 m/s, or take a wider belt"
-    )
+    assert words.startswith('the bulk takes 0.194 m², 117 % of the 0.166 m² that section "all" holds on its slope')
+    assert words.endswith("reduce material.flow to 1,820 t/h, raise belt.speed to 4.18 m/s, or take a wider belt")
     assert (printed.parent / "a.xlsx").stat().st_size > 0
 
 
 def test_what_cures_an_overfull_belt_cures_it(printed: Path) -> None:
     """At the flow named, less what rounding to three digits may add, the check passes."""
     done = run("power", printed, "--set", "material.flow=1815 t/h", "--json")
-    (filling,) = (
-        one for one in json.loads(done.stdout)["checks"] if one["key"] == "filling" and one["governs"]
-    )
+    (filling,) = (one for one in json.loads(done.stdout)["checks"] if one["key"] == "filling" and one["governs"])
     assert filling["verdict"] == "pass"
 
 
 def test_beyond_half_as_much_again_it_is_refused_with_the_reason(printed: Path) -> None:
     done = run("power", printed, "--set", "material.flow=3000 t/h")
     assert done.returncode == 2
-    assert (
-        "the belt holds 0.1662 m^2 and is calculated up to 0.2493 m^2, 150 % of that: reduce" in done.stderr
-    )
+    assert "the belt holds 0.1662 m^2 and is calculated up to 0.2493 m^2, 150 % of that: reduce" in done.stderr
 
 
 def test_bulk_beyond_the_edges_is_said_to_spill(printed: Path) -> None:

@@ -43,9 +43,7 @@ def numbers(data: object) -> Iterator[float]:
         yield data
 
 
-def test_a_drive_left_out_is_answered_with_failing_checks_in_every_output(
-    one_drive: Path, tmp_path: Path
-) -> None:
+def test_a_drive_left_out_is_answered_with_failing_checks_in_every_output(one_drive: Path, tmp_path: Path) -> None:
     outputs = ("-o", "a.xlsx", "--html", "a.html", "--tables", ".")
     done = run("power", one_drive, "--json", *outputs, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
@@ -67,9 +65,7 @@ def test_what_is_missing_is_said_as_tension_and_as_weight(one_drive: Path) -> No
     assert "raise the take-up's tension from 108 kN to about" in words
     # 22 t hold 107.9 kN: 4.903 N a kg, two strands at 9.80665 m/s²
     lacking = next(
-        check
-        for check in run_checks(conveyor.analyse(conveyor.load(one_drive)))
-        if check.key == "take_up_tension"
+        check for check in run_checks(conveyor.analyse(conveyor.load(one_drive))) if check.key == "take_up_tension"
     )
     assert lacking.failed
     assert lacking.why is not None

@@ -30,9 +30,7 @@ def rows() -> dict[str, str]:
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
-def test_one_clear_message_its_exit_code_and_no_file_changed(
-    case: Case, tmp_path: Path, rows: dict[str, str]
-) -> None:
+def test_one_clear_message_its_exit_code_and_no_file_changed(case: Case, tmp_path: Path, rows: dict[str, str]) -> None:
     outcome = run(case, tmp_path)
     said = outcome.err.strip().splitlines()
     assert outcome.code == case.code, outcome.err

@@ -88,9 +88,7 @@ def test_what_belts_tested_alike_share_is_not_their_own():
     assert anchor.own_half_width == pytest.approx(0.05, rel=1e-12)
     assert anchor.half_width == pytest.approx(0.13, rel=1e-12)
     assert fit_test_factor(*given, uncertainty=0.13).own_half_width == pytest.approx(0.13, rel=1e-12)
-    assert fit_test_factor(*given, uncertainty=0.13, shared=0.13).own_half_width == pytest.approx(
-        0.0, abs=1e-7
-    )
+    assert fit_test_factor(*given, uncertainty=0.13, shared=0.13).own_half_width == pytest.approx(0.0, abs=1e-7)
 
 
 @pytest.mark.parametrize(

@@ -101,8 +101,7 @@ def test_a_modulus_that_is_nearly_another_is_named(name: str, noise: float) -> N
     for compound in ("standard-cover", "low-rolling-resistance-cover"):
         rubber = shelf.compound(compound).series(293.15)
         moduli = [
-            one(2.0 * np.pi * f) * np.exp(noise * rng.standard_normal(f.size))
-            for one in (rubber.storage, rubber.loss)
+            one(2.0 * np.pi * f) * np.exp(noise * rng.standard_normal(f.size)) for one in (rubber.storage, rubber.loss)
         ]
         curve = (f, *made(*moduli))
         if words is None:
@@ -120,8 +119,7 @@ def test_it_is_named_where_little_of_the_curve_shows_it(name: str) -> None:
     for compound in ("s120", "low-rolling-resistance-cover"):
         rubber = shelf.compound(compound).series_at_reference
         storage, loss = (
-            one(2.0 * np.pi * f) * np.exp(0.001 * rng.standard_normal(f.size))
-            for one in (rubber.storage, rubber.loss)
+            one(2.0 * np.pi * f) * np.exp(0.001 * rng.standard_normal(f.size)) for one in (rubber.storage, rubber.loss)
         )
         assert check_findings("right", (f, storage, loss), frozenset(), 3.0) == ()
         with pytest.raises(InputError, match=re.escape(words or "")):
@@ -287,9 +285,7 @@ ISOTHERM = "{t},{f:g},{e:.5g},{loss:.5g}\n"
 OF_A_SET = [(t, f) for t in (10, 20, 30) for f in (0.1, 0.3, 1.0, 3.0, 10.0, 30.0)]
 
 
-def isotherms(
-    folder: Path, *more: tuple[float, float], header: str = "T [degC],f [Hz],E' [MPa],E'' [MPa]"
-) -> Path:
+def isotherms(folder: Path, *more: tuple[float, float], header: str = "T [degC],f [Hz],E' [MPa],E'' [MPa]") -> Path:
     """Three isotherms of six rows on a power law, and more rows of temperature and frequency."""
     path = folder / "set.csv"
     rows = [
@@ -328,9 +324,7 @@ def test_rows_of_a_strain_sweep_among_isotherms_are_named_and_left_out(tmp_path:
     ["D' [1/MPa],D'' [1/MPa]", "J' [1/Pa],J'' [1/Pa]", "storage compliance [1/Pa],loss compliance [1/Pa]"],
 )
 def test_compliances_are_told_how_to_become_moduli(tmp_path: Path, names: str) -> None:
-    with pytest.raises(
-        InputError, match=r"set.csv:1: column 3 .*compliances are not read; give moduli: E' = D'/"
-    ):
+    with pytest.raises(InputError, match=r"set.csv:1: column 3 .*compliances are not read; give moduli: E' = D'/"):
         read_dma(isotherms(tmp_path, header="T [degC],f [Hz]," + names))
 
 

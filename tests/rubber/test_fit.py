@@ -198,9 +198,7 @@ def test_misfits_are_what_they_say() -> None:
 def test_a_fluid_is_refused_with_advice() -> None:
     x = 2 * np.pi * np.logspace(-1, 3, 30) * 1e-2
     maxwell = 1e6 * x * x / (1 + x * x), 1e6 * x / (1 + x * x)
-    with pytest.raises(
-        NoSolutionError, match=r"equilibrium modulus is 0 \(a fluid\): .* hold it with equilibrium="
-    ):
+    with pytest.raises(NoSolutionError, match=r"equilibrium modulus is 0 \(a fluid\): .* hold it with equilibrium="):
         fit_prony(np.logspace(-1, 3, 30), *maxwell, times=[1e-2])
 
 
@@ -226,17 +224,13 @@ def test_bad_rows_are_named(column: int, value: float, message: str) -> None:
 
 def test_other_refusals() -> None:
     f, e1, e2 = GOOD
-    with pytest.raises(
-        InputError, match=r"one shape \(n,\); got frequency \(3,\), storage \(2,\), loss \(3,\)"
-    ):
+    with pytest.raises(InputError, match=r"one shape \(n,\); got frequency \(3,\), storage \(2,\), loss \(3,\)"):
         fit_prony(f, e1[:2], e2)
     with pytest.raises(InputError, match=r"at least 2 distinct frequencies; got 1"):
         fit_prony([1.0, 1.0], [1e6, 1e6], [1e5, 1e5])
     with pytest.raises(InputError, match=r"terms_per_decade = 0 1/decade must be finite and > 0"):
         fit_prony(f, e1, e2, terms_per_decade=0.0)
-    with pytest.raises(
-        InputError, match=r"equilibrium = 1e\+06 Pa must be below the smallest storage modulus"
-    ):
+    with pytest.raises(InputError, match=r"equilibrium = 1e\+06 Pa must be below the smallest storage modulus"):
         fit_prony(f, e1, e2, equilibrium=1e6)
     with pytest.raises(InputError, match=r"times\[0\] = -1 s must be > 0"):
         fit_prony(f, e1, e2, times=[-1.0])
@@ -313,9 +307,7 @@ def test_table_of_the_criterion() -> None:
 def test_the_criterion_is_formed_wherever_it_exists() -> None:
     # its denominator is n - p - 2: six data and nearly four parameters of a penalised spectrum leave little of it
     truth = PronySeries(3e6, [2e6, 1e6, 2e6], [1e-2, 1e-1, 1.0])
-    left = [
-        6.0 - line.freedom - 2.0 for line in fit_prony(*data(truth, np.logspace(-1.5, 1.5, 3))).candidates
-    ]
+    left = [6.0 - line.freedom - 2.0 for line in fit_prony(*data(truth, np.logspace(-1.5, 1.5, 3))).candidates]
     assert 0.0 < min(left) < 1.0
 
 
@@ -345,9 +337,7 @@ def test_the_middle_of_three_rows_of_one_frequency_is_held_to_the_mean_of_the_ot
 def test_scatter_is_told_from_misfit() -> None:
     f, e1, e2 = data(TRUTH, FREQUENCY)
     rng = np.random.default_rng(3)
-    fit = fit_prony(
-        f, e1 * np.exp(0.02 * rng.standard_normal(f.size)), e2 * np.exp(0.2 * rng.standard_normal(f.size))
-    )
+    fit = fit_prony(f, e1 * np.exp(0.02 * rng.standard_normal(f.size)), e2 * np.exp(0.2 * rng.standard_normal(f.size)))
     # 82 overlapping triples: the estimate scatters by about sqrt(1/82) = 11 %; four of them
     assert fit.storage_noise == pytest.approx(0.02, rel=0.44)
     assert fit.loss_noise == pytest.approx(0.2, rel=0.44)
@@ -361,9 +351,7 @@ def test_scatter_is_told_from_misfit() -> None:
 def test_equal_stated_errors_change_nothing_and_unequal_ones_decide() -> None:
     f, e1, e2 = noisy(0.02, 9)
     base = fit_prony(f, e1, 1.3 * e2, terms_per_decade=2.0)
-    same = fit_prony(
-        f, e1, 1.3 * e2, terms_per_decade=2.0, storage_error=0.05, loss_error=np.full(f.size, 0.05)
-    )
+    same = fit_prony(f, e1, 1.3 * e2, terms_per_decade=2.0, storage_error=0.05, loss_error=np.full(f.size, 0.05))
     np.testing.assert_allclose(same.series.moduli, base.series.moduli, rtol=1e-12)
     trusted = fit_prony(f, e1, 1.3 * e2, terms_per_decade=2.0, storage_error=0.01, loss_error=1.0)
     assert trusted.storage.rms < 0.03 < base.storage.rms

@@ -29,12 +29,8 @@ def test_what_is_no_minimum_is_told() -> None:
     matrix, target = np.eye(2), np.array([1.0, 1.0])
     assert largest_slope(matrix, target, np.array([1.0, 1.0])) == 0.0
     # the error along the second column is 1, |target| + weights sqrt(2) + 1
-    assert largest_slope(matrix, target, np.array([1.0, 0.0])) == pytest.approx(
-        1.0 / (np.sqrt(2.0) + 1.0), rel=1e-14
-    )
-    assert largest_slope(matrix, target, np.array([2.0, 1.0])) == pytest.approx(
-        1.0 / (np.sqrt(2.0) + 3.0), rel=1e-14
-    )
+    assert largest_slope(matrix, target, np.array([1.0, 0.0])) == pytest.approx(1.0 / (np.sqrt(2.0) + 1.0), rel=1e-14)
+    assert largest_slope(matrix, target, np.array([2.0, 1.0])) == pytest.approx(1.0 / (np.sqrt(2.0) + 3.0), rel=1e-14)
 
 
 def test_an_answer_that_is_no_minimum_is_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:

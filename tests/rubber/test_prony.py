@@ -45,9 +45,7 @@ def test_one_term_is_the_standard_linear_solid() -> None:
     assert series.tan_delta(omega) == pytest.approx(3 / 5, rel=1e-15)
     t = np.array([0.0, 0.01, 0.05])
     np.testing.assert_allclose(series.relaxation(t), 2e6 + 6e6 * np.exp(-t / 0.01), rtol=1e-15)
-    np.testing.assert_allclose(
-        creep.creep(t), 1 / 8e6 + (1 / 2e6 - 1 / 8e6) * (1 - np.exp(-t / 0.04)), rtol=1e-14
-    )
+    np.testing.assert_allclose(creep.creep(t), 1 / 8e6 + (1 / 2e6 - 1 / 8e6) * (1 - np.exp(-t / 0.04)), rtol=1e-14)
 
 
 def test_loss_tangent_of_one_term_peaks_at_root_of_modulus_ratio() -> None:

@@ -127,9 +127,7 @@ def test_wlf_fit_is_a_minimum() -> None:
 
 
 def test_messages_of_the_laws() -> None:
-    with pytest.raises(
-        RangeError, match=r"-78\.45 degC is at or below the pole of the WLF law at -78\.45 degC"
-    ):
+    with pytest.raises(RangeError, match=r"-78\.45 degC is at or below the pole of the WLF law at -78\.45 degC"):
         WLF(8.86, 101.6, 296.3).log10_a_T(194.7)
     with pytest.raises(InputError, match=r"c2 = -1 K must be finite and > 0"):
         WLF(8.86, -1.0, 293.15)
@@ -164,9 +162,7 @@ def test_table_is_not_extrapolated() -> None:
         ([20.0, float("nan")], [0.0, -1.0], 20.0, r"temperatures\[1\] = nan K must be finite"),
     ],
 )
-def test_refused_tables(
-    temperatures: list[float], decades: list[float], reference: float, message: str
-) -> None:
+def test_refused_tables(temperatures: list[float], decades: list[float], reference: float, message: str) -> None:
     with pytest.raises((InputError, RangeError), match=message):
         ShiftTable(temperatures, decades, reference)
 
@@ -189,7 +185,5 @@ def test_a_table_may_miss_its_reference_by_a_hundredth_of_a_decade():
     for printed in (0.0099, -0.0099):
         assert ShiftTable([280.0, 290.0], [1.0, printed], 290.0).log10_a_T(290.0) == pytest.approx(printed)
     for printed in (0.0101, -0.0101):
-        with pytest.raises(
-            InputError, match=rf"log10 a_T at the reference .* is {printed}; it must be 0 to 0\.01"
-        ):
+        with pytest.raises(InputError, match=rf"log10 a_T at the reference .* is {printed}; it must be 0 to 0\.01"):
             ShiftTable([280.0, 290.0], [1.0, printed], 290.0)

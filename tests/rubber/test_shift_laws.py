@@ -32,9 +32,7 @@ def test_truth_comes_first() -> None:
 
 
 def test_wrong_law_is_far_outside_its_errors() -> None:
-    found = {
-        c.name: c for c in compare_shift_laws(T, LAW.log10_a_T(T), REFERENCE, error=np.full(T.size, 0.01))
-    }
+    found = {c.name: c for c in compare_shift_laws(T, LAW.log10_a_T(T), REFERENCE, error=np.full(T.size, 0.01))}
     assert found["WLF"].rms < 1e-6
     assert found["Arrhenius"].chi2_per_freedom is not None
     assert found["Arrhenius"].chi2_per_freedom > 100.0
@@ -56,11 +54,7 @@ def test_table_says_that_it_interpolates() -> None:
 @pytest.mark.parametrize("name", ["s100", "s120"])
 def test_measured_tables_beat_the_laws(name: str) -> None:
     rows = np.array(
-        [
-            line.split(",")
-            for line in (MATERIALS / f"{name}.shift.csv").read_text().splitlines()
-            if line[0] not in "#t"
-        ],
+        [line.split(",") for line in (MATERIALS / f"{name}.shift.csv").read_text().splitlines() if line[0] not in "#t"],
         dtype=float,
     )
     t, y = rows[:, 0] + 273.15, np.log10(rows[:, 1])
@@ -81,9 +75,7 @@ def test_weights_are_those_of_least_squares() -> None:
     weighted = fit_arrhenius(T, y, REFERENCE, error=light).law.activation_energy
     assert weighted == pytest.approx(120e3, rel=1e-9)
     equal = fit_arrhenius(T, y, REFERENCE).law.activation_energy
-    assert fit_arrhenius(T, y, REFERENCE, error=heavy).law.activation_energy == pytest.approx(
-        equal, rel=1e-12
-    )
+    assert fit_arrhenius(T, y, REFERENCE, error=heavy).law.activation_energy == pytest.approx(equal, rel=1e-12)
     y = LAW.log10_a_T(T)
     y[0] += 0.5
     one = fit_wlf(T, y, REFERENCE, error=light).law

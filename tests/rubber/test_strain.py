@@ -34,9 +34,7 @@ def sweeps(name):
     if name == "S120":
         rows = np.delete(rows, 1, axis=0)  # the stray point at 0 degC, see the README there
     temperatures = dict.fromkeys(rows[:, 0])
-    return [
-        StrainSweep(t + ZERO, 1.0, *(rows[rows[:, 0] == t][:, 2:] * [1e-2, 1e6, 1e6]).T) for t in temperatures
-    ]
+    return [StrainSweep(t + ZERO, 1.0, *(rows[rows[:, 0] == t][:, 2:] * [1e-2, 1e6, 1e6]).T) for t in temperatures]
 
 
 def flat(temperature, storage=1.0, low=1e-4, loss=1e6, tilt=0.0):
@@ -61,9 +59,7 @@ def test_measured_sweep_of_s100():
 
 def test_sweeps_refuse_what_they_cannot_mean():
     up = [1e-3, 1e-2, 1e-1, 0.2]
-    with pytest.raises(
-        InputError, match=r"strain\[2\] = 0\.005 follows 0\.01: .* every run as a sweep of its own"
-    ):
+    with pytest.raises(InputError, match=r"strain\[2\] = 0\.005 follows 0\.01: .* every run as a sweep of its own"):
         StrainSweep(283.0, 1.0, [1e-3, 1e-2, 5e-3, 0.2], up, up)
     with pytest.raises(InputError, match=r"strain reaches 25, allowed to 2: .* divide percentages by 100"):
         StrainSweep(283.0, 1.0, [0.01, 0.1, 1.0, 25.0], up, up)
@@ -149,9 +145,7 @@ def test_below_the_lowest_strain_only_a_plateau_is_constant():
     assert AmplitudeFactors([flat(280.0, 0.5, tilt=0.039)], 1e-4).storage(1e-6, 280.0) == 1.0
     sloping = AmplitudeFactors([flat(280.0, 0.5, tilt=0.041)], 1e-4)
     assert sloping.loss(1e-6, 280.0) == 1.0  # each modulus by itself
-    with pytest.raises(
-        RangeError, match=r"below the lowest measured, 0\.0001, where the data show no plateau"
-    ):
+    with pytest.raises(RangeError, match=r"below the lowest measured, 0\.0001, where the data show no plateau"):
         sloping.storage(1e-6, 280.0)
     sparse = AmplitudeFactors([LAW_SWEEP], 1e-3)  # two points up to twice the lowest strain decide nothing
     with pytest.raises(RangeError, match="no plateau"):
@@ -168,9 +162,7 @@ def test_plateau_of_the_measured_sweeps():
 
 
 def test_reference_strain_is_within_the_data():
-    with pytest.raises(
-        RangeError, match=r"reference_strain at 280\.00 K \(storage\): a strain of 0\.5 is above"
-    ):
+    with pytest.raises(RangeError, match=r"reference_strain at 280\.00 K \(storage\): a strain of 0\.5 is above"):
         AmplitudeFactors([flat(280.0)], 0.5)
     with pytest.raises(InputError, match="at least one strain sweep is needed"):
         AmplitudeFactors([], 1e-3)
@@ -280,9 +272,7 @@ def test_fixed_point_holds(stress):
     assert found.strain == pytest.approx(stress / float(abs(found.series.modulus(200.0))), rel=1e-12)
     assert found.storage_factor == pytest.approx(float(factors.storage(found.strain, 293.15)), rel=1e-7)
     assert found.loss_factor == pytest.approx(float(factors.loss(found.strain, 293.15)), rel=1e-7)
-    assert found.series.storage(200.0) == pytest.approx(
-        found.storage_factor * SERIES.storage(200.0), rel=1e-12
-    )
+    assert found.series.storage(200.0) == pytest.approx(found.storage_factor * SERIES.storage(200.0), rel=1e-12)
     assert found.steps <= 8
 
 
@@ -322,9 +312,7 @@ def test_strains_that_never_settle_are_said_so():
     factors = AmplitudeFactors([LAW_SWEEP], 1e-3)
     turn = iter(range(1000))
     with pytest.raises(NoSolutionError, match="did not settle in 30 steps"):
-        equivalent_linear(
-            SERIES, factors, lambda _: (0.01 * (1.5 + (-1.0) ** next(turn)), 200.0), temperature=293.15
-        )
+        equivalent_linear(SERIES, factors, lambda _: (0.01 * (1.5 + (-1.0) ** next(turn)), 200.0), temperature=293.15)
 
 
 def test_strains_beyond_the_sweep_hold_its_last_factors():
@@ -342,9 +330,7 @@ def roll(load):
     """Working strain and angular frequency of a 159 mm roll on a 5 mm cover at 5 m/s."""
 
     def strain_of(series):
-        contact = RollContact(
-            radius=0.0795, spacing=SPACING, cover_thickness=5e-3, speed=SPEED, rubber=series
-        )
+        contact = RollContact(radius=0.0795, spacing=SPACING, cover_thickness=5e-3, speed=SPEED, rubber=series)
         found = solve(to_problem(contact, load))
         inside = interior(found)
         seen.append(found.friction * load)
@@ -392,9 +378,7 @@ def test_a_step_that_leaves_little_is_not_looked_at_again():
     def strain_of(series):
         return 0.0015 * (unit / float(series.storage(200.0))) ** 0.5, 200.0
 
-    soon, late = (
-        equivalent_linear(SERIES, factors, strain_of, temperature=293.15, rtol=rtol) for rtol in (5e-3, 1e-9)
-    )
+    soon, late = (equivalent_linear(SERIES, factors, strain_of, temperature=293.15, rtol=rtol) for rtol in (5e-3, 1e-9))
     assert (soon.steps, late.steps > 3) == (2, True)
     assert soon.strain == pytest.approx(late.strain, rel=1e-3)
     assert soon.storage_factor == pytest.approx(late.storage_factor, rel=1e-3)

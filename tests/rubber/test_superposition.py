@@ -38,9 +38,7 @@ def sweeps(  # noqa: PLR0917
         f = np.sort(10.0 ** rng.uniform(-1, 2, rows)) if uneven else np.logspace(-1, 2, rows)
         omega = 2 * np.pi * f * 10.0 ** LAW.log10_a_T(t)
         scatter = np.exp(noise * rng.standard_normal((2, rows))) * (1.0 if b is None else b[i])
-        found.append(
-            Isotherm(float(t), f, RUBBER.storage(omega) * scatter[0], RUBBER.loss(omega) * scatter[1])
-        )
+        found.append(Isotherm(float(t), f, RUBBER.storage(omega) * scatter[0], RUBBER.loss(omega) * scatter[1]))
     return found
 
 
@@ -246,9 +244,7 @@ def test_by_storage_alone() -> None:
     ]
     result = superpose(ruined, REFERENCE, by="storage")
     assert result.loss_scatter is None
-    assert (
-        chi2_per_shift(result, np.asarray(LAW.log10_a_T(TEMPERATURES))) < 2.5
-    )  # 14 dof: 1 +- 0.38, four of it
+    assert chi2_per_shift(result, np.asarray(LAW.log10_a_T(TEMPERATURES))) < 2.5  # 14 dof: 1 +- 0.38, four of it
 
 
 def test_published_master_curve_unshifted_and_superposed_again() -> None:
@@ -280,9 +276,7 @@ def test_published_master_curve_unshifted_and_superposed_again() -> None:
 
 
 def rms_storage(cold: Isotherm, hot: Isotherm, step: float) -> float:
-    sheets = [
-        LogIsotherm(i.temperature, np.log10(i.frequency), np.log([i.storage, i.loss])) for i in (cold, hot)
-    ]
+    sheets = [LogIsotherm(i.temperature, np.log10(i.frequency), np.log([i.storage, i.loss])) for i in (cold, hot)]
     return measure_overlap(sheets[0], sheets[1], float(step), 0.0, held=False).storage
 
 

@@ -97,9 +97,7 @@ def test_a_class_stiff_enough_for_the_take_up_is_chosen_where_the_strength_alone
     weaker = [one for one in classes if one.strength < best.chosen.carcass.strength][-1]
     tension = best.found.balance.settled.steady.largest
     assert weaker.strength > 8.0 * tension / best.choice.trough.width.belt  # DIN 22101: safety 8
-    (as_weak,) = calculate_many(
-        [Variant(SizingTask(given).spec(best.choice, _of_class(given, best, weaker), "x"))]
-    )
+    (as_weak,) = calculate_many([Variant(SizingTask(given).spec(best.choice, _of_class(given, best, weaker), "x"))])
     assert isinstance(as_weak, CalculatedConveyor)
     assert _travel_by_hand(replace(best, found=as_weak, coldest=as_weak), 0.0) > 30.0
     assert _travel_by_hand(best, 0.0) <= 30.0
@@ -148,27 +146,19 @@ def test_a_carcass_that_stretches_too_far_for_good_is_refused_with_the_travel_it
 def test_a_take_up_too_short_for_the_load_is_refused_with_the_travel_it_needs():
     """Of 1,000 m of fabric 9 m are lasting stretch; the load adds at most what a class of safety 8 bears."""
     given = duty(1000.0, 1000.0, 15.0, rules={"carcasses": ["EP"], "take_up_travel": "9.5 m"})
-    with pytest.raises(
-        NoSolutionError, match=r"its take-up needs .* of travel, .*\(rules\.take_up_travel"
-    ) as refused:
+    with pytest.raises(NoSolutionError, match=r"its take-up needs .* of travel, .*\(rules\.take_up_travel") as refused:
         size_conveyor(given)
     needed, allowed = _figures(str(refused.value).partition("take-up needs")[2], "m")
     assert allowed == 9.5
-    assert (
-        9.5 < needed < 1.2 * 1000.0 * (7.5e-3 + 1.0 / 8.0 / 5.0)
-    )  # EA 5 times the strength: at most all of it
+    assert 9.5 < needed < 1.2 * 1000.0 * (7.5e-3 + 1.0 / 8.0 / 5.0)  # EA 5 times the strength: at most all of it
     longer = given.replace(rules=given.rules.replace(take_up_travel=f"{1.02 * needed} m"))
     assert size_conveyor(longer, best=1).best.uses["take-up travel"] <= 1.0
 
 
 def test_a_climb_that_no_class_bears_is_refused_with_the_strength_it_needs():
     """The tension at the head is more than the bulk's weight on the slope; EP1600 has a safety of 8 to 1600 N/mm."""
-    given = duty(
-        2000.0, 600.0, 150.0, rules={"carcasses": ["EP"], "widths": ["1400 mm"], "speeds": ["4 m/s"]}
-    )
-    with pytest.raises(
-        NoSolutionError, match=r"asks for a belt of .*, the strongest .* 1,600 N/mm"
-    ) as refused:
+    given = duty(2000.0, 600.0, 150.0, rules={"carcasses": ["EP"], "widths": ["1400 mm"], "speeds": ["4 m/s"]})
+    with pytest.raises(NoSolutionError, match=r"asks for a belt of .*, the strongest .* 1,600 N/mm") as refused:
         size_conveyor(given)
     needed, strongest = _figures(str(refused.value), "N/mm")
     least = 8.0 * 2000.0 / 3.6 / 4.0 * GRAVITY * 150.0 / 1.4 / 1e3
@@ -207,9 +197,7 @@ def test_a_belt_that_would_go_slack_in_a_stop_has_its_take_up_set_higher():
     loose = every_load(best.conveyor.replace(route=least))
     assert {check.key for check in loose.governing if check.failed} == {"slack_belt"}
     slack = -min(state.smallest for one in loose.designing for state in one.motion_states)
-    assert (
-        0.0 <= best.chosen.take_up - loose.take_up - slack < 0.05 * best.chosen.take_up
-    )  # a wider class weighs more
+    assert 0.0 <= best.chosen.take_up - loose.take_up - slack < 0.05 * best.chosen.take_up  # a wider class weighs more
 
 
 def test_levels_of_one_calculation_make_the_estimate_that_calculation():
@@ -222,9 +210,7 @@ def test_levels_of_one_calculation_make_the_estimate_that_calculation():
         [Variant(task.spec(choices[i], _estimated_parts(task, choices[i], estimate, i), "probe"))]
     )
     assert isinstance(found, CalculatedConveyor)
-    again = screen_candidates(
-        task, choices, made := _calibrate_estimate(choices, estimate, levels, {i: found}, {})
-    )
+    again = screen_candidates(task, choices, made := _calibrate_estimate(choices, estimate, levels, {i: found}, {}))
     assert again.carcass[i] == estimate.carcass[i]
     forces = found.balance.forces
     main = {force.key: force for force in found.balance.along}
@@ -236,9 +222,7 @@ def test_levels_of_one_calculation_make_the_estimate_that_calculation():
         "belt strength": 1.2 * float(again.uses["belt strength"][i]),
         "motor power": 0.9 * float(again.uses["motor power"][i]),
     }
-    leveled = screen_candidates(
-        task, choices, _calibrate_estimate(choices, again, made, {i: found}, {i: used})
-    )
+    leveled = screen_candidates(task, choices, _calibrate_estimate(choices, again, made, {i: found}, {i: used}))
     for limit, share in used.items():
         assert leveled.uses[limit][i] == pytest.approx(share, rel=1e-9)
 
@@ -301,10 +285,6 @@ def test_what_a_distance_is_worth_is_what_the_energy_of_a_year_costs():
     assert math.fsum(row.grows * math.cbrt(row.built) * row.length for row in rows) == pytest.approx(
         indentation * running, rel=1e-9
     )
-    frames = best.costs.yearly["rolls"] * (
-        1.0 + best.costs.capital["idler frames"] / best.costs.capital["rolls"]
-    )
+    frames = best.costs.yearly["rolls"] * (1.0 + best.costs.capital["idler frames"] / best.costs.capital["rolls"])
     falls = math.fsum(row.falls / row.built * row.length for row in rows)
-    assert falls == pytest.approx(
-        rotation * running + float(frames), rel=0.02
-    )  # a set more or less at the ends
+    assert falls == pytest.approx(rotation * running + float(frames), rel=0.02)  # a set more or less at the ends

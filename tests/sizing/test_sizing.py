@@ -197,9 +197,7 @@ def test_the_command_writes_specs_that_run(tmp_path):
     done = run("size", "duty.yaml", "-n", "2", "-o", "best.yaml", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     assert "cheapest: " in done.stdout
-    assert re.search(
-        r"top cover [\d.]+ mm, bottom cover [\d.]+ mm, belt safety \d+\.\d\d$", done.stdout, re.MULTILINE
-    )
+    assert re.search(r"top cover [\d.]+ mm, bottom cover [\d.]+ mm, belt safety \d+\.\d\d$", done.stdout, re.MULTILINE)
     assert re.search(r"^ +1 +\d+ +\d\d ", done.stdout, re.MULTILINE), "width and trough are whole numbers"
     for name in ("best-1.yaml", "best-2.yaml"):
         found = conveyor.analyse(conveyor.load(tmp_path / name))
@@ -210,9 +208,7 @@ def test_the_command_writes_specs_that_run(tmp_path):
 
 def test_the_command_tells_programs_and_writes_reports(tmp_path):
     (tmp_path / "duty.yaml").write_text(DUTY, encoding="utf-8")
-    done = run(
-        "size", "duty.yaml", "-n", "1", "--json", "-o", "a.xlsx", "-o", "a.html", "-o", "a.svg", cwd=tmp_path
-    )
+    done = run("size", "duty.yaml", "-n", "1", "--json", "-o", "a.xlsx", "-o", "a.html", "-o", "a.svg", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     told = json.loads(done.stdout)
     (design,) = told["designs"]
@@ -222,9 +218,7 @@ def test_the_command_tells_programs_and_writes_reports(tmp_path):
     assert all((tmp_path / name).stat().st_size > 1000 for name in ("a.xlsx", "a.html", "a.svg"))
     designs = openpyxl.load_workbook(tmp_path / "a.xlsx")["Designs"]
     assert (designs.page_setup.fitToWidth, designs.print_title_cols) == (2, "$A:$A")  # or letters of 4 pt
-    costs = openpyxl.load_workbook(tmp_path / "a.xlsx")[
-        "Costs"
-    ]  # narrow: caption and note are longer than its rows
+    costs = openpyxl.load_workbook(tmp_path / "a.xlsx")["Costs"]  # narrow: caption and note are longer than its rows
     (note,) = costs.merged_cells.ranges
     printed = [costs.column_dimensions[get_column_letter(1 + k)].width for k in range(note.max_col)]
     assert sum(printed) >= len(costs["A1"].value)
@@ -302,9 +296,7 @@ def test_what_leaves_nothing_is_named(small, changes, rules, message):
 def test_a_flow_that_fills_no_belt_enough_is_named(small):
     """A belt of 500 mm may not run at 3.5 m/s; 20 t/h over 850 kg/m³ take 19 cm² of the 1600 mm one's 0.3 m²."""
     rules = small.rules.replace(widths=["500 mm", "1600 mm"], speeds=["3.5 m/s"])
-    message = (
-        r"20 t/h fills no belt that may be chosen to more than 1 %, rules\.least_filling asks for 40 %: allow"
-    )
+    message = r"20 t/h fills no belt that may be chosen to more than 1 %, rules\.least_filling asks for 40 %: allow"
     with pytest.raises(NoSolutionError, match=message):
         size_conveyor(small.replace(rules=rules, material=small.material.replace(flow="20 t/h")))
 
@@ -314,9 +306,7 @@ def test_a_heap_that_comes_too_near_to_the_edges_is_named(small):
     rules = small.rules.replace(widths=["800 mm"], speeds=["2.5 m/s"], filling="100 %")
     level = small.replace(route=None, length="100 m", lift="0 m", rules=rules)
     most = SizingTask(level).troughs[0].area * 2.5 * 850.0 * 3.6  # [t/h]
-    with pytest.raises(
-        NoSolutionError, match=r"leaves 65 mm of either edge .* CEMA asks for 66\.9 mm: allow wider"
-    ):
+    with pytest.raises(NoSolutionError, match=r"leaves 65 mm of either edge .* CEMA asks for 66\.9 mm: allow wider"):
         size_conveyor(level.replace(material=small.material.replace(flow=f"{most * (1.0 - 1e-9)} t/h")))
 
 
@@ -332,11 +322,7 @@ def test_motors_of_a_pulley_share_what_one_does_not_give(small, most):
 
 def test_a_rising_design_has_the_backstop_that_holds_it(small):
     spec = size_conveyor(small, best=1).best.conveyor
-    held = [
-        check
-        for check in run_checks(conveyor.analyse(spec))
-        if check.key in {"holding_brake", "backstop_torque"}
-    ]
+    held = [check for check in run_checks(conveyor.analyse(spec)) if check.key in {"holding_brake", "backstop_torque"}]
     assert [check.verdict for check in held] == ["pass", "pass"]
     assert all(check.margin >= 1.0 - 1.0 / 1.3 - 1e-3 for check in held)  # 1.3, written to four digits
 
@@ -354,11 +340,7 @@ def test_prices_of_the_library_count_at_what_a_euro_costs():
     dollars = Prices.from_data({"euro": "1.25 USD", "roll_mass": "2 USD/lb", "drive_power": "300 USD/hp"})
     usual, lives = Prices.from_data({}), {"roll_of_belt", "textile_life", "steel_cord_life", "roll_life"}
     own = {"euro": 1.25, "roll_mass": 2.0 / 0.45359237, "drive_power": 300.0 / 745.69987158227}
-    rates = {
-        name: value
-        for name, value in usual.amounts.items()
-        if name in {*lives, "interest", "years", "upkeep"}
-    }
+    rates = {name: value for name, value in usual.amounts.items() if name in {*lives, "interest", "years", "upkeep"}}
     at_it = {name: 1.25 * value for name, value in usual.amounts.items()}
     assert dollars.currency == "USD"
     assert dollars.amounts == pytest.approx({**at_it, **rates, **own}, rel=1e-12)
@@ -404,9 +386,7 @@ def test_a_design_in_us_units_is_of_the_us_trade(small):
         min(NEMA_MOTORS, key=lambda each: abs(each - si(spec.drive.installed_power))), rel=1e-6
     )
     assert drums <= {f"{inches} in" for inches in (8, 10, 12, 14, 16, 18, 20, 24, 30, 36)}
-    judged = [
-        check for check in run_checks(conveyor.analyse(spec)) if check.key in {"set_rating", "belt_rating"}
-    ]
+    judged = [check for check in run_checks(conveyor.analyse(spec)) if check.key in {"set_rating", "belt_rating"}]
     assert len(judged) == 4  # both strands; steady and all states
     assert not [check for check in judged if check.failed]
     for carcass in SizingTask(american).carcasses["EP"]:

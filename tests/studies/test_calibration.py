@@ -29,16 +29,12 @@ def with_factors(given: Conveyor, **factors: float) -> Conveyor:
 
 def states(*flow_and_warmth: tuple[float, float], at: str = "motor shaft") -> list[MeasuredRun]:
     return [
-        MeasuredRun.from_data(
-            {"power": "1 kW", "at": at, "flow": f"{flow} t/h", "temperature": f"{warmth} degC"}
-        )
+        MeasuredRun.from_data({"power": "1 kW", "at": at, "flow": f"{flow} t/h", "temperature": f"{warmth} degC"})
         for flow, warmth in flow_and_warmth
     ]
 
 
-def measured(
-    truth: Conveyor, runs: list[MeasuredRun], noise: float = 0.0, seed: int = 0
-) -> list[MeasuredRun]:
+def measured(truth: Conveyor, runs: list[MeasuredRun], noise: float = 0.0, seed: int = 0) -> list[MeasuredRun]:
     """Runs with the power that a conveyor takes, and a share of noise."""
     rng = np.random.default_rng(seed)
     made = []
@@ -52,18 +48,14 @@ def measured(
 
 def test_a_factor_scales_its_force_and_no_other():
     plain = calculate(line(calculation=BY_LAW)).balance.forces.parts
-    double = calculate(
-        with_factors(line(calculation=BY_LAW), indentation=2.0, flexure=3.0)
-    ).balance.forces.parts
+    double = calculate(with_factors(line(calculation=BY_LAW), indentation=2.0, flexure=3.0)).balance.forces.parts
     factors = {"indentation": 2.0, "idler_rotation": 1.0, "flexure": 3.0, "lift": 1.0}
     for name, factor in factors.items():
         assert double[name] == pytest.approx(factor * plain[name], rel=1e-12)
 
 
 def test_flexure_that_is_a_share_follows_the_others():
-    found = calculate(
-        with_factors(line(calculation=QUICK), indentation=2.0, idler_rotation=0.5)
-    ).balance.forces.parts
+    found = calculate(with_factors(line(calculation=QUICK), indentation=2.0, idler_rotation=0.5)).balance.forces.parts
     plain = calculate(line(calculation=QUICK)).balance.forces.parts
     others = 2.0 * plain["indentation"] + 0.5 * plain["idler_rotation"]
     share = plain["flexure"] / (plain["indentation"] + plain["idler_rotation"])
@@ -121,15 +113,12 @@ def test_a_calibration_there_is_not_counted_twice():
 
 def test_empty_runs_at_one_temperature_tell_one_factor():
     given = line(calculation=QUICK)
-    runs = measured(
-        with_factors(given, indentation=1.2, idler_rotation=1.2), states((0, 15), (0, 15), (0, 15))
-    )
+    runs = measured(with_factors(given, indentation=1.2, idler_rotation=1.2), states((0, 15), (0, 15), (0, 15)))
     found = conveyor.calibrate(given, runs, error=0.02)
     assert [factor.forces for factor in found.factors] == [("indentation", "idler_rotation")]
     assert found.factors[0].value == pytest.approx(1.2, rel=1e-5)
     assert any(
-        "empty runs only, at one temperature only: indentation and idler rotation cannot be told apart"
-        in note
+        "empty runs only, at one temperature only: indentation and idler rotation cannot be told apart" in note
         for note in found.notes
     )
     with pytest.raises(InputError, match="indentation; idler rotation: the runs do not tell, a band wider"):
@@ -193,9 +182,7 @@ def test_vertical_curves_are_solved_until_factors_and_loads_agree():
     given = line(calculation=QUICK, route={"sections": sections, "pulleys": []})
     assert calculate(given).line.has_tension_coupling
     truth = with_factors(given, indentation=1.3, idler_rotation=0.8)
-    found = conveyor.calibrate(
-        given, measured(truth, states((0, 0), (0, 30), (1200, 0), (1200, 30))), error=0.02
-    )
+    found = conveyor.calibrate(given, measured(truth, states((0, 0), (0, 30), (1200, 0), (1200, 30))), error=0.02)
     # loads settle to the contacts' rtol of 1e-4, factors to as much
     assert [factor.value for factor in found.factors] == pytest.approx([1.3, 0.8], rel=2e-3)
 
@@ -209,9 +196,7 @@ def test_bands_hold_what_they_say():
     held = 0
     for k in range(20):
         indentation, rotation = rng.uniform(0.7, 1.6, 2).tolist()
-        sections = [
-            {"name": "a", "length": f"{rng.uniform(600, 3000):.0f} m", "lift": f"{rng.uniform(0, 10):.1f} m"}
-        ]
+        sections = [{"name": "a", "length": f"{rng.uniform(600, 3000):.0f} m", "lift": f"{rng.uniform(0, 10):.1f} m"}]
         given = line(calculation=QUICK | {"rtol": 1e-3}, route={"sections": sections, "pulleys": []})
         truth = with_factors(given, indentation=indentation, idler_rotation=rotation)
         runs = measured(truth, states(*((0, 0), (0, 30), (1200, 0), (1200, 30)) * 2), 0.02, seed=k)
@@ -239,17 +224,11 @@ def test_what_cannot_be_calibrated_is_refused():
     full, empty = states((1200, 15)), states((0, 15), (0, 30))
     with pytest.raises(InputError, match="1 runs for 2 factors: give as many runs as factors"):
         conveyor.calibrate(given, full, error=0.02, factors=["indentation", "idler_rotation"])
-    with pytest.raises(
-        InputError, match=r"idler rotation: 2 runs at least are needed; with a stated error one less"
-    ):
+    with pytest.raises(InputError, match=r"idler rotation: 2 runs at least are needed; with a stated error one less"):
         conveyor.calibrate(given, full)
-    with pytest.raises(
-        InputError, match="factors: got rubber, allowed: indentation, idler_rotation, flexure"
-    ):
+    with pytest.raises(InputError, match="factors: got rubber, allowed: indentation, idler_rotation, flexure"):
         conveyor.calibrate(given, full, factors=["rubber"])
-    with pytest.raises(
-        InputError, match=r"run 1: its power is that at the mains, and drive.train has no part"
-    ):
+    with pytest.raises(InputError, match=r"run 1: its power is that at the mains, and drive.train has no part"):
         conveyor.calibrate(given, states((1200, 15), at="mains"))
     with pytest.raises(InputError, match="comes out as -"):
         conveyor.calibrate(given, [run.replace(power="0.1 kW") for run in empty], error=0.02)
@@ -264,9 +243,7 @@ def test_what_cannot_be_calibrated_is_refused():
 def test_runs_that_brake_need_their_efficiency_and_a_calculation_that_brakes():
     down = line(calculation=QUICK, route={"sections": DOWN})
     braking = [run.replace(power="-100 kW") for run in states((1200, 15), (0, 15))]
-    with pytest.raises(
-        InputError, match=r"run 1: the belt drives its motors, and drive.regeneration_efficiency"
-    ):
+    with pytest.raises(InputError, match=r"run 1: the belt drives its motors, and drive.regeneration_efficiency"):
         conveyor.calibrate(down, braking)
     known = down.replace(drive=down.drive.replace(regeneration_efficiency="92 %"))
     with pytest.raises(
@@ -282,9 +259,7 @@ def test_tables_hold_what_was_found():
     runs = measured(with_factors(given, indentation=1.4, idler_rotation=0.7), states(*EMPTY_AND_FULL), 0.02)
     found = conveyor.calibrate(given, runs)
     assert found.table["value [-]"].tolist() == [factor.value for factor in found.factors]
-    assert found.residuals["measured [kW]"].tolist() == pytest.approx(
-        [run.measured / 1e3 for run in found.runs]
-    )
+    assert found.residuals["measured [kW]"].tolist() == pytest.approx([run.measured / 1e3 for run in found.runs])
     plain = found.to_dict()
     assert plain["degrees_of_freedom"] == len(runs) - 2
     # of errors estimated from the differences, chi square is the degrees of freedom

@@ -474,9 +474,7 @@ def test_a_full_disk_loses_nothing_and_the_run_goes_on(line, tmp_path, monkeypat
     path, study = tmp_path / "a", campaign(line, axes={"belt.speed": "1:3:0.002 m/s"})
     with ResultStore(path) as known:
         known._file.execute("PRAGMA max_page_count = 4")  # as a disk without room for a fifth page
-        with pytest.raises(
-            ConveyorError, match=r"disk is full; make room.*what is done is kept: run it again"
-        ):
+        with pytest.raises(ConveyorError, match=r"disk is full; make room.*what is done is kept: run it again"):
             run_study(study, known)
         kept = len(known)
     assert 0 < kept < study.plan.count

@@ -175,11 +175,7 @@ def test_bulk_on_inclines_and_declines_lifts_what_bulk_everywhere_does(found):
 
 def test_a_loading_point_resists_only_where_bulk_lands(found):
     fed = {
-        case: sum(
-            s.total
-            for s in result(found, case).found.balance.singles
-            if "skirts" in s.name or "bulk" in s.name
-        )
+        case: sum(s.total for s in result(found, case).found.balance.singles if "skirts" in s.name or "bulk" in s.name)
         for case in STANDARD_LOADINGS
     }
     assert fed["full"] > 0.0
@@ -195,9 +191,7 @@ def test_part_load_is_the_flow_times_its_share(line):
 
 def test_part_load_leaves_unloaded_sections_unloaded(line):
     first, *others = line.route.sections
-    given = line.replace(
-        route=line.route.replace(sections=[first, *(s.replace(loaded=False) for s in others)])
-    )
+    given = line.replace(route=line.route.replace(sections=[first, *(s.replace(loaded=False) for s in others)]))
     part = with_case(given, LoadCase(name="half", loading="part load", share=0.5))
     assert [s.loaded for s in part.route.sections] == [s.loaded for s in given.route.sections]
     assert all(s.loaded for s in with_case(given, LoadCase(name="full", loading="full")).route.sections)
@@ -226,9 +220,7 @@ def test_bearings_follow_the_temperature_of_a_case(line):
         "second_viscosity": "12 mm^2/s", "seal_moment": "0.05 N*m",
     }  # fmt: skip
     carry = line.idlers.carry
-    greased = line.replace(
-        idlers=line.idlers.replace(carry=carry.replace(roll=carry.roll.replace(drag_law=law)))
-    )
+    greased = line.replace(idlers=line.idlers.replace(carry=carry.replace(roll=carry.roll.replace(drag_law=law))))
     study = analyse_cases(greased, [LoadCase(name="a", temperatures=("0 degC", "20 degC"))])
     cold, warm = study.results
     turning = [one.found.balance.forces.parts["idler_rotation"] for one in (cold, warm)]
@@ -244,9 +236,7 @@ def test_bearings_follow_the_temperature_of_a_case(line):
 
 
 def test_friction_scales_all_but_lift_and_acceleration(downhill):
-    (one,) = analyse_cases(
-        downhill, [LoadCase(name="full", loading="full")], friction_band=(0.5, 2.0)
-    ).results
+    (one,) = analyse_cases(downhill, [LoadCase(name="full", loading="full")], friction_band=(0.5, 2.0)).results
     forces, singles = one.found.balance.forces, one.found.balance.singles
     certain = forces.lift + sum(s.total for s in singles if s.name.startswith("acceleration of the bulk"))
     low, high = one.forces
@@ -336,9 +326,7 @@ def test_each_of_several_drives_has_its_share_of_the_motors(line):
     first, second = study.motors(1.0)
     assert (first.drive, second.drive) == ("drive", "second")
     assert second.needed / first.needed == pytest.approx(2.0 / 3.0, rel=1e-12)
-    assert first.needed + second.needed == pytest.approx(
-        study.results[0].found.balance.power.motor, rel=1e-12
-    )
+    assert first.needed + second.needed == pytest.approx(study.results[0].found.balance.power.motor, rel=1e-12)
 
 
 def test_a_brake_is_sized_by_its_amount(downhill):
@@ -429,9 +417,7 @@ def test_specs_with_wrong_cases_are_refused(line, change, message):
 
 def test_a_train_that_contradicts_the_efficiency_is_refused(line):
     train = [{"name": "gear", "efficiency": "90 %"}]
-    with pytest.raises(
-        InputError, match=r"got 94 %, the parts of train from motor shaft to belt give 0\.9; leave"
-    ):
+    with pytest.raises(InputError, match=r"got 94 %, the parts of train from motor shaft to belt give 0\.9; leave"):
         line.drive.replace(train=train)
     assert si(line.drive.replace(train=train, efficiency=None).efficiency) == 0.9
     with pytest.raises(InputError, match="efficiency"):

@@ -87,9 +87,7 @@ def test_band_is_what_the_replicas_make_of_the_power(line, found):
     for band in compound.replicas(si(compound.reference_temperature)):
         prony = compound.prony.replace(
             equilibrium=quantity(f"{band.equilibrium} Pa"),
-            terms=[
-                {"modulus": f"{e} Pa", "time": f"{t} s"} for e, t in zip(band.moduli, band.times, strict=True)
-            ],
+            terms=[{"modulus": f"{e} Pa", "time": f"{t} s"} for e, t in zip(band.moduli, band.times, strict=True)],
             band=None,
         )
         other = compound.replace(prony=prony)
@@ -132,9 +130,7 @@ def test_coverage_is_the_excited_band_of_the_analysis(line, found):
     for speed in SPEEDS:
         result = calculate(changed.replace(belt=changed.belt.replace(speed=speed)))
         bands.append(result.contacts.excited_band("carry"))
-    (row,) = [
-        c for c in found.coverage if c.compound == "standard-cover" and abs(c.temperature - 293.15) < 1e-9
-    ]
+    (row,) = [c for c in found.coverage if c.compound == "standard-cover" and abs(c.temperature - 293.15) < 1e-9]
     # curves of 1e-4 are sampled at other half widths than those of 1e-6
     assert row.excited == pytest.approx((bands[0][0], bands[1][1]), rel=0.02)
     assert row.covered
@@ -271,9 +267,7 @@ def test_compounds_apart_by_less_than_both_may_be_off_are_one_group(found):
         assert found.differs_clearly(one(NAMES[1], 100.0, 3.0, 0.1), other) == apart
     # a third that is near the second but not near the first begins a group of its own
     three = [one(name, motor, 50.0, 3.0) for name, motor in zip(NAMES[:2], (100.0, 103.0), strict=True)]
-    assert [
-        [s.motor for s in group] for group in found.groups([*three, one(NAMES[0], 106.0, 50.0, 3.0)])
-    ] == [
+    assert [[s.motor for s in group] for group in found.groups([*three, one(NAMES[0], 106.0, 50.0, 3.0)])] == [
         [100.0, 103.0],
         [106.0],
     ]

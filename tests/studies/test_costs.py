@@ -18,9 +18,7 @@ from conveyor.studies.parametric_study import ParametricStudy, ResultStore, desi
 from tests.command_line import run as command
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
-FREE = {
-    name: f"0 {price.partition(' ')[2]}" for name, price in library_prices().items() if "EUR" in str(price)
-}
+FREE = {name: f"0 {price.partition(' ')[2]}" for name, price in library_prices().items() if "EUR" in str(price)}
 BY_HAND = [  # 24 m of 0.8 m: 24 sets of three rolls, 8 of one, 38.4 m² of belt
     ("textile", "1 EUR/m^2", 38.4),
     ("textile_strength", "1 EUR/(MN*m)", 0.4 * 38.4),
@@ -107,9 +105,7 @@ def test_a_year_of_parts_and_energy_is_their_sum_and_the_states_wear_the_rolls(l
             return next(design_results(study, known)).figures
 
     found = first()
-    assert found["total_cost_per_year"] == pytest.approx(
-        found["parts_cost_per_year"] + found["cost_per_year"]
-    )
+    assert found["total_cost_per_year"] == pytest.approx(found["parts_cost_per_year"] + found["cost_per_year"])
     lives = {"interest": "0 %", "roll_life": "30000 h", "upkeep": "0 %"}
     rolls = first(prices=FREE | lives | {"roll": "1 EUR"})  # 30000 h at 3000 h a year of the states
     assert rolls["parts_cost_per_year"] == pytest.approx(80.0 / 10.0)

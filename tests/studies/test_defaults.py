@@ -26,8 +26,7 @@ ALWAYS = ["cover", "tested_level"]
 def drags(line: Conveyor, drag: str) -> Conveyor:
     sets = {s: getattr(line.idlers, s) for s in ("carry", "return_")}
     named = {
-        s: idlers.replace(roll=idlers.roll.replace(drag=drag), misalignment="0.4 deg")
-        for s, idlers in sets.items()
+        s: idlers.replace(roll=idlers.roll.replace(drag=drag), misalignment="0.4 deg") for s, idlers in sets.items()
     }
     return line.replace(idlers=line.idlers.replace(carry=named["carry"], return_=named["return_"]))
 
@@ -104,9 +103,7 @@ def test_what_is_given_is_in_no_range(bare):
     half = calculated(bare.replace(idlers=bare.idlers.replace(carry=one_strand)), flexure_share="10 %")
     found = calculate(half)
     (drag,) = (one for one in power_range(found).effects if one.key == "roll_drag")
-    rotation = next(force for force in found.balance.along if force.key == "idler_rotation").by_strand()[
-        "return"
-    ]
+    rotation = next(force for force in found.balance.along if force.key == "idler_rotation").by_strand()["return"]
     watts = 0.5 * rotation / 0.9 * found.line.speed / found.line.efficiency
     # the share of flexure is the spec's; its force stays as it is
     assert drag.motor_high - found.balance.power.motor == pytest.approx(0.9 * watts, rel=ROUNDING)
@@ -136,18 +133,14 @@ def test_usual_parts_stand_in_for_missing_ones(line, bare):
     assert singles["cleaner 1 (x2)"].total == pytest.approx(2 * 48 * 0.0254 * 0.008 * 6e4 * 0.6, rel=1e-12)
     assert singles["seals of the skirts"].total == pytest.approx(6.0 * 4.4482216 / 0.3048 * speed, rel=1e-7)
     # EP: 108 times the carcass of 0.2 in
-    assert [pulley.diameter for pulley in found.line.pulleys] == pytest.approx(
-        [108 * 0.2 * 0.0254] * 2, rel=1e-12
-    )
+    assert [pulley.diameter for pulley in found.line.pulleys] == pytest.approx([108 * 0.2 * 0.0254] * 2, rel=1e-12)
     assert not found.belt_duty.pulleys  # nothing to check of pulleys nobody chose
     assert {"feeding", "skirts", "cleaners", "pulleys"} <= {one.key for one in power_range(found).effects}
     # what is given is not added to
     partly = calculated(missing.replace(route=missing.route.replace(cleaners=line.route.cleaners)))
     part = calculate(partly)
     assert sum(force.key == "cleaner" for force in part.balance.singles) == 1
-    (pressure,) = (
-        one for one in power_range(part).effects if one.key == "cleaner_pressure"
-    )  # not given there
+    (pressure,) = (one for one in power_range(part).effects if one.key == "cleaner_pressure")  # not given there
     scraped = part.balance.forces.special * (1e5 / 6e4 - 1.0) * speed / 0.93
     assert pressure.motor_high - part.balance.power.motor > 0.0
     assert pressure.motor_high - part.balance.power.motor < 1.1 * scraped  # its wraps too, skirts not
@@ -183,9 +176,7 @@ def test_reports_say_the_range_and_what_to_replace_first(line):
     assert [one["key"] for one in told["in_use"]] == [one.key for one in left.effects]
     note = found.contents(system="SI")["defaults"].note
     low, motor, high = (f"{power / 1e3:.0f}" for power in (left.low, left.motor, left.high))
-    assert note.startswith(
-        f"Motor power: expected {motor} kW, design {high} kW, least {low} kW (90 % interval by site"
-    )
+    assert note.startswith(f"Motor power: expected {motor} kW, design {high} kW, least {low} kW (90 % interval by site")
     assert f"Replace first: {left.effects[0].name} (give {left.effects[0].give})." in note
     assert re.search(r"design \d+ hp, least \d+ hp", found.contents(system="US")["defaults"].note)
     cleaners = [cleaner.replace(pressure="30 kPa") for cleaner in line.route.cleaners]

@@ -79,9 +79,7 @@ def designed(line, known, **changes):
     ],
 )
 def test_a_year_beside_that_of_the_duty_is_refused(line, plan):
-    with pytest.raises(
-        InputError, match=r"per_year.*: the year of this spec is that of its duty; give states: duty"
-    ):
+    with pytest.raises(InputError, match=r"per_year.*: the year of this spec is that of its duty; give states: duty"):
         campaign(line, **plan)
 
 
@@ -135,17 +133,14 @@ def test_entries_of_a_duty_that_are_alike_are_one_state(line):
     """A key stands for one answer: two points of one key would be solved in other batches by other workers."""
     parted = [DUTY[0] | {"hours": "1500 h"}, *DUTY[1:], DUTY[0] | {"hours": "500 h"}]
     once, twice = (
-        campaign(line.replace(operation={"price": "0.1 EUR/kWh", "duty": duty})).plan
-        for duty in (DUTY, parted)
+        campaign(line.replace(operation={"price": "0.1 EUR/kWh", "duty": duty})).plan for duty in (DUTY, parted)
     )
     assert twice.hours == pytest.approx(once.hours)
     assert list(twice.points_of({})) == list(once.points_of({}))
 
 
 def test_a_climate_table_gives_states_and_alike_rows_are_one(tmp_path):
-    (tmp_path / "year.csv").write_text(
-        "hours [h];ambient.temperature [degC]\n10;5\n20;6\n30;5\n", encoding="utf-8"
-    )
+    (tmp_path / "year.csv").write_text("hours [h];ambient.temperature [degC]\n10;5\n20;6\n30;5\n", encoding="utf-8")
     file = tmp_path / "study.json"
     file.write_text(json.dumps(PLAN | {"states": "year.csv"}), encoding="utf-8")
     plan = read_plan(file)
@@ -322,9 +317,7 @@ def test_the_command_writes_page_figures_designs_and_specs_that_power_reads(tmp_
     assert {path.name for path in (tmp_path / "plots").iterdir()} == {"effects.png", "lines.png"}
     page = (tmp_path / "p.html").read_text(encoding="utf-8")
     assert "Main effects" in page
-    assert (
-        '<section aria-labelledby="effects">' in page
-    )  # paper has the figure, if not the table that is folded away
+    assert '<section aria-labelledby="effects">' in page  # paper has the figure, if not the table that is folded away
     assert "<svg" in page
     specs = sorted((tmp_path / "best").iterdir())
     assert len(specs) == 2
@@ -336,9 +329,7 @@ def test_the_command_writes_page_figures_designs_and_specs_that_power_reads(tmp_
 def test_energy_is_paid_at_the_price_of_the_design(line, answers):
     """Listed or drawn; energy is that of the same states."""
     prices = {"operation.price": ["0.1 EUR/kWh", "0.25 EUR/kWh"]}
-    _, (cheap, dear) = designed(
-        line, answers, axes=prices, figures=["cost_per_year", "energy_per_year"], best={}
-    )
+    _, (cheap, dear) = designed(line, answers, axes=prices, figures=["cost_per_year", "energy_per_year"], best={})
     assert cheap.figures["energy_per_year"] == dear.figures["energy_per_year"]
     assert dear.figures["cost_per_year"] == pytest.approx(2.5 * cheap.figures["cost_per_year"])
     drawn = {"operation.price": {"low": "0.1 EUR/kWh", "high": "0.25 EUR/kWh"}}
@@ -365,9 +356,7 @@ def test_figures_of_all_loads_are_those_of_power(tmp_path):
     }
     with ResultStore(tmp_path / "a") as known:
         study, (own, slower) = designed(given, known, **plan, best={})
-        assert {len(study.answer(known, (study.key(p), p))) for p in study.listed.points()} == {
-            1 + len(ALL_LOADS)
-        }
+        assert {len(study.answer(known, (study.key(p), p))) for p in study.listed.points()} == {1 + len(ALL_LOADS)}
     assert own.keeps
     assert slower.broken == ("all_loads_failed",)
     found = conveyor.analyse(given)

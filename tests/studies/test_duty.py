@@ -59,9 +59,7 @@ def test_without_a_duty_the_year_is_that_of_the_analysis(line, train):
 
 
 def test_what_is_fed_back_loses_in_the_converter_too(downhill):
-    made = downhill.replace(
-        drive={**downhill.drive.as_data(), "train": TRAIN}, operation={"hours_per_year": "4000 h"}
-    )
+    made = downhill.replace(drive={**downhill.drive.as_data(), "train": TRAIN}, operation={"hours_per_year": "4000 h"})
     alone = calculate(made)
     power = alone.balance.power
     assert power.motor < 0.0
@@ -80,9 +78,7 @@ def test_a_bar_cut_in_two_changes_nothing(line):
 
 def test_every_bar_is_the_analysis_at_its_load_temperature_and_speed(line):
     study = analyse_duty(
-        operated(
-            line, HOURS, {"hours": "500 h", "share": "60 %", "temperature": "5 degC", "speed": "4.5 m/s"}
-        ),
+        operated(line, HOURS, {"hours": "500 h", "share": "60 %", "temperature": "5 degC", "speed": "4.5 m/s"}),
         rtol=RTOL,
     )
     alone = line.replace(
@@ -154,9 +150,7 @@ def test_downhill_feeds_back_and_earns_only_its_credit(downhill):
     assert plain.rows[0].mains < 0.0 < plain.rows[1].mains
     assert plain.year.fed_back_kwh == pytest.approx(-plain.rows[0].energy)
     assert plain.cost == pytest.approx(0.1 * plain.rows[1].energy)  # nothing is credited unasked
-    paid = analyse_duty(
-        operated(downhill, *bars, price="0.1 EUR/kWh", feed_in_price="0.04 EUR/kWh"), rtol=RTOL
-    )
+    paid = analyse_duty(operated(downhill, *bars, price="0.1 EUR/kWh", feed_in_price="0.04 EUR/kWh"), rtol=RTOL)
     assert paid.cost == pytest.approx(0.1 * plain.rows[1].energy + 0.04 * plain.rows[0].energy)
     saved = analyse_duty(
         operated(downhill, *bars, emission="400 g/kWh", feed_in_emission="0.1 t/MWh", emission_source="test"),
@@ -168,9 +162,7 @@ def test_downhill_feeds_back_and_earns_only_its_credit(downhill):
 def test_losses_between_mains_and_motor_count_in_the_energy(line):
     drive = line.drive.replace(train=[{"name": "motor", "efficiency": "95 %", "side": "mains"}])
     with_motor = analyse_duty(line.replace(drive=drive), rtol=RTOL)
-    assert with_motor.year.drawn_kwh * 0.95 == pytest.approx(
-        analyse_duty(line, rtol=RTOL).year.drawn_kwh, rel=1e-13
-    )
+    assert with_motor.year.drawn_kwh * 0.95 == pytest.approx(analyse_duty(line, rtol=RTOL).year.drawn_kwh, rel=1e-13)
 
 
 # the model --------------------------------------------------------------------------------------------------------
@@ -229,13 +221,9 @@ def test_operations_that_contradict_themselves_are_refused(data, message):
 def test_refusals_name_the_bar(line):
     with pytest.raises(InputError, match="operation: missing; hours_per_year or duty"):
         analyse_duty(line.replace(operation=None))
-    with pytest.raises(
-        InputError, match=r"operation.duty\[1\] \(5 h, share 200 %\): material.flow: got 4800 t/h"
-    ):
+    with pytest.raises(InputError, match=r"operation.duty\[1\] \(5 h, share 200 %\): material.flow: got 4800 t/h"):
         analyse_duty(operated(line, HOURS, {"hours": "5 h", "share": "200 %"}))
-    with pytest.raises(
-        InputError, match=r"operation.duty\[0\] \(5 h, share 100 %, 190 degC\): ambient.temperature"
-    ):
+    with pytest.raises(InputError, match=r"operation.duty\[0\] \(5 h, share 100 %, 190 degC\): ambient.temperature"):
         analyse_duty(operated(line, {"hours": "5 h", "share": "100 %", "temperature": "190 degC"}))
 
 

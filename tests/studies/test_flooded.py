@@ -38,15 +38,12 @@ def test_it_is_the_trough_to_the_belts_edges_and_its_heap(own, flooded):
     wing = 0.5 * (belt - middle)
     across = middle + 2.0 * wing * math.cos(angle)
     area = (
-        0.5 * (middle + across) * wing * math.sin(angle)
-        + across**2 * math.tan(own.conveyor.material.surcharge) / 6.0
+        0.5 * (middle + across) * wing * math.sin(angle) + across**2 * math.tan(own.conveyor.material.surcharge) / 6.0
     )
     assert flooded.section == pytest.approx(area, rel=1e-12)
     line = flooded.found.line
     assert line.flow == pytest.approx(area * line.speed * line.density, rel=1e-12)
-    assert flooded.line_mass == pytest.approx(
-        own.line.stretches[0].belt_mass + area * line.density, rel=1e-12
-    )
+    assert flooded.line_mass == pytest.approx(own.line.stretches[0].belt_mass + area * line.density, rel=1e-12)
 
 
 def test_it_is_what_a_spec_of_that_flow_comes_to(own, flooded):

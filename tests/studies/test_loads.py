@@ -60,9 +60,7 @@ def test_scenarios_begin_with_the_weight_of_the_report(line, found):
 
 def test_travel_of_the_carriage_counts_every_load(line, found):
     alone, told = analyse(line).take_up.travel, analyse(line).to_dict(found)["take_up"]
-    lowest = min(
-        state.balance.settled.steady.mean(state.balance.line.loop.length) for state in found.states.states
-    )
+    lowest = min(state.balance.settled.steady.mean(state.balance.line.loop.length) for state in found.states.states)
     assert lowest < analyse(line).take_up.steady_means[0]
     assert told["travel_m"] > alone.whole
 
@@ -154,9 +152,7 @@ def test_a_section_cut_in_seven_asks_for_the_same_take_up(braked, number):
     if cut.lift is None:
         parts = [cut.replace(name=f"{cut.name} {k}", length=cut.length / 7) for k in range(7)]
     else:
-        parts = [
-            cut.replace(name=f"{cut.name} {k}", length=cut.length / 7, lift=cut.lift / 7) for k in range(7)
-        ]
+        parts = [cut.replace(name=f"{cut.name} {k}", length=cut.length / 7, lift=cut.lift / 7) for k in range(7)]
     sections = [*route.sections[:number], *parts, *route.sections[number + 1 :]]
     pieces = every_load(braked.replace(route=route.replace(sections=sections)))
     assert pieces.take_up == pytest.approx(every_load(braked).take_up, rel=1e-6)

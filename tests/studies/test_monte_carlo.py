@@ -38,9 +38,7 @@ def test_of_a_linear_input_draws_and_first_order_agree(line):
     assert last.draws == DRAWS == len(found.monte_carlo.power)
     # scatter of an empirical quantile: sqrt(p(1-p)/n)/density = 2.1 sigma/sqrt(n); 4 of them
     sigma = (effect.motor_high - effect.motor_low) / (2.0 * BAND_END)
-    assert found.monte_carlo.band == pytest.approx(
-        (effect.motor_low, effect.motor_high), abs=4 * 2.1 * sigma / 32
-    )
+    assert found.monte_carlo.band == pytest.approx((effect.motor_low, effect.motor_high), abs=4 * 2.1 * sigma / 32)
     assert last.low_between[0] <= last.low <= last.low_between[1] < last.high_between[0] <= last.high
     assert found.monte_carlo.power.std() == pytest.approx(sigma, rel=4.0 / math.sqrt(2 * DRAWS))
 

@@ -61,9 +61,7 @@ def test_the_four_are_full_calculations_at_the_take_up_of_the_report(line, own, 
 
 
 def test_sections_that_a_state_loads_are_said(found):
-    words = {
-        key: found.state(key).loaded_in_words for key in ("full", "empty", "inclines", "declines", "worst")
-    }
+    words = {key: found.state(key).loaded_in_words for key in ("full", "empty", "inclines", "declines", "worst")}
     assert words == {
         "full": "all", "empty": "none", "inclines": "climb, discharge", "declines": "descent",
         "worst": "all but descent",
@@ -74,9 +72,7 @@ def test_rows_of_sections_are_named_by_their_ends(own):
     balance = own.balance
     named = LoadState("some", ("loading", "climb", "descent"), 293.15, (), (), balance)
     assert named.loaded_in_words == "loading to descent"
-    assert (
-        LoadState("some", ("loading", "climb"), 293.15, (), (), balance).loaded_in_words == "loading, climb"
-    )
+    assert LoadState("some", ("loading", "climb"), 293.15, (), (), balance).loaded_in_words == "loading, climb"
 
 
 def test_no_loading_calculated_in_full_beats_the_worst(line, found):
@@ -139,9 +135,7 @@ def test_the_worst_at_another_temperature_may_be_the_empty_belt(line):
 def test_a_case_loads_the_sections_it_names(line):
     one = with_case(line, LoadCase(name="some", loading="sections", sections=("climb", "fields")))
     assert [section.loaded for section in one.route.sections] == [False, True, False, True, False]
-    with pytest.raises(
-        InputError, match=r'load case "some": sections: got "hill", which is none of the sections'
-    ):
+    with pytest.raises(InputError, match=r'load case "some": sections: got "hill", which is none of the sections'):
         with_case(line, LoadCase(name="some", loading="sections", sections=("hill",)))
     with pytest.raises(InputError, match=r'sections: missing: loading "sections" needs their names'):
         LoadCase.from_data({"name": "some", "loading": "sections"})
@@ -159,9 +153,7 @@ def test_variants_side_by_side_have_their_own_wind_and_series() -> None:
         line.replace(report={"units": "US"}),
     ]
     together = calculate_many([Variant(one) for one in variants])
-    seen = [
-        (one.line.wind_speed, one.line.us_sizes) for one in together if isinstance(one, CalculatedConveyor)
-    ]
+    seen = [(one.line.wind_speed, one.line.us_sizes) for one in together if isinstance(one, CalculatedConveyor)]
     assert seen == [
         (pytest.approx(10.0), False),
         (pytest.approx(30.0), False),

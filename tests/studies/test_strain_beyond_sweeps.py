@@ -47,9 +47,7 @@ def test_the_range_of_a_short_sweep_holds_the_whole_one(name: str) -> None:
     assert flagged
     assert all("calculation: {{strain: off}}" in words for words in flagged)
     ends = next(v for v in _vary_rubber(held, []) if v.name.startswith("largest strain")).variants
-    low, high = sorted(
-        calculated(end.conveyor).contacts.covers["carry"].strain.storage_factor for end in ends
-    )
+    low, high = sorted(calculated(end.conveyor).contacts.covers["carry"].strain.storage_factor for end in ends)
     true = known.contacts.covers["carry"].strain
     assert true is not None
     # softer rubber is strained more, so both ends are at strains of their own

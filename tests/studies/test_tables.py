@@ -85,9 +85,7 @@ def test_the_largest_roll_load_is_that_of_the_rolls_table(line, cases):
     rolls = conveyor.analyse(line).rolls
     heaviest = rolls.loc[rolls["force [N]"].idxmax()]
     rows = cases.table
-    full = rows[
-        (rows["case"] == "full") & (rows["temperature [degC]"] == 20.0) & (rows["belt speed [m/s]"] == 5.0)
-    ]
+    full = rows[(rows["case"] == "full") & (rows["temperature [degC]"] == 20.0) & (rows["belt speed [m/s]"] == 5.0)]
     (row,) = full.to_dict("records")
     assert row["maximum roll load [N]"] == pytest.approx(heaviest["force [N]"], rel=1e-14)
     assert row["at roll"] == f"{heaviest['section']}, {heaviest['strand']}, {heaviest['roll']}"
@@ -113,9 +111,7 @@ def test_load_cases_as_plain_data(line):
 
 def test_cases_of_the_spec_in_their_table():
     given = conveyor.load(SPECS / "overland_10km.yaml")
-    table = conveyor.analyse_cases(
-        given.replace(calculation=given.calculation.replace(strain="off")), rtol=1e-3
-    ).table
+    table = conveyor.analyse_cases(given.replace(calculation=given.calculation.replace(strain="off")), rtol=1e-3).table
     assert np.isnan(table.loc[table["loading"] == "inclines only", "energy [kWh/(t km)]"]).all()
     assert table.loc[table["case"] == "half", "belt speed [m/s]"].tolist() == [3.5, 5.5]
 
@@ -170,9 +166,7 @@ def test_tornado_and_band(line):
     found = studies(given)
     effects, table = found.uncertainty.effects, found.uncertainty.table
     assert table["input"].tolist() == [effect.name for effect in effects]
-    assert table["swing [kW]"].to_numpy() == pytest.approx(
-        np.array([effect.swing for effect in effects]) / 1e3
-    )
+    assert table["swing [kW]"].to_numpy() == pytest.approx(np.array([effect.swing for effect in effects]) / 1e3)
     data = json.loads(json.dumps(found.to_dict()["uncertainty"], allow_nan=False))
     assert data["tornado"][0]["motor power at high [kW]"] == pytest.approx(effects[0].motor_high / 1e3)
     *alone, whole = data["band"]
@@ -198,8 +192,7 @@ def test_the_band_of_the_ranges_says_what_it_leaves_out(line):
     motor = found.motor
     for k, end, worse in ((0, "motor_low", min), (1, "motor_high", max)):
         changes = [
-            worse(effect.motor_low - motor, effect.motor_high - motor, 0.0)
-            for effect in (*found.effects, *left)
+            worse(effect.motor_low - motor, effect.motor_high - motor, 0.0) for effect in (*found.effects, *left)
         ]
         assert abs(found.band_with_defaults[k] - motor) == pytest.approx(math.hypot(*changes), rel=1e-9), end
     assert found.band_with_defaults[0] < found.band[0] < found.band[1] < found.band_with_defaults[1]
@@ -207,16 +200,10 @@ def test_the_band_of_the_ranges_says_what_it_leaves_out(line):
     assert f"90 % interval of its ranges {found.band[0] / 1e3:.1f} to" in repr(found)
     assert f"with the defaults in use {low} to {high} kW" in repr(found)
     (note,) = [
-        part.note
-        for part in tables_and_drawings(Studies(uncertainty=found), "SI")[0]
-        if part.key == "power_band"
+        part.note for part in tables_and_drawings(Studies(uncertainty=found), "SI")[0] if part.key == "power_band"
     ]
-    assert (
-        note == "The last row alone has the defaults in use that no range covers; the others leave them out."
-    )
-    covering = given.replace(
-        uncertainty={"flexure_share": ["8 %", "14 %"], "roll_drag": "30 %", "rubber": True}
-    )
+    assert note == "The last row alone has the defaults in use that no range covers; the others leave them out."
+    covering = given.replace(uncertainty={"flexure_share": ["8 %", "14 %"], "roll_drag": "30 %", "rubber": True})
     keys = {effect.key for effect in study_ranges(covering).uncovered_defaults}
     assert not keys & {"flexure", "roll_drag", "tested_level"}
 
@@ -291,9 +278,7 @@ def short(line):
     data = whole.as_data()
     data["name"], data["range"]["frequency"] = "ended", ["1e-3 Hz", "1e6 Hz"]
     del data["prony"]["band"]
-    data["prony"]["terms"] = [
-        term for term in data["prony"]["terms"] if float(term["time"].split()[0]) > 5e-8
-    ]
+    data["prony"]["terms"] = [term for term in data["prony"]["terms"] if float(term["time"].split()[0]) > 5e-8]
     return conveyor.compare_compounds(
         line, [whole, RubberCompound.from_data(data)], temperatures=["-30 degC", "10 degC", "20 degC"]
     )
@@ -410,9 +395,7 @@ def test_a_ranking_that_turns_with_the_temperature_is_said(line, compared, tmp_p
     told = [remark for remark in remarks(compared, tmp_path) if "the ranking changes" in remark]
     assert len(told) == len(SPEEDS)
     for speed, said in zip((4.5, 5.0), told, strict=True):
-        assert said.startswith(
-            f"the ranking changes with temperature; least motor power first, at {speed:g} m/s: "
-        )
+        assert said.startswith(f"the ranking changes with temperature; least motor power first, at {speed:g} m/s: ")
         by_temperature = {
             int(celsius): order
             for temperatures, order in re.findall(r"((?:-?\d+, )*-?\d+)\s°C: ([^;]*)", said)
@@ -441,12 +424,8 @@ def test_a_duty_decides_the_year(line, tmp_path):
     names = ["standard-cover", "low-rolling-resistance-cover"]
     found = conveyor.compare_compounds(line, names, speeds=["5 m/s", "5.5 m/s"])
     ranked = found.ranking.set_index(["compound", "belt speed [m/s]"])
-    years = [
-        conveyor.analyse_duty(with_compound(line, shelf.compound(name), "bottom")).cost for name in names
-    ]
-    assert ranked.loc[(names[1], 5.0), "saving per year [EUR]"] == pytest.approx(
-        years[0] - years[1], rel=1e-12
-    )
+    years = [conveyor.analyse_duty(with_compound(line, shelf.compound(name), "bottom")).cost for name in names]
+    assert ranked.loc[(names[1], 5.0), "saving per year [EUR]"] == pytest.approx(years[0] - years[1], rel=1e-12)
     assert ranked.loc[(names[0], 5.0), "cost per year [EUR]"] == pytest.approx(years[0], rel=1e-12)
     assert pd.isna(ranked.loc[(names[1], 5.5), "cost per year [EUR]"])  # the duty is that of the spec's speed
     assert any("operation.duty" in remark for remark in remarks(found, tmp_path))

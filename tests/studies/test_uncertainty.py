@@ -200,9 +200,7 @@ def test_rubber_is_the_band_of_its_replicas(line):
             ],
         )
         powers.append(calculate(on(line, compound.replace(prony=prony))).balance.power.motor)
-    expected = np.quantile(
-        powers, [0.5 * (1.0 - BAND_COVERAGE), 0.5 * (1.0 + BAND_COVERAGE)], method="weibull"
-    )
+    expected = np.quantile(powers, [0.5 * (1.0 - BAND_COVERAGE), 0.5 * (1.0 + BAND_COVERAGE)], method="weibull")
     assert [one.motor_low, one.motor_high] == pytest.approx(expected, rel=2.0 * RTOL)
 
 
@@ -242,17 +240,13 @@ def test_wrong_ranges_are_refused(data, message):
 
 
 def test_studies_without_an_answer_are_refused(line):
-    with pytest.raises(
-        InputError, match="uncertainty: missing; give the spec ranges, or pass them: nothing to vary"
-    ):
+    with pytest.raises(InputError, match="uncertainty: missing; give the spec ranges, or pass them: nothing to vary"):
         analyse_ranges(line)
     cover = shelf.compound("low-rolling-resistance-cover").replace(strain_dependence=None, tests=())
     bare = on(line, without_replicas(cover))
     with pytest.raises(InputError, match=r"has no replicas.*nothing to vary"):
         analyse_ranges(bare, ranges(rubber=True))
-    with pytest.raises(
-        InputError, match=r"uncertainty.flow: an end of the range is refused: material.flow: got"
-    ):
+    with pytest.raises(InputError, match=r"uncertainty.flow: an end of the range is refused: material.flow: got"):
         analyse_ranges(line, ranges(flow="90 %"))
     with pytest.raises(InputError, match=r"uncertainty.temperature: an end of the range is refused: ambient"):
         analyse_ranges(line, ranges(temperature="90 K"))

@@ -45,9 +45,7 @@ def test_a_softened_figure_lies_below_where_the_rubber_softens():
 
 
 def test_a_temperature_without_data_has_its_reason_and_no_figure():
-    found = conveyor.verify_sheet(
-        ["s100"], line_loads=["2 N/mm"], **ONE | {"temperatures": ["20 degC", "150 degC"]}
-    )
+    found = conveyor.verify_sheet(["s100"], line_loads=["2 N/mm"], **ONE | {"temperatures": ["20 degC", "150 degC"]})
     known, unknown = found.rows
     assert known.reason == ""
     assert unknown.resistances == (None,)
@@ -88,10 +86,7 @@ def test_the_makers_columns_are_empty_and_marked(tmp_path: Path):
     for row in sheet.iter_rows(min_row=3, max_row=4, min_col=6, max_col=9):
         ours, theirs = row[0::2], row[1::2]
         assert all(isinstance(cell.value, float) for cell in ours)
-        assert all(
-            cell.value is None and cell.fill.fgColor.rgb == f"00{INPUT_FILL.fgColor.rgb[2:]}"
-            for cell in theirs
-        )
+        assert all(cell.value is None and cell.fill.fgColor.rgb == f"00{INPUT_FILL.fgColor.rgb[2:]}" for cell in theirs)
         assert not any(cell.protection.locked for cell in theirs)
     assert sheet.freeze_panes == "F3"
     assert sheet.print_title_rows == "$1:$2"
@@ -129,9 +124,7 @@ def test_a_sheet_filled_in_is_read_as_tests(tmp_path: Path, system: str):
     found = conveyor.verify_sheet(["s100", "s120"], **asked)
     path = tmp_path / "sheet.xlsx"
     path.write_bytes(excel.workbook_files(found.contents(system), path)[path])
-    with pytest.raises(
-        InputError, match=r"sheet\.xlsx\[N per width\]:2: column A: no figure of the maker in it"
-    ):
+    with pytest.raises(InputError, match=r"sheet\.xlsx\[N per width\]:2: column A: no figure of the maker in it"):
         read_rolling_tests(path)
     book = openpyxl.load_workbook(path)
     cells = book["N per width"]
@@ -143,9 +136,7 @@ def test_a_sheet_filled_in_is_read_as_tests(tmp_path: Path, system: str):
     ours = found.table[["at 1 N/mm, ours [N/m]", "at 4 N/mm, ours [N/m]"]].to_numpy()
     # loads stand in the headers with four digits, figures in the cells with all
     assert [si(load) for load in cold.line_load] == pytest.approx([1e3, 4e3], rel=5e-4)
-    assert [si(force) for force in cold.resistance] == pytest.approx(
-        [1.5 * ours[0, 0], 1.6 * ours[0, 1]], rel=1e-6
-    )
+    assert [si(force) for force in cold.resistance] == pytest.approx([1.5 * ours[0, 0], 1.6 * ours[0, 1]], rel=1e-6)
     assert [si(force) for force in warm.resistance] == pytest.approx([1.7 * ours[1, 1]], rel=1e-6)
     assert si(warm.roll_diameter) == pytest.approx(0.219)
     cells.cell(3, 7).value = "9 N"
@@ -154,9 +145,7 @@ def test_a_sheet_filled_in_is_read_as_tests(tmp_path: Path, system: str):
         read_rolling_tests(path)
     cells.cell(3, 7).value, cells.cell(5, 7).value = None, 9.0
     book.save(path)
-    with pytest.raises(
-        InputError, match=r"\[N per width\]:5: column A: figures of the maker beside S100 and S120"
-    ):
+    with pytest.raises(InputError, match=r"\[N per width\]:5: column A: figures of the maker beside S100 and S120"):
         read_rolling_tests(path)
 
 

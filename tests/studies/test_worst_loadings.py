@@ -126,9 +126,7 @@ def test_with_pulleys_no_loading_is_worse_by_more_than_what_bends_the_belt(seed)
 def loadings(conveyor):
     """Loadings between the full and the empty belt of a conveyor without contacts."""
     count = len(conveyor.route.sections)
-    return CriterionLoadings(
-        *at_common_setting([closed(bearing(conveyor, [full] * count)) for full in (True, False)])
-    )
+    return CriterionLoadings(*at_common_setting([closed(bearing(conveyor, [full] * count)) for full in (True, False)]))
 
 
 @pytest.mark.parametrize("seed", [0, 1, 5, 8, 12])
@@ -245,9 +243,7 @@ def test_what_is_not_sought_says_so_beside_its_figure():
     shown = {row.subject: row.case for row in table.rows}
     assert shown["penetration of the cover, carry rolls"] == "as given; worst loading not sought"
     assert not any(
-        "not sought" in case
-        for name, case in shown.items()
-        if "penetration" not in name and "rubber" not in name
+        "not sought" in case for name, case in shown.items() if "penetration" not in name and "rubber" not in name
     )
     alone = check_table(analyse(conveyor).checks, "SI", unsearched_criteria(loads.own.line))
     assert {row.case for row in alone.rows} == {"as given"}

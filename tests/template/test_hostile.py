@@ -231,9 +231,7 @@ def test_empty_rows_of_lists_are_passed_over_and_places_stay_right(path: Path) -
     assert [section.name for section in load(path).route.sections] == before
     book["Sections"]["C12"] = -5
     book.save(path)
-    with pytest.raises(
-        InputError, match=r"Sections!C12 route.sections\[2\].length: got -5 m, allowed: > 0 m"
-    ):
+    with pytest.raises(InputError, match=r"Sections!C12 route.sections\[2\].length: got -5 m, allowed: > 0 m"):
         load(path)
 
 
@@ -241,9 +239,7 @@ def test_missing_cells_of_a_list_are_named(path: Path) -> None:
     book = load_workbook(path)
     book["Sections"]["C8"] = None
     book.save(path)
-    with pytest.raises(
-        InputError, match=r"Sections!C8 route.sections\[1\].length: missing; expected a length"
-    ):
+    with pytest.raises(InputError, match=r"Sections!C8 route.sections\[1\].length: missing; expected a length"):
         load(path)
 
 

@@ -54,9 +54,7 @@ def overland() -> dict[str, Any]:
     return spec.load(next(path for path in SPECS if path.stem == "overland")).as_data()
 
 
-@pytest.mark.parametrize(
-    "number", ["0.30000000000000004 m", "1e-07 m", "123456.78901234567 m", "-0 m", "5e+5 m"]
-)
+@pytest.mark.parametrize("number", ["0.30000000000000004 m", "1e-07 m", "123456.78901234567 m", "-0 m", "5e+5 m"])
 def test_numbers_keep_all_their_digits(number: str, tmp_path: Path) -> None:
     # %.16g, which workbooks are written with, loses the 17th digit of 0.1 + 0.2
     class Held(Model):
@@ -68,9 +66,7 @@ def test_numbers_keep_all_their_digits(number: str, tmp_path: Path) -> None:
     assert Held.from_data(read_form(tmp_path / "numbers.xlsx", Held).data).as_data() == held.as_data()
 
 
-def test_compounds_of_the_shelf_go_by_name_and_others_are_written_out(
-    overland: dict[str, Any], tmp_path: Path
-) -> None:
+def test_compounds_of_the_shelf_go_by_name_and_others_are_written_out(overland: dict[str, Any], tmp_path: Path) -> None:
     changed = shelf.compound("s100").as_data() | {"description": '=1+1; "quoted"\nsecond line'}
     # the same name as a compound of the shelf that the other cover uses
     overland["belt"]["bottom_cover"]["compound"] = changed
@@ -83,9 +79,7 @@ def test_compounds_of_the_shelf_go_by_name_and_others_are_written_out(
     assert read.data["belt"]["top_cover"]["compound"] == "S100"
     place = read.where(("belt", "bottom_cover", "compound", "shift", "table", "temperature", 3))
     assert "'Rubber compound 1'!B" in place
-    assert "'Rubber compound 1 terms'!" in read.where(
-        ("belt", "bottom_cover", "compound", "prony", "terms", 2)
-    )
+    assert "'Rubber compound 1 terms'!" in read.where(("belt", "bottom_cover", "compound", "prony", "terms", 2))
 
 
 def test_one_written_out_compound_serves_both_covers(overland: dict[str, Any], tmp_path: Path) -> None:
@@ -137,12 +131,7 @@ def every_leaf(schema: dict[str, Any], definitions: dict[str, Any], path: str = 
 
 def placed(model: type[BaseModel]) -> set[str]:
     plan = plan_model(model)
-    forms = {
-        f".{'.'.join(row.path)}"
-        for form in plan.forms
-        for row in form.rows
-        if isinstance(row.part, FormField)
-    }
+    forms = {f".{'.'.join(row.path)}" for form in plan.forms for row in form.rows if isinstance(row.part, FormField)}
     lists = {f".{'.'.join((*table.path, *c.path))}" for table in plan.tables for c in table.columns}
     return forms | lists
 
@@ -165,17 +154,11 @@ def example(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 def form_fields() -> list[Any]:
     rows = [(form.name, row) for form in plan_model(Conveyor).forms for row in form.rows]
-    return [
-        pytest.param(name, row, id=".".join(row.path))
-        for name, row in rows
-        if isinstance(row.part, FormField)
-    ]
+    return [pytest.param(name, row, id=".".join(row.path)) for name, row in rows if isinstance(row.part, FormField)]
 
 
 @pytest.mark.parametrize(("name", "line"), form_fields())
-def test_fields_are_drawn_with_note_range_default_and_drop_down(
-    example: Any, name: str, line: FormRow
-) -> None:
+def test_fields_are_drawn_with_note_range_default_and_drop_down(example: Any, name: str, line: FormRow) -> None:
     sheet, leaf = example[name], line.part
     assert isinstance(leaf, FormField)
     row = next(row for row in range(1, sheet.max_row + 1) if sheet.cell(row, 7).value == ".".join(line.path))
@@ -233,9 +216,7 @@ def test_a_us_template_offers_no_tph(tmp_path: Path) -> None:
     line = spec.from_data(read_template(path).data)
     metric = line.replace(material=line.material.replace(flow="1000 tph"))
     book = load_workbook(write_template(path, metric))
-    row = next(
-        row for row in book["Material"].iter_rows(min_row=5, max_col=7) if row[6].value == "material.flow"
-    )
+    row = next(row for row in book["Material"].iter_rows(min_row=5, max_col=7) if row[6].value == "material.flow")
     assert (row[1].value, row[2].value) == (1000, "tph")
     assert {"tph", "stph"} <= set(listed(book, rule(book["Material"], row[2])))
     assert spec.from_data(read_template(path).data).as_data() == metric.as_data()

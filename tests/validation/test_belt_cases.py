@@ -16,9 +16,7 @@ from conveyor.contact.solvers.grid_solver import solve_grid
 
 from .test_boundary_elements import route
 
-CASES = {
-    case["name"]: case for case in json.loads((Path(__file__).parent / "belt_cases.json").read_text("utf-8"))
-}
+CASES = {case["name"]: case for case in json.loads((Path(__file__).parent / "belt_cases.json").read_text("utf-8"))}
 by_name = pytest.mark.parametrize("name", CASES)
 
 

@@ -89,9 +89,7 @@ def test_hunter_pressure_carries_the_load_and_gives_the_friction(n, memory):
     centre = float(area @ (p * s)) / float(area @ p)
     assert contact.eccentricity + centre == pytest.approx(contact.friction, abs=1e-10 * max(1.0, memory))
     # both edges are free of stress, which the formulas for the load know nothing of
-    assert contact.pressure(np.array([-1.0, 1.0])) == pytest.approx(
-        [0.0, 0.0], abs=1e-11 * contact.load_ratio
-    )
+    assert contact.pressure(np.array([-1.0, 1.0])) == pytest.approx([0.0, 0.0], abs=1e-11 * contact.load_ratio)
     assert np.all(p > -1e-11 * contact.load_ratio)
 
 
@@ -151,9 +149,7 @@ def _contact_peak_pressure(memory):
     return contact.peak_pressure() * p0
 
 
-@pytest.mark.parametrize(
-    ("memory", "figure"), [(0.0, "60.32"), (9.0, "78.74"), (45.0, "84.72"), (2000.0, "85.31")]
-)
+@pytest.mark.parametrize(("memory", "figure"), [(0.0, "60.32"), (9.0, "78.74"), (45.0, "84.72"), (2000.0, "85.31")])
 def test_contact_program_peak_pressure(memory, figure):
     # A grid program prints these: 85.31 lies above Hertz' limit of infinite speed, 85.3028, so one unit of the
     # last digit is what it can be held to. Seen: 60.318, 78.734, 84.718, 85.302.
@@ -263,9 +259,7 @@ def _winkler_in_60_digits(n, k):
             zero += e * k * ((1 - x**2) / 2 + k * (1 - x) - (1 + k) * k * (1 - decay))
             first = (mpmath.mpf(1) / 4 - x**2 / 2 + x**4 / 4) / 2
             first += (
-                e
-                * k
-                * ((1 - x**3) / 3 + k * (1 - x**2) / 2 - (1 + k) * (k * (1 - x * decay) - k**2 * (1 - decay)))
+                e * k * ((1 - x**3) / 3 + k * (1 - x**2) / 2 - (1 + k) * (k * (1 - x * decay) - k**2 * (1 - decay)))
             )
             return zero, first
 
@@ -352,9 +346,7 @@ def test_winkler_scales_as_the_sources_say():
 
 
 def test_jonkers_factor():
-    assert cf.jonkers_friction(1.0, thickness=1.0, storage=1.0, diameter=1.0, tan_delta=1.0) == printed(
-        "1.138255"
-    )
+    assert cf.jonkers_friction(1.0, thickness=1.0, storage=1.0, diameter=1.0, tan_delta=1.0) == printed("1.138255")
 
 
 def test_jonkers_scales_as_the_winkler_foundation_does():

@@ -27,9 +27,7 @@ def _peak_pressure(length, *, hertz_width, spacing_over_radius):
     """Return p_max [N/mm²] of memory Vτ = length [mm]; a parabola while a0/R = hertz_width is small."""
     rho = 2.0 * math.pi / spacing_over_radius
     creep = CreepSpectrum(0.5, [0.5], [length / REST * hertz_width * rho])
-    found = solve(
-        ContactProblem("half-space", 1.0 / spacing_over_radius, 0.25 * hertz_width**2, creep), rtol=1e-9
-    )
+    found = solve(ContactProblem("half-space", 1.0 / spacing_over_radius, 0.25 * hertz_width**2, creep), rtol=1e-9)
     return PEAK * found.peak_pressure * rho / hertz_width
 
 

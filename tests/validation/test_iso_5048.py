@@ -53,9 +53,7 @@ def _forces(wraps: float) -> SimpleNamespace:
         belt_friction=resistance.BULK_ON_BELT_FRICTION.value,
         gravity=G,
     )
-    zone_skirt = resistance.acceleration_skirt_resistance(
-        **skirt, length=zone, belt_speed=speed, initial_speed=0.0
-    )
+    zone_skirt = resistance.acceleration_skirt_resistance(**skirt, length=zone, belt_speed=speed, initial_speed=0.0)
     skirts = resistance.skirt_resistance(**skirt, length=4.8, bulk_speed=speed)
     cleaners = resistance.cleaner_resistance(
         4 * 1.2 * 0.008,

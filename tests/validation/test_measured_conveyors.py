@@ -49,9 +49,7 @@ class Row:
 @cache
 def calculated(name: str, loading: str = "as given") -> CalculatedConveyor:
     line = load(SPECS / f"{name}.yaml")
-    return calculate(
-        line if loading == "as given" else with_case(line, LoadCase(name="case", loading=loading))
-    )
+    return calculate(line if loading == "as given" else with_case(line, LoadCase(name="case", loading=loading)))
 
 
 def friction(found: CalculatedConveyor) -> float:
@@ -77,9 +75,7 @@ def rows() -> tuple[Row, ...]:
     site = calculated("dahej").stretches[0]
     lost = sum(site.forces[key] for key in ("indentation", "idler_rotation", "flexure")) / site.stretch.sets
     found += [
-        Row(
-            "CEMA-7 site, all losses of a carry set but idler seals [N]", 61.7, lost, BAND, "ours with seals"
-        ),
+        Row("CEMA-7 site, all losses of a carry set but idler seals [N]", 61.7, lost, BAND, "ours with seals"),
         Row(
             "CEMA-7 site, indentation of a carry set by the law [N]",
             43.1,

@@ -46,9 +46,7 @@ def test_printed_kernel_is_the_confined_layer():
 def test_kernel_of_the_text_is_the_free_layer():
     q = np.array([0.3, 1.0, 2.0, 5.0])
     meant = (2 * q + np.sinh(2 * q)) / (1 + 2 * q**2 - np.cosh(2 * q)) + 1
-    np.testing.assert_allclose(
-        1 - meant, free_symbol(q), rtol=1e-11
-    )  # cancellation of the printed form at 0.3
+    np.testing.assert_allclose(1 - meant, free_symbol(q), rtol=1e-11)  # cancellation of the printed form at 0.3
 
 
 @pytest.mark.parametrize(("support", "factor"), [("free", "3.87"), ("confined", "3.57")])

@@ -69,10 +69,7 @@ def test_a_contact_that_splits_has_several_strips(case, rtol):
 
 
 def test_the_tighter_tolerance_is_closer_on_the_whole():
-    worst = [
-        max(abs(solved(case, rtol).friction / case.friction - 1.0) for case in SINGLE)
-        for rtol in (1e-6, 1e-9)
-    ]
+    worst = [max(abs(solved(case, rtol).friction / case.friction - 1.0) for case in SINGLE) for rtol in (1e-6, 1e-9)]
     assert worst[1] < 1e-2 * worst[0]
 
 

@@ -86,9 +86,7 @@ def test_friction_of_idlers_belt_and_bulk(sheet):
     for symbol, newtons in printed.items():
         assert of[symbol] == pytest.approx(newtons, rel=tolerance[symbol]), symbol
     main = math.fsum(of[symbol] for symbol in printed)
-    assert main == pytest.approx(
-        28829.0, abs=math.fsum(printed[symbol] * tolerance[symbol] for symbol in printed)
-    )
+    assert main == pytest.approx(28829.0, abs=math.fsum(printed[symbol] * tolerance[symbol] for symbol in printed))
 
 
 def test_effective_tension_and_motor_power(sheet):

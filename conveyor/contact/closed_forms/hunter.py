@@ -132,9 +132,7 @@ class HunterContact:
         coarse = np.cos(np.linspace(0.0, math.pi, 129))
         best = int(np.argmax(self.pressure(coarse)))
         bounds = (float(coarse[min(best + 1, 128)]), float(coarse[max(best - 1, 0)]))
-        peak = minimize_scalar(
-            lambda x: -float(self.pressure(np.array([x]))[0]), bounds=bounds, method="bounded"
-        )
+        peak = minimize_scalar(lambda x: -float(self.pressure(np.array([x]))[0]), bounds=bounds, method="bounded")
         return -float(peak.fun)
 
 

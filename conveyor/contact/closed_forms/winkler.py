@@ -316,9 +316,7 @@ def winkler_at_load(
     return contact(root)
 
 
-def jonkers_friction(
-    load: float, *, thickness: float, storage: float, diameter: float, tan_delta: float
-) -> float:
+def jonkers_friction(load: float, *, thickness: float, storage: float, diameter: float, tan_delta: float) -> float:
     """Indentation friction at small loss, f = (π/2) (π/4)^(4/3) tan δ (W h/(E' D²))^(1/3) (Jonkers 1980).
 
     Parameters

@@ -25,9 +25,7 @@ Array = NDArray[np.float64]
 
 SERIES_REACH = 600.0  # m α where the series outside ends: cut by (m α)^(-5/2) = 1e-7, at an edge (m α)^(-3/2)
 _FAR_REACH = 64.0
-_LONGEST_SERIES = (
-    500.0  # wave numbers up to which the series is summed one by one: a window has as many nodes
-)
+_LONGEST_SERIES = 500.0  # wave numbers up to which the series is summed one by one: a window has as many nodes
 _CHUNK = 4_000_000
 RESOLVED_FROM: Final = 4.0
 """n² times an edge layer's share of the half width from which errors fall exponentially."""
@@ -183,9 +181,7 @@ def surface_series(
         step = max(1, _CHUNK // max(x[chosen].size, shown))
         for i in range(0, m.size, step):
             part = m[i : i + step]
-            wave = (
-                2.0 * weights[i : i + step] / part * (amplitudes[:shown] @ bessel_j(shown, part * alpha)[1:])
-            )
+            wave = 2.0 * weights[i : i + step] / part * (amplitudes[:shown] @ bessel_j(shown, part * alpha)[1:])
             turn = np.multiply.outer(x[chosen], part)
             out[chosen] += np.cos(turn) @ wave.real - np.sin(turn) @ wave.imag
 

@@ -55,9 +55,7 @@ def excited_harmonics(
     narrowest = min(alpha for _, alpha, _ in strips)
     end = _REACH / narrowest
     m, weights = (
-        _integral_rule(layer, creep, end)
-        if span < _NARROW_WIDTH
-        else series_rule(layer, creep, span=span, end=end)
+        _integral_rule(layer, creep, end) if span < _NARROW_WIDTH else series_rule(layer, creep, span=span, end=end)
     )
     wave = pressure_spectrum(m, strips)
     lost = weights.imag * m * (wave.real**2 + wave.imag**2)

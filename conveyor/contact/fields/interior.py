@@ -87,9 +87,7 @@ class Interior:
         """
         thickness = getattr(self._solution.problem.layer, "thickness", math.inf)
         if math.isinf(thickness):
-            raise NoSolutionError(
-                "relative_depth: a half-space has no thickness; use depth, in units of the radius"
-            )
+            raise NoSolutionError("relative_depth: a half-space has no thickness; use depth, in units of the radius")
         return self.depth * (self._solution.problem.rho / thickness)
 
     @property
@@ -113,9 +111,7 @@ class Interior:
             An elastic layer dissipates nothing.
         """
         if not self.dissipation.any():
-            raise NoSolutionError(
-                "working_strain: an elastic layer dissipates nothing to weight with; use maximum"
-            )
+            raise NoSolutionError("working_strain: an elastic layer dissipates nothing to weight with; use maximum")
         return float((self.weights * self.amplitude) @ self.dissipation) / self.friction
 
     @property
@@ -188,9 +184,7 @@ def interior(solution: ContactSolution, *, depths: int = 16, points: int = 48) -
     return _depth_profile(solution, int(depths), int(points))
 
 
-def interior_fields(
-    solution: ContactSolution, x: ArrayLike, depth: ArrayLike, *, points: int = 48
-) -> InteriorFields:
+def interior_fields(solution: ContactSolution, x: ArrayLike, depth: ArrayLike, *, points: int = 48) -> InteriorFields:
     """Stresses, strains and displacements at every depth below every place.
 
     Parameters

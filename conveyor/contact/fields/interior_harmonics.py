@@ -26,9 +26,7 @@ from conveyor.errors import InputError
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-HARMONICS_PER_POINT = (
-    4.0  # m α up to this many times `points`: two wave numbers for each spacing of the places
-)
+HARMONICS_PER_POINT = 4.0  # m α up to this many times `points`: two wave numbers for each spacing of the places
 _DEEPEST = 12.0  # k z where e^{-2kz} leaves 4e-11 of the dissipation of a half-space
 _DEPTH_GRADING = 0.5  # of the half width: depths are evenly spread above it, logarithmically below
 NEAR_FIELD = 2.0  # half widths about a strip that are sampled evenly, octaves beyond

@@ -46,9 +46,7 @@ _GRADED_EDGES: Final = (0.0, 0.02, 0.1, 0.4, 1.2)
 _LONGEST: Final = 0.64
 """First edge times 2^octaves at most: a thickness is 5/3 2^octaves half widths at most, so that m h is 1 at most."""
 _STEP: Final = 5.0  # from a finer edge to the next
-_PHASE: Final = (
-    12.0  # radians a panel at most, pressure and place together: 8 Gauss nodes integrate them to 1e-5
-)
+_PHASE: Final = 12.0  # radians a panel at most, pressure and place together: 8 Gauss nodes integrate them to 1e-5
 _GAUSS: Final = 8
 _DECAY_DEPTH: Final = 16.0
 """Wave number times depth from which on a harmonic leaves 2e-6 of what it is at the surface."""
@@ -147,9 +145,7 @@ def working_strains(
         tables = list(zip(_wave_tables(points, octaves), _bessel_tables(order, points, octaves), strict=True))
         for start in range(0, len(alike), _CHUNK):
             chosen = alike[start : start + _CHUNK]
-            strains = _batch_strains(
-                [InteriorHarmonics(solutions[i], points) for i in chosen], tables, depths
-            )
+            strains = _batch_strains([InteriorHarmonics(solutions[i], points) for i in chosen], tables, depths)
             strains_of.update(zip(chosen, strains, strict=True))
     return [strains_of[i] for i in range(len(solutions))]
 
@@ -182,9 +178,7 @@ def _batch_strains(
     alpha, c = np.array([strip.alpha for strip in strips]), np.array([strip.c for strip in strips])
     creeps = CreepBatch.of([one.problem.creep for one in inside])
     thickness = np.array([one.thickness for one in inside]) / alpha
-    z, weights = (
-        np.array(part)[:, 1:-1] for part in zip(*(one.depths(depths) for one in inside), strict=True)
-    )
+    z, weights = (np.array(part)[:, 1:-1] for part in zip(*(one.depths(depths) for one in inside), strict=True))
     z = z / alpha[:, None]
     difference: list[Array] = []
     shear: list[Array] = []

@@ -54,9 +54,7 @@ def bessel_j(order: int, x: Array) -> Array:
     # f_start = 1 has no influence where J_start falls below 1e-16 J_order or, for x < order, x²/4v below rounding
     start = max(order + 6, int(top + 6.0 * top ** (1.0 / 3.0)) + 2)
     return (
-        _downward_recurrence(order, start, x)
-        if start <= _LONGEST_DESCENT * order + 40
-        else _ratio_recurrence(order, x)
+        _downward_recurrence(order, start, x) if start <= _LONGEST_DESCENT * order + 40 else _ratio_recurrence(order, x)
     )
 
 

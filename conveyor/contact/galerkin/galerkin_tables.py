@@ -36,13 +36,9 @@ from conveyor.contact.layers.regrid import (
 Array = NDArray[np.float64]
 Index = NDArray[np.int_]
 
-_LEAST_LOSS = (
-    1e-4  # Σ d min(b, 1/b) from which on friction is off by less than 1e-8 of itself: 1e-13 over it seen
-)
+_LEAST_LOSS = 1e-4  # Σ d min(b, 1/b) from which on friction is off by less than 1e-8 of itself: 1e-13 over it seen
 _STEP = 0.2  # of the grid of u
-_NARROWEST = (
-    1e-3  # half width below which J_0 J_1, and friction with it, is too small against the table's rounding
-)
+_NARROWEST = 1e-3  # half width below which J_0 J_1, and friction with it, is too small against the table's rounding
 _HIGHEST_ORDER, _LARGEST_TABLE = (
     64,
     1 << 20,

@@ -51,9 +51,7 @@ class _OrderSegment:
     with n its highest, `across` = K_l/K_n, `sign` = (-1)^i.
     """
 
-    def __init__(
-        self, creep: tuple[float, Array, Array], alpha: float, first: int, last: int, block: int
-    ) -> None:
+    def __init__(self, creep: tuple[float, Array, Array], alpha: float, first: int, last: int, block: int) -> None:
         instantaneous, weights, times = creep
         b = alpha / times
         upper, lower = neighbour_ratios(first - 1, last, b)
@@ -171,9 +169,7 @@ class OrderTail:
         x = np.arange(1.0, self.last + 1.0) * c
         weights = self.creep.weights * self.creep.times
         falling = ik.falling_ratios(self.core)[1:, 0]
-        below = np.stack(
-            [falling[parity::2].T @ x[parity : self.core : 2] for parity in (0, 1)]
-        )  # odd, even orders
+        below = np.stack([falling[parity::2].T @ x[parity : self.core : 2] for parity in (0, 1)])  # odd, even orders
         total = 0.0
         for low, high in _order_ranges(self.core, self.last):
             segment = _OrderSegment((0.0, weights, self.creep.times), self.alpha, low, high, _BLOCK)

@@ -54,9 +54,7 @@ class Panels:
 
 
 SOLVE_PANELS = Panels(points=16, stretch=1.7, phase=14.0, ramps=3.0)
-CHECK_PANELS = Panels(
-    points=18, stretch=1.9, phase=15.0, ramps=3.3, window=1.3
-)  # no node of an integral in common
+CHECK_PANELS = Panels(points=18, stretch=1.9, phase=15.0, ramps=3.3, window=1.3)  # no node of an integral in common
 
 
 _gauss_rule = lru_cache(maxsize=8)(np.polynomial.legendre.leggauss)

@@ -86,9 +86,7 @@ def slope_expansion(alpha: Array, eps: Array, rho: Array | float, count: int) ->
     return value.transpose(1, 2, 0)
 
 
-def solve_eccentricity(
-    row: Array, alpha: Array, rho: Array | float, start: Array
-) -> tuple[Array, NDArray[np.bool_]]:
+def solve_eccentricity(row: Array, alpha: Array, rho: Array | float, start: Array) -> tuple[Array, NDArray[np.bool_]]:
     """Eccentricity from row 0 of the Galerkin equations, Σ_v row_v g_v(ε) = g_0(ε), by a scalar Newton per contact.
 
     Parameters

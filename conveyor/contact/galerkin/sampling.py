@@ -50,9 +50,9 @@ def interpolation_errors(values: Array) -> Array:
 
 def half_degree_errors(values: Array) -> Array:
     """Error of the interpolant through every other point at the points between, an upper bound of the full one's."""
-    miss: Array = np.abs(
-        _midpoint_matrix(values.shape[-2] - 1) @ values[..., ::2, :] - values[..., 1::2, :]
-    ).max(axis=-2)
+    miss: Array = np.abs(_midpoint_matrix(values.shape[-2] - 1) @ values[..., ::2, :] - values[..., 1::2, :]).max(
+        axis=-2
+    )
     return miss
 
 

@@ -266,9 +266,7 @@ def _unit_weights(zeta: Array, unit: int, slow: float, plain: int) -> ComplexArr
     degrees = np.arange(unit)[:, None]
     x, gauss = _gauss_rule(plain)
     nodes = 0.5 * (x + 1.0)
-    moments = (0.5 * gauss * special.eval_legendre(degrees, x)) @ (
-        1.0 / (1.0 - 1j * np.multiply.outer(nodes, zeta))
-    )
+    moments = (0.5 * gauss * special.eval_legendre(degrees, x)) @ (1.0 / (1.0 - 1j * np.multiply.outer(nodes, zeta)))
     moments[:, zeta > slow] = _legendre_moments(zeta[zeta > slow], unit)
     x, gauss = _gauss_rule(unit)
     return moments.T @ ((2.0 * degrees + 1.0) * special.eval_legendre(degrees, x) * (0.5 * gauss))

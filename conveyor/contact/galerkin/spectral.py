@@ -231,9 +231,7 @@ def _balance_contacts(
         rows = np.flatnonzero(~settled)
         start, inside[rows] = _far_eccentricity(matrix[rows], alpha[rows], radius[rows], eps[rows])
         inner = np.where(inside, alpha, 0.5 * radius)
-        slope[:, rows], c[:, rows], step = _balance_step(
-            solver, matrix[rows], inner[rows], start, radius[rows]
-        )
+        slope[:, rows], c[:, rows], step = _balance_step(solver, matrix[rows], inner[rows], start, radius[rows])
         found[:, rows] = start + step
     load, friction = _load_and_friction(c, slope, inner, radius)
     return Contact(inner, found, c, load, friction, inside)
@@ -255,9 +253,7 @@ def _balance_step(
     return (slopes @ powers)[..., 0], (answers @ powers)[..., 0], step
 
 
-def _far_eccentricity(
-    matrix: Array, alpha: Array, radius: Array, eps: Array
-) -> tuple[Array, NDArray[np.bool_]]:
+def _far_eccentricity(matrix: Array, alpha: Array, radius: Array, eps: Array) -> tuple[Array, NDArray[np.bool_]]:
     """Eccentricities by Newton where two steps do not converge; zero where there is none."""
     row = np.linalg.solve(matrix[:, 1:].swapaxes(1, 2), matrix[:, 0, :, None])[..., 0]
     eps, inside = solve_eccentricity(np.asarray(row, dtype=np.float64), alpha, radius, eps)
@@ -286,9 +282,7 @@ def lower_order_contacts(lower: tuple[Array, Array], contact: Contact, rho: Arra
     return Contact(contact.alpha, eps, contact.c, pressure, friction, on_roll)
 
 
-def contact_from_coefficients(
-    c: Array, slope: Array, place: tuple[Array, Array], rho: Array | float
-) -> Contact:
+def contact_from_coefficients(c: Array, slope: Array, place: tuple[Array, Array], rho: Array | float) -> Contact:
     """Contacts from coefficients c, shape (b, n), slopes T_0 … T_{n+1}, and place (α, ε)."""
     alpha, eps = place
     load, friction = _load_and_friction(c, slope, alpha, rho)
@@ -312,9 +306,7 @@ def crown_depth(rule: Rule, creep: CreepSpectrum, contact: Contact, rho: float) 
     return depth
 
 
-def mean_displacement(
-    rule: Rule, creep: CreepSpectrum, alpha: Array, n: int, ik: ProductIK | None = None
-) -> Array:
+def mean_displacement(rule: Rule, creep: CreepSpectrum, alpha: Array, n: int, ik: ProductIK | None = None) -> Array:
     """T_0 coefficient W_0 of a contact's own displacement per coefficient c_1 … c_n, shape (b, n).
 
     W_0 = Σ_v v c_v Σ_m Re[(-i)^{v-1} S_m] J_v J_0/m². The half-space's part: elastic, by the logarithmic potential,

@@ -85,9 +85,7 @@ class BeltSupport:
             if not least <= value < math.inf:
                 raise InputError(f"{name} = {value!r}: a finite number of at least {least:g} is needed")
         if not 0.0 < _real_number("top_modulus", self.top_modulus) < math.inf:
-            raise InputError(
-                f"top_modulus = {self.top_modulus!r}: E0 of the top cover is finite and positive"
-            )
+            raise InputError(f"top_modulus = {self.top_modulus!r}: E0 of the top cover is finite and positive")
         if not math.isfinite(_real_number("tension", self.tension)):
             raise InputError(f"tension = {self.tension!r}: a finite number is needed")
         bending = self.bending if isinstance(self.bending, complex) else _real_number("bending", self.bending)
@@ -145,9 +143,7 @@ class BeltSupport:
             return 0.0
         # covers and bending at rest; beyond, bending alone holds
         highest = max(10.0, 2.0 * math.sqrt(-self.tension / stiffness))
-        m = np.unique(
-            np.concatenate([np.arange(1.0, 101.0), np.geomspace(1.0, highest, _BUCKLING_HARMONICS)])
-        )
+        m = np.unique(np.concatenate([np.arange(1.0, 101.0), np.geomspace(1.0, highest, _BUCKLING_HARMONICS)]))
         numbers = self._numbers
         one = np.ones(m.size, dtype=complex)
         _, (xx, xw, ww), _ = _carcass_impedance(numbers, m, one, one)

@@ -68,9 +68,7 @@ class CreepSpectrum:
                 f"times = {z.tolist()}: each ζ is finite and not negative: 0, or from {least:g} to {most:g}"
             )
         if not (math.isfinite(instantaneous) and _STIFFEST <= instantaneous <= 1.0 + _SUM_TOLERANCE):
-            raise InputError(
-                f"instantaneous = {instantaneous!r}: j∞ = E0/E∞ lies in (0, 1]; at least {_STIFFEST:g}"
-            )
+            raise InputError(f"instantaneous = {instantaneous!r}: j∞ = E0/E∞ lies in (0, 1]; at least {_STIFFEST:g}")
         if abs((whole := instantaneous + float(d.sum())) - 1.0) > _SUM_TOLERANCE:
             raise InputError(
                 f"instantaneous + sum(weights) = {whole:.12g}: must be 1 "

@@ -76,7 +76,5 @@ def stack_layers(layers: Sequence[Layer], creeps: Sequence[CreepSpectrum]) -> La
         support = "free" if isinstance(plain[0], Free) else "confined"
         return PlainLayerBatch(support, np.array([layer.thickness for layer in plain]), np.array(poisson))
     if all(isinstance(layer, HalfSpace) for layer in layers):
-        return PlainLayerBatch(
-            "half-space", np.full(len(layers), HALF_SPACE_DEPTH), np.full(len(layers), 0.5)
-        )
+        return PlainLayerBatch("half-space", np.full(len(layers), HALF_SPACE_DEPTH), np.full(len(layers), 0.5))
     return CustomLayerBatch(layers, creeps)

@@ -33,9 +33,7 @@ def _lagrange_powers() -> Array:
     """
     x = np.arange(STENCIL_POINTS) - 0.5 * (STENCIL_POINTS - 1)
     others = [np.delete(x, i) for i in range(STENCIL_POINTS)]
-    return np.array(
-        [np.poly(rest)[::-1] / np.prod(here - rest) for here, rest in zip(x, others, strict=True)]
-    )
+    return np.array([np.poly(rest)[::-1] / np.prod(here - rest) for here, rest in zip(x, others, strict=True)])
 
 
 def lagrange_stencils(place: Array) -> Stencils:

@@ -149,10 +149,7 @@ def load_curves(
         raise InputError("lowest and highest: one of each for every scene, 0 < lowest <= highest")
     loaded = [replace(problem, pressure=float(p)) for problem, p in zip(problems, high, strict=True)]
     by_row = _narrow_curves(loaded, low, rtol)
-    return [
-        by_row[i] if i in by_row else _wide_curve(problem, float(low[i]), rtol)
-        for i, problem in enumerate(loaded)
-    ]
+    return [by_row[i] if i in by_row else _wide_curve(problem, float(low[i]), rtol) for i, problem in enumerate(loaded)]
 
 
 @check_arguments
@@ -248,9 +245,7 @@ def _narrow_curves(problems: list[ContactProblem], lowest: Array, rtol: float) -
     return curves
 
 
-def _narrow_sampler(
-    group: ProblemBatch, lowest: Array, guesses: tuple[Array, Array], rtol: float
-) -> _CurveSampler:
+def _narrow_sampler(group: ProblemBatch, lowest: Array, guesses: tuple[Array, Array], rtol: float) -> _CurveSampler:
     """Sampler between the half widths guessed for the lightest and heaviest loads, with room to both sides."""
     grades = rule_grades(rtol)
     low, high = np.log(guesses[0]) - SEARCH_RANGE, np.log(guesses[1]) + SEARCH_RANGE
@@ -371,9 +366,7 @@ class _CurveSampler:
             batch = (
                 first[places]
                 if n == first.order
-                else self._sample(
-                    first.rows[places], lobatto_points(_FEW_DEGREE if thin else first.count - 1), n, rtol
-                )
+                else self._sample(first.rows[places], lobatto_points(_FEW_DEGREE if thin else first.count - 1), n, rtol)
             )
             error, energy, by_loss = self._errors(batch.few(), exponent[places], rtol)
             worst = np.maximum(np.maximum(_BETWEEN_FACTOR * error, by_loss), self.floor)
@@ -384,9 +377,7 @@ class _CurveSampler:
             for k, place in enumerate(places.tolist()):
                 row = int(first.rows[place])
                 finer = thin and n > first.order
-                sampled = (
-                    SampledContacts(first.of(place), batch.of(k)) if finer else SampledContacts(batch.of(k))
-                )
+                sampled = SampledContacts(first.of(place), batch.of(k)) if finer else SampledContacts(batch.of(k))
                 left = sampled.left(float(self.group.rho[row]))
                 total = max(float(worst[k]), float(miss[place]) + left)
                 plain = bool(pressing[k].all())
@@ -418,15 +409,11 @@ class _CurveSampler:
         """Largest error of each row by order, of the energy, and of friction by the energy."""
         rho = np.repeat(self.group.rho[batch.rows], batch.count)
         every = np.repeat(batch.rows, batch.count)
-        _, lower = solve_nested_equilibrium(
-            batch.matrix, batch.contact.alpha, rho, batch.contact.eps, ROUGH_RTOL
-        )
+        _, lower = solve_nested_equilibrium(batch.matrix, batch.contact.alpha, rho, batch.contact.eps, ROUGH_RTOL)
         by_order = order_errors(batch.contact, lower, exponent.ravel())
         orders = batch.contact, lower
         each = energy_errors(batch.tabled, self.check[every], orders, rho, most=by_order.most, rtol=rtol)
-        error, energy, bound = (
-            one.reshape(-1, batch.count).max(axis=1) for one in (by_order.friction, *each)
-        )
+        error, energy, bound = (one.reshape(-1, batch.count).max(axis=1) for one in (by_order.friction, *each))
         return error, energy, bound
 
     def _none(self, row: int, why: str) -> NoSolutionError:
@@ -491,9 +478,7 @@ class _ContactBatch:
 
 def _friction_exponents(batch: _ContactBatch) -> Array:
     """β = d ln μ/d ln p at five points of each curve, shape (b, 5); zero where nothing is lost."""
-    friction, pressure = (
-        x.reshape(-1, batch.count) for x in (batch.contact.friction, batch.contact.pressure)
-    )
+    friction, pressure = (x.reshape(-1, batch.count) for x in (batch.contact.friction, batch.contact.pressure))
     lossy = friction > 0.0
     log_mu = np.log(np.where(lossy, friction, 1.0))
     beta = lobatto_derivative(log_mu) / lobatto_derivative(np.log(pressure))
@@ -508,6 +493,5 @@ def _no_curve_error(lowest: float, highest: float, why: str) -> NoSolutionError:
 
 def _accuracy_error(error: float) -> NoSolutionError:
     return NoSolutionError(
-        f"the load curve reached a relative error of {error:.1e} only: "
-        "ask for a larger rtol or fewer decades of load"
+        f"the load curve reached a relative error of {error:.1e} only: ask for a larger rtol or fewer decades of load"
     )

@@ -168,8 +168,7 @@ class LoadCurve:
         low, high = float(p.min()), float(p.max())
         if not self.lowest * (1.0 - slack) <= low <= high <= self.highest * (1.0 + slack):
             raise RangeError(
-                f"p̃_m from {low:.6g} to {high:.6g}: the load curve holds from {self.lowest:.6g} "
-                f"to {self.highest:.6g}"
+                f"p̃_m from {low:.6g} to {high:.6g}: the load curve holds from {self.lowest:.6g} to {self.highest:.6g}"
             )
 
     @property
@@ -299,9 +298,7 @@ def frictions(curves: Sequence[LoadCurve], pressures: Sequence[ArrayLike]) -> li
         A pressure outside its curve.
     """
     if len(curves) != len(pressures):
-        raise InputError(
-            f"pressures: those of {len(pressures)} curves are given, of {len(curves)} are needed"
-        )
+        raise InputError(f"pressures: those of {len(pressures)} curves are given, of {len(curves)} are needed")
     given = [_pressure_array(each) for each in pressures]
     by_degree: dict[int, list[int]] = {}
     for i, (curve, p) in enumerate(zip(curves, given, strict=True)):

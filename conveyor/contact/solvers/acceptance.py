@@ -21,18 +21,14 @@ from conveyor.contact.solvers.solver_state import SolverState
 Array = NDArray[np.float64]
 
 ENERGY_OVER_ERROR = 10.0  # energy error over true error of friction while n is too small: 5 to 80 seen
-ENERGY_MARGIN = (
-    2.0  # times the energy's error, which is that of two frictions: true errors were up to 1.4 of it
-)
+ENERGY_MARGIN = 2.0  # times the energy's error, which is that of two frictions: true errors were up to 1.4 of it
 _LAYER_OVER_ENERGY = 1.2  # true error over that of the energy, as `edge_layer_error` says: up to 1.1 seen
 LEAST_ENERGY_POWER = (
     2.0  # least power of the order that the energy's error falls with where no layer is left unresolved
 )
 ORDER_BOUND = 2.3  # 1/(1 - (3/4)²): of an error that grows like n²
 _LASTING_SAMPLES = 16  # samples: a ripple of the highest order changes sign after four
-_RIPPLE_TAILS = (
-    4.0  # an unresolved edge layer dips below zero by up to 2.1 tails, a resolved split by more than 20
-)
+_RIPPLE_TAILS = 4.0  # an unresolved edge layer dips below zero by up to 2.1 tails, a resolved split by more than 20
 WRAP_EXTENT = 0.5  # (a + |e|)/R beyond which a second eccentricity and a gap outside are looked for
 _GAP_TOLERANCE = 1e-4  # of the depth
 _GAP_REACH = 100.0  # m α of the series: (m α)^(-5/2) = 1e-5 of the depth
@@ -76,9 +72,7 @@ def order_errors(contact: Contact, lower: Contact, exponent: Array | None) -> Or
     shift = np.abs(friction) + np.abs(load) if exponent is None else np.abs(friction - exponent * load)
     half, most = np.where(lower.inside, shift, 1.0)
     moved = (contact.alpha + np.abs(contact.eps)) * np.abs(load[1]) + np.abs(lower.eps[1] - contact.eps)
-    left: Array = np.where(
-        half <= most, most, np.minimum(most, 4.0 * most * most / np.where(half > 0.0, half, 1.0))
-    )
+    left: Array = np.where(half <= most, most, np.minimum(most, 4.0 * most * most / np.where(half > 0.0, half, 1.0)))
     return OrderErrors(left, ORDER_BOUND * most, 2.0 * np.where(lower.inside[1], moved, contact.alpha))
 
 

@@ -105,9 +105,7 @@ def solve_penetration(
 
 
 @check_arguments
-def solve_many(
-    problems: Sequence[ContactProblem], rtol: float = 1e-6, *, throw: bool = False
-) -> list[ContactSolution]:
+def solve_many(problems: Sequence[ContactProblem], rtol: float = 1e-6, *, throw: bool = False) -> list[ContactSolution]:
     """Solve many problems, in their order; by default a refused one is returned with its status, not raised.
 
     Contacts of one strip on the same kind of layer are solved in a batch.
@@ -153,9 +151,7 @@ def _solve_alone(
     return _make_solution(problem, outcome, throw)
 
 
-def _find_outcome(
-    scene: SolverState, rtol: float, left: UnsolvedReason | HalfWidthStart | None
-) -> SolveOutcome:
+def _find_outcome(scene: SolverState, rtol: float, left: UnsolvedReason | HalfWidthStart | None) -> SolveOutcome:
     seen = CoarseContact.of(scene, scene.problem.pressure) if left is UnsolvedReason.ANY else None
     refusal = seen.refusal if seen is not None else None
     if refusal is not None:
@@ -173,9 +169,7 @@ def _find_outcome(
 
 
 def _make_solution(problem: ContactProblem, outcome: SolveOutcome, throw: bool) -> ContactSolution:
-    stats = SolveStats(
-        outcome.order, outcome.matrices, outcome.nodes, outcome.terms, outcome.grid, outcome.way
-    )
+    stats = SolveStats(outcome.order, outcome.matrices, outcome.nodes, outcome.terms, outcome.grid, outcome.way)
     solution = ContactSolution(problem, outcome.status, stats, outcome.remarks, outcome.found)
     if throw and outcome.status is not Status.OK:
         raise NoSolutionError(solution.message)

@@ -150,9 +150,7 @@ class ContactGrid:
     def __init__(self, problem: ContactProblem, points: int) -> None:
         reach = math.floor(problem.rho * _ROLL_SHARE * points / (2.0 * math.pi)) if points > 0 else 0
         if points < 16 or points % 2 or reach < 1:
-            raise InputError(
-                f"points = {points!r}: an even number of nodes, three or more of them on the roll"
-            )
+            raise InputError(f"points = {points!r}: an even number of nodes, three or more of them on the roll")
         index = np.arange(-reach, reach + 1)[: points - 1]
         self.x = np.asarray(index * (2.0 * math.pi / points), dtype=np.float64)
         self.problem = problem
@@ -160,9 +158,7 @@ class ContactGrid:
         self._drop = np.asarray(turn * turn / (1.0 + np.sqrt(1.0 - turn * turn)), dtype=np.float64)
         self._surface = _SurfaceOperator.of(problem, points, index)
 
-    def contact(
-        self, pressure: float, start: GridContact | None = None, *, depth: float | None = None
-    ) -> GridContact:
+    def contact(self, pressure: float, start: GridContact | None = None, *, depth: float | None = None) -> GridContact:
         """Contact under a mean pressure p̃_m, or at a depth Δ/R in its place."""
         try:
             return self.block_exchange(pressure, start, depth=depth)
@@ -175,11 +171,7 @@ class ContactGrid:
         self, pressure: float, start: GridContact | None = None, *, depth: float | None = None
     ) -> GridContact:
         """`contact` by block exchanges alone, which may run in circles."""
-        active = (
-            np.abs(self.x) < 0.5 * self.problem.rho
-            if start is None
-            else _nodes_in_strips(self.x, start.strips)
-        )
+        active = np.abs(self.x) < 0.5 * self.problem.rho if start is None else _nodes_in_strips(self.x, start.strips)
         return self._contact(active, pressure, depth)
 
     def raised(self, pressure: float, start: GridContact | None = None) -> RaisedContact:
@@ -196,9 +188,7 @@ class ContactGrid:
                 pass  # what rounding makes of two nodes that touch at once may run in circles
         return self._lowered(np.zeros(self.x.size, dtype=bool), 0.0, pressure, _EXCHANGES)
 
-    def _lowered(
-        self, active: NDArray[np.bool_], carried: float, pressure: float, exchanges: int
-    ) -> RaisedContact:
+    def _lowered(self, active: NDArray[np.bool_], carried: float, pressure: float, exchanges: int) -> RaisedContact:
         """`raised` from the nodes in contact under a smaller mean pressure."""
         surface, height = self._surface, 0.0
         if carried:
@@ -363,9 +353,7 @@ def _interpolate_octave(figures: Callable[[Array], Array], start: int) -> Array:
     size = start // 16
     low = start + size * np.arange(16.0)[:, None]
     values = figures((low + 0.5 * size * (nodes + 1.0)).ravel()).reshape(3 * 16, 10)
-    carried = chebyshev.chebvander(np.arange(size) * (2.0 / size) - 1.0, 9) @ chebyshev.chebfit(
-        nodes, values.T, 9
-    )
+    carried = chebyshev.chebvander(np.arange(size) * (2.0 / size) - 1.0, 9) @ chebyshev.chebfit(nodes, values.T, 9)
     return np.asarray(carried.T.reshape(3, start), dtype=np.float64)
 
 
@@ -521,9 +509,7 @@ def _solve_active_set(
     out = np.empty_like(right)
     cycles = _FEW_CYCLES if nodes.size <= _DENSE_PREFERRED else _CYCLES
     for k in range(right.shape[1]):
-        out[:, k], failed = gmres(
-            product, right[:, k], rtol=_KRYLOV_RTOL, restart=_RESTART, maxiter=cycles, M=inverse
-        )
+        out[:, k], failed = gmres(product, right[:, k], rtol=_KRYLOV_RTOL, restart=_RESTART, maxiter=cycles, M=inverse)
         if failed and nodes.size <= _DENSE_AT_WORST:
             return _solve_densely(surface, nodes, right), _DENSE_PREFERRED
         if failed:

@@ -16,9 +16,7 @@ Array = NDArray[np.float64]
 _LOAD_STEPS = 60
 _ACCEPTED_MISMATCH = 1e-9  # a load that stalls below it is kept and its miss reported in error_estimate
 _WIDEST = 1.0 - 1e-9
-_BRACKET_CLOSED = (
-    1e-4  # of ln α between too light and off the roll: the general solver takes what lies between
-)
+_BRACKET_CLOSED = 1e-4  # of ln α between too light and off the roll: the general solver takes what lies between
 _GUESSES = 48
 _DISTINCT_WIDTHS = 1e-9  # half widths closer than this carry no slope
 

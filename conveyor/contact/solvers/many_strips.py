@@ -57,9 +57,7 @@ _FIRST_WIDTH, _LARGEST_FIT, _FIT_STEPS = (
 _STRIP_NODES, _GAP_NODES = 3.0, 2.0  # nodes that resolve a strip, and a gap between strips
 _WRAP_REMARK = "the contact comes within a hundredth of the half circle's end at a mean pressure of {} {:.3g}"
 _OVERLOAD_FACTOR = 1.5  # times the limit of two coarse grids: no finer one will carry the load
-_NEWTON_FACTOR = (
-    3.0  # times what Newton leaves: 1.2 seen in friction, 2.2 in the edges, 1.0 in the largest pressure
-)
+_NEWTON_FACTOR = 3.0  # times what Newton leaves: 1.2 seen in friction, 2.2 in the edges, 1.0 in the largest pressure
 _CANCELLATION_REMARK = "the strips' forces cancel: friction is that of the loss compliance"
 _GRID_REMARK = "the strips are known on a grid of {} nodes only"
 
@@ -187,9 +185,7 @@ def _initial_strips(scene: SolverState, grid: GridContact) -> _StartStrips | Non
     return _StartStrips(centre, alpha, 0)
 
 
-def _polish_strips(
-    scene: SolverState, grid: GridContact, start: _StartStrips, rtol: float
-) -> SolveOutcome | None:
+def _polish_strips(scene: SolverState, grid: GridContact, start: _StartStrips, rtol: float) -> SolveOutcome | None:
     """Spectral solution from the grid's strips, the order raised until friction converges; None where they fail."""
     centre, alpha, allowed = start
     scene.rules.clear()  # made for wider strips, and longer
@@ -280,9 +276,7 @@ def _strips_result(
 ) -> ContactResult:
     contact = strips.contact
     edges = _strip_edges(strips)
-    moved = (
-        float(contact.alpha.max()) if before is None else float(np.abs(edges - _strip_edges(before)).max())
-    )
+    moved = float(contact.alpha.max()) if before is None else float(np.abs(edges - _strip_edges(before)).max())
     left = _NEWTON_FACTOR * strips.left
     low, high = float(edges[0, 0]), float(edges[-1, 1])
     alone = contact.alpha.size == 1

@@ -39,9 +39,7 @@ _LEAST_RESOLUTION, _FAR_OFF = (
     10.0,
 )  # that of the longest tail, and energy's error over rtol, where climbing ends
 _UNRESOLVED_POWER = 2.4  # power of n that they fall with before
-LAYER_OVER_ENERGY = (
-    10.0  # friction's error over that of the energy where a layer is not resolved: 2 to 7 seen
-)
+LAYER_OVER_ENERGY = 10.0  # friction's error over that of the energy where a layer is not resolved: 2 to 7 seen
 _MISMATCH_FACTOR = 2.0  # times the mismatch: 1.05 seen in friction
 _FIRST_LOAD_TOLERANCE = 1e-3  # while the order is still rising
 EDGE_LAYER_REMARK = "a layer at the contact's edge is thinner than the order resolves: pressure ripples there"
@@ -105,9 +103,7 @@ def _converge_order(
     scene: SolverState, rtol: float, near: HalfWidthStart | None
 ) -> tuple[OrderResult, Contact, float, float, float] | None:
     """Raise the order until the error meets rtol, then close the load and check the energy."""
-    search = LoadSearch(
-        scene.target, *(guess_half_width(scene) if near is None else (near.log_alpha, near.slope))
-    )
+    search = LoadSearch(scene.target, *(guess_half_width(scene) if near is None else (near.log_alpha, near.slope)))
     tight = max(1e-3 * rtol, LOAD_FLOOR)
     tolerance = _FIRST_LOAD_TOLERANCE
     n, last = (ORDERS[0], ORDERS[0]) if near is None else (_CORE, FIRST_TAIL)
@@ -165,9 +161,7 @@ def _splits_in_tension(state: OrderResult, rtol: float) -> bool:
 
 def _load_mismatch_error(search: LoadSearch, miss: float) -> float:
     """Error of friction due to a mismatch of load or depth, at least twice that mismatch."""
-    return (
-        _MISMATCH_FACTOR * miss * max(1.0, 0.0 if search.exponent is None else float(abs(search.exponent[0])))
-    )
+    return _MISMATCH_FACTOR * miss * max(1.0, 0.0 if search.exponent is None else float(abs(search.exponent[0])))
 
 
 def _next_orders(
@@ -191,10 +185,7 @@ def _next_orders(
 
 def _energy_error_falls(before: tuple[int, float] | None, now: tuple[int, float]) -> bool:
     """True where the energy error falls from one last order to the next as fast as for resolved layers."""
-    return (
-        before is not None
-        and now[1] * now[0] ** LEAST_ENERGY_POWER <= before[1] * before[0] ** LEAST_ENERGY_POWER
-    )
+    return before is not None and now[1] * now[0] ** LEAST_ENERGY_POWER <= before[1] * before[0] ** LEAST_ENERGY_POWER
 
 
 def layer_beyond_reach(

@@ -134,9 +134,7 @@ def solve_batch(
     """
     if rtol < FINE_FROM:
         return [None] * len(problems)
-    outcomes: list[SolveOutcome | HalfWidthStart | UnsolvedReason | None] = [UnsolvedReason.ANY] * len(
-        problems
-    )
+    outcomes: list[SolveOutcome | HalfWidthStart | UnsolvedReason | None] = [UnsolvedReason.ANY] * len(problems)
     creeps = [merge_instant_terms(p.creep) for p in problems]
     grades = rule_grades(rtol)
     for members in group_by_layer(problems):
@@ -334,9 +332,7 @@ class HalfWidthSearch:
         at = _row_selection(rows, self.place.size)
         tabled = GalerkinTables.of(self.group.creeps[at], alpha)
         matrix = tabled.matrices(self.rule[at], n)
-        contact, lower = solve_nested_equilibrium(
-            matrix, alpha, self.group.rho[rows], alpha * known[1], self.tolerance
-        )
+        contact, lower = solve_nested_equilibrium(matrix, alpha, self.group.rho[rows], alpha * known[1], self.tolerance)
         self.matrices[rows] += 1
         good = np.asarray(contact.inside & (contact.pressure > 0.0))
         self.alive[rows] &= good
@@ -367,9 +363,7 @@ class HalfWidthSearch:
         # errors of the cubics: of friction, of the load
         cut = _CUBIC_ERROR * np.abs(self.cubics.parts[3][:, rows]) * (self.span[rows] / _SPAN) ** 3
         off = np.where(lossy, np.abs(_log_magnitude(contact.friction, lossy) - here[2]) + cut[2], 0.0)
-        off += np.abs(self.group.target[rows] + miss - y_from) + cut[0] * self.span[rows] / (
-            _SPAN * SEARCH_RANGE
-        )
+        off += np.abs(self.group.target[rows] + miss - y_from) + cut[0] * self.span[rows] / (_SPAN * SEARCH_RANGE)
         met = Contact(
             alpha,
             eps,
@@ -456,9 +450,7 @@ class _OrderControl:
         rho = search.group.rho[rows]
         check = search.check[_row_selection(rows, search.place.size)]
         orders = contact, found.lower
-        energy, by_loss_error = energy_errors(
-            found.tabled, check, orders, rho, most=self.most[rows], rtol=rtol
-        )
+        energy, by_loss_error = energy_errors(found.tabled, check, orders, rho, most=self.most[rows], rtol=rtol)
         estimate = np.maximum(np.maximum(error, by_loss_error), grade.floor(search.group.layers))
         pulling, pressing, tension = pressure_signs(contact, rtol)
         estimate = np.maximum(estimate, np.where(pressing, tension, 0.0))

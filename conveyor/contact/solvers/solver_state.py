@@ -49,9 +49,7 @@ class SolverState:
     @property
     def lossy(self) -> bool:
         """True where rubber or layer may lose energy; else friction is zero but for rounding."""
-        return bool(self.creep.weights.size) or not isinstance(
-            self.problem.layer, (HalfSpace, Free, Confined)
-        )
+        return bool(self.creep.weights.size) or not isinstance(self.problem.layer, (HalfSpace, Free, Confined))
 
     @property
     def target(self) -> float:

@@ -146,13 +146,9 @@ def balance_strips(
         if jacobian is None:
             jacobian = ((residual[1:] - residual[0]) / steps[:, None]).T
         step = np.linalg.solve(jacobian, residual[0])
-        allowed = np.append(
-            np.maximum(_strip_room(x, a, rho), _LARGEST_STEP * a.min()), np.full(count, _LARGEST_LOG)
-        )
+        allowed = np.append(np.maximum(_strip_room(x, a, rho), _LARGEST_STEP * a.min()), np.full(count, _LARGEST_LOG))
         largest = float(np.abs(step / unit).max())
-        if largest <= tolerance or (
-            largest <= _STALL_FACTOR * tolerance and largest > _STEP_SHRINKAGE * last
-        ):
+        if largest <= tolerance or (largest <= _STALL_FACTOR * tolerance and largest > _STEP_SHRINKAGE * last):
             return trial.strips(jacobian, largest)
         last = largest
         if largest > _STEP_SHRINKAGE * before:
@@ -227,9 +223,7 @@ class _TrialStrips:
         row = np.einsum("klrv,krv->kl", self.first, self.c) - self.slope[:, :, 0]
         heights = np.diff(self.depth, axis=1)
         depth = self.scene.depth
-        held = (
-            np.log(total / self.scene.problem.pressure) if depth is None else self.depth[:, 0] / depth - 1.0
-        )
+        held = np.log(total / self.scene.problem.pressure) if depth is None else self.depth[:, 0] / depth - 1.0
         return np.concatenate([row, heights, held[:, None]], axis=1)
 
     def strips(self, jacobian: Array, left: float) -> Strips:
@@ -249,9 +243,7 @@ def _gap_window(
 ) -> tuple[Array, ComplexArray]:
     """Wave numbers and χ S/m of the strips' window."""
     width = panels.window * _ALIAS / min(gap, math.pi)
-    m, weights = series_rule(
-        scene.problem.layer, scene.creep, span=span, end=2.0 * _RAMP * width, panels=panels
-    )
+    m, weights = series_rule(scene.problem.layer, scene.creep, span=span, end=2.0 * _RAMP * width, panels=panels)
     return m, 0.5 * special.erfc((m - _RAMP * width) / width) * weights
 
 

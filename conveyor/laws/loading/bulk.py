@@ -72,9 +72,7 @@ def usable_width(belt_width: float) -> float:
     (1.03, 2.15)
     """
     narrowest = EDGE_MARGIN / EDGE_FRACTION
-    require(
-        narrowest < belt_width < math.inf, "belt_width", belt_width, f"more than {narrowest:.4g} m is needed"
-    )
+    require(narrowest < belt_width < math.inf, "belt_width", belt_width, f"more than {narrowest:.4g} m is needed")
     if belt_width <= WIDE_BELT:
         return EDGE_FRACTION * belt_width - EDGE_MARGIN
     return belt_width - WIDE_EDGE_MARGIN
@@ -276,9 +274,7 @@ def filled_width(
         return math.sqrt(6.0 * area / steepness)
     square = cosine**2 * steepness / 6.0 + cosine * sine / 4.0
     linear = middle * (cosine * steepness / 3.0 + sine / 2.0)
-    require(
-        square > 0.0, "surcharge_angle", surcharge_angle, "a flat belt carries a heap only, above 0 is needed"
-    )
+    require(square > 0.0, "surcharge_angle", surcharge_angle, "a flat belt carries a heap only, above 0 is needed")
     root = math.sqrt(linear**2 + 4.0 * square * (area - over_middle))
     return middle + 2.0 * (area - over_middle) / (linear + root)
 

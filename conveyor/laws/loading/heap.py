@@ -116,7 +116,5 @@ def shares_by_area(
         areas.append((depth - 0.5 * rise) * across + above(place + across) - above(place))
         place, depth = place + across, depth - rise
     whole = math.fsum(areas)
-    require(
-        whole > 0.0, "surcharge_angle", surcharge_angle, "a flat belt carries a heap only, above 0 is needed"
-    )
+    require(whole > 0.0, "surcharge_angle", surcharge_angle, "a flat belt carries a heap only, above 0 is needed")
     return (areas[0] / whole, *(0.5 * area / whole for area in areas[1:]))

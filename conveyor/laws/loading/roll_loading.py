@@ -158,9 +158,7 @@ class RollLoad:
 
         Examples
         --------
-        >>> wing = RollLoad(
-        ...     name="left wing", bulk_force=90.0, belt_force=30.0, length=0.3, shape="triangular"
-        ... )
+        >>> wing = RollLoad(name="left wing", bulk_force=90.0, belt_force=30.0, length=0.3, shape="triangular")
         >>> w, weights = wing.line_loads(2)
         >>> w.round(3).tolist(), round(float(w @ weights), 12)
         ([573.205, 226.795], 120.0)

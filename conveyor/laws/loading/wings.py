@@ -49,10 +49,7 @@ def wing_pieces(
 
     Examples
     --------
-    >>> [
-    ...     w.length
-    ...     for w in wing_pieces(1.5, middle_roll_length=0.25, trough_angle=1.0, inner_wing=Wing(0.25, 0.5))
-    ... ]
+    >>> [w.length for w in wing_pieces(1.5, middle_roll_length=0.25, trough_angle=1.0, inner_wing=Wing(0.25, 0.5))]
     [0.25, 0.375]
     """
     require_positive(width=width)

@@ -20,9 +20,7 @@ _SITE_SOURCE: Final = (
 )
 SITE_LOSS: Final = 61.7  # [N a set], all losses measured there but those of the idlers' seals
 SITE_LOAD: Final = 4302.0  # [N a set], belt and bulk there
-SITE_SAG: Final = Default(
-    0.01, 0.005, 0.02, "sag there is not published: 1 % taken, 0.5 to 2 % in operation", True
-)
+SITE_SAG: Final = Default(0.01, 0.005, 0.02, "sag there is not published: 1 % taken, 0.5 to 2 % in operation", True)
 
 
 def _site_coefficient(sag: float) -> float:
@@ -49,9 +47,7 @@ def _series_remainder(ratio: float, first: int) -> float:
     return integral + value / 2.0 - slope / 12.0
 
 
-def sag_flexure_resistance(
-    line_load: float, *, spacing: float, relative_sag: float, coefficient: float
-) -> float:
+def sag_flexure_resistance(line_load: float, *, spacing: float, relative_sag: float, coefficient: float) -> float:
     """Flexure of belt and bulk over one span, F = c (q a) (h/a) (form derived, c measured).
 
     Parameters

@@ -57,9 +57,7 @@ def fabric_wrap_resistance(
 
     Examples
     --------
-    >>> round(
-    ...     fabric_wrap_resistance(belt_width=1.0, tension=2e4, belt_thickness=0.01, pulley_diameter=0.5), 1
-    ... )
+    >>> round(fabric_wrap_resistance(belt_width=1.0, tension=2e4, belt_thickness=0.01, pulley_diameter=0.5), 1)
     61.2
     """
     return _wrap_resistance(FABRIC_WRAP, belt_width, tension, belt_thickness, pulley_diameter)

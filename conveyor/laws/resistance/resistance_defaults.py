@@ -34,9 +34,7 @@ class Default:
 
 # Artificial friction factor f [-]
 FRICTION_FACTOR: Final = Default(0.020, 0.0085, 0.030, "DIN 22101, ISO 5048: standard value")
-FRICTION_FACTOR_OVERLAND: Final = Default(
-    0.011, 0.0085, 0.013, "measured on optimised overland conveyors, midpoint"
-)
+FRICTION_FACTOR_OVERLAND: Final = Default(0.011, 0.0085, 0.013, "measured on optimised overland conveyors, midpoint")
 FRICTION_FACTOR_GOOD: Final = Default(0.016, 0.016, 0.016, "well aligned, easy running idlers", True)
 FRICTION_FACTOR_POOR: Final = Default(0.025, 0.025, 0.030, "dusty, overloaded or badly aligned", True)
 FRICTION_FACTOR_DOWNHILL: Final = Default(0.012, 0.012, 0.012, "regenerative downhill conveyors", True)

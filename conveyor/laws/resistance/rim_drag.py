@@ -156,9 +156,7 @@ def bearing_roll_drag(
     f1 = bearing_load_factor(each, static_rating=static_rating, factor=f1_factor, exponent=f1_exponent)
     loaded = bearing_load_moment(f1, load=each, mean_diameter=mean_diameter)
     both_at_rim = 2.0 / (roll_diameter / 2.0)
-    return RollDragParts(
-        no_load=no_load * both_at_rim, load=loaded * both_at_rim, seals=seal_moment * both_at_rim
-    )
+    return RollDragParts(no_load=no_load * both_at_rim, load=loaded * both_at_rim, seals=seal_moment * both_at_rim)
 
 
 def linear_roll_drag(

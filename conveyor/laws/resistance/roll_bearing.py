@@ -30,9 +30,7 @@ BEARING_F0: Final = Default(2.0, 0.7, 2.0, "f0, deep-groove ball bearing, grease
 BEARING_F1_FACTOR: Final = Default(
     0.0009, 0.0004, 0.0009, "z in f1 = z (P0/C0)^y, deep-groove ball bearing (Palmgren); upper end", True
 )
-BEARING_F1_EXPONENT: Final = Default(
-    0.55, 0.55, 0.55, "y in f1 = z (P0/C0)^y, deep-groove ball bearing", True
-)
+BEARING_F1_EXPONENT: Final = Default(0.55, 0.55, 0.55, "y in f1 = z (P0/C0)^y, deep-groove ball bearing", True)
 
 
 def oil_viscosity(
@@ -260,9 +258,7 @@ def bearing_load_moment(f1: float, *, load: float, mean_diameter: float) -> floa
     return f1 * load * mean_diameter
 
 
-def labyrinth_moment(
-    dynamic_viscosity: float, *, rotation: float, radius: float, length: float, gap: float
-) -> float:
+def labyrinth_moment(dynamic_viscosity: float, *, rotation: float, radius: float, length: float, gap: float) -> float:
     """Friction moment of one cylindrical labyrinth gap, M = 4 π² η n b r³/c (Petroff).
 
     Parameters

@@ -46,9 +46,7 @@ def acceleration_resistance(mass_flow: float, *, belt_speed: float, initial_spee
     return mass_flow * (belt_speed - initial_speed)
 
 
-def acceleration_length(
-    *, belt_speed: float, initial_speed: float, belt_friction: float, gravity: float
-) -> float:
+def acceleration_length(*, belt_speed: float, initial_speed: float, belt_friction: float, gravity: float) -> float:
     """Length over which the bulk reaches the belt speed, l_b = (v² - v0²)/(2 g μ1) (ISO 5048).
 
     Parameters

@@ -101,9 +101,7 @@ ROLL_CONDITION: Final[dict[Site, Default]] = {
 }  # fmt: skip
 """Drag of rolls in service over that of rolls in order [-], by site."""
 _STEP_TOLERANCE: Final = 1e-10  # [K]
-_UNIT_SPEED: Final = (
-    1.0  # [m/s], at which a bearing's film is scaled; Palmgren's moment is proportional to it anywhere
-)
+_UNIT_SPEED: Final = 1.0  # [m/s], at which a bearing's film is scaled; Palmgren's moment is proportional to it anywhere
 
 
 @dataclass(frozen=True, eq=False)
@@ -230,9 +228,7 @@ def service_roll_drag(
 
     Examples
     --------
-    >>> drag = service_roll_drag(
-    ...     250.0, belt_speed=5.41, roll_diameter=0.159, roll_length=0.465, air_temperature=293.15
-    ... )
+    >>> drag = service_roll_drag(250.0, belt_speed=5.41, roll_diameter=0.159, roll_length=0.465, air_temperature=293.15)
     >>> round(float(drag.force), 1), round(float(drag.bearing_temperature) - 293.15, 1)
     (2.4, 4.0)
     """
@@ -245,9 +241,7 @@ def service_roll_drag(
         require_positive(belt_speed=v)
     for at in np.unique(air).tolist():
         require_positive(air_temperature=at)
-        oil_viscosity(
-            at, first_temperature=cool, first_viscosity=thick, second_temperature=warm, second_viscosity=thin
-        )
+        oil_viscosity(at, first_temperature=cool, first_viscosity=thick, second_temperature=warm, second_viscosity=thin)
     bearing, cooling = usual_bearing(roll_diameter), roll_end_cooling(roll_diameter, roll_length=roll_length)
     seal = SEAL_STRESS.value * 2.0 * math.pi * (bearing.outside / 2.0) ** 2 * SEAL_LENGTH
     unit = bearing_roll_drag(
@@ -272,9 +266,7 @@ def service_roll_drag(
         z = 10.0**log_z
         fed = (z - WALTHER_OFFSET) * turns >= PALMGREN_SWITCH
         fed_film = PALMGREN_FED * ((z - WALTHER_OFFSET) * turns) ** (2.0 / 3.0)
-        falls = (
-            -2.0 / 3.0 * fed_film * z * math.log(10.0) * log_z * slope / ((z - WALTHER_OFFSET) * temperature)
-        )
+        falls = -2.0 / 3.0 * fed_film * z * math.log(10.0) * log_z * slope / ((z - WALTHER_OFFSET) * temperature)
         return np.where(fed, fed_film, PALMGREN_SLOW), np.where(fed, falls, 0.0)
 
     # F v = 2 G (T - T_air), by Newton's steps within a bracket that shrinks: friction falls as the oil warms
