@@ -860,7 +860,7 @@ def drive_parts(result: CalculatedConveyor) -> Iterator[Check]:
             )  # fmt: skip
         if parts.heat is not None and duty.heat is not None:
             yield check_against_limit(
-                "brake_heat", f"heat of a stop in the brake, {name}", duty.heat, "at most", parts.heat, "energy",
+                "brake_heat", f"heat of a stop in the brake, {name}", duty.heat, "at most", parts.heat, "heat",
                 why=f'a stop leaves {{calculated}} in the brake of "{name}", it bears {{required}}',
             )  # fmt: skip
         if parts.starts is not None and duty.allowed_starts is not None:

@@ -33,7 +33,8 @@ from conveyor.models.plausibility import implausible_inputs
 from conveyor.models.rolls import BearingDrag, MakerDrag
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.units import quantity, same_value, text
-from conveyor.units.sentences import Message, escape_braces, format_figure, message, percent
+from conveyor.units.presentation import format_figure
+from conveyor.units.sentences import Message, escape_braces, message, percent
 
 LEAST_PUBLISHED_FRICTION: Final = 0.0075
 """Friction factor measured over six shifts on Henderson PC2, 16.28 km (Alspaugh, MINExpo 2004) [-]."""

@@ -17,7 +17,8 @@ from pydantic import BaseModel, ValidationError
 from conveyor import units
 from conveyor.errors import InputError
 from conveyor.units import Bounds, Density, Fraction, Length, MassFlow, Speed, Temperature, quantity, si, text
-from conveyor.units.quantity_kinds import KINDS, MAGNITUDES
+from conveyor.units.presentation import format_figure
+from conveyor.units.quantity_kinds import INPUT_KINDS, KINDS
 from conveyor.units.registry import UNITS
 
 # Definitions: international yard and pound (1959): 1 ft = 0.3048 m, 1 lb = 0.45359237 kg; standard gravity
@@ -46,7 +47,7 @@ DEFINITIONS = [
     ("2400 t/h", "mass flow", 2400 / 3.6), ("2400 tph", "mass flow", 2400 / 3.6), ("5 kg/s", "mass flow", 5.0),
     ("1500 short_ton/h", "mass flow", 1500 * 2000 * LB / 3600), ("1500 stph", "mass flow", 1500 * 2000 * LB / 3600),
     ("100 lb/h", "mass flow", 100 * LB / 3600), ("5 kW", "power", 5000.0), ("300 hp", "power", 300 * 550 * FT * LBF),
-    ("2 kWh", "energy", 7.2e6), ("150 kJ/mol", "molar energy", 1.5e5), ("95 %", "fraction", 0.95),
+    ("2 kWh", "heat", 7.2e6), ("150 kJ/mol", "molar energy", 1.5e5), ("95 %", "fraction", 0.95),
     ("0.95", "fraction", 0.95), ("32.2 ft/s^2", "acceleration", 32.2 * FT), ("3600 m³/h", "volume flow", 1.0),
     ("600 rpm", "rotation", 10.0), ("0.01 N/rpm", "force per rotation", 0.6), ("20 N*mm", "moment", 0.02),
     ("10 lbf*in", "moment", 10 * LBF * FT / 12), ("12 lbf*ft", "torque", 12 * LBF * FT),
@@ -61,7 +62,7 @@ def test_si_value_is_the_definition(written: str, kind: str, expected: float) ->
 
 
 def test_every_unit_of_every_kind_has_the_dimension_of_its_kind() -> None:
-    for kind, entry in KINDS.items():
+    for kind, entry in INPUT_KINDS.items():
         if kind in {"belt mass", "set mass"}:  # two dimensions: per area or set, or per length
             continue
         dimensions = {units.quantity(f"1 {form}", kind).dimensionality for form in entry.units if form}
@@ -69,7 +70,7 @@ def test_every_unit_of_every_kind_has_the_dimension_of_its_kind() -> None:
 
 
 def test_every_example_is_read_by_its_own_kind() -> None:
-    for kind, entry in KINDS.items():
+    for kind, entry in INPUT_KINDS.items():
         assert text(quantity(entry.example, kind)) == entry.example
 
 
@@ -135,9 +136,9 @@ def test_trap_is_refused_with_advice(written: object, kind: str | None, message:
         quantity(written, kind)
 
 
-@pytest.mark.parametrize("kind", sorted(set(KINDS) - {"temperature"}))
+@pytest.mark.parametrize("kind", sorted(set(INPUT_KINDS) - {"temperature"}))
 def test_sizes_that_nothing_has_are_refused(kind: str) -> None:
-    smallest, largest = MAGNITUDES[kind]
+    smallest, largest = KINDS[kind].sizes
     for unit in KINDS[kind].units:
         one = si(quantity(f"1 {unit}".strip()))
         for size in (0.0, 1.01 * smallest, 0.99 * largest):
@@ -157,13 +158,13 @@ def test_power_towers_do_not_hang() -> None:
 
 @given(
     number=st.floats(allow_nan=False, allow_infinity=False),
-    form=st.sampled_from([(kind, form) for kind, entry in KINDS.items() for form in entry.units]),
+    form=st.sampled_from([(kind, form) for kind, entry in INPUT_KINDS.items() for form in entry.units]),
 )
 def test_text_quantity_text_round_trip(number: float, form: tuple[str, str]) -> None:
     kind, unit = form
     if kind != "fraction" and unit == "":
         return
-    smallest, largest = (size / abs(si(quantity(f"1 {unit}".rstrip()))) for size in MAGNITUDES[kind])
+    smallest, largest = (size / abs(si(quantity(f"1 {unit}".rstrip()))) for size in KINDS[kind].sizes)
     if kind == "temperature" or not (number == 0.0 or smallest <= abs(number) <= largest):
         number = math.copysign(min(max(abs(number), 2.0 * smallest), 0.5 * largest), number)
     if kind == "temperature":  # below absolute zero is refused
@@ -232,7 +233,7 @@ with ThreadPoolExecutor(8) as pool:
 
 
 def test_from_si_and_convert_invert_si() -> None:
-    for kind, entry in KINDS.items():
+    for kind, entry in INPUT_KINDS.items():
         if kind in {"belt mass", "set mass"}:  # two dimensions: per area or set, or per length
             continue
         for form in entry.units:
@@ -258,7 +259,10 @@ def test_from_si_and_convert_invert_si() -> None:
     ],
 )
 def test_display(value: float, kind: str, metric: str, us: str) -> None:
-    assert (units.format_si(value, kind), units.format_si(value, kind, "US")) == (metric, us)
+    assert (
+        format_figure(value, kind, as_input=True),
+        format_figure(value, kind, "US", as_input=True),
+    ) == (metric, us)
 
 
 class Sample(BaseModel):

@@ -22,6 +22,7 @@ from conveyor.errors import InputError, NoSolutionError
 from conveyor.files.compound_folders import compound_files
 from conveyor.text.printable import escape_controls, escape_json_controls
 from conveyor.text.ranges import MOST_VALUES, range_values
+from conveyor.units.unit_systems import SYSTEMS
 
 if TYPE_CHECKING:
     from conveyor.models import Conveyor
@@ -44,6 +45,14 @@ def option(words: str, metavar: str | None = None, *names: str, **more: Any) -> 
 def argument(words: str, metavar: str | None = None, **more: Any) -> Any:
     """Typer argument: help, metavar."""
     return typer.Argument(metavar=metavar, help=words, **more)
+
+
+if TYPE_CHECKING:
+    from typing import TypeAlias
+
+    Units: TypeAlias = StrEnum
+else:
+    Units = StrEnum("Units", {name: name for name in SYSTEMS})
 
 
 class _CommandGroup(typer.core.TyperGroup):
@@ -96,13 +105,6 @@ def _common_options(
     ] = False,
 ) -> None:
     """Options that belong to no command."""
-
-
-class Units(StrEnum):
-    """Systems of units."""
-
-    SI = "SI"
-    US = "US"
 
 
 class ImageKind(StrEnum):

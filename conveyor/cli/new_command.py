@@ -49,7 +49,7 @@ def new(
             "SI, a study or search with the spec it varies beside it."
         ),
     ] = StarterKind.OVERLAND,
-    units: Annotated[Units, option("System of units.")] = Units.SI,
+    units: Annotated[Units, option("System of units.")] = cast("Units", "SI"),
     force: Force = False,
     quiet: Quiet = False,
 ) -> None:
@@ -60,17 +60,18 @@ def new(
     to.file("SPEC", spec, ".yaml", ".yml", kind=TO_FILL_IN)
     from conveyor.starter import EXAMPLES, example_files, quote_path, starter_text
 
+    system = units.value
     if kind.value in EXAMPLES:
         files, command = example_files(kind.value, spec), EXAMPLES[kind.value].command
-        if units is not Units.SI:
+        if system != "SI":
             raise InputError(
-                f"--units {units.value}: the example of --kind {kind.value} is in SI; leave the units out, and give "
+                f"--units {system}: the example of --kind {kind.value} is in SI; leave the units out, and give "
                 f"them to conveyor {command}, which then reports in them"
             )
         for beside in [path for path in files if path != spec]:
             to.file("SPEC", beside, ".yaml", kind=TO_FILL_IN)
     else:
-        files = {spec: starter_text(cast("Kind", kind.value), units.value, file=spec.name).encode()}
+        files = {spec: starter_text(cast("Kind", kind.value), system, file=spec.name).encode()}
         command = "size" if kind is StarterKind.DUTY else "power"
     for path, content in files.items():
         to.add("spec", path, {path: content})

@@ -181,7 +181,7 @@ def describe_design(design: Design, campaign: ParametricStudy, system: System) -
 
     known = [(one, design.figures[name]) for name, one in campaign.figures.items()]
     written = (
-        f"{one.label} {display_unit(money_kind(one.kind, campaign.currency), system).four_digits(value)}"
+        f"{one.label} {display_unit(money_kind(one.kind, campaign.currency), system).said(value, 4)}"
         for one, value in known
         if value is not None
     )

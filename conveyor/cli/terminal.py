@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 from conveyor.text.printable import escape_controls
 from conveyor.units.presentation import Unit, column_name, display_unit
 from conveyor.units.sentences import percent
+from conveyor.units.unit_systems import trade_of
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -175,7 +176,7 @@ def _print_head(screen: Console, contents: Contents) -> None:
     said = (named.get(name, "{}").format(about.said[name]) for name in _DOCUMENT_FIELDS if name in about.said)
     if about.said:
         screen.print(plain_text(", ".join(said)))
-    facts = {row.label: row.unit(system).four_digits(row.value) for row in contents["identity"].rows}
+    facts = {row.label: row.unit(system).said(row.value, 4) for row in contents["identity"].rows}
     material = facts["material"].rpartition(", ")[0]  # without its density
     screen.print(
         plain_text(
@@ -190,7 +191,7 @@ def _force_table(contents: Contents) -> Grid:
     force, power = display_unit("force", system, large=True), display_unit("power", system, large=True)
     sums = {row.key: row.value for row in contents["classical"].rows}
     total = sums["total"][0]
-    whole = "effective tension Te" if system == "US" else "effective tension"
+    whole = "effective tension Te" if trade_of(system) == "US" else "effective tension"
     names = {"main": "main resistance", "total": whole}
     rows: list[tuple[str, float, float | None]] = [
         (row.label, row.value, None)
@@ -227,7 +228,8 @@ def _tension_rows(contents: Contents) -> Grid:
     known = {row.key: row for row in contents["results"].rows}
     tight, slack = (force.said(known[f"{side}_side_tension"].value) for side in ("tight", "slack"))
     made = Table.grid(padding=(0, 2))
-    made.add_row("tensions, T1 / T2" if contents.system == "US" else "tensions, tight / slack", f"{tight} / {slack}")
+    sides = "T1 / T2" if trade_of(contents.system) == "US" else "tight / slack"
+    made.add_row(f"tensions, {sides}", f"{tight} / {slack}")
     made.add_row("take-up", _take_up_text(contents))
     if "specific_energy" in known:
         energy = known["specific_energy"]
@@ -295,7 +297,7 @@ def _state_table(states: Table, system: System) -> Grid:
     columns = {column.key: column for column in states.columns}
     for row in states.rows:
         said = [display_unit(columns[key].kind, system, large=True).said(columns[key].get(row)) for key in figures]
-        at = display_unit("temperature", system).four_digits(columns["temperature"].get(row))
+        at = display_unit("temperature", system).said(columns["temperature"].get(row), 4)
         made.add_row(plain_text(columns["state"].get(row)), plain_text(columns["sections_loaded"].get(row)), at, *said)
     return made
 
@@ -304,7 +306,7 @@ def _case_table(cases: Table, system: System) -> Grid:
     made = plain_table("governing load cases", ("figure", "value", "case", "at"), left=("figure", "case", "at"))
     get = {column.key: column.get for column in cases.columns}
     for row in cases.rows:
-        at = ", ".join(display_unit(key, system).four_digits(get[key](row)) for key in ("temperature", "speed"))
+        at = ", ".join(display_unit(key, system).said(get[key](row), 4) for key in ("temperature", "speed"))
         value = display_unit(row.kind, system, large=True).said(get["value"](row))
         made.add_row(row.label, value, plain_text(get["case"](row)), at)
     return made

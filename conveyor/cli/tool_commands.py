@@ -99,7 +99,7 @@ def template(
         raise InputError("--units: with --from the spec says the units (report.units); leave one of the two out")
     line = None if spec is None else conveyor.load(spec, shelves=shelf or ())
     with name_write_errors(output):  # openpyxl writes temporary files
-        content = made(line, shelves=shelf or (), units="US" if units is Units.US else "SI")
+        content = made(line, shelves=shelf or (), units="SI" if units is None else units.value)
     to.add("template", output, {output: content})
     lines = to.save()
     if not quiet:

@@ -164,7 +164,7 @@ def _drive_grip(scenario: ScenarioResult) -> Iterator[Check]:
             why=message(
                 f'the belt slips on "{escape_braces(drive.name)}" by {{}} and heats it with {{}}; raise the '
                 "take-up's tension (--size take-up says how far), the wrap or the friction, or slow the motion",
-                (way, "length"), (heat, "energy"),
+                (way, "length"), (heat, "heat"),
             ),
         )  # fmt: skip
 

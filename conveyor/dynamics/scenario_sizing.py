@@ -110,7 +110,7 @@ def _ramp_variants(setup: ScenarioSetup) -> tuple[Callable[[float], ScenarioSetu
     def made(time: float) -> ScenarioSetup:
         return replace(setup, units=tuple(replace(unit, time=time, stop_time=time) for unit in units))
 
-    return made, _RAMPS, "duration"
+    return made, _RAMPS, "time"
 
 
 def _brake_variants(
@@ -138,7 +138,7 @@ def _delay_variants(
         units = tuple(replace(unit, delay=d * time) for d, unit in enumerate(setup.starters))
         return replace(setup, units=units)
 
-    return made, _DELAYS, "duration"
+    return made, _DELAYS, "time"
 
 
 def _take_up_variants(
@@ -191,7 +191,7 @@ def _least_value(
 ) -> tuple[float, float | None, float | None, list[Check]]:
     """Least and largest value of the last passing run, the next smaller value and its failed checks."""
     most: float | None = None
-    (low, high), shown = between, "time" if kind == "duration" else kind
+    low, high = between
     for k in range(_ROUNDS):
         # what passed on coarser cells may just fail on finer ones: one step further is included
         values = np.geomspace(low, high if k == 0 else high * high / low, _TRIALS).tolist()
@@ -201,8 +201,8 @@ def _least_value(
             raise NoSolutionError(
                 'scenario "{}": nothing from {} to {} keeps every check; at best: {}',
                 name,
-                MessageQuantity(low, shown, f"{low:.4g}"),
-                MessageQuantity(values[-1], shown, f"{values[-1]:.4g} (SI)"),
+                MessageQuantity(low, kind, f"{low:.4g}"),
+                MessageQuantity(values[-1], kind, f"{values[-1]:.4g} (SI)"),
                 _failure_reasons(min(failing, key=len)),
             )
         first = last = serve[-1]
@@ -238,7 +238,7 @@ def _best_delay(setup: ScenarioSetup, made: Callable[[float], ScenarioSetup], lo
     margins = [check for check in _size_checks(one) if check.margin is not None]
     governs = min(margins, key=lambda check: check.margin or 0.0)
     return ScenarioSize(
-        setup.scene.name, _LABELS["delay"], "duration", value, step / value if value else None, None,
+        setup.scene.name, _LABELS["delay"], "time", value, step / value if value else None, None,
         governs.subject.text(), f"lowest peak: {one.highest / 1e3:.1f} kN",
         _name_with_size(made(value), "delay", value),
     )  # fmt: skip

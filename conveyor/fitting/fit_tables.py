@@ -154,7 +154,7 @@ def series_table(fitted: FittedCompound) -> Table:
     rows += [
         (f"E_{k}", tau, e) for k, (tau, e) in enumerate(zip(made.times.tolist(), made.moduli.tolist(), strict=True), 1)
     ]
-    columns = _tuple_columns(("term", "relaxation time", "modulus"), ("text", "time", "pressure"))
+    columns = _tuple_columns(("term", "relaxation time", "modulus"), ("text", "relaxation time", "pressure"))
     return Table("series", "Series", "Prony series at the reference temperature", columns, rows)
 
 

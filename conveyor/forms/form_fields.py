@@ -17,6 +17,8 @@ from pydantic.fields import FieldInfo
 from conveyor.models.base import field_docs
 from conveyor.models.compound import CompoundReference
 from conveyor.units import KINDS, Bounds, Measure, System, quantity, text
+from conveyor.units.registry import UNITS
+from conveyor.units.unit_systems import SYSTEMS
 
 LeafKind = Literal[
     "quantity", "number", "count", "switch", "choice", "text", "list", "reference", "json"
@@ -369,7 +371,7 @@ def in_system(leaf: FormField, system: System, units: Iterable[str | None] = ())
     if system == "SI" or of.kind != "quantity" or not of.units or not of.measure:
         return leaf
     filled = tuple(filter(None, units))
-    unit = filled[0] if filled else _unit_in_us(of)
+    unit = filled[0] if filled else _unit_in_system(of, system)
     if not unit:
         return leaf
     value = f"1 {unit}"
@@ -381,6 +383,7 @@ def in_system(leaf: FormField, system: System, units: Iterable[str | None] = ())
     return replace(leaf, allowed=limits_in_unit_of(leaf.allowed, value), default=default, units=offered)
 
 
-def _unit_in_us(leaf: FormField) -> str:
-    """US unit of the kind in reports; the inch for lengths."""
-    return KINDS["thickness" if leaf.measure == "length" else leaf.measure].us
+def _unit_in_system(leaf: FormField, system: System) -> str:
+    """Unit of the kind in reports, empty where specs do not know it; that of thicknesses for lengths."""
+    unit = SYSTEMS[system].shown("thickness" if leaf.measure == "length" else leaf.measure).unit
+    return unit if unit in UNITS else ""

@@ -35,6 +35,7 @@ from conveyor.models import Calculation, Conveyor, Drive, DrivePulley, Feeding, 
 from conveyor.models.calculation_methods import Cema
 from conveyor.models.part_conflicts import drive_diameter
 from conveyor.units import Quantity, si
+from conveyor.units.unit_systems import trade_of
 
 Array = NDArray[np.float64]
 
@@ -442,7 +443,7 @@ class Line:
             support=calculation.support,
             rtol=calculation.rtol,
             softened=calculation.strain != "off",
-            us_sizes=conveyor.report.units == "US",
+            us_sizes=trade_of(conveyor.report.units) == "US",
             wind_speed=_si_or_none(conveyor.ambient.wind_speed),
         )
 

@@ -18,7 +18,7 @@ from conveyor.loop.equilibrium import Equilibrium, solve_equilibria
 from conveyor.loop.estimates import CemaEstimate, ClassicalEstimate, cema_estimate, classical_estimate
 from conveyor.loop.loop_layout import LoopLayout, TakeUpSetting
 from conveyor.loop.tensions import LoopBatch, MotionState
-from conveyor.units.sentences import format_figure
+from conveyor.units.presentation import format_figure
 
 
 @dataclass(frozen=True)

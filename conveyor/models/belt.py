@@ -23,12 +23,12 @@ from conveyor.units import (
     Temperature,
     Thickness,
     Time,
-    format_si,
     is_kind,
     si,
     text,
     unit_system,
 )
+from conveyor.units.presentation import format_figure
 
 RUBBER_DENSITY: Final = 1150.0
 """Density of cover rubber where the compound states none [kg/m³]: about 1.15 kg/m² per mm of cover."""
@@ -179,8 +179,8 @@ class Belt(LibraryItem):
                 Problem(
                     ("thickness",),
                     f"got {text(self.thickness)}, but top cover + bottom cover + carcass are {listed} = "
-                    f"{format_si(total, 'thickness', unit_system(self.thickness))}; correct belt.thickness or the "
-                    "part that is wrong",
+                    f"{format_figure(total, 'thickness', unit_system(self.thickness), as_input=True)}; correct "
+                    "belt.thickness or the part that is wrong",
                 )
             )
         low, high = self.lowest_temperature, self.highest_temperature
@@ -212,8 +212,8 @@ class Belt(LibraryItem):
         """Mass per length as text; per area where the belt's mass is given so; units of the width."""
         system = unit_system(self.width)
         if self.mass is None or is_kind(self.mass, "line mass"):
-            return format_si(line_mass, "line mass", system)
-        return format_si(line_mass / si(self.width), "area mass", system)
+            return format_figure(line_mass, "line mass", system, as_input=True)
+        return format_figure(line_mass / si(self.width), "area mass", system, as_input=True)
 
     @property
     def _cover_line_mass(self) -> float:

@@ -31,12 +31,12 @@ from conveyor.units import (
     Bounds,
     Density,
     Quantity,
-    format_si,
     from_si,
     quantity,
     si,
     text,
 )
+from conveyor.units.presentation import format_figure
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -111,8 +111,8 @@ class RubberCompound(Model):
         prony, shift = self.prony, "no shift" if self.shift is None else f"shift {self.shift.law}"
         return (
             f'RubberCompound("{self.name}": {self.kind}, {len(prony.terms)} terms at '
-            f"{format_si(self.reference, 'temperature')}, equilibrium modulus "
-            f"{format_si(si(prony.equilibrium), 'pressure')}, {shift})"
+            f"{format_figure(self.reference, 'temperature', as_input=True)}, equilibrium modulus "
+            f"{format_figure(si(prony.equilibrium), 'pressure', as_input=True)}, {shift})"
         )
 
     def __str__(self) -> str:
@@ -471,7 +471,9 @@ def _strain_data(factors: AmplitudeFactors) -> dict[str, Any]:
 
 def _temperature_amount(temperature: float) -> MessageQuantity:
     """Temperature [K] for a message."""
-    return MessageQuantity(temperature, "temperature", format_si(temperature, "temperature", digits=6), digits=6)
+    return MessageQuantity(
+        temperature, "temperature", format_figure(temperature, "temperature", digits=6, as_input=True), digits=6
+    )
 
 
 def _stated_amount(temperature: Quantity) -> MessageQuantity:

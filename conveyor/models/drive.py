@@ -18,9 +18,9 @@ from conveyor.units import (
     Acceleration,
     Angle,
     Bounds,
-    Energy,
     Force,
     Fraction,
+    Heat,
     Inertia,
     Length,
     Mass,
@@ -79,7 +79,7 @@ class DrivePulley(Model):
     """How much smaller its pulley is than the nominal one, worn or made so, for sharing without control."""
     brake_disc: Annotated[Mass, Bounds(gt="0 kg", le="100 t")] | None = None
     """Mass of its brake's disc or drum, for the rise of its temperature in a stop."""
-    brake_heat: Annotated[Energy, Bounds(gt="0 J", le="10 MWh")] | None = None
+    brake_heat: Annotated[Heat, Bounds(gt="0 J", le="10 MWh")] | None = None
     """Heat of one stop that its brake bears, by the brake's maker."""
 
     @model_validator(mode="after")

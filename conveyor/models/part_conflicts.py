@@ -18,7 +18,8 @@ from conveyor.models.idlers import IdlerSet, overlap_problems
 from conveyor.models.parts import ConveyorParts
 from conveyor.models.route import Feeding
 from conveyor.models.validation_messages import Location
-from conveyor.units import Quantity, format_si, from_si, si, text, unit_system
+from conveyor.units import Quantity, from_si, si, text, unit_system
+from conveyor.units.presentation import format_figure
 
 OVERFILL_LIMIT: Final = 1.5
 """Largest calculated bulk over the cross-section that the belt holds [-]; more where edge to edge holds more."""
@@ -90,7 +91,8 @@ def _fill_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
         return
     system = unit_system(belt.width)
     sections_of = (
-        MessageQuantity(each, "area", format_si(each, "area", system)) for each in (needed, area, calculated)
+        MessageQuantity(each, "area", format_figure(each, "area", system, as_input=True))
+        for each in (needed, area, calculated)
     )
     most = from_si(si(material.flow) * area / needed, "mass flow", text(material.flow).split()[1])
     least = from_si(si(belt.speed) * needed / area, "speed", text(belt.speed).split()[1])
@@ -307,7 +309,10 @@ def _length_coefficient_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
             InputError(
                 'got "C", but route.sections are {} long together and C holds for more than {}; set '
                 'calculation.secondary to "itemised"',
-                *(MessageQuantity(each, "length", format_si(each, "length")) for each in (length, SHORTEST_FOR_FACTOR)),
+                *(
+                    MessageQuantity(each, "length", format_figure(each, "length", as_input=True))
+                    for each in (length, SHORTEST_FOR_FACTOR)
+                ),
             ),
         )
 

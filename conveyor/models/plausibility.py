@@ -14,6 +14,7 @@ from conveyor.laws.resistance import roll_rotation
 from conveyor.models.conveyor import Conveyor
 from conveyor.units import si, text, unit_system
 from conveyor.units.sentences import Message, message, percent
+from conveyor.units.unit_systems import trade_of
 
 HEAVIEST_BULK: Final = 5000.0
 """Bulk density of what belts carry [kg/m³]; iron ore and concentrates have 2000 to 3500."""
@@ -41,7 +42,7 @@ def implausible_inputs(conveyor: Conveyor) -> Iterator[Message]:
 
 def _check_flow(conveyor: Conveyor) -> Iterator[Message]:
     flow = conveyor.material.flow
-    us = "US" in {conveyor.report.units, unit_system(conveyor.belt.width)}
+    us = "US" in {trade_of(conveyor.report.units), unit_system(conveyor.belt.width)}
     if us and text(flow).endswith(" tph"):
         yield message(
             f"material.flow {text(flow)}: tph are metric tonnes per hour, {{}}; short tons per hour are stph",

@@ -6,6 +6,7 @@ from typing import Literal
 
 from conveyor.models.base import Model, Name
 from conveyor.units import System
+from conveyor.units.unit_systems import trade_of
 
 Paper = Literal["A4", "Letter"]
 
@@ -34,4 +35,4 @@ class Report(Model):
 
     def sheet(self, system: System) -> Paper:
         """Paper size: as stated, else Letter with US units and A4 with SI."""
-        return self.paper or ("Letter" if system == "US" else "A4")
+        return self.paper or ("Letter" if trade_of(system) == "US" else "A4")

@@ -41,6 +41,7 @@ from conveyor.units import (
     si,
     text,
 )
+from conveyor.units.unit_systems import trade_of
 
 Carcasses = Literal["EP", "steel cord"]
 Series = Literal["metric", "US"]
@@ -277,7 +278,7 @@ class SizingDuty(Model):
     @property
     def series(self) -> Series:
         """Series of sizes that parts are chosen from."""
-        return self.rules.series or ("US" if self.report.units == "US" else "metric")
+        return self.rules.series or trade_of(self.report.units)
 
     @property
     def sized_route(self) -> Route:

@@ -69,8 +69,9 @@ from conveyor.studies.duty import CalculatedYear
 from conveyor.studies.load_cases import AS_GIVEN, Load
 from conveyor.studies.loads import design_loads, every_check, take_up_demand
 from conveyor.units import Quantity, System
-from conveyor.units.presentation import MONEY, belt_rating_text, belt_strength_text, display_unit
-from conveyor.units.sentences import Message, degree_signs, format_band, format_figure, plain_figure
+from conveyor.units.presentation import MONEY, display_unit, format_figure
+from conveyor.units.quantity_kinds import NO_UNIT
+from conveyor.units.sentences import Message, degree_signs, format_band
 
 PARTS: Final = (
     ("key-figures", "Key figures"),
@@ -211,15 +212,15 @@ def identity_table(conveyor: Conveyor, system: System) -> Table:
     carcass, top, bottom = belt.carcass, belt.top_cover, belt.bottom_cover
 
     def shown(value: Quantity, kind: str) -> str:
-        return display_unit(kind, system).quantity_text(value)
+        return display_unit(kind, system).said(value, 4)
 
     def idlers(of: Any) -> str:
         inner = "" if of.inner_trough_angle is None else f"{shown(of.inner_trough_angle, 'angle')} and "
         lying = f" at {inner}{shown(of.trough_angle, 'angle')}" if of.rolls > 1 else ""
         return f"{of.rolls} x {shown(of.roll.diameter, 'thickness')}{lying}, every {shown(of.spacing, 'length')}"
 
-    strength = "" if carcass.strength is None else f", breaking {belt_strength_text(carcass.strength, system)}"
-    rating = "" if carcass.rating is None else f", rated {belt_rating_text(carcass.rating, system)}"
+    known = ("breaking", carcass.strength, "belt strength"), ("rated", carcass.rating, "belt rating")
+    strengths = "".join(f", {what} {format_figure(v, kind, system)}" for what, v, kind in known if v is not None)
     above = "rubber of the bottom cover" if top.compound is None else top.compound.name
     rows = (
         Figure("length", "length", conveyor.route.length),
@@ -228,7 +229,7 @@ def identity_table(conveyor: Conveyor, system: System) -> Table:
         Figure("belt speed", "speed", conveyor.belt_speed),
         Figure("mass flow", "mass flow", conveyor.mass_flow),
         Figure("temperature of the covers", "temperature", conveyor.temperature),
-        Figure("belt", "text", f"{carcass.kind}{strength}{rating}"),
+        Figure("belt", "text", f"{carcass.kind}{strengths}"),
         Figure("top cover", "text", f"{shown(top.thickness, 'thickness')}, {above}"),
         Figure("bottom cover", "text", f"{shown(bottom.thickness, 'thickness')}, {bottom.compound.name}"),
         Figure("carry idlers", "text", idlers(conveyor.idlers.carry)),
@@ -364,7 +365,7 @@ def section_table(a: CalculatedConveyor) -> Table:
         ),
         Column("total", "force", "total", "forces", json="total_N", total=True),
         Column("equivalent f", "friction", lambda r: r.main / r.unit_main, "layout"),
-        Column("idler set L10 life", "life", _set_life_seconds, "layout", sparse=True),
+        Column("idler set L10 life", "duration", _set_life_seconds, "layout", sparse=True),
     )  # fmt: skip
     page = (
         PagePlacement("route", "Sections of both strands, in running direction", "layout", printed=False),
@@ -508,7 +509,7 @@ def roll_table(a: CalculatedConveyor) -> Table:
         Column("rotation", "rotation",
                lambda row: row[1].curve.contact.speed / (2.0 * math.pi * row[1].curve.contact.radius), page=None),
         Column("heavier bearing", "force", "3.heavier", page=None, sparse=True),
-        Column("roll L10 life", "life", lambda row: row[3] and row[3].both * _HOUR, sparse=True),
+        Column("roll L10 life", "duration", lambda row: row[3] and row[3].both * _HOUR, sparse=True),
     )  # fmt: skip
     rows = tuple(
         (r, roll, drag, roll_life(r.stretch, place, roll.curve.contact.speed))
@@ -527,7 +528,7 @@ def distinct_rolls(a: CalculatedConveyor, every: Table) -> Table:
         values = tuple(column.get(row) for column in shown[1:])
         if values not in looks:
             looks[values] = tuple(
-                display_unit(column.kind).short(value) for column, value in zip(shown[1:], values, strict=True)
+                display_unit(column.kind).said(value, 3) for column, value in zip(shown[1:], values, strict=True)
             )
         by_look.setdefault(looks[values], []).append(row)
     columns = (
@@ -565,7 +566,7 @@ def idler_sets(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
         Column("CEMA class", "text", "0.limits.cema_class", sparse=True),
         Column("least CEMA class", "text", "3.limits.least_class", sparse=True),
         Column("slope of the axle", "angle", extreme_getter(max, "5", "limits.axle.slope"), sparse=True),
-        Column("L10 life of a set", "life",
+        Column("L10 life of a set", "duration",
         extreme_getter(min, "5", lambda duty: duty.life and duty.life.hours * _HOUR),
                sparse=True),
         Column("rolls turn at", "swing", "4.rotations.1"),
@@ -800,7 +801,7 @@ def start_stop_table(a: CalculatedConveyor) -> Table:
         Figure("drive force at start", "force", start.force),
         Figure("drive force at start over steady", "ratio", start.factor),
         Figure("acceleration at start", "acceleration", start.acceleration),
-        Figure("time over the whole speed range", "duration", start.time),
+        Figure("time over the whole speed range", "time", start.time),
         Figure("motor torque at start over rated", "ratio", start.torque_factor),
         Figure("required motor force", "force", start.asked, key="force_asked_of_the_motors"),
         Figure("available motor force", "force", start.available, key="force_the_motors_give"),
@@ -815,7 +816,7 @@ def start_stop_table(a: CalculatedConveyor) -> Table:
         if stop is not None:
             rows += [
                 Figure(f"deceleration, {label}", "acceleration", stop.deceleration),
-                Figure(f"stopping time, {label}", "duration", stop.time),
+                Figure(f"stopping time, {label}", "time", stop.time),
                 Figure(f"stopping distance, {label}", "length", stop.distance),
             ]  # fmt: skip
     radius = a.line.drives[0].radius
@@ -957,7 +958,7 @@ def pulley_loads(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
         Column("slope at the hub", "friction", extreme_getter(max, "3", "slope"), sparse=True),
         Column("safety of the shaft", "ratio",
                extreme_getter(min, "3", "safety.0"), sparse=True),
-        Column("L10 of a bearing, steady", "life", extreme_getter(min, "3", "bearing_seconds"), sparse=True),
+        Column("L10 of a bearing, steady", "duration", extreme_getter(min, "3", "bearing_seconds"), sparse=True),
         Column("pressure on the lagging", "pressure", extreme_getter(max, "3", "pressure")),
     )  # fmt: skip
     note = (
@@ -1198,14 +1199,12 @@ def indentation_table(a: CalculatedConveyor) -> Table:
     for r in a.stretches:
         for roll in r.rolls:
             size, apart = (
-                display_unit(kind, a.conveyor.report.units).four_digits(value)
+                display_unit(kind, a.conveyor.report.units).said(value, 4)
                 for kind, value in (("size", 2.0 * roll.curve.contact.radius), ("spacing", r.stretch.spacing))
             )
             for curve in roll.curve.solved:
                 pull = curve.contact.pull
-                held = (
-                    "" if pull is None else f", {display_unit('line force', a.conveyor.report.units).four_digits(pull)}"
-                )
+                held = "" if pull is None else f", {display_unit('line force', a.conveyor.report.units).said(pull, 4)}"
                 seen.setdefault(curve, (f"{r.stretch.strand}, {size}, {apart}{held}", r.cover.level))
     rows: list[tuple[Any, ...]] = []
     for curve, (label, level) in seen.items():
@@ -1302,18 +1301,18 @@ def _compound_facts(compound: RubberCompound, strand: str, system: System) -> Ta
         ("data", compound.source.data or "not stated"),
         ("strain of the data", compound.strain or "not stated"),
         ("Poisson's ratio", repr(compound.poisson_ratio)),
-        ("reference temperature", warmth.quantity_text(compound.reference_temperature)),
-        ("equilibrium modulus", display_unit("pressure", system).quantity_text(compound.prony.equilibrium)),
+        ("reference temperature", warmth.said(compound.reference_temperature, 4)),
+        ("equilibrium modulus", display_unit("pressure", system).said(compound.prony.equilibrium, 4)),
         ("Prony terms", str(len(compound.prony.terms))),
         ("temperature shift", "none" if compound.shift is None else compound.shift.law),
         ("range of frequency", "not stated" if band is None else format_band(band)),
         ("range of temperature",
-         "not stated" if known is None else " to ".join(map(warmth.quantity_text, known.temperature))),
+         "not stated" if known is None else " to ".join(warmth.said(end, 4) for end in known.temperature)),
         ("spectrum", "" if compound.carrier is None else f"of {compound.carrier}, which carries the tests"),
         ("rolling-resistance tests", "; ".join(dict.fromkeys(test.source for test in compound.tests)) or "none"),
         ("fit", "" if fit is None else fit.method),
         ("rms errors of E', E''", "" if fit is None or compound.kind != "measured" else
-         f"{share.quantity_text(fit.storage_rms)}, {share.quantity_text(fit.loss_rms)}"),
+         f"{share.said(fit.storage_rms, 4)}, {share.said(fit.loss_rms, 4)}"),
         ("unknown", "; ".join(compound.missing) or "nothing listed"),
     )  # fmt: skip
     columns = (Column("fact", "text", "0"), Column("value", "text", "1"))
@@ -1327,8 +1326,8 @@ def _prony_table(compound: RubberCompound, strand: str, at: float) -> Table:
     reference = compound.series_at_reference
     columns = (
         Column("modulus", "pressure", "0"),
-        Column("time at reference", "time", "1"),
-        Column("time at belt temperature", "time", "2"),
+        Column("time at reference", "relaxation time", "1"),
+        Column("time at belt temperature", "relaxation time", "2"),
     )
     values = (reference.moduli, reference.times, compound.series(at).times)
     rows = tuple(zip(*(value.tolist() for value in values), strict=True))
@@ -1500,7 +1499,7 @@ def analysis_drawings(a: CalculatedConveyor, system: System, loads: Sequence[Loa
         on_it = tuple(strand for strand, other in strands.items() if other.name == name)
         yield Drawing(
             f"rubber-{k}",
-            f"Master curve of {name} at {display_unit('temperature', system).four_digits(at)}; "
+            f"Master curve of {name} at {display_unit('temperature', system).said(at, 4)}; "
             f"shaded: 90 % loss band of the {' and '.join(on_it)} rolls; dashed: beyond the data.",
             partial(analysis_plots.excited_master_curve, compound, at, a.contacts, on_it, system=system),
             f"known_{on_it[0]}",
@@ -1577,16 +1576,16 @@ def _energy_json(a: CalculatedConveyor, duty: CalculatedYear | None) -> dict[str
 def check_json(check: Check, *, governs: bool) -> dict[str, Any]:
     """A check as JSON, in SI."""
     calculated, required, margin = map(_finite_or_none, (check.calculated, check.required, check.margin))
-    (shown, sign), (asked, _) = (plain_figure(value, check.kind) for value in (calculated, required))
+    unit = display_unit(check.kind)
     return {
         "key": check.key,
         "subject": check.subject.text(),
         "where": check.where or None,
         "case": None if check.case is None else check.case.text(),
-        "calculated": shown,
+        "calculated": unit.shown(calculated),
         "relation": check.relation,
-        "required": asked,
-        "unit": sign,
+        "required": unit.shown(required),
+        "unit": unit.spelled or NO_UNIT,
         "margin": margin,
         "verdict": check.verdict.lower(),
         "why": None if check.why is None or check.verdict == "pass" else check.why.text(),

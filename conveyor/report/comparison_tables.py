@@ -79,7 +79,7 @@ def comparison_contents(comparison: CalculatedComparison, system: System) -> Con
 
 
 def _value_range(values: list[float], kind: str, system: System) -> str:
-    ends = [display_unit(kind, system).four_digits(value) for value in (min(values), max(values))] if values else []
+    ends = [display_unit(kind, system).said(value, 4) for value in (min(values), max(values))] if values else []
     return " to ".join(dict.fromkeys(ends)) or "none answered"
 
 
@@ -440,7 +440,7 @@ def power_tables(comparison: CalculatedComparison, system: System) -> Iterator[T
             Column("temperature", "temperature", lambda t: t),
             *(Column(name, "power", _power_getter(name, power)) for name in names),
         )
-        said = display_unit("speed", system).four_digits(speed)
+        said = display_unit("speed", system).said(speed, 4)
         yield Table(f"power_{number}", "Power", f"Motor power over temperature at {said}", columns, rows, note=said)
 
 
@@ -483,7 +483,7 @@ def comparison_drawings(comparison: CalculatedComparison, system: System) -> Ite
         )
     speeds, warmth = {scene.speed for scene in comparison.scenes}, plots.fixed_condition(comparison, "speed")
     if len({scene.temperature for scene in comparison.scenes}) > 1:
-        at = display_unit("speed", system).four_digits(plots.fixed_condition(comparison, "temperature") or 0.0)
+        at = display_unit("speed", system).said(plots.fixed_condition(comparison, "temperature") or 0.0, 4)
         yield Drawing(
             "power-temperature",
             f"Motor power over the belt's temperature at {at}, dotted beyond the data; shaded: bands.",
@@ -491,7 +491,7 @@ def comparison_drawings(comparison: CalculatedComparison, system: System) -> Ite
             "power",
         )
     if len(speeds) > 1 and warmth is not None:
-        at = display_unit("temperature", system).four_digits(warmth)
+        at = display_unit("temperature", system).said(warmth, 4)
         turning = " The ranking changes with temperature: see the notes." if ranking_changes(comparison) else ""
         yield Drawing(
             "power-speed",
@@ -511,7 +511,7 @@ def comparison_drawings(comparison: CalculatedComparison, system: System) -> Ite
 def _compound_label(row: RankedCompound, comparison: CalculatedComparison, system: System) -> str:
     """Label of a ranked compound, with its speed if there are several."""
     several = len({scene.speed for scene in comparison.scenes}) > 1
-    return f"{row.compound}, {display_unit('speed', system).four_digits(row.speed)}" if several else row.compound
+    return f"{row.compound}, {display_unit('speed', system).said(row.speed, 4)}" if several else row.compound
 
 
 def _untested_notes(comparison: CalculatedComparison) -> Iterator[str]:
@@ -543,7 +543,7 @@ def _temperature_notes(comparison: CalculatedComparison, system: System) -> Iter
     """Notes on the temperatures compared at each speed."""
     asked = {s.temperature for s in comparison.scenes} | {row.temperature for row in comparison.refused}
     for speed in sorted({scene.speed for scene in comparison.scenes}):
-        run = display_unit("speed", system).four_digits(speed)
+        run = display_unit("speed", system).said(speed, 4)
         common, known = comparison.common(speed), {s.compound for s in comparison.covered if s.speed == speed}
         if comparison.base not in known or (len(known) < 2 < 1 + len(comparison.compounds)):
             yield f"at {run} nothing is compared: the data of the base, or of all others, do not reach"
@@ -623,7 +623,7 @@ def ranking_changes(comparison: CalculatedComparison, system: System = "SI") -> 
             by_order.setdefault(tuple(frozenset(one.compound for one in group) for group in groups), []).append(warmth)
         together = any(len(group) > 1 for groups in grouped.values() for group in groups)
         if len(by_order) > 1 or together:
-            run = display_unit("speed", system).four_digits(speed)
+            run = display_unit("speed", system).said(speed, 4)
             orders = (
                 f"{_temperature_list(warm, system)}: {_order_text(grouped[warm[0]])}" for warm in by_order.values()
             )

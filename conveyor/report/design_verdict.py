@@ -18,8 +18,9 @@ from conveyor.report.table_model import Column, Table
 from conveyor.studies.default_bands import PowerRange
 from conveyor.studies.load_cases import AS_GIVEN, Load, MotorChoice
 from conveyor.units import System
-from conveyor.units.presentation import Unit, display_unit
-from conveyor.units.sentences import Message, format_figure, percent
+from conveyor.units.presentation import Unit, display_unit, format_figure
+from conveyor.units.sentences import Message, percent
+from conveyor.units.unit_systems import trade_of
 
 _TAKE_UP_CRITERIA: Final = ("take_up_tension", "sag", "drive_grip")
 """Criteria that the minimum take-up setting is determined by."""
@@ -86,26 +87,26 @@ def _governing_rows(
     )
     where = format_figure(a.temperature, "temperature", system)
     if left_open.effects:
-        low, high = map(power.short, (left_open.low, left_open.high))
+        low, high = (power.said(end, 3) for end in (left_open.low, left_open.high))
         where += f"; design {high}, least {low} (90 % interval by site, defaults and rubber)"
     if left_open.untested:
         where += "; beyond the tested temperatures of the rubber"
-    yield GoverningRow("motor power as given, expected", power.short(left_open.motor), where)
+    yield GoverningRow("motor power as given, expected", power.said(left_open.motor, 3), where)
     installed = [drive.power for drive in a.line.drives if drive.power is not None]
     if installed:
-        yield GoverningRow("installed power", power.short(sum(installed)), f"{len(installed)} driven pulleys"
+        yield GoverningRow("installed power", power.said(sum(installed), 3), f"{len(installed)} driven pulleys"
                            if len(installed) > 1 else a.line.drives[0].name)  # fmt: skip
     for motor in motors:
         yield GoverningRow(
-            f"selected standard motors, {motor.drive}", f"{motor.count} x {power.short(motor.rated)}",
+            f"selected standard motors, {motor.drive}", f"{motor.count} x {power.said(motor.rated, 3)}",
             f"{_motor_power_text(power, motor.needed)}, needed in {motor.case.text(system)}, reserve "
             f"{motor.reserve:.2f}",
         )  # fmt: skip
     duty, asks = take_up
-    sized = [] if duty.mass is None else [f"weight {mass.short(duty.mass)}"]
-    sized += [] if duty.travel is None else [f"travel {length.short(duty.travel.whole)}"]
+    sized = [] if duty.mass is None else [f"weight {mass.said(duty.mass, 3)}"]
+    sized += [] if duty.travel is None else [f"travel {length.said(duty.travel.whole, 3)}"]
     asked = f"required by {asks.text(system)}"
-    yield GoverningRow(f"take-up, {duty.unit.kind}", force.short(duty.setting), "; ".join([*sized, asked]))
+    yield GoverningRow(f"take-up, {duty.unit.kind}", force.said(duty.setting, 3), "; ".join([*sized, asked]))
     states = [(load, state) for load in loads for state in load.found.motion_states]
     tightest = first_maximum(states, lambda pair: pair[1].largest)
     slackest = first_minimum(states, lambda pair: pair[1].smallest)
@@ -114,12 +115,12 @@ def _governing_rows(
         ("minimum belt tension", slackest, slackest[1].smallest),
     ):
         where = f"{_tension_place(load.found, state, newtons)}; {state.name}; {load.label.text(system)}"
-        yield GoverningRow(name, force.short(newtons), where)
+        yield GoverningRow(name, force.said(newtons, 3), where)
     tensions = a.balance.tensions
-    sides = "T1 / T2" if system == "US" else "tight / slack side tension"
+    sides = "T1 / T2" if trade_of(system) == "US" else "tight / slack side tension"
     yield GoverningRow(
-        f"{sides} as given", f"{force.short(tensions.tight)} / {force.short(tensions.slack)}",
-        f"steady; {force.short(tensions.tight_start)} at {START}",
+        f"{sides} as given", f"{force.said(tensions.tight, 3)} / {force.said(tensions.slack, 3)}",
+        f"steady; {force.said(tensions.tight_start, 3)} at {START}",
     )  # fmt: skip
     yield from _belt_utilisation(governing, system)
     if a.balance.forces.indentation > _DOMINANT_SHARE * abs(a.balance.forces.main):
@@ -128,7 +129,7 @@ def _governing_rows(
 
 def _motor_power_text(power: Unit, watts: float) -> str:
     """Motor power as text, marked if braking."""
-    return power.short(abs(watts)) + (", braking" if watts < 0.0 else "")
+    return power.said(abs(watts), 3) + (", braking" if watts < 0.0 else "")
 
 
 def _belt_utilisation(governing: Sequence[Check], system: System) -> Iterator[GoverningRow]:
@@ -152,9 +153,7 @@ def _rubber_quality(a: CalculatedConveyor) -> Iterator[GoverningRow]:
         if compound.kind == "measured":
             fit = compound.fit
             if fit is not None:
-                quality.append(
-                    f"fit rms error E' {share.quantity_text(fit.storage_rms)}, E'' {share.quantity_text(fit.loss_rms)}"
-                )
+                quality.append(f"fit rms error E' {share.said(fit.storage_rms, 4)}, E'' {share.said(fit.loss_rms, 4)}")
         else:
             quality.append("constructed spectrum, not for design")
         level = any(a.contacts.covers[strand].level is not None for strand in a.contacts.covers if strand in strands)

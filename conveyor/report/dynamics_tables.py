@@ -90,9 +90,9 @@ def scenario_tables(dynamics: CalculatedDynamics) -> Iterator[Table]:
 
 _PEAKS: Final = (
     Column("highest tension", "force", "1.highest", json="highest_N"),
-    Column("at", "duration", "1.highest_at", json="highest_at_s"),
+    Column("at", "time", "1.highest_at", json="highest_at_s"),
     Column("lowest tension", "force", "1.lowest", json="lowest_N"),
-    Column("at", "duration", "1.lowest_at", json="lowest_at_s", key="lowest_at"),
+    Column("at", "time", "1.lowest_at", json="lowest_at_s", key="lowest_at"),
 )
 
 
@@ -105,20 +105,20 @@ def scenario_table(dynamics: CalculatedDynamics) -> Table:
 
     columns = (
         Column("scenario", "text", "name", json="scenario"),
-        Column("followed for", "duration", lambda r: float(r.times[-1]), json="duration_s"),
+        Column("followed for", "time", lambda r: float(r.times[-1]), json="duration_s"),
         Column("highest tension", "force", "highest", json="highest_tension_N"),
-        Column("at", "duration", lambda r: peak(r, high=True)[0], json="highest_at_s"),
+        Column("at", "time", lambda r: peak(r, high=True)[0], json="highest_at_s"),
         Column("in", "text", lambda r: peak(r, high=True)[1], json="highest_in"),
         Column("lowest tension", "force", "lowest", json="lowest_tension_N"),
-        Column("at", "duration", lambda r: peak(r, high=False)[0], json="lowest_at_s", key="lowest_at"),
+        Column("at", "time", lambda r: peak(r, high=False)[0], json="lowest_at_s", key="lowest_at"),
         Column("in", "text", lambda r: peak(r, high=False)[1], json="lowest_in", key="lowest_in"),
         Column("highest speed", "speed", lambda r: r.top_speed[0], json="highest_speed_m_per_s"),
-        Column("stops after", "duration", lambda r: r.rests_at if r.stops else None, json="rest_s"),
+        Column("stops after", "time", lambda r: r.rests_at if r.stops else None, json="rest_s"),
         Column("way", "length", "way", json="way_m"),
         Column("error of the peaks", "share", "error", json="error"),
         Column("energy missing", "error", "missing_energy", None, json="energy_error"),
         Column("cells", "count", "middles.size", None, json="cells"),
-        Column("step", "time", "record.step", None, json="step_s"),
+        Column("step", "relaxation time", "record.step", None, json="step_s"),
     )  # fmt: skip
     caption = "Starts and stops; distance is that of the belt at the first drive"
     return Table("scenarios", "Scenarios", caption, columns, dynamics.followed, "dynamics")
@@ -258,7 +258,7 @@ def history_table(dynamics: CalculatedDynamics) -> Table:
     columns = (
         _SCENARIO,
         Column("drive", "text", lambda row: row[1].setup.drives[row[3]].name),
-        Column("time", "duration", lambda row: float(row[1].times[row[2]])),
+        Column("time", "time", lambda row: float(row[1].times[row[2]])),
         Column("speed of the belt", "speed", of("belt")),
         Column("speed of the rim", "speed", of("rim")),
         Column("tension arriving", "force", of("arriving")),
@@ -342,7 +342,7 @@ def tension_animation(scenario: ScenarioResult, *, system: System = "SI") -> Htm
     where = length.beside(_LOOP_DISTANCE)
     return animated_curves(
         f"moving_{slug(scenario.name)}", (where, length(distance[cells])),
-        (display_unit("duration", system).beside("time"), record.times[kept]),
+        (display_unit("time", system).beside("time"), record.times[kept]),
         (Panel(force.beside("tension"), force(tension), (force(ends[0]), force(ends[1]))),
          Panel(speed.beside("speed"), speed(going[kept]), (speed(going.min(axis=0)), speed(going.max(axis=0))))),
         mark=float(length(scenario.line.loop.way[scenario.line.count])),
@@ -377,7 +377,7 @@ def _draw_tension_map(axis: Axes, scenario: ScenarioResult, system: System) -> N
         axis.contour(length(distance[cells]), record.times[kept], taut, levels=[1.0], colors="red", linewidths=1.0)
     axis.axvline(float(length(scenario.line.loop.way[scenario.line.count])), color="white", linewidth=0.8)
     axis.grid(visible=False)
-    label_axes(axis, length.beside(_LOOP_DISTANCE), display_unit("duration", system).beside("time"), group="x")
+    label_axes(axis, length.beside(_LOOP_DISTANCE), display_unit("time", system).beside("time"), group="x")
     beside = axis.inset_axes((1.02, 0.0, 0.03, 1.0))  # no axes of its own: those bind the figure's layout
     axis.figure.colorbar(shaded, cax=beside, label=force.beside("tension"))
 
@@ -397,7 +397,7 @@ def _draw_envelope(axis: Axes, scenario: ScenarioResult, system: System) -> None
 
 
 def _draw_speeds(axis: Axes, scenario: ScenarioResult, system: System) -> None:
-    speed, time = display_unit("speed", system), display_unit("duration", system)
+    speed, time = display_unit("speed", system), display_unit("time", system)
     kept = np.unique(np.linspace(0, scenario.times.size - 1, _POINTS).astype(int))
     drives = scenario.record.drives
     for d, drive in enumerate(scenario.setup.drives):
@@ -418,7 +418,7 @@ def _draw_speeds(axis: Axes, scenario: ScenarioResult, system: System) -> None:
 
 
 def _draw_forces(axis: Axes, scenario: ScenarioResult, system: System) -> None:
-    force, time = display_unit("force", system, large=True), display_unit("duration", system)
+    force, time = display_unit("force", system, large=True), display_unit("time", system)
     kept = np.unique(np.linspace(0, scenario.times.size - 1, _POINTS).astype(int))
     drives, times = scenario.record.drives, scenario.times[kept]
     for d, drive in enumerate(scenario.setup.drives):

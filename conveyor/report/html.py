@@ -74,7 +74,7 @@ def _page_top(contents: Contents) -> Html:
     said = contents.document.facts
     if not said:
         rows = contents["identity"].rows
-        said = tuple((row.label, row.unit(contents.system).four_digits(row.value)) for row in rows)
+        said = tuple((row.label, row.unit(contents.system).said(row.value, 4)) for row in rows)
     return join_html([fact_list(said), *(element("p", line) for line in contents.lines("note of the spec"))])
 
 

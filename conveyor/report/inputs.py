@@ -10,7 +10,7 @@ from conveyor.models import Conveyor, Model, RubberCompound
 from conveyor.models.base import field_path
 from conveyor.models.library_items import LibraryItem
 from conveyor.units import System, is_quantity, si_with_unit, text
-from conveyor.units.sentences import format_figure
+from conveyor.units.presentation import format_figure
 
 Origin = Literal["spec", "library", "default"]
 InputRow = tuple[str, str, float | None, str, Origin]
@@ -91,7 +91,7 @@ def group_inputs(
             of = _ITEM.sub("", of)
         known = parts.setdefault(of, {}).setdefault(_ITEM.sub("", name).replace("_", " "), [])
         shown = "0" if value == 0.0 else _readable_entry(entered)
-        if system == "US" and origin == "default" and value and sign in _SI_KINDS:
+        if system != "SI" and origin == "default" and value and sign in _SI_KINDS:
             shown = format_figure(value, _SI_KINDS[sign], system)
         if not alike or shown not in known:
             known.append(shown)

@@ -377,7 +377,7 @@ def key_figure_tiles(shown: Iterable[Figure], system: System = "SI") -> Html:
     pairs = []
     for figure in shown:
         written = display_unit(figure.kind, system, large=True)
-        value, _, sign = written.short(figure.value).partition(" ")
+        value, _, sign = written.said(figure.value, 3).partition(" ")
         pairs.append(
             (
                 f"{figure.called(system)}, as given",

@@ -220,7 +220,7 @@ def power_over(comparison: PowerScenes, over: PowerAxis, at: float | None = None
 def condition_text(name: str, value: float, system: System) -> str:
     """Speed or temperature as text for titles."""
     written = display_unit(name, system, large=True)
-    return written.four_digits(value) if name == "speed" else f"{written(value):g} {written.sign}"
+    return written.said(value, 4) if name == "speed" else f"{written(value):g} {written.sign}"
 
 
 @own_settings()

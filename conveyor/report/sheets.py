@@ -181,7 +181,7 @@ def ranking_sheet(page: SheetWriter) -> None:
         speeds = [each.speed for each in ranked.rows]
         last = place.header + speeds.count(speeds[0])  # those of the first speed stand first
         if place.whole and "motor_power_against_base" in place.keys:
-            at = display_unit("speed", contents.system).four_digits(speeds[0])
+            at = display_unit("speed", contents.system).said(speeds[0], 4)
             title = f"Mean motor power against {facts['savings against']} at {at}"
             sheet.add_chart(charts.difference_chart(sheet, title, place, last), f"A{row}")
             row += CHART_ROWS

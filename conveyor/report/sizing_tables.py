@@ -98,7 +98,7 @@ def design_table(sizing: CalculatedSizing) -> Table:
         Column("motor power", "power", "1.found.balance.power.motor", json="motor_power_kW"),
         Column("belt safety", "ratio", "1.safety", json="belt_safety"),
         Column("take-up", "force", "1.found.balance.settled.setting", json="take_up_N"),
-        Column("L10 of a roll set", "life", "1.roll_life", json="roll_life_h"),
+        Column("L10 of a roll set", "duration", "1.roll_life", json="roll_life_h"),
         Column("capital", money, "1.costs.whole_capital", json="capital"),
         Column("energy a year", money, "1.costs.yearly.energy", json="energy_per_year"),
         Column("cost a year", money, "1.year", json="cost_per_year"),

@@ -236,7 +236,7 @@ def take_up_json(duty: TakeUpDuty, governed_by: Message) -> dict[str, Any]:
 def duty_table(study: CalculatedYear) -> Table:
     """Hours at load, temperature and speed: bars of the yearly histogram."""
     columns = (
-        Column("hours", "life", lambda row: 3600.0 * row.hours),
+        Column("hours", "duration", lambda row: 3600.0 * row.hours),
         Column("load share", "share", "share"),
         *_CONDITIONS,
         Column("mass flow", "mass flow", "flow"),
@@ -254,7 +254,7 @@ def year_table(study: CalculatedYear) -> Table:
     """Sums of the year; cost and emission only if price and factor are given."""
     sums = study.year
     rows = (
-        Figure("in operation", "life", sums.time),
+        Figure("in operation", "duration", sums.time),
         Figure("conveyed", "conveyed", sums.mass),
         Figure("drawn", "energy", sums.drawn_kwh * JOULE_PER_KWH),
         Figure("fed back", "energy", sums.fed_back_kwh * JOULE_PER_KWH),

@@ -30,8 +30,7 @@ from conveyor.report.cells import (
 )
 from conveyor.report.sheet_writer import SheetWriter, TablePlace
 from conveyor.report.table_model import CHECKS_AND_NOTES, Figure, ReportHead
-from conveyor.units.presentation import Unit, display_unit, label_for_people
-from conveyor.units.sentences import DIGITS
+from conveyor.units.presentation import DIGITS, Unit, display_unit, label_for_people
 
 _COLUMNS: Final = "ABCDEFG"
 _WIDTHS: Final = {"A": 31, "B": 18, "C": 2, "D": 33, "E": 17, "F": 25, "G": 17}

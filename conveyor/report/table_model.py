@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 from conveyor.models.report import Paper
 from conveyor.units import System
 from conveyor.units.presentation import Unit, column_name, display_unit, label_for_people
+from conveyor.units.unit_systems import trade_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -184,7 +185,7 @@ class Figure:
 
     def called(self, system: System) -> str:
         """Label, with the symbol in US reports."""
-        return f"{self.label} {self.us}" if self.us and system == "US" else self.label
+        return f"{self.label} {self.us}" if self.us and trade_of(system) == "US" else self.label
 
 
 @dataclass(frozen=True)

@@ -124,7 +124,7 @@ def discharge_table(a: CalculatedConveyor) -> Table:
             Figure("leaves beyond the top (Booth)", "angle", stream.slip.angle, key="booth_angle"),
             Figure("speed there (Booth)", "speed", stream.slip.speed, key="booth_speed"),
             Figure("depth below the axis", "spacing", stream.head.drop, key="drop"),
-            Figure("time of the fall", "duration", float(end.time[-1]), key="time"),
+            Figure("time of the fall", "time", float(end.time[-1]), key="time"),
             Figure("forward of the axis", "spacing", float(end.across[-1]), key="across"),
             Figure("forward of the axis (Booth, lower edge)", "spacing", float(stream.lower.across[-1]),
                    key="booth_across"),
@@ -162,7 +162,7 @@ def trajectory_table(a: CalculatedConveyor) -> Table:
         return lambda row: None if row[i] is None else row[i][k]
 
     columns = (
-        Column("time", "duration", part(0, 0)),
+        Column("time", "time", part(0, 0)),
         Column("speed", "speed", part(0, 1)),
         *(
             Column(f"{name}, {axis}", "spacing", part(i, k))

@@ -59,8 +59,8 @@ def _energy_figures(a: CalculatedConveyor, duty: CalculatedYear | None) -> Itera
 
 def year_inputs(operation: Operation, hours: float, *, emission: bool) -> Iterator[Figure]:
     """Hours [s], prices and emission factors of a year, for the reader to change."""
-    yield Figure("hours calculated", "life", hours)
-    yield Figure("operating hours", "life", hours, on="input")
+    yield Figure("hours calculated", "duration", hours)
+    yield Figure("operating hours", "duration", hours, on="input")
     price, credit = operation.price, operation.feed_in_price
     if price is not None:
         per_kwh = f"{MONEY}{price.currency}/kWh"

@@ -23,7 +23,7 @@ from conveyor.studies import input_ranges as range_study
 from conveyor.studies import load_cases as case_study
 from conveyor.studies import states as state_study
 from conveyor.studies.loads import EveryLoad, Progress
-from conveyor.units.presentation import report_system
+from conveyor.units.unit_systems import report_system
 
 if TYPE_CHECKING:
     import pandas as pd

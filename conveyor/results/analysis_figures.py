@@ -19,8 +19,8 @@ from conveyor.studies import CalculatedStudies
 from conveyor.studies.comparison_scenes import ComparedScene, Coverage, calculate_compound
 from conveyor.studies.loads import design_loads
 from conveyor.units import Quantity, System, quantity
-from conveyor.units.presentation import report_system
 from conveyor.units.sentences import to_celsius
+from conveyor.units.unit_systems import report_system
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -23,8 +23,8 @@ from conveyor.studies import comparison as compound_study
 from conveyor.studies import verification as verification_study
 from conveyor.studies.comparison import RTOL
 from conveyor.units import Quantity
-from conveyor.units.presentation import report_system
 from conveyor.units.sentences import reraise_in_units
+from conveyor.units.unit_systems import report_system
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -28,7 +28,7 @@ from conveyor.studies.parametric_study import (
     run_study,
 )
 from conveyor.studies.study_file import base_spec_path, name_plan_file, read_duty, read_plan
-from conveyor.units.presentation import report_system
+from conveyor.units.unit_systems import report_system
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor

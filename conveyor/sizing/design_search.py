@@ -46,7 +46,8 @@ from conveyor.sizing.spacing import graduated_spacings
 from conveyor.studies.costs import conveyor_costs, conveyor_parts, roll_life
 from conveyor.studies.loads import EveryLoad
 from conveyor.studies.states import at_one_take_up, load_states
-from conveyor.units.sentences import Message, escape_braces, format_figure, message
+from conveyor.units.presentation import format_figure
+from conveyor.units.sentences import Message, escape_braces, message
 
 RTOL: Final = 1e-4
 """Of the contacts, as in studies."""

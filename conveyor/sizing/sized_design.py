@@ -10,7 +10,8 @@ from conveyor.pipeline import CalculatedConveyor
 from conveyor.sizing.screen import Limit
 from conveyor.sizing.sizing_task import DesignChoice, SelectedParts
 from conveyor.studies.costs import Costs
-from conveyor.units.sentences import Message, format_figure, format_number
+from conveyor.units.presentation import format_figure, format_number
+from conveyor.units.sentences import Message
 
 
 @dataclass(frozen=True)

@@ -51,7 +51,8 @@ from conveyor.models.sizing import (
     within_limit,
 )
 from conveyor.units import Quantity, from_si, read_si, si, text
-from conveyor.units.sentences import format_figure, percent
+from conveyor.units.presentation import format_figure
+from conveyor.units.sentences import percent
 
 _BEARING_INSET: Final = 0.02  # [m], middle of a bearing inside the tube's end; general knowledge
 _OVERLAND_LENGTH: Final = 1000.0  # [m], length from which spacings are those of overland belts; general knowledge

@@ -16,7 +16,7 @@ from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.sizing import SizingDuty
 from conveyor.starter.starter_data import KINDS as STARTERS
 from conveyor.starter.starter_data import starter_values
-from conveyor.units.quantity_kinds import KINDS
+from conveyor.units.quantity_kinds import INPUT_KINDS
 
 _KnownBlocks = list[tuple[tuple[Part, ...], str]]
 ExampleValue = str | float | bool | Sequence[Any]
@@ -183,7 +183,7 @@ def _unit_rows() -> Iterator[str]:
     yield "| quantity | for example | units |"
     yield "|---|---|---|"
     said = set()
-    for kind in KINDS.values():
+    for kind in INPUT_KINDS.values():
         units = " ".join(f"`{unit}`" for unit in dict.fromkeys(kind.units.values()) if unit)
         if kind.noun not in said:
             yield f"| {kind.noun} | `{kind.example}` | {units} |"

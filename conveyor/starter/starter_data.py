@@ -10,7 +10,7 @@ from typing import Any, Final, Literal, get_args
 from ruamel.yaml import YAML
 
 from conveyor.units import System
-from conveyor.units.presentation import SYSTEMS
+from conveyor.units.unit_systems import TRADES, trade_of
 
 Kind = Literal["overland", "in-plant", "downhill"]
 KINDS: Final[tuple[Kind, ...]] = get_args(Kind)
@@ -66,5 +66,5 @@ def in_units(value: Any, units: System) -> Any:
     """Value of a system of units from ``SI | US``."""
     if not isinstance(value, str) or " | " not in value:
         return value
-    chosen = value.split(" | ")[SYSTEMS.index(units)]
+    chosen = value.split(" | ")[TRADES.index(trade_of(units))]
     return chosen.strip("[]").split(", ") if chosen.startswith("[") else chosen

@@ -31,7 +31,8 @@ from conveyor.studies.default_bands import power_range
 from conveyor.studies.effects import Effect, root_of_squares
 from conveyor.studies.monte_carlo import DrawnInput, MonteCarlo, calculate_draws
 from conveyor.units import Quantity, from_si, interpolate_quantity, text
-from conveyor.units.sentences import format_figure, percent
+from conveyor.units.presentation import format_figure
+from conveyor.units.sentences import percent
 
 Array = NDArray[np.float64]
 

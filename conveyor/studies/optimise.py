@@ -165,7 +165,7 @@ class _Search:
         )
         if value is None:
             return f"no {name}"
-        shown = display_unit(f"{MONEY}{self._campaign.currency}" if kind == "money" else kind).four_digits(value)
+        shown = display_unit(f"{MONEY}{self._campaign.currency}" if kind == "money" else kind).said(value, 4)
         ends = (("least", limit.least), ("most", limit.most))
         kept = " and ".join(f"{word} {end}" for word, end in ends if end is not None)
         return f"{name} {shown} against {kept}"

@@ -1,4 +1,4 @@
-"""Units and digits of reports, for every kind of quantity and system of units.
+"""Figures as text and in tables: the unit and digits of every kind of quantity in a system of units.
 
 Values come in SI units; energies per mass and distance in kWh/(t km), paybacks in years, money in its currency.
 """
@@ -8,85 +8,45 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cache
-from typing import Any, Final, NamedTuple
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from conveyor.errors import InputError
-from conveyor.units.quantities import Quantity, System, quantity, si
-from conveyor.units.sentences import format_number, format_rating, format_strength
+from conveyor.units.quantities import Quantity, is_quantity, quantity, si
+from conveyor.units.quantity_kinds import KINDS, NO_UNIT, readable_unit
+from conveyor.units.registry import UNITS
+from conveyor.units.unit_systems import SYSTEMS, System
 
-SYSTEMS: Final[tuple[System, ...]] = ("SI", "US")
 NEVER: Final = "never"
 """Text of an infinite payback."""
 MONEY: Final = "money "
 """Prefix of the kinds of money, before the currency's code."""
+DIGITS: Final = 3
+"""Significant digits of figures in sentences."""
+_INPUT_DIGITS: Final = 4
 _GROUPED_BELOW: Final = 1e12
-_LARGEST_SHOWN: Final = {"margin": 1.0, "life": 1e6}  # in the unit of reports; larger sizes are meaningless
-_NEGATIVE_FACTOR: Final = 10.0  # times that, below zero
+_NEGATIVE_FACTOR: Final = 10.0  # times the largest number shown, below zero
 _SIGNIFICANT, _DECIMALS = 12, 9  # beyond them is the rounding of a conversion
-_SIGNS: Final = {"degC": "°C", "degF": "°F", "deg": "°", "-": ""}
-
-
-class _Format(NamedTuple):
-    """Unit and format of a kind in one system, in tables and on axes."""
-
-    unit: str | None
-    digits: str
-    large: tuple[str, str] | None = None
-
-
-_COMMON_FORMATS: Final = {
-    "text": _Format(None, ""), "number": _Format(None, ""), "verdict": _Format(None, ""),
-    "count": _Format(None, ",.0f"),
-    "ratio": _Format("-", ".2f"), "share": _Format("-", ".1%"), "factor": _Format("-", ".3f"),
-    "friction": _Format("-", ".4f"),
-    "decades": _Format("-", ".4f"),
-    "error": _Format("-", ".1E"), "time": _Format("s", ".2E"), "duration": _Format("s", ",.1f"),
-    "life": _Format("h", ",.0f"),
-    "frequency": _Format("Hz", ".2E"), "passing": _Format("Hz", ",.0f"), "rotation": _Format("rpm", ",.1f"),
-    "angle": _Format("deg", ".2f"), "carbon dioxide": _Format("t", ",.0f"), "energy": _Format("MWh", ",.1f"),
-    "heat": _Format("MJ", ",.3f"), "rise": _Format("K", ",.0f"), "swing": _Format("Hz", ".1f"),
-    "emission factor": _Format("kg/kWh", ".3f"), "years": _Format("a", ".1f"), "margin": _Format("-", ".1%"),
+_REPORT_UNITS: Final = {
+    "kWh/(t km)": 1.0, "kWh/(short ton mile)": 1.0 / (0.90718474 * 1.609344), "kg/kWh": 1.0, "a": 1.0,
+    "short ton": 907.18474, "metric ton": 1000.0,
 }  # fmt: skip
-"""Kinds written alike in every system."""
-_KIND_FORMATS: Final[dict[System, dict[str, _Format]]] = {
-    "SI": {
-        **_COMMON_FORMATS,
-        "length": _Format("m", ",.1f"), "spacing": _Format("m", ".2f"), "size": _Format("mm", ",.1f"),
-        "thickness": _Format("mm", ",.2f"), "speed": _Format("m/s", ".2f"), "acceleration": _Format("m/s²", ".3f"),
-        "force": _Format("N", ",.0f", ("kN", ",.1f")), "roll force": _Format("N", ",.1f"),
-        "line force": _Format("N/m", ",.2f"), "area": _Format("m²", ".3f"),
-        "strength": _Format("N/mm", ",.1f"), "pressure": _Format("MPa", ",.3f"), "mass": _Format("kg", ",.0f"),
-        "line mass": _Format("kg/m", ".2f"), "mass flow": _Format("t/h", ",.1f"), "power": _Format("kW", ",.1f"),
-        "torque": _Format("N m", ",.0f"), "temperature": _Format("degC", ".1f"), "density": _Format("kg/m³", ",.0f"),
-        "inertia": _Format("kg m²", ",.2f"), "wind": _Format("m/s", ".1f"),
-        "conveyed": _Format("t", ",.0f"), "area mass": _Format("kg/m²", ".3f"), "carryback": _Format("kg/h", ",.1f"),
-        "specific energy": _Format("kWh/(t km)", ".4f"),
-    },
-    "US": {
-        **_COMMON_FORMATS,
-        "length": _Format("ft", ",.1f"), "spacing": _Format("ft", ".2f"), "size": _Format("in", ",.2f"),
-        "thickness": _Format("in", ".4f"), "speed": _Format("fpm", ",.1f"), "acceleration": _Format("ft/s²", ".2f"),
-        "force": _Format("lbf", ",.0f", ("lbf", ",.0f")), "roll force": _Format("lbf", ",.2f"),
-        "line force": _Format("lbf/in", ",.4f"), "area": _Format("ft²", ".2f"),
-        "strength": _Format("lbf/in", ",.1f"), "pressure": _Format("psi", ",.1f"), "mass": _Format("lb", ",.0f"),
-        "line mass": _Format("lb/ft", ".2f"), "mass flow": _Format("stph", ",.1f"), "power": _Format("hp", ",.1f"),
-        "torque": _Format("lbf ft", ",.0f"), "temperature": _Format("degF", ".1f"),
-        "density": _Format("lb/ft³", ",.1f"),
-        "inertia": _Format("lb ft²", ",.1f"), "wind": _Format("mph", ".1f"), "rise": _Format("Δ°F", ",.0f"),
-        "carbon dioxide": _Format("metric ton", ",.0f"), "conveyed": _Format("short ton", ",.0f"),
-        "area mass": _Format("lb/ft²", ".4f"), "carryback": _Format("lb/h", ",.1f"),
-        "specific energy": _Format("kWh/(short ton mile)", ".4f"),
-    },
-}  # fmt: skip
-_UNIT_SIZES: Final = {"-": 1.0, "rpm": 1.0 / 60.0, "deg": math.pi / 180.0, "kWh/(t km)": 1.0, "kg/kWh": 1.0, "a": 1.0,
-    "N m": 1.0, "lbf ft": 4.4482216152605 * 0.3048, "short ton": 907.18474, "metric ton": 1000.0,
-    "kWh/(short ton mile)": 1.0 / (0.90718474 * 1.609344), "kg m²": 1.0, "lb ft²": 0.45359237 * 0.3048**2, "K": 1.0,
-    "Δ°F": 5.0 / 9.0,
-}  # fmt: skip
-"""SI sizes of units that the registry does not know by this spelling."""
+"""Sizes of units that specs do not know; of energies per mass and distance, of paybacks in those they come in."""
+
+
+def format_number(number: float, digits: int = DIGITS) -> str:
+    """Format a number to significant digits, its thousands grouped.
+
+    Examples
+    --------
+    >>> format_number(30097.4), format_number(76.331), format_number(0.04069), format_number(-0.0)
+    ('30,100', '76.3', '0.0407', '0')
+    """
+    written = f"{number:.{digits}g}"
+    if 10.0 ** (digits - 1) <= abs(float(written)) < _GROUPED_BELOW:
+        return f"{float(written):,.0f}"
+    return "0" if float(written) == 0.0 else written
 
 
 @dataclass(frozen=True)
@@ -95,8 +55,8 @@ class Unit:
 
     Attributes
     ----------
-    label : str or None
-        Unit as headers write it; None for kinds without one.
+    spelled : str or None
+        Unit as specs spell it, if they know it; None for kinds without one.
     digits : str
         Python format of its numbers; empty for six significant digits.
     size, zero : float
@@ -105,14 +65,17 @@ class Unit:
         False: converted values are rounded to 12 digits.
     most : float
         Larger numbers are written "> most", those below -10 times it "< -10 most".
+    phrase : str
+        Python format of its numbers in sentences; empty for significant digits.
     """
 
-    label: str | None
+    spelled: str | None
     digits: str
     size: float = 1.0
     zero: float = 0.0
     exact: bool = field(default=True, repr=False)
     most: float = math.inf
+    phrase: str = ""
 
     def __call__(self, values: ArrayLike) -> Any:
         """Convert SI values to this unit, for axes."""
@@ -144,10 +107,13 @@ class Unit:
         ('84,148', '46.8 %', '> 100 %')
         >>> display_unit("margin").written(-1.5), display_unit("margin").written(-5979.0)
         ('-150.0 %', '< -1,000 %')
-        >>> display_unit("life").written(3600.0 * 45_678.0), display_unit("life").written(3600.0 * 6e8)
+        >>> display_unit("duration").written(3600.0 * 45_678.0), display_unit("duration").written(3600.0 * 6e8)
         ('45,678', '> 1,000,000')
         """
-        number = self.shown(value)
+        return self._table_text(self.shown(value))
+
+    def _table_text(self, number: Any) -> str:
+        """A converted value as tables write it."""
         if isinstance(number, bool):
             return "yes" if number else "NO"
         if isinstance(number, str):
@@ -162,64 +128,35 @@ class Unit:
         if not -_NEGATIVE_FACTOR * self.most <= number <= self.most:
             number, more = (self.most, "> ") if number > 0.0 else (-_NEGATIVE_FACTOR * self.most, "< ")
             digits = f",{digits.removeprefix(',').replace('.1', '.0')}"
-        return more + drop_zero_sign(f"{number:{digits}}").replace("%", " %")
+        return more + _drop_zero_sign(f"{number:{digits}}").replace("%", " %")
 
-    def said(self, value: Any) -> str:
-        """One SI value as text with its unit, for sentences.
+    def said(self, value: Any, digits: int | None = None) -> str:
+        """One SI value, or a quantity, as text with its unit; text stays as it is.
 
-        Examples
-        --------
-        >>> (
-        ...     display_unit("force", large=True).said(168734.4),
-        ...     display_unit("force", "US", large=True).said(168734.4),
-        ... )
-        ('168.7 kN', '37,933 lbf')
-        """
-        return self._with_sign(self.written(value))
-
-    def four_digits(self, value: float | str) -> str:
-        """One SI value to four digits with its unit, for sentences; text stays as it is.
+        Parameters
+        ----------
+        value : float, str, Quantity or None
+            SI value.
+        digits : int, optional
+            Significant digits; without it those of tables, as whole numbers and per cent always have.
 
         Examples
         --------
-        >>> (
-        ...     display_unit("speed").four_digits(5.0),
-        ...     display_unit("speed", "US").four_digits(5.08),
-        ...     display_unit("mass flow").four_digits(2000.0 / 3.6),
-        ... )
-        ('5 m/s', '1,000 fpm', '2,000 t/h')
+        >>> force, speed = display_unit("force", large=True), display_unit("speed", "US")
+        >>> force.said(168734.4), force.said(76331.0, 3), display_unit("share").said(0.634, 3), speed.said(5.08, 4)
+        ('168.7 kN', '76.3 kN', '63.4 %', '1,000 fpm')
         """
-        number = self.shown(value)
+        number = self.shown(si(value) if is_quantity(value) else value)
         if isinstance(number, str):
             return number
-        written = f"{number:.4g}"
-        if 1000.0 <= abs(float(written)) < _GROUPED_BELOW:
-            written = f"{float(written):,.0f}"
-        return self._with_sign(written)
+        if digits is None or not isinstance(number, float) or self.digits.endswith("%"):
+            return self.with_sign(self._table_text(number))
+        return self.with_sign(format_number(number, digits))
 
-    def short(self, value: float | str | None) -> str:
-        """One SI value to three digits with its unit, for summaries; text stays as it is.
-
-        Examples
-        --------
-        >>> (
-        ...     display_unit("power").short(1294412.0),
-        ...     display_unit("force", large=True).short(76331.0),
-        ...     display_unit("share").short(0.634),
-        ... )
-        ('1,290 kW', '76.3 kN', '63.4 %')
-        """
-        number = self.shown(value)
-        if not isinstance(number, float) or self.digits.endswith("%"):
-            return self.written(value)
-        return self._with_sign(format_number(number))
-
-    def quantity_text(self, value: Quantity) -> str:
-        """A quantity of a spec as text in this unit, for sentences."""
-        return self.written(si(value)) if self.digits.endswith("%") else self.four_digits(si(value))
-
-    def _with_sign(self, number: str) -> str:
+    def with_sign(self, number: str) -> str:
         """A number and its unit, with a space between them but for degrees of arc (SI brochure 5.4.3)."""
+        if not number:
+            return ""
         return f"{number}{self.sign}" if self.sign == "°" else f"{number} {self.sign}".rstrip()
 
     def beside(self, words: str) -> str:
@@ -233,9 +170,14 @@ class Unit:
         return f"{words} [{self.sign or self.label}]"
 
     @property
+    def label(self) -> str | None:
+        """Unit in headers: powers as signs."""
+        return None if self.spelled is None else readable_unit(self.spelled)
+
+    @property
     def sign(self) -> str:
-        """Unit sign for pages and sentences: degrees with their sign, none for ratios."""
-        return "" if self.label is None else _SIGNS.get(self.label, self.label)
+        """Unit on pages and in sentences: degrees with their sign, none for ratios."""
+        return "" if self.spelled in {None, NO_UNIT} else (self.label or "").replace("deg", "°")
 
     @property
     def pattern(self) -> str:
@@ -263,7 +205,7 @@ class Unit:
 
 @cache
 def display_unit(kind: str, system: System = "SI", *, large: bool = False) -> Unit:
-    """Return the unit and format of a kind in a system; `large`: of axes and sentences, kN instead of N.
+    """Return the unit and format of a kind in a system; `large`: of axes and large figures, kN instead of N.
 
     Examples
     --------
@@ -277,16 +219,76 @@ def display_unit(kind: str, system: System = "SI", *, large: bool = False) -> Un
     if kind.startswith(MONEY):
         currency = kind.removeprefix(MONEY)
         return Unit(currency, ",.4f" if "/" in currency else ",.0f")
-    unit_of = _KIND_FORMATS[system][kind]
-    label, digits = unit_of.large if large and unit_of.large else (unit_of.unit, unit_of.digits)
-    exact = system == "SI" or _KIND_FORMATS["SI"][kind].unit == label
-    most = _LARGEST_SHOWN.get(kind, math.inf)
-    if label is None or label in _UNIT_SIZES:
-        return Unit(label, digits, _UNIT_SIZES.get(label or "-", 1.0), most=most)
+    shown = SYSTEMS[system].shown(kind)
+    spelled, digits = (large and shown.large) or (shown.unit, shown.digits)
+    exact = system == "SI" or KINDS[kind].si.unit == spelled
+    return _unit_of(kind, spelled, digits, shown.said, exact=exact)
+
+
+def _unit_of(kind: str, spelled: str | None, digits: str, phrase: str, *, exact: bool) -> Unit:
+    """Unit of a kind by its spelling."""
+    most = KINDS[kind].most
+    if spelled is None or spelled not in UNITS:
+        return Unit(spelled, digits, _REPORT_UNITS.get(spelled or "", 1.0), most=most, phrase=phrase)
     if kind == "temperature":
-        one = si(quantity("1 K")) if label == "degC" else 5.0 / 9.0
-        return Unit(label, digits, one, si(quantity(f"0 {label}", kind)), exact)
-    return Unit(label, digits, si(quantity(f"1 {label}")), exact=exact, most=most)
+        one = si(quantity("1 K")) if spelled in {"degC", "K"} else 5.0 / 9.0
+        return Unit(spelled, digits, one, si(quantity(f"0 {spelled}", kind)), exact)
+    return Unit(spelled, digits, si(quantity(f"1 {spelled}")), 0.0, exact, most, phrase)
+
+
+@cache
+def _figure_units(kind: str, system: System) -> tuple[Unit, Unit | None, Unit | None]:
+    """Units of a figure in sentences: the usual one, that of large and that of small ones."""
+    shown, own = SYSTEMS[system].shown(kind), display_unit(kind, system)
+    large, small = (each and _unit_of(kind, *each, "", exact=own.exact) for each in (shown.large, shown.small))
+    return own, large, small
+
+
+def format_figure(
+    value: float | Quantity, kind: str, system: System = "SI", *, digits: int | None = None, as_input: bool = False
+) -> str:
+    """Format an SI figure with its unit: significant digits, thousands grouped, large and small in units of their own.
+
+    Parameters
+    ----------
+    value : float or Quantity
+        SI value, or a quantity.
+    kind : str
+        A key of `conveyor.units.quantity_kinds.KINDS`.
+    system : str
+        System of units.
+    digits : int, optional
+        Significant digits; three, four of `as_input`.
+    as_input : bool
+        True: as a spec may have it, in the usual unit, no sign but ASCII, no grouping.
+
+    Examples
+    --------
+    >>> (
+    ...     format_figure(30097.4, "force"),
+    ...     format_figure(2.267, "force"),
+    ...     format_figure(9.81, "acceleration", "US"),
+    ...     format_figure(5180.0, "heat"),
+    ... )
+    ('30.1 kN', '2.27 N', '32.2 ft/s²', '5.18 kJ')
+    >>> format_figure(5.08, "speed", "US", as_input=True)
+    '1000 fpm'
+    """
+    unit, large, small = _figure_units(kind, system)
+    given = si(value) if is_quantity(value) else float(value)
+    number = unit.shown(given)
+    if as_input:
+        shown = f"{number:.{digits or _INPUT_DIGITS}g}"
+        if "e" in shown and 1.0 <= abs(number) < _GROUPED_BELOW:
+            shown = f"{number:.0f}"
+        return f"{shown} {'' if unit.spelled == NO_UNIT else unit.spelled or ''}".rstrip()
+    if unit.phrase:
+        return unit.with_sign(f"{number:{unit.phrase}}")
+    if large is not None and abs(large.shown(given)) >= 1.0:
+        unit = large
+    elif small is not None and abs(number) < 1.0:
+        unit = small
+    return unit.said(given, digits or DIGITS)
 
 
 def label_for_people(label: str, kind: str, system: System = "SI") -> str:
@@ -325,29 +327,6 @@ def label_with_unit(label: str, sign: str | None) -> str:
     return f"{label} [{sign}]" if sign else label
 
 
-def drop_zero_sign(number: str) -> str:
+def _drop_zero_sign(number: str) -> str:
     """Drop the minus of a number that rounds to zero."""
     return number.removeprefix("-") if not number.strip("-0.,%") else number
-
-
-def report_system(own: System, system: System | None) -> System:
-    """Return the system of units of a report: the given one, else the spec's own.
-
-    Raises
-    ------
-    InputError
-        Not one of the systems.
-    """
-    if system is not None and system not in SYSTEMS:
-        raise InputError(f'system = "{system}": SI or US, or none for that of the spec (report.units)')
-    return system or own
-
-
-def belt_strength_text(value: Quantity, system: System) -> str:
-    """Breaking strength per width as text, as in belt names."""
-    return format_strength(si(value), system)
-
-
-def belt_rating_text(value: Quantity, system: System) -> str:
-    """Rated working tension per width as text."""
-    return format_rating(si(value), system)

@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, partial
-from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeGuard
+from typing import TYPE_CHECKING, Annotated, Any, TypeGuard
 
 import pint
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
@@ -28,10 +28,9 @@ from conveyor.units.misreadings import (
     expected_text,
     misread_reason,
 )
-from conveyor.units.quantity_kinds import KINDS, MAGNITUDES
+from conveyor.units.quantity_kinds import KINDS
 from conveyor.units.registry import REGISTRY, UNITS
-
-System = Literal["SI", "US"]
+from conveyor.units.unit_systems import System
 
 if TYPE_CHECKING:
     from typing import TypeAlias
@@ -102,7 +101,7 @@ def _check_size(value: Quantity, kind: str | None, allows: TextTest, unit: str |
     smallest, largest = _size_limits(kind, _UNIT_SPELLINGS[value.units] if unit is None else unit)
     if smallest <= number <= largest:
         return value
-    low, high = MAGNITUDES[kind]
+    low, high = KINDS[kind].sizes
     label = "" if kind == "fraction" else f" {si_with_unit(value)[1]}"
     if unit_system(value) == "US" and kind != "temperature":
         low, high, label = (
@@ -119,7 +118,8 @@ def _size_limits(kind: str, unit: str) -> tuple[float, float]:
     """Smallest and largest size of a kind in a unit; for scales with an offset in their degrees."""
     scale = _si_scale(UNITS[unit]._units)  # noqa: SLF001 as `si` asks
     one = 1.0 if scale is None or scale[2] else scale[0] / scale[1]
-    return MAGNITUDES[kind][0] / one, MAGNITUDES[kind][1] / one
+    low, high = KINDS[kind].sizes
+    return low / one, high / one
 
 
 def _is_finite_number(value: object) -> TypeGuard[float]:
@@ -193,7 +193,7 @@ def si_with_unit(value: Quantity) -> tuple[float, str]:
 
 @cache
 def _si_label(unit: Any) -> str:
-    return next((label for kind, label in _SI_LABELS.items() if unit in _UNIT_TABLES[kind].values()), "K")
+    return next(kind.base for name, kind in KINDS.items() if unit in _UNIT_TABLES[name].values())
 
 
 def interpolate_quantity(low: Quantity, high: Quantity, share: float) -> Quantity:
@@ -284,18 +284,6 @@ def is_kind(value: Quantity, kind: str) -> bool:
     return value.units in _UNIT_TABLES[kind].values()
 
 
-_SI_LABELS = {
-    "length": "m", "area": "m²", "speed": "m/s", "wind": "m/s", "acceleration": "m/s²", "mass": "kg",
-    "line mass": "kg/m", "area mass": "kg/m²", "density": "kg/m³", "force": "N", "line force": "N/m",
-    "pressure": "Pa", "duration": "s",
-    "time": "s", "frequency": "Hz", "angular frequency": "rad/s", "temperature": "K", "angle": "rad",
-    "mass flow": "kg/s", "volume flow": "m³/s", "power": "W", "energy": "J", "molar energy": "J/mol", "fraction": "-",
-    "inertia": "kg m²",
-    "rotation": "1/s", "force per rotation": "N s", "moment": "N m", "torque": "N m", "bending stiffness": "N m²",
-    "viscosity": "m²/s",
-}  # fmt: skip
-
-
 def from_si(value: float, kind: str, unit: str | None = None) -> Quantity:
     """Build a quantity from an SI value, in `unit` or the SI report unit of its kind.
 
@@ -304,7 +292,7 @@ def from_si(value: float, kind: str, unit: str | None = None) -> Quantity:
     >>> text(from_si(0.125, "length", "mm"))
     '125 mm'
     """
-    spelled = KINDS[kind].si if unit is None else unit
+    spelled = _usual_unit(kind) if unit is None else unit
     if spelled not in KINDS[kind].units:
         raise InputError(f'"{spelled}" is not a unit of {KINDS[kind].noun}')
     built: Quantity = _make_quantity(float(value), _base_unit(kind)).to(UNITS[spelled])
@@ -315,52 +303,12 @@ def from_si(value: float, kind: str, unit: str | None = None) -> Quantity:
 def _base_unit(kind: str) -> Any:
     if kind == "temperature":
         return UNITS["K"]
-    return _make_quantity(1.0, UNITS[KINDS[kind].si]).to_base_units().units
+    return _make_quantity(1.0, UNITS[_usual_unit(kind)]).to_base_units().units
 
 
-def unit_label(kind: str, system: System = "SI") -> str:
-    """Return the unit that reports of a unit system use for a kind, as spelled in specs.
-
-    Examples
-    --------
-    >>> unit_label("speed"), unit_label("speed", "US")
-    ('m/s', 'fpm')
-    """
-    return KINDS[kind].si if system == "SI" else KINDS[kind].us
-
-
-def in_report_unit(value: float, kind: str, system: System = "SI") -> float:
-    """Convert an SI value to the unit of `unit_label`, for table columns.
-
-    Examples
-    --------
-    >>> round(in_report_unit(293.15, "temperature", "US"), 9)
-    68.0
-    """
-    if kind == "temperature":
-        return float(from_si(value, kind, unit_label(kind, system)).magnitude)
-    return float(value) * _report_unit_factor(kind, system)
-
-
-@cache
-def _report_unit_factor(kind: str, system: System) -> float:
-    """Factor from the SI base unit to the unit of reports."""
-    return float(from_si(1.0, kind, unit_label(kind, system)).magnitude)
-
-
-def format_si(value: float, kind: str, system: System = "SI", *, digits: int = 4) -> str:
-    """Return an SI value as text with its unit, for people; `digits` are significant digits.
-
-    Examples
-    --------
-    >>> format_si(5.0, "speed"), format_si(5.08, "speed", "US"), format_si(0.95, "fraction")
-    ('5 m/s', '1000 fpm', '0.95')
-    """
-    number = in_report_unit(value, kind, system)
-    shown = f"{number:.{digits}g}"
-    if "e" in shown and 1.0 <= abs(number) < 10.0**12:
-        shown = f"{number:.0f}"
-    return f"{shown} {unit_label(kind, system)}".rstrip()
+def _usual_unit(kind: str) -> str:
+    """SI unit of reports of a kind of input, as specs spell it."""
+    return "" if "" in KINDS[kind].units else KINDS[kind].si.unit or ""
 
 
 def _pydantic_validator(check: Callable[[Any], Quantity]) -> Callable[[Any], Quantity]:
@@ -513,6 +461,6 @@ Angle = Annotated[Quantity, Measure("angle")]
 MassFlow = Annotated[Quantity, Measure("mass flow")]
 VolumeFlow = Annotated[Quantity, Measure("volume flow")]
 Power = Annotated[Quantity, Measure("power")]
-Energy = Annotated[Quantity, Measure("energy")]
+Heat = Annotated[Quantity, Measure("heat")]
 MolarEnergy = Annotated[Quantity, Measure("molar energy")]
 Fraction = Annotated[Quantity, Measure("fraction")]

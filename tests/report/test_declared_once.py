@@ -20,8 +20,9 @@ from conveyor.forces import Force
 from conveyor.report import analysis_tables, excel, html, table_files
 from conveyor.report.page_elements import notebook_summary
 from conveyor.report.table_model import Column, Figure, PagePlacement, Table
-from conveyor.units.presentation import _KIND_FORMATS, Unit, display_unit
+from conveyor.units.presentation import Unit, display_unit
 from conveyor.units.sentences import message
+from conveyor.units.unit_systems import SYSTEMS
 
 PACKAGE = Path(conveyor.__file__).parent
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -104,11 +105,8 @@ def test_the_terminal_takes_the_same_tables(probed, capsys):
 
 def test_a_unit_system_is_one_entry(result, monkeypatch):
     """Another system: where its units are listed, and nowhere else."""
-    changed = {
-        **_KIND_FORMATS["US"],
-        "force": _KIND_FORMATS["US"]["force"]._replace(unit="kN", digits=",.2f"),
-    }
-    monkeypatch.setitem(_KIND_FORMATS, "US", changed)
+    changed = SYSTEMS["US"].shown("force")._replace(unit="kN", digits=",.2f")
+    monkeypatch.setitem(SYSTEMS["US"].kinds, "force", changed)
     display_unit.cache_clear()
     try:
         frame = result.tables["sections"].frame("US")
