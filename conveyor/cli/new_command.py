@@ -14,6 +14,8 @@ from conveyor.files.output_marks import TO_FILL_IN
 if TYPE_CHECKING:
     from conveyor.starter import Kind
 
+_SI = cast("Units", "SI")
+
 
 class StarterKind(StrEnum):
     """Kinds of starter: three conveyors, a duty to size one from, and full examples."""
@@ -49,7 +51,7 @@ def new(
             "SI, a study or search with the spec it varies beside it."
         ),
     ] = StarterKind.OVERLAND,
-    units: Annotated[Units, option("System of units.")] = cast("Units", "SI"),
+    units: Annotated[Units, option("System of units.")] = _SI,
     force: Force = False,
     quiet: Quiet = False,
 ) -> None:

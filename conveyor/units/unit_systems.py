@@ -29,7 +29,7 @@ class UnitSystem:
     kinds: dict[str, Shown] = field(default_factory=dict)
 
     def shown(self, kind: str) -> Shown:
-        """How a kind is written."""
+        """Unit and digits of a kind."""
         return self.kinds.get(kind) or KINDS[kind].si
 
 

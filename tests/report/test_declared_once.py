@@ -20,9 +20,7 @@ from conveyor.forces import Force
 from conveyor.report import analysis_tables, excel, html, table_files
 from conveyor.report.page_elements import notebook_summary
 from conveyor.report.table_model import Column, Figure, PagePlacement, Table
-from conveyor.units.presentation import Unit, display_unit
 from conveyor.units.sentences import message
-from conveyor.units.unit_systems import SYSTEMS
 
 PACKAGE = Path(conveyor.__file__).parent
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -101,19 +99,6 @@ def test_in_json(result):
 def test_the_terminal_takes_the_same_tables(probed, capsys):
     show_power(probed)
     assert "effective tension" in capsys.readouterr().out
-
-
-def test_a_unit_system_is_one_entry(result, monkeypatch):
-    """Another system: where its units are listed, and nowhere else."""
-    changed = SYSTEMS["US"].shown("force")._replace(unit="kN", digits=",.2f")
-    monkeypatch.setitem(SYSTEMS["US"].kinds, "force", changed)
-    display_unit.cache_clear()
-    try:
-        frame = result.tables["sections"].frame("US")
-        assert frame["total [kN]"].tolist() == pytest.approx([r.total / 1e3 for r in result.stretches])
-        assert isinstance(display_unit("force", "US"), Unit)
-    finally:
-        display_unit.cache_clear()
 
 
 def test_units_are_composed_in_one_place_and_parsed_in_none():
