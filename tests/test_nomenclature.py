@@ -16,6 +16,7 @@ from conveyor.contact import ContactProblem, ContactSolution, CreepSpectrum
 from conveyor.report.analysis_tables import analysis_contents
 from conveyor.report.comparison_tables import comparison_contents, comparison_json
 from conveyor.spec import from_data
+from conveyor.starter.output_reference import output_page
 from tests.worked_examples import worked_example
 
 ROOT = Path(__file__).parent.parent
@@ -23,7 +24,7 @@ SPECS = ("overland_10km", "downhill_brakes", "in_plant_us")
 NO_UNIT = "-"
 OF_WORDS = {"breakdown", "governing_cases", "inputs", "provenance", "remarks"}
 """Tables that docs/workbook.md explains."""
-CURRENCY = re.compile(r"[A-Z]{3}|-")
+CURRENCY = re.compile(r"[A-Z]{3}(/kWh)?|-")
 
 
 @cache
@@ -64,6 +65,10 @@ def comparison() -> conveyor.Comparison:
     )
 
 
+def test_the_page_is_made_of_its_words() -> None:
+    assert page() == output_page("nomenclature"), "conveyor schema --nomenclature > docs/nomenclature.md"
+
+
 def names(frame: pd.DataFrame | pd.Series) -> Sequence[str]:
     return [str(name) for name in (frame.columns if isinstance(frame, pd.DataFrame) else frame.index)]
 
@@ -76,9 +81,8 @@ def missing(columns: Sequence[str]) -> set[str]:
         name = re.sub(r"motor power, [\d.]+ x friction", "motor power, … x friction", match[1])
         unit = match[2] or ""
         listed = rows().get(name)
-        if listed is None or not (
-            unit in listed or ("currency" in listed and CURRENCY.fullmatch(unit)) or (unit == "" and listed)
-        ):
+        priced = CURRENCY.fullmatch(unit) and {"currency", "currency/kWh"} & set(listed or ())
+        if listed is None or not (unit in listed or priced or (unit == "" and listed)):
             found.add(column)
     return found
 

@@ -112,6 +112,7 @@ def template(
         "conveyor schema --duty > duty.schema.json",
         "conveyor schema --result > result.schema.json",
         "conveyor schema --markdown > spec.md",
+        "conveyor schema --workbook > workbook.md",
     )
 )
 def schema(
@@ -120,10 +121,21 @@ def schema(
     ] = False,
     result: Annotated[bool, option("Print the JSON schema of what --json prints.", None, "--result")] = False,
     duty: Annotated[bool, option("Print the JSON schema of a duty to be sized.", None, "--duty")] = False,
+    workbook: Annotated[
+        bool, option("Print the page of sheets, tables and names of workbooks, as markdown.", None, "--workbook")
+    ] = False,
+    nomenclature: Annotated[
+        bool, option("Print the page of names, symbols and units, as markdown.", None, "--nomenclature")
+    ] = False,
 ) -> None:
-    """Print the JSON schema of a spec, for editors, of a duty or of results; or the reference of the file formats."""
-    if markdown + result + duty > 1:
-        raise InputError("--markdown, --result, --duty: give one of them")
+    """Print the JSON schema of a spec, for editors, of a duty or of results; or a reference page."""
+    if markdown + result + duty + workbook + nomenclature > 1:
+        raise InputError("--markdown, --result, --duty, --workbook, --nomenclature: give one of them")
+    if workbook or nomenclature:
+        from conveyor.starter.output_reference import output_page
+
+        print_text(output_page("workbook" if workbook else "nomenclature"))
+        return
     if result:
         from conveyor.report.result_schema import result_schema
 

@@ -1,4 +1,4 @@
-"""docs/workbook.md against the workbooks: every sheet, table, column, unit and name is in it, and nothing else."""
+"""docs/workbook.md against the workbooks: every sheet, table, column, kind and name is in it, and nothing else."""
 
 from __future__ import annotations
 
@@ -14,12 +14,11 @@ from conveyor.report.comparison_tables import comparison_contents
 from conveyor.report.excel import COMPARISON_SHEETS, SHEETS, SUMMARY_SHEET, build_workbook
 from conveyor.results.analysis import studies
 from conveyor.results.comparisons import compare_compounds
+from conveyor.starter.output_reference import KIND, output_page, page_words, table_cells
 from conveyor.studies.states import StateRefusal
-from conveyor.units.presentation import column_name
 
 ROOT = Path(__file__).parent.parent.parent
 SPECS = ROOT / "examples" / "specs"
-PAGE = ROOT / "docs" / "workbook.md"
 CONVEYOR, COMPARISON = "Workbook of a conveyor", "Workbook of a comparison"
 STATES = {
     "steady",
@@ -32,29 +31,27 @@ STATES = {
 }
 
 
-def _named_unit(name):
-    found = re.match(r"^(.*) \[([^\]]*)\]$", name)
-    words, unit = (found[1], found[2]) if found else (name, "")
-    return words, re.sub("^[A-Z]{3}(?=$|/)", "currency", unit)
+def _kind(kind):
+    """Kind as the page has it: the currency is that of the spec's price."""
+    return re.sub("^money [A-Z]{3}", "money", kind)
 
 
-def _column(key, name):
-    """A column as the page has it: what a spec names stands in angle brackets."""
-    words, unit = _named_unit(name)
+def _label(key, words):
+    """Label of a column as the page has it: what a spec names stands in angle brackets."""
     if key in {"tension_states", "section_ends"} and words.partition(", FAILS")[0] in STATES:
-        words = "<state>"
+        return "<state>"
     if key == "power_<n>" and words != "temperature":
-        words = "<compound>"
+        return "<compound>"
     if key == "landings" and words != "quantity":
-        words = "<loading point>"
-    return re.sub(r"motor power, [\d.]+ x friction", "motor power, <n> x friction", words), unit
+        return "<loading point>"
+    return re.sub(r"motor power, [\d.]+ x friction", "motor power, <n> x friction", words)
 
 
-def _read_page():
-    """Of each workbook: sheets; by table its columns and figures as rows of the page."""
+def _read_words():
+    """Of each workbook: sheets; by table its columns and figures with their kinds."""
     sheets, columns, names = {}, {}, {}
     book = sheet = table = ""
-    for line in PAGE.read_text(encoding="utf-8").splitlines():
+    for line in page_words("workbook").splitlines():
         if line.startswith("## Workbook of"):
             book = line.removeprefix("## ")
             sheets[book] = []
@@ -65,17 +62,17 @@ def _read_page():
             table = line.strip("# `")
             columns[book, sheet, table], names[book, table] = set(), set()
         elif line.startswith("| ") and table:
-            cells = tuple(cell.strip() for cell in line.strip("|").split("|"))
+            cells = table_cells(line)
             if cells[0].startswith("`"):
-                names[book, table].add((cells[0].strip("`"), *cells[1:4]))
-            elif len(cells) == 4 and cells[:2] not in {("column", "SI"), ("name", "figure")}:
-                columns[book, sheet, table].add(cells[:3])
+                names[book, table].add((cells[0].strip("`"), *cells[1:]))
+            elif KIND not in cells and len(cells) == 3:
+                columns[book, sheet, table].add(tuple(cells[:2]))
     return sheets, columns, names
 
 
 @pytest.fixture(scope="module")
 def page():
-    return _read_page()
+    return _read_words()
 
 
 def _of_a_rare_spec():
@@ -128,10 +125,10 @@ def _of_a_rare_spec():
 
 @pytest.fixture(scope="module")
 def written(studied):
-    """Contents of every example in both systems, and of the rare spec."""
+    """Contents of every example, and of the rare spec."""
     found = [studied(path.stem) for path in sorted(SPECS.glob("*.yaml"))]
     found += _of_a_rare_spec()
-    pairs = [tuple(result.contents(asked, system=system) for system in ("SI", "US")) for result, asked in found]
+    made = [result.contents(asked) for result, asked in found]
     line = conveyor.load(SPECS / "in_plant_us.yaml")
     line = line.replace(operation=line.operation.replace(emission="0.4 kg/kWh", emission_source="x"))
     options = {
@@ -140,24 +137,23 @@ def written(studied):
         "extra_costs": {"low-rolling-resistance-cover": 1},
     }
     compared = compare_compounds(line, ["standard-cover", "low-rolling-resistance-cover", "S100"], **options)
-    return pairs, compared, [tuple(comparison_contents(compared, system) for system in ("SI", "US"))]
+    return made, [comparison_contents(compared, "SI")]
 
 
-def _tables(pairs):
+def _tables(made):
     columns, names = {}, {}
-    for pair in pairs:
-        for part, us_part in zip(pair[0].tables, pair[1].tables, strict=True):
-            key = re.sub(r"^power_\d+$", "power_<n>", part.key)
-            rows = columns.setdefault((part.sheet, key), set())
-            for name, us_name in zip(part.frame(), us_part.frame("US"), strict=True):
-                words, unit = _column(key, str(name))
-                rows.add((words, unit, _column(key, str(us_name))[1]))
-            found = names.setdefault(key, set())
-            for figure in part.rows if part.links else ():
-                words, unit = _named_unit(column_name(figure.label, figure.kind))
-                us_unit = _named_unit(column_name(figure.label, figure.kind, "US"))[1]
-                found.add((figure.key, words, unit, us_unit))
+    for part in (part for contents in made for part in contents.tables):
+        key = re.sub(r"^power_\d+$", "power_<n>", part.key)
+        shown = {(_label(key, column.label), _kind(column.kind)) for column in part.columns if column.sheet}
+        columns.setdefault((part.sheet, key), set()).update(shown)
+        figures = part.rows if part.links else ()
+        names.setdefault(key, set()).update((each.key, each.label, _kind(each.kind)) for each in figures)
     return columns, names
+
+
+def test_the_page_is_made_of_its_words():
+    page = ROOT / "docs" / "workbook.md"
+    assert page.read_text(encoding="utf-8") == output_page("workbook"), "conveyor schema --workbook > docs/workbook.md"
 
 
 @pytest.mark.parametrize("book", [CONVEYOR, COMPARISON])
@@ -166,8 +162,8 @@ def test_sheets(page, book):
 
 
 @pytest.mark.parametrize("book", [CONVEYOR, COMPARISON])
-def test_tables_columns_and_units(page, written, book):
-    columns, _ = _tables(written[0] if book == CONVEYOR else written[2])
+def test_tables_columns_and_kinds(page, written, book):
+    columns, _ = _tables(written[book == COMPARISON])
     told = {key[1:]: rows for key, rows in page[1].items() if key[0] == book}
     assert told.keys() == columns.keys()
     for key, rows in columns.items():
@@ -176,7 +172,7 @@ def test_tables_columns_and_units(page, written, book):
 
 @pytest.mark.parametrize("book", [CONVEYOR, COMPARISON])
 def test_names_of_figures(page, written, book):
-    _, names = _tables(written[0] if book == CONVEYOR else written[2])
+    _, names = _tables(written[book == COMPARISON])
     told = {key[1]: rows for key, rows in page[2].items() if key[0] == book}
     for key, rows in names.items():
         assert told[key] == rows, key
@@ -184,15 +180,15 @@ def test_names_of_figures(page, written, book):
 
 def test_the_workbooks_have_these_names_and_no_others(page, written):
     """Figures and tables; of the tables all but those that stand as text, and the covers' of nothing."""
-    pairs, ours = written[0], written[2]
-    of = next(pair[0] for pair in pairs if "duty" in pair[0].by_key)
-    books = {CONVEYOR: build_workbook(of), COMPARISON: build_workbook(ours[0][0])}
+    of = next(contents for contents in written[0] if "duty" in contents.by_key)
+    ours = written[1][0]
+    books = {CONVEYOR: build_workbook(of), COMPARISON: build_workbook(ours)}
     for book, made in books.items():
         figures = {name for key, rows in page[2].items() if key[0] == book for name, *_ in rows}
         tables = {f"table_{key[2]}" for key in page[1] if key[0] == book}
         tables |= {f"table_power_{n}" for n in range(1, 9)}
         assert set(made.defined_names) <= figures | tables
-        contents = of if book == CONVEYOR else ours[0][0]
+        contents = of if book == CONVEYOR else ours
         there = {f"table_{part.key}" for part in contents.tables if part.key != "remarks"}
         there |= {figure.key for part in contents.tables if part.links for figure in part.rows}
         assert set(made.defined_names) == there
