@@ -17,9 +17,10 @@ from pydantic import BaseModel, ValidationError
 from conveyor import units
 from conveyor.errors import InputError
 from conveyor.units import Bounds, Density, Fraction, Length, MassFlow, Speed, Temperature, quantity, si, text
-from conveyor.units.presentation import format_figure
+from conveyor.units.presentation import display_unit, format_figure
 from conveyor.units.quantity_kinds import INPUT_KINDS, KINDS
 from conveyor.units.registry import UNITS
+from conveyor.units.unit_systems import SYSTEMS
 
 # Definitions: international yard and pound (1959): 1 ft = 0.3048 m, 1 lb = 0.45359237 kg; standard gravity
 # 9.80665 m/s² defines lbf; 1 short ton = 2000 lb; 1 hp = 550 ft lbf/s.
@@ -263,6 +264,24 @@ def test_display(value: float, kind: str, metric: str, us: str) -> None:
         format_figure(value, kind, as_input=True),
         format_figure(value, kind, "US", as_input=True),
     ) == (metric, us)
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_every_kind_is_written_in_a_unit_of_its_own_dimension(system: str) -> None:
+    assert set(SYSTEMS[system].kinds) <= set(KINDS)
+    for kind, entry in KINDS.items():
+        unit = display_unit(kind, system)
+        if entry.noun and unit.spelled != "-":
+            assert unit.spelled in entry.units, kind
+            assert unit.size == pytest.approx(si(quantity(f"1 {unit.spelled}")) - unit.zero, rel=1e-12), kind
+
+
+def test_figures_of_sentences_have_the_unit_of_their_size() -> None:
+    assert [format_figure(x, "force") for x in (999.0, 1e3)] == ["999 N", "1 kN"]
+    assert [format_figure(x, "heat") for x in (0.0, 999e3, 1e6)] == ["0 kJ", "999 kJ", "1 MJ"]
+    assert format_figure(quantity("2100 N/mm"), "belt strength") == "2,100 N/mm"
+    assert format_figure(105e3, "belt rating", "US") == "600 PIW"
+    assert format_figure(1.5, "safety") == "1.50"
 
 
 class Sample(BaseModel):

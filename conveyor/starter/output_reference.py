@@ -71,7 +71,9 @@ def _page_lines(words: str) -> Iterator[str]:
         elif set(line) == {"|", "-"}:
             cells[place : place + 1] = ["---"] * len(of) if place < len(cells) else []
         else:
-            cells[place : place + 1] = [_units(cell, system) for cell in cells[place : place + 1] for system in of]
+            cells[place : place + 1] = [
+                _listed_units(cell, system) for cell in cells[place : place + 1] for system in of
+            ]
         yield _table_row(cells) if cells else line
 
 
@@ -79,12 +81,12 @@ def _table_row(cells: list[str]) -> str:
     return f"|{'|'.join(cells)}|" if set(cells) == {"---"} else f"| {' | '.join(cells)} |"
 
 
-def _units(kinds: str, system: System) -> str:
+def _listed_units(kinds: str, system: System) -> str:
     """Units of kinds, listed with commas."""
-    return ", ".join(_unit(kind, system) for kind in kinds.split(", "))
+    return ", ".join(_header_unit(kind, system) for kind in kinds.split(", "))
 
 
-def _unit(kind: str, system: System) -> str:
+def _header_unit(kind: str, system: System) -> str:
     """Header's unit of a kind; the currency is that of the spec's price."""
     if kind in {"", ROW_KIND, FIGURE_NAME}:
         return ""

@@ -30,7 +30,7 @@ _NEGATIVE_FACTOR: Final = 10.0  # times the largest number shown, below zero
 _SIGNIFICANT, _DECIMALS = 12, 9  # beyond them is the rounding of a conversion
 _REPORT_UNITS: Final = {
     "kWh/(t km)": 1.0, "kWh/(short ton mile)": 1.0 / (0.90718474 * 1.609344), "kg/kWh": 1.0, "a": 1.0,
-    "short ton": 907.18474, "metric ton": 1000.0,
+    "short ton": 907.18474, "metric ton": 1000.0, NO_UNIT: 1.0,
 }  # fmt: skip
 """Sizes of units that specs do not know; of energies per mass and distance, of paybacks in those they come in."""
 
@@ -229,7 +229,7 @@ def _unit_of(kind: str, spelled: str | None, digits: str, phrase: str, *, exact:
     """Unit of a kind by its spelling."""
     most = KINDS[kind].most
     if spelled is None or spelled not in UNITS:
-        return Unit(spelled, digits, _REPORT_UNITS.get(spelled or "", 1.0), most=most, phrase=phrase)
+        return Unit(spelled, digits, _REPORT_UNITS[spelled or NO_UNIT], most=most, phrase=phrase)
     if kind == "temperature":
         one = si(quantity("1 K")) if spelled in {"degC", "K"} else 5.0 / 9.0
         return Unit(spelled, digits, one, si(quantity(f"0 {spelled}", kind)), exact)
