@@ -11,10 +11,11 @@ from conveyor.laws.energy import DutySums, duty_emission
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.loop.annual_energy import annual_cost, lacks_feed_in_price
 from conveyor.report import plots, what_if
-from conveyor.report.analysis_tables import band_columns, provenance_table, report_head
 from conveyor.report.page_elements import notebook_html
 from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.table_model import Column, Contents, Drawing, PagePlacement, Remark, Table, figure_table
+from conveyor.report.tables.document_tables import provenance_table, report_head
+from conveyor.report.tables.rubber_tables import band_columns
 from conveyor.rubber.rolling_test_factor import UNTESTED_FACTOR
 from conveyor.spec import fingerprint
 from conveyor.studies.comparison import RankedPower
@@ -75,7 +76,8 @@ def comparison_contents(comparison: CalculatedComparison, system: System) -> Con
         ),
     )
     about = report_head(comparison.conveyor, "Comparison of belt covers", system, facts)
-    return Contents(about, parts, system, tuple(comparison_drawings(comparison, system)), PARTS, "comparison")
+    drawn = tuple(comparison_drawings(comparison, system))
+    return Contents.of(about, parts, system, drawings=drawn, page=PARTS, layout="comparison")
 
 
 def _value_range(values: list[float], kind: str, system: System) -> str:

@@ -13,13 +13,6 @@ from conveyor.checks import Check, governing_by_subject
 from conveyor.dynamics.criteria import dynamics_checks, pulley_peak, tension_peaks
 from conveyor.dynamics.simulation import CalculatedDynamics, ScenarioResult
 from conveyor.laws.belt_strength import DUTY_SAFETY, SPLICE_SAFETY, belt_safety, required_strength
-from conveyor.report.analysis_tables import (
-    ReportAdditions,
-    check_json,
-    check_table,
-    provenance_table,
-    report_head,
-)
 from conveyor.report.animation import Panel, animated_curves
 from conveyor.report.matplotlib_settings import own_settings
 from conveyor.report.plots import curve_colour, label_axes, set_title, stacked_axes
@@ -36,6 +29,8 @@ from conveyor.report.table_model import (
     remark_table,
     slug,
 )
+from conveyor.report.tables.check_tables import check_json, check_table
+from conveyor.report.tables.document_tables import provenance_table, report_head
 from conveyor.spec import fingerprint
 from conveyor.units import System
 from conveyor.units.presentation import display_unit
@@ -63,29 +58,14 @@ def dynamics_contents(dynamics: CalculatedDynamics, system: System) -> Contents:
     """Contents of the report on starts and stops in a unit system."""
     every = dynamics_checks(dynamics)
     parts = (
-        *scenario_tables(dynamics), check_table(governing_by_subject(every), system),
+        *(make(dynamics) for make in SCENARIO_TABLES.values()), check_table(governing_by_subject(every), system),
         _dynamics_remarks(dynamics, every, system),
         provenance_table(fingerprint(dynamics.conveyor)),
     )  # fmt: skip
     names = ", ".join(one.name for one in dynamics.followed)
     about = report_head(dynamics.conveyor, "Starting and stopping", system, (("scenarios", names),))
-    return Contents(about, parts, system, tuple(dynamics_drawings(dynamics, system)), PARTS)
-
-
-def report_additions(dynamics: CalculatedDynamics, system: System) -> ReportAdditions:
-    """Checks, tables and drawings of the scenarios for the report of the conveyor."""
-    shown, drawn = tuple(scenario_tables(dynamics)), tuple(dynamics_drawings(dynamics, system))
-    return ReportAdditions(dynamics_checks(dynamics), shown, drawn, dynamics.assumptions, scenarios_json(dynamics))
-
-
-def scenario_tables(dynamics: CalculatedDynamics) -> Iterator[Table]:
-    """Tables of the scenarios that have rows."""
-    for made in (
-        scenario_table, size_table, scenario_drives, scenario_pulleys, scenario_tensions, splice_tensions, history_table
-    ):  # fmt: skip
-        table = made(dynamics)
-        if table.rows:
-            yield table
+    drawn = tuple(dynamics_drawings(dynamics, system))
+    return Contents.of(about, parts, system, drawings=drawn, page=PARTS)
 
 
 _PEAKS: Final = (
@@ -271,6 +251,18 @@ def history_table(dynamics: CalculatedDynamics) -> Table:
     return Table("histories", "Histories", "Drives and take-up over time", columns, rows, named=2)
 
 
+SCENARIO_TABLES: Final = {
+    "scenarios": scenario_table,
+    "scenario_sizes": size_table,
+    "scenario_drives": scenario_drives,
+    "scenario_pulleys": scenario_pulleys,
+    "scenario_tensions": scenario_tensions,
+    "scenario_splices": splice_tensions,
+    "histories": history_table,
+}
+"""Tables of scenarios by key; in JSON they are named without ``scenario_``."""
+
+
 def _dynamics_remarks(dynamics: CalculatedDynamics, every: tuple[Check, ...], system: System) -> Table:
     """Failed checks and assumptions."""
     warned = [
@@ -298,11 +290,10 @@ def dynamics_drawings(dynamics: CalculatedDynamics, system: System) -> Iterator[
 
 def scenarios_json(dynamics: CalculatedDynamics) -> dict[str, Any]:
     """Plain numbers of every scenario; units in the keys."""
-    return {
-        table.key.removeprefix("scenario_"): table.plain()
-        for table in scenario_tables(dynamics)
-        if table.key != "histories"
+    made = {
+        key.removeprefix("scenario_"): make(dynamics) for key, make in SCENARIO_TABLES.items() if key != "histories"
     }
+    return {name: table.plain() for name, table in made.items() if table.rows}
 
 
 def dynamics_json(dynamics: CalculatedDynamics) -> dict[str, Any]:

@@ -6,14 +6,14 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
+from conveyor.assessment import Assessment
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.report import analysis_plots
 from conveyor.report.page_elements import notebook_html
 from conveyor.report.plots import PowerAxis
 from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Column, Drawing, Figure, Table, figure_table
-from conveyor.studies.loads import take_up_demand
 from conveyor.text.markup import Html
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, display_unit
@@ -46,27 +46,20 @@ _CONDITIONS = (
 )
 
 
-def tables_and_drawings(studies: CalculatedStudies | None, system: System) -> tuple[list[Table], list[Drawing]]:
-    """Tables and drawings of the studies of a conveyor."""
-    if studies is None:
-        return [], []
-    tables: list[Table] = []
-    drawn: list[Drawing] = []
-    if studies.states is not None:
-        tables += [load_states(studies.states), refused_states(studies.states)]
-    if studies.flooded is not None:
-        tables.append(flooded_belt(studies.flooded))
+def _study_table(name: str, make: Callable[[Any], Table]) -> Callable[[CalculatedStudies, System], Table | None]:
+    """Table of one of the studies; None without it."""
+    return lambda studies, _system: None if (study := getattr(studies, name)) is None else make(study)
+
+
+def study_drawings(studies: CalculatedStudies, system: System) -> Iterator[Drawing]:
+    """Drawings of the studies of a conveyor."""
     if studies.cases is not None:
-        tables += _case_tables(studies, studies.cases, system)
-        drawn += _case_drawings(studies.cases, system)
-    if studies.duty is not None:
-        tables += [year_table(studies.duty), duty_table(studies.duty)]
+        yield from _case_drawings(studies.cases, system)
     if studies.uncertainty is not None:
         study = studies.uncertainty
-        tables += [power_bands(study), draw_convergence(study), sensitivity_table(study)]
         caption = "Sensitivity of motor power: its change at both ends of the range of every input."
         draw = partial(analysis_plots.tornado_chart, study, system=system)
-        drawn.append(Drawing("tornado", caption, draw, "sensitivity"))
+        yield Drawing("tornado", caption, draw, "sensitivity")
         exact = study.monte_carlo
         if exact is not None:
             caption = (
@@ -74,8 +67,7 @@ def tables_and_drawings(studies: CalculatedStudies | None, system: System) -> tu
                 "which each lies with 90 %."
             )
             draw = partial(analysis_plots.interval_convergence, exact, study.sampled, system=system)
-            drawn.append(Drawing("settling", caption, draw, "convergence_of_draws"))
-    return tables, drawn
+            yield Drawing("settling", caption, draw, "convergence_of_draws")
 
 
 def load_states(study: CalculatedStates) -> Table:
@@ -113,18 +105,20 @@ def refused_states(study: CalculatedStates) -> Table:
     return Table("refused_states", "Load cases", heading, columns, study.refused, _STATES)
 
 
-def _case_tables(studies: CalculatedStudies, study: CalculatedCases, system: System) -> Iterator[Table]:
-    yield governing_cases(study, studies.governing)
+def design_case_table(study: CalculatedCases) -> Table:
+    """Load cases without their tensions, for reports."""
     every = case_table(study)
     kept = tuple(column.key for column in every.columns if column.key not in _TENSIONS)
-    yield replace(every.only(*kept), page=_CASES)
+    return replace(every.only(*kept), page=_CASES)
+
+
+def case_tensions(study: CalculatedCases) -> Table:
+    """Tensions and roll loads of the load cases."""
     order = ("case", "temperature", "speed", "covered", *_TENSIONS)
-    tensions = every.only(*order)
+    tensions = case_table(study).only(*order)
     columns = tuple(sorted(tensions.columns, key=lambda column: order.index(column.key)))
     heading = "Tensions and roll loads of the cases"
-    yield replace(tensions, key="case_tensions", heading=heading, columns=columns, page=_CASES)
-    yield motor_table(studies, system)
-    yield refused_cases(study)
+    return replace(tensions, key="case_tensions", heading=heading, columns=columns, page=_CASES)
 
 
 def case_table(study: CalculatedCases) -> Table:
@@ -358,6 +352,28 @@ def draw_convergence(study: CalculatedRanges) -> Table:
     return Table("convergence_of_draws", "Uncertainty", heading, columns, rows, _UNCERTAINTY, note)
 
 
+def _governing_table(studies: CalculatedStudies, _system: System) -> Table | None:
+    return None if studies.cases is None else governing_cases(studies.cases, studies.governing)
+
+
+STUDY_TABLES: Final[dict[str, Callable[[CalculatedStudies, System], Table | None]]] = {
+    "load_states": _study_table("states", load_states),
+    "refused_states": _study_table("states", refused_states),
+    "flooded": _study_table("flooded", flooded_belt),
+    "governing_cases": _governing_table,
+    "load_cases": _study_table("cases", design_case_table),
+    "case_tensions": _study_table("cases", case_tensions),
+    "motors": lambda studies, system: None if studies.cases is None else motor_table(studies, system),
+    "refused_cases": _study_table("cases", refused_cases),
+    "duty_year": _study_table("duty", year_table),
+    "duty": _study_table("duty", duty_table),
+    "power_band": _study_table("uncertainty", power_bands),
+    "convergence_of_draws": _study_table("uncertainty", draw_convergence),
+    "sensitivity": _study_table("uncertainty", sensitivity_table),
+}
+"""Tables of studies by key; None where a study was not requested."""
+
+
 def studies_json(studies: CalculatedStudies) -> dict[str, Any]:
     """Plain numbers of the existing studies for JSON; units in the keys."""
     parts: dict[str, Any] = {}
@@ -366,7 +382,7 @@ def studies_json(studies: CalculatedStudies) -> dict[str, Any]:
         parts["states"] = {key: named[key] for key in _STATE_KEYS if key in named}
         parts["worst_states"] = [_state_json(state) for state in studies.states.states if state.worst_for]
         parts["flooded"] = None if studies.flooded is None else flooded_belt(studies.flooded).series("").to_dict()
-        parts["take_up"] = take_up_json(*take_up_demand(studies.states.own, studies.states, studies.cases))
+        parts["take_up"] = take_up_json(*Assessment(studies.states.own, studies).take_up)
     study = studies.cases
     if study is not None:
         parts["load_cases"] = {

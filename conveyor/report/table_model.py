@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from itertools import chain
-from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, Self, TypeAlias
 
 from conveyor.models.report import Paper
 from conveyor.units import System
@@ -430,12 +430,12 @@ class Contents:
     ----------
     document : ReportHead
         Head.
-    parts : tuple of Table
+    by_key : mapping of str to Table
         Tables in order, without empty ones.
     system : str
         Unit system.
-    drawings : tuple of Drawing
-        Drawings.
+    drawn : callable
+        Returns its drawings.
     page : tuple of (str, str)
         Parts of its page and their headings; empty ones are left out.
     layout : str
@@ -443,19 +443,28 @@ class Contents:
     """
 
     document: ReportHead
-    parts: tuple[Table, ...]
+    by_key: Mapping[str, Table]
     system: System
-    drawings: tuple[Drawing, ...] = ()
+    drawn: Callable[[], Iterable[Drawing]] = tuple
     page: tuple[tuple[str, str], ...] = ()
     layout: str = ""
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "parts", tuple(part for part in self.parts if part.rows))
+    @classmethod
+    def of(
+        cls, document: ReportHead, parts: Iterable[Table], system: System, drawings: Iterable[Drawing] = (), **more: Any
+    ) -> Self:
+        """Return contents of tables in order; empty ones are left out."""
+        return cls(document, {part.key: part for part in parts if part.rows}, system, lambda: drawings, **more)
 
     @cached_property
-    def by_key(self) -> dict[str, Table]:
-        """Tables by key."""
-        return {part.key: part for part in self.parts}
+    def drawings(self) -> tuple[Drawing, ...]:
+        """Its drawings."""
+        return tuple(self.drawn())
+
+    @cached_property
+    def parts(self) -> tuple[Table, ...]:
+        """Tables in order."""
+        return tuple(self.by_key.values())
 
     def __getitem__(self, key: str) -> Table:
         return self.by_key[key]
@@ -468,7 +477,7 @@ class Contents:
         """Tables of the workbook and of files."""
         return tuple(part.on_sheet() for part in self.parts if part.sheet)
 
-    def of(self, sheet: str) -> tuple[str, ...]:
+    def keys_on(self, sheet: str) -> tuple[str, ...]:
         """Keys of the tables of a sheet."""
         return tuple(part.key for part in self.parts if part.sheet == sheet)
 

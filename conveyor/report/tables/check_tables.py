@@ -1,0 +1,121 @@
+"""Checks, as given and in every load case, and remarks."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection
+from typing import Any, Final, NamedTuple
+
+from conveyor.assessment import Assessment
+from conveyor.checks import Check, governing_by_criterion
+from conveyor.remarks import method_summary
+from conveyor.report.table_model import (
+    Column,
+    PagePlacement,
+    Table,
+    remark_table,
+)
+from conveyor.studies.load_cases import AS_GIVEN
+from conveyor.units import System
+from conveyor.units.sentences import plain_figure
+
+
+class CheckRow(NamedTuple):
+    """A check as text; `leads` if it governs its criterion."""
+
+    subject: str
+    found: str
+    asked: str
+    margin: float | None
+    case: str
+    verdict: str
+    leads: bool
+
+    @classmethod
+    def of(cls, check: Check, system: System, *, leads: bool = False, not_sought: bool = False) -> CheckRow:
+        """Write a check in a system of units; `not_sought`: no worse loading was searched for."""
+        name, calculated, asked = (said.text(system) for said in (check.name, check.found, check.asked))
+        case = AS_GIVEN if check.case is None else check.case.text(system)
+        if not_sought:
+            case += "; worst loading not sought"
+        margin = None if check.verdict == "not checked" else check.margin
+        return cls(name, calculated, asked, margin, case, check.verdict, leads)
+
+
+_CHECK_COLUMNS: Final = (
+    Column("check", "text", "subject"),
+    Column("calculated", "text", "found", key="found"),
+    Column("required", "text", "asked", key="asked"),
+    Column("margin", "margin", "margin"),
+)
+_CASE_COLUMN: Final = Column("case", "text", "case")
+_VERDICT_COLUMN: Final = Column("verdict", "verdict", "verdict")
+
+
+def check_table(checks: tuple[Check, ...], system: System, not_sought: Collection[str] = ()) -> Table:
+    """Checks of the governing case: calculated, required, verdict.
+
+    `not_sought`: keys for which no worse loading was searched for.
+    """
+    first = governing_by_criterion(checks)
+    unsought = not_sought if any(check.case is not None for check in checks) else ()
+    rows = tuple(
+        CheckRow.of(check, system, leads=any(check is one for one in first), not_sought=check.key in unsought)
+        for check in checks
+    )
+    caption = "Calculated against required; of all calculated cases the least margin"
+    note = "margin: reserve over the limit; least of all calculated cases"
+    of_case = (_CASE_COLUMN,) if any(row.case != AS_GIVEN for row in rows) else ()
+    page, columns = (PagePlacement("checks", caption),), (*_CHECK_COLUMNS, *of_case, _VERDICT_COLUMN)
+    return Table("checks", "Checks and notes", "Checks", columns, rows, page, note)
+
+
+_OF_CASES: Final = (_CASE_COLUMN, *_CHECK_COLUMNS, _VERDICT_COLUMN)
+
+
+def case_checks(every: tuple[Check, ...], system: System) -> Table:
+    """Every criterion in every load case."""
+    rows = tuple(CheckRow.of(check, system) for check in every if check.case is not None)
+    heading = "Every criterion in every load case"
+    return Table("case_checks", "Case checks", heading, _OF_CASES, rows, named=2, printed=False)
+
+
+def case_failures(every: tuple[Check, ...], system: System) -> Table:
+    """Criteria that fail in a load case, for the page."""
+    rows = tuple(CheckRow.of(check, system) for check in every if check.case is not None and check.failed)
+    return Table("case_failures", "", "Failed checks by case", _OF_CASES, rows, "load-cases", named=2)
+
+
+def analysis_remarks(assessment: Assessment) -> Table:
+    """Warnings, method, assumptions, and the notes of the spec."""
+    own = assessment.own
+    return remark_table({
+        "warning": [line.text(assessment.system) for line in assessment.warnings],
+        "method": method_summary(own),
+        "assumption": assessment.assumptions,
+        "note of the spec": [line for line in (own.conveyor.notes or "").splitlines() if line.strip()],
+    })  # fmt: skip
+
+
+def check_json(check: Check, *, governs: bool) -> dict[str, Any]:
+    """A check as JSON, in SI."""
+    calculated, required, margin = map(_finite_or_none, (check.calculated, check.required, check.margin))
+    (shown, sign), (asked, _) = (plain_figure(value, check.kind) for value in (calculated, required))
+    return {
+        "key": check.key,
+        "subject": check.subject.text(),
+        "where": check.where or None,
+        "case": None if check.case is None else check.case.text(),
+        "calculated": shown,
+        "relation": check.relation,
+        "required": asked,
+        "unit": sign,
+        "margin": margin,
+        "verdict": check.verdict.lower(),
+        "why": None if check.why is None or check.verdict == "pass" else check.why.text(),
+        "governs": governs,
+    }
+
+
+def _finite_or_none(value: float | None) -> float | None:
+    return value if value is not None and math.isfinite(value) else None
