@@ -11,7 +11,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from itertools import chain
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, Self, TypeAlias
+
+import numpy as np
 
 from conveyor.models.report import Paper
 from conveyor.units import System
@@ -43,6 +46,9 @@ _BASIS_PATTERN: Final = re.compile(
 )
 """Notes on inputs and assumptions, not on results."""
 
+_ANY_DICT: Final = frozenset(dir(dict))
+_PLAIN: Final = (float, str, int)
+
 
 def slug(words: str) -> str:
     """Return words as a stable name.
@@ -68,14 +74,28 @@ def path_getter(path: str) -> Getter:
     ... )
     (2.5, 3.0, None)
     """
-    steps = path.split(".")
+    steps = [(step, int(step) if step.isdecimal() else None) for step in path.split(".")]
+
+    def by_steps(row: Any) -> Any:
+        for name, index in steps:
+            if row is None:
+                return None
+            keyed = index is not None or isinstance(row, Mapping)
+            row = row[name if index is None else index] if keyed else getattr(row, name)
+        return row.item() if isinstance(row, np.ndarray | np.generic) and row.ndim == 0 else row
+
+    (_, first), *further = steps
+    names = [name for name, index in (further if first is not None else steps) if index is None]
+    if not names or len(names) < len(steps) - (first is not None) or not _ANY_DICT.isdisjoint(names):
+        return by_steps
+    attributes = attrgetter(".".join(names))
 
     def taken(row: Any) -> Any:
-        for step in steps:
-            if row is not None:
-                keyed = step.isdecimal() or isinstance(row, Mapping)
-                row = row[int(step) if step.isdecimal() else step] if keyed else getattr(row, step)
-        return row.item() if getattr(row, "ndim", None) == 0 else row
+        try:
+            value = attributes(row if first is None else row[first])
+        except (AttributeError, TypeError):  # a mapping or None on the way
+            return by_steps(row)
+        return value if isinstance(value, _PLAIN) else by_steps(row)
 
     return taken
 

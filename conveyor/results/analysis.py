@@ -107,7 +107,9 @@ class Analysis(CalculatedConveyor):
 
         A table is built when it is read.
         """
-        return self.contents().by_key
+        from conveyor.report.analysis_contents import AnalysisTables
+
+        return AnalysisTables(self.assessment)
 
     @cached_property
     def summary(self) -> pd.Series:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Final
 
@@ -34,7 +35,7 @@ def section_table(a: CalculatedConveyor) -> Table:
         Column("belt mass", "line mass", "stretch.belt_mass", "layout"),
         Column("bulk mass", "line mass", "stretch.bulk_mass", "layout"),
         *(
-            Column(force.short or force.name, "force", f"forces.{force.key}", "forces", json=f"{force.key}_N",
+            Column(force.short or force.name, "force", _force_getter(force.key), "forces", json=f"{force.key}_N",
                    total=True)
             for force in a.balance.along
         ),
@@ -48,6 +49,10 @@ def section_table(a: CalculatedConveyor) -> Table:
     )
     heading = "Forces of every section and strand"
     return Table("sections", "Sections", heading, columns, a.stretches, page, foot="all sections")
+
+
+def _force_getter(key: str) -> Callable[[StretchResult], float]:
+    return lambda row: row.forces[key]
 
 
 def _set_life_seconds(r: StretchResult) -> float | None:
