@@ -46,7 +46,8 @@ def power(
     to.folder("--plots", plots)
     import conveyor
     from conveyor import spec as spec_file
-    from conveyor.report.analysis_contents import analysis_contents, analysis_json
+    from conveyor.report.analysis_contents import analysis_contents
+    from conveyor.report.result_schema import analysis_json
     from conveyor.results.analysis import studies
 
     line = session.read(spec)

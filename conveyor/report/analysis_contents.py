@@ -2,33 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import partial
-from typing import Any, Final, TypeAlias
+from typing import Final, TypeAlias
 
 from conveyor.assessment import Assessment
 from conveyor.checks import unsearched_criteria
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.stretches import STRANDS
-from conveyor.loop.balance import Balance
-from conveyor.loop.estimates import ClassicalEstimate
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.report import analysis_plots
 from conveyor.report.design_verdict import governing_figures
-from conveyor.report.dynamics_tables import SCENARIO_TABLES, dynamics_drawings, scenarios_json
+from conveyor.report.dynamics_tables import SCENARIO_TABLES, dynamics_drawings
 from conveyor.report.inputs import input_rows
-from conveyor.report.result_schema import SCHEMA_VERSION
-from conveyor.report.study_tables import STUDY_TABLES, study_drawings, take_up_json
-from conveyor.report.study_tables import studies_json as plain_studies
+from conveyor.report.study_tables import STUDY_TABLES, study_drawings
 from conveyor.report.table_model import (
     Contents,
     Drawing,
-    Figure,
     Table,
 )
 from conveyor.report.tables.belt_tables import belt_strength_table, pulley_loads, pulley_states, pulley_table
-from conveyor.report.tables.check_tables import analysis_remarks, case_checks, case_failures, check_json, check_table
+from conveyor.report.tables.check_tables import analysis_remarks, case_checks, case_failures, check_table
 from conveyor.report.tables.curve_tables import (
     curve_edges,
     drift_states,
@@ -60,7 +55,6 @@ from conveyor.report.tables.resistance_tables import (
     breakdown_table,
     cema_table,
     classical_table,
-    estimate_motor_power,
     resistance_table,
     section_table,
 )
@@ -84,7 +78,6 @@ from conveyor.report.transfer_tables import (
 from conveyor.report.transfer_tables import discharge_drawing as of_discharge
 from conveyor.report.what_if import what_if_table
 from conveyor.spec import fingerprint
-from conveyor.studies.duty import CalculatedYear
 from conveyor.studies.load_cases import Load
 from conveyor.units.presentation import display_unit
 
@@ -326,84 +319,3 @@ def analysis_drawings(assessment: Assessment) -> Iterator[Drawing]:
     yield from study_drawings(assessment.studies, system)
     if assessment.dynamics is not None:
         yield from dynamics_drawings(assessment.dynamics, system)
-
-
-def analysis_json(assessment: Assessment) -> dict[str, Any]:
-    """Plain numbers for JSON, SI or the unit in the key, as `result_schema` describes them."""
-    a, studies, left_open = assessment.own, assessment.studies, assessment.power_range
-    balance, governing = a.balance, assessment.governing
-    settled, tables = balance.settled, AnalysisTables(assessment)
-    data: dict[str, Any] = {
-        "schema_version": SCHEMA_VERSION,
-        "name": a.conveyor.name,
-        **dict.fromkeys(("flow_t_per_h", "length_m", "lift_m", "friction_factor", "error_estimate")),
-        "forces_N": dict.fromkeys(balance.forces.parts),
-        "power_kW": dict.fromkeys(("belt", "motor", "mains")),
-        "tensions_N": asdict(balance.tensions),
-        "drives": [
-            {
-                "drive": side.name,
-                "force_N": side.force,
-                "motor_kW": balance.frame.motor(side.force) / 1e3,
-                "arriving_N": side.arriving,
-                "leaving_N": side.leaving,
-            }
-            for side in settled.steady.drives
-        ],
-        "take_up": take_up_json(*assessment.take_up),
-        "energy": _energy_json(a, studies.duty),
-        "classical": {
-            **_estimate_json(balance, balance.classical),
-            "secondary_by": balance.classical.secondary_by,
-        },
-        "cema": None
-        if balance.cema is None
-        else {
-            **_estimate_json(balance, balance.cema),
-            "items_N": {symbol: newtons for symbol, _, newtons in balance.cema.items},
-        },
-        "defaults": {
-            "motor_kW": {"low": None, "high": None},
-            "replace_first": left_open.effects[0].give if left_open.effects else None,
-            "in_use": tables["defaults"].plain() if left_open.effects else [],
-            "notes": list(left_open.notes),
-        },
-        "rubber": tables["rubber"].plain(),
-        "sections": tables["sections"].plain(),
-        "assumptions": list(assessment.assumptions),
-        "checks": [check_json(check, governs=any(check is one for one in governing)) for check in assessment.checks],
-        "warnings": [said.text(assessment.system) for said in assessment.warnings],
-    }
-    also = {} if assessment.dynamics is None else {"dynamics": scenarios_json(assessment.dynamics)}
-    return insert_by_path(data, tables["results"].rows) | plain_studies(studies) | also
-
-
-def _energy_json(a: CalculatedConveyor, duty: CalculatedYear | None) -> dict[str, Any]:
-    """Specific energy, and energy and cost of a year at even load or of the duty."""
-    price = None if a.conveyor.operation is None else a.conveyor.operation.price
-    kwh, cost = (None, None) if a.year is None else (a.year.energy, a.year.cost)
-    if duty is not None:
-        kwh, cost = duty.year.net_kwh, duty.cost
-    return {
-        "kWh_per_tonne_km": a.balance.power.energy_per_tonne_km,
-        "kWh_per_year": kwh,
-        "cost_per_year": cost,
-        "currency": None if price is None else price.currency,
-    }
-
-
-def _estimate_json(balance: Balance, made: ClassicalEstimate) -> dict[str, float]:
-    motor = estimate_motor_power(balance, made)
-    return {"friction_factor": made.friction_factor, "total_N": made.total, "motor_kW": motor / 1e3}
-
-
-def insert_by_path(data: dict[str, Any], rows: Iterable[Figure]) -> dict[str, Any]:
-    """Insert figures into plain data at their dotted paths, in SI units of reports."""
-    for row in rows:
-        if row.json:
-            *path, last = row.json.split(".")
-            inside = data
-            for name in path:
-                inside = inside.setdefault(name, {})
-            inside[last] = row.unit("SI").shown(row.value)
-    return data

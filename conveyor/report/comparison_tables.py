@@ -11,8 +11,18 @@ from conveyor.laws.energy import DutySums, duty_emission
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.loop.annual_energy import annual_cost, lacks_feed_in_price
 from conveyor.report import plots, what_if
+from conveyor.report.json_keys import (
+    VERSION_KEY,
+    JsonList,
+    JsonObject,
+    describe_value,
+    number_key,
+    number_list,
+    table_rows,
+    text_key,
+    text_list,
+)
 from conveyor.report.page_elements import notebook_html
-from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.table_model import Column, Contents, Drawing, PagePlacement, Remark, Table, figure_table
 from conveyor.report.tables.document_tables import provenance_table, report_head
 from conveyor.report.tables.rubber_tables import band_columns
@@ -650,23 +660,42 @@ def _temperature_list(temperatures: Sequence[float], system: System) -> str:
     return f"{', '.join(f'{value:.4g}' for value in shown(temperatures).tolist())} {degree_signs(shown.label or '')}"
 
 
+def _compared_speeds(comparison: CalculatedComparison) -> list[tuple[float, list[float]]]:
+    """Speeds, each with the temperatures that means are over [degC]."""
+    speeds = sorted({scene.speed for scene in comparison.scenes})
+    return [(speed, [to_celsius(t) for t in comparison.common(speed)]) for speed in speeds]
+
+
+COMPARISON_KEYS: Final = JsonObject(
+    lambda comparison: comparison,
+    describe_value("conveyor compare SPEC --json"),
+    keys={
+        "schema_version": VERSION_KEY,
+        "conveyor": text_key("conveyor.name"),
+        "base": text_key("base", "compound of the savings"),
+        "cover": text_key("cover"),
+        "compared": JsonList(
+            _compared_speeds,
+            item=JsonObject(
+                lambda pair: pair,
+                describe_value("temperatures that means are over"),
+                keys={"speed_m_per_s": number_key("0"), "temperatures_degC": number_list("1")},
+            ),
+        ),
+        "ranking": table_rows(lambda comparison: ranking_table(comparison).records()),
+        "scenes": table_rows(lambda comparison: scene_table(comparison).records()),
+        "coverage": table_rows(lambda comparison: coverage_table(comparison).records()),
+        "refused": table_rows(lambda comparison: refused_scenes(comparison).records()),
+        "warnings": text_list(comparison_notes, "notes"),
+    },
+)
+"""Keys of a comparison."""
+
+
 def comparison_json(comparison: CalculatedComparison) -> dict[str, Any]:
     """Plain numbers for JSON; units in the keys."""
-    return {
-        "schema_version": SCHEMA_VERSION,
-        "conveyor": comparison.conveyor.name,
-        "base": comparison.base,
-        "cover": comparison.cover,
-        "compared": [
-            {"speed_m_per_s": speed, "temperatures_degC": [to_celsius(t) for t in comparison.common(speed)]}
-            for speed in sorted({scene.speed for scene in comparison.scenes})
-        ],
-        "ranking": ranking_table(comparison).records(),
-        "scenes": scene_table(comparison).records(),
-        "coverage": coverage_table(comparison).records(),
-        "refused": refused_scenes(comparison).records(),
-        "warnings": list(comparison_notes(comparison)),
-    }
+    made: dict[str, Any] = COMPARISON_KEYS.plain(comparison)
+    return made
 
 
 def comparison_notebook(comparison: CalculatedComparison) -> Html:

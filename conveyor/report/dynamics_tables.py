@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import partial
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Final
@@ -14,9 +15,21 @@ from conveyor.dynamics.criteria import dynamics_checks, pulley_peak, tension_pea
 from conveyor.dynamics.simulation import CalculatedDynamics, ScenarioResult
 from conveyor.laws.belt_strength import DUTY_SAFETY, SPLICE_SAFETY, belt_safety, required_strength
 from conveyor.report.animation import Panel, animated_curves
+from conveyor.report.json_keys import (
+    LEFT_OUT,
+    VERSION_KEY,
+    JsonKey,
+    JsonList,
+    JsonObject,
+    describe_value,
+    number_key,
+    row_list,
+    row_object,
+    text_key,
+    text_list,
+)
 from conveyor.report.matplotlib_settings import own_settings
 from conveyor.report.plots import curve_colour, label_axes, set_title, stacked_axes
-from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.table_model import (
     FIGURE_NAME,
     ROW_KIND,
@@ -29,7 +42,7 @@ from conveyor.report.table_model import (
     remark_table,
     slug,
 )
-from conveyor.report.tables.check_tables import check_json, check_table
+from conveyor.report.tables.check_tables import CHECK_KEYS, check_pairs, check_table
 from conveyor.report.tables.document_tables import provenance_table, report_head
 from conveyor.spec import fingerprint
 from conveyor.units import System
@@ -288,25 +301,82 @@ def dynamics_drawings(dynamics: CalculatedDynamics, system: System) -> Iterator[
             yield Drawing(f"{slug(one.name)}_{name}", f"{one.name}: {words}.", draw, "through-time")
 
 
-def scenarios_json(dynamics: CalculatedDynamics) -> dict[str, Any]:
-    """Plain numbers of every scenario; units in the keys."""
-    made = {
-        key.removeprefix("scenario_"): make(dynamics) for key, make in SCENARIO_TABLES.items() if key != "histories"
-    }
-    return {name: table.plain() for name, table in made.items() if table.rows}
+def _scenario_rows(name: str) -> Callable[[CalculatedDynamics], Any]:
+    """Rows of a table of scenarios; left out where it has none."""
+
+    def rows(dynamics: CalculatedDynamics) -> Any:
+        table = SCENARIO_TABLES[name](dynamics)
+        return table.plain() if table.rows else LEFT_OUT
+
+    return rows
+
+
+_EXTREMES: Final = ("highest_N", "highest_at_s", "lowest_N", "lowest_at_s")
+SCENARIO_KEYS: Final[dict[str, JsonKey]] = {
+    "scenarios": row_list(
+        _scenario_rows("scenarios"), "scenario", "highest_in", "lowest_in",
+        numbers=(
+            "duration_s", "highest_tension_N", "highest_at_s", "lowest_tension_N", "lowest_at_s",
+            "highest_speed_m_per_s", "rest_s", "way_m", "error", "energy_error", "cells", "step_s",
+        ),
+        of="one row a scenario; error is that of the peaks over the highest tension, by refinement",
+    ),
+    "drives": row_list(
+        _scenario_rows("scenario_drives"), "scenario", "drive",
+        numbers=(
+            "torque_max", "torque_min", "force_max_N", "force_min_N", "power_kW", "slip_m", "slip_heat_MJ", "brake_N",
+            "backstop_N", "take_up_setting_N", "take_up_min_N", "take_up_max_N", "carriage_out_m", "carriage_in_m",
+        ),
+    ),
+    "pulleys": row_list(
+        _scenario_rows("scenario_pulleys"), "scenario", "pulley", numbers=_EXTREMES, also=("safety",)
+    ),
+    "tensions": row_list(
+        _scenario_rows("scenario_tensions"), "scenario", "section", "strand",
+        numbers=(*_EXTREMES, "least_for_sag_N", "sag"),
+    ),
+    "splices": row_list(
+        _scenario_rows("scenario_splices"), "scenario", numbers=("highest_N_per_mm", "lowest_N_per_mm"),
+        also=("strength_N_per_mm",),
+    ),
+}  # fmt: skip
+"""Keys of scenarios; their rows are those of the tables."""
+_SIZES: Final = replace(
+    JsonList(
+        _scenario_rows("scenario_sizes"),
+        item=row_object(
+            {name: text_key(name) for name in ("sought", "scenario", "governs", "fails_with_less")}
+            | {"value": number_key("value"), "error": number_key("error", known=False)}
+            | {"most": number_key("most", known=False)},
+            describe_value("figures that --size sought, in the unit that `sought` names"),
+        ),
+    ),
+    optional=True,
+)
+DYNAMICS_KEYS: Final = JsonObject(
+    lambda dynamics: dynamics,
+    describe_value("conveyor dynamics SPEC --json"),
+    keys={
+        "schema_version": VERSION_KEY,
+        "conveyor": text_key("conveyor.name"),
+        "scenarios": SCENARIO_KEYS["scenarios"],
+        "sizes": _SIZES,
+        **SCENARIO_KEYS,
+        "checks": JsonList(
+            lambda dynamics: check_pairs(every := dynamics_checks(dynamics), governing_by_subject(every)),
+            describe_value("every criterion of every scenario; `case` is the scenario"),
+            item=CHECK_KEYS,
+        ),
+        "assumptions": text_list("assumptions", "what the figures rest on that the spec does not say"),
+    },
+)
+"""Keys of scenarios alone."""
 
 
 def dynamics_json(dynamics: CalculatedDynamics) -> dict[str, Any]:
-    """Plain numbers for JSON, as `result_schema` describes them."""
-    every = dynamics_checks(dynamics)
-    governing = governing_by_subject(every)
-    return {
-        "schema_version": SCHEMA_VERSION,
-        "conveyor": dynamics.conveyor.name,
-        **scenarios_json(dynamics),
-        "checks": [check_json(check, governs=any(check is one for one in governing)) for check in every],
-        "assumptions": list(dynamics.assumptions),
-    }
+    """Plain numbers for JSON; `DYNAMICS_KEYS` describes them."""
+    made: dict[str, Any] = DYNAMICS_KEYS.plain(dynamics)
+    return made
 
 
 _LEVELS, _MAP_POINTS = 14, 80  # shades, and points a side, of the map

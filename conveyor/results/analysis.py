@@ -141,7 +141,7 @@ class Analysis(CalculatedConveyor):
 
         `conveyor schema --result` prints the JSON schema of it.
         """
-        from conveyor.report.analysis_contents import analysis_json
+        from conveyor.report.result_schema import analysis_json
 
         return analysis_json(self.assess(studies))
 

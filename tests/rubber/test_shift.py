@@ -133,9 +133,7 @@ def test_messages_of_the_laws() -> None:
         WLF(8.86, -1.0, 293.15)
     with pytest.raises(InputError, match=r"activation_energy: got 0 J/mol, allowed: > 0 J/mol"):
         Arrhenius(0.0, 293.15)
-    with pytest.raises(
-        InputError, match=r"temperature: got -20 K, allowed: > 0 K K \(this floor counts in kelvin\)"
-    ):
+    with pytest.raises(InputError, match=r"temperature: got -20 K, allowed: > 0 K K \(this floor counts in kelvin\)"):
         Arrhenius(1e5, 293.15).log10_a_T(-20.0)
     with pytest.raises(RangeError, match=r"the shift law gives .* decades at -78\.35 degC, above 100"):
         shift_series(PronySeries(1.0, [1.0], [1.0]), WLF(8.86, 101.6, 296.3), 194.8)

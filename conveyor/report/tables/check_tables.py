@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
-from typing import Any, Final, NamedTuple
+from collections.abc import Callable, Collection, Iterable, Sequence
+from typing import Final, NamedTuple
 
 from conveyor.assessment import Assessment
 from conveyor.checks import Check, governing_by_criterion
 from conveyor.remarks import method_summary
+from conveyor.report.json_keys import JsonObject, choice_key, number_key, text_key, value_key
 from conveyor.report.table_model import (
     Column,
     PagePlacement,
@@ -97,25 +98,51 @@ def analysis_remarks(assessment: Assessment) -> Table:
     })  # fmt: skip
 
 
-def check_json(check: Check, *, governs: bool) -> dict[str, Any]:
-    """A check as JSON, in SI."""
-    calculated, required, margin = map(_finite_or_none, (check.calculated, check.required, check.margin))
-    (shown, sign), (asked, _) = (plain_figure(value, check.kind) for value in (calculated, required))
-    return {
-        "key": check.key,
-        "subject": check.subject.text(),
-        "where": check.where or None,
-        "case": None if check.case is None else check.case.text(),
-        "calculated": shown,
-        "relation": check.relation,
-        "required": asked,
-        "unit": sign,
-        "margin": margin,
-        "verdict": check.verdict.lower(),
-        "why": None if check.why is None or check.verdict == "pass" else check.why.text(),
-        "governs": governs,
-    }
+def _shown_figure(name: str) -> Callable[[tuple[Check, bool]], float | None]:
+    """Figure of a check in the unit of reports; None where it is not finite."""
+
+    def shown(pair: tuple[Check, bool]) -> float | None:
+        return plain_figure(_finite_or_none(getattr(pair[0], name)), pair[0].kind)[0]
+
+    return shown
 
 
 def _finite_or_none(value: float | None) -> float | None:
     return value if value is not None and math.isfinite(value) else None
+
+
+CHECK_KEYS: Final = JsonObject(
+    lambda pair: pair,
+    keys={
+        "key": text_key("0.key", "of the criterion, for programs"),
+        "subject": text_key(lambda pair: pair[0].subject.text(), "what is checked; the same in every case"),
+        "where": text_key(
+            lambda pair: pair[0].where or None, "what decides in it: a state of motion, a section", known=False
+        ),
+        "case": text_key(
+            lambda pair: None if pair[0].case is None else pair[0].case.text(),
+            "load case and its temperature; null: the conveyor as its spec gives it", known=False,
+        ),
+        "calculated": number_key(_shown_figure("calculated"), "in `unit`", known=False),
+        "relation": choice_key("0.relation", "at least", "at most", of="how calculated must stand to required"),
+        "required": number_key(
+            _shown_figure("required"), "in `unit`; null where the spec does not say or nothing helps", known=False
+        ),
+        "unit": text_key(lambda pair: plain_figure(None, pair[0].kind)[1], "- of ratios"),
+        "margin": number_key(
+            lambda pair: _finite_or_none(pair[0].margin), "over what is required, negative where it fails", known=False
+        ),
+        "verdict": choice_key(lambda pair: pair[0].verdict.lower(), "pass", "fail", "not checked"),
+        "why": text_key(
+            lambda pair: None if pair[0].why is None or pair[0].verdict == "pass" else pair[0].why.text(),
+            "what to say where it does not pass", known=False,
+        ),
+        "governs": value_key("1", "boolean", of="whether its margin is the least of its key and subject in all cases"),
+    },
+)  # fmt: skip
+"""Keys of a check and of whether it governs."""
+
+
+def check_pairs(every: Iterable[Check], governing: Sequence[Check]) -> list[tuple[Check, bool]]:
+    """Checks, each with whether it governs."""
+    return [(check, any(check is one for one in governing)) for check in every]
