@@ -30,7 +30,7 @@ from conveyor.report.json_keys import (
     text_key,
     text_list,
 )
-from conveyor.report.study_tables import STUDY_KEYS, TAKE_UP_KEYS
+from conveyor.report.study_json import STUDY_KEYS, TAKE_UP_KEYS
 from conveyor.report.table_model import Figure
 from conveyor.report.tables.check_tables import CHECK_KEYS, check_pairs
 from conveyor.report.tables.resistance_tables import estimate_motor_power

@@ -6,7 +6,6 @@ Values are SI; unit, digits and conversion follow from the kind and the system (
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
@@ -34,20 +33,8 @@ FIGURE_NAME: Final = "named"
 Getter: TypeAlias = Callable[[Any], Any]
 """Takes a row; returns an SI value, text, or None where it is not known."""
 
-
-NOTE_HEADINGS: Final = ("action required", "basis and limitations")
-"""Headings of the two lists of notes."""
-_NAME_PATTERN: Final = re.compile(r'"[^"]*"|\b[a-z_]+(?:\[\d+\])?(?:\.[a-z_]+(?:\[\d+\])?)+')
-"""Quoted names and fields, in which similar notes differ."""
-_COMPOUNDS_PATTERN: Final = re.compile(r'^compound ("[^"]*"(?:, "[^"]*")+) is ')
-_BASIS_PATTERN: Final = re.compile(
-    r"^compounds? \"|^calculation\.(calibration|flexure)|^the belt gives|^means over|^90 % bands|^energy and cost|"
-    "not given|assumed|illustrative|not read in the standard|as commonly reproduced"
-)
-"""Notes on inputs and assumptions, not on results."""
-
 _ANY_DICT: Final = frozenset(dir(dict))
-_PLAIN: Final = (float, str, int)
+_PLAIN: Final = frozenset({float, int, str, bool, type(None)})
 
 
 def slug(words: str) -> str:
@@ -95,7 +82,7 @@ def path_getter(path: str) -> Getter:
             value = attributes(row if first is None else row[first])
         except (AttributeError, TypeError):  # a mapping or None on the way
             return by_steps(row)
-        return value if isinstance(value, _PLAIN) else by_steps(row)
+        return value if type(value) in _PLAIN else by_steps(row)
 
     return taken
 
@@ -514,30 +501,3 @@ class Contents:
         """Figures of all tables that are shown in a place: tile, large, notebook."""
         rows = chain.from_iterable(part.rows for part in self.parts if part.by_row)
         return [row for row in rows if where in row.on.split()]
-
-
-def merge_notes(notes: Iterable[str]) -> list[str]:
-    """Merge notes that differ in quoted names or fields only, listing those.
-
-    Examples
-    --------
-    >>> merge_notes(['compound "a" is made up', "no brake", 'compound "b" is made up'])
-    ['compounds "a", "b" are made up', 'no brake']
-    """
-    alike: dict[str, list[list[str]]] = {}
-    for note in notes:
-        alike.setdefault(_NAME_PATTERN.sub("\0", note), []).append(_NAME_PATTERN.findall(note))
-    return [_combined_note(pattern, names) for pattern, names in alike.items()]
-
-
-def _combined_note(pattern: str, names: Sequence[Sequence[str]]) -> str:
-    columns = iter([", ".join(dict.fromkeys(column)) for column in zip(*names, strict=True)])
-    note = "".join(next(columns) if part == "\0" else part for part in re.split("(\0)", pattern))
-    return _COMPOUNDS_PATTERN.sub(r"compounds \1 are ", note)
-
-
-def sort_notes(notes: Iterable[str]) -> tuple[list[str], list[str]]:
-    """Return merged notes on results, then those on inputs and assumptions."""
-    every = merge_notes(notes)
-    of_data = [note for note in every if _BASIS_PATTERN.search(note)]
-    return [note for note in every if note not in of_data], of_data

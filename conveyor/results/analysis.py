@@ -343,7 +343,7 @@ class Studies(study.CalculatedStudies):
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers of the studies present for JSON; units in the keys."""
-        from conveyor.report.study_tables import studies_json
+        from conveyor.report.study_json import studies_json
 
         return studies_json(self)
 

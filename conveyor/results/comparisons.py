@@ -47,9 +47,9 @@ class Comparison(compound_study.CalculatedComparison, ReportExports):
     @cached_property
     def ranking(self) -> pd.DataFrame:
         """One row per compound and speed, the least mean power first; savings and payback against the base."""
-        from conveyor.report import comparison_tables
+        from conveyor.report.tables.ranking_tables import ranking_table
 
-        return comparison_tables.ranking_table(self).frame()
+        return ranking_table(self).frame()
 
     def contents(self, system: System | None = None) -> Contents:
         """Everything a report holds, in a system of units."""
