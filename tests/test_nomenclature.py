@@ -13,7 +13,7 @@ import pytest
 
 import conveyor
 from conveyor.contact import ContactProblem, ContactSolution, CreepSpectrum
-from conveyor.report.comparison_tables import comparison_contents, comparison_json
+from conveyor.report.tables.comparison_tables import comparison_contents, comparison_json
 from conveyor.spec import from_data
 from tests.worked_examples import worked_example
 

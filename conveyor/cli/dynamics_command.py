@@ -65,7 +65,7 @@ def dynamics(
         to.file("--output", path, ".xlsx", *PAGE, *FIGURE)
     to.reports(pdf=pdf)
     from conveyor.dynamics.simulation import simulate_scenarios
-    from conveyor.report.dynamics_tables import dynamics_contents, dynamics_json
+    from conveyor.report.tables.dynamics_tables import dynamics_contents, dynamics_json
 
     line = session.read(spec)
     system = session.system(line)

@@ -46,8 +46,8 @@ def power(
     to.folder("--plots", plots)
     import conveyor
     from conveyor import spec as spec_file
-    from conveyor.report.analysis_contents import analysis_contents
-    from conveyor.report.result_schema import analysis_json
+    from conveyor.report.tables.analysis_contents import analysis_contents
+    from conveyor.report.tables.result_schema import analysis_json
     from conveyor.results.analysis import studies
 
     line = session.read(spec)

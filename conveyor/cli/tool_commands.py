@@ -125,7 +125,7 @@ def schema(
     if markdown + result + duty > 1:
         raise InputError("--markdown, --result, --duty: give one of them")
     if result:
-        from conveyor.report.result_schema import result_schema
+        from conveyor.report.tables.result_schema import result_schema
 
         print_json(result_schema())
         return

@@ -97,7 +97,7 @@ class Analysis(CalculatedConveyor):
 
     def contents(self, studies: Studies | None = None, *, system: System | None = None) -> Contents:
         """Contents of a report in a system of units, with `conveyor.studies` if given."""
-        from conveyor.report.analysis_contents import analysis_contents
+        from conveyor.report.tables.analysis_contents import analysis_contents
 
         return analysis_contents(self.assess(studies).in_units(report_system(self.conveyor.report.units, system)))
 
@@ -107,7 +107,7 @@ class Analysis(CalculatedConveyor):
 
         A table is built when it is read.
         """
-        from conveyor.report.analysis_contents import AnalysisTables
+        from conveyor.report.tables.analysis_contents import AnalysisTables
 
         return AnalysisTables(self.assessment)
 
@@ -141,7 +141,7 @@ class Analysis(CalculatedConveyor):
 
         `conveyor schema --result` prints the JSON schema of it.
         """
-        from conveyor.report.result_schema import analysis_json
+        from conveyor.report.tables.result_schema import analysis_json
 
         return analysis_json(self.assess(studies))
 
@@ -261,12 +261,12 @@ class CaseStudy(case_study.CalculatedCases):
     @cached_property
     def table(self) -> pd.DataFrame:
         """One row per case, temperature and speed; units in the names."""
-        from conveyor.report.study_tables import case_table
+        from conveyor.report.tables.study_tables import case_table
 
         return case_table(self).frame()
 
     def _repr_html_(self) -> str:
-        from conveyor.report.study_tables import cases_notebook
+        from conveyor.report.tables.study_tables import cases_notebook
 
         return cases_notebook(self)
 
@@ -277,12 +277,12 @@ class StateStudy(state_study.CalculatedStates):
     @cached_property
     def table(self) -> pd.DataFrame:
         """One row per state; units in the names."""
-        from conveyor.report.study_tables import load_states
+        from conveyor.report.tables.study_tables import load_states
 
         return load_states(self).frame()
 
     def _repr_html_(self) -> str:
-        from conveyor.report.study_tables import states_notebook
+        from conveyor.report.tables.study_tables import states_notebook
 
         return states_notebook(self)
 
@@ -293,19 +293,19 @@ class DutyStudy(duty_study.CalculatedYear):
     @cached_property
     def table(self) -> pd.DataFrame:
         """One row per bar; units in the names."""
-        from conveyor.report.study_tables import duty_table
+        from conveyor.report.tables.study_tables import duty_table
 
         return duty_table(self).frame()
 
     @cached_property
     def summary(self) -> pd.Series:
         """Sums of the year; units in the names."""
-        from conveyor.report.study_tables import year_table
+        from conveyor.report.tables.study_tables import year_table
 
         return year_table(self).series("year")
 
     def _repr_html_(self) -> str:
-        from conveyor.report.study_tables import duty_notebook
+        from conveyor.report.tables.study_tables import duty_notebook
 
         return duty_notebook(self)
 
@@ -316,12 +316,12 @@ class UncertaintyStudy(range_study.CalculatedRanges):
     @cached_property
     def table(self) -> pd.DataFrame:
         """The tornado: one row per input, the largest swing first; units in the names."""
-        from conveyor.report.study_tables import sensitivity_table
+        from conveyor.report.tables.study_tables import sensitivity_table
 
         return sensitivity_table(self).frame()
 
     def _repr_html_(self) -> str:
-        from conveyor.report.study_tables import uncertainty_notebook
+        from conveyor.report.tables.study_tables import uncertainty_notebook
 
         return uncertainty_notebook(self)
 
@@ -343,7 +343,7 @@ class Studies(study.CalculatedStudies):
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers of the studies present for JSON; units in the keys."""
-        from conveyor.report.study_json import studies_json
+        from conveyor.report.tables.study_json import studies_json
 
         return studies_json(self)
 

@@ -13,7 +13,8 @@ from conveyor.errors import InputError
 from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import scale_quantity
-from conveyor.report import analysis_plots, plots, transfer_tables
+from conveyor.report import analysis_plots, plots
+from conveyor.report.tables import transfer_tables
 from conveyor.report.tables.curve_tables import drifts_by_case
 from conveyor.report.tables.loop_tables import section_boundaries
 from conveyor.studies import CalculatedStudies

@@ -11,7 +11,7 @@ from conveyor.checks import belt_cleaning, impact_load, skirtboards
 from conveyor.errors import InputError
 from conveyor.laws.discharge import bulk_on_pulley, width_on_pulley
 from conveyor.pipeline import calculate
-from conveyor.report.analysis_contents import AnalysisTables
+from conveyor.report.tables.analysis_contents import AnalysisTables
 from conveyor.spec import from_data
 from conveyor.starter import starter_values
 

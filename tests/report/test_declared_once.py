@@ -18,9 +18,9 @@ from conveyor.checks import check_against_limit
 from conveyor.cli.terminal import show_power
 from conveyor.forces import Force
 from conveyor.report import excel, html, table_files
-from conveyor.report.analysis_contents import TABLES
 from conveyor.report.page_elements import notebook_summary
 from conveyor.report.table_model import Column, Figure, PagePlacement, Table
+from conveyor.report.tables.analysis_contents import TABLES
 from conveyor.units.presentation import _KIND_FORMATS, Unit, display_unit
 from conveyor.units.sentences import message
 

@@ -19,7 +19,7 @@ from conveyor.loop.ties import TIE_RTOL
 from conveyor.models import RubberCompound, standard_cases
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
-from conveyor.report.study_tables import power_bands
+from conveyor.report.tables.study_tables import power_bands
 from conveyor.results.analysis import studies, study_ranges
 from conveyor.studies.default_bands import power_range
 from tests.written_tables import written_tables

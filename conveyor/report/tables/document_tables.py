@@ -9,7 +9,6 @@ from typing import Any, Final
 
 from conveyor.files.output_marks import package_version
 from conveyor.models import Conveyor
-from conveyor.report.inputs import InputRow, group_inputs
 from conveyor.report.table_model import (
     Column,
     Figure,
@@ -18,6 +17,7 @@ from conveyor.report.table_model import (
     Table,
     figure_table,
 )
+from conveyor.report.tables.inputs import InputRow, group_inputs
 from conveyor.spec import fingerprint
 from conveyor.units import Quantity, System
 from conveyor.units.presentation import belt_rating_text, belt_strength_text, display_unit

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from conveyor.laws.energy import DutySums, duty_emission
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.loop.annual_energy import annual_cost
-from conveyor.report import what_if
 from conveyor.report.table_model import Column, PagePlacement, Table, figure_table
+from conveyor.report.tables import what_if
 from conveyor.studies.comparison import RankedPower
 from conveyor.units.presentation import MONEY, NEVER
 

@@ -9,9 +9,6 @@ from typing import Any, Final, NamedTuple
 from conveyor.assessment import Assessment
 from conveyor.loop.estimates import ClassicalEstimate
 from conveyor.pipeline import CalculatedConveyor
-from conveyor.report.analysis_contents import AnalysisTables
-from conveyor.report.comparison_tables import COMPARISON_KEYS
-from conveyor.report.dynamics_tables import DYNAMICS_KEYS, SCENARIO_KEYS
 from conveyor.report.json_keys import (
     LEFT_OUT,
     ROW_SCHEMA,
@@ -30,10 +27,13 @@ from conveyor.report.json_keys import (
     text_key,
     text_list,
 )
-from conveyor.report.study_json import STUDY_KEYS, TAKE_UP_KEYS
 from conveyor.report.table_model import Figure
+from conveyor.report.tables.analysis_contents import AnalysisTables
 from conveyor.report.tables.check_tables import CHECK_KEYS, check_pairs
+from conveyor.report.tables.comparison_tables import COMPARISON_KEYS
+from conveyor.report.tables.dynamics_tables import DYNAMICS_KEYS, SCENARIO_KEYS
 from conveyor.report.tables.resistance_tables import estimate_motor_power
+from conveyor.report.tables.study_json import STUDY_KEYS, TAKE_UP_KEYS
 
 
 class _Source(NamedTuple):

@@ -7,7 +7,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
 from conveyor.report import plots
-from conveyor.report.comparison_notes import comparison_notes, ranking_changes
 from conveyor.report.json_keys import (
     VERSION_KEY,
     JsonList,
@@ -21,6 +20,7 @@ from conveyor.report.json_keys import (
 )
 from conveyor.report.page_elements import notebook_html
 from conveyor.report.table_model import Column, Contents, Drawing, PagePlacement, Remark, Table
+from conveyor.report.tables.comparison_notes import comparison_notes, ranking_changes
 from conveyor.report.tables.document_tables import provenance_table, report_head
 from conveyor.report.tables.ranking_tables import (
     COMPOUND,

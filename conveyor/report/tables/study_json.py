@@ -25,7 +25,7 @@ from conveyor.units.presentation import display_unit
 if TYPE_CHECKING:
     from conveyor.studies import CalculatedStudies
     from conveyor.studies.states import LoadState
-from conveyor.report.study_tables import (
+from conveyor.report.tables.study_tables import (
     case_table,
     duty_table,
     flooded_belt,

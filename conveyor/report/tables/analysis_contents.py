@@ -13,10 +13,6 @@ from conveyor.line.covers import compounds_by_strand
 from conveyor.line.stretches import STRANDS
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.report import analysis_plots
-from conveyor.report.design_verdict import governing_figures
-from conveyor.report.dynamics_tables import SCENARIO_TABLES, dynamics_drawings
-from conveyor.report.inputs import input_rows
-from conveyor.report.study_tables import STUDY_TABLES, study_drawings
 from conveyor.report.table_model import (
     Contents,
     Drawing,
@@ -32,6 +28,7 @@ from conveyor.report.tables.curve_tables import (
     transition_table,
     vertical_curves,
 )
+from conveyor.report.tables.design_verdict import governing_figures
 from conveyor.report.tables.document_tables import (
     grouped_input_table,
     identity_table,
@@ -40,7 +37,9 @@ from conveyor.report.tables.document_tables import (
     report_head,
 )
 from conveyor.report.tables.drive_tables import brake_table, drive_parts, drive_table, start_stop_table
+from conveyor.report.tables.dynamics_tables import SCENARIO_TABLES, dynamics_drawings
 from conveyor.report.tables.idler_tables import distinct_rolls, idler_sets, roll_table
+from conveyor.report.tables.inputs import input_rows
 from conveyor.report.tables.loop_tables import (
     convergence_table,
     profile_table,
@@ -68,15 +67,16 @@ from conveyor.report.tables.rubber_tables import (
     prony_table,
     rubber_table,
 )
-from conveyor.report.transfer_tables import (
+from conveyor.report.tables.study_tables import STUDY_TABLES, study_drawings
+from conveyor.report.tables.transfer_tables import (
     cleaner_table,
     discharge_table,
     loading_point_table,
     pulley_outline,
     trajectory_table,
 )
-from conveyor.report.transfer_tables import discharge_drawing as of_discharge
-from conveyor.report.what_if import what_if_table
+from conveyor.report.tables.transfer_tables import discharge_drawing as of_discharge
+from conveyor.report.tables.what_if import what_if_table
 from conveyor.spec import fingerprint
 from conveyor.studies.load_cases import Load
 from conveyor.units.presentation import display_unit
