@@ -13,8 +13,7 @@ import pytest
 
 import conveyor
 from conveyor.contact import ContactProblem, ContactSolution, CreepSpectrum
-from conveyor.report.analysis_tables import analysis_contents
-from conveyor.report.comparison_tables import comparison_contents, comparison_json
+from conveyor.report.tables.comparison_tables import comparison_contents, comparison_json
 from conveyor.spec import from_data
 from conveyor.starter.output_reference import output_page
 from tests.worked_examples import worked_example
@@ -51,7 +50,7 @@ def rows() -> dict[str, list[str]]:
 
 def frames(name: str) -> Iterator[pd.DataFrame | pd.Series]:
     result, asked = worked_example(name)
-    for table in analysis_contents(result, asked).tables:
+    for table in result.contents(asked).tables:
         if table.key not in OF_WORDS:
             yield pd.Series(dtype=float, index=table.frame().iloc[:, 0]) if table.by_row else table.frame()
     if asked.cases is not None:

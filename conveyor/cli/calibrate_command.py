@@ -75,7 +75,7 @@ def calibrate(
 def _show_calibration(calibration: CalibrationStudy, system: System) -> None:
     """Print factors, correlation, runs, and the part of the spec."""
     from conveyor.cli.terminal import report_grid, terminal_console, wrap_line
-    from conveyor.report import calibration_tables
+    from conveyor.report.tables import calibration_tables
 
     screen = terminal_console()
     runs = calibration_tables.run_table(calibration).only(*_RUN_COLUMNS)

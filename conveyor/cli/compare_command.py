@@ -112,7 +112,8 @@ def compare(
     if not comparison.scenes:
         reasons = "; ".join(dict.fromkeys(refusal.reason for refusal in comparison.refused))
         raise NoSolutionError(f"no scene has an answer: {reasons}")
-    from conveyor.report import comparison_tables, table_files
+    from conveyor.report import table_files
+    from conveyor.report.tables import comparison_tables
 
     contents, draw = comparison_tables.comparison_contents(comparison, system), comparison.plots
     to.write(contents)

@@ -65,7 +65,7 @@ def dynamics(
         to.file("--output", path, ".xlsx", *PAGE, *FIGURE)
     to.reports(pdf=pdf)
     from conveyor.dynamics.simulation import simulate_scenarios
-    from conveyor.report.dynamics_tables import dynamics_contents, dynamics_json
+    from conveyor.report.tables.dynamics_tables import dynamics_contents, dynamics_json
 
     line = session.read(spec)
     system = session.system(line)
@@ -103,7 +103,7 @@ def _chosen_scenarios(line: Conveyor, names: list[str] | None) -> tuple[Scenario
 
 def _write_output(dynamics: CalculatedDynamics, contents: Contents, path: Path, to: Outputs) -> None:
     """Add the report or figure of an output path, by its ending; one figure for each scenario."""
-    from conveyor.report.dynamics_tables import scenario_figure
+    from conveyor.report.dynamics_plots import scenario_figure
     from conveyor.report.table_model import slug
 
     if path.suffix.lower() not in FIGURE:

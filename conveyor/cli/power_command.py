@@ -46,6 +46,8 @@ def power(
     to.folder("--plots", plots)
     import conveyor
     from conveyor import spec as spec_file
+    from conveyor.report.tables.analysis_contents import analysis_contents
+    from conveyor.report.tables.result_schema import analysis_json
     from conveyor.results.analysis import studies
 
     line = session.read(spec)
@@ -54,12 +56,11 @@ def power(
     with session.progress() as told:
         with spec_file.locate_errors(spec):
             asked = studies(line, result, progress=told)
-        result = result.beside(asked)
-        shown = result.in_units(system)
-        contents = shown.contents(asked)
+        assessment = result.assess(asked)
+        contents = analysis_contents(assessment.in_units(system))
         to.write(contents, told)
         if plots is not None:
-            to.figures(shown.plots.every(asked), plots, plot_kind.value)
+            to.figures(result.beside(asked).in_units(system).plots.every(asked), plots, plot_kind.value)
     from conveyor.cli.terminal import show_power
 
-    session.answer(lambda: result.to_dict(asked), to, lambda: show_power(contents))
+    session.answer(lambda: analysis_json(assessment), to, lambda: show_power(contents))

@@ -56,7 +56,7 @@ def size(
             to.file("--output", each, ".xlsx", *PAGE, *FIGURE, *SPEC)
     to.reports(tables=tables, parquet=parquet, pdf=pdf)
     from conveyor import sizing
-    from conveyor.report.sizing_tables import sizing_contents, sizing_json
+    from conveyor.report.tables.sizing_tables import sizing_contents, sizing_json
     from conveyor.studies.study_file import read_duty
 
     read = read_duty(duty, shelves=session.shelf or ())

@@ -62,7 +62,8 @@ def study(
     """Calculate every point of a study; stopped or extended, it goes on from FILE.answers beside the table."""
     preload_workers(scheduler, workers)
     from conveyor import shelf as shelves
-    from conveyor.report import design_tables, point_tables
+    from conveyor.report import point_tables
+    from conveyor.report.tables import design_tables
     from conveyor.studies import parametric_study as running
     from conveyor.studies.evaluation import summarise_study
     from conveyor.studies.study_file import base_spec_path, name_plan_file, read_plan
@@ -110,8 +111,7 @@ def study(
         evaluated = summarise_study(campaign, running.design_results(campaign, known))
         if designs is not None:
             designed.write(designs, point_tables.design_rows(evaluated, running.design_results(campaign, known)))
-    contents = design_tables.study_contents(evaluated, system)
-    _write_study_files(to, campaign, evaluated, contents, plots=plots, specs=specs)
+    contents = _write_study_files(to, campaign, evaluated, system, plots=plots, specs=specs)
     plain = {"points": count, "calculated": new, "without_an_answer": reasons.total(), "table": str(output)}
 
     def show() -> None:
@@ -135,21 +135,24 @@ def _write_study_files(
     to: Outputs,
     campaign: ParametricStudy,
     study: StudySummary,
-    contents: Contents,
+    system: System,
     *,
     plots: Path | None,
     specs: Path | None,
-) -> None:
-    """Make the page, figures and design specs."""
+) -> Contents:
+    """Make the page, figures and design specs; return the contents of the report."""
+    from conveyor.report.tables.design_tables import study_contents
+
+    contents = study_contents(study, system)
     to.write(contents)
     if plots is not None:
         to.figures({drawing.name: drawing.draw() for drawing in contents.drawings}, plots)
     if specs is not None:
         ranked = enumerate(study.best, start=1)
         made = {specs / f"{rank:02}_design_{one.number}.yaml": one for rank, one in ranked}
-        system = contents.system
         told = {path: design_spec(campaign, one, describe_design(one, campaign, system)) for path, one in made.items()}
         to.add("specs", specs, told)
+    return contents
 
 
 def show_best(contents: Contents, deciding: Set[str]) -> None:

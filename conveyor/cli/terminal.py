@@ -121,7 +121,7 @@ def wrap_line(line: str, width: int, *, first: str = "", further: str = "") -> s
 
 def show_notes(screen: Console, notes: Sequence[str]) -> None:
     """Print notes as two lists, wrapped to the terminal."""
-    from conveyor.report.table_model import NOTE_HEADINGS, sort_notes
+    from conveyor.report.merged_notes import NOTE_HEADINGS, sort_notes
 
     for heading, colour, listed in zip(NOTE_HEADINGS, ("bold yellow", "bold"), sort_notes(notes), strict=True):
         if listed:
@@ -433,7 +433,7 @@ def _print_sizes(screen: Console, contents: Contents) -> None:
 
 def show_sizing(contents: Contents) -> None:
     """Print the designs, the reasons for their rank, and remarks."""
-    from conveyor.report.table_model import merge_notes
+    from conveyor.report.merged_notes import merge_notes
 
     every = contents["designs"]
     title = f"{contents.document.title}: designs"

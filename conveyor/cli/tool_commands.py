@@ -137,7 +137,7 @@ def schema(
         print_text(output_page("workbook" if workbook else "nomenclature"))
         return
     if result:
-        from conveyor.report.result_schema import result_schema
+        from conveyor.report.tables.result_schema import result_schema
 
         print_json(result_schema())
         return

@@ -49,7 +49,7 @@ def fit_contents(
         Table("provenance", "Read and done", "Made by", plain[1:], (("", output_marks.program_version()),)),
     )  # fmt: skip
     head = ReportHead(fitted.compound.name, "Master curve of a rubber", about, "", paper)
-    return Contents(head, parts, "SI")
+    return Contents.of(head, parts, "SI")
 
 
 def document_fields(fitted: FittedCompound, document: Mapping[str, str]) -> dict[str, str]:

@@ -10,6 +10,7 @@ from typing import Final
 from conveyor.errors import InputError
 from conveyor.files.atomic_write import check_writable, save_files
 from conveyor.files.output_marks import package_version
+from conveyor.report.merged_notes import NOTE_HEADINGS, sort_notes
 from conveyor.report.page_elements import (
     PagePart,
     bullet_list,
@@ -22,7 +23,7 @@ from conveyor.report.page_elements import (
     verdict_mark,
 )
 from conveyor.report.svg import captioned_drawing, figure_svg
-from conveyor.report.table_model import NOTE_HEADINGS, Contents, Drawing, Table, sort_notes
+from conveyor.report.table_model import Contents, Drawing, Table
 from conveyor.text.markup import Html, element, join_html
 from conveyor.units import System
 

@@ -204,7 +204,7 @@ class SheetWriter:
     @property
     def keys(self) -> tuple[str, ...]:
         """Keys of the tables of this sheet."""
-        return self.contents.of(self.sheet.title)
+        return self.contents.keys_on(self.sheet.title)
 
     def rest(self, row: int = 1, *, widest: int = _NAME_CHARACTERS, but: Sequence[str] = ()) -> None:
         """Write the remaining tables of the sheet under one another."""

@@ -14,8 +14,9 @@ from openpyxl.worksheet.worksheet import Worksheet
 from conveyor.files.output_marks import package_version
 from conveyor.report import charts
 from conveyor.report.cells import GREY, HEADING, TITLE, VERDICT_STYLES, line_count, write_value
+from conveyor.report.merged_notes import NOTE_HEADINGS, sort_notes
 from conveyor.report.sheet_writer import CHART_ROWS, SheetWriter, define_name
-from conveyor.report.table_model import FAILS, NOTE_HEADINGS, sort_notes
+from conveyor.report.table_model import FAILS
 from conveyor.units.presentation import display_unit
 
 _NARROW_CHART = 12.0  # width of a chart on a page held upright [cm]

@@ -6,12 +6,14 @@ Values are SI; unit, digits and conversion follow from the kind and the system (
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from itertools import chain
-from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, Self, TypeAlias
+
+import numpy as np
 
 from conveyor.models.report import Paper
 from conveyor.units import System
@@ -32,17 +34,8 @@ FIGURE_NAME: Final = "named"
 Getter: TypeAlias = Callable[[Any], Any]
 """Takes a row; returns an SI value, text, or None where it is not known."""
 
-
-NOTE_HEADINGS: Final = ("action required", "basis and limitations")
-"""Headings of the two lists of notes."""
-_NAME_PATTERN: Final = re.compile(r'"[^"]*"|\b[a-z_]+(?:\[\d+\])?(?:\.[a-z_]+(?:\[\d+\])?)+')
-"""Quoted names and fields, in which similar notes differ."""
-_COMPOUNDS_PATTERN: Final = re.compile(r'^compound ("[^"]*"(?:, "[^"]*")+) is ')
-_BASIS_PATTERN: Final = re.compile(
-    r"^compounds? \"|^calculation\.(calibration|flexure)|^the belt gives|^means over|^90 % bands|^energy and cost|"
-    "not given|assumed|illustrative|not read in the standard|as commonly reproduced"
-)
-"""Notes on inputs and assumptions, not on results."""
+_ANY_DICT: Final = frozenset(dir(dict))
+_PLAIN: Final = frozenset({float, int, str, bool, type(None)})
 
 
 def slug(words: str) -> str:
@@ -69,14 +62,28 @@ def path_getter(path: str) -> Getter:
     ... )
     (2.5, 3.0, None)
     """
-    steps = path.split(".")
+    steps = [(step, int(step) if step.isdecimal() else None) for step in path.split(".")]
+
+    def by_steps(row: Any) -> Any:
+        for name, index in steps:
+            if row is None:
+                return None
+            keyed = index is not None or isinstance(row, Mapping)
+            row = row[name if index is None else index] if keyed else getattr(row, name)
+        return row.item() if isinstance(row, np.ndarray | np.generic) and row.ndim == 0 else row
+
+    (_, first), *further = steps
+    names = [name for name, index in (further if first is not None else steps) if index is None]
+    if not names or len(names) < len(steps) - (first is not None) or not _ANY_DICT.isdisjoint(names):
+        return by_steps
+    attributes = attrgetter(".".join(names))
 
     def taken(row: Any) -> Any:
-        for step in steps:
-            if row is not None:
-                keyed = step.isdecimal() or isinstance(row, Mapping)
-                row = row[int(step) if step.isdecimal() else step] if keyed else getattr(row, step)
-        return row.item() if getattr(row, "ndim", None) == 0 else row
+        try:
+            value = attributes(row if first is None else row[first])
+        except (AttributeError, TypeError):  # a mapping or None on the way
+            return by_steps(row)
+        return value if type(value) in _PLAIN else by_steps(row)
 
     return taken
 
@@ -431,12 +438,12 @@ class Contents:
     ----------
     document : ReportHead
         Head.
-    parts : tuple of Table
+    by_key : mapping of str to Table
         Tables in order, without empty ones.
     system : str
         Unit system.
-    drawings : tuple of Drawing
-        Drawings.
+    drawn : callable
+        Returns its drawings.
     page : tuple of (str, str)
         Parts of its page and their headings; empty ones are left out.
     layout : str
@@ -444,19 +451,28 @@ class Contents:
     """
 
     document: ReportHead
-    parts: tuple[Table, ...]
+    by_key: Mapping[str, Table]
     system: System
-    drawings: tuple[Drawing, ...] = ()
+    drawn: Callable[[], Iterable[Drawing]] = tuple
     page: tuple[tuple[str, str], ...] = ()
     layout: str = ""
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "parts", tuple(part for part in self.parts if part.rows))
+    @classmethod
+    def of(
+        cls, document: ReportHead, parts: Iterable[Table], system: System, drawings: Iterable[Drawing] = (), **more: Any
+    ) -> Self:
+        """Return contents of tables in order; empty ones are left out."""
+        return cls(document, {part.key: part for part in parts if part.rows}, system, lambda: drawings, **more)
 
     @cached_property
-    def by_key(self) -> dict[str, Table]:
-        """Tables by key."""
-        return {part.key: part for part in self.parts}
+    def drawings(self) -> tuple[Drawing, ...]:
+        """Its drawings."""
+        return tuple(self.drawn())
+
+    @cached_property
+    def parts(self) -> tuple[Table, ...]:
+        """Tables in order."""
+        return tuple(self.by_key.values())
 
     def __getitem__(self, key: str) -> Table:
         return self.by_key[key]
@@ -469,7 +485,7 @@ class Contents:
         """Tables of the workbook and of files."""
         return tuple(part.on_sheet() for part in self.parts if part.sheet)
 
-    def of(self, sheet: str) -> tuple[str, ...]:
+    def keys_on(self, sheet: str) -> tuple[str, ...]:
         """Keys of the tables of a sheet."""
         return tuple(part.key for part in self.parts if part.sheet == sheet)
 
@@ -486,30 +502,3 @@ class Contents:
         """Figures of all tables that are shown in a place: tile, large, notebook."""
         rows = chain.from_iterable(part.rows for part in self.parts if part.by_row)
         return [row for row in rows if where in row.on.split()]
-
-
-def merge_notes(notes: Iterable[str]) -> list[str]:
-    """Merge notes that differ in quoted names or fields only, listing those.
-
-    Examples
-    --------
-    >>> merge_notes(['compound "a" is made up', "no brake", 'compound "b" is made up'])
-    ['compounds "a", "b" are made up', 'no brake']
-    """
-    alike: dict[str, list[list[str]]] = {}
-    for note in notes:
-        alike.setdefault(_NAME_PATTERN.sub("\0", note), []).append(_NAME_PATTERN.findall(note))
-    return [_combined_note(pattern, names) for pattern, names in alike.items()]
-
-
-def _combined_note(pattern: str, names: Sequence[Sequence[str]]) -> str:
-    columns = iter([", ".join(dict.fromkeys(column)) for column in zip(*names, strict=True)])
-    note = "".join(next(columns) if part == "\0" else part for part in re.split("(\0)", pattern))
-    return _COMPOUNDS_PATTERN.sub(r"compounds \1 are ", note)
-
-
-def sort_notes(notes: Iterable[str]) -> tuple[list[str], list[str]]:
-    """Return merged notes on results, then those on inputs and assumptions."""
-    every = merge_notes(notes)
-    of_data = [note for note in every if _BASIS_PATTERN.search(note)]
-    return [note for note in every if note not in of_data], of_data

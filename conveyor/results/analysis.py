@@ -6,7 +6,7 @@ The functions calculate like those of `conveyor.pipeline` and `conveyor.studies`
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial, wraps
 from pathlib import Path
@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 
 from conveyor import studies as study
 from conveyor.arguments import check_arguments
-from conveyor.checks import Check, run_checks
+from conveyor.assessment import Assessment
+from conveyor.checks import Check
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor, calculate
-from conveyor.remarks import analysis_assumptions, analysis_warnings
+from conveyor.remarks import analysis_warnings
 from conveyor.studies import duty as duty_study
 from conveyor.studies import input_ranges as range_study
 from conveyor.studies import load_cases as case_study
@@ -29,7 +30,6 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from conveyor.dynamics.simulation import CalculatedDynamics
-    from conveyor.report.analysis_tables import ReportAdditions
     from conveyor.report.table_files import FileKind
     from conveyor.report.table_model import Contents, Table
     from conveyor.results.analysis_figures import AnalysisPlots
@@ -54,14 +54,19 @@ class Analysis(CalculatedConveyor):
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @cached_property
+    def assessment(self) -> Assessment:
+        """Checks, range of power and take-up of this load, without studies."""
+        return Assessment(self)
+
+    @property
     def checks(self) -> tuple[Check, ...]:
         """Every criterion with its verdict."""
-        return run_checks(self)
+        return self.assessment.own_checks
 
     @property
     def assumptions(self) -> tuple[str, ...]:
         """Assumptions behind every figure."""
-        return analysis_assumptions(self.conveyor)
+        return self.assessment.assumptions
 
     @cached_property
     def warnings(self) -> tuple[str, ...]:
@@ -86,17 +91,25 @@ class Analysis(CalculatedConveyor):
         own = states.own
         return replace(self, contacts=own.contacts, balance=own.balance, fixed=own.fixed, convergence=own.convergence)
 
+    def assess(self, studies: Studies | None = None) -> Assessment:
+        """Checks, governing loads, range of power and take-up, with `conveyor.studies` if given."""
+        return self.assessment if studies is None else Assessment(self.beside(studies), studies, studies.dynamics)
+
     def contents(self, studies: Studies | None = None, *, system: System | None = None) -> Contents:
         """Contents of a report in a system of units, with `conveyor.studies` if given."""
-        from conveyor.report.analysis_tables import analysis_contents
+        from conveyor.report.tables.analysis_contents import analysis_contents
 
-        shown = self.beside(studies).in_units(report_system(self.conveyor.report.units, system))
-        return analysis_contents(shown, studies, _scenario_additions(studies, shown.conveyor.report.units))
+        return analysis_contents(self.assess(studies).in_units(report_system(self.conveyor.report.units, system)))
 
     @cached_property
-    def tables(self) -> dict[str, Table]:
-        """Every table of the reports by its name (docs/workbook.md); `.frame(system)` is the data frame."""
-        return self.contents().by_key
+    def tables(self) -> Mapping[str, Table]:
+        """Every table of the reports by its name (docs/workbook.md); `.frame(system)` is the data frame.
+
+        A table is built when it is read.
+        """
+        from conveyor.report.tables.analysis_contents import AnalysisTables
+
+        return AnalysisTables(self.assessment)
 
     @cached_property
     def summary(self) -> pd.Series:
@@ -128,9 +141,9 @@ class Analysis(CalculatedConveyor):
 
         `conveyor schema --result` prints the JSON schema of it.
         """
-        from conveyor.report.analysis_tables import analysis_json
+        from conveyor.report.tables.result_schema import analysis_json
 
-        return analysis_json(self.beside(studies), studies, _scenario_additions(studies, "SI"))
+        return analysis_json(self.assess(studies))
 
     @check_arguments
     def to_excel(self, path: str | Path, studies: Studies | None = None, *, system: System | None = None) -> Path:
@@ -248,12 +261,12 @@ class CaseStudy(case_study.CalculatedCases):
     @cached_property
     def table(self) -> pd.DataFrame:
         """One row per case, temperature and speed; units in the names."""
-        from conveyor.report.study_tables import case_table
+        from conveyor.report.tables.study_tables import case_table
 
         return case_table(self).frame()
 
     def _repr_html_(self) -> str:
-        from conveyor.report.study_tables import cases_notebook
+        from conveyor.report.tables.study_tables import cases_notebook
 
         return cases_notebook(self)
 
@@ -264,12 +277,12 @@ class StateStudy(state_study.CalculatedStates):
     @cached_property
     def table(self) -> pd.DataFrame:
         """One row per state; units in the names."""
-        from conveyor.report.study_tables import load_states
+        from conveyor.report.tables.study_tables import load_states
 
         return load_states(self).frame()
 
     def _repr_html_(self) -> str:
-        from conveyor.report.study_tables import states_notebook
+        from conveyor.report.tables.study_tables import states_notebook
 
         return states_notebook(self)
 
@@ -280,19 +293,19 @@ class DutyStudy(duty_study.CalculatedYear):
     @cached_property
     def table(self) -> pd.DataFrame:
         """One row per bar; units in the names."""
-        from conveyor.report.study_tables import duty_table
+        from conveyor.report.tables.study_tables import duty_table
 
         return duty_table(self).frame()
 
     @cached_property
     def summary(self) -> pd.Series:
         """Sums of the year; units in the names."""
-        from conveyor.report.study_tables import year_table
+        from conveyor.report.tables.study_tables import year_table
 
         return year_table(self).series("year")
 
     def _repr_html_(self) -> str:
-        from conveyor.report.study_tables import duty_notebook
+        from conveyor.report.tables.study_tables import duty_notebook
 
         return duty_notebook(self)
 
@@ -303,12 +316,12 @@ class UncertaintyStudy(range_study.CalculatedRanges):
     @cached_property
     def table(self) -> pd.DataFrame:
         """The tornado: one row per input, the largest swing first; units in the names."""
-        from conveyor.report.study_tables import sensitivity_table
+        from conveyor.report.tables.study_tables import sensitivity_table
 
         return sensitivity_table(self).frame()
 
     def _repr_html_(self) -> str:
-        from conveyor.report.study_tables import uncertainty_notebook
+        from conveyor.report.tables.study_tables import uncertainty_notebook
 
         return uncertainty_notebook(self)
 
@@ -330,7 +343,7 @@ class Studies(study.CalculatedStudies):
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers of the studies present for JSON; units in the keys."""
-        from conveyor.report.study_tables import studies_json
+        from conveyor.report.tables.study_json import studies_json
 
         return studies_json(self)
 
@@ -418,12 +431,3 @@ def _scenario_results(
     loads = None if made.states is None else EveryLoad(made.states, made.cases)
     told = None if progress is None else partial(progress, "scenarios")
     return simulate_scenarios(conveyor, progress=told, loads=loads)
-
-
-def _scenario_additions(studies: Studies | None, system: System) -> ReportAdditions | None:
-    """Additions of scenarios to a report."""
-    if studies is None or studies.dynamics is None:
-        return None
-    from conveyor.report.dynamics_tables import report_additions
-
-    return report_additions(studies.dynamics, system)

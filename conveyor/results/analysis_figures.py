@@ -13,8 +13,10 @@ from conveyor.errors import InputError
 from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import scale_quantity
-from conveyor.report import analysis_plots, plots, transfer_tables
-from conveyor.report.analysis_tables import drifts_by_case, section_boundaries
+from conveyor.report import analysis_plots, plots
+from conveyor.report.tables import transfer_tables
+from conveyor.report.tables.curve_tables import drifts_by_case
+from conveyor.report.tables.loop_tables import section_boundaries
 from conveyor.studies import CalculatedStudies
 from conveyor.studies.comparison_scenes import ComparedScene, Coverage, calculate_compound
 from conveyor.studies.loads import design_loads

@@ -40,20 +40,20 @@ class Comparison(compound_study.CalculatedComparison, ReportExports):
     @cached_property
     def table(self) -> pd.DataFrame:
         """One row per scene; units in the names."""
-        from conveyor.report import comparison_tables
+        from conveyor.report.tables import comparison_tables
 
         return comparison_tables.scene_table(self).frame()
 
     @cached_property
     def ranking(self) -> pd.DataFrame:
         """One row per compound and speed, the least mean power first; savings and payback against the base."""
-        from conveyor.report import comparison_tables
+        from conveyor.report.tables.ranking_tables import ranking_table
 
-        return comparison_tables.ranking_table(self).frame()
+        return ranking_table(self).frame()
 
     def contents(self, system: System | None = None) -> Contents:
         """Everything a report holds, in a system of units."""
-        from conveyor.report.comparison_tables import comparison_contents
+        from conveyor.report.tables.comparison_tables import comparison_contents
 
         return comparison_contents(self, report_system(self.conveyor.report.units, system))
 
@@ -66,7 +66,7 @@ class Comparison(compound_study.CalculatedComparison, ReportExports):
 
     def _repr_html_(self) -> str:
         """For notebooks: the ranking and its remarks."""
-        from conveyor.report import comparison_tables
+        from conveyor.report.tables import comparison_tables
 
         return comparison_tables.comparison_notebook(self)
 
@@ -77,26 +77,26 @@ class CalibrationStudy(calibration_study.CalculatedCalibration, ReportExports):
     @cached_property
     def table(self) -> pd.DataFrame:
         """One row per factor with its band."""
-        from conveyor.report.calibration_tables import factor_table
+        from conveyor.report.tables.calibration_tables import factor_table
 
         return factor_table(self).frame()
 
     @cached_property
     def residuals(self) -> pd.DataFrame:
         """One row per run: measured, calculated before and after; units in the names."""
-        from conveyor.report.calibration_tables import run_table
+        from conveyor.report.tables.calibration_tables import run_table
 
         return run_table(self).frame()
 
     def contents(self, system: System | None = None) -> Contents:
         """Everything a report holds, in a system of units."""
-        from conveyor.report.calibration_tables import calibration_contents
+        from conveyor.report.tables.calibration_tables import calibration_contents
 
         return calibration_contents(self, report_system(self.conveyor.report.units, system))
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers for JSON; units in the keys."""
-        from conveyor.report.calibration_tables import calibration_json
+        from conveyor.report.tables.calibration_tables import calibration_json
 
         return calibration_json(self)
 
@@ -111,13 +111,13 @@ class VerificationSheet(verification_study.CalculatedVerification, ReportExports
 
     def contents(self, system: System | None = None) -> Contents:
         """Contents of a report in a system of units, SI by default."""
-        from conveyor.report.verification_tables import verification_contents
+        from conveyor.report.tables.verification_tables import verification_contents
 
         return verification_contents(self, "SI" if system is None else system)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers for JSON; units in the keys."""
-        from conveyor.report.verification_tables import verification_json
+        from conveyor.report.tables.verification_tables import verification_json
 
         return verification_json(self)
 

@@ -54,7 +54,7 @@ class Sizing(sizing.CalculatedSizing, ReportExports):
 
     def contents(self, system: System | None = None, *, vary: bool = True) -> Contents:
         """Contents of a report in a system of units; the sensitivity of the best design takes seconds."""
-        from conveyor.report.sizing_tables import sizing_contents
+        from conveyor.report.tables.sizing_tables import sizing_contents
 
         return sizing_contents(self, report_system(self.duty.report.units, system), vary=vary)
 
@@ -94,7 +94,7 @@ class Study(ReportExports):
 
     def contents(self, system: System | None = None) -> Contents:
         """Tables and figures of the designs, in a system of units."""
-        from conveyor.report.design_tables import study_contents
+        from conveyor.report.tables.design_tables import study_contents
 
         return study_contents(self.explored, report_system(self.campaign.base.report.units, system))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import TypeAlias
@@ -49,7 +49,8 @@ class EveryLoad:
     @cached_property
     def governing(self) -> tuple[Check, ...]:
         """Governing check of each criterion and subject, as `conveyor power` lists them; without scenarios."""
-        return governing_by_subject(every_check(self.own, self.states, self.cases))
+        duty, _ = take_up_demand(self.loads, self.cases)
+        return governing_by_subject(combine_checks(run_checks(self.own), duty, self.states, self.cases))
 
     @property
     def failed(self) -> int:
@@ -57,9 +58,14 @@ class EveryLoad:
         return sum(check.failed for check in self.governing)
 
     @cached_property
+    def loads(self) -> tuple[Load, ...]:
+        """Loads to design by, with their names."""
+        return design_loads(self.own, self.states, self.cases)
+
+    @property
     def designing(self) -> tuple[CalculatedConveyor, ...]:
         """Loads to design by."""
-        return tuple(load.found for load in design_loads(self.own, self.states, self.cases))
+        return tuple(load.found for load in self.loads)
 
     @property
     def motor_power(self) -> float:
@@ -132,24 +138,20 @@ def design_loads(
     )
 
 
-def take_up_demand(
-    own: CalculatedConveyor, states: CalculatedStates | None, cases: CalculatedCases | None
-) -> tuple[TakeUpDuty, Message]:
-    """Take-up duty of all loads to design by at one setting, and the governing load and condition."""
-    loads = design_loads(own, states, cases)
+def take_up_demand(loads: Sequence[Load], cases: CalculatedCases | None) -> tuple[TakeUpDuty, Message]:
+    """Take-up duty of loads to design by at one setting, and the governing load and condition.
+
+    The travel covers the temperatures of all cases.
+    """
     duty = common_take_up_duty([load.found for load in loads], () if cases is None else cases.temperatures)
     condition, label = escape_braces(duty.governed_by), loads[duty.governing].label
     return duty, message(condition) if len(loads) == 1 else message(f"{label.words}: {condition}", *label.figures)
 
 
-def every_check(
-    own: CalculatedConveyor,
-    states: CalculatedStates | None,
-    cases: CalculatedCases | None,
-    further: Iterable[Check] = (),
+def combine_checks(
+    own: Iterable[Check], take_up: TakeUpDuty, states: CalculatedStates | None, cases: CalculatedCases | None
 ) -> tuple[Check, ...]:
-    """Checks of the conveyor as given, of its load cases and load states, then of other calculations."""
-    together = take_up_travel_checks(take_up_demand(own, states, cases)[0])
+    """Checks of the conveyor as given and of its take-up, then those of its load cases and load states."""
     of_cases = () if cases is None else cases.checks
     of_states = () if states is None else states.checks
-    return (*run_checks(own), *together, *of_cases, *of_states, *further)
+    return (*own, *take_up_travel_checks(take_up), *of_cases, *of_states)

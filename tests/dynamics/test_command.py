@@ -16,8 +16,8 @@ from conveyor.dynamics.scenario_sizing import size_scenario
 from conveyor.dynamics.simulation import simulate_scenarios, standard_scenarios
 from conveyor.errors import ConveyorError, InputError, NoSolutionError
 from conveyor.models import Scenario
-from conveyor.report.dynamics_tables import dynamics_contents, dynamics_json
-from conveyor.report.result_schema import result_schema
+from conveyor.report.tables.dynamics_tables import dynamics_contents, dynamics_json
+from conveyor.report.tables.result_schema import result_schema
 from conveyor.spec import from_data
 from tests.command_line import run
 from tests.loop.loop_lines import DOWN, SECOND, data, line

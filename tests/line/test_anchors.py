@@ -160,7 +160,7 @@ def test_below_the_best_ever_published_it_warns(line):
 
 
 def test_tested_and_untested_compounds_are_not_ranked_without_a_word(line):
-    from conveyor.report.comparison_tables import comparison_notes
+    from conveyor.report.tables.comparison_notes import comparison_notes
     from conveyor.studies.comparison import compare_compounds
 
     def said(compounds):

@@ -17,7 +17,7 @@ from conveyor.pipeline import calculate
 from conveyor.report.analysis_plots import cross_section as across
 from conveyor.report.analysis_plots import drift_diagram as drift_drawn
 from conveyor.report.analysis_plots import plan_view
-from conveyor.report.analysis_tables import horizontal_curves
+from conveyor.report.tables.curve_tables import horizontal_curves
 from conveyor.spec import from_data
 from conveyor.studies.load_cases import Load
 from conveyor.units.sentences import message

@@ -21,7 +21,7 @@ from conveyor.errors import InputError
 from conveyor.laws.drives import HORSEPOWER
 from conveyor.laws.take_up import SCREW_LENGTH
 from conveyor.pipeline import common_take_up_duty
-from conveyor.report import analysis_tables
+from conveyor.report.tables import drive_tables
 from conveyor.studies.loads import design_loads
 from tests.loop.loop_lines import DATA, SECOND
 from tests.loop.test_pulley_duty import calculated
@@ -202,9 +202,7 @@ def test_a_backstop_that_friction_spares_has_no_size():
     sections = [{"name": name, "length": "250 m", "lift": "1 m"} for name in "abcd"]
     found = calculated(drive=DATA["drive"] | PARTS | {"backstop": True}, route={"sections": sections})
     assert [duty.holding for duty in found.drive_duty] == [0.0]
-    assert (
-        "backstop size [N m]" not in analysis_tables.drive_parts(found, design_loads(found, None, None)).frame().columns
-    )
+    assert "backstop size [N m]" not in drive_tables.drive_parts(found, design_loads(found, None, None)).frame().columns
 
 
 def test_starts_an_hour_of_a_small_motor():

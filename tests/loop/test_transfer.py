@@ -6,11 +6,12 @@ import math
 
 import pytest
 
+from conveyor.assessment import Assessment
 from conveyor.checks import belt_cleaning, impact_load, skirtboards
 from conveyor.errors import InputError
 from conveyor.laws.discharge import bulk_on_pulley, width_on_pulley
 from conveyor.pipeline import calculate
-from conveyor.report.analysis_tables import analysis_contents
+from conveyor.report.tables.analysis_contents import AnalysisTables
 from conveyor.spec import from_data
 from conveyor.starter import starter_values
 
@@ -43,7 +44,7 @@ def found():
 def test_without_the_fields_nothing_is_asked(plain):
     assert [*impact_load(plain), *skirtboards(plain), *belt_cleaning(plain)] == []
     assert plain.trajectory is None
-    assert not OF_TRANSFER & {part.key for part in analysis_contents(plain).tables}
+    assert not OF_TRANSFER & set(AnalysisTables(Assessment(plain)))
 
 
 def test_seals_drag_over_the_skirtboards_and_nothing_else_changes(plain, found):
@@ -84,7 +85,7 @@ def test_trajectory_begins_on_the_bulk_and_ends_at_the_depth(found):
     start = math.hypot(path.fall.across[0], path.fall.up[0])
     assert start == pytest.approx(path.radius, rel=1e-12)
     assert path.fall.up[-1] == pytest.approx(-2.0, rel=1e-12)
-    shown = {part.key: part for part in analysis_contents(found).tables}
+    shown = AnalysisTables(Assessment(found))
     assert set(shown) >= OF_TRANSFER
     assert len(shown["trajectory"].rows) >= path.fall.time.size
 

@@ -10,7 +10,7 @@ from conveyor.models import Belt, BulkMaterial, Roll
 from conveyor.models.library_items import merge_fields, without_entry_fields
 from conveyor.pipeline import calculate
 from conveyor.remarks import roll_assumptions, roll_warnings
-from conveyor.report.inputs import input_rows
+from conveyor.report.tables.inputs import input_rows
 from conveyor.spec import from_data
 from conveyor.units import is_quantity, quantity, si, text
 

@@ -17,9 +17,10 @@ from conveyor import pipeline
 from conveyor.checks import check_against_limit
 from conveyor.cli.terminal import show_power
 from conveyor.forces import Force
-from conveyor.report import analysis_tables, excel, html, table_files
+from conveyor.report import excel, html, table_files
 from conveyor.report.page_elements import notebook_summary
 from conveyor.report.table_model import Column, Figure, PagePlacement, Table
+from conveyor.report.tables.analysis_contents import TABLES
 from conveyor.units.sentences import message
 
 PACKAGE = Path(conveyor.__file__).parent
@@ -34,26 +35,26 @@ def result():
 @pytest.fixture
 def probed(result, monkeypatch):
     """Contents with a column, a key figure and a table more, each put in where such a one is declared."""
-    sections, results = analysis_tables.section_table, analysis_tables.result_table
+    sections, results = TABLES["sections"], TABLES["results"]
 
-    def with_column(a):
-        table = sections(a)
+    def with_column(made):
+        table = sections(made)
         more = Column("probe", "force", lambda r: r.forces["indentation"], json="probe_N", total=True)
         return replace(table, columns=(*table.columns, more))
 
-    def with_figure(a, left_open):
-        table = results(a, left_open)
+    def with_figure(made):
+        table = results(made)
         more = Figure("probing", "power", 12_345.0, "tile large notebook", "power_kW.probing")
         return replace(table, rows=(*table.rows, more))
 
-    def with_table(_, __):
+    def with_table(_):
         columns_of = (Column("what", "text", str), Column("size", "length", len))
         return Table("probes", "Loop", "Probes", columns_of, ("abc",), (PagePlacement("belt", "Probes"),))
 
-    monkeypatch.setattr(analysis_tables, "section_table", with_column)
-    monkeypatch.setattr(analysis_tables, "result_table", with_figure)
-    monkeypatch.setattr(analysis_tables, "vertical_curves", with_table)  # its place in the list; none in this spec
-    return analysis_tables.analysis_contents(result.in_units("SI"))
+    monkeypatch.setitem(TABLES, "sections", with_column)
+    monkeypatch.setitem(TABLES, "results", with_figure)
+    monkeypatch.setitem(TABLES, "probes", with_table)
+    return result.contents(system="SI")
 
 
 def cells(book, name):
@@ -91,7 +92,7 @@ def test_on_the_page_in_a_notebook_and_as_a_data_frame(probed):
 
 @pytest.mark.usefixtures("probed")
 def test_in_json(result):
-    told = analysis_tables.analysis_json(result)
+    told = result.to_dict()
     assert told["power_kW"]["probing"] == pytest.approx(12.345)
     assert [row["probe_N"] for row in told["sections"]] == [r.forces["indentation"] for r in result.stretches]
 
@@ -103,10 +104,11 @@ def test_the_terminal_takes_the_same_tables(probed, capsys):
 
 def test_units_are_composed_in_one_place_and_parsed_in_none():
     """No label with a unit in brackets, and no pattern that takes one apart."""
-    for path in (path for folder in ("report", "cli", "studies") for path in (PACKAGE / folder).glob("*.py")):
+    for path in (path for folder in ("report", "cli", "studies") for path in (PACKAGE / folder).rglob("*.py")):
         code = path.read_text(encoding="utf-8")
         code = re.sub(r'""".*?"""', "", code, flags=re.DOTALL)
-        assert not re.findall(r'"[^"\n]* \[(?:-|[A-Za-z%°][^\]"\n]*)\]"', code), path.name
+        labels = re.findall(r'"[^"\n]* \[(?:-|[A-Za-z%°][^\]"\n]*)\]"', code)
+        assert not labels or path.name == "study_file.py", path.name  # says how users head a column
         assert not re.findall(r"re\.compile\([^)\n]* \\\[", code), path.name
         assert path.parent.name == "studies" or not re.findall(r"\bid\(", code), path.name
 
@@ -155,3 +157,21 @@ def test_a_criterion_is_in_checks_warnings_and_every_output(strained, tmp_path):
     page = html.write_page(contents, tmp_path / "weak.html").read_text(encoding="utf-8")
     assert "strength of the probe" in page
     assert "strength of the probe" in notebook_summary(contents)
+
+
+def test_a_table_has_the_name_it_is_registered_under(strained):
+    _, contents, _ = strained
+    assert {name: table.key for name, table in contents.by_key.items()} == {name: name for name in contents.by_key}
+    assert len(contents.by_key) == len(contents.parts) < len(TABLES)
+
+
+def test_a_table_is_built_when_it_is_read(result, monkeypatch):
+    """Reading one builds no other; without rows it is not there."""
+    built = []
+    for name, make in TABLES.items():
+        monkeypatch.setitem(TABLES, name, lambda made, name=name, make=make: built.append(name) or make(made))
+    contents = result.contents()
+    assert built == []
+    assert contents["sections"] is contents["sections"]
+    assert "duty" not in contents
+    assert built == ["sections", "duty"]

@@ -14,7 +14,6 @@ import conveyor
 from conveyor.errors import InputError
 from conveyor.files.atomic_write import save_files
 from conveyor.report import sheet_writer, table_files
-from conveyor.report.analysis_tables import analysis_contents
 from conveyor.report.excel import build_workbook, workbook_files
 from conveyor.results.comparisons import compare_compounds
 from conveyor.text.printable import escape_controls
@@ -30,7 +29,7 @@ def result():
 
 def test_every_table_has_its_file(result, tmp_path):
     written = result.to_tables(tmp_path)
-    found = analysis_contents(result)
+    found = result.contents()
     assert [path.name for path in written] == [f"{part.key}.csv" for part in found.tables]
     assert sorted(tmp_path.iterdir()) == sorted(written)
     for part, path in zip(found.tables, written, strict=True):
@@ -87,7 +86,7 @@ def test_parquet_without_its_package_says_how_to_get_it(result, tmp_path, monkey
 def test_parquet_holds_the_tables(result, tmp_path):
     pytest.importorskip("pyarrow")
     written = result.to_tables(tmp_path, kind="parquet", system="US")
-    for part, path in zip(analysis_contents(result.in_units("US")).tables, written, strict=True):
+    for part, path in zip(result.contents(system="US").tables, written, strict=True):
         read = pd.read_parquet(path)
         assert list(read.columns) == list(part.frame("US").columns)
         assert len(read) == len(part.rows)
@@ -125,16 +124,14 @@ def test_nothing_half_written_stays(tmp_path, monkeypatch):
 
 def lengthened(found, key, rows):
     """Contents with one table repeated to so many rows."""
-    parts = tuple(
-        replace(part, rows=(tuple(part.rows) * -(-rows // len(part.rows)))[:rows]) if part.key == key else part
-        for part in found.parts
-    )
-    return replace(found, parts=parts)
+    part = found[key]
+    longer = replace(part, rows=(tuple(part.rows) * -(-rows // len(part.rows)))[:rows])
+    return replace(found, by_key={**found.by_key, key: longer})
 
 
 @pytest.mark.parametrize("key", ["rolls", "tensions", "sections", "indentation"])
 def test_a_long_table_goes_beside_the_workbook(result, tmp_path, key):
-    found = lengthened(analysis_contents(result), key, sheet_writer.MOST_ROWS + 1)
+    found = lengthened(result.contents(), key, sheet_writer.MOST_ROWS + 1)
     path = tmp_path / "line.xlsx"
     save_files(workbook_files(found, path))
     assert sorted(item.name for item in tmp_path.iterdir()) == ["line.xlsx", f"line_{key}.csv"]
@@ -152,5 +149,5 @@ def test_a_long_table_goes_beside_the_workbook(result, tmp_path, key):
 def test_ten_thousand_rows_stay_in_the_sheet(result, monkeypatch):
     monkeypatch.setattr(sheet_writer, "MOST_ROWS", 40)  # the same border, quicker to write
     for rows, there in ((40, True), (41, False)):
-        found = lengthened(analysis_contents(result), "rolls", rows)
+        found = lengthened(result.contents(), "rolls", rows)
         assert ("table_rolls" in build_workbook(found).defined_names) is there

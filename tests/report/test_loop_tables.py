@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 from conveyor.loop.belt_duty import BeltDuty, CurveCheck, PulleyCheck
-from conveyor.report import analysis_tables
+from conveyor.report.tables import belt_tables, curve_tables
 
 DUTY = BeltDuty(
     largest_steady=100e3,
@@ -31,13 +31,13 @@ OF_DUTY = SimpleNamespace(belt_duty=DUTY, line=SimpleNamespace(belt=BELT, wind_s
 
 
 def test_strength_in_newtons_a_millimetre_and_diameters_in_millimetres():
-    table = analysis_tables.belt_strength_table(OF_DUTY).series("belt")
+    table = belt_tables.belt_strength_table(OF_DUTY).series("belt")
     assert table["belt strength required by the splice [N/mm]"] == pytest.approx(630.0)
     assert table["minimum diameter of drive pulleys [mm]"] == pytest.approx(725.0)
     assert table["maximum tension, all states [N]"] == pytest.approx(140e3)
     assert table["safety, steady [-]"] == pytest.approx(9.0)
     assert table["required safety [-]"] == pytest.approx(8.0)
-    pulleys = analysis_tables.pulley_table(OF_DUTY).frame()
+    pulleys = belt_tables.pulley_table(OF_DUTY).frame()
     assert pulleys["diameter [mm]"].tolist() == pytest.approx([630.0, 500.0])
     assert pulleys["minimum [mm]"].tolist() == pytest.approx([725.0, 456.75])
     assert pulleys["standard size [mm]"].tolist() == pytest.approx([800.0, 500.0])
@@ -45,7 +45,7 @@ def test_strength_in_newtons_a_millimetre_and_diameters_in_millimetres():
 
 
 def test_a_curve_beside_its_least_radii():
-    (row,) = analysis_tables.vertical_curves(OF_DUTY, [SimpleNamespace(found=OF_DUTY)]).frame().to_dict("records")
+    (row,) = curve_tables.vertical_curves(OF_DUTY, [SimpleNamespace(found=OF_DUTY)]).frame().to_dict("records")
     assert row["radius [m]"] == pytest.approx(250.0)
     assert row["minimum against lift-off [m]"] == pytest.approx(255.0)
     assert row["minimum against overstress [m]"] == pytest.approx(70.0)

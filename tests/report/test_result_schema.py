@@ -14,8 +14,8 @@ from typer.testing import CliRunner
 import conveyor
 from conveyor.cli.application import json_text
 from conveyor.cli.entry_point import app
-from conveyor.report import comparison_tables
-from conveyor.report.result_schema import SCHEMA_VERSION, result_schema
+from conveyor.report.tables import comparison_tables
+from conveyor.report.tables.result_schema import SCHEMA_VERSION, result_schema
 
 SPECS = sorted((Path(__file__).parents[2] / "examples" / "specs").glob("*.yaml"))
 TYPES = {

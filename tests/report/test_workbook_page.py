@@ -10,8 +10,8 @@ import pytest
 
 import conveyor
 from conveyor.models import LoadCase, Scenario
-from conveyor.report.comparison_tables import comparison_contents
 from conveyor.report.excel import COMPARISON_SHEETS, SHEETS, SUMMARY_SHEET, build_workbook
+from conveyor.report.tables.comparison_tables import comparison_contents
 from conveyor.results.analysis import studies
 from conveyor.results.comparisons import compare_compounds
 from conveyor.starter.output_reference import KIND, output_page, page_words, table_cells

@@ -14,8 +14,8 @@ from conveyor.errors import ConveyorError, InputError
 from conveyor.models import RubberCompound
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
-from conveyor.report.comparison_tables import comparison_notes
-from conveyor.report.table_model import sort_notes
+from conveyor.report.merged_notes import sort_notes
+from conveyor.report.tables.comparison_notes import comparison_notes
 from conveyor.spec import load
 from conveyor.studies.comparison import RTOL, RankedPower, compare_compounds
 from conveyor.studies.duty import analyse_duty

@@ -13,7 +13,7 @@ import conveyor
 from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.models.study import StudyPlan
-from conveyor.report.design_tables import study_contents
+from conveyor.report.tables.design_tables import study_contents
 from conveyor.results.analysis import studies
 from conveyor.studies.design_figures import pareto_front, weighted_mean, weighted_percentile
 from conveyor.studies.duty import analyse_duty

@@ -10,7 +10,7 @@ import pytest
 import conveyor
 from conveyor.errors import NoSolutionError
 from conveyor.models.fields import with_fields
-from conveyor.report.study_tables import flooded_belt as flooded_table
+from conveyor.report.tables.study_tables import flooded_belt as flooded_table
 from conveyor.studies.flooding import flooded_belt
 from conveyor.units import si
 from tests.command_line import ROOT, run

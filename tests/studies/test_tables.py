@@ -19,8 +19,8 @@ from conveyor.loop.ties import TIE_RTOL
 from conveyor.models import RubberCompound, standard_cases
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
-from conveyor.report.study_tables import tables_and_drawings
-from conveyor.results.analysis import Studies, studies, study_ranges
+from conveyor.report.tables.study_tables import power_bands
+from conveyor.results.analysis import studies, study_ranges
 from conveyor.studies.default_bands import power_range
 from tests.written_tables import written_tables
 
@@ -199,10 +199,10 @@ def test_the_band_of_the_ranges_says_what_it_leaves_out(line):
     low, high = (f"{value / 1e3:.1f}" for value in found.band_with_defaults)
     assert f"90 % interval of its ranges {found.band[0] / 1e3:.1f} to" in repr(found)
     assert f"with the defaults in use {low} to {high} kW" in repr(found)
-    (note,) = [
-        part.note for part in tables_and_drawings(Studies(uncertainty=found), "SI")[0] if part.key == "power_band"
-    ]
-    assert note == "The last row alone has the defaults in use that no range covers; the others leave them out."
+    assert (
+        power_bands(found).note
+        == "The last row alone has the defaults in use that no range covers; the others leave them out."
+    )
     covering = given.replace(uncertainty={"flexure_share": ["8 %", "14 %"], "roll_drag": "30 %", "rubber": True})
     keys = {effect.key for effect in study_ranges(covering).uncovered_defaults}
     assert not keys & {"flexure", "roll_drag", "tested_level"}

@@ -16,7 +16,7 @@ from conveyor.loop.worst_loadings import CriterionLoadings
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
 from conveyor.pipeline import Variant, calculate_many, common_take_up_duty
-from conveyor.report.analysis_tables import check_table
+from conveyor.report.tables.check_tables import check_table
 from conveyor.results.analysis import Studies, analyse
 from conveyor.spec import from_data, load
 from conveyor.studies import calculate_studies

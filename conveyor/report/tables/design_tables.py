@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
-from conveyor.report.analysis_tables import provenance_table, report_head
 from conveyor.report.design_plots import DesignPlots
 from conveyor.report.point_tables import money_kind
 from conveyor.report.table_model import Column, Contents, Drawing, PagePlacement, Table
+from conveyor.report.tables.document_tables import provenance_table, report_head
 from conveyor.spec import fingerprint
 from conveyor.units import System
 
@@ -65,7 +65,7 @@ def study_contents(study: StudySummary, system: System) -> Contents:
     if len(study.values):
         every = DesignPlots(study, system).every
         drawn = tuple(Drawing(key, _CAPTIONS[key], draw, key) for key, draw in every.items())
-    return Contents(about, parts, system, drawn, PARTS)
+    return Contents.of(about, parts, system, drawings=drawn, page=PARTS)
 
 
 def _order_text(study: StudySummary) -> str:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-from conveyor.report.analysis_tables import provenance_table, report_head
 from conveyor.report.table_model import Column, Contents, Table
+from conveyor.report.tables.document_tables import provenance_table, report_head
 from conveyor.spec import fingerprint
 from conveyor.units import System
 from conveyor.units.presentation import display_unit
@@ -24,7 +24,7 @@ def calibration_contents(calibration: CalculatedCalibration, system: System) -> 
         provenance_table(fingerprint(calibration.conveyor), SHEET),
     )  # fmt: skip
     about = report_head(calibration.conveyor, "Calibration to measured power", system, facts)
-    return Contents(about, parts, system)
+    return Contents.of(about, parts, system)
 
 
 def factor_table(calibration: CalculatedCalibration) -> Table:

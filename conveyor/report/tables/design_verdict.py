@@ -6,20 +6,19 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Final, NamedTuple
 
+from conveyor.assessment import Assessment
 from conveyor.checks import BELT_STRENGTH_CRITERIA, Check, governing_by_criterion, highest_use
 from conveyor.line.covers import compounds_by_strand
 from conveyor.loop.equilibrium import START
-from conveyor.loop.take_up_duty import TakeUpDuty
 from conveyor.loop.tensions import MotionState
 from conveyor.loop.ties import first_maximum, first_minimum
 from conveyor.models import RubberCompound
 from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.table_model import Column, Table
-from conveyor.studies.default_bands import PowerRange
-from conveyor.studies.load_cases import AS_GIVEN, Load, MotorChoice
+from conveyor.studies.load_cases import AS_GIVEN
 from conveyor.units import System
 from conveyor.units.presentation import Unit, display_unit, format_figure
-from conveyor.units.sentences import Message, percent
+from conveyor.units.sentences import percent
 from conveyor.units.unit_systems import trade_of
 
 _TAKE_UP_CRITERIA: Final = ("take_up_tension", "sag", "drive_grip")
@@ -49,33 +48,21 @@ def _tension_place(result: CalculatedConveyor, state: MotionState, tension: floa
     return "head"
 
 
-def governing_figures(
-    loads: Sequence[Load],
-    motors: Sequence[MotorChoice],
-    governing: Sequence[Check],
-    take_up: tuple[TakeUpDuty, Message],
-    left_open: PowerRange,
-) -> Table:
-    """Governing figures over all loads (the first as given), with the verdict as note."""
+def governing_figures(assessment: Assessment) -> Table:
+    """Governing figures over all loads, with the verdict as note."""
     columns = (
         Column("what governs", "text", "subject", key="subject"),
         Column("value", "text", "value"),
         Column("where and when", "text", "where", key="where"),
     )
-    rows = tuple(_governing_rows(loads, motors, governing, take_up, left_open))
-    note = verdict_sentence(governing, loads[0].found.conveyor.report.units)
+    note = verdict_sentence(assessment.governing, assessment.system)
+    rows = tuple(_governing_rows(assessment))
     return Table("governing_figures", "", "What governs the design", columns, rows, note=note)
 
 
-def _governing_rows(
-    loads: Sequence[Load],
-    motors: Sequence[MotorChoice],
-    governing: Sequence[Check],
-    take_up: tuple[TakeUpDuty, Message],
-    left_open: PowerRange,
-) -> Iterator[GoverningRow]:
-    a = loads[0].found
-    system = a.conveyor.report.units
+def _governing_rows(assessment: Assessment) -> Iterator[GoverningRow]:
+    a, loads, left_open = assessment.own, assessment.loads, assessment.power_range
+    system = assessment.system
     power, force, mass, length = (
         display_unit(kind, system, large=True) for kind in ("power", "force", "mass", "length")
     )
@@ -96,13 +83,13 @@ def _governing_rows(
     if installed:
         yield GoverningRow("installed power", power.said(sum(installed), 3), f"{len(installed)} driven pulleys"
                            if len(installed) > 1 else a.line.drives[0].name)  # fmt: skip
-    for motor in motors:
+    for motor in assessment.motors:
         yield GoverningRow(
             f"selected standard motors, {motor.drive}", f"{motor.count} x {power.said(motor.rated, 3)}",
             f"{_motor_power_text(power, motor.needed)}, needed in {motor.case.text(system)}, reserve "
             f"{motor.reserve:.2f}",
         )  # fmt: skip
-    duty, asks = take_up
+    duty, asks = assessment.take_up
     sized = [] if duty.mass is None else [f"weight {mass.said(duty.mass, 3)}"]
     sized += [] if duty.travel is None else [f"travel {length.said(duty.travel.whole, 3)}"]
     asked = f"required by {asks.text(system)}"
@@ -122,7 +109,7 @@ def _governing_rows(
         f"{sides} as given", f"{force.said(tensions.tight, 3)} / {force.said(tensions.slack, 3)}",
         f"steady; {force.said(tensions.tight_start, 3)} at {START}",
     )  # fmt: skip
-    yield from _belt_utilisation(governing, system)
+    yield from _belt_utilisation(assessment.governing, system)
     if a.balance.forces.indentation > _DOMINANT_SHARE * abs(a.balance.forces.main):
         yield from _rubber_quality(a)
 

@@ -4,30 +4,28 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, replace
+from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.report import analysis_plots
 from conveyor.report.page_elements import notebook_html
 from conveyor.report.plots import PowerAxis
 from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Column, Drawing, Figure, Table, figure_table
-from conveyor.studies.loads import take_up_demand
 from conveyor.text.markup import Html
 from conveyor.units import System
-from conveyor.units.presentation import MONEY, display_unit
-from conveyor.units.sentences import Message, degree_signs
+from conveyor.units.presentation import MONEY
+from conveyor.units.sentences import degree_signs
 
 if TYPE_CHECKING:
-    from conveyor.loop.take_up_duty import TakeUpDuty
     from conveyor.studies import CalculatedStudies
     from conveyor.studies.duty import CalculatedYear
     from conveyor.studies.flooding import FloodedBelt
     from conveyor.studies.input_ranges import CalculatedRanges
     from conveyor.studies.load_cases import CalculatedCases, GoverningLoad
     from conveyor.studies.monte_carlo import Percentiles
-    from conveyor.studies.states import CalculatedStates, LoadState
+    from conveyor.studies.states import CalculatedStates
 
 _FLOODED = (
     "Bulk heaped from edge to edge of the belt at its surcharge angle, on the whole route, at the take-up's setting: "
@@ -39,34 +37,26 @@ _TENSIONS = (
     "tight_side_tension", "slack_side_tension", "largest_tension", "smallest_tension", "take_up_tension_asked_for",
     "largest_roll_load", "governed_by", "at_roll",
 )  # fmt: skip
-_STATE_KEYS = ("empty", "full", "inclines", "declines", "worst")
 _CONDITIONS = (
     Column("temperature", "temperature", "temperature"),
     Column("belt speed", "speed", "speed", key="speed"),
 )
 
 
-def tables_and_drawings(studies: CalculatedStudies | None, system: System) -> tuple[list[Table], list[Drawing]]:
-    """Tables and drawings of the studies of a conveyor."""
-    if studies is None:
-        return [], []
-    tables: list[Table] = []
-    drawn: list[Drawing] = []
-    if studies.states is not None:
-        tables += [load_states(studies.states), refused_states(studies.states)]
-    if studies.flooded is not None:
-        tables.append(flooded_belt(studies.flooded))
+def _study_table(name: str, make: Callable[[Any], Table]) -> Callable[[CalculatedStudies, System], Table | None]:
+    """Table of one of the studies; None without it."""
+    return lambda studies, _system: None if (study := getattr(studies, name)) is None else make(study)
+
+
+def study_drawings(studies: CalculatedStudies, system: System) -> Iterator[Drawing]:
+    """Drawings of the studies of a conveyor."""
     if studies.cases is not None:
-        tables += _case_tables(studies, studies.cases, system)
-        drawn += _case_drawings(studies.cases, system)
-    if studies.duty is not None:
-        tables += [year_table(studies.duty), duty_table(studies.duty)]
+        yield from _case_drawings(studies.cases, system)
     if studies.uncertainty is not None:
         study = studies.uncertainty
-        tables += [power_bands(study), draw_convergence(study), sensitivity_table(study)]
         caption = "Sensitivity of motor power: its change at both ends of the range of every input."
         draw = partial(analysis_plots.tornado_chart, study, system=system)
-        drawn.append(Drawing("tornado", caption, draw, "sensitivity"))
+        yield Drawing("tornado", caption, draw, "sensitivity")
         exact = study.monte_carlo
         if exact is not None:
             caption = (
@@ -74,8 +64,7 @@ def tables_and_drawings(studies: CalculatedStudies | None, system: System) -> tu
                 "which each lies with 90 %."
             )
             draw = partial(analysis_plots.interval_convergence, exact, study.sampled, system=system)
-            drawn.append(Drawing("settling", caption, draw, "convergence_of_draws"))
-    return tables, drawn
+            yield Drawing("settling", caption, draw, "convergence_of_draws")
 
 
 def load_states(study: CalculatedStates) -> Table:
@@ -113,18 +102,20 @@ def refused_states(study: CalculatedStates) -> Table:
     return Table("refused_states", "Load cases", heading, columns, study.refused, _STATES)
 
 
-def _case_tables(studies: CalculatedStudies, study: CalculatedCases, system: System) -> Iterator[Table]:
-    yield governing_cases(study, studies.governing)
+def design_case_table(study: CalculatedCases) -> Table:
+    """Load cases without their tensions, for reports."""
     every = case_table(study)
     kept = tuple(column.key for column in every.columns if column.key not in _TENSIONS)
-    yield replace(every.only(*kept), page=_CASES)
+    return replace(every.only(*kept), page=_CASES)
+
+
+def case_tensions(study: CalculatedCases) -> Table:
+    """Tensions and roll loads of the load cases."""
     order = ("case", "temperature", "speed", "covered", *_TENSIONS)
-    tensions = every.only(*order)
+    tensions = case_table(study).only(*order)
     columns = tuple(sorted(tensions.columns, key=lambda column: order.index(column.key)))
     heading = "Tensions and roll loads of the cases"
-    yield replace(tensions, key="case_tensions", heading=heading, columns=columns, page=_CASES)
-    yield motor_table(studies, system)
-    yield refused_cases(study)
+    return replace(tensions, key="case_tensions", heading=heading, columns=columns, page=_CASES)
 
 
 def case_table(study: CalculatedCases) -> Table:
@@ -218,19 +209,6 @@ def _case_drawings(study: CalculatedCases, system: System) -> Iterator[Drawing]:
         if len({getattr(result, over) for result in study.results}) > 1:
             draw = partial(analysis_plots.case_power, study, over, system=system)
             yield Drawing(f"case-{over}", f"Motor power of the load cases over {words}.", draw, "load_cases")
-
-
-def take_up_json(duty: TakeUpDuty, governed_by: Message) -> dict[str, Any]:
-    """Plain numbers of the take-up for JSON."""
-    return {
-        "kind": duty.unit.kind,
-        "setting_N": duty.setting,
-        "least_setting_N": duty.needed,
-        "mass_kg": duty.mass,
-        "strands": duty.unit.strands,
-        "travel_m": None if duty.travel is None else duty.travel.whole,
-        "governed_by": governed_by.text(),
-    }
 
 
 def duty_table(study: CalculatedYear) -> Table:
@@ -358,54 +336,26 @@ def draw_convergence(study: CalculatedRanges) -> Table:
     return Table("convergence_of_draws", "Uncertainty", heading, columns, rows, _UNCERTAINTY, note)
 
 
-def studies_json(studies: CalculatedStudies) -> dict[str, Any]:
-    """Plain numbers of the existing studies for JSON; units in the keys."""
-    parts: dict[str, Any] = {}
-    if studies.states is not None:
-        named = {key: _state_json(state) for state in studies.states.states for key in state.keys}
-        parts["states"] = {key: named[key] for key in _STATE_KEYS if key in named}
-        parts["worst_states"] = [_state_json(state) for state in studies.states.states if state.worst_for]
-        parts["flooded"] = None if studies.flooded is None else flooded_belt(studies.flooded).series("").to_dict()
-        parts["take_up"] = take_up_json(*take_up_demand(studies.states.own, studies.states, studies.cases))
-    study = studies.cases
-    if study is not None:
-        parts["load_cases"] = {
-            "conveyor": study.conveyor.name,
-            "friction_band": list(study.friction_band),
-            "cases": case_table(study).records(),
-            "governing": governing_cases(study, studies.governing).records(),
-            "motors": motor_table(studies, "SI").records(),
-            "refused": refused_cases(study).records(),
-        }
-    if studies.duty is not None:
-        parts["duty"] = {
-            "conveyor": studies.duty.conveyor.name,
-            "year": year_table(studies.duty).series("").to_dict(),
-            "emission_source": studies.duty.emission_source,
-            "duty": duty_table(studies.duty).records(),
-        }
-    if studies.uncertainty is not None:
-        parts["uncertainty"] = {
-            "conveyor": studies.uncertainty.conveyor.name,
-            "band": power_bands(studies.uncertainty).records(),
-            "tornado": sensitivity_table(studies.uncertainty).records(),
-            "notes": list(studies.uncertainty.notes),
-        }
-    return parts
+def _governing_table(studies: CalculatedStudies, _system: System) -> Table | None:
+    return None if studies.cases is None else governing_cases(studies.cases, studies.governing)
 
 
-def _state_json(state: LoadState) -> dict[str, Any]:
-    """Plain numbers of a load state for JSON."""
-    balance = state.balance
-    return {
-        "loaded_sections": list(state.loaded),
-        "temperature_degC": display_unit("temperature", "SI").shown(state.temperature),
-        "power_kW": {"belt": balance.power.belt / 1e3, "motor": balance.power.motor / 1e3},
-        "effective_tension_N": balance.forces.total,
-        "tensions_N": asdict(balance.tensions),
-        "take_up_asked_N": balance.settled.needed,
-        "worst_for": list(state.worst_for),
-    }
+STUDY_TABLES: Final[dict[str, Callable[[CalculatedStudies, System], Table | None]]] = {
+    "load_states": _study_table("states", load_states),
+    "refused_states": _study_table("states", refused_states),
+    "flooded": _study_table("flooded", flooded_belt),
+    "governing_cases": _governing_table,
+    "load_cases": _study_table("cases", design_case_table),
+    "case_tensions": _study_table("cases", case_tensions),
+    "motors": lambda studies, system: None if studies.cases is None else motor_table(studies, system),
+    "refused_cases": _study_table("cases", refused_cases),
+    "duty_year": _study_table("duty", year_table),
+    "duty": _study_table("duty", duty_table),
+    "power_band": _study_table("uncertainty", power_bands),
+    "convergence_of_draws": _study_table("uncertainty", draw_convergence),
+    "sensitivity": _study_table("uncertainty", sensitivity_table),
+}
+"""Tables of studies by key; None where a study was not requested."""
 
 
 def states_notebook(study: CalculatedStates) -> Html:

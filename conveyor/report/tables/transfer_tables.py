@@ -36,17 +36,6 @@ _PAGE: Final = "transfer"
 _CIRCLE_POINTS: Final = 49
 
 
-def material_flow_tables(a: CalculatedConveyor) -> tuple[Table, ...]:
-    """Tables of loading, cleaning and discharge."""
-    return (
-        loading_point_table(a),
-        cleaner_table(a),
-        discharge_table(a),
-        trajectory_table(a),
-        pulley_outline(a),
-    )
-
-
 def _is_detailed(landing: LoadingPointDuty) -> bool:
     """True if the spec gives drop height, skirtboards or seal drag of a loading point."""
     point = landing.point

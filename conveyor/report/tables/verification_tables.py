@@ -43,7 +43,7 @@ def verification_contents(sheet: CalculatedVerification, system: System) -> Cont
     about = ReportHead(title, "Verification sheet", {}, "", report.sheet(system), facts)
     what = remark_table({"assumption": basis_lines(sheet)}, ABOUT, "What these figures are")
     parts = (what, fill_in_table(), resistance_per_width(sheet, system), resistance_per_set(sheet))
-    return Contents(about, parts, system, page=PARTS, layout="verification")
+    return Contents.of(about, parts, system, page=PARTS, layout="verification")
 
 
 def basis_lines(sheet: CalculatedVerification) -> Iterator[str]:

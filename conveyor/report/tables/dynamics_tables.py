@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import partial
 from operator import attrgetter
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -13,17 +14,20 @@ from conveyor.checks import Check, governing_by_subject
 from conveyor.dynamics.criteria import dynamics_checks, pulley_peak, tension_peaks
 from conveyor.dynamics.simulation import CalculatedDynamics, ScenarioResult
 from conveyor.laws.belt_strength import DUTY_SAFETY, SPLICE_SAFETY, belt_safety, required_strength
-from conveyor.report.analysis_tables import (
-    ReportAdditions,
-    check_json,
-    check_table,
-    provenance_table,
-    report_head,
+from conveyor.report.dynamics_plots import scenario_figure, tension_animation
+from conveyor.report.json_keys import (
+    LEFT_OUT,
+    VERSION_KEY,
+    JsonKey,
+    JsonList,
+    JsonObject,
+    describe_value,
+    number_key,
+    row_list,
+    row_object,
+    text_key,
+    text_list,
 )
-from conveyor.report.animation import Panel, animated_curves
-from conveyor.report.matplotlib_settings import own_settings
-from conveyor.report.plots import curve_colour, label_axes, set_title, stacked_axes
-from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.table_model import (
     FIGURE_NAME,
     ROW_KIND,
@@ -36,15 +40,10 @@ from conveyor.report.table_model import (
     remark_table,
     slug,
 )
+from conveyor.report.tables.check_tables import CHECK_KEYS, check_pairs, check_table
+from conveyor.report.tables.document_tables import provenance_table, report_head
 from conveyor.spec import fingerprint
 from conveyor.units import System
-from conveyor.units.presentation import display_unit
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure as Picture
-
-    from conveyor.text.markup import Html
 
 PARTS: Final = (
     ("dynamics", "Starting and stopping"),
@@ -63,29 +62,14 @@ def dynamics_contents(dynamics: CalculatedDynamics, system: System) -> Contents:
     """Contents of the report on starts and stops in a unit system."""
     every = dynamics_checks(dynamics)
     parts = (
-        *scenario_tables(dynamics), check_table(governing_by_subject(every), system),
+        *(make(dynamics) for make in SCENARIO_TABLES.values()), check_table(governing_by_subject(every), system),
         _dynamics_remarks(dynamics, every, system),
         provenance_table(fingerprint(dynamics.conveyor)),
     )  # fmt: skip
     names = ", ".join(one.name for one in dynamics.followed)
     about = report_head(dynamics.conveyor, "Starting and stopping", system, (("scenarios", names),))
-    return Contents(about, parts, system, tuple(dynamics_drawings(dynamics, system)), PARTS)
-
-
-def report_additions(dynamics: CalculatedDynamics, system: System) -> ReportAdditions:
-    """Checks, tables and drawings of the scenarios for the report of the conveyor."""
-    shown, drawn = tuple(scenario_tables(dynamics)), tuple(dynamics_drawings(dynamics, system))
-    return ReportAdditions(dynamics_checks(dynamics), shown, drawn, dynamics.assumptions, scenarios_json(dynamics))
-
-
-def scenario_tables(dynamics: CalculatedDynamics) -> Iterator[Table]:
-    """Tables of the scenarios that have rows."""
-    for made in (
-        scenario_table, size_table, scenario_drives, scenario_pulleys, scenario_tensions, splice_tensions, history_table
-    ):  # fmt: skip
-        table = made(dynamics)
-        if table.rows:
-            yield table
+    drawn = tuple(dynamics_drawings(dynamics, system))
+    return Contents.of(about, parts, system, drawings=drawn, page=PARTS)
 
 
 _PEAKS: Final = (
@@ -271,6 +255,18 @@ def history_table(dynamics: CalculatedDynamics) -> Table:
     return Table("histories", "Histories", "Drives and take-up over time", columns, rows, named=2)
 
 
+SCENARIO_TABLES: Final = {
+    "scenarios": scenario_table,
+    "scenario_sizes": size_table,
+    "scenario_drives": scenario_drives,
+    "scenario_pulleys": scenario_pulleys,
+    "scenario_tensions": scenario_tensions,
+    "scenario_splices": splice_tensions,
+    "histories": history_table,
+}
+"""Tables of scenarios by key; in JSON they are named without ``scenario_``."""
+
+
 def _dynamics_remarks(dynamics: CalculatedDynamics, every: tuple[Check, ...], system: System) -> Table:
     """Failed checks and assumptions."""
     warned = [
@@ -296,156 +292,79 @@ def dynamics_drawings(dynamics: CalculatedDynamics, system: System) -> Iterator[
             yield Drawing(f"{slug(one.name)}_{name}", f"{one.name}: {words}.", draw, "through-time")
 
 
-def scenarios_json(dynamics: CalculatedDynamics) -> dict[str, Any]:
-    """Plain numbers of every scenario; units in the keys."""
-    return {
-        table.key.removeprefix("scenario_"): table.plain()
-        for table in scenario_tables(dynamics)
-        if table.key != "histories"
-    }
+def _scenario_rows(name: str) -> Callable[[CalculatedDynamics], Any]:
+    """Rows of a table of scenarios; left out where it has none."""
+
+    def rows(dynamics: CalculatedDynamics) -> Any:
+        table = SCENARIO_TABLES[name](dynamics)
+        return table.plain() if table.rows else LEFT_OUT
+
+    return rows
+
+
+_EXTREMES: Final = ("highest_N", "highest_at_s", "lowest_N", "lowest_at_s")
+SCENARIO_KEYS: Final[dict[str, JsonKey]] = {
+    "scenarios": row_list(
+        _scenario_rows("scenarios"), "scenario", "highest_in", "lowest_in",
+        numbers=(
+            "duration_s", "highest_tension_N", "highest_at_s", "lowest_tension_N", "lowest_at_s",
+            "highest_speed_m_per_s", "rest_s", "way_m", "error", "energy_error", "cells", "step_s",
+        ),
+        of="one row a scenario; error is that of the peaks over the highest tension, by refinement",
+    ),
+    "drives": row_list(
+        _scenario_rows("scenario_drives"), "scenario", "drive",
+        numbers=(
+            "torque_max", "torque_min", "force_max_N", "force_min_N", "power_kW", "slip_m", "slip_heat_MJ", "brake_N",
+            "backstop_N", "take_up_setting_N", "take_up_min_N", "take_up_max_N", "carriage_out_m", "carriage_in_m",
+        ),
+    ),
+    "pulleys": row_list(
+        _scenario_rows("scenario_pulleys"), "scenario", "pulley", numbers=_EXTREMES, also=("safety",)
+    ),
+    "tensions": row_list(
+        _scenario_rows("scenario_tensions"), "scenario", "section", "strand",
+        numbers=(*_EXTREMES, "least_for_sag_N", "sag"),
+    ),
+    "splices": row_list(
+        _scenario_rows("scenario_splices"), "scenario", numbers=("highest_N_per_mm", "lowest_N_per_mm"),
+        also=("strength_N_per_mm",),
+    ),
+}  # fmt: skip
+"""Keys of scenarios; their rows are those of the tables."""
+_SIZES: Final = replace(
+    JsonList(
+        _scenario_rows("scenario_sizes"),
+        item=row_object(
+            {name: text_key(name) for name in ("sought", "scenario", "governs", "fails_with_less")}
+            | {"value": number_key("value"), "error": number_key("error", known=False)}
+            | {"most": number_key("most", known=False)},
+            describe_value("figures that --size sought, in the unit that `sought` names"),
+        ),
+    ),
+    optional=True,
+)
+DYNAMICS_KEYS: Final = JsonObject(
+    lambda dynamics: dynamics,
+    describe_value("conveyor dynamics SPEC --json"),
+    keys={
+        "schema_version": VERSION_KEY,
+        "conveyor": text_key("conveyor.name"),
+        "scenarios": SCENARIO_KEYS["scenarios"],
+        "sizes": _SIZES,
+        **SCENARIO_KEYS,
+        "checks": JsonList(
+            lambda dynamics: check_pairs(every := dynamics_checks(dynamics), governing_by_subject(every)),
+            describe_value("every criterion of every scenario; `case` is the scenario"),
+            item=CHECK_KEYS,
+        ),
+        "assumptions": text_list("assumptions", "what the figures rest on that the spec does not say"),
+    },
+)
+"""Keys of scenarios alone."""
 
 
 def dynamics_json(dynamics: CalculatedDynamics) -> dict[str, Any]:
-    """Plain numbers for JSON, as `result_schema` describes them."""
-    every = dynamics_checks(dynamics)
-    governing = governing_by_subject(every)
-    return {
-        "schema_version": SCHEMA_VERSION,
-        "conveyor": dynamics.conveyor.name,
-        **scenarios_json(dynamics),
-        "checks": [check_json(check, governs=any(check is one for one in governing)) for check in every],
-        "assumptions": list(dynamics.assumptions),
-    }
-
-
-_LEVELS, _MAP_POINTS = 14, 80  # shades, and points a side, of the map
-_POINTS = 1500  # of a history
-_FRAMES, _FRAME_POINTS = 45, 60  # times and points of an animation
-_LOOP_DISTANCE: Final = "distance from the head, return strand first"
-_HEIGHT, _LOW_HEIGHT, _WHOLE_HEIGHT = 4.4, 3.0, 13.0
-
-
-def tension_animation(scenario: ScenarioResult, *, system: System = "SI") -> Html:
-    """Animation of tension and speed round the loop."""
-    force, length, speed = (
-        display_unit("force", system, large=True),
-        display_unit("length", system, large=True),
-        display_unit("speed", system),
-    )
-    order, distance = scenario.round_loop
-    record = scenario.record
-    kept = np.unique(np.linspace(0, record.times.size - 1, _FRAMES).astype(int))
-    cells = np.unique(np.linspace(0, order.size - 1, _FRAME_POINTS).astype(int))
-    ends = record.lowest[order][cells], record.highest[order][cells]
-    tension = record.tensions[np.ix_(kept, order[cells])].astype(float)
-    going = record.speeds[:, order[cells]].astype(float)
-    where = length.beside(_LOOP_DISTANCE)
-    return animated_curves(
-        f"moving_{slug(scenario.name)}", (where, length(distance[cells])),
-        (display_unit("time", system).beside("time"), record.times[kept]),
-        (Panel(force.beside("tension"), force(tension), (force(ends[0]), force(ends[1]))),
-         Panel(speed.beside("speed"), speed(going[kept]), (speed(going.min(axis=0)), speed(going.max(axis=0))))),
-        mark=float(length(scenario.line.loop.way[scenario.line.count])),
-    )  # fmt: skip
-
-
-@own_settings()
-def scenario_figure(scenario: ScenarioResult, *names: str, system: System = "SI") -> Picture:
-    """Figure of a scenario: tension map, envelope, speeds and forces, or those named."""
-    drawn = {"tension_map": (_draw_tension_map, _HEIGHT), "envelope": (_draw_envelope, _HEIGHT),
-    "speeds": (_draw_speeds, _LOW_HEIGHT),
-             "forces": (_draw_forces, _HEIGHT)}  # fmt: skip
-    shown = [drawn[name] for name in names or drawn]
-    figure, axes = stacked_axes(len(shown), sum(height for _, height in shown) if names else _WHOLE_HEIGHT)
-    for axis, (draw, _) in zip(axes, shown, strict=True):
-        draw(axis, scenario, system)
-    if not names:
-        set_title(figure, scenario.name)
-    return figure
-
-
-def _draw_tension_map(axis: Axes, scenario: ScenarioResult, system: System) -> None:
-    force, length = display_unit("force", system, large=True), display_unit("length", system, large=True)
-    order, distance = scenario.round_loop
-    record = scenario.record
-    kept = np.unique(np.linspace(0, record.times.size - 1, _MAP_POINTS).astype(int))
-    cells = np.unique(np.linspace(0, order.size - 1, _MAP_POINTS).astype(int))
-    tension = force(record.tensions[np.ix_(kept, order[cells])])
-    shaded = axis.contourf(length(distance[cells]), record.times[kept], tension, levels=_LEVELS, cmap="viridis")
-    taut = record.tensions[np.ix_(kept, order[cells])] / scenario.cells.slack[order[cells]]
-    if float(taut.min()) < 1.0 < float(taut.max()):
-        axis.contour(length(distance[cells]), record.times[kept], taut, levels=[1.0], colors="red", linewidths=1.0)
-    axis.axvline(float(length(scenario.line.loop.way[scenario.line.count])), color="white", linewidth=0.8)
-    axis.grid(visible=False)
-    label_axes(axis, length.beside(_LOOP_DISTANCE), display_unit("time", system).beside("time"), group="x")
-    beside = axis.inset_axes((1.02, 0.0, 0.03, 1.0))  # no axes of its own: those bind the figure's layout
-    axis.figure.colorbar(shaded, cax=beside, label=force.beside("tension"))
-
-
-def _draw_envelope(axis: Axes, scenario: ScenarioResult, system: System) -> None:
-    force, length = display_unit("force", system, large=True), display_unit("length", system, large=True)
-    order, distance = scenario.round_loop
-    x, record = length(distance), scenario.record
-    axis.fill_between(x, force(record.lowest[order]), force(record.highest[order]), color="#1F4E79", alpha=0.15)
-    for k, (name, values) in enumerate(
-        (("highest", record.highest), ("lowest", record.lowest), ("at the start", record.tensions[0]))
-    ):
-        axis.plot(x, force(values[order]), color=curve_colour(k), label=name)
-    axis.axhline(0.0, color="0.6", linewidth=0.8)
-    axis.axvline(float(length(scenario.line.loop.way[scenario.line.count])), color="0.8", zorder=0)
-    label_axes(axis, length.beside(_LOOP_DISTANCE), force.beside("tension"), group="xy")
-
-
-def _draw_speeds(axis: Axes, scenario: ScenarioResult, system: System) -> None:
-    speed, time = display_unit("speed", system), display_unit("time", system)
-    kept = np.unique(np.linspace(0, scenario.times.size - 1, _POINTS).astype(int))
-    drives = scenario.record.drives
-    for d, drive in enumerate(scenario.setup.drives):
-        belt = speed(drives["belt"][kept, d])
-        axis.plot(scenario.times[kept], belt, color=curve_colour(2 * d), label=f"belt at {drive.name}")
-        if scenario.record.slipped[d]:
-            rim = speed(drives["rim"][kept, d])
-            axis.plot(
-                scenario.times[kept],
-                rim,
-                color=curve_colour(2 * d),
-                linestyle=":",
-                label=f"rim of {drive.name}",
-            )
-    tail = speed(scenario.record.speeds[:, _tail_cell(scenario)])
-    axis.plot(scenario.record.times, tail, color="0.4", linewidth=0.9, label="belt at the tail")
-    label_axes(axis, time.beside("time"), speed.beside("speed"))
-
-
-def _draw_forces(axis: Axes, scenario: ScenarioResult, system: System) -> None:
-    force, time = display_unit("force", system, large=True), display_unit("time", system)
-    kept = np.unique(np.linspace(0, scenario.times.size - 1, _POINTS).astype(int))
-    drives, times = scenario.record.drives, scenario.times[kept]
-    for d, drive in enumerate(scenario.setup.drives):
-        for k, name in enumerate(("arriving", "leaving")):
-            axis.plot(
-                times,
-                force(drives[name][kept, d]),
-                color=curve_colour(2 * d + k),
-                label=f"{name} at {drive.name}",
-            )
-        motor = force(drives["motor"][kept, d])
-        axis.plot(
-            times,
-            motor,
-            color=curve_colour(2 * d),
-            linestyle="--",
-            linewidth=0.9,
-            label=f"motor of {drive.name}",
-        )
-    tail = force(scenario.record.tensions[:, _tail_cell(scenario)])
-    axis.plot(scenario.record.times, tail, color="0.4", linewidth=0.9, label="at the tail")
-    held = force(scenario.record.take_up["tension"][kept])
-    axis.plot(times, held, color=curve_colour(6), linewidth=0.9, label="at the take-up")
-    label_axes(axis, time.beside("time"), force.beside("tension, force"), group="y")
-
-
-def _tail_cell(scenario: ScenarioResult) -> int:
-    """Index of the cell at the tail."""
-    order, known = scenario.round_loop
-    return int(order[int(np.argmin(np.abs(known - scenario.line.loop.way[scenario.line.count])))])
+    """Plain numbers for JSON; `DYNAMICS_KEYS` describes them."""
+    made: dict[str, Any] = DYNAMICS_KEYS.plain(dynamics)
+    return made

@@ -9,7 +9,7 @@ import numpy as np
 
 from conveyor.checks import run_checks
 from conveyor.remarks import analysis_assumptions
-from conveyor.report.analysis_tables import check_table, provenance_table, report_head
+from conveyor.report.json_keys import SCHEMA_VERSION
 from conveyor.report.matplotlib_settings import own_settings
 from conveyor.report.plots import (
     add_legend,
@@ -19,8 +19,9 @@ from conveyor.report.plots import (
     set_title,
     stacked_axes,
 )
-from conveyor.report.result_schema import SCHEMA_VERSION
 from conveyor.report.table_model import Column, Contents, Drawing, PagePlacement, Table, remark_table
+from conveyor.report.tables.check_tables import check_table
+from conveyor.report.tables.document_tables import provenance_table, report_head
 from conveyor.sizing.design_search import CalculatedSizing
 from conveyor.sizing.sensitivity import VariedChoice, vary_choices
 from conveyor.sizing.sized_design import SizedDesign
@@ -68,7 +69,7 @@ def sizing_contents(sizing: CalculatedSizing, system: System, *, vary: bool = Tr
     if sweeps:
         words = "Cost of a year around the best design: one choice varied, belt class and motors sized again."
         drawn.append(Drawing("around", words, partial(cost_lines, sizing, sweeps, system=system), "around"))
-    return Contents(about, parts, system, tuple(drawn), PARTS)
+    return Contents.of(about, parts, system, drawings=tuple(drawn), page=PARTS)
 
 
 def _money_kind(sizing: CalculatedSizing) -> str:

@@ -1,0 +1,101 @@
+"""Head of a report, identity of the conveyor, its inputs, versions behind the figures."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Sequence
+from datetime import date
+from typing import Any, Final
+
+from conveyor.files.output_marks import package_version
+from conveyor.models import Conveyor
+from conveyor.report.table_model import (
+    Column,
+    Figure,
+    PagePlacement,
+    ReportHead,
+    Table,
+    figure_table,
+)
+from conveyor.report.tables.inputs import InputRow, group_inputs
+from conveyor.spec import fingerprint
+from conveyor.units import Quantity, System
+from conveyor.units.presentation import display_unit, format_figure
+
+_PACKAGES: Final = ("conveyor", "numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "matplotlib")
+
+
+def report_head(conveyor: Conveyor, kind: str, system: System, facts: tuple[tuple[str, str], ...] = ()) -> ReportHead:
+    """Head of a report of a conveyor."""
+    report = conveyor.report
+    names = ("project", "client", "number", "revision", "engineer", "reviewer", "approval")
+    said = {name: value for name in names if (value := getattr(report, name)) is not None}
+    return ReportHead(conveyor.name, kind, said, fingerprint(conveyor), report.sheet(system), facts)
+
+
+def identity_table(conveyor: Conveyor, system: System) -> Table:
+    """Data of the conveyor, for the cover and the top of the page."""
+    belt, material = conveyor.belt, conveyor.material
+    carcass, top, bottom = belt.carcass, belt.top_cover, belt.bottom_cover
+
+    def shown(value: Quantity, kind: str) -> str:
+        return display_unit(kind, system).said(value, 4)
+
+    def idlers(of: Any) -> str:
+        inner = "" if of.inner_trough_angle is None else f"{shown(of.inner_trough_angle, 'angle')} and "
+        lying = f" at {inner}{shown(of.trough_angle, 'angle')}" if of.rolls > 1 else ""
+        return f"{of.rolls} x {shown(of.roll.diameter, 'thickness')}{lying}, every {shown(of.spacing, 'length')}"
+
+    known = ("breaking", carcass.strength, "belt strength"), ("rated", carcass.rating, "belt rating")
+    strengths = "".join(f", {what} {format_figure(v, kind, system)}" for what, v, kind in known if v is not None)
+    above = "rubber of the bottom cover" if top.compound is None else top.compound.name
+    rows = (
+        Figure("length", "length", conveyor.route.length),
+        Figure("lift", "length", conveyor.route.rise),
+        Figure("belt width", "size", conveyor.belt_width),
+        Figure("belt speed", "speed", conveyor.belt_speed),
+        Figure("mass flow", "mass flow", conveyor.mass_flow),
+        Figure("temperature of the covers", "temperature", conveyor.temperature),
+        Figure("belt", "text", f"{carcass.kind}{strengths}"),
+        Figure("top cover", "text", f"{shown(top.thickness, 'thickness')}, {above}"),
+        Figure("bottom cover", "text", f"{shown(bottom.thickness, 'thickness')}, {bottom.compound.name}"),
+        Figure("carry idlers", "text", idlers(conveyor.idlers.carry)),
+        Figure("return idlers", "text", idlers(conveyor.idlers.return_)),
+        Figure("material", "text", f"{material.name}, {shown(material.density, 'density')}"),
+    )
+    return figure_table("identity", "", "The conveyor", rows)
+
+
+def input_table(entries: tuple[InputRow, ...]) -> Table:
+    """Every field: as entered, in SI, and its origin: spec, library or default."""
+    columns = (
+        Column("field", "text", "0"),
+        Column("as entered", "text", "1"),
+        Column("SI value", "number", "2"),
+        Column("SI unit", "text", "3"),
+        Column("given by", "text", "4"),
+    )
+    caption = "Every field: as entered, in SI, and whether the spec, a library or a default gave it"
+    page, heading = (PagePlacement("inputs", caption, printed=False),), "Inputs as entered and in SI"
+    return Table("inputs", "Inputs", heading, columns, entries, page, printed=False)
+
+
+def grouped_input_table(entries: Sequence[InputRow], system: System, *, defaults: bool) -> Table:
+    """Inputs grouped by part: those given, or those left to defaults."""
+    columns = (Column("part", "text", "0"), Column("values", "text", "1"))
+    key, heading = ("inputs_default", "Inputs left to defaults") if defaults else ("inputs_given", "Inputs given")
+    chosen = [row for row in entries if (row[-1] == "default") is defaults]
+    return Table(key, "Given", heading, columns, group_inputs(chosen, system, alike=defaults), "inputs")
+
+
+def provenance_table(spec: str, sheet: str = "Checks and notes") -> Table:
+    """Versions behind the figures; `spec` is the spec's SHA-256."""
+    facts = {
+        "spec SHA-256": spec,
+        "date": date.today().isoformat(),
+        "python": platform.python_version(),
+        **{name: package_version(name) for name in _PACKAGES},
+    }
+    columns = (Column("made by", "text", "0"), Column("version", "text", "1"))
+    page = (PagePlacement("provenance", "What made these figures", printed=False),)
+    return Table("provenance", sheet, "Provenance", columns, tuple(facts.items()), page)
