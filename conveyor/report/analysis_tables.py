@@ -16,6 +16,7 @@ from typing import Any, Final, NamedTuple, TypeVar
 
 import numpy as np
 
+from conveyor.calculated_conveyor import CalculatedConveyor, StretchResult
 from conveyor.checks import Check, governing_by_criterion, governing_by_subject, unsearched_criteria
 from conveyor.files.output_marks import package_version
 from conveyor.laws.drives import next_preferred_number
@@ -35,7 +36,6 @@ from conveyor.loop.take_up_duty import TakeUpDuty
 from conveyor.loop.tensions import MotionState
 from conveyor.loop.ties import first_maximum
 from conveyor.models import Conveyor, RubberCompound
-from conveyor.pipeline import CalculatedConveyor, StretchResult
 from conveyor.remarks import analysis_assumptions, analysis_warnings, method_summary
 from conveyor.report import analysis_plots
 from conveyor.report.design_verdict import governing_figures

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Final, NamedTuple
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks import BELT_STRENGTH_CRITERIA, Check, governing_by_criterion, highest_use
 from conveyor.line.covers import compounds_by_strand
 from conveyor.loop.equilibrium import START
@@ -13,7 +14,6 @@ from conveyor.loop.take_up_duty import TakeUpDuty
 from conveyor.loop.tensions import MotionState
 from conveyor.loop.ties import first_maximum, first_minimum
 from conveyor.models import RubberCompound
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.table_model import Column, Table
 from conveyor.studies.default_bands import PowerRange
 from conveyor.studies.load_cases import AS_GIVEN, Load, MotorChoice

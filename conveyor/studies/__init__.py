@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields
 from functools import cached_property, partial
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.models import Conveyor
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.studies.duty import CalculatedYear, analyse_duty
 from conveyor.studies.flooding import FloodedBelt, flooded_belt
 from conveyor.studies.input_ranges import CalculatedRanges, analyse_ranges

@@ -10,11 +10,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.errors import ConveyorError
 from conveyor.line.stretches import Stretch
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
-from conveyor.pipeline import CalculatedConveyor, Variant, calculate_many
+from conveyor.pipeline import calculate_many
 from conveyor.units import from_si
 
 _RTOL = 1e-3

@@ -14,6 +14,7 @@ from functools import cached_property
 from typing import Final
 
 from conveyor.arguments import check_arguments
+from conveyor.calculated_conveyor import CalculatedConveyor, Variant, common_take_up_duty
 from conveyor.checks import Check, rubber_data_suffice, run_checks
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.energy import MOTOR_SERIES, NEMA_MOTORS, next_motor
@@ -21,13 +22,7 @@ from conveyor.loop.take_up_duty import TakeUpDuty
 from conveyor.loop.ties import first_maximum, first_minimum
 from conveyor.models import Conveyor, LoadCase, standard_cases
 from conveyor.models.variants import case_settings
-from conveyor.pipeline import (
-    CalculatedConveyor,
-    ProgressCallback,
-    Variant,
-    calculate_many,
-    common_take_up_duty,
-)
+from conveyor.pipeline import ProgressCallback, calculate_many
 from conveyor.units.sentences import Message, escape_braces, message
 
 MOTOR_RESERVE: Final = 1.1

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import TypeAlias
 
+from conveyor.calculated_conveyor import CalculatedConveyor, common_take_up_duty
 from conveyor.checks import (
     BELT_STRENGTH_CRITERIA,
     Check,
@@ -17,7 +18,6 @@ from conveyor.checks import (
 )
 from conveyor.loop.take_up_duty import TakeUpDuty
 from conveyor.models import Conveyor
-from conveyor.pipeline import CalculatedConveyor, common_take_up_duty
 from conveyor.studies.load_cases import AS_GIVEN, CalculatedCases, Load, analyse_cases
 from conveyor.studies.states import CalculatedStates, at_one_take_up, load_states
 from conveyor.units.sentences import Message, escape_braces, message

@@ -15,6 +15,7 @@ from itertools import groupby
 from operator import itemgetter
 from typing import Final
 
+from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.checks import Check, run_checks, severity_rank
 from conveyor.errors import ConveyorError, NoSolutionError
 from conveyor.loop.balance import Balance, close_loops, with_take_up_at
@@ -26,7 +27,7 @@ from conveyor.loop.worst_loadings import CriterionLoadings
 from conveyor.models import Conveyor, LoadCase
 from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
-from conveyor.pipeline import CalculatedConveyor, ProgressCallback, Variant, calculate, calculate_many
+from conveyor.pipeline import ProgressCallback, calculate, calculate_many
 from conveyor.studies.load_cases import (
     AS_GIVEN,
     CalculatedCases,

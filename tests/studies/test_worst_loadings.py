@@ -9,13 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from conveyor.calculated_conveyor import Variant, common_take_up_duty
 from conveyor.checks import Check, governing_by_subject, severity_rank, unsearched_criteria
 from conveyor.loop import worst_loadings
 from conveyor.loop.take_up_duty import at_common_setting
 from conveyor.loop.worst_loadings import CriterionLoadings
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
-from conveyor.pipeline import Variant, calculate_many, common_take_up_duty
+from conveyor.pipeline import calculate_many
 from conveyor.report.analysis_tables import check_table
 from conveyor.results.analysis import Studies, analyse
 from conveyor.spec import from_data, load
