@@ -37,7 +37,7 @@ ProgressCallback: TypeAlias = Callable[[int, int], None]
 """Called with the amount done, which never falls, and the total."""
 
 
-def calculate(conveyor: Conveyor) -> CalculatedConveyor:
+def calculate(conveyor: Conveyor, kept: ReuseCache | None = None) -> CalculatedConveyor:
     """Calculate one conveyor under its own load.
 
     The take-up is at its given setting, else at the least that serves this load; reports have the least that serves
@@ -47,6 +47,8 @@ def calculate(conveyor: Conveyor) -> CalculatedConveyor:
     ----------
     conveyor : Conveyor
         The spec.
+    kept : ReuseCache, optional
+        Cache of earlier calls; new parts are added.
 
     Returns
     -------
@@ -66,7 +68,7 @@ def calculate(conveyor: Conveyor) -> CalculatedConveyor:
         raise InputError(
             f"analyse: takes a Conveyor, got {type(conveyor).__name__}; conveyor.load(path) reads one from a file"
         )
-    (result,) = calculate_many([Variant(conveyor)])
+    (result,) = calculate_many([Variant(conveyor)], kept=kept)
     if not isinstance(result, CalculatedConveyor):
         raise result
     return result

@@ -12,7 +12,7 @@ at R and M. With a = 0 the signs of the coefficients are the answer, else the st
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Final
@@ -145,13 +145,15 @@ class SectionLoadings:
                 loadings[name] = tried[best]
         return loadings
 
-    def loaded(self, loading: Loading) -> Balance:
-        """Balance under one loading: forces of the full belt on loaded sections, of the empty one elsewhere."""
-        (made,) = raise_first_error(close_loops([self.open_loop(loading)]))
-        return made
+    def loaded(self, loadings: Iterable[Loading]) -> list[Balance]:
+        """Balances under loadings, closed side by side."""
+        return raise_first_error(close_loops(list(map(self.open_loop, loadings))))
 
     def open_loop(self, loading: Loading) -> OpenLoop:
-        """Loop under one loading, to be closed at the setting of the take-up."""
+        """Loop under one loading, to be closed at the setting of the take-up.
+
+        It has the forces of the full belt on loaded sections, of the empty one elsewhere.
+        """
         line, count = self.line, self.count
         on = np.append(loading, np.ones(count, bool))
         pairs = zip(line.stretches, self.empty.line.stretches, on.tolist(), strict=True)

@@ -23,6 +23,7 @@ from conveyor.loop.ties import first_maximum, first_minimum
 from conveyor.models import Conveyor, LoadCase, standard_cases
 from conveyor.models.variants import case_settings
 from conveyor.pipeline import ProgressCallback, calculate_many
+from conveyor.reuse import ReuseCache
 from conveyor.units.sentences import Message, escape_braces, message
 
 MOTOR_RESERVE: Final = 1.1
@@ -247,6 +248,7 @@ def analyse_cases(
     friction_band: tuple[float, float] | None = None,
     rtol: float | None = None,
     progress: ProgressCallback | None = None,
+    kept: ReuseCache | None = None,
 ) -> CalculatedCases:
     """Calculate load cases, all contacts in one batch.
 
@@ -263,6 +265,8 @@ def analyse_cases(
         Relative tolerance of the contacts [-]; by default that of the spec.
     progress : callable, optional
         Called with the items done and their total.
+    kept : ReuseCache, optional
+        Cache of earlier calls; new parts are added.
 
     Returns
     -------
@@ -298,7 +302,11 @@ def analyse_cases(
     ]
     variants = [Variant(conveyor), *(Variant(variant) for _, _, variant in made)]
     as_given, *answers = calculate_many(
-        variants, rtol, progress, one_take_up=lambda one: one.conveyor is conveyor or rubber_data_suffice(one)
+        variants,
+        rtol,
+        progress,
+        one_take_up=lambda one: one.conveyor is conveyor or rubber_data_suffice(one),
+        kept=kept,
     )
     results = []
     for (case, setting, _), result in zip(made, answers, strict=True):

@@ -18,6 +18,7 @@ from conveyor.checks import (
 )
 from conveyor.loop.take_up_duty import TakeUpDuty
 from conveyor.models import Conveyor
+from conveyor.reuse import ReuseCache
 from conveyor.studies.load_cases import AS_GIVEN, CalculatedCases, Load, analyse_cases
 from conveyor.studies.states import CalculatedStates, at_one_take_up, load_states
 from conveyor.units.sentences import Message, escape_braces, message
@@ -94,7 +95,11 @@ class EveryLoad:
 
 
 def every_load(
-    conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: Progress | None = None
+    conveyor: Conveyor,
+    given: CalculatedConveyor | None = None,
+    *,
+    progress: Progress | None = None,
+    kept: ReuseCache | None = None,
 ) -> EveryLoad:
     """Calculate the load states and load cases of a spec.
 
@@ -106,6 +111,8 @@ def every_load(
         The spec's own load, if already calculated.
     progress : callable, optional
         Called with "load cases" or "load states", the items done and their total.
+    kept : ReuseCache, optional
+        Cache of earlier calls; new parts are added.
 
     Raises
     ------
@@ -116,9 +123,11 @@ def every_load(
     def told(name: str) -> Callable[[int, int], None] | None:
         return None if progress is None else partial(progress, name)
 
-    cases = analyse_cases(conveyor, progress=told("load cases")) if conveyor.cases else None
+    kept = ReuseCache() if kept is None else kept
+    cases = analyse_cases(conveyor, progress=told("load cases"), kept=kept) if conveyor.cases else None
     own = given if cases is None else cases.as_given
-    return EveryLoad(*at_one_take_up(load_states(conveyor, own, cases, progress=told("load states")), cases))
+    states = load_states(conveyor, own, cases, progress=told("load states"), kept=kept)
+    return EveryLoad(*at_one_take_up(states, cases))
 
 
 def design_loads(

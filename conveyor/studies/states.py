@@ -18,7 +18,7 @@ from typing import Final
 from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.checks import Check, run_checks, severity_rank
 from conveyor.errors import ConveyorError, NoSolutionError
-from conveyor.loop.balance import Balance, close_loops, with_take_up_at
+from conveyor.loop.balance import Balance, close_loops, raise_first_error, with_take_up_at
 from conveyor.loop.load_superposition import DRIVE_FORCE, HOLDING_BACK, HOLDING_DOWN, Loading, SectionLoadings
 from conveyor.loop.loop_layout import TakeUpSetting
 from conveyor.loop.take_up_duty import at_common_setting, on_common_side
@@ -28,6 +28,7 @@ from conveyor.models import Conveyor, LoadCase
 from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
 from conveyor.pipeline import ProgressCallback, calculate, calculate_many
+from conveyor.reuse import ReuseCache
 from conveyor.studies.load_cases import (
     AS_GIVEN,
     CalculatedCases,
@@ -206,6 +207,7 @@ def load_states(
     cases: CalculatedCases | None = None,
     *,
     progress: ProgressCallback | None = None,
+    kept: ReuseCache | None = None,
 ) -> CalculatedStates:
     """Calculate empty, full, inclines only and declines only, and the worst loadings at every temperature of the cases.
 
@@ -221,47 +223,65 @@ def load_states(
         Cases at the same setting: their temperatures are included, and their results reused.
     progress : callable, optional
         Called with the items done and their total.
+    kept : ReuseCache, optional
+        Cache of earlier calls; new parts are added.
 
     Raises
     ------
     NoSolutionError, RangeError, InputError
         The spec's own load has no answer.
     """
-    own = _fix_take_up_side(calculate(conveyor) if given is None else given)
+    kept = ReuseCache() if kept is None else kept
+    own = _fix_take_up_side(calculate(conveyor, kept) if given is None else given)
     at = own.temperature
-    ends, refused = _full_and_empty(conveyor, own, cases, progress)
+    ends, refused = _full_and_empty(conveyor, own, cases, progress, kept)
     adding = {temperature: SectionLoadings(*pair) for temperature, pair in ends.items()}
     worst = _worst_loadings(adding)
-    states = []
-    if at in adding:
-        alike: dict[bytes, tuple[Loading, list[str]]] = {}
-        for name, loading in zip(STANDARD_LOADINGS, adding[at].standard, strict=True):
-            alike.setdefault(loading.tobytes(), (loading, []))[1].append(name)
-        for loading, names in alike.values():
-            figures = worst.pop((at, loading.tobytes()), (loading, ()))[1]
-            known = dict(zip(("full", "empty"), ends[at], strict=True)).get(names[0])
-            one = adding[at].loaded(loading) if known is None else known
-            keys = (*map(_STATE_KEYS.__getitem__, names), *map(worst_key, figures))
-            states.append(LoadState(names[0], _loaded_sections(own, loading), at, figures, keys, one))
+    alike: dict[bytes, tuple[Loading, list[str]]] = {}
+    for name, loading in zip(STANDARD_LOADINGS, adding[at].standard, strict=True) if at in adding else ():
+        alike.setdefault(loading.tobytes(), (loading, []))[1].append(name)
+    standard = [(loading, names, worst.pop((at, key), (loading, ()))[1]) for key, (loading, names) in alike.items()]
     alone = [
         (temperature, _loaded_sections(own, loading))
         for (temperature, _), (loading, figures) in worst.items()
         if not _IN_FULL.isdisjoint(figures) and loading.any() and not loading.all()
     ]
-    full_ones = dict(zip(alone, _calculate_in_full(conveyor, alone, own), strict=True))
+    full_ones = dict(zip(alone, _calculate_in_full(conveyor, alone, own, kept), strict=True))
+    balances = {
+        (temperature, loaded): one.balance
+        for (temperature, loaded), one in full_ones.items()
+        if isinstance(one, CalculatedConveyor)
+    }
+    wanted = [(at, loading) for loading, *_ in standard]
+    wanted += [(temperature, loading) for (temperature, _), (loading, _) in worst.items()]
+    adds = {(temperature, _loaded_sections(own, loading)): loading for temperature, loading in wanted}
+    balances |= _superpose({key: loading for key, loading in adds.items() if key not in balances}, adding)
+    states = []
+    for loading, names, figures in standard:
+        loaded, keys = _loaded_sections(own, loading), (*map(_STATE_KEYS.__getitem__, names), *map(worst_key, figures))
+        states.append(LoadState(names[0], loaded, at, figures, keys, balances[at, loaded]))
     for (temperature, _), (loading, figures) in worst.items():
         loaded = _loaded_sections(own, loading)
-        full, empty = ends[temperature]
-        one = full if loading.all() else adding[temperature].loaded(loading) if loading.any() else empty
-        again = full_ones.get((temperature, loaded))
-        if isinstance(again, CalculatedConveyor):
-            one = again.balance
-        elif again is not None:
+        if isinstance(again := full_ones.get((temperature, loaded)), ConveyorError):
             refused.append(StateRefusal(f"worst for {figures[0]}", temperature, str(again)))
-        keys = tuple(map(worst_key, figures))
-        states.append(LoadState(f"worst for {', '.join(figures)}", loaded, temperature, figures, keys, one))
+        title, keys = f"worst for {', '.join(figures)}", tuple(map(worst_key, figures))
+        states.append(LoadState(title, loaded, temperature, figures, keys, balances[temperature, loaded]))
     looked_at = tuple((temperature, *pair) for temperature, pair in ends.items())
     return CalculatedStates(own, tuple(states), tuple(refused), looked_at)
+
+
+def _superpose(
+    asked: Mapping[tuple[float, tuple[str, ...]], Loading], adding: Mapping[float, SectionLoadings]
+) -> dict[tuple[float, tuple[str, ...]], Balance]:
+    """Balances under loadings at temperatures, added by section; the full and the empty belt are known."""
+    found, loops = {}, {}
+    for key, loading in asked.items():
+        loadings = adding[key[0]]
+        if loading.all() or not loading.any():
+            found[key] = loadings.full if loading.any() else loadings.empty
+        else:
+            loops[key] = loadings.open_loop(loading)
+    return found | dict(zip(loops, raise_first_error(close_loops(list(loops.values()))), strict=True))
 
 
 def _fix_take_up_side(own: CalculatedConveyor) -> CalculatedConveyor:
@@ -459,6 +479,7 @@ def _full_and_empty(
     own: CalculatedConveyor,
     cases: CalculatedCases | None,
     progress: ProgressCallback | None,
+    kept: ReuseCache,
 ) -> tuple[dict[float, _Ends], list[StateRefusal]]:
     """Full and empty belt at the spec's temperature and those of its cases, reusing results of the cases.
 
@@ -483,7 +504,7 @@ def _full_and_empty(
     take_up = own.balance.settled.take_up
     missing = {key: Variant(one, take_up=take_up) for key, one in asked.items() if key not in solved}
     if missing:
-        answers = calculate_many(list(missing.values()), progress=progress, known=own)
+        answers = calculate_many(list(missing.values()), progress=progress, known=own, kept=kept)
         for key, one in zip(missing, answers, strict=True):
             if isinstance(one, CalculatedConveyor):
                 solved[key] = one
@@ -522,7 +543,7 @@ def _worst_loadings(
 
 
 def _calculate_in_full(
-    conveyor: Conveyor, loads: Sequence[tuple[float, tuple[str, ...]]], own: CalculatedConveyor
+    conveyor: Conveyor, loads: Sequence[tuple[float, tuple[str, ...]]], own: CalculatedConveyor, kept: ReuseCache
 ) -> list[CalculatedConveyor | ConveyorError]:
     """Calculate loadings at temperatures with their own contacts, or return the errors."""
     made: list[CalculatedConveyor | ConveyorError] = []
@@ -537,7 +558,7 @@ def _calculate_in_full(
             variants[i] = Variant(one, take_up=own.balance.settled.take_up)
             made.append(own)
     if variants:
-        for i, answer in zip(variants, calculate_many(list(variants.values()), known=own), strict=True):
+        for i, answer in zip(variants, calculate_many(list(variants.values()), known=own, kept=kept), strict=True):
             made[i] = answer
     return made
 
