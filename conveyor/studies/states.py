@@ -8,7 +8,8 @@ in full: its own tensions load the rolls of vertical curves, its own loads softe
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import groupby
@@ -18,6 +19,7 @@ from typing import Final
 from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.checks import Check, run_checks, severity_rank
 from conveyor.errors import ConveyorError, NoSolutionError
+from conveyor.line.stretches import route_sections
 from conveyor.loop.balance import Balance, close_loops, raise_first_error, with_take_up_at
 from conveyor.loop.load_superposition import DRIVE_FORCE, HOLDING_BACK, HOLDING_DOWN, Loading, SectionLoadings
 from conveyor.loop.loop_layout import TakeUpSetting
@@ -27,7 +29,7 @@ from conveyor.loop.worst_loadings import CriterionLoadings
 from conveyor.models import Conveyor, LoadCase
 from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
-from conveyor.pipeline import ProgressCallback, calculate, calculate_many
+from conveyor.pipeline import ProgressCallback, calculate_many
 from conveyor.reuse import ReuseCache
 from conveyor.studies.load_cases import (
     AS_GIVEN,
@@ -75,6 +77,8 @@ class LoadState:
         Forces, tensions and power, the take-up at its setting.
     found : CalculatedConveyor or None
         The full result, if known.
+    checked : tuple of Check or None
+        Every criterion of it that needs no contacts, if known.
     """
 
     name: str
@@ -84,6 +88,7 @@ class LoadState:
     keys: tuple[str, ...]
     balance: Balance
     found: CalculatedConveyor | None = None
+    checked: tuple[Check, ...] | None = None
 
     @property
     def label(self) -> str:
@@ -178,8 +183,11 @@ class CalculatedStates:
     @cached_property
     def checks(self) -> tuple[Check, ...]:
         """Every criterion that needs no contacts, in every state but the spec's own load."""
+        each = [state for state in self.states if state.balance is not self.own.balance]
         return tuple(
-            replace(check, case=load.label) for load in self.loads for check in run_checks(load.found, contacts=False)
+            replace(check, case=load.label)
+            for state, load in zip(each, self.loads, strict=True)
+            for check in (run_checks(load.found, contacts=False) if state.checked is None else state.checked)
         )
 
 
@@ -232,7 +240,7 @@ def load_states(
         The spec's own load has no answer.
     """
     kept = ReuseCache() if kept is None else kept
-    own = _fix_take_up_side(calculate(conveyor, kept) if given is None else given)
+    own = _fix_take_up_side(_calculate_own(conveyor, kept) if given is None else given)
     at = own.temperature
     ends, refused = _full_and_empty(conveyor, own, cases, progress, kept)
     adding = {temperature: SectionLoadings(*pair) for temperature, pair in ends.items()}
@@ -282,6 +290,23 @@ def _superpose(
         else:
             loops[key] = loadings.open_loop(loading)
     return found | dict(zip(loops, raise_first_error(close_loops(list(loops.values()))), strict=True))
+
+
+def _calculate_own(conveyor: Conveyor, kept: ReuseCache) -> CalculatedConveyor:
+    """Calculate the spec's own load; contacts of the full and the empty belt, solved beside it, are found in the cache.
+
+    Not where tensions load the rolls: those of the other loads are not known yet.
+    """
+    beside: list[Conveyor] = []
+    if conveyor.calculation.support != "belt" and not any(one.curved for one in route_sections(conveyor)):
+        for name in ("full", "empty"):
+            with suppress(ConveyorError):
+                beside.append(with_case(conveyor, LoadCase.from_data({"name": name, "loading": name})))
+    variants = [conveyor, *(one for one in beside if one is not conveyor)]
+    own = calculate_many(list(map(Variant, variants)), kept=kept)[0]
+    if not isinstance(own, CalculatedConveyor):
+        raise own
+    return own
 
 
 def _fix_take_up_side(own: CalculatedConveyor) -> CalculatedConveyor:
@@ -399,13 +424,19 @@ def _governing_only(states: CalculatedStates, cases: CalculatedCases | None) -> 
     own, of_cases = states.own, () if cases is None else cases.designing
     fixed = [state for state in states.states if state.keys]
     candidates = [state for state in states.states if not state.keys]
-    of_states = [replace(state, found=states.load(state).found) for state in (*fixed, *candidates)]
+    of_states = []
+    for state in (*fixed, *candidates):
+        found = states.load(state).found
+        checks = () if state.balance is own.balance else run_checks(found, contacts=False)
+        of_states.append(replace(state, found=found, checked=checks))
     fixed, candidates = of_states[: len(fixed)], of_states[len(fixed) :]
-    loads = [Load(AS_GIVEN, message(AS_GIVEN), own), *of_cases]
-    count = len(loads) + len(fixed)
+    judged = [(Load(AS_GIVEN, message(AS_GIVEN), own), run_checks(own, contacts=False))]
+    judged += [(case, case.checks) for case in of_cases]
+    count = len(judged) + len(fixed)
+    judged += [(states.load(state), state.checked or ()) for state in of_states]
     governs: dict[tuple[str, str], tuple[Rank, int]] = {}
-    for i, load in enumerate([*loads, *map(states.load, of_states)]):
-        for name, rank in _criterion_ranks(load):
+    for i, (load, checks) in enumerate(judged):
+        for name, rank in _criterion_ranks(load, checks):
             if name not in governs or rank < governs[name][0]:
                 governs[name] = (rank, i)
     named: list[list[tuple[Rank, str]]] = [[] for _ in candidates]
@@ -421,9 +452,9 @@ def _governing_only(states: CalculatedStates, cases: CalculatedCases | None) -> 
     return replace(states, states=(*fixed, *kept))
 
 
-def _criterion_ranks(load: Load) -> Iterator[tuple[tuple[str, str], Rank]]:
+def _criterion_ranks(load: Load, checks: Iterable[Check]) -> Iterator[tuple[tuple[str, str], Rank]]:
     """Criteria and figures of a load by key and name, with their rank: the least governs, as in `deciding`."""
-    for check in run_checks(load.found, contacts=False):
+    for check in checks:
         yield (check.key, check.subject.text()), severity_rank(check)
     figures = governing_figures(load)
     for duty in load.found.pulley_duty:
