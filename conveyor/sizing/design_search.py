@@ -38,7 +38,8 @@ from conveyor.sizing.sizing_task import CarcassClass, DesignChoice, SelectedPart
 from conveyor.sizing.spacing import graduated_spacings
 from conveyor.studies.costs import conveyor_costs, conveyor_parts, roll_life
 from conveyor.studies.loads import EveryLoad
-from conveyor.studies.states import at_one_take_up, load_states
+from conveyor.studies.one_take_up import at_one_take_up
+from conveyor.studies.states import load_states
 from conveyor.units.sentences import Message, escape_braces, format_figure, message
 
 RTOL: Final = 1e-4

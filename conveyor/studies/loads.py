@@ -20,7 +20,8 @@ from conveyor.loop.take_up_duty import TakeUpDuty
 from conveyor.models import Conveyor
 from conveyor.reuse import ReuseCache
 from conveyor.studies.load_cases import AS_GIVEN, CalculatedCases, Load, analyse_cases
-from conveyor.studies.states import CalculatedStates, at_one_take_up, load_states
+from conveyor.studies.one_take_up import at_one_take_up
+from conveyor.studies.states import CalculatedStates, load_states
 from conveyor.units.sentences import Message, escape_braces, message
 
 Progress: TypeAlias = Callable[[str, int, int], None]

@@ -21,9 +21,11 @@ from conveyor.report.analysis_tables import check_table
 from conveyor.results.analysis import Studies, analyse
 from conveyor.spec import from_data, load
 from conveyor.studies import calculate_studies
+from conveyor.studies import one_take_up as of_one_take_up
 from conveyor.studies import states as of_states
 from conveyor.studies.loads import every_load
-from conveyor.studies.states import at_one_take_up, load_states
+from conveyor.studies.one_take_up import at_one_take_up
+from conveyor.studies.states import load_states
 from conveyor.units.sentences import message
 from tests.loop.loop_lines import DATA, closed, data, line
 from tests.studies.every_loading import (
@@ -46,7 +48,8 @@ NEARLY = 1e-3
 
 @pytest.fixture
 def without_contacts(monkeypatch):
-    monkeypatch.setattr(of_states, "calculate_many", calculated_many)
+    for module in (of_states, of_one_take_up):
+        monkeypatch.setattr(module, "calculate_many", calculated_many)
 
 
 def reported(conveyor):
