@@ -20,10 +20,11 @@ from time import perf_counter
 import numpy as np
 
 import conveyor
+from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.errors import InputError
 from conveyor.models import Calibration, Conveyor, MeasuredRun
 from conveyor.models.variants import with_runs
-from conveyor.pipeline import CalculatedConveyor, Variant, calculate_many
+from conveyor.pipeline import calculate_many
 from conveyor.units import from_si
 
 SPECS = Path(__file__).resolve().parents[1] / "examples" / "specs"

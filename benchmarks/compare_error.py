@@ -13,9 +13,10 @@ import numpy as np
 from compare import SPEC, varied
 
 import conveyor
+from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.models import Conveyor
 from conveyor.models.variants import crossed_settings, with_compound
-from conveyor.pipeline import CalculatedConveyor, Variant, calculate_many
+from conveyor.pipeline import calculate_many
 from conveyor.units import quantity
 
 

@@ -6,10 +6,10 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Self
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks import Check, governing_by_subject, run_checks
 from conveyor.loop.take_up_duty import TakeUpDuty
 from conveyor.loop.ties import first_maximum
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.remarks import analysis_assumptions, analysis_warnings
 from conveyor.studies import CalculatedStudies
 from conveyor.studies.default_bands import PowerRange, power_range

@@ -14,6 +14,7 @@ from typing import Final, Literal
 
 import numpy as np
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.laws.belt_strength import RATED_START
 from conveyor.laws.motion import Stop
 from conveyor.laws.pulley import HUB_SLOPE, SHAFT_SAFETY
@@ -33,7 +34,6 @@ from conveyor.loop.start_and_stop import motion_states
 from conveyor.loop.take_up_duty import TakeUpDuty, take_up_weight_mass
 from conveyor.loop.ties import first_maximum
 from conveyor.loop.worst_loadings import SINGLE_CHANGE_SECTIONS
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.units.sentences import Message, escape_braces, format_band, message, percent
 
 Verdict = Literal["pass", "FAIL", "not checked"]

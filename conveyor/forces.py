@@ -36,10 +36,12 @@ from conveyor.laws.resistance import (
     steel_cord_wrap_resistance,
 )
 from conveyor.laws.transfer import skirt_seal_resistance
-from conveyor.line.line import BendPulley, Line, LoadingPoint
+from conveyor.line.bend_pulleys import BendPulley
+from conveyor.line.line import Line
 from conveyor.line.loop_positions import LoopPosition
 from conveyor.line.strands import OneStrand, Strands
 from conveyor.line.stretches import STRANDS, Strand, Stretch
+from conveyor.line.transfer_parts import LoadingPoint
 from conveyor.models import Calibration
 
 Array = NDArray[np.float64]

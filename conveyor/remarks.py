@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import Final
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks import Check
 from conveyor.files.libraries import widest_spacings
 from conveyor.laws.horizontal_curve import FULL_SLIP_TILT
@@ -31,7 +32,6 @@ from conveyor.models import Conveyor, IdlerSet, Roll
 from conveyor.models.library_items import LibraryItem, without_entry_fields
 from conveyor.models.plausibility import implausible_inputs
 from conveyor.models.rolls import BearingDrag, MakerDrag
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.units import quantity, same_value, text
 from conveyor.units.presentation import format_figure
 from conveyor.units.sentences import Message, escape_braces, message, percent

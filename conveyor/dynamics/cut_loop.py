@@ -11,13 +11,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.errors import NoSolutionError
 from conveyor.laws.resistance.resistance_defaults import ROLL_DRAG_STANDSTILL_FACTOR
 from conveyor.laws.waves import PULLEY_INERTIA, SLACK_SAG, sag_factor, wave_speed
 from conveyor.line.line import Line
 from conveyor.line.loop_positions import BoundaryOrder, LoopPosition
 from conveyor.loop.take_up_duty import belt_stiffness
-from conveyor.pipeline import CalculatedConveyor
 
 Array = NDArray[np.float64]
 

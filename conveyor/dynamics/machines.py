@@ -21,8 +21,9 @@ from conveyor.laws.waves import (
     TORQUE_LIMIT,
     ramp_speed,
 )
+from conveyor.line.belt_body import BeltBody
 from conveyor.line.drive_scenarios import ScenarioUnit, StarterUnit
-from conveyor.line.line import BeltBody, DriveUnit
+from conveyor.line.drive_units import DriveUnit
 
 Array = NDArray[np.float64]
 

@@ -13,6 +13,7 @@ from typing import Final, NamedTuple, Self, TypeAlias, TypeGuard
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.dynamics.cut_loop import SPEEDS, Cells, CutLoop
 from conveyor.dynamics.machines import ScenarioSetup, ScenarioSize, machines_over_time, prepare_belts
 from conveyor.dynamics.wave import Record, simulate_belts
@@ -29,7 +30,7 @@ from conveyor.line.drive_scenarios import ScenarioUnit
 from conveyor.line.line import Line
 from conveyor.models import Conveyor, LoadCase, Scenario
 from conveyor.models.variants import at_reduced_speed, with_case, with_temperature
-from conveyor.pipeline import CalculatedConveyor, ProgressCallback, Variant, calculate_many
+from conveyor.pipeline import ProgressCallback, calculate_many
 from conveyor.studies.loads import EveryLoad, every_load
 from conveyor.studies.states import CalculatedStates
 from conveyor.studies.worker_failures import report_lost_worker

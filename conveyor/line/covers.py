@@ -192,32 +192,28 @@ STRAIN_INTERPOLATION_RTOL: Final = 1e-4
 
 
 def softened_covers(
-    works: Sequence[CoverLoading],
-    tests: Sequence[SofteningCover] = (),
-    runs: Sequence[Sequence[CoverLoading]] = (),
-) -> tuple[list[CoverState | NoSolutionError | RangeError], list[SoftCover | NoSolutionError | RangeError]]:
+    works: Sequence[CoverLoading], runs: Sequence[Sequence[CoverLoading]] = ()
+) -> list[CoverState | NoSolutionError | RangeError]:
     """Covers at their working strain, where the compounds have strain sweeps, solved in one batch.
 
     Parameters
     ----------
     works : sequence of CoverLoading
         Loaded strands.
-    tests : sequence of SofteningCover
-        Covers of rolling-resistance tests, solved in the same batch.
     runs : sequence of sequence of CoverLoading
         Strands of `works` that differ in speed alone.
 
     Returns
     -------
-    tuple of list
-        Covers of the strands and of the tests in their order, or the error: no solution at the working strain, or
-        sweeps that do not reach it.
+    list
+        Covers of the strands in their order, or the error: no solution at the working strain, or sweeps that do not
+        reach it.
     """
     asked = {work: worked for work in works if (worked := work.worked()) is not None}
     threes = {three: part for run in runs for part in _speed_groups(run) for three in [_interpolation_nodes(part)]}
     between = {work for three, part in threes.items() for work in part if work not in three}
-    found = soften_covers([*tests, *(worked for work, worked in asked.items() if work not in between)])
-    soft = dict(zip([work for work in asked if work not in between], found[len(tests) :], strict=True))
+    alone = [work for work in asked if work not in between]
+    soft = dict(zip(alone, soften_covers([asked[work] for work in alone]), strict=True))
     read: dict[CoverLoading, WorkingPoint] = {}
     for three, part in threes.items():
         strains = [one[1] for work in three if isinstance(one := soft.get(work), tuple)]
@@ -226,11 +222,10 @@ def softened_covers(
     soft |= zip(read, soften_at_strains([asked[work] for work in read], list(read.values())), strict=True)
     left = [work for work in asked if work not in soft]
     soft |= zip(left, soften_covers([asked[work] for work in left]), strict=True)
-    running = [
+    return [
         _softened_cover(work.cover, soft.get(work), STRAIN_INTERPOLATION_ERROR if work in read else 0.0)
         for work in works
     ]
-    return running, found[: len(tests)]
 
 
 def _speed_groups(run: Sequence[CoverLoading]) -> Iterator[list[CoverLoading]]:

@@ -158,6 +158,12 @@ class Balance:
         """Tensions round the loop in steady running, from the head back to it."""
         return tuple(_tension_points(self.settled, self.settled.steady))
 
+    def is_closed_at(self, kept: TakeUpSetting) -> bool:
+        """True if the loop was closed with the take-up at this setting."""
+        settled = self.settled
+        stands = settled.frame.standing_on(behind=kept.behind) is settled.frame
+        return stands and settled.given and settled.setting == kept.tension
+
     def held(self, setting: float) -> Balance:
         """The loop with the take-up at a setting [N]."""
         (found,) = with_take_up_at([self], self.settled.take_up._replace(tension=setting))
@@ -188,8 +194,13 @@ def close_loop(frame: LoopLayout, along: tuple[Force, ...], unit_main: float, se
 
 
 def with_take_up_at(loops: Iterable[Balance], kept: TakeUpSetting) -> list[Balance]:
-    """Close the loops anew with the take-up at a setting."""
-    return raise_first_error(close_loops([OpenLoop.of(one.frame, one.along, one.unit_main, kept) for one in loops]))
+    """Loops with the take-up at a setting: those of another one are closed anew."""
+    every = list(loops)
+    moved = [i for i, one in enumerate(every) if not one.is_closed_at(kept)]
+    asked = [OpenLoop.of(one.frame, one.along, one.unit_main, kept) for one in (every[i] for i in moved)]
+    for i, one in zip(moved, raise_first_error(close_loops(asked)), strict=True):
+        every[i] = one
+    return every
 
 
 def raise_first_error(found: Sequence[Balance | NoSolutionError]) -> list[Balance]:

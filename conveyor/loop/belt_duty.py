@@ -29,7 +29,8 @@ from conveyor.laws.vertical_curve import (
     overstress_radius,
     trough_section,
 )
-from conveyor.line.line import BendPulley, Line, TransitionZone
+from conveyor.line.bend_pulleys import BendPulley, TransitionZone
+from conveyor.line.line import Line
 from conveyor.line.stretches import RouteSection, Strand, Stretch
 from conveyor.loop.balance import Balance
 from conveyor.loop.pulley_duty import pulley_tensions

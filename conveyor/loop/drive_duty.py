@@ -20,7 +20,8 @@ from conveyor.laws.drives import (
 )
 from conveyor.laws.motion import start_force
 from conveyor.laws.waves import MOTOR_SLIP
-from conveyor.line.line import DriveParts, DriveUnit, Line
+from conveyor.line.drive_units import DriveParts, DriveUnit
+from conveyor.line.line import Line
 from conveyor.loop.balance import Balance
 from conveyor.loop.start_and_stop import StartAndStop
 from conveyor.loop.take_up_duty import belt_stiffness

@@ -24,7 +24,9 @@ from conveyor.laws.resistance import (
     slope_resistance,
 )
 from conveyor.laws.resistance.cema import Place
-from conveyor.line.line import BendPulley, CemaFactors, Line
+from conveyor.line.bend_pulleys import BendPulley
+from conveyor.line.cema_factors import CemaFactors
+from conveyor.line.line import Line
 from conveyor.line.stretches import Stretch
 
 STANDARD_GRAVITY = 9.80665

@@ -12,7 +12,7 @@ at R and M. With a = 0 the signs of the coefficients are the answer, else the st
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Final
@@ -24,6 +24,7 @@ from conveyor.forces import rubber_free_forces
 from conveyor.laws.tension import grip_tension
 from conveyor.loop.balance import Balance, OpenLoop, close_loops, raise_first_error
 from conveyor.loop.equilibrium import BRAKES, LEAST, LEAST_BRAKING, START
+from conveyor.loop.loop_events import loop_events
 from conveyor.loop.loop_layout import LoopLayout
 from conveyor.loop.run_up import is_start_uncontrolled, start_motion
 from conveyor.loop.tensions import STEADY
@@ -41,33 +42,6 @@ HOLDING_BACK: Final = "holding force of a backstop"
 HOLDING_DOWN: Final = "holding force of a brake"
 _ONLY_IF_POSITIVE: Final = (LEAST_FORCE, HOLDING_BACK, HOLDING_DOWN)  # only where above 0
 _CANDIDATE_COUNT = 3  # highest places of the loop by the first estimate
-
-
-@dataclass(frozen=True, eq=False)
-class _LoopEvents:
-    """Runs, point forces, pulleys and drives round the loop from the head, in order; shape (e,).
-
-    Forces, their certain parts [N] and masses [kg] with the section empty, and the addition of its bulk; `section` is
-    -1 for none. `stretches` and `drives` are indices of every stretch, shape (2n,), and drive; `held` the place behind
-    the take-up, `spots` the place before every spot.
-    """
-
-    force: Array
-    certain: Array
-    mass: Array
-    more_force: Array
-    more_certain: Array
-    more_mass: Array
-    section: NDArray[np.int_]
-    stretches: NDArray[np.int_]
-    drives: NDArray[np.int_]
-    held: int
-    spots: tuple[int, ...]
-
-    def by_section(self, values: Array, count: int) -> Array:
-        """Sum values by section, shape (n,)."""
-        held = self.section >= 0
-        return np.bincount(self.section[held], weights=values[held], minlength=count).astype(float)
 
 
 @dataclass(frozen=True)
@@ -105,7 +79,7 @@ class SectionLoadings:
         self.line, self.full, self.empty = full.line, full, empty
         self.count = full.line.count
         self.setting = full.settled.setting
-        self.events = _loop_events(full, empty)
+        self.events = loop_events(full, empty)
         self.drive_at, self.stretch_at = self.events.drives, self.events.stretches
         self.rotating = np.array([drive.reduced_mass for drive in self.line.drives])
         self.brakes = np.array(self.line.brakes)
@@ -145,13 +119,15 @@ class SectionLoadings:
                 loadings[name] = tried[best]
         return loadings
 
-    def loaded(self, loading: Loading) -> Balance:
-        """Balance under one loading: forces of the full belt on loaded sections, of the empty one elsewhere."""
-        (made,) = raise_first_error(close_loops([self.open_loop(loading)]))
-        return made
+    def loaded(self, loadings: Iterable[Loading]) -> list[Balance]:
+        """Balances under loadings, closed side by side."""
+        return raise_first_error(close_loops(list(map(self.open_loop, loadings))))
 
     def open_loop(self, loading: Loading) -> OpenLoop:
-        """Loop under one loading, to be closed at the setting of the take-up."""
+        """Loop under one loading, to be closed at the setting of the take-up.
+
+        It has the forces of the full belt on loaded sections, of the empty one elsewhere.
+        """
         line, count = self.line, self.count
         on = np.append(loading, np.ones(count, bool))
         pairs = zip(line.stretches, self.empty.line.stretches, on.tolist(), strict=True)
@@ -454,91 +430,3 @@ def _limits_sag(state: _MotionCase) -> bool:
 def _places_of_largest(values: Array) -> list[int]:
     """Indices of the largest values."""
     return [int(k) for k in np.argsort(values)[::-1][:_CANDIDATE_COUNT]]
-
-
-_EventRow = tuple[float, float, float, float, float, float, int]
-"""Force, its certain part and mass of the empty belt, the bulk's addition to each, and its section."""
-
-
-def _loop_events(full: Balance, empty: Balance) -> _LoopEvents:
-    """Events round the loop from the head, in running direction."""
-    line, frame, count = full.line, full.frame, full.line.count
-    rows: list[_EventRow] = []
-    stretches: list[int] = []
-    drives = np.zeros(len(line.drives), dtype=int)
-    held, spots = 0, list[int]()
-    standing = iter(list(enumerate(frame.spots)))
-    following = next(standing, None)
-    for boundary, (bare, laden) in enumerate(
-        zip([*_stretch_events(empty), None], [*_stretch_events(full), None], strict=True)
-    ):
-        while following is not None and following[1].boundary == boundary:
-            j = following[0]
-            spots.append(len(rows))
-            rows += _point_events(full, empty, j)
-            for d in frame.drives[j]:
-                drives[d] = len(rows)
-                rows.append((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1))
-            if j == frame.anchor:
-                held = len(rows)
-            following = next(standing, None)
-        if bare is not None and laden is not None:
-            stretches.append(len(rows))
-            if boundary < count:
-                rows.append((*laden, 0.0, 0.0, 0.0, -1))
-            else:
-                more = (laden[0] - bare[0], laden[1] - bare[1], laden[2] - bare[2])
-                rows.append((*bare, *more, boundary - count))
-    if frame.anchor is None:
-        held = int(drives[frame.station[-1]]) + 1 if full.settled.take_up.behind else int(drives[frame.station[0]])
-    columns = list(zip(*rows, strict=True))
-    values = [np.array(column, dtype=float) for column in columns[:-1]]
-    force, certain, mass, more_force, more_certain, more_mass = values
-    return _LoopEvents(
-        force, certain, mass, more_force, more_certain, more_mass,
-        section=np.array(columns[-1]), stretches=np.array(stretches), drives=drives, held=held, spots=tuple(spots),
-    )  # fmt: skip
-
-
-def _stretch_events(balance: Balance) -> list[tuple[float, float, float] | None]:
-    """Force, its certain part and mass of every stretch, in loop order."""
-    count = balance.line.count
-    force, certain = np.zeros(2 * count), np.zeros(2 * count)
-    for each in balance.along:
-        force += each.newtons
-        if each.certain:
-            certain += each.newtons
-    both = (np.roll(force, count), np.roll(certain, count), balance.line.loop.mass)
-    return list(zip(*(column.tolist() for column in both), strict=True))
-
-
-def _point_events(full: Balance, empty: Balance, j: int) -> Iterator[_EventRow]:
-    """Forces at a spot: of bulk with its section, of the length coefficient by section, and the rest."""
-    frame = full.frame
-    spot = frame.spots[j]
-    always = math.fsum(
-        force for bend, force in zip(frame.bends, full.settled.bends, strict=True) if bend.pulley.spot == spot
-    )
-    for force in full.settled.points:
-        if force.spot != spot:
-            continue
-        if force.key == "secondary_by_length":
-            yield from _length_coefficient_events(full, empty, force.total)
-        elif force.bulk is not None:
-            certain = force.total if force.certain else 0.0
-            yield (0.0, 0.0, 0.0, force.total, certain, 0.0, force.bulk)
-        else:
-            always += force.total
-    yield (always, 0.0, 0.0, 0.0, 0.0, 0.0, -1)
-
-
-def _length_coefficient_events(full: Balance, empty: Balance, total: float) -> Iterator[_EventRow]:
-    """Secondary resistance by section, in proportion to the main one."""
-    laden, bare = (
-        np.array([force.newtons for force in balance.along if force.kind == "main"]).sum(axis=0)
-        for balance in (full, empty)
-    )
-    share = total / float(laden.sum())
-    yield (share * float(bare.sum()), 0.0, 0.0, 0.0, 0.0, 0.0, -1)
-    for i, more in enumerate((laden - bare)[: full.line.count].tolist()):
-        yield (0.0, 0.0, 0.0, share * more, 0.0, 0.0, i)

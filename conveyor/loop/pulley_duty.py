@@ -17,7 +17,8 @@ from conveyor.laws.pulley import (
 )
 from conveyor.laws.resistance import pulley_load
 from conveyor.laws.roll_life import ROLLER_EXPONENT, SECONDS_PER_HOUR, rating_life_hours
-from conveyor.line.line import BendPulley, Line
+from conveyor.line.bend_pulleys import BendPulley
+from conveyor.line.line import Line
 from conveyor.loop.balance import Balance
 from conveyor.loop.tensions import STEADY, MotionState
 from conveyor.loop.ties import first_maximum, first_minimum

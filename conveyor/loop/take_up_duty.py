@@ -16,7 +16,9 @@ from conveyor.laws.take_up import (
     take_up_mass,
     take_up_travel,
 )
-from conveyor.line.line import BeltBody, Line, TakeUpUnit
+from conveyor.line.belt_body import BeltBody
+from conveyor.line.line import Line
+from conveyor.line.take_up_unit import TakeUpUnit
 from conveyor.loop.balance import Balance, with_take_up_at
 from conveyor.loop.tensions import MotionState
 from conveyor.loop.ties import first_maximum

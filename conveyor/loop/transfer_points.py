@@ -22,7 +22,8 @@ from conveyor.laws.transfer import (
     stream_impact,
     usual_skirt_length,
 )
-from conveyor.line.line import HeadDischarge, Line, LoadingPoint, Scraper
+from conveyor.line.line import Line
+from conveyor.line.transfer_parts import HeadDischarge, LoadingPoint, Scraper
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import ast
 import inspect
-from collections.abc import Iterable, Iterator
+import marshal
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import cached_property
+from hashlib import blake2b
 from itertools import pairwise
 from textwrap import dedent
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Self, TypeVar
@@ -17,11 +20,15 @@ from pydantic_core.core_schema import ModelSchema
 
 from conveyor.errors import InputError, SpecError
 from conveyor.models.validation_messages import Location, error_message
-from conveyor.units import System, is_quantity, spec_value
+from conveyor.units import System, is_quantity, spec_value, text
 from conveyor.units.sentences import error_in_units
 
 _SMALLEST, _LARGEST = 1e-30, 1e30
 """Smallest and largest size of a plain number other than zero: products of a few stay finite."""
+
+
+_MARSHAL_FORMAT = 2
+"""Format that depends on values alone: later ones refer back to objects met before."""
 
 
 def _check_magnitude(value: float) -> float:
@@ -245,6 +252,18 @@ class Model(BaseModel):
         """Error of a failed validation, every refusal on its own line."""
         return SpecError((field_path(item["loc"]), error_message(item, cls)) for item in real_errors(error))
 
+    @cached_property
+    def fingerprint(self) -> bytes:
+        """Digest of the fields as entered: equal models of one class have one, in every process."""
+        return value_digest(*(getattr(self, name) for name in type(self).model_fields))
+
+    def __copy__(self) -> Self:
+        """Copy without what was worked out of the fields, which `model_copy` may change."""
+        twin = super().__copy__()
+        for name in vars(twin).keys() - type(self).model_fields.keys():
+            del vars(twin)[name]
+        return twin
+
     @classmethod
     def json_schema(cls) -> dict[str, Any]:
         """Return the JSON schema of the model, in the names that specs use."""
@@ -264,6 +283,24 @@ class Model(BaseModel):
         """Pickle the given fields as plain data: pint quantities do not survive another process's registry."""
         given = self.model_dump(mode="json", by_alias=True, exclude_unset=True)
         return type(self).model_validate, (given,)
+
+
+def value_digest(*values: object) -> bytes:
+    """Digest of values of fields, quantities as entered."""
+    return blake2b(marshal.dumps(_plain_value(values), _MARSHAL_FORMAT), digest_size=16).digest()
+
+
+def _plain_value(value: object) -> Any:
+    """Value in plain types; of a model its fingerprint."""
+    if isinstance(value, str | float | int | None):
+        return value
+    if isinstance(value, tuple):
+        return tuple(map(_plain_value, value))
+    if isinstance(value, Model):
+        return type(value).__name__, value.fingerprint
+    if isinstance(value, Mapping):
+        return tuple((key, _plain_value(each)) for key, each in value.items())
+    return text(value) if is_quantity(value) else repr(value)
 
 
 M = TypeVar("M", bound=BaseModel)

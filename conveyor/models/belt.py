@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Annotated, ClassVar, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
 from conveyor.laws.preliminary_sizing import Severity
-from conveyor.models.base import Model, Number, Problem, raise_problems
+from conveyor.models.base import Model, Number, Problem, raise_problems, value_digest
 from conveyor.models.compound import CompoundReference, RubberCompound
 from conveyor.models.library_items import EntryName, LibraryItem
 from conveyor.units import (
@@ -168,6 +169,13 @@ class Belt(LibraryItem):
     def _consistent(self) -> Self:
         raise_problems("Belt", self._problems())
         return self
+
+    @cached_property
+    def body_fingerprint(self) -> bytes:
+        """Digest of everything but the rubber of the covers: equal for belts that differ in it alone."""
+        covers = {"top_cover": self.top_cover.thickness, "bottom_cover": self.bottom_cover.thickness}
+        fields = (covers.get(name) or getattr(self, name) for name in Belt.model_fields)
+        return value_digest(self.line_mass, *fields)
 
     def _problems(self) -> list[Problem]:
         problems = []

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from typing import Annotated, Any, Final, Self
 
 from pydantic import Field, ValidationError, model_validator
@@ -14,6 +14,7 @@ from conveyor.models.parts import ConveyorParts
 from conveyor.models.report import Report
 from conveyor.models.scenarios import Scenario, scenario_problems
 from conveyor.models.uncertain_inputs import Uncertainty
+from conveyor.reuse import part_key
 from conveyor.units import si, text
 
 
@@ -53,19 +54,15 @@ class Conveyor(ConveyorParts):
         raise_problems("Conveyor", [problem for check in CHECKS for problem in check(self)], self.report.units)
         return self
 
-    def with_parts(
-        self, parts: Mapping[str, Model], numbers: Mapping[str, int], fit: set[tuple[object, ...]]
-    ) -> Conveyor:
+    def with_parts(self, parts: Mapping[str, Model], passed: dict[Hashable, None]) -> Conveyor:
         """Copy with other parts of the same kinds, each already checked on its own.
 
         Parameters
         ----------
         parts : mapping of str to Model
             By the name of their field.
-        numbers : mapping of str to int
-            Identity of each part among those used with the same `fit`, from 1.
-        fit : set
-            Checks passed in earlier calls on this conveyor, with the numbers of the parts read; new ones are added.
+        passed : dict
+            Checks passed in earlier calls, with the parts read; new ones are added.
 
         Raises
         ------
@@ -76,7 +73,7 @@ class Conveyor(ConveyorParts):
         new = {
             key: check
             for check, reads in CHECKS.items()
-            if (key := (check, *(numbers.get(name, 0) for name in reads))) not in fit
+            if (key := (check, *(part_key(getattr(made, name)) for name in reads))) not in passed
         }
         try:
             raise_problems(
@@ -84,7 +81,7 @@ class Conveyor(ConveyorParts):
             )
         except ValidationError as error:
             raise self.refusal(error) from None
-        fit.update(new)
+        passed.update(dict.fromkeys(new))
         return made
 
     def _case_names(self) -> Iterator[Problem]:

@@ -6,13 +6,13 @@ import difflib
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import lru_cache, partial
-from itertools import count
 from typing import Any, Final, TypeAlias, TypeVar
 
 from conveyor.errors import InputError
 from conveyor.models.base import Model
 from conveyor.models.compound import RubberCompound
 from conveyor.models.conveyor import Conveyor
+from conveyor.reuse import ReuseCache
 from conveyor.units import is_quantity
 
 CompoundResolver: TypeAlias = Callable[[str], RubberCompound]
@@ -23,36 +23,12 @@ _PATH_PART: Final = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
 _FIELD_PATH: Final = re.compile(r"[^.\[\]]+(?:\.[^.\[\]]+|\[\d+\])*")
 
 
-class PartCache:
-    """Cache of the parts of one conveyor's variants, and of the checks between parts that they passed."""
-
-    MOST: Final = 2048
-    """Most parts cached, and a 32nd of the most combinations."""
-
-    def __init__(self) -> None:
-        self._made: dict[object, tuple[int, Any]] = {}
-        self._numbers = count(1)
-        self.fit: set[tuple[object, ...]] = set()
-        """Checks passed, for `Conveyor.with_parts`."""
-
-    @property
-    def full(self) -> bool:
-        """True if the cache should be replaced by a new one."""
-        return len(self._made) > self.MOST or len(self.fit) > 32 * self.MOST
-
-    def once(self, change: object, make: Callable[[], Any]) -> tuple[int, Any]:
-        """Number and part of a change, made on first use."""
-        if change not in self._made:
-            self._made.setdefault(change, (next(self._numbers), make()))
-        return self._made[change]
-
-
 def with_fields(
     conveyor: Conveyor,
     changes: Mapping[str, Any],
     *,
     resolve: CompoundResolver | None = None,
-    known: PartCache | None = None,
+    kept: ReuseCache | None = None,
 ) -> Conveyor:
     """Copy of a conveyor with changed fields, checked like a new spec.
 
@@ -65,8 +41,8 @@ def with_fields(
         brackets, or by their `name` (`route.sections.incline.lift`).
     resolve : callable, optional
         Looks up compounds given by name or path.
-    known : PartCache, optional
-        Cache kept from call to call with one conveyor: parts shared by variants are one object, checked once.
+    kept : ReuseCache, optional
+        Cache kept from call to call: parts shared by variants are one object, checked once.
 
     Raises
     ------
@@ -86,20 +62,19 @@ def with_fields(
         _collect_results(changes.items(), lambda change: _insert_change(tree, *change))
     except InputError as error:
         refused.append(str(error))
-    parts = known or PartCache()
+    kept = kept or ReuseCache()
 
-    def changed(change: tuple[str, Any]) -> tuple[str, tuple[int, Any]]:
+    def changed(change: tuple[str, Any]) -> tuple[str, Any]:
         name, below = _field_name(conveyor, change[0], ""), change[1]
-        make = partial(_apply_changes, getattr(conveyor, name), below, name, resolve)
-        return name, parts.once((name, _change_key(below)), make)
+        old = getattr(conveyor, name)
+        make = partial(_apply_changes, old, below, name, resolve)
+        return name, kept.once(make, "changed", (old,), (name, _change_key(below)))
 
-    new = dict(_collect_results(tree.items(), changed, refused))
-    numbers = {name: number for name, (number, _) in new.items()}
-    made = {name: part for name, (_, part) in new.items()}
+    made = dict(_collect_results(tree.items(), changed, refused))
     if not made:
         return conveyor
     alike = all(isinstance(part, Model) and type(part) is type(getattr(conveyor, name)) for name, part in made.items())
-    return conveyor.with_parts(made, numbers, parts.fit) if alike else _replace_with_path(conveyor, made, "")
+    return conveyor.with_parts(made, kept.passed) if alike else _replace_with_path(conveyor, made, "")
 
 
 def field_value(conveyor: Conveyor, path: str) -> Any:

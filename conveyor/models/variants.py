@@ -10,9 +10,10 @@ from conveyor.errors import ConveyorError, InputError, RangeError
 from conveyor.models.cases import LoadCase
 from conveyor.models.compound import RubberCompound
 from conveyor.models.conveyor import Conveyor
-from conveyor.models.fields import PartCache, with_fields
+from conveyor.models.fields import with_fields
 from conveyor.models.route import Route, Section
 from conveyor.models.runs import MeasuredRun
+from conveyor.reuse import ReuseCache
 from conveyor.units import Quantity, from_si, si
 
 CoverChoice = Literal["bottom", "top", "both"]
@@ -166,13 +167,13 @@ def crossed_settings(
     given = [
         (si(at), _field_changes("ambient", _temperature_changes(conveyor, at)) if air else {}) for at in temperatures
     ]
-    known = PartCache()
+    kept = ReuseCache()
     for speed in speeds:
-        running = _with_fields_or_error(conveyor, {"belt.speed": speed}, known)
+        running = _with_fields_or_error(conveyor, {"belt.speed": speed}, kept)
         for temperature, warmth in given:
             made = running
             if warmth and isinstance(running, Conveyor):
-                made = _with_fields_or_error(conveyor, {"belt.speed": speed, **warmth}, known)
+                made = _with_fields_or_error(conveyor, {"belt.speed": speed, **warmth}, kept)
             yield Setting(temperature, si(speed), made)
 
 
@@ -181,10 +182,10 @@ def _field_changes(part: str, changes: Mapping[str, Quantity]) -> dict[str, Quan
 
 
 def _with_fields_or_error(
-    conveyor: Conveyor, changes: Mapping[str, Quantity], known: PartCache
+    conveyor: Conveyor, changes: Mapping[str, Quantity], kept: ReuseCache
 ) -> Conveyor | InputError:
     try:
-        return with_fields(conveyor, changes, known=known)
+        return with_fields(conveyor, changes, kept=kept)
     except InputError as error:
         return error
 

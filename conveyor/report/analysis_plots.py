@@ -39,6 +39,7 @@ from conveyor.units.presentation import display_unit
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from conveyor.calculated_conveyor import CalculatedConveyor
     from conveyor.line.line import Line
     from conveyor.line.stretches import RouteSection, Strand, Stretch
     from conveyor.loop.balance import Balance
@@ -47,7 +48,6 @@ if TYPE_CHECKING:
     from conveyor.loop.start_and_stop import StartAndStop
     from conveyor.loop.tensions import MotionState
     from conveyor.models import Conveyor, RubberCompound
-    from conveyor.pipeline import CalculatedConveyor
     from conveyor.studies.input_ranges import CalculatedRanges
     from conveyor.studies.load_cases import CalculatedCases, CaseResult
     from conveyor.studies.monte_carlo import MonteCarlo

@@ -27,7 +27,7 @@ from conveyor.units.unit_systems import report_system
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from conveyor.pipeline import CalculatedConveyor
+    from conveyor.calculated_conveyor import CalculatedConveyor
     from conveyor.studies.comparison import CalculatedComparison
 
 _TEMPERATURE_STEPS: Final = tuple(range(-40, 41, 5))  # from the spec's belt temperature [K]

@@ -15,6 +15,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.calculated_conveyor import CalculatedConveyor, NoAnswer, Variant, common_take_up_duty
 from conveyor.checks import motor_power, run_checks
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.laws.belt_strength import RATED_START
@@ -23,15 +24,7 @@ from conveyor.laws.take_up import TRAVEL_RESERVE
 from conveyor.line.stretches import STRANDS
 from conveyor.models import Conveyor
 from conveyor.models.sizing import SizingDuty
-from conveyor.pipeline import (
-    CalculatedConveyor,
-    KnownTestFactors,
-    NoAnswer,
-    ProgressCallback,
-    Variant,
-    calculate_many,
-    common_take_up_duty,
-)
+from conveyor.pipeline import ProgressCallback, calculate_many
 from conveyor.sizing.screen import (
     Candidates,
     EstimateCalibration,
@@ -45,7 +38,8 @@ from conveyor.sizing.sizing_task import CarcassClass, DesignChoice, SelectedPart
 from conveyor.sizing.spacing import graduated_spacings
 from conveyor.studies.costs import conveyor_costs, conveyor_parts, roll_life
 from conveyor.studies.loads import EveryLoad
-from conveyor.studies.states import at_one_take_up, load_states
+from conveyor.studies.one_take_up import at_one_take_up
+from conveyor.studies.states import load_states
 from conveyor.units.presentation import format_figure
 from conveyor.units.sentences import Message, escape_braces, message
 
@@ -216,7 +210,6 @@ class _Search:
         self.estimate = screen_candidates(task, choices, levels)
         self.answers: dict[int, SizedDesign | Shortfall] = {}
         """Results of candidates under the full belt; the failure of those that fail under another load."""
-        self.anchors: KnownTestFactors = []
         self.reasons: Counter[str] = Counter()
 
     @property
@@ -241,7 +234,7 @@ class _Search:
         probes = _shortlist_candidates(task, self.choices, self.estimate.year, count, covers=True)
         if not probes:
             probes = _shortlist_candidates(task, self.choices, self.estimate.largest_use, count, covers=True)
-        first = _first_calculations(task, self.choices, self.estimate, probes, self.anchors)
+        first = _first_calculations(task, self.choices, self.estimate, probes)
         self._levelled(first, {})
 
     def draw(self, most: int) -> list[int]:
@@ -266,7 +259,7 @@ class _Search:
         """Calculate candidates, recalibrate the estimate, and return the designs among them."""
         if progress is not None:
             progress(len(self.answers), len(self.answers) + len(new))
-        found = _calculate_candidates(self.task, self.choices, self.estimate, new, self.anchors)
+        found = _calculate_candidates(self.task, self.choices, self.estimate, new)
         self.answers |= zip(new, found, strict=True)
         self.reasons.update(one.rule for one in found if isinstance(one, Shortfall))
         made = {i: one.found for i, one in self.answers.items() if isinstance(one, SizedDesign)}
@@ -304,16 +297,16 @@ class _Search:
 
 def _final_designs(search: _Search, designs: Iterable[SizedDesign], best: int) -> list[SizedDesign]:
     """Designs sized for every load, by rank; further loads never make a design cheaper, so no other can be better."""
-    task, anchors = search.task, search.anchors
+    task = search.task
     ranked = sorted(designs, key=_yearly_cost)
     if task.rules.graduated and len(task.sections) > 1:
         first = max(best, GRADUATED_DESIGNS)
-        ranked = sorted([*ranked, *_graduated_designs(task, ranked[:first], anchors)], key=_yearly_cost)
+        ranked = sorted([*ranked, *_graduated_designs(task, ranked[:first])], key=_yearly_cost)
     final: list[SizedDesign] = []
     while ranked and (len(final) < best or ranked[0].year < final[best - 1].year):
         batch, ranked = ranked[: max(1, best - len(final))], ranked[max(1, best - len(final)) :]
         begin = [(design.choice, _foresee_parts(task, design), design.estimate) for design in batch]
-        made = size_parts(task, begin, anchors, every_load=True, made=batch)
+        made = size_parts(task, begin, every_load=True, made=batch)
         for design, one in zip(batch, made, strict=True):
             if isinstance(one, SizedDesign):
                 final.append(one)
@@ -356,13 +349,12 @@ def _first_calculations(
     choices: Candidates,
     estimate: Estimates,
     chosen: Sequence[int],
-    anchors: KnownTestFactors,
 ) -> dict[int, CalculatedConveyor]:
     """Calculated candidates with estimated parts, to calibrate the estimate; only those with an answer."""
     specs, _ = _candidate_specs(
         task, {i: (choices[i], _estimated_parts(task, choices[i], estimate, i)) for i in chosen}
     )
-    found = _calculate_specs(specs, anchors, {})
+    found = _calculate_specs(specs, {})
     return {i: one for i, one in found.items() if isinstance(one, CalculatedConveyor)}
 
 
@@ -409,17 +401,15 @@ def _calculate_candidates(
     choices: Candidates,
     estimate: Estimates,
     chosen: Sequence[int],
-    anchors: KnownTestFactors,
 ) -> list[SizedDesign | Shortfall]:
     """Calculate candidates exactly."""
     begin = [(choices[i], _estimated_parts(task, choices[i], estimate, i), float(estimate.cost[i])) for i in chosen]
-    return size_parts(task, begin, anchors)
+    return size_parts(task, begin)
 
 
 def size_parts(
     task: SizingTask,
     begin: Sequence[tuple[DesignChoice, SelectedParts, float]],
-    anchors: KnownTestFactors,
     *,
     every_load: bool = False,
     made: Sequence[SizedDesign] = (),
@@ -434,8 +424,6 @@ def size_parts(
         The duty.
     begin : sequence of (DesignChoice, SelectedParts, float)
         Candidates, initial class and motors, yearly cost by the estimate.
-    anchors : list
-        Test calibrations of the compounds from earlier calculations; new ones are added.
     every_load : bool
         True to include empty, inclines only, declines only and the worst loadings, not the full belt alone.
     made : sequence of SizedDesign
@@ -450,11 +438,11 @@ def size_parts(
         alike = {i: made[i] for i in specs if made and now[i] == made[i].chosen}
         coldest = {i: task.colder(spec) if task.cold else spec for i, spec in specs.items()}
         known = {i: one.found for i, one in alike.items()}
-        cold = _calculate_specs(coldest, anchors, {i: one.coldest for i, one in alike.items()})
-        warm = _calculate_specs({i: spec for i, spec in specs.items() if i in both}, anchors, known)
+        cold = _calculate_specs(coldest, {i: one.coldest for i, one in alike.items()})
+        warm = _calculate_specs({i: spec for i, spec in specs.items() if i in both}, known)
         asked = _required_parts(task, begin, now, cold, warm, every_load=every_load)
         late = {i for i, one in asked.items() if task.cold and i not in both and one.settles(now[i])}
-        warm = _calculate_specs({i: specs[i] for i in late}, anchors, {})
+        warm = _calculate_specs({i: specs[i] for i in late}, {})
         asked |= _required_parts(task, begin, now, {i: cold[i] for i in late}, warm, every_load=every_load)
         both |= late
         answers |= {i: one.short for i, one in asked.items() if one.short is not None}
@@ -531,11 +519,11 @@ def _candidate_specs(
 
 
 def _calculate_specs(
-    specs: Mapping[int, Conveyor], anchors: KnownTestFactors, known: Mapping[int, CalculatedConveyor]
+    specs: Mapping[int, Conveyor], known: Mapping[int, CalculatedConveyor]
 ) -> dict[int, CalculatedConveyor | NoAnswer]:
     """Calculate specs, unknown ones in one batch."""
     new = {i: Variant(spec) for i, spec in specs.items() if i not in known}
-    return {**known, **dict(zip(new, calculate_many(list(new.values()), RTOL, anchors=anchors), strict=True))}
+    return {**known, **dict(zip(new, calculate_many(list(new.values()), RTOL), strict=True))}
 
 
 def _design_loads(answer: CalculatedConveyor | NoAnswer, *, every_load: bool) -> tuple[CalculatedConveyor, ...]:
@@ -730,9 +718,7 @@ def _failed_criteria(task: SizingTask, asked: _RequiredParts) -> Iterator[Shortf
         yield Shortfall("take-up travel", message(_LIMIT_MESSAGES["take-up travel"], *figures), over, asked.uses)
 
 
-def _graduated_designs(
-    task: SizingTask, designs: Sequence[SizedDesign], anchors: KnownTestFactors
-) -> list[SizedDesign]:
+def _graduated_designs(task: SizingTask, designs: Sequence[SizedDesign]) -> list[SizedDesign]:
     """Designs with the cheapest carry spacing in each section, if that saves."""
     tried = [
         (design, replace(design.choice, graduated=one))
@@ -740,7 +726,7 @@ def _graduated_designs(
         for one in dict.fromkeys(graduated_spacings(task, design))
         if len(set(one)) > 1
     ]
-    made = size_parts(task, [(choice, even.chosen, even.estimate) for even, choice in tried], anchors)
+    made = size_parts(task, [(choice, even.chosen, even.estimate) for even, choice in tried])
     return [
         new for (even, _), new in zip(tried, made, strict=True) if isinstance(new, SizedDesign) and new.year < even.year
     ]

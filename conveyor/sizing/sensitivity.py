@@ -56,7 +56,7 @@ def vary_choices(task: SizingTask, design: SizedDesign) -> tuple[VariedChoice, .
     axes = list(_choice_axes(task, base, design.chosen.bottom))
     varied = list(dict.fromkeys(choice for *_, points in axes for _, choice in points if choice is not None))
     begin = [(choice, replace(design.chosen, settling=False), design.estimate) for choice in varied]
-    made = size_parts(task, begin, [])
+    made = size_parts(task, begin)
     system = task.duty.report.units
     answers = {
         choice: one.why.text(system) if isinstance(one, Shortfall) else one

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.models import Conveyor
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.sizing.screen import Limit
 from conveyor.sizing.sizing_task import DesignChoice, SelectedParts
 from conveyor.studies.costs import Costs

@@ -6,10 +6,10 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.laws.roll_life import BALL_EXPONENT
 from conveyor.line.roll_lives import idler_set_life
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.sizing.sized_design import SizedDesign
 from conveyor.sizing.sizing_task import SizingTask
 

@@ -6,8 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields
 from functools import cached_property, partial
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.models import Conveyor
-from conveyor.pipeline import CalculatedConveyor
+from conveyor.reuse import ReuseCache
 from conveyor.studies.duty import CalculatedYear, analyse_duty
 from conveyor.studies.flooding import FloodedBelt, flooded_belt
 from conveyor.studies.input_ranges import CalculatedRanges, analyse_ranges
@@ -95,7 +96,8 @@ def calculate_studies(
     def told(name: str) -> Callable[[int, int], None] | None:
         return None if progress is None else partial(progress, name)
 
-    loads = every_load(conveyor, given, progress=progress)
+    kept = ReuseCache()
+    loads = every_load(conveyor, given, progress=progress, kept=kept)
     return CalculatedStudies(
         states=loads.states,
         cases=loads.cases,
@@ -105,5 +107,5 @@ def calculate_studies(
         uncertainty=None
         if conveyor.uncertainty is None
         else analyse_ranges(conveyor, take_up=loads.states.take_up, progress=told("ranges of the inputs")),
-        flooded=flooded_belt(loads.own),
+        flooded=flooded_belt(loads.own, kept),
     )

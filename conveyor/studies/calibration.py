@@ -21,12 +21,13 @@ from numpy.typing import NDArray
 from scipy.special import chdtrc, stdtrit
 
 from conveyor.arguments import check_arguments
+from conveyor.calculated_conveyor import CalculatedConveyor, NoAnswer, Variant
 from conveyor.errors import InputError, MessageQuantity, NoSolutionError
 from conveyor.forces import forces_along_belt
 from conveyor.loop.balance import OpenLoop, close_loops, raise_first_error
 from conveyor.models import CALIBRATED_FORCES, Calibration, Conveyor, MeasuredRun
 from conveyor.models.variants import with_runs
-from conveyor.pipeline import CalculatedConveyor, NoAnswer, ProgressCallback, Variant, calculate_many
+from conveyor.pipeline import ProgressCallback, calculate_many
 from conveyor.rubber.rolling_test_factor import BAND_COVERAGE
 
 Array = NDArray[np.float64]

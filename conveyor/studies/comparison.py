@@ -23,7 +23,8 @@ from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.operation import BeltSpeed
 from conveyor.models.variants import CoverChoice, distinct_values, with_compound
-from conveyor.pipeline import ProgressCallback, ReuseCache
+from conveyor.pipeline import ProgressCallback
+from conveyor.reuse import ReuseCache
 from conveyor.studies.comparison_scenes import (
     ComparedScene,
     CompoundStudy,

@@ -13,13 +13,15 @@ from typing import TypeAlias
 
 import numpy as np
 
+from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.contact import solve_many
 from conveyor.indentation import to_problem
 from conveyor.line.contacts import RollResult
 from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import CoverChoice, crossed_settings, with_compound
-from conveyor.pipeline import CalculatedConveyor, ReuseCache, Variant, calculate_many
+from conveyor.pipeline import calculate_many
+from conveyor.reuse import ReuseCache
 from conveyor.rubber.rolling_test_factor import quantile_band
 from conveyor.units import Quantity
 

@@ -10,12 +10,12 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.laws.belt_strength import RATED_SAFETY
 from conveyor.laws.preliminary_sizing import annuity
 from conveyor.line.roll_lives import shortest_set_life
 from conveyor.line.stretches import STRANDS
 from conveyor.models import Conveyor
-from conveyor.pipeline import CalculatedConveyor
 
 Value: TypeAlias = "float | NDArray[np.float64]"
 _NO_LIFE: Final = 1e12  # [s], for rolls without load or bearings: their seals wear out sooner

@@ -15,6 +15,7 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.errors import NoSolutionError
 from conveyor.forces import Force
 from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
@@ -36,7 +37,6 @@ from conveyor.line.covers import compounds_by_strand
 from conveyor.line.roll_drags import assumed_drag_share
 from conveyor.line.stretches import STRANDS
 from conveyor.loop.balance import Balance, OpenLoop, close_loops
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.rubber.rolling_test_factor import UNTESTED_FACTOR
 from conveyor.studies.effects import Effect, ends_of_band, root_of_squares
 from conveyor.units.sentences import Message, error_in_units, escape_braces, message

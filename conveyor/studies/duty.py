@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from conveyor.arguments import check_arguments
+from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.energy import DutyStep, DutySums, duty_emission, duty_specific_energy, duty_sums
 from conveyor.laws.power import JOULE_PER_KWH
@@ -14,7 +15,7 @@ from conveyor.loop.annual_energy import annual_cost
 from conveyor.loop.loop_layout import TakeUpSetting
 from conveyor.models import Conveyor, DutyEntry, LoadCase
 from conveyor.models.variants import with_case, with_temperature
-from conveyor.pipeline import CalculatedConveyor, ProgressCallback, Variant, calculate_many
+from conveyor.pipeline import ProgressCallback, calculate_many
 from conveyor.units import quantity
 
 

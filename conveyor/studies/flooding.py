@@ -10,11 +10,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.errors import ConveyorError
 from conveyor.line.stretches import Stretch
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
-from conveyor.pipeline import CalculatedConveyor, Variant, calculate_many
+from conveyor.pipeline import calculate_many
+from conveyor.reuse import ReuseCache
 from conveyor.units import from_si
 
 _RTOL = 1e-3
@@ -64,13 +66,15 @@ def _set_load(stretch: Stretch) -> float:
     return math.fsum(roll.force for roll in stretch.loads)
 
 
-def flooded_belt(own: CalculatedConveyor) -> FloodedBelt | None:
+def flooded_belt(own: CalculatedConveyor, kept: ReuseCache | None = None) -> FloodedBelt | None:
     """Calculate a conveyor with bulk heaped from edge to edge at its surcharge angle; None if it carries no bulk.
 
     Parameters
     ----------
     own : CalculatedConveyor
         The spec's own load; its take-up setting is kept.
+    kept : ReuseCache, optional
+        Cache of earlier calls; new parts are added.
     """
     conveyor, line = own.conveyor, own.line
     section, held = conveyor.flooded_section, conveyor.section_on_slope(0.0)
@@ -84,7 +88,7 @@ def flooded_belt(own: CalculatedConveyor) -> FloodedBelt | None:
     except ConveyorError as error:
         return FloodedBelt(section, held, None, str(error))
     variant = Variant(flooded, own.temperature, take_up=own.balance.settled.take_up)
-    (found,) = calculate_many([variant], _RTOL, known=own)
+    (found,) = calculate_many([variant], _RTOL, known=own, kept=kept)
     if not isinstance(found, CalculatedConveyor):
         return FloodedBelt(section, held, None, str(found))
     return FloodedBelt(section, held, found)

@@ -19,13 +19,14 @@ from numpy.typing import NDArray
 from scipy.special import ndtri
 
 from conveyor.arguments import check_arguments
+from conveyor.calculated_conveyor import CalculatedConveyor, NoAnswer, Variant
 from conveyor.errors import InputError
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.stretches import Strand
 from conveyor.loop.loop_layout import TakeUpSetting
 from conveyor.models import Conveyor, RubberCompound, StrainDependence, Uncertainty
 from conveyor.models.variants import scale_quantity, with_alternative, with_belt_temperature_changed
-from conveyor.pipeline import CalculatedConveyor, NoAnswer, ProgressCallback, Variant, calculate_many
+from conveyor.pipeline import ProgressCallback, calculate_many
 from conveyor.rubber.rolling_test_factor import BAND_COVERAGE, quantile_band
 from conveyor.studies.default_bands import power_range
 from conveyor.studies.effects import Effect, root_of_squares

@@ -14,6 +14,7 @@ from functools import cached_property
 from typing import Final
 
 from conveyor.arguments import check_arguments
+from conveyor.calculated_conveyor import CalculatedConveyor, Variant, common_take_up_duty
 from conveyor.checks import Check, rubber_data_suffice, run_checks
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.energy import MOTOR_SERIES, NEMA_MOTORS, next_motor
@@ -21,13 +22,8 @@ from conveyor.loop.take_up_duty import TakeUpDuty
 from conveyor.loop.ties import first_maximum, first_minimum
 from conveyor.models import Conveyor, LoadCase, standard_cases
 from conveyor.models.variants import case_settings
-from conveyor.pipeline import (
-    CalculatedConveyor,
-    ProgressCallback,
-    Variant,
-    calculate_many,
-    common_take_up_duty,
-)
+from conveyor.pipeline import ProgressCallback, calculate_many
+from conveyor.reuse import ReuseCache
 from conveyor.units.sentences import Message, escape_braces, message
 
 MOTOR_RESERVE: Final = 1.1
@@ -252,6 +248,7 @@ def analyse_cases(
     friction_band: tuple[float, float] | None = None,
     rtol: float | None = None,
     progress: ProgressCallback | None = None,
+    kept: ReuseCache | None = None,
 ) -> CalculatedCases:
     """Calculate load cases, all contacts in one batch.
 
@@ -268,6 +265,8 @@ def analyse_cases(
         Relative tolerance of the contacts [-]; by default that of the spec.
     progress : callable, optional
         Called with the items done and their total.
+    kept : ReuseCache, optional
+        Cache of earlier calls; new parts are added.
 
     Returns
     -------
@@ -303,7 +302,11 @@ def analyse_cases(
     ]
     variants = [Variant(conveyor), *(Variant(variant) for _, _, variant in made)]
     as_given, *answers = calculate_many(
-        variants, rtol, progress, one_take_up=lambda one: one.conveyor is conveyor or rubber_data_suffice(one)
+        variants,
+        rtol,
+        progress,
+        one_take_up=lambda one: one.conveyor is conveyor or rubber_data_suffice(one),
+        kept=kept,
     )
     results = []
     for (case, setting, _), result in zip(made, answers, strict=True):

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import TypeAlias
 
+from conveyor.calculated_conveyor import CalculatedConveyor, common_take_up_duty
 from conveyor.checks import (
     BELT_STRENGTH_CRITERIA,
     Check,
@@ -17,9 +18,10 @@ from conveyor.checks import (
 )
 from conveyor.loop.take_up_duty import TakeUpDuty
 from conveyor.models import Conveyor
-from conveyor.pipeline import CalculatedConveyor, common_take_up_duty
+from conveyor.reuse import ReuseCache
 from conveyor.studies.load_cases import AS_GIVEN, CalculatedCases, Load, analyse_cases
-from conveyor.studies.states import CalculatedStates, at_one_take_up, load_states
+from conveyor.studies.one_take_up import at_one_take_up
+from conveyor.studies.states import CalculatedStates, load_states
 from conveyor.units.sentences import Message, escape_braces, message
 
 Progress: TypeAlias = Callable[[str, int, int], None]
@@ -100,7 +102,11 @@ class EveryLoad:
 
 
 def every_load(
-    conveyor: Conveyor, given: CalculatedConveyor | None = None, *, progress: Progress | None = None
+    conveyor: Conveyor,
+    given: CalculatedConveyor | None = None,
+    *,
+    progress: Progress | None = None,
+    kept: ReuseCache | None = None,
 ) -> EveryLoad:
     """Calculate the load states and load cases of a spec.
 
@@ -112,6 +118,8 @@ def every_load(
         The spec's own load, if already calculated.
     progress : callable, optional
         Called with "load cases" or "load states", the items done and their total.
+    kept : ReuseCache, optional
+        Cache of earlier calls; new parts are added.
 
     Raises
     ------
@@ -122,9 +130,11 @@ def every_load(
     def told(name: str) -> Callable[[int, int], None] | None:
         return None if progress is None else partial(progress, name)
 
-    cases = analyse_cases(conveyor, progress=told("load cases")) if conveyor.cases else None
+    kept = ReuseCache() if kept is None else kept
+    cases = analyse_cases(conveyor, progress=told("load cases"), kept=kept) if conveyor.cases else None
     own = given if cases is None else cases.as_given
-    return EveryLoad(*at_one_take_up(load_states(conveyor, own, cases, progress=told("load states")), cases))
+    states = load_states(conveyor, own, cases, progress=told("load states"), kept=kept)
+    return EveryLoad(*at_one_take_up(states, cases))
 
 
 def design_loads(

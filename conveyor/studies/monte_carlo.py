@@ -17,13 +17,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtr
 
+from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.errors import ConveyorError, InputError, NoSolutionError
 from conveyor.line.stretches import Strand
 from conveyor.loop.loop_layout import TakeUpSetting
 from conveyor.models import Conveyor, RubberCompound, Uncertainty
 from conveyor.models.uncertain_inputs import FEWEST_DRAWS
 from conveyor.models.variants import with_alternative
-from conveyor.pipeline import CalculatedConveyor, KnownTestFactors, ProgressCallback, Variant, calculate_many
+from conveyor.pipeline import ProgressCallback, calculate_many
 from conveyor.rubber.rolling_test_factor import BAND_COVERAGE, quantile_band
 
 Array: TypeAlias = NDArray[np.float64]
@@ -147,7 +148,6 @@ def calculate_draws(
         rng.standard_normal((ranges.draws, len(inputs))) @ _correlation_root([one.name for one in inputs], ranges).T
     )
     power: list[float] = []
-    anchors: KnownTestFactors = []
     refused: Counter[str] = Counter()
     for at in range(0, ranges.draws, _BATCH):
         variants: list[Variant] = []
@@ -157,7 +157,7 @@ def calculate_draws(
                 variants.append(replace(made, take_up=take_up))
             except ConveyorError as error:
                 refused[str(error)] += 1
-        for result in calculate_many(variants, rtol, known=given, anchors=anchors):
+        for result in calculate_many(variants, rtol, known=given):
             if isinstance(result, CalculatedConveyor):
                 power.append(result.balance.power.motor)
             else:

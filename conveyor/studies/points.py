@@ -10,20 +10,17 @@ from functools import lru_cache
 from operator import attrgetter
 from typing import Any, Final, Literal, Self, TypeAlias
 
+from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.checks import BELT_STRENGTH_CRITERIA, belt_rating, belt_safety, highest_use, run_checks
 from conveyor.errors import ConveyorError, InputError
 from conveyor.laws.power import JOULE_PER_KWH
+from conveyor.line.known_test_factors import TEST_FACTORS
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.fields import with_fields
 from conveyor.models.study import Changes, Direction, Value
-from conveyor.pipeline import (
-    CalculatedConveyor,
-    KnownTestFactors,
-    ReuseCache,
-    Variant,
-    calculate_many,
-    conveyor_test_factors,
-)
+from conveyor.pipeline import calculate_many
+from conveyor.preparation import conveyor_test_factors
+from conveyor.reuse import ReuseCache
 from conveyor.studies.costs import Parts, conveyor_costs, conveyor_parts
 from conveyor.studies.loads import every_load
 
@@ -206,10 +203,8 @@ class Job:
     ) -> Self:
         """Pack a spec, the keys to calculate, compounds by name, and paths of the states."""
         every = _all_compounds(base, compounds)
-        anchors = conveyor_test_factors(base, every)
-        # a compound that is unpickled is another object
-        levels = [[level for one, *level in anchors if one is compound] for compound in every]
-        packed = pickle.dumps((base, tuple(asked), dict(compounds), tuple(met), levels))
+        factors = conveyor_test_factors(base, every)
+        packed = pickle.dumps((base, tuple(asked), dict(compounds), tuple(met), factors))
         return cls(hashlib.sha256(packed).digest(), packed)
 
 
@@ -225,9 +220,9 @@ class _UnpackedJob:
         self.base: Conveyor
         self.asked: tuple[str, ...]
         self.compounds: Mapping[str, RubberCompound]
-        self.base, self.asked, self.compounds, self._met, levels = pickle.loads(job.packed)  # noqa: S301 by this program
-        every = zip(_all_compounds(self.base, self.compounds), levels, strict=True)
-        self.anchors: KnownTestFactors = [(compound, how, level) for compound, known in every for how, level in known]
+        self.base, self.asked, self.compounds, self._met, factors = pickle.loads(job.packed)  # noqa: S301 by this program
+        for compound, answer in zip(_all_compounds(self.base, self.compounds), factors, strict=False):
+            TEST_FACTORS.keep(compound, answer, softened=self.base.calculation.strain != "off")
         self.kept = ReuseCache()
         self._loads: dict[tuple[tuple[str, Value], ...], Loads] = {}
 
@@ -239,7 +234,7 @@ class _UnpackedJob:
         InputError
             A change is invalid.
         """
-        return with_fields(self.base, point, resolve=self.compounds.__getitem__, known=self.kept.fields)
+        return with_fields(self.base, point, resolve=self.compounds.__getitem__, kept=self.kept)
 
     def loads(self, point: Changes) -> Loads:
         """Figures over all loads of a point's design, whatever state the point is in.
@@ -285,7 +280,7 @@ def evaluate_points(job: Job, points: Sequence[Changes]) -> list[Answer]:
         except ConveyorError as error:
             made.append(str(error))
     variants = [Variant(one) for one in made if isinstance(one, Conveyor)]
-    results = iter(calculate_many(variants, anchors=list(opened.anchors), kept=opened.kept))
+    results = iter(calculate_many(variants, kept=opened.kept))
     return [
         one if isinstance(one, str) else _point_answer(next(results), opened, point)
         for one, point in zip(made, points, strict=True)

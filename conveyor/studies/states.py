@@ -7,44 +7,38 @@ in full: its own tensions load the rolls of vertical curves, its own loads softe
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import groupby
 from operator import itemgetter
 from typing import Final
 
-from conveyor.checks import Check, run_checks, severity_rank
-from conveyor.errors import ConveyorError, NoSolutionError
-from conveyor.loop.balance import Balance, close_loops, with_take_up_at
+from conveyor.calculated_conveyor import CalculatedConveyor, Variant
+from conveyor.checks import Check, run_checks
+from conveyor.errors import ConveyorError
+from conveyor.line.stretches import route_sections
+from conveyor.loop.balance import Balance, close_loops, raise_first_error
 from conveyor.loop.load_superposition import DRIVE_FORCE, HOLDING_BACK, HOLDING_DOWN, Loading, SectionLoadings
 from conveyor.loop.loop_layout import TakeUpSetting
-from conveyor.loop.take_up_duty import at_common_setting, on_common_side
+from conveyor.loop.take_up_duty import on_common_side
 from conveyor.loop.ties import first_maximum
-from conveyor.loop.worst_loadings import CriterionLoadings
 from conveyor.models import Conveyor, LoadCase
 from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
-from conveyor.pipeline import CalculatedConveyor, ProgressCallback, Variant, calculate, calculate_many
+from conveyor.pipeline import ProgressCallback, calculate_many
+from conveyor.reuse import ReuseCache
 from conveyor.studies.load_cases import (
-    AS_GIVEN,
     CalculatedCases,
     Load,
-    governing_figures,
-    motor_start_force,
-    with_motors,
 )
 from conveyor.units import from_si
 from conveyor.units.sentences import Message, escape_braces, message
 
 _ROW: Final = 3  # consecutive sections from which a row is named by its ends
-_ROUNDS: Final = 20  # of reloading the rolls; each changes the tensions by a hundredth of the last change
 _IN_FULL: Final = frozenset({DRIVE_FORCE, HOLDING_BACK, HOLDING_DOWN})
 """Figures whose worst loading is calculated with its own contacts."""
-_NAMING_FIGURES: Final = 2  # figures in the name of a state
-_FIGURE_RANK: Final = 3  # rank of figures that are no criteria: behind unchecked ones
-_DIGITS: Final = 9  # of figures: values that differ by rounding are equal
 _STATE_KEYS: Final = {
     "full": "full",
     "empty": "empty",
@@ -73,6 +67,8 @@ class LoadState:
         Forces, tensions and power, the take-up at its setting.
     found : CalculatedConveyor or None
         The full result, if known.
+    checked : tuple of Check or None
+        Every criterion of it that needs no contacts, if known.
     """
 
     name: str
@@ -82,6 +78,7 @@ class LoadState:
     keys: tuple[str, ...]
     balance: Balance
     found: CalculatedConveyor | None = None
+    checked: tuple[Check, ...] | None = None
 
     @property
     def label(self) -> str:
@@ -176,8 +173,11 @@ class CalculatedStates:
     @cached_property
     def checks(self) -> tuple[Check, ...]:
         """Every criterion that needs no contacts, in every state but the spec's own load."""
+        each = [state for state in self.states if state.balance is not self.own.balance]
         return tuple(
-            replace(check, case=load.label) for load in self.loads for check in run_checks(load.found, contacts=False)
+            replace(check, case=load.label)
+            for state, load in zip(each, self.loads, strict=True)
+            for check in (run_checks(load.found, contacts=False) if state.checked is None else state.checked)
         )
 
 
@@ -205,6 +205,7 @@ def load_states(
     cases: CalculatedCases | None = None,
     *,
     progress: ProgressCallback | None = None,
+    kept: ReuseCache | None = None,
 ) -> CalculatedStates:
     """Calculate empty, full, inclines only and declines only, and the worst loadings at every temperature of the cases.
 
@@ -220,47 +221,82 @@ def load_states(
         Cases at the same setting: their temperatures are included, and their results reused.
     progress : callable, optional
         Called with the items done and their total.
+    kept : ReuseCache, optional
+        Cache of earlier calls; new parts are added.
 
     Raises
     ------
     NoSolutionError, RangeError, InputError
         The spec's own load has no answer.
     """
-    own = _fix_take_up_side(calculate(conveyor) if given is None else given)
+    kept = ReuseCache() if kept is None else kept
+    own = _fix_take_up_side(_calculate_own(conveyor, kept) if given is None else given)
     at = own.temperature
-    ends, refused = _full_and_empty(conveyor, own, cases, progress)
+    ends, refused = _full_and_empty(conveyor, own, cases, progress, kept)
     adding = {temperature: SectionLoadings(*pair) for temperature, pair in ends.items()}
     worst = _worst_loadings(adding)
-    states = []
-    if at in adding:
-        alike: dict[bytes, tuple[Loading, list[str]]] = {}
-        for name, loading in zip(STANDARD_LOADINGS, adding[at].standard, strict=True):
-            alike.setdefault(loading.tobytes(), (loading, []))[1].append(name)
-        for loading, names in alike.values():
-            figures = worst.pop((at, loading.tobytes()), (loading, ()))[1]
-            known = dict(zip(("full", "empty"), ends[at], strict=True)).get(names[0])
-            one = adding[at].loaded(loading) if known is None else known
-            keys = (*map(_STATE_KEYS.__getitem__, names), *map(worst_key, figures))
-            states.append(LoadState(names[0], _loaded_sections(own, loading), at, figures, keys, one))
+    alike: dict[bytes, tuple[Loading, list[str]]] = {}
+    for name, loading in zip(STANDARD_LOADINGS, adding[at].standard, strict=True) if at in adding else ():
+        alike.setdefault(loading.tobytes(), (loading, []))[1].append(name)
+    standard = [(loading, names, worst.pop((at, key), (loading, ()))[1]) for key, (loading, names) in alike.items()]
     alone = [
-        (temperature, _loaded_sections(own, loading))
+        (temperature, loaded_sections(own, loading))
         for (temperature, _), (loading, figures) in worst.items()
         if not _IN_FULL.isdisjoint(figures) and loading.any() and not loading.all()
     ]
-    full_ones = dict(zip(alone, _calculate_in_full(conveyor, alone, own), strict=True))
+    full_ones = dict(zip(alone, _calculate_in_full(conveyor, alone, own, kept), strict=True))
+    balances = {
+        (temperature, loaded): one.balance
+        for (temperature, loaded), one in full_ones.items()
+        if isinstance(one, CalculatedConveyor)
+    }
+    wanted = [(at, loading) for loading, *_ in standard]
+    wanted += [(temperature, loading) for (temperature, _), (loading, _) in worst.items()]
+    adds = {(temperature, loaded_sections(own, loading)): loading for temperature, loading in wanted}
+    balances |= _superpose({key: loading for key, loading in adds.items() if key not in balances}, adding)
+    states = []
+    for loading, names, figures in standard:
+        loaded, keys = loaded_sections(own, loading), (*map(_STATE_KEYS.__getitem__, names), *map(worst_key, figures))
+        states.append(LoadState(names[0], loaded, at, figures, keys, balances[at, loaded]))
     for (temperature, _), (loading, figures) in worst.items():
-        loaded = _loaded_sections(own, loading)
-        full, empty = ends[temperature]
-        one = full if loading.all() else adding[temperature].loaded(loading) if loading.any() else empty
-        again = full_ones.get((temperature, loaded))
-        if isinstance(again, CalculatedConveyor):
-            one = again.balance
-        elif again is not None:
+        loaded = loaded_sections(own, loading)
+        if isinstance(again := full_ones.get((temperature, loaded)), ConveyorError):
             refused.append(StateRefusal(f"worst for {figures[0]}", temperature, str(again)))
-        keys = tuple(map(worst_key, figures))
-        states.append(LoadState(f"worst for {', '.join(figures)}", loaded, temperature, figures, keys, one))
+        title, keys = f"worst for {', '.join(figures)}", tuple(map(worst_key, figures))
+        states.append(LoadState(title, loaded, temperature, figures, keys, balances[temperature, loaded]))
     looked_at = tuple((temperature, *pair) for temperature, pair in ends.items())
     return CalculatedStates(own, tuple(states), tuple(refused), looked_at)
+
+
+def _superpose(
+    asked: Mapping[tuple[float, tuple[str, ...]], Loading], adding: Mapping[float, SectionLoadings]
+) -> dict[tuple[float, tuple[str, ...]], Balance]:
+    """Balances under loadings at temperatures, added by section; the full and the empty belt are known."""
+    found, loops = {}, {}
+    for key, loading in asked.items():
+        loadings = adding[key[0]]
+        if loading.all() or not loading.any():
+            found[key] = loadings.full if loading.any() else loadings.empty
+        else:
+            loops[key] = loadings.open_loop(loading)
+    return found | dict(zip(loops, raise_first_error(close_loops(list(loops.values()))), strict=True))
+
+
+def _calculate_own(conveyor: Conveyor, kept: ReuseCache) -> CalculatedConveyor:
+    """Calculate the spec's own load; contacts of the full and the empty belt, solved beside it, are found in the cache.
+
+    Not where tensions load the rolls: those of the other loads are not known yet.
+    """
+    beside: list[Conveyor] = []
+    if conveyor.calculation.support != "belt" and not any(one.curved for one in route_sections(conveyor)):
+        for name in ("full", "empty"):
+            with suppress(ConveyorError):
+                beside.append(with_case(conveyor, LoadCase.from_data({"name": name, "loading": name})))
+    variants = [conveyor, *(one for one in beside if one is not conveyor)]
+    own = calculate_many(list(map(Variant, variants)), kept=kept)[0]
+    if not isinstance(own, CalculatedConveyor):
+        raise own
+    return own
 
 
 def _fix_take_up_side(own: CalculatedConveyor) -> CalculatedConveyor:
@@ -269,186 +305,6 @@ def _fix_take_up_side(own: CalculatedConveyor) -> CalculatedConveyor:
     return own if balance is own.balance else replace(own, balance=balance)
 
 
-def at_one_take_up(
-    states: CalculatedStates, cases: CalculatedCases | None
-) -> tuple[CalculatedStates, CalculatedCases | None]:
-    """The same loads at the least take-up setting that suits the load states too; a given setting is kept.
-
-    Cases outside the rubber's data are at the setting but do not determine it. Loadings that govern a criterion at that
-    setting become load states. Where tension loads the rolls, loads are recalculated until setting and rolls agree.
-
-    Parameters
-    ----------
-    states : CalculatedStates
-        Load states, with the spec's own load.
-    cases : CalculatedCases or None
-        Load cases at the same setting.
-
-    Raises
-    ------
-    NoSolutionError
-        No setting suits every load, or a load has no answer at it.
-    """
-    states, cases = _at_one_setting(states, cases)
-    for _ in range(_ROUNDS):
-        before = states.setting
-        states, cases = _at_one_setting(_with_candidates(states, cases), cases)
-        if math.isclose(before, states.setting, rel_tol=states.own.line.rtol):
-            states, cases = _with_motors(states, cases)
-            return _governing_only(states, cases), cases
-    raise NoSolutionError("the setting of the take-up and the loadings that ask for it do not settle")
-
-
-def _at_one_setting(
-    states: CalculatedStates, cases: CalculatedCases | None
-) -> tuple[CalculatedStates, CalculatedCases | None]:
-    """Every load at one take-up setting."""
-    if states.own.line.take_up.tension is not None:
-        return states, cases
-    for _ in range(_ROUNDS):
-        before, results = states.own, () if cases is None else cases.results
-        loads = [before.balance, *(result.found.balance for result in results)]
-        asking = [True, *(result.covered for result in results), *(True for _ in states.states)]
-        own, *closed = at_common_setting([*loads, *(state.balance for state in states.states)], asking)
-        found = [replace(r.found, balance=one) for r, one in zip(results, closed, strict=False)]
-        as_given, setting = replace(before, balance=own), own.settled.setting
-        near = math.isclose(before.balance.settled.setting, setting, rel_tol=before.line.rtol)
-        if before.line.has_tension_coupling and not near:
-            as_given, *found = _reload_rolls([as_given, *found], own.settled.take_up)
-        if cases is not None:
-            every = tuple(replace(r, found=one) for r, one in zip(results, found, strict=True))
-            cases = replace(cases, results=every, as_given=as_given)
-        if near or not before.line.has_tension_coupling:
-            pairs = zip(states.states, closed[len(results) :], strict=True)
-            moved = (replace(s, balance=own if s.balance is before.balance else one) for s, one in pairs)
-            return replace(states, own=as_given, states=tuple(moved)), cases
-        states = load_states(before.conveyor, as_given, cases)
-    raise NoSolutionError("the setting of the take-up and what it does to the rolls do not settle")
-
-
-def _with_motors(
-    states: CalculatedStates, cases: CalculatedCases | None
-) -> tuple[CalculatedStates, CalculatedCases | None]:
-    """Loads with the starting force of motors without a given power."""
-    of_states = [states.own, *(load.found for load in states.loads)]
-    of_cases = [] if cases is None else [result.found for result in cases.designing]
-    own = replace(states.own, start_of_motors=motor_start_force([*of_states, *of_cases]))
-    return replace(states, own=own), None if cases is None else with_motors(cases, of_states)
-
-
-def _with_candidates(states: CalculatedStates, cases: CalculatedCases | None) -> CalculatedStates:
-    """States extended by the loadings that are worst for a figure of the criteria at any temperature."""
-    own = states.own
-    ends = iter(with_take_up_at([loop for _, *pair in states.ends for loop in pair], states.take_up))
-    looked_at = {temperature: CriterionLoadings(next(ends), next(ends)) for temperature, *_ in states.ends}
-    worst: dict[str, tuple[float, float, Loading]] = {}
-    for temperature, loadings in looked_at.items():
-        for figure, (value, loading) in loadings.worst_of_each().items():
-            if figure not in worst or value > worst[figure][0]:
-                worst[figure] = (value, temperature, loading)
-    there = _existing_loadings(states, cases)
-    wanted = {
-        (temperature, _loaded_sections(own, loading)): (figure, loading)
-        for figure, (_, temperature, loading) in worst.items()
-        if (temperature, _loaded_sections(own, loading)) not in there
-    }
-    loops = close_loops([looked_at[at].open_loop(loading) for (at, _), (_, loading) in wanted.items()])
-    candidates, refused = [], []
-    for ((at, loaded), (figure, _)), loop in zip(wanted.items(), loops, strict=True):
-        if isinstance(loop, Balance):
-            candidates.append(LoadState(figure, loaded, at, (figure,), (), loop))
-        else:
-            refused.append(StateRefusal(f"worst for {figure}", at, str(loop)))
-    standing = tuple(state for state in states.states if state.keys)
-    return replace(states, states=(*standing, *candidates), refused=(*states.refused, *refused))
-
-
-def _existing_loadings(states: CalculatedStates, cases: CalculatedCases | None) -> set[tuple[float, tuple[str, ...]]]:
-    """Temperature and loaded sections of every load calculated at the spec's speed and full cross-section."""
-    there = {(state.temperature, state.loaded) for state in states.states if state.keys}
-    for result in () if cases is None else cases.designing:
-        if result.speed == states.own.line.speed and result.case.loading in STANDARD_LOADINGS:
-            stretches = result.found.line.stretches[: result.found.line.count]
-            there.add((result.temperature, tuple(s.section for s in stretches if s.bulk_mass > 0.0)))
-    return there
-
-
-def _governing_only(states: CalculatedStates, cases: CalculatedCases | None) -> CalculatedStates:
-    """States with only those candidates that govern a criterion or a figure, each named by it."""
-    own, of_cases = states.own, () if cases is None else cases.designing
-    fixed = [state for state in states.states if state.keys]
-    candidates = [state for state in states.states if not state.keys]
-    of_states = [replace(state, found=states.load(state).found) for state in (*fixed, *candidates)]
-    fixed, candidates = of_states[: len(fixed)], of_states[len(fixed) :]
-    loads = [Load(AS_GIVEN, message(AS_GIVEN), own), *of_cases]
-    count = len(loads) + len(fixed)
-    governs: dict[tuple[str, str], tuple[Rank, int]] = {}
-    for i, load in enumerate([*loads, *map(states.load, of_states)]):
-        for name, rank in _criterion_ranks(load):
-            if name not in governs or rank < governs[name][0]:
-                governs[name] = (rank, i)
-    named: list[list[tuple[Rank, str]]] = [[] for _ in candidates]
-    for (_, subject), (rank, i) in governs.items():
-        if i >= count:
-            named[i - count].append((rank, subject))
-    kept = []
-    for state, subjects in zip(candidates, named, strict=True):
-        if subjects:
-            figures = tuple(dict.fromkeys(subject for _, subject in sorted(subjects)))
-            keys = tuple(map(worst_key, figures))
-            kept.append(replace(state, name=_state_name(figures), worst_for=figures, keys=keys))
-    return replace(states, states=(*fixed, *kept))
-
-
-def _criterion_ranks(load: Load) -> Iterator[tuple[tuple[str, str], Rank]]:
-    """Criteria and figures of a load by key and name, with their rank: the least governs, as in `deciding`."""
-    for check in run_checks(load.found, contacts=False):
-        yield (check.key, check.subject.text()), severity_rank(check)
-    figures = governing_figures(load)
-    for duty in load.found.pulley_duty:
-        figures[f"load of the {duty.pulley.name} pulley"] = duty.largest.resultant
-    for zone in load.found.belt_duty.transitions:
-        for what, least in (("stretched", zone.stretched), ("slackened", zone.slackened)):
-            figures[f"length of the {zone.zone.end} transition, strips {what}"] = least or 0.0
-    if load.found.line.take_up.travel is not None or load.found.take_up.travel is not None:
-        lengths = load.found.line.loop.length
-        means = [state.mean(lengths) for state in load.found.motion_states]
-        steady = load.found.balance.settled.steady.mean(lengths)
-        for name, low, high in (
-            ("mean tension", min(means), max(means)),
-            ("mean tension, steady", steady, steady),
-        ):
-            figures[f"travel of the take-up, least {name}"] = -low
-            figures[f"travel of the take-up, largest {name}"] = high
-        figures["speed of the take-up"] = load.found.take_up.speed or 0.0
-    for name, value in figures.items():
-        yield ("", name), (_FIGURE_RANK, -_round_digits(value), 0.0)
-
-
-def _round_digits(value: float) -> float:
-    """Figure rounded so that values differing by rounding are equal."""
-    return float(f"{value:.{_DIGITS}g}")
-
-
-def _state_name(figures: Sequence[str]) -> str:
-    """Name of a state by the figures it is worst for."""
-    more = f" and {len(figures) - _NAMING_FIGURES} more" if len(figures) > _NAMING_FIGURES else ""
-    return f"worst for {', '.join(figures[:_NAMING_FIGURES])}{more}"
-
-
-def _reload_rolls(loads: Sequence[CalculatedConveyor], take_up: TakeUpSetting) -> list[CalculatedConveyor]:
-    """Loads recalculated with the rolls loaded by the tension at a take-up setting; the first is the spec's own."""
-    variants = [Variant(one.conveyor, one.temperature, take_up=take_up) for one in loads]
-    made = []
-    for before, again in zip(loads, calculate_many(variants, known=loads[0]), strict=True):
-        if not isinstance(again, CalculatedConveyor):
-            raise again
-        made.append(replace(again, friction_band=before.friction_band))
-    return made
-
-
-Rank = tuple[int, float, float]
-"""Rank of a check, as returned by `severity_rank`."""
 _Ends = tuple[Balance, Balance]
 """Under full and empty belt."""
 
@@ -458,6 +314,7 @@ def _full_and_empty(
     own: CalculatedConveyor,
     cases: CalculatedCases | None,
     progress: ProgressCallback | None,
+    kept: ReuseCache,
 ) -> tuple[dict[float, _Ends], list[StateRefusal]]:
     """Full and empty belt at the spec's temperature and those of its cases, reusing results of the cases.
 
@@ -482,7 +339,7 @@ def _full_and_empty(
     take_up = own.balance.settled.take_up
     missing = {key: Variant(one, take_up=take_up) for key, one in asked.items() if key not in solved}
     if missing:
-        answers = calculate_many(list(missing.values()), progress=progress, known=own)
+        answers = calculate_many(list(missing.values()), progress=progress, known=own, kept=kept)
         for key, one in zip(missing, answers, strict=True):
             if isinstance(one, CalculatedConveyor):
                 solved[key] = one
@@ -521,7 +378,7 @@ def _worst_loadings(
 
 
 def _calculate_in_full(
-    conveyor: Conveyor, loads: Sequence[tuple[float, tuple[str, ...]]], own: CalculatedConveyor
+    conveyor: Conveyor, loads: Sequence[tuple[float, tuple[str, ...]]], own: CalculatedConveyor, kept: ReuseCache
 ) -> list[CalculatedConveyor | ConveyorError]:
     """Calculate loadings at temperatures with their own contacts, or return the errors."""
     made: list[CalculatedConveyor | ConveyorError] = []
@@ -536,12 +393,12 @@ def _calculate_in_full(
             variants[i] = Variant(one, take_up=own.balance.settled.take_up)
             made.append(own)
     if variants:
-        for i, answer in zip(variants, calculate_many(list(variants.values()), known=own), strict=True):
+        for i, answer in zip(variants, calculate_many(list(variants.values()), known=own, kept=kept), strict=True):
             made[i] = answer
     return made
 
 
-def _loaded_sections(own: CalculatedConveyor, loading: Loading) -> tuple[str, ...]:
+def loaded_sections(own: CalculatedConveyor, loading: Loading) -> tuple[str, ...]:
     """Names of the sections that bear bulk."""
     pairs = zip(own.line.sections, loading.tolist(), strict=True)
     return tuple(section.name for section, on in pairs if on)

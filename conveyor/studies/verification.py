@@ -17,6 +17,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from conveyor import shelf
 from conveyor.arguments import check_arguments
+from conveyor.calculated_conveyor import CalculatedConveyor, StretchResult, Variant
 from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError
 from conveyor.indentation import IndentationCurve, RollContact, indentation_curves
 from conveyor.laws.softening import SofteningCover, soften_or_raise
@@ -24,7 +25,7 @@ from conveyor.line.rolling_test_theory import compound_test_factor
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.operation import BeltSpeed, EarthTemperature
 from conveyor.models.variants import with_compound
-from conveyor.pipeline import CalculatedConveyor, ProgressCallback, StretchResult, Variant, calculate_many
+from conveyor.pipeline import ProgressCallback, calculate_many
 from conveyor.rubber import PronySeries
 from conveyor.rubber.rolling_test_factor import RollingTestFactor
 from conveyor.units import Bounds, Length, LineForce, Quantity, Thickness, read_si, text

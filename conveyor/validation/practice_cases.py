@@ -15,9 +15,10 @@ from typing import Any, Final, Literal
 
 from ruamel.yaml import YAML
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
-from conveyor.pipeline import CalculatedConveyor, calculate
+from conveyor.pipeline import calculate
 from conveyor.spec import load
 from conveyor.studies.default_bands import power_range
 

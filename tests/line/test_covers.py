@@ -5,11 +5,13 @@ from __future__ import annotations
 import pytest
 
 from conveyor import shelf
+from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.laws import softening
 from conveyor.laws.softening import STRAIN_RTOL
 from conveyor.line import covers
 from conveyor.models.variants import crossed_settings, with_compound
-from conveyor.pipeline import CalculatedConveyor, ReuseCache, Variant, calculate_many
+from conveyor.pipeline import calculate_many
+from conveyor.reuse import ReuseCache
 from conveyor.spec import load
 from conveyor.units import quantity
 

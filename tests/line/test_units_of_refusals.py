@@ -11,10 +11,11 @@ from typing import Any, NamedTuple
 import pytest
 
 from conveyor import shelf
+from conveyor.calculated_conveyor import Variant
 from conveyor.errors import ConveyorError, InputError, MessageQuantity, NoSolutionError, RangeError
 from conveyor.indentation import RollContact
 from conveyor.line.belt_contacts import _accept_interpolation
-from conveyor.pipeline import Variant, calculate, calculate_many
+from conveyor.pipeline import calculate, calculate_many
 from conveyor.rubber import PronySeries
 from conveyor.spec import from_data
 from conveyor.units import is_kind, quantity, si

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks import run_checks
 from conveyor.forces import forces_along_belt, rubber_free_forces
 from conveyor.line.contacts import Contacts
@@ -15,7 +16,6 @@ from conveyor.line.stretches import Stretch
 from conveyor.loop.balance import Balance, close_loop
 from conveyor.loop.loop_layout import LoopLayout
 from conveyor.models import Conveyor
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.spec import from_data
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"

@@ -6,6 +6,7 @@ import math
 
 import pytest
 
+from conveyor.calculated_conveyor import common_take_up_duty
 from conveyor.checks import (
     belt_flap,
     belt_temperature,
@@ -20,7 +21,6 @@ from conveyor.checks import (
 from conveyor.errors import InputError
 from conveyor.laws.drives import HORSEPOWER
 from conveyor.laws.take_up import SCREW_LENGTH
-from conveyor.pipeline import common_take_up_duty
 from conveyor.report.tables import drive_tables
 from conveyor.studies.loads import design_loads
 from tests.loop.loop_lines import DATA, SECOND

@@ -8,6 +8,7 @@ from dataclasses import replace
 import pytest
 
 from conveyor import analyse
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks import belt_transitions, lagging_pressure, pulley_bearings, pulley_shaft
 from conveyor.errors import InputError
 from conveyor.forces import rubber_free_forces
@@ -16,7 +17,6 @@ from conveyor.laws.transition import transition_stretch
 from conveyor.line.contacts import Contacts
 from conveyor.loop.belt_duty import belt_duty
 from conveyor.loop.start_and_stop import motion_states, start_and_stop
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.spec import from_data
 from tests.loop.loop_lines import DATA, DOWN, SECOND, closed, data, line
 

@@ -100,7 +100,7 @@ def test_figures_of_a_loading_are_those_of_its_loop(seed):
         scale = CLOSED * alone.tensions.largest
         expected = looked_for(alone)
         assert found.figures(loading) == pytest.approx(expected, rel=CLOSED, abs=scale)
-        assert looked_for(found.loaded(loading)) == pytest.approx(expected, rel=CLOSED, abs=scale)
+        assert looked_for(*found.loaded([loading])) == pytest.approx(expected, rel=CLOSED, abs=scale)
 
 
 @pytest.mark.parametrize("loading", list(itertools.product([False, True], repeat=4)))
@@ -112,7 +112,7 @@ def test_the_lift_over_a_tripper_goes_with_its_bulk(loading):
     expected = looked_for(alone)
     scale = CLOSED * alone.tensions.largest
     assert found.figures(np.array(loading)) == pytest.approx(expected, rel=CLOSED, abs=scale)
-    assert looked_for(found.loaded(np.array(loading))) == pytest.approx(expected, rel=CLOSED, abs=scale)
+    assert looked_for(*found.loaded([np.array(loading)])) == pytest.approx(expected, rel=CLOSED, abs=scale)
 
 
 def test_no_loading_beats_the_worst_of_a_belt_with_a_tripper():

@@ -12,7 +12,8 @@ from conveyor import shelf
 from conveyor.errors import InputError
 from conveyor.models import Conveyor
 from conveyor.models.conveyor import CHECKS
-from conveyor.models.fields import PartCache, field_value, with_fields
+from conveyor.models.fields import field_value, with_fields
+from conveyor.reuse import ReuseCache
 from conveyor.units import si
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -58,9 +59,9 @@ def test_a_compound_is_looked_up_by_name(line):
 
 
 def test_what_two_variants_share_is_the_very_same(line):
-    known = PartCache()
+    kept = ReuseCache()
     slow, fast = (
-        with_fields(line, {"belt.speed": speed, "idlers.carry.spacing": "1 m"}, known=known)
+        with_fields(line, {"belt.speed": speed, "idlers.carry.spacing": "1 m"}, kept=kept)
         for speed in ("5 m/s", "6 m/s")
     )
     assert slow.idlers is fast.idlers
@@ -93,7 +94,7 @@ def test_parts_that_are_known_are_checked_against_each_other_all_the_same(line):
         except InputError as error:
             return str(error)
 
-    known = PartCache()
+    kept = ReuseCache()
     fields = {
         "belt.speed": ("5.5 m/s", "3 m/s", "5 kg"),
         "material.flow": ("2000 t/h", "6000 t/h"),
@@ -101,10 +102,10 @@ def test_parts_that_are_known_are_checked_against_each_other_all_the_same(line):
         "route.feeding.speed": ("2 m/s", "4 m/s"),
     }
     points = [dict(zip(fields, values, strict=True)) for values in product(*fields.values())]
-    found = [made(point, known=known) for point in points]
+    found = [made(point, kept=kept) for point in points]
     assert found == [made(point) for point in points]
     assert {type(one) for one in found} == {dict, str}
-    assert found == [made(point, known=known) for point in points]
+    assert found == [made(point, kept=kept) for point in points]
 
 
 class _Only:

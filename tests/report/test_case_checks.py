@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 import conveyor
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks import (
     Check,
     check_against_limit,
@@ -18,7 +19,7 @@ from conveyor.checks import (
 )
 from conveyor.models.fields import with_fields
 from conveyor.models.variants import with_case, with_temperature
-from conveyor.pipeline import CalculatedConveyor, calculate
+from conveyor.pipeline import calculate
 from conveyor.report.tables.design_verdict import verdict_sentence
 from conveyor.results.analysis import Analysis, CaseStudy, Studies, analyse_cases
 from conveyor.studies.loads import every_load

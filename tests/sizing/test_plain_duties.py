@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 
 from conveyor import shelf
+from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.errors import NoSolutionError
 from conveyor.laws.preliminary_sizing import annuity
 from conveyor.line.stretches import STRANDS
 from conveyor.models.sizing import SizingDuty
-from conveyor.pipeline import CalculatedConveyor, Variant, calculate_many
+from conveyor.pipeline import calculate_many
 from conveyor.sizing import size_conveyor
 from conveyor.sizing.design_search import _calibrate_estimate, _estimated_parts
 from conveyor.sizing.screen import Candidates, first_calibration, screen_candidates

@@ -85,7 +85,7 @@ def test_the_best_is_that_of_trying_every_candidate(small, sized):
     best = size_conveyor(task.duty, best=1).best
     some = [i for i in range(len(every)) if every[i].roll.diameter == best.choice.roll.diameter]
     begin = [(every[i], replace(best.chosen, settling=False), float(estimate.year[i])) for i in some]
-    found = [one.year for one in size_parts(task, begin, [], every_load=True) if not isinstance(one, str)]
+    found = [one.year for one in size_parts(task, begin, every_load=True) if not isinstance(one, str)]
     assert best.year == pytest.approx(min(found), rel=1e-9)
     assert sized.best.year <= best.year * (1.0 + 1e-9)  # graduated distances are taken where they save
 
@@ -119,7 +119,7 @@ def test_no_weaker_class_and_no_smaller_motor_would_do(small, sized):
         )  # the widest step of the series: 1.1 to 1.5 of small, 1.33 of large ones
         if weaker:
             changed = replace(design.chosen, carcass=weaker[-1], settling=False)
-            (again,) = size_parts(task, [(design.choice, changed, 0.0)], [], every_load=True)
+            (again,) = size_parts(task, [(design.choice, changed, 0.0)], every_load=True)
             assert again.chosen.carcass == design.chosen.carcass
 
 
@@ -179,7 +179,7 @@ def test_sets_may_stand_farther_apart_where_the_belt_is_tighter():
     assert tried
     for apart, found in zip(
         tried,
-        size_parts(task, [(replace(even.choice, graduated=apart), even.chosen, 0.0) for apart in tried], []),
+        size_parts(task, [(replace(even.choice, graduated=apart), even.chosen, 0.0) for apart in tried]),
         strict=True,
     ):
         assert list(apart) == sorted(apart)

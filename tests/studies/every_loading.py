@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import itertools
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks import run_checks
 from conveyor.forces import rubber_free_forces
 from conveyor.line.contacts import Contacts
@@ -14,7 +15,6 @@ from conveyor.line.stretches import STRANDS
 from conveyor.loop.balance import with_take_up_at
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
-from conveyor.pipeline import CalculatedConveyor
 from tests.loop.loop_lines import BOOSTER, DATA, TAIL_DRIVE, closed, line
 
 FEEDING = DATA["route"]["feeding"]

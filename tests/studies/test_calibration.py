@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 import conveyor
+from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.errors import InputError
 from conveyor.models import Calibration, Conveyor, MeasuredRun
 from conveyor.models.variants import with_runs
-from conveyor.pipeline import CalculatedConveyor, Variant, calculate, calculate_many
+from conveyor.pipeline import calculate, calculate_many
 from conveyor.spec import dump, from_data
 from conveyor.units import from_si
 from tests.loop.loop_lines import DOWN, data, line

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from conveyor import shelf
+from conveyor.calculated_conveyor import Variant
 from conveyor.errors import InputError
 from conveyor.laws.energy import MOTOR_SERIES
 from conveyor.line.line import Line
@@ -16,7 +17,7 @@ from conveyor.loop.loop_layout import LoopLayout
 from conveyor.models import Conveyor, LoadCase, standard_cases
 from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
-from conveyor.pipeline import Variant, calculate, calculate_many
+from conveyor.pipeline import calculate, calculate_many
 from conveyor.spec import load
 from conveyor.studies.load_cases import CalculatedCases, analyse_cases
 from conveyor.units import quantity, si

@@ -9,9 +9,10 @@ from pathlib import Path
 import pytest
 
 import conveyor
+from conveyor.calculated_conveyor import Variant
 from conveyor.laws.misalignment import misalignment_friction
 from conveyor.models import Conveyor
-from conveyor.pipeline import Variant, calculate, calculate_many
+from conveyor.pipeline import calculate, calculate_many
 from conveyor.studies.default_bands import power_range
 from conveyor.studies.effects import root_of_squares
 

@@ -6,10 +6,11 @@ from pathlib import Path
 
 import pytest
 
+from conveyor.calculated_conveyor import Variant
 from conveyor.dynamics.simulation import prepare_setups, standard_scenarios
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
-from conveyor.pipeline import Variant, calculate_many
+from conveyor.pipeline import calculate_many
 from conveyor.results.analysis import analyse, studies
 from conveyor.spec import load
 from conveyor.studies.loads import every_load

@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.errors import InputError
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
-from conveyor.pipeline import CalculatedConveyor, Variant, calculate, calculate_many
+from conveyor.pipeline import calculate, calculate_many
 from conveyor.results.analysis import Studies
 from conveyor.spec import load
 from conveyor.studies import calculate_studies

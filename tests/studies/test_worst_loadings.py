@@ -9,20 +9,23 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from conveyor.calculated_conveyor import Variant, common_take_up_duty
 from conveyor.checks import Check, governing_by_subject, severity_rank, unsearched_criteria
 from conveyor.loop import worst_loadings
 from conveyor.loop.take_up_duty import at_common_setting
 from conveyor.loop.worst_loadings import CriterionLoadings
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
-from conveyor.pipeline import Variant, calculate_many, common_take_up_duty
+from conveyor.pipeline import calculate_many
 from conveyor.report.tables.check_tables import check_table
 from conveyor.results.analysis import Studies, analyse
 from conveyor.spec import from_data, load
 from conveyor.studies import calculate_studies
+from conveyor.studies import one_take_up as of_one_take_up
 from conveyor.studies import states as of_states
 from conveyor.studies.loads import every_load
-from conveyor.studies.states import at_one_take_up, load_states
+from conveyor.studies.one_take_up import at_one_take_up
+from conveyor.studies.states import load_states
 from conveyor.units.sentences import message
 from tests.loop.loop_lines import DATA, closed, data, line
 from tests.studies.every_loading import (
@@ -45,7 +48,8 @@ NEARLY = 1e-3
 
 @pytest.fixture
 def without_contacts(monkeypatch):
-    monkeypatch.setattr(of_states, "calculate_many", calculated_many)
+    for module in (of_states, of_one_take_up):
+        monkeypatch.setattr(module, "calculate_many", calculated_many)
 
 
 def reported(conveyor):

@@ -16,12 +16,13 @@ from pathlib import Path
 import pytest
 
 from conveyor import shelf
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.laws.take_up import take_up_mass
 from conveyor.laws.tension import sag_tension
 from conveyor.line.rolling_test_theory import compound_test_factor, rolling_test_rows
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
-from conveyor.pipeline import CalculatedConveyor, calculate
+from conveyor.pipeline import calculate
 from conveyor.spec import load
 from conveyor.starter.starter_writer import starter_text
 from conveyor.studies.default_bands import power_range

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.dynamics.cut_loop import CutLoop
 from conveyor.dynamics.machines import ScenarioSetup
 from conveyor.dynamics.simulation import ERROR, simulate_batch
@@ -15,7 +16,6 @@ from conveyor.forces import rubber_free_forces
 from conveyor.line.contacts import Contacts
 from conveyor.line.drive_scenarios import ScenarioUnit
 from conveyor.models import Scenario
-from conveyor.pipeline import CalculatedConveyor
 from tests.loop.loop_lines import BOOSTER, DATA, SECOND, TAIL_DRIVE, closed, line
 
 MASSES = {"reduced_mass": "4 t"}

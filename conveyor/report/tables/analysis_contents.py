@@ -8,10 +8,10 @@ from functools import partial
 from typing import Final, TypeAlias
 
 from conveyor.assessment import Assessment
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks import unsearched_criteria
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.stretches import STRANDS
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.report import analysis_plots
 from conveyor.report.table_model import (
     Contents,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.loop.ties import first_maximum
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.table_model import (
     Column,
     Figure,

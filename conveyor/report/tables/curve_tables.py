@@ -7,8 +7,8 @@ from dataclasses import replace
 from itertools import chain
 from typing import Any, Final, TypeVar
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.loop.horizontal_curve_duty import HorizontalCurveCheck
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.table_model import (
     Column,
     Table,

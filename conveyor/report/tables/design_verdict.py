@@ -7,13 +7,13 @@ from collections.abc import Iterator, Sequence
 from typing import Final, NamedTuple
 
 from conveyor.assessment import Assessment
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks import BELT_STRENGTH_CRITERIA, Check, governing_by_criterion, highest_use
 from conveyor.line.covers import compounds_by_strand
 from conveyor.loop.equilibrium import START
 from conveyor.loop.tensions import MotionState
 from conveyor.loop.ties import first_maximum, first_minimum
 from conveyor.models import RubberCompound
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.table_model import Column, Table
 from conveyor.studies.load_cases import AS_GIVEN
 from conveyor.units import System

@@ -6,9 +6,9 @@ import math
 from collections.abc import Sequence
 from functools import partial
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.laws.drives import next_preferred_number
 from conveyor.loop.drive_duty import coasting_flywheel
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.table_model import (
     Column,
     Figure,

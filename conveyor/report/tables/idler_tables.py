@@ -6,11 +6,11 @@ import math
 from collections.abc import Sequence
 from typing import Any, Final
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.line.roll_lives import roll_life
 from conveyor.line.stretches import Strand
 from conveyor.loop.set_duty import SetDuty
 from conveyor.loop.ties import first_maximum
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.table_model import (
     Column,
     Table,

@@ -7,10 +7,10 @@ from collections.abc import Callable
 from itertools import accumulate
 from typing import Any
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.line.line import Line
 from conveyor.loop.take_up_duty import TakeUpDuty
 from conveyor.loop.tensions import MotionState
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.report import analysis_plots
 from conveyor.report.table_model import (
     Column,

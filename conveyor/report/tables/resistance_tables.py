@@ -7,10 +7,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Final
 
+from conveyor.calculated_conveyor import CalculatedConveyor, StretchResult
 from conveyor.line.roll_lives import idler_set_life
 from conveyor.loop.balance import Balance
 from conveyor.loop.estimates import CemaEstimate, ClassicalEstimate
-from conveyor.pipeline import CalculatedConveyor, StretchResult
 from conveyor.report.table_model import (
     FIGURE_NAME,
     ROW_KIND,

@@ -7,8 +7,8 @@ from dataclasses import asdict, replace
 from typing import Any, Final, NamedTuple
 
 from conveyor.assessment import Assessment
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.loop.estimates import ClassicalEstimate
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.json_keys import (
     LEFT_OUT,
     ROW_SCHEMA,

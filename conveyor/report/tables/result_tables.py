@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.laws.power import JOULE_PER_KWH
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.table_model import (
     Column,
     Figure,

@@ -7,11 +7,11 @@ from typing import Any, Final
 
 import numpy as np
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.line.belt_contacts import BeltContacts
 from conveyor.line.contacts import Contacts
 from conveyor.line.covers import CoverTestFactor, compounds_by_strand
 from conveyor.line.stretches import Strand
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.table_model import (
     Column,
     PagePlacement,

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.laws.transfer import CLEANER_EFFICIENCY
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.matplotlib_settings import own_settings
 from conveyor.report.plots import curve_colour, finish_figure, stacked_axes
 from conveyor.report.table_model import (

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Final
 
+from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.models import Operation
-from conveyor.pipeline import CalculatedConveyor
 from conveyor.report.table_model import Figure, Table, figure_table
 from conveyor.studies.duty import CalculatedYear
 from conveyor.studies.load_cases import MOTOR_RESERVE

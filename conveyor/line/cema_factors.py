@@ -1,0 +1,45 @@
+"""Factors of the classic CEMA estimate, in SI."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from conveyor.line.optional_quantities import si_or_default, si_or_none
+from conveyor.models.calculation_methods import Cema
+from conveyor.units import si
+
+
+@dataclass(frozen=True)
+class CemaFactors:
+    """Factors of the classic CEMA form: Ky, Kt, Cs [-], Ai, Tp (None: by table), accessories [N], hs [m], N/m."""
+
+    flexure: float
+    temperature: float
+    idler_friction: float
+    skirt_factor: float
+    skirt_depth: float
+    seals: float
+    cleaner: float
+    plough: float
+    pulleys: float | None
+    drive_pulleys: float
+    accessories: float
+
+
+def cema_factors(factors: Cema | None) -> CemaFactors | None:
+    """Factors of the CEMA estimate; None without them."""
+    if factors is None:
+        return None
+    return CemaFactors(
+        flexure=factors.flexure_factor,
+        temperature=factors.temperature_factor,
+        idler_friction=si(factors.idler_friction),
+        skirt_factor=factors.skirt_factor or 0.0,
+        skirt_depth=si_or_default(factors.skirt_depth, 0.0),
+        seals=si(factors.skirt_seals),
+        cleaner=si(factors.cleaner_friction),
+        plough=si(factors.plough_friction),
+        pulleys=si_or_none(factors.pulley_friction),
+        drive_pulleys=si(factors.drive_pulley_friction),
+        accessories=si(factors.accessories),
+    )

@@ -1,0 +1,129 @@
+"""Everything the belt meets round the loop, under empty belt and what the bulk adds, by section."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.loop.balance import Balance
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class LoopEvents:
+    """Runs, point forces, pulleys and drives round the loop from the head, in order; shape (e,).
+
+    Forces, their certain parts [N] and masses [kg] with the section empty, and the addition of its bulk; `section` is
+    -1 for none. `stretches` and `drives` are indices of every stretch, shape (2n,), and drive; `held` the place behind
+    the take-up, `spots` the place before every spot.
+    """
+
+    force: Array
+    certain: Array
+    mass: Array
+    more_force: Array
+    more_certain: Array
+    more_mass: Array
+    section: NDArray[np.int_]
+    stretches: NDArray[np.int_]
+    drives: NDArray[np.int_]
+    held: int
+    spots: tuple[int, ...]
+
+    def by_section(self, values: Array, count: int) -> Array:
+        """Sum values by section, shape (n,)."""
+        held = self.section >= 0
+        return np.bincount(self.section[held], weights=values[held], minlength=count).astype(float)
+
+
+_EventRow = tuple[float, float, float, float, float, float, int]
+"""Force, its certain part and mass of the empty belt, the bulk's addition to each, and its section."""
+
+
+def loop_events(full: Balance, empty: Balance) -> LoopEvents:
+    """Events round the loop from the head, in running direction."""
+    line, frame, count = full.line, full.frame, full.line.count
+    rows: list[_EventRow] = []
+    stretches: list[int] = []
+    drives = np.zeros(len(line.drives), dtype=int)
+    held, spots = 0, list[int]()
+    standing = iter(list(enumerate(frame.spots)))
+    following = next(standing, None)
+    for boundary, (bare, laden) in enumerate(
+        zip([*_stretch_events(empty), None], [*_stretch_events(full), None], strict=True)
+    ):
+        while following is not None and following[1].boundary == boundary:
+            j = following[0]
+            spots.append(len(rows))
+            rows += _point_events(full, empty, j)
+            for d in frame.drives[j]:
+                drives[d] = len(rows)
+                rows.append((0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1))
+            if j == frame.anchor:
+                held = len(rows)
+            following = next(standing, None)
+        if bare is not None and laden is not None:
+            stretches.append(len(rows))
+            if boundary < count:
+                rows.append((*laden, 0.0, 0.0, 0.0, -1))
+            else:
+                more = (laden[0] - bare[0], laden[1] - bare[1], laden[2] - bare[2])
+                rows.append((*bare, *more, boundary - count))
+    if frame.anchor is None:
+        held = int(drives[frame.station[-1]]) + 1 if full.settled.take_up.behind else int(drives[frame.station[0]])
+    columns = list(zip(*rows, strict=True))
+    values = [np.array(column, dtype=float) for column in columns[:-1]]
+    force, certain, mass, more_force, more_certain, more_mass = values
+    return LoopEvents(
+        force, certain, mass, more_force, more_certain, more_mass,
+        section=np.array(columns[-1]), stretches=np.array(stretches), drives=drives, held=held, spots=tuple(spots),
+    )  # fmt: skip
+
+
+def _stretch_events(balance: Balance) -> list[tuple[float, float, float] | None]:
+    """Force, its certain part and mass of every stretch, in loop order."""
+    count = balance.line.count
+    force, certain = np.zeros(2 * count), np.zeros(2 * count)
+    for each in balance.along:
+        force += each.newtons
+        if each.certain:
+            certain += each.newtons
+    both = (np.roll(force, count), np.roll(certain, count), balance.line.loop.mass)
+    return list(zip(*(column.tolist() for column in both), strict=True))
+
+
+def _point_events(full: Balance, empty: Balance, j: int) -> Iterator[_EventRow]:
+    """Forces at a spot: of bulk with its section, of the length coefficient by section, and the rest."""
+    frame = full.frame
+    spot = frame.spots[j]
+    always = math.fsum(
+        force for bend, force in zip(frame.bends, full.settled.bends, strict=True) if bend.pulley.spot == spot
+    )
+    for force in full.settled.points:
+        if force.spot != spot:
+            continue
+        if force.key == "secondary_by_length":
+            yield from _length_coefficient_events(full, empty, force.total)
+        elif force.bulk is not None:
+            certain = force.total if force.certain else 0.0
+            yield (0.0, 0.0, 0.0, force.total, certain, 0.0, force.bulk)
+        else:
+            always += force.total
+    yield (always, 0.0, 0.0, 0.0, 0.0, 0.0, -1)
+
+
+def _length_coefficient_events(full: Balance, empty: Balance, total: float) -> Iterator[_EventRow]:
+    """Secondary resistance by section, in proportion to the main one."""
+    laden, bare = (
+        np.array([force.newtons for force in balance.along if force.kind == "main"]).sum(axis=0)
+        for balance in (full, empty)
+    )
+    share = total / float(laden.sum())
+    yield (share * float(bare.sum()), 0.0, 0.0, 0.0, 0.0, 0.0, -1)
+    for i, more in enumerate((laden - bare)[: full.line.count].tolist()):
+        yield (0.0, 0.0, 0.0, share * more, 0.0, 0.0, i)
