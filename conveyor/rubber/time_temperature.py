@@ -127,7 +127,7 @@ class ShiftVariant:
     correlation : float
         Correlation of residuals of neighbouring rows [-].
     differs : bool
-        True if its log10 a_T differ from those chosen beyond chance (99.9 %), where the data can tell.
+        True if its log10 a_T differ from those chosen beyond chance (99.9 %).
     """
 
     by: Literal["both", "storage", "loss"]
@@ -331,8 +331,8 @@ def superpose(
     isotherm carry less information; the covariance is widened by (1 + c)/(1 - c). Without `vertical`, a score
     test shows whether vertical shifts are missing.
 
-    E' and E'' of one rubber ask for the same shifts. They are placed by E' alone, by E'' alone and by both, with
-    and without vertical shifts; the difference of each to the chosen one is tested against its own uncertainty
+    E' and E'' of one rubber ask for the same shifts. They are placed by E' alone, by E'' alone and by both, by
+    both also with vertical shifts (without, where they are asked for); the difference of each to the chosen one is tested against its own uncertainty
     (Hausman's test: the less efficient estimate differs by no more than its variance), and the largest of those
     beyond the 99.9 % quantile enters the uncertainty as one standard deviation. It does not cover errors
     of the thermometer (1 K is 0.1 decade or more near the glass transition), nor what all rows share.
@@ -373,9 +373,8 @@ def superpose(
     chosen = replace(_assemble_master_curve(sheets, t_ref, moduli, placed), resonances=resonances)
     others = _place_otherwise(sheets, t_ref, by, vertical=vertical)
     if not vertical:
-        chosen = replace(
-            chosen, with_vertical=_needed_vertical(chosen, sheets, (moduli, placed), others.get((by, True)))
-        )
+        shifted = others.get(("both", True)) if by == "both" else None
+        chosen = replace(chosen, with_vertical=_needed_vertical(chosen, sheets, (moduli, placed), shifted))
     storage = chosen if (by, vertical) == ("storage", False) else others.get(("storage", False))
     slope = None if storage is None else _phase_slope(sheets, storage.log10_a_T)
     return replace(_add_spread(chosen, (by, vertical), others), phase_slope=slope)
@@ -388,31 +387,31 @@ Placement: TypeAlias = tuple[Literal["both", "storage", "loss"], bool]
 def _place_otherwise(
     sheets: list[LogIsotherm], t_ref: float, by: str, *, vertical: bool
 ) -> dict[Placement, Superposition]:
-    """Superpositions by the other moduli, with and without vertical shifts, as far as they are determined."""
+    """Superpositions by the other moduli, and by both with the other vertical shift, as far as they are determined.
+
+    Of one modulus alone only the bend of its curve separates a vertical shift from a horizontal one: it says nothing.
+    """
     made: dict[Placement, Superposition] = {}
-    for other in ("both", "storage", "loss"):
-        for shifted in (False, True):
-            if (other, shifted) != (by, vertical):
-                try:
-                    placed = _place_isotherms(sheets, MODULI[other], vertical=shifted)
-                except NoSolutionError:  # flat curves; straight lines in log-log with vertical shifts
-                    continue
-                made[other, shifted] = _assemble_master_curve(sheets, t_ref, MODULI[other], placed)
+    others: tuple[Placement, ...] = (
+        ("both", vertical), ("storage", vertical), ("loss", vertical), ("both", not vertical),
+    )  # fmt: skip
+    for other, shifted in others:
+        if (other, shifted) != (by, vertical):
+            try:
+                placed = _place_isotherms(sheets, MODULI[other], vertical=shifted)
+            except NoSolutionError:  # flat curves; straight lines in log-log with vertical shifts
+                continue
+            made[other, shifted] = _assemble_master_curve(sheets, t_ref, MODULI[other], placed)
     return made
 
 
 def _add_spread(
     chosen: Superposition, placement: Placement, others: Mapping[Placement, Superposition]
 ) -> Superposition:
-    """Add the largest difference that is beyond chance to the uncertainty, as one standard deviation.
-
-    Of one modulus alone only the bend of its curve separates a vertical shift from a horizontal one: where the
-    vertical shifts differ, only a placement by both moduli counts.
-    """
+    """Add the largest difference that is beyond chance to the uncertainty, as one standard deviation."""
     variants, differences = [], []
     for (by, vertical), other in others.items():
-        counts = vertical == placement[1] or by == "both"
-        differs = counts and _differs_beyond_chance(chosen, placement, other, (by, vertical))
+        differs = _differs_beyond_chance(chosen, placement, other, (by, vertical))
         variants.append(
             ShiftVariant(
                 by, vertical, other.log10_a_T, other.log10_b_T, other.log10_a_T_error, other.correlation, differs
