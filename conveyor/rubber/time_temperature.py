@@ -331,10 +331,11 @@ def superpose(
     isotherm carry less information; the covariance is widened by (1 + c)/(1 - c). Without `vertical`, a score
     test shows whether vertical shifts are missing.
 
-    E' and E'' of one rubber ask for the same shifts. They are placed by E' alone, by E'' alone and by both, by
-    both also with vertical shifts (without, where they are asked for); the difference of each to the chosen one is tested against its own uncertainty
-    (Hausman's test: the less efficient estimate differs by no more than its variance), and the largest of those
-    beyond the 99.9 % quantile enters the uncertainty as one standard deviation. It does not cover errors
+    E' and E'' of one rubber ask for the same shifts. They are placed by E' alone, by E'' alone and by both, by both
+    also with vertical shifts. The difference of each to the chosen one is tested against its own uncertainty
+    (Hausman's test: the less efficient estimate differs by no more than its variance); the largest of those beyond the
+    99.9 % quantile enters the uncertainty as one standard deviation, that of the vertical shifts where the isotherms
+    become one curve by them. Not covered: errors
     of the thermometer (1 K is 0.1 decade or more near the glass transition), nor what all rows share.
 
     A reference between two isotherms is placed by monotone (PCHIP) interpolation of log10 a_T over T, as
@@ -387,15 +388,13 @@ Placement: TypeAlias = tuple[Literal["both", "storage", "loss"], bool]
 def _place_otherwise(
     sheets: list[LogIsotherm], t_ref: float, by: str, *, vertical: bool
 ) -> dict[Placement, Superposition]:
-    """Superpositions by the other moduli, and by both with the other vertical shift, as far as they are determined.
+    """Superpositions by the other moduli, and by both with vertical shifts, as far as they are determined.
 
     Of one modulus alone only the bend of its curve separates a vertical shift from a horizontal one: it says nothing.
     """
     made: dict[Placement, Superposition] = {}
-    others: tuple[Placement, ...] = (
-        ("both", vertical), ("storage", vertical), ("loss", vertical), ("both", not vertical),
-    )  # fmt: skip
-    for other, shifted in others:
+    others: list[Placement] = [("both", vertical), ("storage", vertical), ("loss", vertical)]
+    for other, shifted in others if vertical else [*others, ("both", True)]:
         if (other, shifted) != (by, vertical):
             try:
                 placed = _place_isotherms(sheets, MODULI[other], vertical=shifted)
@@ -417,7 +416,7 @@ def _add_spread(
                 by, vertical, other.log10_a_T, other.log10_b_T, other.log10_a_T_error, other.correlation, differs
             )
         )
-        if differs:
+        if differs and chosen.with_vertical in {None, other}:
             differences.append((other.shifts - chosen.shifts).ravel())
     if not differences:
         return replace(chosen, variants=tuple(variants))

@@ -56,7 +56,7 @@ def test_clamps_that_stiffen_the_cold_are_in_the_error(clamps):
     assert np.all(np.abs(made.log10_a_T - TRUE_SHIFT) <= 1.645 * made.log10_a_T_error + 0.01)
 
 
-def test_variants_are_the_other_moduli_and_the_other_vertical_shift():
+def test_variants_are_the_other_moduli_and_vertical_shifts():
     made = superpose(isotherms(), 293.15, by="storage")
     placements = [(one.by, one.vertical) for one in made.variants]
     assert placements == [("both", False), ("loss", False), ("both", True)]
