@@ -333,9 +333,9 @@ def superpose(
 
     E' and E'' of one rubber ask for the same shifts. They are placed by E' alone, by E'' alone and by both, by both
     also with vertical shifts. The difference of each to the chosen one is tested against its own uncertainty
-    (Hausman's test: the less efficient estimate differs by no more than its variance); the largest of those beyond the
-    99.9 % quantile enters the uncertainty as one standard deviation, that of the vertical shifts where the isotherms
-    become one curve by them. Not covered: errors
+    (Hausman's test: the less efficient estimate differs by no more than its variance). Beyond the 99.9 % quantile the
+    larger one of the moduli, and that of the vertical shifts, enter the uncertainty, each as one standard deviation.
+    Not covered: errors
     of the thermometer (1 K is 0.1 decade or more near the glass transition), nor what all rows share.
 
     A reference between two isotherms is placed by monotone (PCHIP) interpolation of log10 a_T over T, as
@@ -407,8 +407,9 @@ def _place_otherwise(
 def _add_spread(
     chosen: Superposition, placement: Placement, others: Mapping[Placement, Superposition]
 ) -> Superposition:
-    """Add the largest difference that is beyond chance to the uncertainty, as one standard deviation."""
-    variants, differences = [], []
+    """Add the differences that are beyond chance to the uncertainty: the largest by moduli, that by vertical shifts."""
+    n = chosen.temperatures.size
+    variants, apart = [], {False: np.zeros(2 * n), True: np.zeros(2 * n)}
     for (by, vertical), other in others.items():
         differs = _differs_beyond_chance(chosen, placement, other, (by, vertical))
         variants.append(
@@ -416,13 +417,10 @@ def _add_spread(
                 by, vertical, other.log10_a_T, other.log10_b_T, other.log10_a_T_error, other.correlation, differs
             )
         )
-        if differs and chosen.with_vertical in {None, other}:
-            differences.append((other.shifts - chosen.shifts).ravel())
-    if not differences:
-        return replace(chosen, variants=tuple(variants))
-    n = chosen.temperatures.size
-    farthest = max(differences, key=lambda apart: float(np.linalg.norm(apart[:n])))
-    covariance = chosen.joint_covariance + np.outer(farthest, farthest)
+        difference, shifted = (other.shifts - chosen.shifts).ravel(), vertical != placement[1]
+        if differs and np.linalg.norm(difference[:n]) > np.linalg.norm(apart[shifted][:n]):
+            apart[shifted] = difference
+    covariance = chosen.joint_covariance + sum(np.outer(one, one) for one in apart.values())
     return replace(
         chosen,
         joint_covariance=covariance,
