@@ -58,6 +58,10 @@ class Rubber:
     series: PronySeries
     shift: Callable[[float], float]
     vertical: Callable[[float], float] = lambda _: 1.0
+    phase: float = 0.0
+    """Error of the instrument: E'' grows by this share a decade of measured frequency, about 10 Hz [-]."""
+    clamps: float = 0.0
+    """Error of clamping: both moduli grow by this share per 10 K of cold [-]."""
 
     def at(self, temperature: float) -> PronySeries:
         """The series at a temperature [K]."""
@@ -113,6 +117,17 @@ FAMILIES = {
     "filled": Rubber(smooth(5e6, 3e5 * _CUT + 3e7 * hump(-7.0, 1.2)), lambda t: 1.4 * wlf(t)),
     "softening": Rubber(smooth(4e6, 5e6 * hump(-4.0, 2.0)), wlf, lambda t: (REFERENCE / t) ** 2),
 }  # fmt: skip
+FAMILIES |= {
+    f"{name}, {fault}": replace(FAMILIES[name], **{kind: size})
+    for name in ("filled", "butyl")
+    for fault, kind, size in (
+        ("phase error 5 % a decade", "phase", 0.05),
+        ("phase error 15 % a decade", "phase", 0.15),
+        ("clamps 4 % per 10 K", "clamps", 0.04),
+        ("clamps 8 % per 10 K", "clamps", 0.08),
+    )
+}
+"""Rubbers measured wrongly: the band has to hold the truth all the same."""
 HELD_OUT = ("Davidson-Cole", "lines", "filled", "softening")
 VERTICAL = ("entropic", "softening")
 
@@ -146,6 +161,8 @@ def rows(rubber: Rubber, noise: float, seed: int) -> np.ndarray:
         series = rubber.at(t)
         scatter = np.exp(noise * rng.standard_normal((2, omega.size)) - 0.5 * noise * noise)
         moduli = np.array([series.storage(omega), series.loss(omega)]) * scatter
+        moduli *= (1.0 + rubber.clamps) ** ((REFERENCE - t) / 10.0)
+        moduli[1] *= (1.0 + rubber.phase) ** np.log10(FREQUENCY / 10.0)
         found.append([np.full_like(omega, t), FREQUENCY, *moduli])
     return np.array(found)
 

@@ -175,6 +175,9 @@ def _rubber_warnings(conveyor: Conveyor) -> Iterator[Message]:
             yield message(f'compound "{name}" is illustrative, not measured: for comparison, not for design')
         if strand == "return" and conveyor.belt.top_cover.compound is None and not conveyor.route.turned_over:
             yield message(f'top_cover.compound is not given: the return rolls run on the bottom cover\'s, "{name}"')
+        if compound.fit is not None and compound.fit.failed:
+            failed = escape_braces("; ".join(compound.fit.failed))
+            yield message(f'compound "{name}": its fit fails, do not design by it: {failed}')
         if compound.missing and compound.kind == "measured":
             yield message(f'compound "{name}": unknown: {escape_braces("; ".join(compound.missing))}')
 

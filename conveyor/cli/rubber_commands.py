@@ -194,11 +194,13 @@ def fit(
         accept=frozenset(accept or ()),
         reading={key: value for key, value in answers.items() if value is not None},
     )
-    from conveyor.fitting import summary
+    from conveyor.fitting import fit_verdict, summary
 
     files = [file for file in (*data, shift, strain) if file is not None]
     with _name_files(files):
         fitted = compound_file.compound_from_files(data, request)
+    if isinstance(fitted, compound_file.FittedCompound):
+        fitted = fit_verdict.record_failures(fitted)
     lines = summary.summary_lines(fitted)
     if plot is not None:
         to.figure(summary.band_figure(fitted), plot)

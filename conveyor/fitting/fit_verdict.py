@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Final, Literal
 
@@ -18,7 +18,7 @@ from conveyor.fitting.measured_rows import MeasuredRows
 from conveyor.models import Conveyor
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
-from conveyor.rubber import ShiftComparison
+from conveyor.rubber import ShiftComparison, Superposition
 from conveyor.units import text
 from conveyor.units.sentences import percent, to_celsius
 
@@ -40,6 +40,9 @@ MODULUS_REPEATABILITY: Final = 0.005
 """Repeatability of |E*| of a DMA (general knowledge) [-]."""
 SCATTER_LIMIT: Final = 2.0
 """Largest difference over the scatter of the rows: 95 % of a normal distribution lie within twice [-]."""
+PHASE_SLOPE_LIMIT: Final = 0.03
+"""Largest change of E'' per decade of measured frequency: `ANGLE_REPEATABILITY` is 5 % of E'' at tan δ 0.1, over the
+1.7 decades of a usual isotherm 3 % [-]."""
 KRAMERS_KRONIG_LIMIT: Final = 0.1
 """Largest rms error of one modulus predicted from the other (general knowledge) [-]."""
 RESIDUAL_MARGIN: Final = 0.01
@@ -123,6 +126,15 @@ def is_accepted(criteria: tuple[Criterion, ...]) -> bool:
     return all(one.verdict != "FAIL" for one in criteria)
 
 
+def record_failures(fitted: FittedCompound) -> FittedCompound:
+    """Fit whose compound names the criteria that it does not meet (`fit.failed`), for every report that uses it."""
+    statistics = fitted.compound.fit
+    failed = tuple(one.line for one in fit_criteria(fitted) if one.verdict == "FAIL")
+    if statistics is None or failed == statistics.failed:
+        return fitted
+    return replace(fitted, compound=fitted.compound.replace(fit=statistics.replace(failed=failed)))
+
+
 def _at_most(name: str, value: float, most: float, write: Callable[[float], str], why: str) -> Criterion:
     return Criterion(name, write(value), f"at most {write(most)}", "pass" if value <= most else "FAIL", why)
 
@@ -175,8 +187,11 @@ def _shift_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
             worst,
             SHIFT_LIMIT,
             _decades_text,
-            "too little overlap or too much scatter",
+            "too little overlap or too much scatter"
+            if not any(one.differs for one in shifted.variants)
+            else "E' and E'' ask for different shifts, or vertical ones: the error holds their spread",
         )
+        yield from _phase_criteria(shifted)
         least = min(one.decades for one in shifted.overlaps)
         yield Criterion(
             "least overlap of neighbours", _decades_text(least), f"at least {_decades_text(OVERLAP_LIMIT)}",
@@ -193,6 +208,20 @@ def _shift_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
     yield _at_most(
         f"smoothness of the shifts ({law.name})", missed, LEFT_OUT_LIMIT, _decades_text,
         what,
+    )  # fmt: skip
+
+
+def _phase_criteria(shifted: Superposition) -> Iterator[Criterion]:
+    """E'' over measured frequency, isotherms placed by E' alone."""
+    name, slope = "E'' over measured frequency", shifted.phase_slope
+    if slope is None:
+        yield _not_checked(name, "fewer than three isotherms that E' places")
+        return
+    known = max(abs(slope.per_decade) - 2.0 * slope.error, 0.0)
+    yield Criterion(
+        name, f"{percent(slope.per_decade, 1, signed=True)} +- {percent(slope.error, 1)} per decade",
+        f"at most {percent(PHASE_SLOPE_LIMIT)}", "pass" if known <= PHASE_SLOPE_LIMIT else "FAIL",
+        "a rubber has none: phase error of the instrument, or its frame and clamps give",
     )  # fmt: skip
 
 

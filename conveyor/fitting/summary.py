@@ -19,12 +19,14 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from conveyor.rubber import PronyFit, PronySeries
+    from conveyor.rubber import PronyFit, PronySeries, Superposition
     from conveyor.rubber.arrays import FloatArray
 
 _MOST_CANDIDATES = 6  # of the criterion's table that are printed
 _MOST_OUTLIERS = 6  # outliers that are named
 _POINTS = 400
+SLOPE_TRUST = 3.0
+"""Standard errors from which a slope is told [-]."""
 _SHAPE_CORRELATION = 0.5  # of neighbouring residuals beyond which isotherms differ in shape
 
 
@@ -47,8 +49,17 @@ def summary_lines(rubber: FittedCompound | TabulatedCompound) -> list[str]:
         *_series_lines(rubber),
         *_criterion_lines(rubber),
         *_consistency_lines(rubber),
+        *_failure_lines(rubber),
         "not known: " + ("; ".join(rubber.compound.missing) or "nothing listed"),
     ]
+
+
+def _failure_lines(fitted: FittedCompound) -> Iterator[str]:
+    """Criteria that are not met; every report that uses the compound names them too."""
+    statistics = fitted.compound.fit
+    if statistics is not None and statistics.failed:
+        yield "the fit fails; reports that use the compound say so"
+        yield from (f"  {line}" for line in statistics.failed)
 
 
 def _shift_lines(fitted: FittedCompound) -> Iterator[str]:
@@ -73,6 +84,7 @@ def _shift_lines(fitted: FittedCompound) -> Iterator[str]:
             f" there, E' by {percent(one.storage, signed=True)}, E'' by {percent(one.loss, signed=True)}: a "
             "resonance of the instrument?"
         )
+    yield from _variant_lines(shifted)
     other = shifted.with_vertical
     if other is not None:
         beside = [
@@ -86,12 +98,35 @@ def _shift_lines(fitted: FittedCompound) -> Iterator[str]:
         vertical = 10.0 ** float(np.max(np.abs(other.log10_b_T))) - 1.0
         yield (
             f"  a vertical shift of up to {percent(vertical)} would bring them closer, the scatter from "
-            f"{' and '.join(beside)}: try --vertical. The errors above, and the band, hold what it would change"
+            f"{' and '.join(beside)}: try --vertical"
         )
     if other is None and shifted.correlation > _SHAPE_CORRELATION:
         yield (
             f"  neighbouring residuals are correlated by {shifted.correlation:.2f}: the isotherms differ in shape, "
             "no shift makes them one curve"
+        )
+
+
+def _variant_lines(shifted: Superposition) -> Iterator[str]:
+    """Lines on the shifts that the same isotherms have by other moduli and vertical shifts."""
+    if shifted.variants:
+        yield "  the same isotherms placed otherwise: log10 a_T of the coldest and the hottest"
+    for one in shifted.variants:
+        ends = " and ".join(
+            f"{one.log10_a_T[k]:+.3f} +- {one.log10_a_T_error[k]:.3f}" for k in (0, one.log10_a_T.size - 1)
+        )
+        yield f"    {one.name}: {ends}" + (", differs beyond chance" if one.differs else "")
+    if any(one.differs for one in shifted.variants):
+        yield (
+            "  E' and E'' ask for different shifts: the errors above, and the band, hold the largest difference; look "
+            "for the cause before the compound is used"
+        )
+    slope = shifted.phase_slope
+    if slope is not None and abs(slope.per_decade) > SLOPE_TRUST * slope.error:
+        yield (
+            f"  placed by E' alone, E'' changes by {percent(slope.per_decade, 1, signed=True)} +- "
+            f"{percent(slope.error, 1)} per decade of measured frequency: a phase error of the instrument, or its "
+            "frame and clamps give"
         )
 
 

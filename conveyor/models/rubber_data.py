@@ -307,3 +307,5 @@ class FitStatistics(Model):
     """Largest of E''."""
     method: str
     """How it was fitted."""
+    failed: tuple[str, ...] = ()
+    """Criteria of the fit that are not met, each with its figure; `conveyor fit` writes them."""

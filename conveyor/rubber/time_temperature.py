@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from typing import Literal
+from typing import Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.rubber.arrays import FloatArray, positive_number, positive_vector
 from conveyor.rubber.joint_shift import LONGEST_STEP, JointMinimum, JointShift
 from conveyor.rubber.misfit import hampel_weights
-from conveyor.rubber.overlap import LogIsotherm, Overlap, first_guess, measure_overlap
+from conveyor.rubber.overlap import LogIsotherm, Overlap, first_guess, measure_overlap, modulus_differences
 from conveyor.rubber.shift import celsius_in_message
 
 LEAST_ROWS = 3
@@ -33,6 +33,8 @@ LEAST_VERTICAL = 0.004
 """Least range of log10 b_T: below it a vertical shift changes no modulus by 1 % [decades]."""
 NORMAL_QUANTILE_999 = 3.09
 """Quantile of the normal distribution [-]."""
+RANK_TOLERANCE = 1.0e-10
+"""Eigenvalues of a covariance below this share of the largest are rounding: the reference has no error [-]."""
 LN10 = float(np.log(10.0))
 
 
@@ -109,6 +111,60 @@ class Resonance:
 
 
 @dataclass(frozen=True, eq=False)
+class ShiftVariant:
+    """The same isotherms placed another way.
+
+    Parameters
+    ----------
+    by : {"both", "storage", "loss"}
+        The moduli that counted.
+    vertical : bool
+        True with vertical shifts.
+    log10_a_T, log10_b_T : numpy.ndarray
+        Shifts, shape `(n,)` [decades].
+    log10_a_T_error : numpy.ndarray
+        Standard uncertainty of log10 a_T, shape `(n,)` [decades].
+    correlation : float
+        Correlation of residuals of neighbouring rows [-].
+    differs : bool
+        True if its log10 a_T differ from those chosen beyond chance (99.9 %).
+    """
+
+    by: Literal["both", "storage", "loss"]
+    vertical: bool
+    log10_a_T: FloatArray  # noqa: N815
+    log10_b_T: FloatArray  # noqa: N815
+    log10_a_T_error: FloatArray  # noqa: N815
+    correlation: float
+    differs: bool
+
+    @property
+    def name(self) -> str:
+        """How it was placed, in words."""
+        moduli = {"both": "E' and E''", "storage": "E' alone", "loss": "E'' alone"}[self.by]
+        return f"{moduli}, {'vertical shifts' if self.vertical else 'none vertical'}"
+
+
+@dataclass(frozen=True)
+class PhaseSlope:
+    """Change of E'' with measured frequency at one reduced frequency, isotherms placed by E' alone.
+
+    A rubber has none: E'' of neighbouring isotherms agrees where E' does. A phase error of the instrument that grows
+    with frequency, or stiffness of clamps and frame that softens the stiff specimen, leaves one.
+
+    Parameters
+    ----------
+    per_decade : float
+        d ln E'' / d log10 f [-].
+    error : float
+        Its standard error, from the scatter among the pairs of neighbours [-].
+    """
+
+    per_decade: float
+    error: float
+
+
+@dataclass(frozen=True, eq=False)
 class Superposition:
     """A master curve and everything needed to judge it; `n` isotherms, `m` rows.
 
@@ -154,7 +210,12 @@ class Superposition:
         Frequencies that were left out of every isotherm; their rows are in nothing above.
     with_vertical : Superposition or None
         With vertical shifts, where none were asked for and the isotherms need them: beyond chance, by one per
-        cent and more, and they become one curve by it. The errors above then hold the difference to it.
+        cent and more, and they become one curve by it.
+    variants : tuple of ShiftVariant
+        The same isotherms placed by the other moduli, and with or without vertical shifts. Where one differs beyond
+        chance, the isotherms contradict each other, and the errors above hold the spread.
+    phase_slope : PhaseSlope or None
+        Change of E'' with measured frequency; None where E' does not place the isotherms.
     """
 
     reference: float
@@ -176,6 +237,8 @@ class Superposition:
     correlation: float
     resonances: tuple[Resonance, ...] = ()
     with_vertical: Superposition | None = field(default=None, repr=False)
+    variants: tuple[ShiftVariant, ...] = field(default=(), repr=False)
+    phase_slope: PhaseSlope | None = None
 
     @property
     def covariance(self) -> FloatArray:
@@ -266,8 +329,13 @@ def superpose(
     The uncertainty is the posterior covariance of the shifts with the curves integrated out: slope and
     scatter in the overlaps, carried along the chain to the reference. Residuals that correlate within an
     isotherm carry less information; the covariance is widened by (1 + c)/(1 - c). Without `vertical`, a score
-    test shows whether vertical shifts are missing; if so they are fitted too, and the difference enters the
-    uncertainty as one standard deviation. It does not cover errors
+    test shows whether vertical shifts are missing.
+
+    E' and E'' of one rubber ask for the same shifts. They are placed by E' alone, by E'' alone and by both, by both
+    also with vertical shifts. The difference of each to the chosen one is tested against its own uncertainty
+    (Hausman's test: the less efficient estimate differs by no more than its variance). Beyond the 99.9 % quantile the
+    larger one of the moduli, and that of the vertical shifts, enter the uncertainty, each as one standard deviation.
+    Not covered: errors
     of the thermometer (1 K is 0.1 decade or more near the glass transition), nor what all rows share.
 
     A reference between two isotherms is placed by monotone (PCHIP) interpolation of log10 a_T over T, as
@@ -279,6 +347,7 @@ def superpose(
     ----------
     J. Honerkamp, J. Weese, Rheol. Acta 32 (1993) 57-64 (shifts by joint regression).
     M. Gergesova, B. Zupancic, I. Saprunov, I. Emri, J. Rheol. 55 (2011) 1-16 (shifts pair by pair).
+    J. A. Hausman, Econometrica 46 (1978) 1251-1271 (test of two estimates of one quantity).
     G. H. Golub, V. Pereyra, SIAM J. Numer. Anal. 10 (1973) 413-432 (variable projection).
 
     Examples
@@ -302,43 +371,121 @@ def superpose(
     if resonances:
         sheets = [_without_frequencies(sheet, [one.frequency for one in resonances]) for sheet in sheets]
         placed = _place_isotherms(sheets, moduli, vertical=vertical)
-    superposed = replace(_assemble_master_curve(sheets, t_ref, moduli, placed), resonances=resonances)
-    return superposed if vertical else _add_vertical_uncertainty(superposed, sheets, moduli, placed)
+    chosen = replace(_assemble_master_curve(sheets, t_ref, moduli, placed), resonances=resonances)
+    others = _place_otherwise(sheets, t_ref, by, vertical=vertical)
+    if not vertical:
+        shifted = others.get(("both", True)) if by == "both" else None
+        chosen = replace(chosen, with_vertical=_needed_vertical(chosen, sheets, (moduli, placed), shifted))
+    storage = chosen if (by, vertical) == ("storage", False) else others.get(("storage", False))
+    slope = None if storage is None else _phase_slope(sheets, storage.log10_a_T)
+    return replace(_add_spread(chosen, (by, vertical), others), phase_slope=slope)
 
 
-def _add_vertical_uncertainty(
-    superposition: Superposition, sheets: list[LogIsotherm], moduli: tuple[int, ...], placed: JointMinimum
+Placement: TypeAlias = tuple[Literal["both", "storage", "loss"], bool]
+"""Moduli that count, and True with vertical shifts."""
+
+
+def _place_otherwise(
+    sheets: list[LogIsotherm], t_ref: float, by: str, *, vertical: bool
+) -> dict[Placement, Superposition]:
+    """Superpositions by the other moduli, and by both with vertical shifts, as far as they are determined.
+
+    Of one modulus alone only the bend of its curve separates a vertical shift from a horizontal one: it says nothing.
+    """
+    made: dict[Placement, Superposition] = {}
+    others: list[Placement] = [("both", vertical), ("storage", vertical), ("loss", vertical)]
+    for other, shifted in others if vertical else [*others, ("both", True)]:
+        if (other, shifted) != (by, vertical):
+            try:
+                placed = _place_isotherms(sheets, MODULI[other], vertical=shifted)
+            except NoSolutionError:  # flat curves; straight lines in log-log with vertical shifts
+                continue
+            made[other, shifted] = _assemble_master_curve(sheets, t_ref, MODULI[other], placed)
+    return made
+
+
+def _add_spread(
+    chosen: Superposition, placement: Placement, others: Mapping[Placement, Superposition]
 ) -> Superposition:
-    """Add a missing vertical shift to the uncertainty, where the score test shows one."""
-    steps = -np.diff(placed.shift)
-    try:
-        score = JointShift(sheets, moduli=moduli, vertical=True).score(
-            np.concatenate([steps, np.zeros_like(steps)]), placed.residual
+    """Add the differences that are beyond chance to the uncertainty: the largest by moduli, that by vertical shifts."""
+    n = chosen.temperatures.size
+    variants, apart = [], {False: np.zeros(2 * n), True: np.zeros(2 * n)}
+    for (by, vertical), other in others.items():
+        differs = _differs_beyond_chance(chosen, placement, other, (by, vertical))
+        variants.append(
+            ShiftVariant(
+                by, vertical, other.log10_a_T, other.log10_b_T, other.log10_a_T_error, other.correlation, differs
+            )
         )
-        if score < _chi2_limit(steps.size):
-            return superposition
-        other = _assemble_master_curve(
-            sheets, superposition.reference, moduli, _place_isotherms(sheets, moduli, vertical=True)
-        )
-    except NoSolutionError:  # straight lines in log-log: no vertical shift is determined
-        return superposition
-    n = superposition.temperatures.size
-    apart = (other.shifts - superposition.shifts).ravel()
-    chance = 2.0 / np.sqrt(superposition.frequency.size)
-    if (
-        np.ptp(other.log10_b_T) < LEAST_VERTICAL
-        or np.max(np.abs(np.diff(apart[:n]))) > LONGEST_STEP  # the slopes hardly separate one shift from the other
-        or other.correlation > max(chance, 0.5 * superposition.correlation)  # it does not make them one curve
-    ):
-        return superposition
-    covariance = superposition.joint_covariance + np.outer(apart, apart)
+        difference, shifted = (other.shifts - chosen.shifts).ravel(), vertical != placement[1]
+        if differs and np.linalg.norm(difference[:n]) > np.linalg.norm(apart[shifted][:n]):
+            apart[shifted] = difference
+    covariance = chosen.joint_covariance + sum(np.outer(one, one) for one in apart.values())
     return replace(
-        superposition,
+        chosen,
         joint_covariance=covariance,
         log10_a_T_error=_standard_errors(covariance[:n, :n]),
         log10_b_T_error=_standard_errors(covariance[n:, n:]),
-        with_vertical=other,
+        variants=tuple(variants),
     )
+
+
+def _differs_beyond_chance(
+    chosen: Superposition, placement: Placement, other: Superposition, other_placement: Placement
+) -> bool:
+    """True if two placements differ in log10 a_T by more than the less efficient of them may."""
+    (by, vertical), (other_by, other_vertical) = placement, other_placement
+    nested = set(MODULI[other_by]) <= set(MODULI[by]) and other_vertical >= vertical
+    contains = set(MODULI[by]) <= set(MODULI[other_by]) and vertical >= other_vertical
+    covariance = other.covariance if nested else chosen.covariance if contains else other.covariance + chosen.covariance
+    apart = other.log10_a_T - chosen.log10_a_T
+    values, vectors = np.linalg.eigh(covariance)
+    known = values > RANK_TOLERANCE * values[-1]
+    statistic = float(np.sum((vectors.T @ apart)[known] ** 2 / values[known]))
+    return statistic > _chi2_limit(int(np.count_nonzero(known)))
+
+
+def _phase_slope(sheets: list[LogIsotherm], log10_a_T: FloatArray) -> PhaseSlope | None:
+    """Slope of ln E'' over measured frequency at one reduced frequency; None with fewer than three isotherms.
+
+    In the overlap of two neighbours the colder one was measured log10 a_T apart, at the lower frequency.
+    """
+    if len(sheets) < LEAST_ISOTHERMS:
+        return None
+    apart = -np.diff(log10_a_T)
+    differences = [
+        float(np.nanmean(modulus_differences(cold, hot, np.array([step]))[1, 0]))
+        for (cold, hot), step in zip(pairwise(sheets), apart.tolist(), strict=True)
+    ]
+    offsets, squares = np.array(differences), float(apart @ apart)
+    slope = -float(apart @ offsets) / squares
+    left = offsets + slope * apart
+    return PhaseSlope(slope, float(np.sqrt(left @ left / (apart.size - 1) / squares)))
+
+
+def _needed_vertical(
+    chosen: Superposition,
+    sheets: list[LogIsotherm],
+    placed: tuple[tuple[int, ...], JointMinimum],
+    other: Superposition | None,
+) -> Superposition | None:
+    """Superposition with vertical shifts if the isotherms need it: score test, size, and one curve by it."""
+    if other is None:
+        return None
+    moduli, minimum = placed
+    steps = -np.diff(minimum.shift)
+    score = JointShift(sheets, moduli=moduli, vertical=True).score(
+        np.concatenate([steps, np.zeros_like(steps)]), minimum.residual
+    )
+    chance = 2.0 / np.sqrt(chosen.frequency.size)
+    needed = (
+        score >= _chi2_limit(steps.size)
+        and np.ptp(other.log10_b_T) >= LEAST_VERTICAL
+        # else the slopes hardly separate one shift from the other
+        and np.max(np.abs(np.diff(other.log10_a_T - chosen.log10_a_T))) <= LONGEST_STEP
+        and other.correlation <= max(chance, 0.5 * chosen.correlation)
+    )
+    return other if needed else None
 
 
 def _chi2_limit(freedom: int) -> float:

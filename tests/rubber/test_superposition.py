@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from itertools import pairwise
 from pathlib import Path
 
@@ -297,17 +296,6 @@ def test_published_raw_isotherms_are_another_polymer_than_the_published_master_c
     # its E'' does not superpose (a minimum in each isotherm of the glass), and the result says so
     assert result.loss_residual > 0.2
     assert superpose(isotherms, 268.15).correlation > 0.5
-
-
-def test_fast() -> None:
-    isotherms = sweeps(7, 0.01, REFERENCE + 5.0 * np.arange(-8, 13))
-    superpose(isotherms, REFERENCE)
-    taken = []
-    for _ in range(3):
-        start = time.thread_time()
-        superpose(isotherms, REFERENCE)
-        taken.append(time.thread_time() - start)
-    assert min(taken) < 0.1  # 0.02 s on one core
 
 
 def test_refusals() -> None:
