@@ -140,7 +140,7 @@ class ShiftVariant:
 
     @property
     def name(self) -> str:
-        """How it was placed, in words."""
+        """Moduli and vertical shifts in words."""
         moduli = {"both": "E' and E''", "storage": "E' alone", "loss": "E'' alone"}[self.by]
         return f"{moduli}, {'vertical shifts' if self.vertical else 'none vertical'}"
 
