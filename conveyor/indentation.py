@@ -15,6 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from conveyor.arguments.limits import require_number, require_positive
 from conveyor.contact import (
     Belt,
     ContactProblem,
@@ -28,7 +29,6 @@ from conveyor.contact import (
     solve_many,
 )
 from conveyor.errors import InputError, MessageQuantity, NoSolutionError, RangeError
-from conveyor.require import require_number
 from conveyor.rubber import CreepSeries, PronySeries, creep_forms
 
 Array = NDArray[np.float64]
@@ -101,10 +101,8 @@ class RollContact:
         if (self.support == "belt") != (self.backing is not None):
             raise InputError(f"backing = {self.backing!r}: support {self.support!r}; a belt, and no other, has one")
         for name in ("radius", "spacing", "cover_thickness", "speed"):
-            value = getattr(self, name)
-            require_number(**{name: value})
-            if not 0.0 < value < math.inf:
-                raise InputError(f"{name} = {value!r}: a finite number greater than 0 is needed")
+            require_number(**{name: getattr(self, name)})
+            require_positive(**{name: getattr(self, name)})
         if self.support != "half-space" and self.cover_thickness > self.spacing:
             raise InputError(
                 f"cover_thickness = {self.cover_thickness:g} m is more than spacing = {self.spacing:g} m: both are in"

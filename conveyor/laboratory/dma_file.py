@@ -402,7 +402,7 @@ def _apply_shares(
         return [] if instantaneous is None else ["instantaneous was given, but the file is no Prony table"]
     if instantaneous is not None:
         if not 0.0 < instantaneous < math.inf:
-            raise InputError(f"instantaneous = {instantaneous:g} Pa (--instantaneous) must be > 0")
+            raise InputError(f"instantaneous: got {instantaneous:g} Pa (--instantaneous), allowed: > 0 Pa")
         columns["instant"] = np.full(len(table.rows), instantaneous)
     if shares is None:
         return []

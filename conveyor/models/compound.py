@@ -12,7 +12,8 @@ from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, Validati
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
+from conveyor.arguments.limits import require_number
 from conveyor.errors import InputError, MessageQuantity, RangeError
 from conveyor.models.base import Model, Name, Number, Problem, raise_problems
 from conveyor.models.rolling_tests import RollingTest
@@ -26,7 +27,6 @@ from conveyor.models.rubber_data import (
     StrainDependence,
     TableShift,
 )
-from conveyor.require import require_number
 from conveyor.units import (
     Bounds,
     Density,

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 
 from conveyor import studies as study
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
 from conveyor.checks import Check, run_checks
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor, calculate

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import chdtrc, stdtrit
 
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
 from conveyor.errors import InputError, MessageQuantity, NoSolutionError
 from conveyor.forces import forces_along_belt
 from conveyor.loop.balance import OpenLoop, close_loops, raise_first_error

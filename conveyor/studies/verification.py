@@ -16,7 +16,7 @@ from typing import Annotated, Any, Final, TypeAlias
 from pydantic import TypeAdapter, ValidationError
 
 from conveyor import shelf
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
 from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError
 from conveyor.indentation import IndentationCurve, RollContact, indentation_curves
 from conveyor.laws.softening import SofteningCover, soften_or_raise

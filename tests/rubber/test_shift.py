@@ -129,12 +129,12 @@ def test_wlf_fit_is_a_minimum() -> None:
 def test_messages_of_the_laws() -> None:
     with pytest.raises(RangeError, match=r"-78\.45 degC is at or below the pole of the WLF law at -78\.45 degC"):
         WLF(8.86, 101.6, 296.3).log10_a_T(194.7)
-    with pytest.raises(InputError, match=r"c2 = -1 K must be finite and > 0"):
+    with pytest.raises(InputError, match=r"c2: got -1 K, allowed: > 0 K"):
         WLF(8.86, -1.0, 293.15)
-    with pytest.raises(InputError, match=r"activation_energy = 0 J/mol must be finite and > 0"):
+    with pytest.raises(InputError, match=r"activation_energy: got 0 J/mol, allowed: > 0 J/mol"):
         Arrhenius(0.0, 293.15)
     with pytest.raises(
-        InputError, match=r"temperature = -20 K must be finite and > 0 K \(this floor counts in kelvin\)"
+        InputError, match=r"temperature: got -20 K, allowed: > 0 K and finite \(this floor counts in kelvin\)"
     ):
         Arrhenius(1e5, 293.15).log10_a_T(-20.0)
     with pytest.raises(RangeError, match=r"the shift law gives .* decades at -78\.35 degC, above 100"):
@@ -159,7 +159,7 @@ def test_table_is_not_extrapolated() -> None:
         ([293.15, 303.15], [0.0, 1.0], 293.15, r"must fall with rising temperature; .*reversed sign"),
         ([293.15, 303.15], [0.0, -1.0], 298.15, r"at the reference 25\.00 degC is -0\.5000"),
         ([293.15, 303.15], [0.0, -1.0], 283.15, r"10\.00 degC is outside the shift table"),
-        ([20.0, float("nan")], [0.0, -1.0], 20.0, r"temperatures\[1\] = nan K must be finite"),
+        ([20.0, float("nan")], [0.0, -1.0], 20.0, r"temperatures\[1\]: got nan K, allowed: > 0 K and finite"),
     ],
 )
 def test_refused_tables(temperatures: list[float], decades: list[float], reference: float, message: str) -> None:
