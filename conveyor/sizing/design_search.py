@@ -15,7 +15,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.checks import motor_power, run_checks
+from conveyor.checks import run_checks
+from conveyor.checks.drive_checks import motor_power
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.laws.belt_strength import RATED_START
 from conveyor.laws.drives import next_preferred_number
