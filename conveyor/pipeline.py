@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.forces import RubberFreeForces, forces_along_belt, strand_rubber_free_forces
-from conveyor.laws.softening import soften_covers
+from conveyor.indentation.softening import soften_covers
 from conveyor.line.belt_contacts import STRETCH_QUADRATURE, TensionedCurveCache, solve_belt_contacts
 from conveyor.line.contacts import Contacts, LoadCurveCache, RollResult, solve_contacts
 from conveyor.line.covers import (

@@ -36,7 +36,8 @@ from conveyor.loop.tensions import MotionState
 from conveyor.loop.ties import first_maximum
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.pipeline import CalculatedConveyor, StretchResult
-from conveyor.remarks import analysis_assumptions, analysis_warnings, method_summary
+from conveyor.remarks.assumptions import analysis_assumptions, method_summary
+from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.report import analysis_plots
 from conveyor.report.design_verdict import governing_figures
 from conveyor.report.inputs import InputRow, group_inputs

@@ -17,7 +17,8 @@ from conveyor.arguments.argument_types import check_arguments
 from conveyor.checks import Check, run_checks
 from conveyor.models import Conveyor
 from conveyor.pipeline import CalculatedConveyor, calculate
-from conveyor.remarks import analysis_assumptions, analysis_warnings
+from conveyor.remarks.assumptions import analysis_assumptions
+from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.studies import duty as duty_study
 from conveyor.studies import input_ranges as range_study
 from conveyor.studies import load_cases as case_study

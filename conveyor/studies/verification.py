@@ -19,7 +19,7 @@ from conveyor import shelf
 from conveyor.arguments.argument_types import check_arguments
 from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError
 from conveyor.indentation import IndentationCurve, RollContact, indentation_curves
-from conveyor.laws.softening import SofteningCover, soften_or_raise
+from conveyor.indentation.softening import SofteningCover, soften_or_raise
 from conveyor.line.rolling_test_theory import compound_test_factor
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.operation import BeltSpeed, EarthTemperature

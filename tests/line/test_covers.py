@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from conveyor import shelf
-from conveyor.laws import softening
-from conveyor.laws.softening import STRAIN_RTOL
+from conveyor.indentation import softening
+from conveyor.indentation.softening import STRAIN_RTOL
 from conveyor.line import covers
 from conveyor.models.variants import crossed_settings, with_compound
 from conveyor.pipeline import CalculatedConveyor, ReuseCache, Variant, calculate_many

@@ -15,7 +15,8 @@ from conveyor.line.line import Line
 from conveyor.line.roll_drags import roll_drags, roll_drags_many
 from conveyor.line.roll_lives import idler_set_life, roll_life
 from conveyor.pipeline import calculate
-from conveyor.remarks import analysis_assumptions, analysis_warnings
+from conveyor.remarks.assumptions import analysis_assumptions
+from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.spec import load
 from conveyor.units import quantity, si
 

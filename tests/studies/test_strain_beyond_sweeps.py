@@ -10,7 +10,7 @@ from conveyor import shelf
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import CalculatedConveyor, calculate
-from conveyor.remarks import analysis_warnings
+from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.spec import load
 from conveyor.studies.input_ranges import _vary_rubber
 

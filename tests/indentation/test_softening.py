@@ -13,11 +13,11 @@ from conveyor.checks import run_checks
 from conveyor.contact import interior, solve
 from conveyor.errors import InputError
 from conveyor.indentation import RollContact, to_problem
-from conveyor.laws.softening import SofteningCover, loss_weighted_load, soften_at_strains, soften_or_raise
+from conveyor.indentation.softening import SofteningCover, loss_weighted_load, soften_at_strains, soften_or_raise
 from conveyor.models import RubberCompound
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
-from conveyor.remarks import analysis_warnings
+from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.spec import load
 
 AT = 293.15

@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from conveyor.arguments.limits import require, require_positive
 from conveyor.contact import Status, solve_many, working_strains
 from conveyor.errors import NoSolutionError, RangeError
-from conveyor.indentation import RollContact, no_contact_error, to_problems
+from conveyor.indentation import RollContact, to_problems
+from conveyor.indentation.indentation_results import no_contact_error
 from conveyor.rubber import (
     AmplitudeFactors,
     EquivalentLinear,
