@@ -41,7 +41,8 @@ from conveyor.fitting.shift_choice import (
     whole_master_curve,
 )
 from conveyor.laboratory import DmaData
-from conveyor.laboratory.dma_file import answers_for_file, matching_sheets, read_with_answers
+from conveyor.laboratory.dma_file import answers_for_file, read_with_answers
+from conveyor.laboratory.table_file import matching_sheets
 from conveyor.models import RubberCompound
 from conveyor.rubber import (
     WLF,
