@@ -31,7 +31,7 @@ from conveyor.contact.solvers.grid_solver import solve_grid
 from conveyor.contact.solvers.load_control import LoadSearch, contact_at_load, guess_half_width
 from conveyor.contact.solvers.solver_state import SolverState
 from conveyor.errors import NoSolutionError
-from conveyor.validation.reference_cases import reference_cases
+from conveyor.validation.contact_cases import reference_cases
 
 ORDERS = (4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256)
 RTOLS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)

@@ -36,7 +36,7 @@ from scipy.special import digamma, exp1, expi, factorial
 
 from conveyor.contact import ContactProblem, ContactSolution, solve
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.validation.reference_cases import ReferenceCase, reference_cases
+from conveyor.validation.contact_cases import ReferenceCase, reference_cases
 
 Array = NDArray[np.float64]
 

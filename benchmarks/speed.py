@@ -24,7 +24,7 @@ import numpy as np
 
 from conveyor.contact import ContactProblem, CreepSpectrum, solve, solve_loads, solve_many, solve_penetration
 from conveyor.contact.solvers.grid_solver import solve_grid
-from conveyor.validation.reference_cases import reference_cases
+from conveyor.validation.contact_cases import reference_cases
 
 RUNS = 15
 ROOT = Path(__file__).resolve().parents[1]

@@ -10,7 +10,8 @@ from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks import Check, governing_by_subject, run_checks
 from conveyor.loop.take_up_duty import TakeUpDuty
 from conveyor.loop.ties import first_maximum
-from conveyor.remarks import analysis_assumptions, analysis_warnings
+from conveyor.remarks.assumptions import analysis_assumptions
+from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.studies import CalculatedStudies
 from conveyor.studies.default_bands import PowerRange, power_range
 from conveyor.studies.load_cases import Load, MotorChoice

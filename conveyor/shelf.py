@@ -9,7 +9,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
 from conveyor.errors import InputError
 from conveyor.files.compound_folders import ENVIRONMENT, SUFFIXES, built_in, compound_files, folders
 from conveyor.files.document import read_document, yaml_text

@@ -13,7 +13,7 @@ from typing import Any, Final
 from pydantic import ValidationError
 
 from conveyor import shelf
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
 from conveyor.errors import InputError
 from conveyor.files.document import error_lines, read_document, yaml_text
 from conveyor.models import Conveyor

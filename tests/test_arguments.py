@@ -35,10 +35,10 @@ CALLS: dict[str, Callable[[Any], object]] = {
     r"solve: problem: expected ContactProblem, got 3": lambda _: solve(3),
     r"solve: rtol: expected float, got '1e-6' \(str\)": lambda _: solve(SCENE, "1e-6"),
     r"load_curves: problems: expected": lambda _: load_curves([1], [1], [2]),
-    r"rtol = -1: the tolerance lies in": lambda _: load_curves([SCENE], [0.001], [0.01], -1),
+    r"rtol: got -1, allowed: >= 1e-12": lambda _: load_curves([SCENE], [0.001], [0.01], -1),
     r"CreepSpectrum: instantaneous: expected float, got 'a'": lambda _: CreepSpectrum("a"),
     r"weights and times: two lists of numbers are needed": lambda _: CreepSpectrum(0.5, ["a"], ["b"]),
-    r"thickness = 1e\+300: k h is positive": lambda _: ContactProblem("free", 0.1, 0.01, SCENE.creep, 1e300),
+    r"thickness: got 1e\+300, allowed": lambda _: ContactProblem("free", 0.1, 0.01, SCENE.creep, 1e300),
 }  # fmt: skip
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from conveyor.validation import reference_cases
-from conveyor.validation.reference_cases import ReferenceCheck
+from conveyor.validation.reference_check import ReferenceCheck
 from tests.validation.test_measured_conveyors import rows as measured
 
 ROOT = Path(__file__).parent.parent

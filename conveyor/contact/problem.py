@@ -25,15 +25,20 @@ from functools import cached_property
 
 import numpy as np
 
+from conveyor.arguments.limits import require, require_number
 from conveyor.contact.layers.belt_layer import BeltSupport
 from conveyor.contact.layers.creep import CreepSpectrum
 from conveyor.contact.layers.layer_models import Confined, Free, HalfSpace, Layer
 from conveyor.errors import InputError
 
 _SUPPORTS = ("free", "confined", "half-space")
-_THINNEST, _LIGHTEST = 1e-12, 1e-30  # squares and cubes of smaller numbers underflow
-_HEAVIEST = 1e30  # of pressure and thickness: squares and cubes of larger ones overflow
-_SMALLEST_ROLL = 1e-12
+_HEAVIEST = 1e30  # squares and cubes of larger numbers overflow, of much smaller ones underflow
+_LIMITS = {
+    "radius": (1e-12, 0.5, " (R/λ: rolls do not overlap)"),
+    "thickness": (1e-12, _HEAVIEST, " or inf (k h)"),
+    "pressure": (1e-30, _HEAVIEST, " (mean pressure)"),
+    "poisson": (0.0, 0.5, ""),
+}
 _TRIAL_WAVES = 5  # wave numbers at which a user's own layer is checked
 
 
@@ -99,41 +104,22 @@ class ContactProblem:
     poisson: float = 0.5
 
     def __post_init__(self) -> None:
-        if not isinstance(self.creep, CreepSpectrum):
-            raise InputError(f"creep = {self.creep!r}: a CreepSpectrum is needed")
-        for name in ("radius", "thickness", "pressure", "poisson"):
+        require(isinstance(self.creep, CreepSpectrum), "creep", self.creep, "a CreepSpectrum")
+        for name, (least, most, meaning) in _LIMITS.items():
             value = getattr(self, name)
-            if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
-                raise InputError(f"{name} = {value!r}: a number is needed")
-            if isinstance(value, np.floating):  # single precision would go on into every scale
-                object.__setattr__(self, name, float(value))
-        if not _SMALLEST_ROLL <= self.radius <= 0.5:
-            raise InputError(
-                f"radius = {self.radius!r}: R/λ lies in (0, 0.5], rolls must not overlap; at least {_SMALLEST_ROLL:g}"
-            )
-        if not (_THINNEST <= self.thickness <= _HEAVIEST or self.thickness == math.inf):
-            raise InputError(
-                f"thickness = {self.thickness!r}: k h is positive, at least {_THINNEST:g} (infinity allowed), "
-                f"at most {_HEAVIEST:g} below it"
-            )
-        if not _LIGHTEST <= self.pressure <= _HEAVIEST:
-            raise InputError(
-                f"pressure = {self.pressure!r}: the mean pressure is finite and positive, "
-                f"from {_LIGHTEST:g} to {_HEAVIEST:g}"
-            )
-        if not 0.0 <= self.poisson <= 0.5:
-            raise InputError(f"poisson = {self.poisson!r}: Poisson's ratio lies in [0, 0.5]")
-        for name in ("radius", "thickness", "pressure", "poisson"):
-            object.__setattr__(self, name, float(getattr(self, name)))  # single precision would go on into every scale
+            require_number(**{name: value})
+            number = float(value)  # single precision would go on into every scale
+            inside = least <= number <= most or (name == "thickness" and number == math.inf)
+            require(inside, name, value, f">= {least:g} and <= {most:g}{meaning}")
+            object.__setattr__(self, name, number)
         self._check_support()
 
     def _check_support(self) -> None:
-        if isinstance(self.support, BeltSupport) and self.poisson != 0.5:
-            raise InputError(f"poisson = {self.poisson!r}: the covers of a Belt are incompressible, 0.5")
-        if isinstance(self.support, str) and self.support not in _SUPPORTS:
-            raise InputError(f"support = {self.support!r}: allowed are {', '.join(_SUPPORTS)} or a Layer")
-        if not isinstance(self.support, str) and not all(hasattr(self.support, name) for name in ("reach", "symbol")):
-            raise InputError(f"support = {self.support!r}: allowed are {', '.join(_SUPPORTS)} or a Layer")
+        if isinstance(self.support, BeltSupport):
+            require(self.poisson == 0.5, "poisson", self.poisson, "0.5, the covers of a Belt are incompressible")
+        layer = all(hasattr(self.support, name) for name in ("reach", "symbol"))
+        known = self.support in _SUPPORTS if isinstance(self.support, str) else layer
+        require(known, "support", self.support, f"{', '.join(_SUPPORTS)} or a Layer")
         if not isinstance(self.support, (str, BeltSupport)):
             _check_symbol(self.support, self.creep)
 
@@ -167,5 +153,5 @@ def _check_symbol(layer: Layer, creep: CreepSpectrum) -> None:
 
 def check_rtol(rtol: float) -> None:
     """Raise InputError for a tolerance outside [1e-12, 1e-2]."""
-    if not (isinstance(rtol, (int, float, np.floating)) and 1e-12 <= rtol <= 1e-2):
-        raise InputError(f"rtol = {rtol!r}: the tolerance lies in [1e-12, 1e-2]")
+    require_number(rtol=rtol)
+    require(1e-12 <= rtol <= 1e-2, "rtol", rtol, ">= 1e-12 and <= 0.01")

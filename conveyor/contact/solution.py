@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from conveyor.arguments.limits import require
 from conveyor.contact.fields.contact_fields import Fields, SpectralFields
 from conveyor.contact.fields.energy_balance import Strip, belt_losses
 from conveyor.contact.fields.excitation import LOSS_SHARES, excited_harmonics
@@ -264,8 +265,7 @@ class ContactSolution:
             ascending = bool(np.all(np.diff(np.array([0.0, *shares, 1.0], dtype=float)) > 0.0))
         except (TypeError, ValueError):
             ascending = False
-        if not ascending:
-            raise InputError(f"shares = {shares!r}: ascending numbers between 0 and 1")
+        require(ascending, "shares", shares, "ascending numbers > 0 and < 1")
         fields = self._lossy("excitation")
         return excited_harmonics(fields.layer, fields.creep, fields.strips, shares)
 

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.checks import Check, check_against_limit, pass_or_fail
-from conveyor.dynamics.simulation import CalculatedDynamics, ScenarioResult
+from conveyor.dynamics.scenario_result import ScenarioResult
+from conveyor.dynamics.simulation import CalculatedDynamics
 from conveyor.laws.belt_strength import (
     CLASSIC_SAFETY,
     DUTY_SAFETY,

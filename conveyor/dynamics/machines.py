@@ -9,8 +9,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.dynamics.belt_chain import SPEED_POINTS, Chain, InitialState, Machines
 from conveyor.dynamics.cut_loop import Cells, CutLoop
-from conveyor.dynamics.wave import SPEED_POINTS, Chain, InitialState, Machines
 from conveyor.errors import NoSolutionError
 from conveyor.laws.motion import start_force, typical_reduced_mass
 from conveyor.laws.waves import (

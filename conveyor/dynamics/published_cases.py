@@ -15,7 +15,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.dynamics.wave import SPEED_POINTS, Chain, InitialState, Machines, Record, simulate_belts
+from conveyor.dynamics.belt_chain import SPEED_POINTS, Chain, InitialState, Machines, Record
+from conveyor.dynamics.wave import simulate_belts
 from conveyor.laws.waves import ramp_speed, wave_speed
 
 Array = NDArray[np.float64]

@@ -11,14 +11,8 @@ import numpy as np
 from conveyor.checks import Check
 from conveyor.dynamics.criteria import CRITERIA
 from conveyor.dynamics.machines import ScenarioSetup, ScenarioSize
-from conveyor.dynamics.simulation import (
-    ERROR,
-    CalculatedDynamics,
-    ScenarioResult,
-    prepare_setups,
-    simulate_batch,
-    simulate_to_error,
-)
+from conveyor.dynamics.scenario_result import ScenarioResult
+from conveyor.dynamics.simulation import ERROR, CalculatedDynamics, prepare_setups, simulate_batch, simulate_to_error
 from conveyor.errors import InputError, MessageQuantity, NoSolutionError
 from conveyor.laws.take_up import take_up_mass
 from conveyor.models import Conveyor, Scenario, TakeUp

@@ -9,7 +9,7 @@ from typing import Final, Literal
 
 import numpy as np
 
-from conveyor.checks import rubber_coverage
+from conveyor.checks.contact_checks import rubber_coverage
 from conveyor.errors import ConveyorError
 from conveyor.fitting.amplitude import UNLIKE_STRAINS, amplitude_ratio, strain_text
 from conveyor.fitting.findings import DOUBTFUL_RESIDUAL, SCATTER_MARGIN

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
 from conveyor.errors import InputError
 from conveyor.fitting.amplitude import StrainAmplitudes, reference_strain, short_sweep_note, stated_amplitudes
 from conveyor.fitting.compound_file import (
@@ -41,7 +41,8 @@ from conveyor.fitting.shift_choice import (
     whole_master_curve,
 )
 from conveyor.laboratory import DmaData
-from conveyor.laboratory.dma_file import answers_for_file, matching_sheets, read_with_answers
+from conveyor.laboratory.dma_file import answers_for_file, read_with_answers
+from conveyor.laboratory.table_file import matching_sheets
 from conveyor.models import RubberCompound
 from conveyor.rubber import (
     WLF,

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
+    from conveyor.arguments.arrays import FloatArray
     from conveyor.rubber import PronyFit, PronySeries, Superposition
-    from conveyor.rubber.arrays import FloatArray
 
 _MOST_CANDIDATES = 6  # of the criterion's table that are printed
 _MOST_OUTLIERS = 6  # outliers that are named

@@ -7,7 +7,6 @@ import re
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from fnmatch import fnmatchcase
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Final, NamedTuple, TypeVar
@@ -16,32 +15,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.errors import InputError
-from conveyor.files.file_bytes import file_content
-from conveyor.files.workbook_cells import MAGIC
 from conveyor.laboratory.arrange import Arrangement, arrange_rows, check_trend
-from conveyor.laboratory.cell_grid import AnswerableError, TextGrid, cell_error
+from conveyor.laboratory.cell_grid import AnswerableError, TextGrid
 from conveyor.laboratory.column_units import ColumnUnit
 from conveyor.laboratory.column_values import ColumnSeries, Question, TableValues, check_units, read_columns
-from conveyor.laboratory.delimited_text import text_grid
 from conveyor.laboratory.dma_data import DmaData, FloatArray
-from conveyor.laboratory.encoding import decode_text
 from conveyor.laboratory.header_meanings import DIMENSIONS
 from conveyor.laboratory.header_points import split_set_points
 from conveyor.laboratory.measurement_kinds import NEEDED_COLUMNS, decide_kind, possible_kinds
-from conveyor.laboratory.moduli import (
-    ModulusLetter,
-    dynamic_moduli,
-    equivalent_strain,
-    modulus_letter,
-    tensile_factor,
-)
+from conveyor.laboratory.moduli import ModulusLetter, dynamic_moduli, equivalent_strain, modulus_letter, tensile_factor
 from conveyor.laboratory.ramp import isotherms_of_ramp
-from conveyor.laboratory.sheet_grids import workbook_grids
+from conveyor.laboratory.table_file import load_grid, source_name
 from conveyor.laboratory.table_layout import (
     EXAMPLE_HEADER,
     DataTable,
     find_table,
-    has_table,
     names_column,
     row_numbers,
     row_spans,
@@ -53,14 +41,20 @@ from conveyor.laboratory.value_checks import TEMPERATURE_RANGE, check_possible, 
 
 _COMPLIANCE: Final = re.compile(r"^\W*[DJ]\W*['′″\"(12*]|compliance|nachgiebigkeit", re.IGNORECASE)
 """Names of compliances: D', J'', J(t), |D*|, storage compliance."""
+
+
 KINDS: Final = tuple(NEEDED_COLUMNS)
 """Kinds of measurement in a file."""
-LARGEST_FILE: Final = 50_000_000
-"""Bytes; a table of a million rows has about as many."""
+
+
 _MOST_FINDINGS: Final = 8
 """Most repeated readings without the rows and columns at fault; each reports all of one kind."""
+
+
 _PER_FILE_ANSWERS: Final = frozenset({"sheet", "kind", "instantaneous", "exclude", "columns", "ignore"})
 """Answers that hold for one file only."""
+
+
 T = TypeVar("T", bound=np.generic)
 
 
@@ -147,7 +141,7 @@ def read_dma(
         "strain": strain_unit,
     }
     given = check_units(units)
-    whole = _load_grid(Path(path), sheet)
+    whole = load_grid(Path(path), sheet)
     grid = with_column_names(whole, columns or {})
     asked = _Answers(given, temperature, poisson_ratio, kind, letter, instantaneous)
     findings: list[AnswerableError] = []
@@ -168,7 +162,7 @@ def read_dma(
         else:
             if findings:
                 raise _join_findings(findings)
-            return replace(data, source=_source_name(path, table))
+            return replace(data, source=source_name(path, table))
     raise _join_findings(findings)
 
 
@@ -254,26 +248,10 @@ def answers_for_file(path: Path, answers: Mapping[str, Any]) -> dict[str, Any]:
     own = dict(answers)
     if not answers.get("columns") and not answers.get("ignore"):
         return own
-    grid = _load_grid(path, answers.get("sheet"))
+    grid = load_grid(path, answers.get("sheet"))
     own["columns"] = {k: v for k, v in (answers.get("columns") or {}).items() if names_column(grid, k)}
     own["ignore"] = [name for name in answers.get("ignore") or () if names_column(grid, name)]
     return own
-
-
-def matching_sheets(path: Path, pattern: str | None) -> list[str | None]:
-    """Sheets with a table that match a pattern with * or ?; else the pattern itself, None for a text file."""
-    if pattern is None or not {"*", "?"} & set(pattern):
-        return [pattern]
-    data = file_content(path, largest=LARGEST_FILE, expected="table of a laboratory")
-    if not data.startswith(MAGIC):
-        return [None]
-    grids = workbook_grids(data, path.name)
-    found: list[str | None] = [g.sheet for g in grids if fnmatchcase(g.sheet, pattern) and has_table(g)]
-    if not found:
-        names = ", ".join(repr(grid.sheet) for grid in grids)
-        what = f"no sheet '{pattern}' holds a table; sheet (--sheet) must fit one of {names}"
-        raise cell_error(path.name, 1, 0, what, lettered=True)
-    return found
 
 
 def _check_options(poisson_ratio: float, temperature: float | None, kind: str | None, letter: str | None) -> None:
@@ -288,36 +266,6 @@ def _check_options(poisson_ratio: float, temperature: float | None, kind: str | 
         raise InputError(f'kind = "{kind}" (--kind) is not known; allowed: {", ".join(KINDS)}')
     if letter not in {None, "E", "G"}:
         raise InputError(f'letter = "{letter}" (--moduli) must be E or G')
-
-
-def _load_grid(path: Path, sheet: str | None) -> TextGrid:
-    """Load a text file, or the one sheet with a table."""
-    data = file_content(path, largest=LARGEST_FILE, expected="table of a laboratory")
-    if not data.startswith(MAGIC):
-        if sheet is not None:
-            what = f"a text file has no sheet '{sheet}'; leave out sheet (--sheet)"
-            raise cell_error(path.name, 1, 0, what)
-        text, note = decode_text(data, path.name)
-        return text_grid(text, path.name, note)
-    grids = workbook_grids(data, path.name)
-    names = ", ".join(repr(grid.sheet) for grid in grids)
-    tables = [grid for grid in grids if has_table(grid)] if sheet is None else [g for g in grids if g.sheet == sheet]
-    if not tables:
-        what = f"no table on any sheet ({names}); one of them needs {EXAMPLE_HEADER}"
-        if sheet is not None:
-            what = f"no sheet '{sheet}'; sheet (--sheet) must be one of {names}"
-        raise cell_error(path.name, 1, 0, what, lettered=True)
-    if len(tables) > 1:
-        several = ", ".join(repr(grid.sheet) for grid in tables)
-        first = tables[0].sheet
-        what = (
-            f'{len(tables)} sheets hold a table: {several}; give sheet, for example sheet="{first}" (--sheet); if all'
-            " are of one rubber, conveyor fit takes them together by --sheet '*'"
-        )
-        raise tables[1].refusal(tables[1].lines[0].number, 0, what)
-    empty = [] if sheet is not None else [repr(grid.sheet) for grid in grids if grid is not tables[0]]
-    more = (f"no table on {', '.join(empty)}",) if empty else ()
-    return replace(tables[0], notes=(*tables[0].notes, *more))
 
 
 def _si_quantities(
@@ -402,7 +350,7 @@ def _apply_shares(
         return [] if instantaneous is None else ["instantaneous was given, but the file is no Prony table"]
     if instantaneous is not None:
         if not 0.0 < instantaneous < math.inf:
-            raise InputError(f"instantaneous = {instantaneous:g} Pa (--instantaneous) must be > 0")
+            raise InputError(f"instantaneous: got {instantaneous:g} Pa (--instantaneous), allowed: > 0 Pa")
         columns["instant"] = np.full(len(table.rows), instantaneous)
     if shares is None:
         return []
@@ -487,10 +435,6 @@ def _order_notes(table: DataTable, kind: str, arrangement: Arrangement) -> list[
     if arrangement.group is not None and kind in {"isotherms", "strain sweep"}:
         notes.append(f"rows grouped by temperature: {np.unique(arrangement.group).size}")
     return notes
-
-
-def _source_name(path: str | Path, table: DataTable) -> str:
-    return f"{path}[{table.grid.sheet}]" if table.grid.sheet else str(path)
 
 
 def _assemble_data(table: DataTable, kind: str, columns: Mapping[str, FloatArray], arrangement: Arrangement) -> DmaData:

@@ -10,8 +10,8 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Final, Literal
 
+from conveyor.arguments.limits import require, require_not_negative, require_positive
 from conveyor.errors import RangeError
-from conveyor.require import require, require_not_negative, require_positive
 
 Reinforcement = Literal["textile", "steel cord"]
 Condition = Literal["favourable", "normal", "unfavourable"]
@@ -182,14 +182,14 @@ def required_strength(largest_per_width: float, *, splice_strength: float, s0: f
     1246667
     """
     require_positive(largest_per_width=largest_per_width)
-    require(0.0 < splice_strength <= 1.0, "splice_strength", splice_strength, "above 0 and at most 1 is needed")
+    require(0.0 < splice_strength <= 1.0, "splice_strength", splice_strength, "> 0 and <= 1")
     for name, value in (("s0", s0), ("s1", s1)):
-        require(1.0 <= value < math.inf, name, value, "at least 1 is needed")
+        require(1.0 <= value < math.inf, name, value, ">= 1")
     return largest_per_width * s0 * s1 / splice_strength
 
 
 def _standard_step(group: Group, utilisation: float) -> int:
-    require(group in _GROUP_STEPS[0][1], "group", group, "one of A, B, C is needed")
+    require(group in _GROUP_STEPS[0][1], "group", group, "A, B, C")
     require_not_negative(utilisation=utilisation)
     return next(steps[group] for above, steps in _GROUP_STEPS if utilisation > above)
 

@@ -14,7 +14,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.require import require, require_not_negative, require_positive, require_slope
+from conveyor.arguments.limits import require, require_not_negative, require_positive, require_slope
 
 FREE_EDGE: Final = 0.05
 """Belt left free at each edge on the pulley, at most [m]; ckit.co.za."""
@@ -69,7 +69,7 @@ def width_on_pulley(belt_width: float) -> float:
     """
     require_positive(belt_width=belt_width)
     width = belt_width - 2.0 * min(EDGE_SHARE * belt_width + EDGE_LEAST, FREE_EDGE)
-    require(width > 0.0, "belt_width", belt_width, "more than 0.052 m is needed")
+    require(width > 0.0, "belt_width", belt_width, "> 0.052 m")
     return width
 
 
@@ -104,7 +104,7 @@ def bulk_on_pulley(area: float, *, width: float) -> BulkOnPulley:
     require_positive(area=area, width=width)
     most = math.pi * width**2 / 8.0
 
-    require(area <= most, "area", area, f"at most {most:.4g} m², a half circle on the belt, is needed")
+    require(area <= most, "area", area, f"<= {most:.4g} m², a half circle on the belt")
 
     def over(half: float) -> float:
         return _segment_factor(half) * (0.5 * width / math.sin(half)) ** 2 - area
@@ -242,7 +242,7 @@ def slipping_discharge(
 
     require_positive(friction=friction, sliding_friction=sliding_friction)
 
-    require(sliding_friction <= friction, "sliding_friction", sliding_friction, "at most friction is needed")
+    require(sliding_friction <= friction, "sliding_friction", sliding_friction, "<= friction")
     angle = discharge_angle(speed, radius=radius, inclination=inclination, gravity=gravity)
     if angle == -inclination:
         return SlippingDischarge(angle, angle, speed)
@@ -320,7 +320,7 @@ def free_fall(angle: float, *, speed: float, radius: float, drop: float, gravity
     >>> float(level.time[-1].round(6)), float(level.across[-1].round(6)), float(level.speed[-1].round(3))
     (1.0, 4.0, 10.594)
     """
-    require(abs(angle) < math.pi / 2.0, "angle", angle, "an angle in rad between -pi/2 and pi/2 is needed")
+    require(abs(angle) < math.pi / 2.0, "angle", angle, "> -pi/2 and < pi/2 rad")
     require_positive(speed=speed, radius=radius, gravity=gravity)
     require_not_negative(drop=drop)
     forward, down = speed * math.cos(angle), speed * math.sin(angle)

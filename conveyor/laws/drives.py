@@ -9,9 +9,9 @@ import math
 from collections.abc import Sequence
 from typing import Final, Literal
 
+from conveyor.arguments.limits import require, require_finite, require_not_negative, require_positive
 from conveyor.errors import RangeError
 from conveyor.laws.resistance.resistance_defaults import Default
-from conveyor.require import require, require_finite, require_not_negative, require_positive
 
 Poles = Literal[2, 4, 6]
 
@@ -75,7 +75,7 @@ def allowed_starts(rated_power: float, *, poles: Poles, load_inertia: float) -> 
     2.44
     """
     require_positive(rated_power=rated_power, load_inertia=load_inertia)
-    require(poles in {2, 4, 6}, "poles", poles, "2, 4 or 6 is needed")
+    require(poles in {2, 4, 6}, "poles", poles, "2, 4, 6")
     size = rated_power / HORSEPOWER
     above = [row for row in _STARTS if row[0] >= size * (1.0 - _SHARE_TOLERANCE)]
     below = [row for row in _STARTS if row[0] <= size * (1.0 + _SHARE_TOLERANCE)]
@@ -119,7 +119,7 @@ def backstop_torque(force: float, *, radius: float, count: int) -> float:
     """
     require_not_negative(force=force)
     require_positive(radius=radius)
-    require(count >= 1, "count", count, "1 or more is needed")
+    require(count >= 1, "count", count, ">= 1")
     return force * radius * min(1.0, BACKSTOP_SHARE_FACTOR.value / count)
 
 
@@ -340,7 +340,7 @@ def shared_forces(
     require(alike, "rated", list(rated), "as many as slips, diameters and strains, one at least")
     for each, slip, diameter, strain in zip(rated, slips, diameters, strains, strict=True):
         require_positive(rated=each, diameters=diameter)
-        require(0.0 < slip < 1.0, "slips", slip, "above 0 and below 1 is needed")
+        require(0.0 < slip < 1.0, "slips", slip, "> 0 and < 1")
         require_finite(strains=strain)
     stiff = [each / slip for each, slip in zip(rated, slips, strict=True)]
     over = [(1.0 + strain) / diameter for strain, diameter in zip(strains, diameters, strict=True)]

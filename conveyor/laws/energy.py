@@ -11,10 +11,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
+from conveyor.arguments.limits import require, require_finite, require_not_negative, require_positive
 from conveyor.errors import RangeError
 from conveyor.laws.drives import HORSEPOWER
 from conveyor.laws.power import JOULE_PER_KWH, TONNE_KM
-from conveyor.require import require, require_finite, require_not_negative, require_positive
 
 YEAR: Final = 8784.0 * 3600.0  # [s], a leap year: no duty is longer
 
@@ -112,9 +112,9 @@ def duty_sums(steps: Sequence[DutyStep]) -> DutySums:
     >>> round(duty.drawn_kwh), round(duty.fed_back_kwh), round(duty.mass / 1e3)
     (300000, 20000, 2340000)
     """
-    require(len(steps) > 0, "steps", list(steps), "at least one step is needed")
+    require(len(steps) > 0, "steps", list(steps), "at least one step")
     time = math.fsum(step.time for step in steps)
-    require(time <= YEAR, "steps", list(steps), f"at most 8784 h are in a year, these are {time / 3600.0:.6g} h")
+    require(time <= YEAR, "steps", list(steps), f"<= 8784 h, a year; these are {time / 3600.0:.6g} h")
     return DutySums(
         time=time,
         drawn_kwh=math.fsum(step.time * step.power for step in steps if step.power > 0.0) / JOULE_PER_KWH,
@@ -214,7 +214,7 @@ def duty_specific_energy(duty: DutySums, *, length: float) -> float:
     0.14
     """
     require_positive(length=length)
-    require(duty.mass > 0.0, "duty.mass", duty.mass, "some mass conveyed is needed")
+    require(duty.mass > 0.0, "duty.mass", duty.mass, "> 0: some mass conveyed")
     return duty.net_kwh / (duty.mass * length) * TONNE_KM
 
 
@@ -252,7 +252,7 @@ def next_motor(shaft_power: float, *, reserve: float = 1.0, series: Sequence[flo
     (75000.0, 90000.0, 90000.0)
     """
     require_finite(shaft_power=shaft_power)
-    require(1.0 <= reserve < math.inf, "reserve", reserve, "at least 1 is needed")
+    require(1.0 <= reserve < math.inf, "reserve", reserve, ">= 1")
     needed = round(abs(shaft_power) * reserve, 3)  # products of decimals: 100 kW · 1.1 is 110 kW
     for rated in series:
         if round(rated, 3) >= needed:

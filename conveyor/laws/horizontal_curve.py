@@ -12,15 +12,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
-from conveyor.laws.loading import NO_WING, RollLoad, Wing, roll_angles, wing_pieces
-from conveyor.laws.resistance.resistance_defaults import Default
-from conveyor.require import (
+from conveyor.arguments.limits import (
     require,
     require_angle,
     require_finite,
     require_not_negative,
     require_positive,
 )
+from conveyor.laws.loading import NO_WING, RollLoad, Wing, roll_angles, wing_pieces
+from conveyor.laws.resistance.resistance_defaults import Default
 
 FULL_SLIP_TILT: Final = Default(
     math.radians(3.0), math.radians(2.0), math.radians(4.0),
@@ -119,12 +119,12 @@ def outward_force_factors(
     [0.5, 0.0, -0.5]
     """
     rolls = len(frictions)
-    require(2 <= rolls <= MOST_ROLLS, "frictions", frictions, "those of two to five rolls are needed")
+    require(2 <= rolls <= MOST_ROLLS, "frictions", frictions, "of two to five rolls")
     require_finite(**{f"frictions_{i}": one for i, one in enumerate(frictions)})
     require_angle(0.0, trough_angle=trough_angle, banking_angle=banking_angle, inner_angle=inner_angle)
     require_angle(0.0, sum_of_trough_and_banking=trough_angle + banking_angle)
     require_positive(trough_angle=trough_angle)
-    require(inner_angle <= trough_angle, "inner_angle", inner_angle, f"at most {trough_angle!r} rad is needed")
+    require(inner_angle <= trough_angle, "inner_angle", inner_angle, f"<= {trough_angle!r} rad")
     angles = roll_angles(rolls, trough_angle=trough_angle, inner_angle=inner_angle)
     pushes = []
     for i, (angle, friction) in enumerate(zip(angles, frictions, strict=True)):
@@ -173,7 +173,7 @@ def drifted_loads(loads: Sequence[RollLoad], drift: float, *, roll_length: float
     [(30.0, 0.3), (32.0, 0.32), (18.0, 0.18)]
     """
     require_positive(roll_length=roll_length)
-    require(2 <= len(loads) <= MOST_ROLLS, "loads", loads, "those of two to five rolls are needed")
+    require(2 <= len(loads) <= MOST_ROLLS, "loads", loads, "of two to five rolls")
     if drift < 0.0:
         return tuple(reversed(drifted_loads(loads[::-1], -drift, roll_length=roll_length)))
     left = loads[-1]
@@ -181,7 +181,7 @@ def drifted_loads(loads: Sequence[RollLoad], drift: float, *, roll_length: float
         drift <= left.length,
         "drift",
         drift,
-        f"at most the {left.length:.4g} m of belt on the wing are needed",
+        f"<= {left.length:.4g} m, the belt on the wing",
     )
     over = drift / left.length
     bulk = left.bulk_force * (over * (2.0 - over) if left.shape == "triangular" else over)
@@ -282,7 +282,7 @@ class DriftLaw:
         """Outward force [N] at a drift to the inside [m]."""
         slope, curvature, reach = self.inward if drift >= 0.0 else self.outward
         size = abs(drift)
-        require(size <= reach, "drift", drift, f"at most {reach:.4g} m in size is needed")
+        require(size <= reach, "drift", drift, f"<= {reach:.4g} m in size")
         return self.centred + size * (slope + curvature * size)
 
     def drift(self, pull: float) -> float:

@@ -11,8 +11,8 @@ import math
 from collections.abc import Mapping
 from typing import Final, Literal, get_args
 
+from conveyor.arguments.limits import require, require_angle, require_not_negative, require_positive
 from conveyor.errors import MessageQuantity, RangeError
-from conveyor.require import require, require_angle, require_not_negative, require_positive
 
 CemaClass = Literal["B", "C", "D", "E"]
 CEMA_CLASSES: Final[tuple[CemaClass, ...]] = get_args(CemaClass)
@@ -134,7 +134,7 @@ def rated_set_load(cema_class: CemaClass, *, belt_width: float, trough_angle: fl
     """
     require_positive(belt_width=belt_width)
     require_angle(0.0, trough_angle=trough_angle)
-    require(cema_class in _RATINGS, "cema_class", cema_class, f"one of {', '.join(CEMA_CLASSES)} is needed")
+    require(cema_class in _RATINGS, "cema_class", cema_class, ", ".join(CEMA_CLASSES))
     inches = belt_width / _INCH
     width = MessageQuantity(belt_width, "thickness", f"{belt_width:g} m")
     none = RangeError(f"CEMA class {cema_class} has no set of {rolls} roll(s) for a belt of {{}}", width)
@@ -243,9 +243,9 @@ def flap_frequency(tension: float, *, line_mass: float, spacing: float, belt_spe
     """
     require_positive(line_mass=line_mass, spacing=spacing)
     require_not_negative(belt_speed=belt_speed)
-    require(mode >= 1, "mode", mode, "1 or more is needed")
+    require(mode >= 1, "mode", mode, ">= 1")
     least = line_mass * belt_speed**2
-    require(least < tension < math.inf, "tension", tension, f"more than m' v² = {least:.6g} N is needed")
+    require(least < tension < math.inf, "tension", tension, f"> m' v² = {least:.6g} N")
     wave = math.sqrt(tension / line_mass)
     return mode * (wave**2 - belt_speed**2) / (2.0 * spacing * wave)
 
@@ -282,7 +282,7 @@ def resonance_margin(roll_frequency: float, *, lowest: float, highest: float) ->
     """
     require_positive(roll_frequency=roll_frequency)
     require_not_negative(lowest=lowest)
-    require(lowest <= highest < math.inf, "highest", highest, f"at least lowest = {lowest!r} Hz is needed")
+    require(lowest <= highest < math.inf, "highest", highest, f">= lowest = {lowest!r} Hz")
     over = [(n * lowest / roll_frequency - 1.0, 1.0 - n * highest / roll_frequency) for n in range(1, FLAP_MODES + 1)]
     return max(0.0, min(max(pair) for pair in over))
 

@@ -11,9 +11,9 @@ from typing import Final
 
 import numpy as np
 
+from conveyor.arguments.limits import require, require_not_negative, require_positive
 from conveyor.laws.horizontal_curve import FULL_SLIP_TILT
 from conveyor.laws.resistance.resistance_defaults import ROLL_ON_BELT_FRICTION, Default, Site
-from conveyor.require import require, require_not_negative, require_positive
 
 
 def _angle_default(value: float, low: float, high: float, source: str) -> Default:
@@ -77,7 +77,7 @@ def misalignment_friction(
     >>> [round(misalignment_friction(math.radians(a), friction=0.35), 5) for a in (0.1, 0.5, 1.0)]
     [6e-05, 0.00116, 0.00354]
     """
-    require(0.0 <= misalignment <= LARGEST_MISALIGNMENT, "misalignment", misalignment, "0 to 5 deg is needed")
+    require(0.0 <= misalignment <= LARGEST_MISALIGNMENT, "misalignment", misalignment, ">= 0 and <= 5 deg")
     require_not_negative(friction=friction)
     require_positive(full_slip=full_slip)
     if misalignment == 0.0:

@@ -11,15 +11,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from conveyor.errors import NoSolutionError
-from conveyor.laws.resistance.resistance_defaults import Default
-from conveyor.require import (
+from conveyor.arguments.limits import (
     require,
     require_finite,
     require_not_negative,
     require_positive,
     require_slope,
 )
+from conveyor.errors import NoSolutionError
+from conveyor.laws.resistance.resistance_defaults import Default
 
 START_FACTOR: Final = Default(1.3, 1.2, 1.5, "controlled starts of belt conveyors", True)  # [-]
 DRIVE_INERTIA: Final = Default(
@@ -128,7 +128,7 @@ def run_up_time(speeds: Sequence[float], forces: Sequence[float], *, mass: float
         raise NoSolutionError(f"the motors do not accelerate the belt at {stuck:.4g} m/s")
     time = 0.0
     for (v1, v2), (f1, f2) in zip(itertools.pairwise(speeds), itertools.pairwise(forces), strict=True):
-        require(v2 > v1, "speeds", list(speeds), "ascending speeds are needed")
+        require(v2 > v1, "speeds", list(speeds), "ascending speeds")
         steeper = (f2 - f1) / f1
         time += mass * (v2 - v1) / f1 * (math.log1p(steeper) / steeper if steeper else 1.0)
     return time
@@ -164,7 +164,7 @@ def start_force(rated_power: float, *, torque_factor: float, efficiency: float, 
     24150
     """
     require_positive(rated_power=rated_power, torque_factor=torque_factor, rated_belt_speed=rated_belt_speed)
-    require(0.0 < efficiency <= 1.0, "efficiency", efficiency, "above 0 and at most 1 is needed")
+    require(0.0 < efficiency <= 1.0, "efficiency", efficiency, "> 0 and <= 1")
     return torque_factor * efficiency * rated_power / rated_belt_speed
 
 

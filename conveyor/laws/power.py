@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from conveyor.require import require, require_finite, require_not_negative, require_positive
+from conveyor.arguments.limits import require, require_finite, require_not_negative, require_positive
 
 JOULE_PER_KWH: Final = 3.6e6  # [J/kWh]
 WATT_PER_KW: Final = 1e3  # [W/kW]
@@ -73,7 +73,7 @@ def motor_power(belt_power: float, *, efficiency: float) -> float:
     (68926, -90000.0)
     """
     require_finite(belt_power=belt_power)
-    require(0.0 < efficiency <= 1.0, "efficiency", efficiency, "above 0 and at most 1 is needed")
+    require(0.0 < efficiency <= 1.0, "efficiency", efficiency, "> 0 and <= 1")
     return belt_power / efficiency if belt_power >= 0.0 else belt_power * efficiency
 
 

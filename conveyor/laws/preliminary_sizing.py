@@ -12,7 +12,7 @@ from typing import Final, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from conveyor.require import require, require_angle, require_not_negative, require_positive
+from conveyor.arguments.limits import require, require_angle, require_not_negative, require_positive
 
 Severity = Literal["low", "medium", "high"]
 SEVERITIES: Final[tuple[Severity, ...]] = ("low", "medium", "high")
@@ -78,7 +78,7 @@ def least_width_for_lumps(lump: float, *, surcharge_angle: float, share: Literal
     """
     require_not_negative(lump=lump)
     require_angle(0.0, surcharge_angle=surcharge_angle)
-    require(share in LUMP_RATIOS, "share", share, f"one of {', '.join(LUMP_RATIOS)} is needed")
+    require(share in LUMP_RATIOS, "share", share, ", ".join(LUMP_RATIOS))
     flat, steep = LUMP_RATIOS[share]
     along = min(1.0, max(0.0, (math.degrees(surcharge_angle) - 20.0) / 10.0))
     return lump * (flat + along * (steep - flat))
@@ -120,7 +120,7 @@ def recommended_speed(belt_width: float, *, abrasiveness: Severity) -> float:
         abrasiveness in RECOMMENDED_SPEEDS,
         "abrasiveness",
         abrasiveness,
-        f"one of {', '.join(RECOMMENDED_SPEEDS)} is needed",
+        ", ".join(RECOMMENDED_SPEEDS),
     )
     return next(FOOT_PER_MINUTE * fpm for widest, fpm in RECOMMENDED_SPEEDS[abrasiveness] if belt_width <= widest)
 
@@ -195,7 +195,7 @@ def wear_addition(
     require_not_negative(lump=lump)
     require_positive(density=density, round_time=round_time)
     for name, word in (("abrasiveness", abrasiveness), ("loading", loading)):
-        require(word in SEVERITIES, name, word, f"one of {', '.join(SEVERITIES)} is needed")
+        require(word in SEVERITIES, name, word, ", ".join(SEVERITIES))
     # a border in inches or pounds is that border: to the nanometre, to the milligram
     size, heaviness = round(lump, 9), round(density, 6)
     points = (
@@ -245,7 +245,7 @@ def carcass_mass(strength: float, *, thickness: float, steel_cord: bool) -> floa
     if not steel_cord:
         return TEXTILE_DENSITY * thickness
     steel = strength / CORD_STRESS
-    require(steel < thickness, "thickness", thickness, f"more than the cords' steel, {steel:.3g} m, is needed")
+    require(steel < thickness, "thickness", thickness, f"> {steel:.3g} m, the cords' steel")
     return STEEL_DENSITY * steel + CARCASS_RUBBER * (thickness - steel)
 
 
@@ -277,7 +277,7 @@ def roll_shell_mass(diameter: float, *, wall: float, length: float) -> float:
     7.97
     """
     require_positive(wall=wall, length=length)
-    require(diameter > 2.0 * wall, "diameter", diameter, "more than twice the wall is needed")
+    require(diameter > 2.0 * wall, "diameter", diameter, "> twice the wall")
     return math.pi * (diameter - wall) * wall * length * STEEL_DENSITY
 
 

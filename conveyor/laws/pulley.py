@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping
 from typing import Final, Literal
 
-from conveyor.require import require, require_not_negative, require_positive
+from conveyor.arguments.limits import require, require_not_negative, require_positive
 
 Steel = Literal["C1018", "C1045", "C4140"]
 Keyway = Literal["profiled", "sled runner"]
@@ -64,7 +64,7 @@ def pulley_resultant(belt_pull: float, *, weight: float, pull_angle: float = 0.0
     (500.0, 700.0)
     """
     require_not_negative(belt_pull=belt_pull, weight=weight)
-    require(0.0 <= pull_angle <= math.pi, "pull_angle", pull_angle, "0 to pi rad is needed")
+    require(0.0 <= pull_angle <= math.pi, "pull_angle", pull_angle, ">= 0 and <= pi rad")
     return math.hypot(belt_pull * math.sin(pull_angle), weight + belt_pull * math.cos(pull_angle))
 
 
@@ -98,7 +98,7 @@ def hub_moment(load: float, *, bearing_centres: float, hub_centres: float) -> fl
     require_not_negative(load=load)
     require_positive(hub_centres=hub_centres)
     ok = hub_centres < bearing_centres < math.inf
-    require(ok, "bearing_centres", bearing_centres, f"more than hub_centres = {hub_centres!r} m is needed")
+    require(ok, "bearing_centres", bearing_centres, f"> hub_centres = {hub_centres!r} m")
     return 0.25 * load * (bearing_centres - hub_centres)
 
 
@@ -181,8 +181,8 @@ def shaft_safety(moment: float, *, torque: float, diameter: float, steel: Steel,
 
 def _required_modulus(moment: float, torque: float, diameter: float, steel: Steel, keyway: Keyway) -> float:
     """Bending and torsional moments over strength, combined [m³]."""
-    require(steel in SHAFT_STEELS, "steel", steel, f"one of {', '.join(SHAFT_STEELS)} is needed")
-    require(keyway in KEYWAY_FACTOR, "keyway", keyway, f"one of {', '.join(KEYWAY_FACTOR)} is needed")
+    require(steel in SHAFT_STEELS, "steel", steel, ", ".join(SHAFT_STEELS))
+    require(keyway in KEYWAY_FACTOR, "keyway", keyway, ", ".join(KEYWAY_FACTOR))
     fatigue, yielding = SHAFT_STEELS[steel]
     size: float = (diameter / _INCH) ** _SIZE_EXPONENT
     held = _SURFACE * _RELIABILITY * KEYWAY_FACTOR[keyway] * size * fatigue

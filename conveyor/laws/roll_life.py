@@ -9,7 +9,7 @@ import math
 from collections.abc import Sequence
 from typing import Final
 
-from conveyor.require import require, require_not_negative, require_positive
+from conveyor.arguments.limits import require, require_not_negative, require_positive
 
 RATED_REVOLUTIONS: Final = 1e6  # [-], ISO 281: revolutions of the basic rating life at P = C
 BALL_EXPONENT: Final = 3.0  # [-], ISO 281, ball bearings
@@ -72,8 +72,8 @@ def heavier_bearing_load(
     require_not_negative(bulk_force=bulk_force, belt_force=belt_force)
     require_positive(loaded_length=loaded_length, bearing_distance=bearing_distance)
     shell = bearing_distance + 2.0 * inset
-    require(shell > 0.0, "inset", inset, f"above -bearing_distance/2 = {-bearing_distance / 2.0!r} m is needed")
-    allowed = f"at most bearing_distance + 2 inset = {shell!r} m is needed"
+    require(shell > 0.0, "inset", inset, f"> -bearing_distance/2 = {-bearing_distance / 2.0!r} m")
+    allowed = f"<= bearing_distance + 2 inset = {shell!r} m"
     ok = loaded_length <= shell * (1.0 + SHELL_ROUNDING)
     require(ok, "loaded_length", loaded_length, allowed)
     bulk_centre = (loaded_length / (3.0 if triangular else 2.0) - inset) / bearing_distance
@@ -115,7 +115,7 @@ def rating_life_hours(load: float, *, dynamic_rating: float, rotation: float, ex
     222222
     """
     require_positive(load=load, dynamic_rating=dynamic_rating, rotation=rotation)
-    require(1.0 <= exponent <= 4.0, "exponent", exponent, "3 (ball) or 10/3 (roller) is needed")
+    require(1.0 <= exponent <= 4.0, "exponent", exponent, "3 (ball) or 10/3 (roller)")
     revolutions: float = RATED_REVOLUTIONS * (dynamic_rating / load) ** exponent
     return revolutions / (rotation * SECONDS_PER_HOUR)
 
@@ -149,7 +149,7 @@ def system_life_hours(lives: Sequence[float], *, weibull_slopes: Sequence[float]
     >>> round(system_life_hours([50e3, 50e3], weibull_slopes=[10 / 9, 10 / 9]))
     26794
     """
-    require(len(lives) > 0, "lives", list(lives), "at least one bearing is needed")
+    require(len(lives) > 0, "lives", list(lives), "at least one bearing")
     bearings = list(zip(lives, weibull_slopes, strict=True))
     for life, slope in bearings:
         require_positive(lives=life, weibull_slopes=slope)

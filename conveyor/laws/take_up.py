@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
+from conveyor.arguments.limits import require, require_finite, require_not_negative, require_positive
 from conveyor.laws.resistance.resistance_defaults import Default
-from conveyor.require import require, require_finite, require_not_negative, require_positive
 
 LOOP_STRANDS: Final = 2  # [-], strands of belt that pull at the take-up pulley
 TRAVEL_RESERVE: Final = Default(0.2, 0.1, 0.3, "travel of the take-up kept beyond the computed one", True)
@@ -138,12 +138,12 @@ def mean_tension(tensions: Sequence[float], *, lengths: Sequence[float]) -> floa
     15000.0
     """
     ok = len(lengths) == len(tensions)
-    require(ok, "lengths", list(lengths), f"one for each of {len(tensions)} sections is needed")
+    require(ok, "lengths", list(lengths), f"one for each of {len(tensions)} sections")
     for tension, length in zip(tensions, lengths, strict=True):
         require_finite(tensions=tension)
         require_not_negative(lengths=length)
     whole = math.fsum(lengths)
-    require(whole > 0.0, "lengths", list(lengths), "a loop longer than 0 is needed")
+    require(whole > 0.0, "lengths", list(lengths), "a loop longer than 0")
     return math.fsum(t * length for t, length in zip(tensions, lengths, strict=True)) / whole
 
 
@@ -244,7 +244,7 @@ def take_up_travel(
     require_positive(stiffness=stiffness, loop_length=loop_length, strands=strands)
     require_not_negative(permanent_stretch=permanent_stretch, thermal_strain=thermal_strain, reserve=reserve)
     ordered = extreme[0] <= steady[0] <= steady[1] <= extreme[1] < math.inf
-    require(ordered, "extreme", list(extreme), f"a band that holds {list(steady)} is needed")
+    require(ordered, "extreme", list(extreme), f"a band that holds {list(steady)}")
     moved = loop_length / strands
     parts = (
         moved * extreme[0] / stiffness,

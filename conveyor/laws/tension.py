@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final, Literal
 
-from conveyor.require import require, require_not_negative, require_positive
+from conveyor.arguments.limits import require, require_not_negative, require_positive
 
 Carcass = Literal["polyamide", "EP", "steel cord"]
 
@@ -31,8 +31,8 @@ who finds them conservatively high."""
 
 
 def _require_drive(friction: float, wrap_angle: float) -> None:
-    require(0.0 < friction <= LARGEST_FRICTION, "friction", friction, "above 0 and at most 2 is needed")
-    require(0.0 < wrap_angle <= LARGEST_WRAP, "wrap_angle", wrap_angle, "above 0 and at most 8 pi rad is needed")
+    require(0.0 < friction <= LARGEST_FRICTION, "friction", friction, "> 0 and <= 2")
+    require(0.0 < wrap_angle <= LARGEST_WRAP, "wrap_angle", wrap_angle, "> 0 and <= 8 pi rad")
 
 
 def grip_tension(drive_force: float, *, friction: float, wrap_angle: float) -> float:
@@ -62,7 +62,7 @@ def grip_tension(drive_force: float, *, friction: float, wrap_angle: float) -> f
     >>> round(grip_tension(13232.32, friction=0.3, wrap_angle=math.pi), 2)
     8447.96
     """
-    require(math.isfinite(drive_force), "drive_force", drive_force, "a finite number is needed")
+    require(math.isfinite(drive_force), "drive_force", drive_force, "finite")
     _require_drive(friction, wrap_angle)
     return abs(drive_force) / math.expm1(friction * wrap_angle)
 
@@ -131,7 +131,7 @@ def governing_tension(minima: Mapping[str, float]) -> tuple[str, float]:
     >>> governing_tension({"grip": 8448.0, "sag carry": 22005.0, "sag return": 3024.0})
     ('sag carry', 22005.0)
     """
-    require(len(minima) > 0, "minima", dict(minima), "at least one condition is needed")
+    require(len(minima) > 0, "minima", dict(minima), "at least one condition")
     require_not_negative(**minima)
     name = max(minima, key=lambda condition: minima[condition])
     return name, minima[name]
@@ -199,7 +199,7 @@ def drive_tensions(
     >>> round(t.tight, 2), round(t.slack, 2), t.governed_by
     (21680.28, 8447.96, 'grip')
     """
-    require(1.0 <= start_factor < math.inf, "start_factor", start_factor, "at least 1 is needed")
+    require(1.0 <= start_factor < math.inf, "start_factor", start_factor, ">= 1")
     grip = grip_tension(start_factor * drive_force, friction=friction, wrap_angle=wrap_angle)
     governed_by, slack = governing_tension({"grip": grip, "sag": slack_for_sag})
     return DriveSideTensions(tight=slack + start_factor * abs(drive_force), slack=slack, governed_by=governed_by)
@@ -231,7 +231,7 @@ def least_pulley_diameter(carcass_thickness: float, *, carcass: Carcass) -> floa
     0.54
     """
     require_positive(carcass_thickness=carcass_thickness)
-    require(carcass in PULLEY_FACTOR, "carcass", carcass, f"one of {', '.join(PULLEY_FACTOR)} is needed")
+    require(carcass in PULLEY_FACTOR, "carcass", carcass, ", ".join(PULLEY_FACTOR))
     return PULLEY_FACTOR[carcass] * carcass_thickness
 
 

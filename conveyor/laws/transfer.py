@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import Final
 
+from conveyor.arguments.limits import require, require_not_negative, require_positive
 from conveyor.laws.resistance import Default
-from conveyor.require import require, require_not_negative, require_positive
 
 SKIRT_SECONDS: Final = Default(1.2, 1.2, 1.8, "CEMA: 2 ft of skirtboard for every 100 fpm of belt speed", True)  # [s]
 SKIRT_LEAST: Final = Default(0.9144, 0.9144, 0.9144, "CEMA: no less than 3 ft", True)  # [m]
@@ -206,6 +206,6 @@ def carryback(on_belt: float, *, efficiency: float, count: int) -> float:
     0.02
     """
     require_not_negative(on_belt=on_belt)
-    require(0.0 <= efficiency <= 1.0, "efficiency", efficiency, "0 to 1 is needed")
-    require(count >= 0, "count", count, "at least 0 is needed")
+    require(0.0 <= efficiency <= 1.0, "efficiency", efficiency, ">= 0 and <= 1")
+    require(count >= 0, "count", count, ">= 0")
     return float(on_belt * (1.0 - efficiency) ** count)

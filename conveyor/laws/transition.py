@@ -12,8 +12,8 @@ import math
 from dataclasses import dataclass
 from typing import Final
 
+from conveyor.arguments.limits import require, require_positive
 from conveyor.laws.loading import NO_WING, Wing, wing_pieces
-from conveyor.require import require, require_positive
 
 EDGE_OVER_RATED: Final = 1.3
 """Tension of the edges over the belt's rated one, at most [-]; ISO 5293."""
@@ -89,7 +89,7 @@ def transition_stretch(
     >>> round(full.edge, 5), round(full.middle, 5), round(half.edge, 5), round(half.middle, 5)
     (0.02251, -0.00643, 0.00496, 0.00234)
     """
-    require(0.0 <= pulley_height <= 1.0, "pulley_height", pulley_height, "0 to 1 is needed")
+    require(0.0 <= pulley_height <= 1.0, "pulley_height", pulley_height, ">= 0 and <= 1")
     pieces = wing_pieces(
         belt_width, middle_roll_length=middle_roll_length, trough_angle=trough_angle, inner_wing=inner_wing
     )
@@ -140,9 +140,9 @@ def transition_length(
     >>> transition_length(100e3, stretch=0.02, stiffness_per_width=72e6, limit_per_width=140e3)
     6.0
     """
-    require(0.0 <= tension_per_width < math.inf, "tension_per_width", tension_per_width, "at least 0 is needed")
+    require(0.0 <= tension_per_width < math.inf, "tension_per_width", tension_per_width, ">= 0")
     require_positive(stiffness_per_width=stiffness_per_width)
-    require(math.isfinite(limit_per_width), "limit_per_width", limit_per_width, "a finite number is needed")
+    require(math.isfinite(limit_per_width), "limit_per_width", limit_per_width, "finite")
     if stretch == 0.0:
         return 0.0
     room = (limit_per_width - tension_per_width) * math.copysign(1.0, stretch)

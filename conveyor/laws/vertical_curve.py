@@ -9,13 +9,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from conveyor.laws.loading import NO_WING, Wing, wing_pieces
-from conveyor.require import (
+from conveyor.arguments.limits import (
     require,
     require_not_negative,
     require_positive,
     require_slope,
 )
+from conveyor.laws.loading import NO_WING, Wing, wing_pieces
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,7 +168,7 @@ def overstress_radius(
         ok,
         "allowed_per_width",
         allowed_per_width,
-        f"more than the mean {tension_per_width:.6g} N/m is needed",
+        f"> {tension_per_width:.6g} N/m, the mean",
     )
     return stiffness_per_width * distance / (allowed_per_width - tension_per_width)
 
@@ -208,5 +208,5 @@ def buckling_radius(
     require_not_negative(least_per_width=least_per_width, distance=distance)
     require_positive(stiffness_per_width=stiffness_per_width)
     ok = least_per_width < tension_per_width < math.inf
-    require(ok, "tension_per_width", tension_per_width, f"more than the least {least_per_width:.6g} N/m is needed")
+    require(ok, "tension_per_width", tension_per_width, f"> {least_per_width:.6g} N/m, the least")
     return stiffness_per_width * distance / (tension_per_width - least_per_width)

@@ -12,8 +12,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from conveyor.arguments.limits import require, require_positive, require_slope
 from conveyor.laws.resistance.resistance_defaults import Default
-from conveyor.require import require, require_positive, require_slope
 
 BELT_RETARDATION: Final = Default(
     0.1,
@@ -142,7 +142,7 @@ def ramp_speed(share: ArrayLike, *, shape: str) -> NDArray[np.float64]:
         "cosine": 0.5 * (1.0 - np.cos(np.pi * x)),
         "S": np.where(x < 0.5, 2.0 * x**2, 1.0 - 2.0 * (1.0 - x) ** 2),
     }
-    require(shape in made, "shape", shape, "linear, cosine or S is needed")
+    require(shape in made, "shape", shape, "linear, cosine, S")
     return np.asarray(made[shape], dtype=float)
 
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 import math
 from typing import Final
 
+from conveyor.arguments.limits import require_not_negative, require_positive, require_slope
 from conveyor.laws.resistance.resistance_defaults import Default
-from conveyor.require import require_not_negative, require_positive, require_slope
 
 WIND_DRAG: Final = Default(1.3, 1.0, 2.0, "drag coefficient of the belt's trough across the wind", True)
 """[-]"""

@@ -23,8 +23,8 @@ from conveyor.indentation import (
     merge_equal_contacts,
     to_problems,
 )
+from conveyor.indentation.softening import loss_weighted_load
 from conveyor.laws.loading import RollLoad
-from conveyor.laws.softening import loss_weighted_load
 from conveyor.line.covers import Covers, roll_contact
 from conveyor.line.line import Line
 from conveyor.line.roll_kinds import RollKind

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from conveyor.errors import NoSolutionError, RangeError
 from conveyor.indentation import Backing, RollContact, Support, resolved_relaxation_times
-from conveyor.laws.softening import (
+from conveyor.indentation.softening import (
     SoftCover,
     SofteningCover,
     WorkingStrain,

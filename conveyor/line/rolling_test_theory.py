@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from conveyor.errors import InputError, MessageQuantity, NoSolutionError, RangeError
 from conveyor.indentation import RollContact, coarsen_rubber, indentation_resistances
-from conveyor.laws.softening import COARSE_SAMPLING, SoftCover, SofteningCover, soften_covers
+from conveyor.indentation.softening import COARSE_SAMPLING, SoftCover, SofteningCover, soften_covers
 from conveyor.line.covers import TERM_MERGE_SHARE
 from conveyor.models import RubberCompound
 from conveyor.models.rolling_tests import RollingPoints

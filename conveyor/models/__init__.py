@@ -9,13 +9,14 @@ from conveyor.models.conveyor import Conveyor
 from conveyor.models.drive import Drive, DrivePulley, FurtherDrive
 from conveyor.models.drive_train import DrivePart
 from conveyor.models.idlers import Idlers, IdlerSet
+from conveyor.models.loop_parts import Pulley, TakeUp
 from conveyor.models.material import BulkMaterial
 from conveyor.models.motor_starter import Starter
 from conveyor.models.operation import DutyEntry, EmissionFactor, EnergyPrice, Operation
 from conveyor.models.parts import Ambient, Calculation
 from conveyor.models.report import Report
 from conveyor.models.rolls import Roll
-from conveyor.models.route import Cleaner, Feeding, Pulley, Route, Section, TakeUp
+from conveyor.models.route import Cleaner, Feeding, Route, Section
 from conveyor.models.rubber_data import (
     ArrheniusShift,
     Band,

@@ -12,9 +12,11 @@ from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler, Validati
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
+from conveyor.arguments.limits import require_number
 from conveyor.errors import InputError, MessageQuantity, RangeError
 from conveyor.models.base import Model, Name, Number, Problem, raise_problems
+from conveyor.models.compound_data import prony_data, shift_data, strain_data, temperature_quantity
 from conveyor.models.rolling_tests import RollingTest
 from conveyor.models.rubber_data import (
     AbsoluteTemperature,
@@ -26,16 +28,7 @@ from conveyor.models.rubber_data import (
     StrainDependence,
     TableShift,
 )
-from conveyor.require import require_number
-from conveyor.units import (
-    Bounds,
-    Density,
-    Quantity,
-    from_si,
-    quantity,
-    si,
-    text,
-)
+from conveyor.units import Bounds, Density, Quantity, from_si, si, text
 from conveyor.units.presentation import format_figure
 
 if TYPE_CHECKING:
@@ -190,7 +183,7 @@ class RubberCompound(Model):
         ... )
         RubberCompound("mine": illustrative, 2 terms at 20 degC, equilibrium modulus 4 MPa, shift wlf)
         """
-        at = _temperature_quantity(reference_temperature)
+        at = temperature_quantity(reference_temperature)
         if shift is not None and not math.isclose(shift.reference, si(at), rel_tol=CONVERSION_ROUNDING):
             raise InputError(
                 "shift: its reference is {}, that of the series {}; give both at one temperature",
@@ -214,15 +207,15 @@ class RubberCompound(Model):
                 "poisson_ratio": poisson_ratio,
                 "density": None if density is None else from_si(density, "density"),
                 "reference_temperature": at,
-                "prony": _prony_data(series),
-                "shift": _shift_data(shift, log10_b_T),
+                "prony": prony_data(series),
+                "shift": shift_data(shift, log10_b_T),
                 "range": None
                 if frequencies is None or temperatures is None
                 else {
                     "frequency": [from_si(limit, "frequency", "Hz") for limit in frequencies],
-                    "temperature": list(map(_temperature_quantity, temperatures)),
+                    "temperature": list(map(temperature_quantity, temperatures)),
                 },
-                "strain_dependence": None if strain is None else _strain_data(strain),
+                "strain_dependence": None if strain is None else strain_data(strain),
                 "missing": [what for what, known in unknown.items() if known is None],
             }
         )
@@ -365,7 +358,7 @@ class RubberCompound(Model):
         return tuple(
             self.replace(
                 shift=shift,
-                prony=_prony_data(series),
+                prony=prony_data(series),
             )
             for series, shift in zip(self._reference_replicas(), self._replica_shifts(), strict=True)
         )
@@ -409,64 +402,6 @@ class RubberCompound(Model):
             return series
         b_T = shift.vertical(temperature) if isinstance(shift, TableShift) else 1.0
         return shift_series(series, shift.at(self.reference), temperature, b_T=b_T)
-
-
-def _temperature_quantity(given: float | str | Quantity) -> Quantity:
-    """Temperature as a quantity; a plain number is in kelvin."""
-    return from_si(given, "temperature", "K") if isinstance(given, int | float) else quantity(given, "temperature")
-
-
-def _prony_data(series: PronySeries) -> dict[str, Any]:
-    """Compound-file data of a series."""
-    return {
-        "equilibrium": from_si(series.equilibrium, "pressure", "Pa"),
-        "terms": [
-            {"modulus": from_si(modulus, "pressure", "Pa"), "time": from_si(time, "time", "s")}
-            for modulus, time in zip(series.moduli.tolist(), series.times.tolist(), strict=True)
-        ],
-    }
-
-
-def _shift_data(
-    law: WLF | Arrhenius | ShiftTable | None, log10_b_T: Sequence[float] | NDArray[np.float64] | None
-) -> dict[str, Any] | None:
-    """Compound-file data of a shift law."""
-    from conveyor.rubber import WLF, ShiftTable
-
-    if isinstance(law, ShiftTable):
-        vertical = None if log10_b_T is None else list(map(float, log10_b_T))
-        return {
-            "law": "table",
-            "temperature": list(map(_temperature_quantity, law.temperatures.tolist())),
-            "log10_aT": law.log10_factors.tolist(),
-            "log10_bT": vertical,
-        }
-    if log10_b_T is not None:
-        raise InputError("log10_b_T: belongs to the temperatures of a ShiftTable; give one as shift, or leave it out")
-    if law is None:
-        return None
-    if isinstance(law, WLF):
-        return {"law": "wlf", "c1": law.c1, "c2": quantity(f"{float(law.c2)!r} K", "temperature difference")}
-    energy = from_si(law.activation_energy, "molar energy", "J/mol")
-    return {"law": "arrhenius", "activation_energy": energy}
-
-
-def _strain_data(factors: AmplitudeFactors) -> dict[str, Any]:
-    """Compound-file data of strain factors."""
-    return {
-        "reference_strain": from_si(factors.reference_strain, "fraction"),
-        "sweeps": [
-            {
-                "temperature": _temperature_quantity(sweep.temperature),
-                "frequency": from_si(sweep.frequency, "frequency", "Hz"),
-                "strain": (100.0 * sweep.strain).tolist(),
-                "unit": "Pa",
-                "storage": sweep.storage.tolist(),
-                "loss": sweep.loss.tolist(),
-            }
-            for sweep in factors.sweeps
-        ],
-    }
 
 
 def _temperature_amount(temperature: float) -> MessageQuantity:

@@ -12,8 +12,9 @@ from pydantic import ConfigDict, Field, model_validator
 from conveyor.laws.resistance import FRICTION_FACTOR, FRICTION_FACTOR_DOWNHILL
 from conveyor.models.base import Model, Name, Number, Problem, Switch, raise_problems
 from conveyor.models.drive_train import PRODUCT_TOLERANCE, DrivePart, train_efficiency, with_efficiency
+from conveyor.models.loop_parts import Position, position_problem
 from conveyor.models.motor_starter import Starter
-from conveyor.models.route import SHARE_SUM_TOLERANCE, Position, position_problem
+from conveyor.models.route import SHARE_SUM_TOLERANCE
 from conveyor.units import (
     Acceleration,
     Angle,

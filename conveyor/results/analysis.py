@@ -13,13 +13,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 
 from conveyor import studies as study
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
 from conveyor.assessment import Assessment
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks import Check
 from conveyor.models import Conveyor
 from conveyor.pipeline import calculate
-from conveyor.remarks import analysis_warnings
+from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.studies import duty as duty_study
 from conveyor.studies import input_ranges as range_study
 from conveyor.studies import load_cases as case_study

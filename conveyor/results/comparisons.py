@@ -11,7 +11,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
 from conveyor.measured.run_table import read_runs
 from conveyor.models import Conveyor, MeasuredRun, RubberCompound
 from conveyor.models.variants import CoverChoice

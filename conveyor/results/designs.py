@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from conveyor import shelf, sizing
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
 from conveyor.models import Conveyor
 from conveyor.models.sizing import SizingDuty
 from conveyor.models.study import StudyPlan

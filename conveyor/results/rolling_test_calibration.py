@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
 from conveyor.errors import InputError
 from conveyor.line.rolling_test_theory import (
     RollingTestRow,

@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from conveyor.arguments.arrays import FloatArray, non_negative_array, positive_vector
+from conveyor.arguments.limits import require, require_count
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.rubber.arrays import FloatArray, positive_vector
 from conveyor.rubber.fit import PronyFit
 from conveyor.rubber.prony import PronySeries
 from conveyor.rubber.shift import ShiftLaw
@@ -82,10 +83,7 @@ class ReplicaBand:
                 f"moduli must have one row per replica and one column per time, shape"
                 f" ({equilibrium.size}, {times.size}); got {moduli.shape}"
             )
-        bad = np.argwhere(~(np.isfinite(moduli) & (moduli >= 0.0)))
-        if bad.size:
-            r, i = (int(k) for k in bad[0])
-            raise InputError(f"moduli[{r}][{i}] = {moduli[r, i]:g} Pa must be finite and >= 0")
+        moduli = non_negative_array("moduli", moduli, "Pa")
         if np.any(np.diff(times) <= 0.0):
             raise InputError("times of a band must ascend and be distinct")
         for name, array in (("times", times), ("equilibrium", equilibrium), ("moduli", moduli)):
@@ -125,8 +123,7 @@ class ReplicaBand:
         InputError
             If `level` is not between 0 and 1.
         """
-        if not 0.0 < level < 1.0:
-            raise InputError(f"level = {level:g} must be > 0 and < 1")
+        require(0.0 < level < 1.0, "level", level, "> 0 and < 1")
         tail = 0.5 * (1.0 - level)
         curves = [of(one) for one in self.series()]
         low, high = np.quantile(curves, (tail, 1.0 - tail), axis=0, method="weibull")
@@ -222,8 +219,7 @@ def bootstrap(
     >>> bool(low[0] < truth.loss(1e3) < high[0])
     True
     """
-    if replicas < 1:
-        raise InputError(f"replicas = {replicas} must be >= 1")
+    require_count(1, replicas=replicas)
     series, rows = fit.series, fit.rows
     times = series.times
     problem = PenalisedFit(rows, times, fit.held)

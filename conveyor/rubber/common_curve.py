@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from conveyor.rubber.arrays import FloatArray
+from conveyor.arguments.arrays import FloatArray
 
 SPLINE_DEGREE = 3
 """Cubic: continuous curvature, so that the slope, which places an isotherm, is smooth."""

@@ -9,8 +9,8 @@ from typing import TypeAlias
 
 import numpy as np
 
+from conveyor.arguments.arrays import FloatArray, positive_number
 from conveyor.errors import NoSolutionError, RangeError
-from conveyor.rubber.arrays import FloatArray, positive_number
 from conveyor.rubber.prony import PronySeries
 from conveyor.rubber.strain import AmplitudeFactors
 

@@ -8,8 +8,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from conveyor.errors import InputError, NoSolutionError
-from conveyor.rubber.arrays import FloatArray, positive_number
+from conveyor.arguments.arrays import FloatArray, positive_number
+from conveyor.arguments.limits import require, require_not_negative
+from conveyor.errors import NoSolutionError
 from conveyor.rubber.fit_rows import (
     NO_TERM,
     FitRows,
@@ -279,14 +280,12 @@ def _chosen_times(
 
 
 def _penalty_strength(regularisation: float) -> float:
-    if not (np.isfinite(regularisation) and regularisation >= 0.0):
-        raise InputError(f"regularisation = {regularisation:g} must be finite and >= 0; 0 is none")
+    require_not_negative(regularisation=regularisation)
     return float(regularisation)
 
 
 def _error_reference(relative_to: str | None, *, chosen: bool) -> str:
-    if relative_to not in {"fit", "data", None}:
-        raise InputError(f'relative_to = {relative_to!r} must be "fit" or "data"')
+    require(relative_to in {"fit", "data", None}, "relative_to", relative_to, "fit, data")
     return relative_to or ("fit" if chosen else "data")
 
 

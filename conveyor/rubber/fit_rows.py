@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from conveyor.arguments.arrays import FloatArray, positive_number, positive_vector
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.rubber.arrays import FloatArray, positive_number, positive_vector
 from conveyor.rubber.misfit import hampel_weights
 from conveyor.rubber.non_negative import non_negative_least_squares
 
@@ -85,9 +85,9 @@ def checked_rows(
     for name, a in arrays.items():
         bad = np.flatnonzero(~(np.isfinite(a) & (a > 0.0)))
         if bad.size:
-            row = int(bad[0])
+            row, unit = int(bad[0]), columns[name][1]
             where = f"row {row + 1}" if name == "frequency" else f"row {row + 1} (frequency {f[row]:g} Hz)"
-            raise InputError(f"{where}: {name} = {a[row]:g} {columns[name][1]} must be finite and > 0")
+            raise InputError(f"{where}: {name}: got {a[row]:g} {unit}, allowed: > 0 {unit} and finite")
     if np.unique(f).size < 2:
         raise InputError(f"a fit needs at least 2 distinct frequencies; got {np.unique(f).size}")
     order = np.argsort(f, kind="stable")
@@ -116,7 +116,9 @@ def held_equilibrium(equilibrium: float, storage: FloatArray) -> float:
     """Equilibrium modulus to hold [Pa], refused unless below every E'."""
     value = positive_number("equilibrium", equilibrium, "Pa")
     if value >= storage.min():
-        raise InputError(f"equilibrium = {value:g} Pa must be below the smallest storage modulus, {storage.min():g} Pa")
+        raise InputError(
+            f"equilibrium: got {value:g} Pa, allowed: < {storage.min():g} Pa, the smallest storage modulus"
+        )
     return value
 
 

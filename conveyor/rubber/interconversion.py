@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from conveyor.arguments.arrays import FloatArray, positive_vector
 from conveyor.errors import InputError
-from conveyor.rubber.arrays import FloatArray, positive_vector
 from conveyor.rubber.fit_rows import FitRows, debye_kernel, even_times
 from conveyor.rubber.non_negative import non_negative_least_squares
 from conveyor.rubber.term_count import PenalisedFit, choose_terms

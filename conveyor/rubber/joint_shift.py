@@ -8,8 +8,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.arguments.arrays import FloatArray
 from conveyor.errors import NoSolutionError
-from conveyor.rubber.arrays import FloatArray
 from conveyor.rubber.common_curve import (
     KNOT_SPACING,
     MAX_KNOTS,

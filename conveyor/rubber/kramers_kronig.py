@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from conveyor.arguments.arrays import FloatArray
 from conveyor.errors import InputError
-from conveyor.rubber.arrays import FloatArray
 from conveyor.rubber.fit_rows import FitRows, checked_rows, debye_kernel, even_times
 from conveyor.rubber.misfit import Misfit, relative_misfit
 from conveyor.rubber.term_count import PenalisedFit, aicc

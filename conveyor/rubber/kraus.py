@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
-from conveyor.rubber.arrays import FloatArray
+from conveyor.arguments.arrays import FloatArray
 from conveyor.rubber.non_negative import non_negative_least_squares
 from conveyor.rubber.strain import StrainSweep
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from conveyor.rubber.arrays import FloatArray
+from conveyor.arguments.arrays import FloatArray
 
 MAD_TO_SIGMA = 1.4826
 """Standard deviation of a normal distribution over its median absolute deviation [-]."""

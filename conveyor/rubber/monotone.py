@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from conveyor.rubber.arrays import FloatArray
+from conveyor.arguments.arrays import FloatArray
 
 
 class MonotoneCubic:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from conveyor.rubber.arrays import FloatArray
+from conveyor.arguments.arrays import FloatArray
 
 ROUNDING = float(np.finfo(np.float64).eps)
 SLOPE_SLACK = 10.0

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from conveyor.arguments.arrays import FloatArray
 from conveyor.errors import InputError
-from conveyor.rubber.arrays import FloatArray
 from conveyor.rubber.shift import celsius_in_message
 
 GUESS_STEP = 0.05

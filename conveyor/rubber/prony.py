@@ -9,12 +9,12 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from conveyor.rubber.arrays import (
+from conveyor.arguments.arrays import (
     ComplexArray,
     FloatArray,
-    checked_spectrum,
     non_negative_array,
     positive_number,
+    sorted_spectrum,
 )
 from conveyor.rubber.spectrum_inversion import invert_spectrum
 
@@ -83,7 +83,7 @@ class PronySeries:
 
     def __post_init__(self) -> None:
         """Check, copy, sort, freeze."""
-        moduli, times = checked_spectrum("moduli", self.moduli, "Pa", self.times)
+        moduli, times = sorted_spectrum("moduli", self.moduli, "Pa", self.times)
         object.__setattr__(self, "equilibrium", positive_number("equilibrium", self.equilibrium, "Pa", _FLUID_ADVICE))
         object.__setattr__(self, "moduli", moduli)
         object.__setattr__(self, "times", times)
@@ -288,7 +288,7 @@ class CreepSeries:
 
     def __post_init__(self) -> None:
         """Check, copy, sort, freeze."""
-        compliances, times = checked_spectrum("compliances", self.compliances, "1/Pa", self.times)
+        compliances, times = sorted_spectrum("compliances", self.compliances, "1/Pa", self.times)
         object.__setattr__(self, "instantaneous", positive_number("instantaneous", self.instantaneous, "1/Pa"))
         object.__setattr__(self, "compliances", compliances)
         object.__setattr__(self, "times", times)

@@ -17,8 +17,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from conveyor.arguments.arrays import FloatArray, positive_vector
+from conveyor.arguments.limits import require, require_not_negative
 from conveyor.errors import InputError
-from conveyor.rubber.arrays import FloatArray, positive_vector
 
 UNTESTED_FACTOR: Final = 2.5
 """Published tests of low-resistance covers (CEMA-7, DIN 22123) lie 2 to 2.5 times above the theory with small-strain
@@ -156,10 +157,8 @@ def fit_test_factor(
     y = np.log(positive_vector("ratio", ratio, "-"))
     if not w.size == at.size == y.size > 0:
         raise InputError(f"line_load, temperature, ratio: one length of at least 1, got {w.size}, {at.size}, {y.size}")
-    if not 0.0 <= uncertainty < math.inf:
-        raise InputError(f"uncertainty = {uncertainty!r}: a finite number of at least 0 is needed")
-    if not 0.0 <= shared <= uncertainty:
-        raise InputError(f"shared = {shared!r}: at least 0 and at most uncertainty = {uncertainty!r} is needed")
+    require_not_negative(uncertainty=uncertainty)
+    require(0.0 <= shared <= uncertainty, "shared", shared, f">= 0 and <= uncertainty = {uncertainty!r}")
     levels = _temperature_numbers(at)
     middle = float(np.exp(np.mean(np.log(w))))
     low, high = float(w.min()), float(w.max())

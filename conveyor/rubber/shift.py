@@ -9,8 +9,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
+from conveyor.arguments.arrays import FloatArray, finite_vector, positive_number, positive_vector, require_all
 from conveyor.errors import InputError, MessageQuantity, RangeError
-from conveyor.rubber.arrays import FloatArray, finite_vector, positive_number, positive_vector
 from conveyor.rubber.monotone import MonotoneCubic
 from conveyor.rubber.prony import PronySeries
 
@@ -32,9 +32,8 @@ def celsius_in_message(temperature: float) -> MessageQuantity:
 def _check_kelvin(temperature: ArrayLike) -> FloatArray:
     """Refuse a temperature [K] that is not finite and > 0."""
     array = np.asarray(temperature, dtype=np.float64)
-    bad = array[~(np.isfinite(array) & (array > 0.0))]
-    if bad.size:
-        raise InputError(f"temperature = {bad.flat[0]:g} K must be finite and > 0 K (this floor counts in kelvin)")
+    ok = np.isfinite(array) & (array > 0.0)
+    require_all(ok, "temperature", array, unit="K", limit="> 0", advice=" (this floor counts in kelvin)")
     return array
 
 

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from conveyor.errors import InputError, NoSolutionError
-from conveyor.rubber.arrays import (
+from conveyor.arguments.arrays import (
     FloatArray,
     finite_vector,
     non_negative_array,
     positive_number,
     positive_vector,
 )
+from conveyor.errors import InputError, NoSolutionError
 from conveyor.rubber.shift import GAS_CONSTANT, WLF, Arrhenius
 
 POLE_DISTANCE = (0.1, 1.0e4)
@@ -177,7 +177,7 @@ def _shift_weights(x: FloatArray, error: ArrayLike | None) -> FloatArray:
     if sigma.shape != x.shape:
         raise InputError(f"error must hold one standard uncertainty per shift, shape {x.shape}; got {sigma.shape}")
     if np.any(sigma[away] == 0.0):
-        raise InputError("error must be > 0 decades except at the reference: 0 would be an exact measurement")
+        raise InputError("error: got 0 decades, allowed: > 0 decades except at the reference (0 is exact)")
     weight = np.zeros_like(x)
     weight[away] = np.square(sigma[away].min() / sigma[away])
     return weight

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from conveyor.errors import InputError, NoSolutionError, RangeError
-from conveyor.rubber.arrays import (
+from conveyor.arguments.arrays import (
     FloatArray,
     finite_vector,
     non_negative_array,
     positive_number,
     positive_vector,
 )
+from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.rubber.shift import WLF, Arrhenius, ShiftLaw, ShiftTable
 from conveyor.rubber.shift_fit import fit_arrhenius, fit_wlf
 
@@ -171,7 +171,7 @@ def _check_shifts(
         if sigma.shape != t.shape:
             raise InputError(f"error must hold one uncertainty per shift, shape {t.shape}; got {sigma.shape}")
         if np.any(sigma[t != t_ref] == 0.0):
-            raise InputError("error must be > 0 decades except at the reference: 0 would be an exact measurement")
+            raise InputError("error: got 0 decades, allowed: > 0 decades except at the reference (0 is exact)")
         sigma = sigma[order]
         away = t[order] != t_ref
         weight = np.zeros_like(t)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from conveyor.arguments.arrays import FloatArray
 from conveyor.errors import NoSolutionError
-from conveyor.rubber.arrays import FloatArray
 
 MAX_ITERATIONS = 100
 """Quadratic convergence: 5-12 steps are usual, 23 the most seen in 20 000 random spectra."""

@@ -12,8 +12,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from conveyor.arguments.arrays import FloatArray, positive_number, positive_vector
+from conveyor.arguments.limits import require
 from conveyor.errors import InputError, MessageQuantity, RangeError
-from conveyor.rubber.arrays import FloatArray, positive_number, positive_vector
 from conveyor.rubber.monotone import MonotoneCubic
 
 SAME_TEMPERATURE = 0.5
@@ -179,8 +180,7 @@ class AmplitudeFactors:
         """Check and freeze; evaluate the sweeps, so that a bad reference strain is refused here."""
         object.__setattr__(self, "sweeps", tuple(sorted(self.sweeps, key=lambda s: s.temperature)))
         object.__setattr__(self, "reference_strain", positive_number("reference_strain", self.reference_strain, "-"))
-        if not self.sweeps:
-            raise InputError("sweeps: at least one strain sweep is needed")
+        require(bool(self.sweeps), "sweeps", self.sweeps, "at least one strain sweep")
         _ = self._runs
 
     @cached_property

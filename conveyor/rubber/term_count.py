@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from conveyor.arguments.arrays import FloatArray
 from conveyor.errors import InputError
-from conveyor.rubber.arrays import FloatArray
 from conveyor.rubber.fit_rows import ZERO_MODULUS, FitRows, even_times
 from conveyor.rubber.non_negative import non_negative_least_squares
 

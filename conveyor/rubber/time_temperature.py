@@ -10,8 +10,8 @@ from typing import Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.arguments.arrays import FloatArray, positive_number, positive_vector
 from conveyor.errors import InputError, NoSolutionError, RangeError
-from conveyor.rubber.arrays import FloatArray, positive_number, positive_vector
 from conveyor.rubber.joint_shift import LONGEST_STEP, JointMinimum, JointShift
 from conveyor.rubber.misfit import hampel_weights
 from conveyor.rubber.overlap import LogIsotherm, Overlap, first_guess, measure_overlap, modulus_differences

@@ -24,7 +24,8 @@ from conveyor.laws.resistance.resistance_defaults import CLEANER_PRESSURE
 from conveyor.laws.roll_life import BALL_EXPONENT, RATED_REVOLUTIONS
 from conveyor.models.belt import RUBBER_DENSITY
 from conveyor.models.sizing import DriveLayout
-from conveyor.sizing.sizing_task import DesignChoice, RollSize, SizingTask, TroughSize, drive_powers
+from conveyor.sizing.design_choice import DesignChoice, RollSize, TroughSize
+from conveyor.sizing.sizing_task import SizingTask, drive_powers
 from conveyor.studies.costs import Parts, conveyor_costs
 
 Array = NDArray[np.float64]

@@ -6,9 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
 
-from conveyor.sizing.design_search import size_parts
+from conveyor.sizing.design_choice import DesignChoice, RollSize, TroughSize
+from conveyor.sizing.part_sizing import size_parts
 from conveyor.sizing.sized_design import Shortfall, SizedDesign
-from conveyor.sizing.sizing_task import DesignChoice, RollSize, SizingTask, TroughSize
+from conveyor.sizing.sizing_task import SizingTask
 
 _Point: TypeAlias = tuple[float, "DesignChoice | None"]
 _COVER_STEPS: Final = (0, 2, 4, 8)  # steps of the bottom cover

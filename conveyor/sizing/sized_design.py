@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.models import Conveyor
+from conveyor.sizing.design_choice import DesignChoice, SelectedParts
 from conveyor.sizing.screen import Limit
-from conveyor.sizing.sizing_task import DesignChoice, SelectedParts
 from conveyor.studies.costs import Costs
 from conveyor.units.presentation import format_figure, format_number
 from conveyor.units.sentences import Message

@@ -6,28 +6,19 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Final, NoReturn
+from typing import Final, NoReturn
 
 from conveyor.errors import NoSolutionError, RangeError
 from conveyor.files import libraries
-from conveyor.laws.belt_strength import (
-    CEMA_PULLEYS,
-    CLASSIC_SAFETY,
-    PULLEY_DIAMETERS,
-    least_cover,
-    next_pulley_diameter,
-    pulley_group_diameter,
-)
+from conveyor.laws.belt_strength import CEMA_PULLEYS, PULLEY_DIAMETERS, next_pulley_diameter, pulley_group_diameter
 from conveyor.laws.energy import MOTOR_SERIES, NEMA_MOTORS, next_motor
 from conveyor.laws.idler_sets import CemaClass, rated_set_load
 from conveyor.laws.loading import cross_section, filled_width, usable_width
 from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
 from conveyor.laws.preliminary_sizing import (
     PULLEY_MASS,
-    carcass_mass,
     least_width_for_lumps,
     recommended_speed,
-    roll_shell_mass,
     standard_edge_distance,
     wear_addition,
 )
@@ -37,8 +28,7 @@ from conveyor.laws.take_up import (
     STEEL_EXPANSION,
     TRAVEL_RESERVE,
 )
-from conveyor.laws.tension import least_pulley_diameter, usual_stiffness
-from conveyor.line.usual_parts import SHAFT_DIAMETER_RATIO, usual_lump_factor
+from conveyor.line.usual_parts import usual_lump_factor
 from conveyor.models import Conveyor
 from conveyor.models.sizing import (
     CarcassRow,
@@ -50,166 +40,12 @@ from conveyor.models.sizing import (
     size_series,
     within_limit,
 )
-from conveyor.units import Quantity, from_si, read_si, si, text
+from conveyor.sizing.design_choice import CarcassClass, DesignChoice, RollSize, TroughSize, WidthSize
+from conveyor.units import Quantity, read_si, si, text
 from conveyor.units.presentation import format_figure
 from conveyor.units.sentences import percent
 
-_BEARING_INSET: Final = 0.02  # [m], middle of a bearing inside the tube's end; general knowledge
 _OVERLAND_LENGTH: Final = 1000.0  # [m], length from which spacings are those of overland belts; general knowledge
-_V_ANGLE: Final = math.radians(10.0)
-
-
-@dataclass(frozen=True)
-class CarcassClass:
-    """A carcass class: kind, strength [N/m], thickness [m]; if listed mass [kg/m²] and rated tension [N/m]."""
-
-    kind: str
-    strength: float
-    thickness: float
-    listed_mass: float | None = None
-    rating: float | None = None
-
-    @property
-    def steel_cord(self) -> bool:
-        """True for steel cords."""
-        return self.kind == "steel cord"
-
-    @property
-    def mass(self) -> float:
-        """Mass per area [kg/m²]."""
-        if self.listed_mass is not None:
-            return self.listed_mass
-        return carcass_mass(self.strength, thickness=self.thickness, steel_cord=self.steel_cord)
-
-    @property
-    def safety(self) -> float:
-        """Strength over the allowed tension in steady running [-]."""
-        if self.rating is not None:
-            return self.strength / self.rating
-        return CLASSIC_SAFETY["steel cord" if self.steel_cord else "textile"]
-
-    @property
-    def stiffness(self) -> float:
-        """Usual tensile stiffness per width [N/m]."""
-        strength = self.strength if self.rating is None else None
-        usual = usual_stiffness(strength, rating=self.rating, carcass=self.kind)
-        if usual is None:
-            raise AssertionError("every kind of the series has a usual stiffness")
-        return usual
-
-    @property
-    def name(self) -> str:
-        """Trade name, such as ST1000."""
-        if self.rating is not None:
-            return f"{from_si(self.rating, 'line force', 'PIW').magnitude:.0f} PIW"
-        return f"{'ST' if self.steel_cord else 'EP'}{self.strength / 1e3:.0f}"
-
-    @property
-    def least_cover(self) -> float:
-        """Least thickness of a cover [m]."""
-        return least_cover(self.thickness, steel_cord=self.steel_cord)
-
-    @property
-    def least_pulley(self) -> float:
-        """Least diameter of a drive pulley [m]."""
-        return least_pulley_diameter(self.thickness, carcass="steel cord" if self.steel_cord else "EP")
-
-
-@dataclass(frozen=True)
-class RollSize:
-    """Rolls of one diameter [m]: wall [m], mass of the ends [kg], bearing rating C [N], CEMA class of their sets."""
-
-    diameter: float
-    wall: float
-    ends: float
-    rating: float
-    cema_class: CemaClass | None = None
-
-    def mass(self, length: float) -> float:
-        """Rotating mass of a roll of a length [kg]."""
-        return roll_shell_mass(self.diameter, wall=self.wall, length=length) + self.ends
-
-
-@dataclass(frozen=True)
-class WidthSize:
-    """A belt width and its roll lengths for sets of one, two and three [m]; `vee`: return sets are Vs of two."""
-
-    belt: float
-    one: float
-    two: float
-    three: float
-    vee: bool
-
-    @property
-    def return_rolls(self) -> tuple[int, float, float]:
-        """Number, length [m] and trough angle [rad] of the rolls of a return set."""
-        return (2, self.two, _V_ANGLE) if self.vee else (1, self.one, 0.0)
-
-
-@dataclass(frozen=True)
-class TroughSize:
-    """A belt width with a trough angle [rad] and its largest bulk cross-section on the steepest section [m²]."""
-
-    width: WidthSize
-    angle: float
-    area: float
-
-
-@dataclass(frozen=True)
-class DesignChoice:
-    """Parts of a candidate design, SI.
-
-    Attributes
-    ----------
-    trough : Trough
-        Width of the belt, and angle of the outer rolls.
-    speed, filling : float
-        Belt speed [m/s] and filling of the cross-section [-].
-    roll : RollSize
-        Rolls of both strands.
-    carry, back : float
-        Spacing of carry and return sets [m].
-    cover : int
-        Index of the compound of the bottom cover.
-    kind : str
-        Kind of carcass.
-    drives : str
-        Drive layout.
-    graduated : tuple of float
-        Spacing of the carry sets of each section [m]; empty where it is `carry`.
-    thicker : float
-        Addition to the least bottom cover [m].
-    """
-
-    trough: TroughSize
-    speed: float
-    filling: float
-    roll: RollSize
-    carry: float
-    back: float
-    cover: int
-    kind: str
-    drives: DriveLayout
-    graduated: tuple[float, ...] = ()
-    thicker: float = 0.0
-
-
-@dataclass(frozen=True)
-class SelectedParts:
-    """Parts selected from a candidate's tensions: carcass, covers [m], motors of each drive [W], brake force [N].
-
-    `backstop`: torque of that on the first pulley [N m]; `take_up`: its tension [N], 0 where grip and sag decide;
-    `settling`: selected from exact tensions already.
-    """
-
-    carcass: CarcassClass
-    top: float
-    bottom: float
-    motors: tuple[float, ...]
-    brake: float
-    backstop: float = 0.0
-    take_up: float = 0.0
-    settling: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -596,62 +432,6 @@ class SizingTask:
         series = CEMA_PULLEYS if self.duty.series == "US" else PULLEY_DIAMETERS
         return next_pulley_diameter(least, series=series) if least <= series[-1] else least
 
-    def spec(self, choice: DesignChoice, chosen: SelectedParts, name: str) -> Conveyor:
-        """The complete spec of a candidate.
-
-        Raises
-        ------
-        InputError
-            The spec is invalid: the duty does not fit the choice.
-        """
-        duty, carcass, written = self.duty, chosen.carcass, self._written
-        drive_diameter, bend_diameter = self.drive_diameter(carcass), self.bend_diameter(carcass)
-        route = duty.sized_route.as_data()
-        for section, spacing in zip(route["sections"], choice.graduated, strict=bool(choice.graduated)):
-            section["carry_spacing"] = written(spacing, "m")
-        route["pulleys"] = [
-            self._pulley(name, place, size, choice.trough.width.belt)
-            for name, place, size in (
-                ("head", "head", drive_diameter),
-                ("take-up", "take-up", bend_diameter),
-                ("tail", "tail", drive_diameter if "tail" in choice.drives else bend_diameter),
-            )
-        ]
-        tension = {"tension": written(chosen.take_up, "kN", 4)} if chosen.take_up > 0.0 else {}
-        route["take_up"] = {"kind": "gravity", **tension}
-        covers = duty.covers
-        return Conveyor.from_data({
-            "name": name,
-            "site": duty.site,
-            "belt": {
-                "width": written(choice.trough.width.belt, "mm"),
-                "speed": written(choice.speed, "m/s"),
-                "top_cover": {"thickness": written(chosen.top, "mm"), "compound": covers[0]},
-                "bottom_cover": {"thickness": written(chosen.bottom, "mm"), "compound": covers[choice.cover]},
-                "carcass": {
-                    "kind": carcass.kind,
-                    **(
-                        {"strength": written(carcass.strength, "N/mm")}
-                        if carcass.rating is None
-                        else {"rating": written(carcass.rating, "PIW")}
-                    ),
-                    "thickness": written(carcass.thickness, "mm"),
-                    "mass": written(carcass.mass, "kg/m^2", 3),
-                },
-                "wear": {
-                    "lump": written(si(duty.lump), "mm"), "abrasiveness": duty.abrasiveness, "loading": duty.loading
-                },
-            },
-            "idlers": self._idlers(choice),
-            "material": duty.material.as_data(),
-            "route": route,
-            "drive": self._drive(choice, chosen),
-            "ambient": duty.ambient.as_data(),
-            "operation": duty.operation.as_data(),
-            "calculation": duty.calculation.as_data(),
-            "report": duty.report.as_data(),
-        })  # fmt: skip
-
     def colder(self, conveyor: Conveyor) -> Conveyor:
         """The conveyor with its covers at the coldest temperature."""
         return conveyor.replace(ambient=conveyor.ambient.replace(belt_temperature=self.duty.coldest))
@@ -660,96 +440,6 @@ class SizingTask:
         """Mass of head, take-up and tail pulley together [kg]."""
         bend = self.bend_diameter(carcass)
         return math.fsum(PULLEY_MASS * size**2 * width for size in (self.drive_diameter(carcass), bend, bend))
-
-    def _written(self, value: float, unit: str, digits: int = 6) -> str:
-        """Value and unit as spec text, in the unit of the series."""
-        own = _US_UNITS.get(unit, unit) if self.duty.series == "US" else unit
-        return f"{float(from_si(value, _UNIT_KINDS[unit], own).magnitude):.{digits}g} {own}"
-
-    def _pulley(self, name: str, place: str, diameter: float, width: float) -> dict[str, Any]:
-        return {
-            "name": name,
-            "position": place,
-            "diameter": self._written(diameter, "mm"),
-            "shaft_diameter": self._written(SHAFT_DIAMETER_RATIO * diameter, "mm"),
-            "mass": self._written(PULLEY_MASS * diameter**2 * width, "kg", 3),
-        }
-
-    def _idlers(self, choice: DesignChoice) -> dict[str, Any]:
-        carry_sag, return_sag = self.sags
-        count, length, angle = choice.trough.width.return_rolls
-        rated = {} if choice.roll.cema_class is None else {"cema_class": choice.roll.cema_class}
-        return {
-            "carry": {
-                "rolls": 3,
-                "spacing": self._written(choice.carry, "m"),
-                "trough_angle": self._written(choice.trough.angle, "deg"),
-                "roll": self._roll(choice.roll, choice.trough.width.three),
-                "sag": f"{100.0 * carry_sag:.6g} %",
-                **rated,
-            },
-            "return": {
-                "rolls": count,
-                "spacing": self._written(choice.back, "m"),
-                "trough_angle": self._written(angle, "deg"),
-                "roll": self._roll(choice.roll, length),
-                "sag": f"{100.0 * return_sag:.6g} %",
-                **rated,
-            },
-        }
-
-    def _drive(self, choice: DesignChoice, chosen: SelectedParts) -> dict[str, Any]:
-        rules, motors = self.rules, chosen.motors
-        one = {"wrap_angle": self._written(si(rules.wrap_angle), "deg"), "friction": rules.friction}
-        brake = {"brake_force": self._written(chosen.brake, "kN", 4)} if chosen.brake > 0.0 else {}
-        if chosen.backstop > 0.0:
-            brake["backstop_torque"] = self._written(chosen.backstop, "kN*m", 4)
-        first = {
-            **one,
-            **brake,
-            "position": "tail" if choice.drives == "tail" else "head",
-            **self._motor_fields(motors[0]),
-            "efficiency": f"{100.0 * self.efficiency:.6g} %",
-            "start_factor": rules.start_factor,
-        }
-        further = []
-        for number, motor in enumerate(motors[1:], start=2):
-            tail = "tail" in choice.drives and number == len(motors)
-            place = {"name": f"drive {number}", "position": "tail" if tail else "head"}
-            further.append({**one, **place, **self._motor_fields(motor)})
-        return {**first, "further_drives": further} if further else first
-
-    def _motor_fields(self, rated: float) -> dict[str, Any]:
-        """Spec fields of a pulley's motors of a total power [W]."""
-        count = self.motor_count(rated)
-        return {"installed_power": self._written(rated, "kW")} | ({"motors": count} if count > 1 else {})
-
-    def _roll(self, roll: RollSize, length: float) -> dict[str, Any]:
-        return {
-            "diameter": self._written(roll.diameter, "mm"),
-            "length": self._written(length, "mm"),
-            "rotating_mass": self._written(roll.mass(length), "kg", 3),
-            "bearing": {
-                "dynamic_rating": self._written(roll.rating, "kN"),
-                "distance": self._written(length - 2.0 * _BEARING_INSET, "mm"),
-            },
-        }
-
-
-_UNIT_KINDS: Final = {"m": "length", "mm": "thickness", "m/s": "speed", "deg": "angle", "kW": "power",
-"N/mm": "line force",
-                 "PIW": "line force", "kN": "force", "kN*m": "torque", "kg": "mass", "kg/m^2": "area mass"}  # fmt: skip
-_US_UNITS: Final = {
-    "m": "ft",
-    "mm": "in",
-    "m/s": "fpm",
-    "kW": "hp",
-    "kN": "lbf",
-    "kN*m": "lbf*ft",
-    "kg": "lb",
-    "kg/m^2": "lb/ft^2",
-}
-"""ST classes keep N/mm in the US."""
 
 
 def _carcass_class(kind: str, row: CarcassRow) -> CarcassClass:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Final
 
 from conveyor import shelf, spec
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
 from conveyor.errors import InputError
 from conveyor.files import output_marks
 from conveyor.files.atomic_write import check_writable, name_write_errors, save_files

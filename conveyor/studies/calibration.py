@@ -9,62 +9,25 @@ Regression Analysis, 2003, chapters 3 and 5).
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from importlib.metadata import version
-from typing import Final
 
-import numpy as np
-from numpy.typing import NDArray
-from scipy.special import chdtrc, stdtrit
-
-from conveyor.arguments import check_arguments
-from conveyor.calculated_conveyor import CalculatedConveyor, NoAnswer, Variant
+from conveyor.arguments.argument_types import check_arguments
 from conveyor.errors import InputError, MessageQuantity, NoSolutionError
-from conveyor.forces import forces_along_belt
-from conveyor.loop.balance import OpenLoop, close_loops, raise_first_error
 from conveyor.models import CALIBRATED_FORCES, Calibration, Conveyor, MeasuredRun
-from conveyor.models.variants import with_runs
 from conveyor.pipeline import ProgressCallback, calculate_many
-from conveyor.rubber.rolling_test_factor import BAND_COVERAGE
-
-Array = NDArray[np.float64]
-Group = tuple[str, ...]
-Grouping = tuple[Group, ...]
-
-TYPICAL_ERROR: Final = 0.02
-"""Relative standard deviation of a measured power assumed until residuals are known: general knowledge (a power meter
-of 0.5 to 1 % and a belt scale of 1 to 2 %)."""
-WIDEST_BAND: Final = 0.25
-"""Widest half band of a factor that is reported: a wider one says less than a guess (general knowledge)."""
-JOINED_SPREAD: Final = 0.2
-"""Standard deviation of joined factors about their mean: general knowledge (friction factors of like conveyors spread
-as much). It enters the bands of the other factors."""
-POOR_FIT: Final = 0.01
-"""Probability of a larger chi square below which stated errors are taken to be too small, and bands are widened."""
-LARGEST_FACTOR: Final = 10.0
-_BY_LOAD: Final = ("flexure", "misalignment")
-_DIGITS: Final = 6
-_STEP: Final = 1e-3  # of a factor for derivatives; the power is linear but for wraps and the take-up's conditions
-_STEP_TOLERANCE: Final = 1e-7
-_MOST_ITERATIONS: Final = 30
-
-
-@dataclass(frozen=True)
-class FittedFactor:
-    """A fitted factor, one for all its forces, with the ends of its 90 % band [-]."""
-
-    forces: tuple[str, ...]
-    value: float
-    low: float
-    high: float
-
-    @property
-    def name(self) -> str:
-        """Names of its forces."""
-        return _force_names(self.forces)
+from conveyor.studies.factor_fit import (
+    MOST_ITERATIONS,
+    Array,
+    FittedFactor,
+    Grouping,
+    SolvedRuns,
+    force_names,
+    free_factors,
+    select_grouping,
+)
 
 
 @dataclass(frozen=True)
@@ -194,15 +157,15 @@ def fit_factors(
     _check_runs(conveyor, runs, error, factors)
     plain = conveyor.replace(calculation=conveyor.calculation.replace(calibration=None))
     solve = partial(calculate_many, rtol=rtol, progress=progress)
-    scene = _SolvedRuns.of(plain, runs, Calibration(), error, solve)
+    scene = SolvedRuns.of(plain, runs, Calibration(), error, solve)
     before = scene.power(Calibration())
     _check_direction(runs, before, "as calculated")
-    free, notes = _free_factors(scene, factors)
-    for _ in range(_MOST_ITERATIONS):
-        chosen, solved = _select_grouping(scene, free, wanted=factors is not None)
+    free, notes = free_factors(scene, factors)
+    for _ in range(MOST_ITERATIONS):
+        chosen, solved = select_grouping(scene, free, wanted=factors is not None)
         if not scene.curved or scene.solved_with(solved.calibration):
             break
-        scene = _SolvedRuns.of(plain, runs, solved.calibration, error, solve)
+        scene = SolvedRuns.of(plain, runs, solved.calibration, error, solve)
     else:
         raise NoSolutionError("the factors and the loads on vertical curves do not settle: fit fewer factors")
     _check_direction(runs, solved.power, "with the factors")
@@ -268,288 +231,12 @@ def _check_direction(runs: Sequence[MeasuredRun], power: Array, how: str) -> Non
             )
 
 
-@dataclass(frozen=True, eq=False)
-class _SolvedRuns:
-    """The runs with their contacts solved at given factors (which on vertical curves load the rolls)."""
-
-    found: tuple[CalculatedConveyor, ...]
-    at: tuple[str, ...]
-    measured: Array
-    stated: Array | None
-    error: float | None
-    under: Calibration
-
-    @classmethod
-    def of(
-        cls,
-        conveyor: Conveyor,
-        runs: Sequence[MeasuredRun],
-        under: Calibration,
-        error: float | None,
-        solve: Callable[[list[Variant]], list[CalculatedConveyor | NoAnswer]],
-    ) -> _SolvedRuns:
-        """Solve the runs, each distinct state once."""
-        made = conveyor.replace(calculation=conveyor.calculation.replace(calibration=under))
-        states = dict(zip((run.state for run in runs), with_runs(made, runs), strict=True))
-        answers = dict(zip(states, solve(list(map(Variant, states.values()))), strict=True))
-        rows = []
-        for number, run in enumerate(runs, start=1):
-            answer = answers[run.state]
-            if not isinstance(answer, CalculatedConveyor):
-                raise answer.at(f"run {number}")
-            rows.append(answer)
-        measured = np.array([run.watts for run in runs])
-        own = [run.deviation_watts for run in runs]
-        stated = None
-        if any(value is not None for value in own):
-            shares = (error or 0.0) * abs(measured)
-            stated = np.array([value or share for value, share in zip(own, shares.tolist(), strict=True)])
-        return cls(tuple(rows), tuple(run.at for run in runs), measured, stated, error, under)
-
-    @property
-    def curved(self) -> bool:
-        """True if tensions load the rolls."""
-        return self.found[0].line.has_tension_coupling
-
-    @property
-    def estimated(self) -> bool:
-        """True if errors are estimated from the residuals."""
-        return self.error is None and self.stated is None
-
-    def solved_with(self, calibration: Calibration) -> bool:
-        """True if the contacts were solved at these factors, within 1e-4."""
-        pairs = zip(self.under.factors.values(), calibration.factors.values(), strict=True)
-        return all(abs(a - b) <= 10.0**-4 for a, b in pairs)
-
-    def power(self, calibration: Calibration) -> Array:
-        """Power of every run at its point of measurement [W], with the loop closed on the scaled forces."""
-        runs = dict.fromkeys(self.found)
-        loops = [
-            OpenLoop(
-                one.balance.frame,
-                forces_along_belt(one.line, one.fixed, one.contacts.indentation, calibration=calibration),
-                one.balance.unit_main,
-            )
-            for one in runs
-        ]
-        power = {one: made.power for one, made in zip(runs, raise_first_error(close_loops(loops)), strict=True)}
-        pairs = zip(self.found, self.at, strict=True)
-        return np.array([power[one].mains if at == "mains" else power[one].motor for one, at in pairs])
-
-    def slopes(self, grouping: Grouping, values: Sequence[float], power: Array) -> Array:
-        """Derivatives of the powers with respect to the group factors [W], shape (n, groups)."""
-        columns = []
-        for k in range(len(grouping)):
-            moved = [value * (1.0 + _STEP * (i == k)) for i, value in enumerate(values)]
-            columns.append((self.power(_grouped_calibration(grouping, moved)) - power) / (_STEP * values[k]))
-        return np.array(columns).T
-
-    def sigma(self, power: Array) -> Array:
-        """Standard errors of the runs [W]: stated, or the relative error times the calculated power."""
-        return self.stated if self.stated is not None else (self.error or 1.0) * abs(power)
-
-
-def _grouped_calibration(grouping: Grouping, values: Sequence[float]) -> Calibration:
-    return Calibration(**{name: value for group, value in zip(grouping, values, strict=True) for name in group})
-
-
-def _free_factors(scene: _SolvedRuns, factors: Sequence[str] | None) -> tuple[Grouping, list[str]]:
-    """Factors that affect the power, and notes on the others; those that no power can separate are joined.
-
-    Flexure and misalignment are both proportional to the load, at any flow, speed and temperature.
-    """
-    notes = []
-    forces = {name: max(abs(_total_force(one, name)) for one in scene.found) for name in CALIBRATED_FORCES}
-    free = [name for name in CALIBRATED_FORCES if forces[name] > 0.0]
-    if "flexure" in free and scene.found[0].fixed.flexure is None:
-        if factors is None:
-            free.remove("flexure")
-        notes.append(
-            "flexure is a share of the main resistance here: it follows indentation and idler rotation, "
-            "a factor of its own cannot be told apart"
-        )
-    if factors is not None:
-        idle = [name for name in factors if forces[name] == 0.0]
-        if idle:
-            raise InputError(f"factors: {_force_names(idle)} is no force of this conveyor: leave it out")
-        return tuple((name,) for name in CALIBRATED_FORCES if name in factors), notes
-    groups: list[Group] = [(name,) for name in free if name not in _BY_LOAD]
-    if (
-        "flexure" in free
-    ):  # small against flexure, misalignment stays as computed where flexure has no factor of its own
-        groups.append(tuple(name for name in free if name in _BY_LOAD))
-    return tuple(groups), notes
-
-
-def _total_force(one: CalculatedConveyor, name: str) -> float:
-    return next(force.total for force in one.balance.along if force.key == name)
-
-
-@dataclass(frozen=True, eq=False)
-class _Fit:
-    """Fitted factors of a grouping, rounded as they are reported."""
-
-    calibration: Calibration
-    factors: tuple[FittedFactor, ...]
-    correlation: Array
-    power: Array
-    sigma: Array
-    chi_square: float
-    freedom: int
-    error: float | None
-    notes: tuple[str, ...]
-
-
-def _possible_groupings(free: Grouping) -> Iterator[list[Grouping]]:
-    """Groupings of the factors, from most to fewest: each for itself, two joined, all joined."""
-    yield [free]
-    if len(free) == 3:
-        a, b, c = free
-        yield [(a + c, b), (a, b + c), (a + b, c)]
-    if len(free) > 1:
-        yield [(sum(free, ()),)]
-
-
-def _select_grouping(scene: _SolvedRuns, free: Grouping, *, wanted: bool) -> tuple[Grouping, _Fit]:
-    """Grouping and fit with the most factors whose bands are narrow enough.
-
-    Raises
-    ------
-    InputError
-        No factor, or not those requested, can be fitted.
-    """
-    reasons = []
-    for ways in _possible_groupings(free):
-        judged = sorted(((_expected_width(scene, way), way) for way in ways), key=lambda pair: pair[0])
-        for width, way in judged:
-            fewest = len(way) + scene.estimated
-            if len(scene.measured) < fewest:
-                stated = "; with a stated error one less" if scene.estimated else ""
-                reasons.append(f"{_grouping_text(way)}: {fewest} runs at least are needed{stated}")
-                continue
-            if width > WIDEST_BAND:
-                wide = f"a band wider than ±{WIDEST_BAND:g} is to be expected"
-                reasons.append(f"{_grouping_text(way)}: the runs do not tell, {wide}")
-                continue
-            fit = _fit_grouping(scene, way)
-            if isinstance(fit, _Fit):
-                return way, fit
-            reasons.append(f"{_grouping_text(way)}: {fit}")
-        if wanted:
-            break
-    too_few = all("runs at least are needed" in reason for reason in reasons)
-    raise InputError(
-        "; ".join(reasons[-1:] if too_few else reasons)
-        + ". Give more runs, empty and full ones and at several temperatures, or ask for fewer factors"
-    )
-
-
-def _expected_width(scene: _SolvedRuns, grouping: Grouping) -> float:
-    """Widest half band of a grouping's factors expected before the fit [-]; infinite if they are dependent."""
-    ones = [1.0] * len(grouping)
-    power = scene.power(Calibration())
-    error = scene.sigma(power) * (TYPICAL_ERROR if scene.estimated else 1.0)
-    weighed = scene.slopes(grouping, ones, power) / error[:, None]
-    if np.linalg.matrix_rank(weighed) < len(grouping):
-        return math.inf
-    spread = np.sqrt(np.diag(np.linalg.inv(weighed.T @ weighed)))
-    return float(_normal_quantile() * spread.max())
-
-
-def _normal_quantile() -> float:
-    return _student_quantile(10**9)
-
-
-def _student_quantile(freedom: int) -> float:
-    """Student's t quantile at the end of a 90 % band [-]."""
-    return float(stdtrit(freedom, 0.5 + 0.5 * BAND_COVERAGE))
-
-
-def _fit_grouping(scene: _SolvedRuns, grouping: Grouping) -> _Fit | str:
-    """Gauss-Newton fit on the closed loop, or the reason why its factors are unusable."""
-    values = [1.0] * len(grouping)
-    for _ in range(_MOST_ITERATIONS):
-        power = scene.power(_grouped_calibration(grouping, values))
-        slopes, sigma = scene.slopes(grouping, values, power), scene.sigma(power)
-        step = np.linalg.lstsq(slopes / sigma[:, None], (scene.measured - power) / sigma, rcond=None)[0]
-        values = [value + float(change) for value, change in zip(values, step, strict=True)]
-        for group, value in zip(grouping, values, strict=True):
-            if not 0.0 < value <= LARGEST_FACTOR:
-                return f"the factor of {_force_names(group)} comes out as {value:.3g}"
-        if float(abs(step).max()) <= _STEP_TOLERANCE:
-            break
-    else:
-        return "does not settle"
-    values = [float(f"{value:.{_DIGITS}g}") for value in values]
-    calibration = _grouped_calibration(grouping, values)
-    power = scene.power(calibration)
-    return _fit_with_bands(scene, grouping, values, power, scene.slopes(grouping, values, power))
-
-
-def _fit_with_bands(
-    scene: _SolvedRuns, grouping: Grouping, values: list[float], power: Array, slopes: Array
-) -> _Fit | str:
-    """Fit with the bands of its factors, or the reason why one band is too wide."""
-    sigma, freedom = scene.sigma(power), len(power) - len(values)
-    chi_square = float((((scene.measured - power) / sigma) ** 2).sum())
-    error, ends, notes = scene.error, _normal_quantile(), []
-    if scene.estimated:
-        error = math.sqrt(chi_square / freedom)
-        sigma, chi_square, ends = error * sigma, float(freedom), _student_quantile(freedom)
-    elif freedom > 0 and chdtrc(freedom, chi_square) < POOR_FIT:
-        wider = math.sqrt(chi_square / freedom)
-        sigma, ends = sigma * wider, _student_quantile(freedom)
-        notes.append(
-            f"the differences are {wider:.2g} times the errors stated (probability below {100.0 * POOR_FIT:.0f} %): "
-            "the errors are larger, or something else than these factors differs; the bands are widened by it"
-        )
-    weighed = slopes / sigma[:, None]
-    covariance = np.linalg.inv(weighed.T @ weighed)
-    covariance += _joined_covariance(scene, grouping, values, power, covariance @ (weighed / sigma[:, None]).T)
-    spread = np.sqrt(np.diag(covariance))
-    factors = tuple(
-        FittedFactor(group, value, value - ends * one, value + ends * one)
-        for group, value, one in zip(grouping, values, spread.tolist(), strict=True)
-    )
-    for factor in factors:
-        if factor.high - factor.value > WIDEST_BAND:
-            return f"the factor of {factor.name} has a band of ±{factor.high - factor.value:.2g}"
-    correlation = covariance / np.outer(spread, spread)
-    stated = None if scene.stated is not None else error
-    return _Fit(
-        _grouped_calibration(grouping, values), factors, correlation, power,
-        sigma if scene.estimated else scene.sigma(power),
-        chi_square, freedom, stated, tuple(notes),
-    )  # fmt: skip
-
-
-def _joined_covariance(
-    scene: _SolvedRuns, grouping: Grouping, values: Sequence[float], power: Array, solved: Array
-) -> Array:
-    """Covariance of the factors from the differences within joined ones, which are means weighted by the runs.
-
-    With P = Σ J_i θ_i and estimates A P, A of shape (groups, runs), a difference δ_i moves the factor of group k by
-    A_k J_i δ_i.
-    """
-    joined = np.zeros((len(grouping), len(grouping)))
-    for k, (group, value) in enumerate(zip(grouping, values, strict=True)):
-        if len(group) > 1:
-            apart = tuple((name,) for name in group)
-            others = [g for i, g in enumerate(grouping) if i != k]
-            fixed = [v for i, v in enumerate(values) if i != k]
-            slopes = scene.slopes((*apart, *others), [*[value] * len(group), *fixed], power)[:, : len(group)]
-            moved = solved @ slopes
-            moved[k] = 0.0
-            joined += JOINED_SPREAD**2 * moved @ moved.T
-    return joined
-
-
 def _unresolved_groups(runs: Sequence[MeasuredRun], grouping: Grouping) -> Iterator[str]:
     """Notes on the joined factors, and the runs that would separate them."""
     for group in grouping:
         if len(group) > 1:
             yield (
-                f"{_kind_of_runs(runs)}: {_force_names(group)} cannot be told apart; one factor for them. Empty and "
+                f"{_kind_of_runs(runs)}: {force_names(group)} cannot be told apart; one factor for them. Empty and "
                 f"full "
                 "runs tell losses under load from constant ones, several temperatures rubber from rolls"
             )
@@ -563,14 +250,3 @@ def _kind_of_runs(runs: Sequence[MeasuredRun]) -> str:
     if len(temperatures) == 1:
         alike.append("at one temperature only" if flow else "runs at one temperature only")
     return ", ".join(alike) or "these runs"
-
-
-def _grouping_text(grouping: Grouping) -> str:
-    if len(grouping) == 1:
-        return f"one factor for {_force_names(grouping[0])}"
-    return "; ".join(_force_names(group) for group in grouping)
-
-
-def _force_names(forces: Sequence[str]) -> str:
-    *others, last = [force.replace("_", " ") for force in forces]
-    return f"{', '.join(others)} and {last}" if others else last

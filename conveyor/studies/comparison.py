@@ -18,7 +18,7 @@ from typing import Final, NamedTuple, get_args
 from pydantic import TypeAdapter, ValidationError
 
 from conveyor import shelf
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.operation import BeltSpeed

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
 from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.energy import DutyStep, DutySums, duty_emission, duty_specific_energy, duty_sums

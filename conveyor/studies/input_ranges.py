@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtri
 
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
 from conveyor.calculated_conveyor import CalculatedConveyor, NoAnswer, Variant
 from conveyor.errors import InputError
 from conveyor.line.covers import compounds_by_strand

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Final
 
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
 from conveyor.calculated_conveyor import CalculatedConveyor, Variant, common_take_up_duty
 from conveyor.checks import Check, rubber_data_suffice, run_checks
 from conveyor.errors import InputError, NoSolutionError

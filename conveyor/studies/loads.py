@@ -8,14 +8,8 @@ from functools import cached_property, partial
 from typing import TypeAlias
 
 from conveyor.calculated_conveyor import CalculatedConveyor, common_take_up_duty
-from conveyor.checks import (
-    BELT_STRENGTH_CRITERIA,
-    Check,
-    governing_by_subject,
-    highest_use,
-    run_checks,
-    take_up_travel_checks,
-)
+from conveyor.checks import BELT_STRENGTH_CRITERIA, Check, governing_by_subject, highest_use, run_checks
+from conveyor.checks.tension_checks import take_up_travel_checks
 from conveyor.loop.take_up_duty import TakeUpDuty
 from conveyor.models import Conveyor
 from conveyor.reuse import ReuseCache

@@ -11,7 +11,8 @@ from operator import attrgetter
 from typing import Any, Final, Literal, Self, TypeAlias
 
 from conveyor.calculated_conveyor import CalculatedConveyor, Variant
-from conveyor.checks import BELT_STRENGTH_CRITERIA, belt_rating, belt_safety, highest_use, run_checks
+from conveyor.checks import BELT_STRENGTH_CRITERIA, highest_use, run_checks
+from conveyor.checks.belt_checks import belt_rating, belt_safety
 from conveyor.errors import ConveyorError, InputError
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.line.known_test_factors import TEST_FACTORS

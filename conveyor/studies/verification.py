@@ -16,11 +16,11 @@ from typing import Annotated, Any, Final, TypeAlias
 from pydantic import TypeAdapter, ValidationError
 
 from conveyor import shelf
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
 from conveyor.calculated_conveyor import CalculatedConveyor, StretchResult, Variant
 from conveyor.errors import ConveyorError, InputError, NoSolutionError, RangeError
 from conveyor.indentation import IndentationCurve, RollContact, indentation_curves
-from conveyor.laws.softening import SofteningCover, soften_or_raise
+from conveyor.indentation.softening import SofteningCover, soften_or_raise
 from conveyor.line.rolling_test_theory import compound_test_factor
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.operation import BeltSpeed, EarthTemperature

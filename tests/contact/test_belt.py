@@ -205,19 +205,19 @@ def test_nothing_lost_has_no_shares():
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"bottom": 0.0}, r"bottom = 0\.0: a finite number of at least 1e-12"),
-        ({"top": -0.1}, r"top = -0\.1: a finite number of at least 0 is needed"),
-        ({"stretching": -1.0}, r"stretching = -1\.0: a finite number of at least 0"),
-        ({"stretching": np.inf}, "stretching = inf: a finite number"),
-        ({"bending": -1e-4}, r"bending = -0\.0001: stiffness D' and loss D''"),
-        ({"bending": 1e-4 - 1e-5j}, "not negative"),
-        ({"bending": complex(np.nan, 0.0)}, "bending = .*finite"),
-        ({"top_modulus": 0.0}, "top_modulus = 0.0: E0 of the top cover is finite and positive"),
-        ({"tension": np.nan}, "tension = nan: a finite number"),
-        ({"tension": "1"}, "tension = '1': a number is needed"),
-        ({"top_creep": [1.0]}, r"top_creep = \[1\.0\]: a CreepSpectrum is needed"),
-        ({"tension": -0.1}, r"tension = -0\.1: the belt buckles under compression; .* must exceed -0\.00"),
-        ({"tension": -1e-9, "bending": 0.0}, "the belt buckles under compression; .* must exceed 0$"),
+        ({"bottom": 0.0}, r"bottom: got 0\.0, allowed: >= 1e-12"),
+        ({"top": -0.1}, r"top: got -0\.1, allowed: >= 0 and finite"),
+        ({"stretching": -1.0}, r"stretching: got -1\.0, allowed: >= 0"),
+        ({"stretching": np.inf}, "stretching: got inf, allowed"),
+        ({"bending": -1e-4}, r"bending: got -0\.0001, allowed: D' and D''"),
+        ({"bending": 1e-4 - 1e-5j}, ">= 0 and finite"),
+        ({"bending": complex(np.nan, 0.0)}, "bending: got .*finite"),
+        ({"top_modulus": 0.0}, "top_modulus: got 0.0, allowed: > 0 and finite"),
+        ({"tension": np.nan}, "tension: got nan, allowed: finite"),
+        ({"tension": "1"}, "tension: got '1', allowed: a number"),
+        ({"top_creep": [1.0]}, r"top_creep: got \[1\.0\], allowed: a CreepSpectrum"),
+        ({"tension": -0.1}, r"tension: got -0\.1, allowed: > -0\.00.* at which the belt buckles"),
+        ({"tension": -1e-9, "bending": 0.0}, "allowed: > 0, .* at which the belt buckles"),
     ],
 )
 def test_impossible_belts_are_refused(changes, words):
@@ -230,14 +230,14 @@ def test_the_compression_named_is_the_limit():
     m = np.arange(1.0, 201.0)
     with pytest.raises(InputError) as refused:
         conveyor_belt(tension=-0.1)
-    limit = float(str(refused.value).split()[-1])
+    limit = float(str(refused.value).partition("> ")[2].partition(",")[0])
     near = conveyor_belt(tension=0.99 * limit).symbol(m, ELASTIC).real
     assert near.min() > 0.0
     assert near.max() > 20.0 * conveyor_belt(tension=0.0).symbol(m, ELASTIC).real.max()
 
 
 def test_covers_of_a_belt_are_incompressible():
-    with pytest.raises(InputError, match=r"poisson = 0\.45: the covers of a Belt are incompressible"):
+    with pytest.raises(InputError, match=r"poisson: got 0\.45, allowed: 0\.5, the covers of a Belt are incompressible"):
         ContactProblem(conveyor_belt(), 0.066, 0.0037, TERMS, poisson=0.45)
 
 

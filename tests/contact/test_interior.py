@@ -358,11 +358,11 @@ def test_elastic_layers_have_no_dissipation_to_weight_with():
 
 def test_refusals():
     found = solved("confined")
-    with pytest.raises(InputError, match=r"depths = 3: a whole number, at least 4"):
+    with pytest.raises(InputError, match=r"depths: got 3, allowed: a whole number >= 4"):
         interior(found, depths=3)
-    with pytest.raises(InputError, match=r"points = 48\.0: a whole number, at least 12"):
+    with pytest.raises(InputError, match=r"points: got 48\.0, allowed: a whole number >= 12"):
         interior(found, points=48.0)
-    with pytest.raises(InputError, match=r"points = True: a whole number, at least 12"):
+    with pytest.raises(InputError, match=r"points: got True, allowed: a whole number >= 12"):
         interior_fields(found, [0.0], [0.0], points=True)
     with pytest.raises(InputError, match=r"depths z/R from 0 to 0\.39\d+, the far face"):
         interior_fields(found, [0.0], [0.5])

@@ -116,13 +116,13 @@ def test_light_half_space_contacts_are_hertzian():
 
 @pytest.mark.parametrize("depth", [0.0, -0.0, -0.1, math.nan, math.inf, -math.inf])
 def test_depths_are_refused(depth):
-    with pytest.raises(InputError, match=r"penetration = .*: Δ/R is finite and positive"):
+    with pytest.raises(InputError, match=r"penetration: got .*, allowed: >= 1e-28"):
         solve_penetration(SPLIT, depth)
 
 
 @pytest.mark.parametrize("rtol", [0.0, 1e-13, 0.5, -1.0, math.nan])
 def test_tolerance_of_a_depth_is_refused(rtol):
-    with pytest.raises(InputError, match=r"rtol = .*: the tolerance lies in \[1e-12, 1e-2\]"):
+    with pytest.raises(InputError, match=r"rtol: got .*, allowed: >= 1e-12"):
         solve_penetration(SPLIT, 0.1, rtol=rtol)
 
 

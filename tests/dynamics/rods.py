@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from conveyor.dynamics.wave import Chain, InitialState, Machines, Record, simulate_belts
+from conveyor.dynamics.belt_chain import Chain, InitialState, Machines, Record
+from conveyor.dynamics.wave import simulate_belts
 
 EA, LINE_MASS, LENGTH = 4.0e7, 40.0, 2000.0
 WAVE = np.sqrt(EA / LINE_MASS)  # 1000 m/s

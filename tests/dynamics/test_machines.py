@@ -9,10 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from conveyor.dynamics.belt_chain import Machines
 from conveyor.dynamics.criteria import CRITERIA, pulley_peak, tension_peaks
 from conveyor.dynamics.machines import prepare_belts
 from conveyor.dynamics.simulation import CalculatedDynamics, simulate_batch
-from conveyor.dynamics.wave import Machines, simulate_belts
+from conveyor.dynamics.wave import simulate_belts
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.waves import STEEPEST_SLOPE, ramp_speed
 from conveyor.models import Scenario, Starter
@@ -302,7 +303,7 @@ def test_ramps_end_at_full_speed_and_are_as_steep_as_said(shape):
     assert made[0] == 0.0
     assert made[-1] == 1.0
     assert np.gradient(made, x).max() == pytest.approx(STEEPEST_SLOPE[shape], rel=1e-3)
-    with pytest.raises(InputError, match="linear, cosine or S"):
+    with pytest.raises(InputError, match="linear, cosine, S"):
         ramp_speed(x, shape="steep")
 
 

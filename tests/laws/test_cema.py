@@ -91,7 +91,7 @@ def test_pulleys_add_up():
     [
         (
             lambda: cema.cema_idler_factor(1.0, bulk_mass=1.0, idler_friction=1.0, spacing=0.0),
-            r"spacing = 0\.0",
+            r"spacing: got 0\.0",
         ),
         (
             lambda: cema.cema_pulley_friction(["head"]),
@@ -105,8 +105,8 @@ def test_pulleys_add_up():
             lambda: cema.cema_effective_tension(1.0, **LINE | {"temperature_factor": 0.9}),
             r"temperature_factor: got 0\.9, allowed: >= 1",
         ),
-        (lambda: cema.cema_effective_tension(-1.0, **LINE), r"length = -1\.0"),
-        (lambda: cema.cema_skirts(1.0, skirt_factor=0.1, depth=-1.0, seals=1.0), r"depth = -1\.0"),
+        (lambda: cema.cema_effective_tension(-1.0, **LINE), r"length: got -1\.0"),
+        (lambda: cema.cema_skirts(1.0, skirt_factor=0.1, depth=-1.0, seals=1.0), r"depth: got -1\.0"),
         (
             lambda: cema.cema_acceleration(1.0, belt_speed=1.0, initial_speed=2.0),
             r"initial_speed: got 2\.0, allowed: >= 0 and <= belt_speed = 1\.0",

@@ -80,21 +80,21 @@ def test_too_much_for_one_motor():
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda: energy.DutyStep(time=-1.0, power=1.0, mass_flow=0.0), r"time = -1\.0"),
-        (lambda: energy.DutyStep(time=1.0, power=float("nan"), mass_flow=0.0), r"power = nan"),
-        (lambda: energy.DutyStep(time=1.0, power=1.0, mass_flow=-1.0), r"mass_flow = -1\.0"),
-        (lambda: energy.duty_sums([]), r"steps = \[\] .* at least one step"),
-        (lambda: energy.duty_cost(energy.duty_sums(STEPS), price=-0.1, credit=0.0), r"price = -0\.1"),
+        (lambda: energy.DutyStep(time=-1.0, power=1.0, mass_flow=0.0), r"time: got -1\.0"),
+        (lambda: energy.DutyStep(time=1.0, power=float("nan"), mass_flow=0.0), r"power: got nan"),
+        (lambda: energy.DutyStep(time=1.0, power=1.0, mass_flow=-1.0), r"mass_flow: got -1\.0"),
+        (lambda: energy.duty_sums([]), r"steps: got \[\], .*at least one step"),
+        (lambda: energy.duty_cost(energy.duty_sums(STEPS), price=-0.1, credit=0.0), r"price: got -0\.1"),
         (
             lambda: energy.duty_emission(energy.duty_sums(STEPS), factor=0.1, credit_factor=-1.0),
             r"credit_factor",
         ),
-        (lambda: energy.duty_specific_energy(energy.duty_sums(STEPS), length=0.0), r"length = 0\.0"),
+        (lambda: energy.duty_specific_energy(energy.duty_sums(STEPS), length=0.0), r"length: got 0\.0"),
         (
             lambda: energy.duty_specific_energy(
                 energy.duty_sums([energy.DutyStep(time=1.0, power=1.0, mass_flow=0.0)]), length=1.0
             ),
-            r"duty\.mass = 0\.0 .* some mass conveyed",
+            r"duty\.mass: got 0\.0, .* some mass conveyed",
         ),
         (lambda: energy.next_motor(1.0, reserve=0.9), r"reserve: got 0\.9, allowed: >= 1"),
     ],

@@ -76,7 +76,7 @@ def test_a_wave_goes_there_and_back_in_a_period():
 def test_near_its_waves_speed_the_belt_has_no_frequency():
     speed = math.sqrt(32e3 / 20.0)
     assert idler_sets.flap_frequency(32e3 * (1 + 1e-9), **SPAN, belt_speed=speed) < 1e-7
-    with pytest.raises(InputError, match=r"more than m' v² = 32000 N is needed"):
+    with pytest.raises(InputError, match=r"> m' v² = 32000 N"):
         idler_sets.flap_frequency(32e3, **SPAN, belt_speed=speed)
 
 

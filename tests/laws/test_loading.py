@@ -180,7 +180,7 @@ def test_usable_width_of_standard_and_wide_belts():
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"n_rolls": 6}, r"n_rolls: got 6, allowed: 1 to 5 rolls are needed"),
+        ({"n_rolls": 6}, r"n_rolls: got 6, allowed: 1, 2, 3, 4, 5"),
         ({"bulk_line_mass": -1.0}, r"bulk_line_mass: got -1\.0, allowed: >= 0 and finite"),
         ({"belt_line_mass": math.nan}, r"belt_line_mass: got nan, allowed"),
         ({"spacing": 0.0}, r"spacing: got 0\.0, allowed: > 0 and finite"),
@@ -190,16 +190,16 @@ def test_usable_width_of_standard_and_wide_belts():
             r"trough_angle: got 35\.0, allowed: >= 0 and < pi/2 rad",
         ),
         ({"trough_angle": 1.2}, r"trough_angle: got 1\.2, allowed: >= 0 and <= pi/3 rad"),
-        ({"inclination": -1.6}, r"inclination: got -1\.6, allowed: an angle in rad"),
-        ({"roll_length": 1.2}, r"roll_length: got 1\.2, allowed: less than belt_width/1 is needed"),
-        ({"n_rolls": 5}, r"roll_length: got 0\.465, allowed: less than belt_width/3"),
+        ({"inclination": -1.6}, r"inclination: got -1\.6, allowed: .* pi/2 rad"),
+        ({"roll_length": 1.2}, r"roll_length: got 1\.2, allowed: < belt_width/1, to reach the wings"),
+        ({"n_rolls": 5}, r"roll_length: got 0\.465, allowed: < belt_width/3"),
         (
             {"n_rolls": 5, "roll_length": 0.25},
-            r"bulk_shares: got None, allowed: a set of 5 rolls has no rule",
+            r"bulk_shares: got None, allowed: 5 shares; a set of 5 rolls has no rule",
         ),
         ({"bulk_shares": (0.5, 0.5)}, r"one share for each of the 3 rolls"),
-        ({"bulk_shares": (0.6, 0.6, -0.2)}, r"shares from 0 to 1 are needed"),
-        ({"belt_shares": (0.3, 0.3, 0.3)}, r"belt_shares = .* the sum must be 1, it is 0\.9"),
+        ({"bulk_shares": (0.6, 0.6, -0.2)}, r"shares >= 0 and <= 1"),
+        ({"belt_shares": (0.3, 0.3, 0.3)}, r"belt_shares: got .* shares whose sum is 1; it is 0\.9"),
     ],
 )
 def test_refusals_of_roll_loads(change, message):
@@ -213,7 +213,7 @@ def test_refusals_of_roll_loads(change, message):
         (lambda: loading.bulk_line_mass(-1.0, belt_speed=1.0), r"mass_flow: got -1\.0, allowed"),
         (lambda: loading.bulk_line_mass(1.0, belt_speed=0.0), r"belt_speed: got 0\.0, allowed"),
         (lambda: loading.usable_width(math.inf), r"belt_width: got inf, allowed"),
-        (lambda: loading.usable_width(0.05), r"belt_width: got 0\.05, allowed: more than 0\.05556 m"),
+        (lambda: loading.usable_width(0.05), r"belt_width: got 0\.05, allowed: > 0\.05556 m"),
         (
             lambda: loading.cross_section(1.0, middle_roll_length=1.1, trough_angle=0.5, surcharge_angle=0.2),
             r"middle_roll_length: got 1\.1, allowed: >= 0 and <= the width 1\.0 m",
@@ -226,7 +226,7 @@ def test_refusals_of_roll_loads(change, message):
             lambda: loading.middle_share_belt(1.19, belt_width=1.2),
             r"belt_width: got 1\.2, allowed: >= 1\.21",
         ),
-        (lambda: loading.roll_loads(**SET)[0].line_loads(0), r"n: got 0, allowed: at least 1 point"),
+        (lambda: loading.roll_loads(**SET)[0].line_loads(0), r"n: got 0, allowed: >= 1"),
     ],
 )
 def test_refusals(call, message):
@@ -257,7 +257,7 @@ def test_four_rolls_bear_the_shares_they_are_given():
 
 
 def test_four_rolls_need_their_shares():
-    with pytest.raises(InputError, match="a set of 4 rolls has no rule in VDI 2341, give the 4 shares"):
+    with pytest.raises(InputError, match="4 shares; a set of 4 rolls has no rule in VDI 2341"):
         loading.roll_loads(
             bulk_line_mass=100.0,
             belt_line_mass=20.0,

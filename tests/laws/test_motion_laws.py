@@ -73,19 +73,19 @@ def test_no_answer(call, message):
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda: motion.reduced_mass(1.0, radius=0.0), r"radius = 0\.0"),
+        (lambda: motion.reduced_mass(1.0, radius=0.0), r"radius: got 0\.0"),
         (
             lambda: motion.start_force(1.0, torque_factor=1.0, efficiency=1.1, rated_belt_speed=1.0),
             r"efficiency: got 1\.1, allowed: > 0 and <= 1",
         ),
         (
             lambda: motion.constant_force_stop(1.0, retarding_force=1.0, moving_mass=0.0),
-            r"moving_mass = 0\.0",
+            r"moving_mass: got 0\.0",
         ),
-        (lambda: motion.brake_force(-0.1, resistance=0.0, moving_mass=1.0), r"deceleration = -0\.1"),
+        (lambda: motion.brake_force(-0.1, resistance=0.0, moving_mass=1.0), r"deceleration: got -0\.1"),
         (
             lambda: motion.bulk_slip_limits(0.5, inclination=15.0, gravity=9.81),
-            r"inclination = 15\.0 .* angle in rad",
+            r"inclination: got 15\.0, allowed: .* pi/2 rad",
         ),
     ],
 )

@@ -17,8 +17,8 @@ def test_plough_resistance_is_width_times_factor_times_number():
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"scraped_width": -1.0, "scraping_factor": 1.0}, r"scraped_width = -1\.0"),
-        ({"scraped_width": 1.0, "scraping_factor": float("nan")}, r"scraping_factor = nan"),
+        ({"scraped_width": -1.0, "scraping_factor": 1.0}, r"scraped_width: got -1\.0"),
+        ({"scraped_width": 1.0, "scraping_factor": float("nan")}, r"scraping_factor: got nan"),
         ({"scraped_width": 1.0, "scraping_factor": 1.0, "n_ploughs": -1}, r"n_ploughs: got -1, allowed"),
     ],
 )

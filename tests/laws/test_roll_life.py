@@ -69,16 +69,16 @@ def test_a_system_of_several_slopes_survives_by_all(slopes):
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda: roll_life.rating_life_hours(0.0, **ROLL), r"load = 0\.0"),
-        (lambda: roll_life.rating_life_hours(1.0, **ROLL, exponent=33.0), r"exponent = 33\.0 .* 3 \(ball\)"),
+        (lambda: roll_life.rating_life_hours(0.0, **ROLL), r"load: got 0\.0"),
+        (lambda: roll_life.rating_life_hours(1.0, **ROLL, exponent=33.0), r"exponent: got 33\.0, .*3 \(ball\)"),
         (
             lambda: roll_life.heavier_bearing_load(
                 1.0, belt_force=1.0, loaded_length=0.6, bearing_distance=0.5, triangular=True
             ),
-            r"loaded_length: got 0\.6, allowed: at most bearing_distance \+ 2 inset = 0\.5 m",
+            r"loaded_length: got 0\.6, allowed: <= bearing_distance \+ 2 inset = 0\.5 m",
         ),
-        (lambda: roll_life.system_life_hours([], weibull_slopes=[]), r"lives = \[\] .* at least one bearing"),
-        (lambda: roll_life.system_life_hours([0.0], weibull_slopes=[BALL]), r"lives = 0\.0"),
+        (lambda: roll_life.system_life_hours([], weibull_slopes=[]), r"lives: got \[\], .*at least one bearing"),
+        (lambda: roll_life.system_life_hours([0.0], weibull_slopes=[BALL]), r"lives: got 0\.0"),
     ],
 )
 def test_refusals(call, message):

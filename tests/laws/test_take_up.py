@@ -25,11 +25,11 @@ def test_splitting_a_section_changes_no_mean():
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda: take_up.take_up_mass(-1.0, reeving=1.0, gravity=9.81), r"tension = -1\.0"),
-        (lambda: take_up.take_up_mass(1.0, reeving=0.0, gravity=9.81), r"reeving = 0\.0"),
-        (lambda: take_up.mean_tension([1.0], lengths=[1.0, 2.0]), r"lengths = .* one for each of 1 sections"),
-        (lambda: take_up.mean_tension([1.0], lengths=[0.0]), r"lengths = \[0\.0\] .* a loop longer than 0"),
-        (lambda: take_up.mean_tension([1.0], lengths=[-1.0]), r"lengths = -1\.0"),
+        (lambda: take_up.take_up_mass(-1.0, reeving=1.0, gravity=9.81), r"tension: got -1\.0"),
+        (lambda: take_up.take_up_mass(1.0, reeving=0.0, gravity=9.81), r"reeving: got 0\.0"),
+        (lambda: take_up.mean_tension([1.0], lengths=[1.0, 2.0]), r"lengths: got .* one for each of 1 sections"),
+        (lambda: take_up.mean_tension([1.0], lengths=[0.0]), r"lengths: got \[0\.0\], .*a loop longer than 0"),
+        (lambda: take_up.mean_tension([1.0], lengths=[-1.0]), r"lengths: got -1\.0"),
     ],
 )
 def test_refusals(call, message):

@@ -171,9 +171,9 @@ def test_a_wing_presses_on_every_roll_that_it_slides_toward():
 
 
 def test_refusals():
-    with pytest.raises(InputError, match="inner_wing_angle = 2"):
+    with pytest.raises(InputError, match="inner_wing_angle: got 2"):
         wing_pieces(1.0, middle_roll_length=0.2, trough_angle=0.5, inner_wing=Wing(0.2, 2.0))
-    with pytest.raises(InputError, match=r"inner_angle = 0\.6"):
+    with pytest.raises(InputError, match=r"inner_angle: got 0\.6"):
         curve.outward_force_factors((0.0,) * 4, trough_angle=0.5, banking_angle=0.0, inner_angle=0.6)
-    with pytest.raises(InputError, match="rolls = 6"):
+    with pytest.raises(InputError, match="rolls: got 6"):
         roll_angles(6, trough_angle=0.5)

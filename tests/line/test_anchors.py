@@ -16,7 +16,7 @@ from conveyor.line.rolling_test_theory import compound_test_factor, compound_tes
 from conveyor.models import Uncertainty
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
-from conveyor.remarks import analysis_warnings
+from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.spec import load
 from conveyor.studies.input_ranges import analyse_ranges
 

@@ -14,7 +14,7 @@ from conveyor.line.belt_contacts import STRETCH_QUADRATURE, BeltContacts
 from conveyor.loop.tension_coupling import pull_per_width
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.pipeline import calculate
-from conveyor.remarks import analysis_warnings
+from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.rubber import PronySeries
 from conveyor.spec import load
 from conveyor.units import quantity, si

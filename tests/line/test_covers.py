@@ -6,8 +6,8 @@ import pytest
 
 from conveyor import shelf
 from conveyor.calculated_conveyor import CalculatedConveyor, Variant
-from conveyor.laws import softening
-from conveyor.laws.softening import STRAIN_RTOL
+from conveyor.indentation import softening
+from conveyor.indentation.softening import STRAIN_RTOL
 from conveyor.line import covers
 from conveyor.models.variants import crossed_settings, with_compound
 from conveyor.pipeline import calculate_many

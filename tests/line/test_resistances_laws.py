@@ -13,7 +13,8 @@ from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.resistance import belt_flexure_resistance, bulk_flexure_bound
 from conveyor.line.set_loads import SetLoads
 from conveyor.pipeline import calculate
-from conveyor.remarks import analysis_assumptions, analysis_warnings
+from conveyor.remarks.assumptions import analysis_assumptions
+from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.spec import load
 from conveyor.units import si
 

@@ -15,7 +15,8 @@ from conveyor.line.line import Line
 from conveyor.line.roll_drags import roll_drags, roll_drags_many
 from conveyor.line.roll_lives import idler_set_life, roll_life
 from conveyor.pipeline import calculate
-from conveyor.remarks import analysis_assumptions, analysis_warnings
+from conveyor.remarks.assumptions import analysis_assumptions
+from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.spec import load
 from conveyor.units import quantity, si
 
@@ -79,7 +80,7 @@ def test_without_drag_a_roll_is_in_service_or_at_its_limit(line):
 
 
 def test_a_roll_too_small_for_a_usual_bearing_needs_its_drag(line):
-    with pytest.raises(InputError, match=r"idlers\.carry\.roll: drag not given: roll_diameter = 0\.03"):
+    with pytest.raises(InputError, match=r"idlers\.carry\.roll: drag not given: roll_diameter: got 0\.03"):
         Line.of(carry_roll(line, diameter="30 mm"))
 
 
@@ -255,7 +256,7 @@ def test_bearing_loads_by_moments():
     # triangle: centre 0.5/3 m from the end, 0.11667 m from the inner bearing
     wing = heavier_bearing_load(60.0, belt_force=0.0, triangular=True, **sides)
     assert wing == pytest.approx(60.0 * (1.0 - (0.5 / 3.0 - 0.05) / 0.4), rel=1e-14)
-    with pytest.raises(InputError, match=r"inset: got -0\.3, allowed: above -bearing_distance/2"):
+    with pytest.raises(InputError, match=r"inset: got -0\.3, allowed: > -bearing_distance/2"):
         heavier_bearing_load(1.0, belt_force=0.0, triangular=True, **sides | {"inset": -0.3})
 
 

@@ -22,7 +22,8 @@ from conveyor.line.line import Line
 from conveyor.line.set_loads import SetLoads
 from conveyor.line.stretches import masses_on_rolls
 from conveyor.pipeline import calculate
-from conveyor.remarks import analysis_assumptions, analysis_warnings
+from conveyor.remarks.assumptions import analysis_assumptions
+from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.spec import load
 from conveyor.units import quantity, si
 

@@ -9,7 +9,7 @@ import pytest
 import conveyor
 from conveyor.checks import run_checks
 from conveyor.pipeline import calculate
-from conveyor.remarks import analysis_warnings
+from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.spec import fingerprint, load
 
 _NEWTON, _POUND = (

@@ -14,7 +14,7 @@ from conveyor.line.stretches import CurveLoads, masses_on_rolls
 from conveyor.loop.belt_duty import LEAST_EDGE_TENSION, belt_duty
 from conveyor.loop.tension_coupling import next_convergence, pressing_masses
 from conveyor.pipeline import calculate
-from conveyor.remarks import analysis_warnings
+from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.spec import from_data, load
 from tests.loop.loop_lines import DATA, SPECS, closed, data, line, told
 

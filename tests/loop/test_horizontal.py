@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from conveyor.checks import belt_drift, horizontal_edges, wind_lift
+from conveyor.checks.curve_checks import belt_drift, horizontal_edges, wind_lift
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.line.strands import Strands
 from conveyor.line.stretches import CurveLoads

@@ -7,17 +7,10 @@ import math
 import pytest
 
 from conveyor.calculated_conveyor import common_take_up_duty
-from conveyor.checks import (
-    belt_flap,
-    belt_temperature,
-    coasting_time,
-    cover_thickness,
-    drive_parts,
-    roll_axle,
-    set_rating,
-    splice_strength,
-    take_up_travel,
-)
+from conveyor.checks.belt_checks import belt_temperature, cover_thickness, splice_strength
+from conveyor.checks.drive_checks import coasting_time, drive_parts
+from conveyor.checks.idler_checks import belt_flap, roll_axle, set_rating
+from conveyor.checks.tension_checks import take_up_travel
 from conveyor.errors import InputError
 from conveyor.laws.drives import HORSEPOWER
 from conveyor.laws.take_up import SCREW_LENGTH

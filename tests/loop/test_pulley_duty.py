@@ -9,7 +9,7 @@ import pytest
 
 from conveyor import analyse
 from conveyor.calculated_conveyor import CalculatedConveyor
-from conveyor.checks import belt_transitions, lagging_pressure, pulley_bearings, pulley_shaft
+from conveyor.checks.pulley_checks import belt_transitions, lagging_pressure, pulley_bearings, pulley_shaft
 from conveyor.errors import InputError
 from conveyor.forces import rubber_free_forces
 from conveyor.laws.pulley import hub_moment, least_shaft_diameter, shaft_safety, shaft_slope

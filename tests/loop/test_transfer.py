@@ -7,7 +7,7 @@ import math
 import pytest
 
 from conveyor.assessment import Assessment
-from conveyor.checks import belt_cleaning, impact_load, skirtboards
+from conveyor.checks.bulk_checks import belt_cleaning, impact_load, skirtboards
 from conveyor.errors import InputError
 from conveyor.laws.discharge import bulk_on_pulley, width_on_pulley
 from conveyor.pipeline import calculate

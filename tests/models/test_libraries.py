@@ -9,7 +9,8 @@ from conveyor.files import libraries
 from conveyor.models import Belt, BulkMaterial, Roll
 from conveyor.models.library_items import merge_fields, without_entry_fields
 from conveyor.pipeline import calculate
-from conveyor.remarks import roll_assumptions, roll_warnings
+from conveyor.remarks.assumptions import roll_assumptions
+from conveyor.remarks.result_warnings import roll_warnings
 from conveyor.report.tables.inputs import input_rows
 from conveyor.spec import from_data
 from conveyor.units import is_quantity, quantity, si, text

@@ -10,13 +10,7 @@ import pytest
 
 import conveyor
 from conveyor.calculated_conveyor import CalculatedConveyor
-from conveyor.checks import (
-    Check,
-    check_against_limit,
-    governing_by_criterion,
-    governing_by_subject,
-    run_checks,
-)
+from conveyor.checks import Check, check_against_limit, governing_by_criterion, governing_by_subject, run_checks
 from conveyor.models.fields import with_fields
 from conveyor.models.variants import with_case, with_temperature
 from conveyor.pipeline import calculate

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import conveyor
-from conveyor.checks import belt_filling
+from conveyor.checks.bulk_checks import belt_filling
 from conveyor.report.table_model import Column, Figure, Table, figure_table
 from conveyor.units import si
 from conveyor.units.presentation import display_unit

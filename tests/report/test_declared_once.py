@@ -12,9 +12,8 @@ import pytest
 from openpyxl.utils import range_boundaries
 
 import conveyor
-from conveyor import checks as criteria
 from conveyor import pipeline
-from conveyor.checks import check_against_limit
+from conveyor.checks import check_against_limit, register
 from conveyor.cli.terminal import show_power
 from conveyor.forces import Force
 from conveyor.report import excel, html, table_files
@@ -128,7 +127,7 @@ def strained():
             yield check_against_limit("probe", "strength of the probe", 1.0, "at least", 2.0, "force", why=why)
 
         patch.setattr(pipeline, "forces_along_belt", with_force)
-        patch.setattr(criteria, "CRITERIA", (*criteria.CRITERIA, weak))
+        patch.setattr(register, "CRITERIA", (*register.CRITERIA, weak))
         made = conveyor.analyse(conveyor.load(SPECS / "in_plant_us.yaml")).in_units("SI")
         yield made, made.contents(), made.to_dict()
 

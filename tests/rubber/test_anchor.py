@@ -106,5 +106,5 @@ def test_bad_tests_are_refused(given, match):
         fit_test_factor(*given, uncertainty=0.1)
     with pytest.raises(InputError, match="uncertainty"):
         fit_test_factor([1e3], [293.0], [2.0], uncertainty=-0.1)
-    with pytest.raises(InputError, match=r"shared = 0\.2: at least 0 and at most uncertainty = 0\.1"):
+    with pytest.raises(InputError, match=r"shared: got 0\.2, allowed: >= 0 and <= uncertainty = 0\.1"):
         fit_test_factor([1e3], [293.0], [2.0], uncertainty=0.1, shared=0.2)

@@ -111,7 +111,7 @@ def test_draws_that_are_fluids_are_refused_or_drawn_again() -> None:
 
 
 def test_refusals() -> None:
-    with pytest.raises(InputError, match=r"replicas = 0 must be >= 1"):
+    with pytest.raises(InputError, match=r"replicas: got 0, allowed: a whole number >= 1"):
         bootstrap(fitted(0.02, 0.02, 1), replicas=0)
     with pytest.raises(InputError, match=r"shape \(1, 2\); got \(1, 1\)"):
         ReplicaBand([1.0, 2.0], [1e6], [[1.0]])
@@ -121,7 +121,7 @@ def test_refusals() -> None:
         ReplicaBand([2.0, 1.0], [1e6], [[1.0, 1.0]])
     with pytest.raises(InputError, match=r"equilibrium\[0\]: got 0 Pa, allowed: > 0 Pa"):
         ReplicaBand([1.0, 2.0], [0.0], [[1.0, 1.0]])
-    with pytest.raises(InputError, match=r"level: got 1, allowed: > 0 and < 1"):
+    with pytest.raises(InputError, match=r"level: got 1\.0, allowed: > 0 and < 1"):
         ReplicaBand([1.0], [1e6], [[1.0]]).between(lambda s: s.loss([1.0]), level=1.0)
 
 

@@ -133,7 +133,9 @@ def test_messages_of_the_laws() -> None:
         WLF(8.86, -1.0, 293.15)
     with pytest.raises(InputError, match=r"activation_energy: got 0 J/mol, allowed: > 0 J/mol"):
         Arrhenius(0.0, 293.15)
-    with pytest.raises(InputError, match=r"temperature: got -20 K, allowed: > 0 K K \(this floor counts in kelvin\)"):
+    with pytest.raises(
+        InputError, match=r"temperature: got -20 K, allowed: > 0 K and finite \(this floor counts in kelvin\)"
+    ):
         Arrhenius(1e5, 293.15).log10_a_T(-20.0)
     with pytest.raises(RangeError, match=r"the shift law gives .* decades at -78\.35 degC, above 100"):
         shift_series(PronySeries(1.0, [1.0], [1.0]), WLF(8.86, 101.6, 296.3), 194.8)
@@ -157,7 +159,7 @@ def test_table_is_not_extrapolated() -> None:
         ([293.15, 303.15], [0.0, 1.0], 293.15, r"must fall with rising temperature; .*reversed sign"),
         ([293.15, 303.15], [0.0, -1.0], 298.15, r"at the reference 25\.00 degC is -0\.5000"),
         ([293.15, 303.15], [0.0, -1.0], 283.15, r"10\.00 degC is outside the shift table"),
-        ([20.0, float("nan")], [0.0, -1.0], 20.0, r"temperatures\[1\] = nan K must be finite"),
+        ([20.0, float("nan")], [0.0, -1.0], 20.0, r"temperatures\[1\]: got nan K, allowed: > 0 K and finite"),
     ],
 )
 def test_refused_tables(temperatures: list[float], decades: list[float], reference: float, message: str) -> None:

@@ -315,7 +315,7 @@ def test_refusals() -> None:
         Isotherm(293.15, f[:2], e[:2], e[:2])
     with pytest.raises(InputError, match=r"20\.00 degC holds 2 Hz twice"):
         Isotherm(293.15, [1.0, 2.0, 2.0], e, e)
-    with pytest.raises(InputError, match=r"temperature = 0 K"):
+    with pytest.raises(InputError, match=r"temperature: got 0 K"):
         Isotherm(0.0, f, e, e)
 
 

@@ -18,6 +18,7 @@ from conveyor.models.sizing import SizingDuty
 from conveyor.pipeline import calculate_many
 from conveyor.sizing import size_conveyor
 from conveyor.sizing.design_search import _calibrate_estimate, _estimated_parts
+from conveyor.sizing.design_spec import design_spec
 from conveyor.sizing.screen import Candidates, first_calibration, screen_candidates
 from conveyor.sizing.sized_design import SizedDesign
 from conveyor.sizing.sizing_task import SizingTask
@@ -98,7 +99,8 @@ def test_a_class_stiff_enough_for_the_take_up_is_chosen_where_the_strength_alone
     weaker = [one for one in classes if one.strength < best.chosen.carcass.strength][-1]
     tension = best.found.balance.settled.steady.largest
     assert weaker.strength > 8.0 * tension / best.choice.trough.width.belt  # DIN 22101: safety 8
-    (as_weak,) = calculate_many([Variant(SizingTask(given).spec(best.choice, _of_class(given, best, weaker), "x"))])
+    spec = design_spec(SizingTask(given), best.choice, _of_class(given, best, weaker), "x")
+    (as_weak,) = calculate_many([Variant(spec)])
     assert isinstance(as_weak, CalculatedConveyor)
     assert _travel_by_hand(replace(best, found=as_weak, coldest=as_weak), 0.0) > 30.0
     assert _travel_by_hand(best, 0.0) <= 30.0
@@ -173,7 +175,7 @@ def test_what_a_stiffer_class_leaves_of_the_travel_is_foreseen():
     given = duty(1000.0, 1000.0, 15.0, rules={"carcasses": ["EP"]})
     best, task = size_conveyor(given, best=1).best, SizingTask(given)
     strongest = task.carcasses["EP"][-1]
-    spec = task.spec(best.choice, _of_class(given, best, strongest), "x")
+    spec = design_spec(task, best.choice, _of_class(given, best, strongest), "x")
     (found,) = calculate_many([Variant(spec)])
     assert isinstance(found, CalculatedConveyor)
     by_hand = _travel_by_hand(replace(best, found=found, coldest=found), 0.0)
@@ -208,7 +210,7 @@ def test_levels_of_one_calculation_make_the_estimate_that_calculation():
     estimate = screen_candidates(task, choices, levels)
     i = int(np.argmin(estimate.year))
     (found,) = calculate_many(
-        [Variant(task.spec(choices[i], _estimated_parts(task, choices[i], estimate, i), "probe"))]
+        [Variant(design_spec(task, choices[i], _estimated_parts(task, choices[i], estimate, i), "probe"))]
     )
     assert isinstance(found, CalculatedConveyor)
     again = screen_candidates(task, choices, made := _calibrate_estimate(choices, estimate, levels, {i: found}, {}))

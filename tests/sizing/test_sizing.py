@@ -23,7 +23,7 @@ from conveyor.laws.roll_life import rating_life_hours
 from conveyor.models.prices import Prices
 from conveyor.models.sizing import SizingDuty
 from conveyor.sizing import size_conveyor
-from conveyor.sizing.design_search import size_parts
+from conveyor.sizing.part_sizing import size_parts
 from conveyor.sizing.screen import Candidates, first_calibration, screen_candidates
 from conveyor.sizing.sensitivity import vary_choices
 from conveyor.sizing.sizing_task import SizingTask

@@ -153,7 +153,7 @@ def test_joined_factors_that_differ_are_in_the_bands_of_the_others(monkeypatch: 
     truth = with_factors(given, indentation=1.2, idler_rotation=1.1, flexure=0.8)
     powers = measured(truth, runs)
     found = conveyor.calibrate(given, powers, error=0.02).factors
-    monkeypatch.setattr("conveyor.studies.calibration.JOINED_SPREAD", 0.0)
+    monkeypatch.setattr("conveyor.studies.factor_fit.JOINED_SPREAD", 0.0)
     errors_only = conveyor.calibrate(given, powers, error=0.02).factors
     assert [factor.forces for factor in found] == [
         ("indentation", "flexure", "misalignment"),

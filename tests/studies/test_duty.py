@@ -11,7 +11,7 @@ from conveyor.errors import InputError
 from conveyor.models import Conveyor, DutyEntry
 from conveyor.models.operation import EmissionFactor, Operation
 from conveyor.pipeline import calculate
-from conveyor.remarks import analysis_warnings
+from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.spec import load
 from conveyor.studies.comparison import compare_compounds
 from conveyor.studies.duty import analyse_duty

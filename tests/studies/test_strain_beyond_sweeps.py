@@ -11,7 +11,7 @@ from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
-from conveyor.remarks import analysis_warnings
+from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.spec import load
 from conveyor.studies.input_ranges import _vary_rubber
 

@@ -20,7 +20,7 @@ from scipy.special import spence
 from conveyor.contact import ContactProblem, CreepSpectrum, solve
 from conveyor.contact.closed_forms import hunter_at_load
 from conveyor.errors import InputError, NoSolutionError
-from conveyor.validation.reference_cases import reference_cases
+from conveyor.validation.contact_cases import reference_cases
 
 SCRIPT = Path(__file__).parents[2] / "benchmarks" / "boundary_elements.py"
 CASES = {case.name: case for case in reference_cases()}

@@ -8,9 +8,11 @@ from functools import cache
 import pytest
 
 from conveyor.contact import solve
-from conveyor.validation.reference_cases import ReferenceCheck, reference_cases, run_checks
+from conveyor.validation import contact_cases
+from conveyor.validation.reference_cases import run_checks
+from conveyor.validation.reference_check import ReferenceCheck
 
-CASES = reference_cases()
+CASES = contact_cases.reference_cases()
 SINGLE = [case for case in CASES if not case.split]
 SPLIT = [case for case in CASES if case.split]
 PROMISED = {1e-6: 1e-6, 1e-9: 1e-8}  # rtol: error of friction; the reference is good to 1e-9
@@ -125,7 +127,7 @@ def test_a_wrong_solver_would_fail(monkeypatch):
     def wrong(problem, **options):
         return solve(replace(problem, pressure=1.01 * problem.pressure), **options)
 
-    monkeypatch.setattr(reference_cases, "solve", wrong)
+    monkeypatch.setattr(contact_cases, "solve", wrong)
     failed = [check for check in run_checks() if not check.passed]
     # every friction of the reference and of the split contacts, every Hunter figure that depends on the load
     assert sum("friction" in check.quantity for check in failed) == len(SINGLE) + 2 + 9

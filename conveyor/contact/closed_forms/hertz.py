@@ -10,7 +10,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.require import require, require_not_negative, require_positive
+from conveyor.arguments.limits import require, require_not_negative, require_positive
 
 Array = NDArray[np.float64]
 
@@ -41,7 +41,7 @@ def plane_modulus(shear_modulus: float, *, poisson: float) -> float:
     1905.0
     """
     require_positive(shear_modulus=shear_modulus)
-    require(0.0 <= poisson <= 0.5, "poisson", poisson, "0 to 0.5 is needed")
+    require(0.0 <= poisson <= 0.5, "poisson", poisson, ">= 0 and <= 0.5")
     return 2.0 * shear_modulus / (1.0 - poisson)
 
 
@@ -68,7 +68,7 @@ def composite_plane_modulus(*plane_moduli: float) -> float:
     >>> composite_plane_modulus(1905.0, 1905.0)
     952.5
     """
-    require(len(plane_moduli) > 0, "plane_moduli", plane_moduli, "at least one deformable body is needed")
+    require(len(plane_moduli) > 0, "plane_moduli", plane_moduli, "at least one deformable body")
     for modulus in plane_moduli:
         require_positive(plane_modulus=modulus)
     return 1.0 / math.fsum(1.0 / modulus for modulus in plane_moduli)
@@ -170,5 +170,5 @@ def plate_symbol(q: Array) -> Array:
     >>> plate_symbol(np.array([0.1, 1.0])).round(9).tolist()
     [6000.0, 6.0]
     """
-    require(bool(np.all(q > 0.0)), "q", q, "numbers greater than 0 are needed")
+    require(bool(np.all(q > 0.0)), "q", q, "> 0")
     return 6.0 / q**3

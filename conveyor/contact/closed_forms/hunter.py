@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq, minimize_scalar
 from scipy.special import i0e, i1e, ive, k0e, k1e
 
-from conveyor.require import require
+from conveyor.arguments.limits import require
 
 Array = NDArray[np.float64]
 
@@ -100,7 +100,7 @@ class HunterContact:
         >>> hunter(10.0, memory=1.0).pressure(np.array([0.0])).round(5).tolist()
         [1.57509]
         """
-        require(bool(np.all(np.abs(s) <= 1.0)), "s", s, "positions from -1 to 1 are needed")
+        require(bool(np.all(np.abs(s) <= 1.0)), "s", s, ">= -1 and <= 1")
         beta = self.modulus_ratio / self.memory if self.memory > 0.0 else math.inf
         if beta in {0.0, math.inf} or self.modulus_ratio == 1.0:
             return self.load_ratio * np.sqrt(1.0 - s**2)
@@ -138,7 +138,7 @@ class HunterContact:
 
 def _require_ratio(modulus_ratio: float) -> None:
     ok = 1.0 <= modulus_ratio < math.inf
-    require(ok, "modulus_ratio", modulus_ratio, "a finite number of at least 1 is needed")
+    require(ok, "modulus_ratio", modulus_ratio, ">= 1 and finite")
 
 
 def hunter(modulus_ratio: float, *, memory: float) -> HunterContact:
@@ -183,7 +183,7 @@ def hunter(modulus_ratio: float, *, memory: float) -> HunterContact:
     n = modulus_ratio
     _require_ratio(n)
     ok = 0.0 <= memory <= _LONGEST_MEMORY or memory == math.inf
-    require(ok, "memory", memory, f"0 to {_LONGEST_MEMORY:g}, or inf, is needed")
+    require(ok, "memory", memory, f">= 0 and <= {_LONGEST_MEMORY:g}, or inf")
     if n == 1.0 or memory == 0.0 or n / memory == math.inf:
         return HunterContact(n, memory, load_ratio=1.0, eccentricity=0.0, friction=0.0)
     if memory == math.inf:
@@ -234,7 +234,7 @@ def hunter_at_load(modulus_ratio: float, *, memory: float) -> HunterContact:
     """
     _require_ratio(modulus_ratio)
     ok = 0.0 <= memory <= _LONGEST_MEMORY / 1e10 or memory == math.inf
-    require(ok, "memory", memory, f"0 to {_LONGEST_MEMORY / 1e10:g}, or inf, is needed")
+    require(ok, "memory", memory, f">= 0 and <= {_LONGEST_MEMORY / 1e10:g}, or inf")
     if modulus_ratio == 1.0 or memory in {0.0, math.inf}:
         return hunter(modulus_ratio, memory=memory)
     target = math.log(memory)
@@ -276,7 +276,7 @@ def hunter_friction_peak(modulus_ratio: float) -> HunterContact:
     >>> round(peak.friction_at_load, 6), round(peak.memory_at_load, 4)
     (0.483021, 1.3497)
     """
-    require(1.0 < modulus_ratio <= 1e6, "modulus_ratio", modulus_ratio, "above 1 and at most 1e6 is needed")
+    require(1.0 < modulus_ratio <= 1e6, "modulus_ratio", modulus_ratio, "> 1 and <= 1e6")
     peak = minimize_scalar(
         lambda log_memory: -hunter(modulus_ratio, memory=math.exp(log_memory)).friction_at_load,
         bounds=(math.log(1e-2), math.log(1e2 * modulus_ratio)),
@@ -313,7 +313,7 @@ def low_speed_friction(*, memory: float, radius: float, modulus_ratio: float) ->
     >>> round(low_speed_friction(memory=1e-4, radius=0.1, modulus_ratio=10.0), 12)
     0.0009
     """
-    require(0.0 <= memory < math.inf, "memory", memory, "a finite number of at least 0 is needed")
-    require(0.0 < radius < math.inf, "radius", radius, "a finite number greater than 0 is needed")
+    require(0.0 <= memory < math.inf, "memory", memory, ">= 0 and finite")
+    require(0.0 < radius < math.inf, "radius", radius, "> 0 and finite")
     _require_ratio(modulus_ratio)
     return memory / radius * (1.0 - 1.0 / modulus_ratio)

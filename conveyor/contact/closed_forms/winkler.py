@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from conveyor.require import require, require_positive
+from conveyor.arguments.limits import require, require_positive
 
 Array = NDArray[np.float64]
 
@@ -96,9 +96,9 @@ def _active_elements(equilibrium: float, moduli: Array, memories: Array) -> tupl
     """Moduli and memories of the elements that carry stress, checked: a memory of 0 is relaxed everywhere."""
     require_positive(equilibrium=equilibrium)
     ok = moduli.ndim == 1 and bool(np.all((moduli >= 0.0) & np.isfinite(moduli)))
-    require(ok, "moduli", moduli, "finite numbers of at least 0, shape (n,), are needed")
+    require(ok, "moduli", moduli, ">= 0 and finite, shape (n,)")
     ok = memories.shape == moduli.shape and bool(np.all(memories >= 0.0))
-    require(ok, "memories", memories, "numbers of at least 0, one for each modulus, are needed")
+    require(ok, "memories", memories, ">= 0, one for each modulus")
     active = memories > 0.0
     return moduli[active], memories[active]
 
@@ -160,7 +160,7 @@ def winkler_pressure(
     """
     moduli, memories = _active_elements(equilibrium, moduli, memories)
     require_positive(entry=entry, radius=radius, thickness=thickness)
-    require(bool(np.all(x <= entry)), "x", x, f"at most entry = {entry!r} m is needed")
+    require(bool(np.all(x <= entry)), "x", x, f"<= entry = {entry!r} m")
     depth = 1.0 - x / entry
     history = _stress_history(depth[:, None], memories / entry)
     shape = equilibrium * (depth - depth**2 / 2.0) + history @ moduli
@@ -351,7 +351,7 @@ def jonkers_friction(load: float, *, thickness: float, storage: float, diameter:
     >>> round(jonkers_friction(1.0, thickness=1.0, storage=1.0, diameter=1.0, tan_delta=1.0), 6)
     1.138255
     """
-    require(0.0 <= load < math.inf, "load", load, "a finite number of at least 0 is needed")
-    require(0.0 <= tan_delta < math.inf, "tan_delta", tan_delta, "a finite number of at least 0 is needed")
+    require(0.0 <= load < math.inf, "load", load, ">= 0 and finite")
+    require(0.0 <= tan_delta < math.inf, "tan_delta", tan_delta, ">= 0 and finite")
     require_positive(thickness=thickness, storage=storage, diameter=diameter)
     return JONKERS_FACTOR * tan_delta * math.cbrt(load * thickness / (storage * diameter**2))

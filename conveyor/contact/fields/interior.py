@@ -14,6 +14,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from conveyor.arguments.limits import require, require_count
 from conveyor.contact.fields.interior_harmonics import InteriorHarmonics
 from conveyor.contact.solution import ContactSolution
 from conveyor.errors import InputError, NoSolutionError
@@ -177,10 +178,9 @@ def interior(solution: ContactSolution, *, depths: int = 16, points: int = 48) -
     >>> round(inside.working_strain, 4), inside.energy_error < 1e-3
     (0.0153, True)
     """
-    _require_solution(solution)
+    require(isinstance(solution, ContactSolution), "solution", solution, "a ContactSolution")
     for name, value, least in (("depths", depths, _FEWEST_DEPTHS), ("points", points, _FEWEST_POINTS)):
-        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
-            raise InputError(f"{name} = {value!r}: a whole number, at least {least}")
+        require_count(least, **{name: value})
     return _depth_profile(solution, int(depths), int(points))
 
 
@@ -214,9 +214,8 @@ def interior_fields(solution: ContactSolution, x: ArrayLike, depth: ArrayLike, *
     -----
     The window blurs over R α/(ρ `points`): valid below that depth, and at the surface away from the edges.
     """
-    _require_solution(solution)
-    if isinstance(points, bool) or not isinstance(points, (int, np.integer)) or points < _FEWEST_POINTS:
-        raise InputError(f"points = {points!r}: a whole number, at least {_FEWEST_POINTS}")
+    require(isinstance(solution, ContactSolution), "solution", solution, "a ContactSolution")
+    require_count(_FEWEST_POINTS, points=points)
     problem, inside = solution.problem, InteriorHarmonics(solution, points)
     try:
         at, z = (np.atleast_1d(np.asarray(given, dtype=float)) for given in (x, depth))
@@ -237,11 +236,6 @@ def interior_fields(solution: ContactSolution, x: ArrayLike, depth: ArrayLike, *
         displacement_x=u_x / problem.rho,
         displacement_z=u_z / problem.rho,
     )
-
-
-def _require_solution(solution: object) -> None:
-    if not isinstance(solution, ContactSolution):
-        raise InputError(f"solution = {solution!r}: a ContactSolution is needed")
 
 
 def path_amplitude(*, difference: Array, shear: Array, dilatation: Array) -> Array:

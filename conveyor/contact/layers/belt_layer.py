@@ -22,9 +22,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.arguments.limits import require, require_finite, require_not_negative, require_number, require_positive
 from conveyor.contact.layers.creep import CreepBatch, CreepSpectrum
 from conveyor.contact.layers.layer_models import HALF_SPACE_DEPTH, Creep, confined_symbol, sinh_minus_scaled
-from conveyor.errors import InputError
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -78,28 +78,21 @@ class BeltSupport:
     stretching: float = 0.0
 
     def __post_init__(self) -> None:
-        if not isinstance(self.top_creep, CreepSpectrum):
-            raise InputError(f"top_creep = {self.top_creep!r}: a CreepSpectrum is needed")
-        for name, least in (("bottom", _THINNEST), ("top", 0.0), ("stretching", 0.0)):
-            value = _real_number(name, getattr(self, name))
-            if not least <= value < math.inf:
-                raise InputError(f"{name} = {value!r}: a finite number of at least {least:g} is needed")
-        if not 0.0 < _real_number("top_modulus", self.top_modulus) < math.inf:
-            raise InputError(f"top_modulus = {self.top_modulus!r}: E0 of the top cover is finite and positive")
-        if not math.isfinite(_real_number("tension", self.tension)):
-            raise InputError(f"tension = {self.tension!r}: a finite number is needed")
-        bending = self.bending if isinstance(self.bending, complex) else _real_number("bending", self.bending)
-        if not (0.0 <= bending.real < math.inf and 0.0 <= bending.imag < math.inf):
-            raise InputError(
-                f"bending = {self.bending!r}: stiffness D' and loss D'' of the carcass are finite and not negative"
-            )
+        require(isinstance(self.top_creep, CreepSpectrum), "top_creep", self.top_creep, "a CreepSpectrum")
+        require_number(bottom=self.bottom, top=self.top, stretching=self.stretching)
+        require_number(top_modulus=self.top_modulus, tension=self.tension)
+        require(_THINNEST <= self.bottom < math.inf, "bottom", self.bottom, f">= {_THINNEST:g} and finite")
+        require_not_negative(top=self.top, stretching=self.stretching)
+        require_positive(top_modulus=self.top_modulus)
+        require_finite(tension=self.tension)
+        if not isinstance(self.bending, complex):
+            require_number(bending=self.bending)
+        borne = 0.0 <= self.bending.real < math.inf and 0.0 <= self.bending.imag < math.inf
+        require(borne, "bending", self.bending, "D' and D'' of the carcass >= 0 and finite")
         if self.tension < 0.0:
             least = self._buckling()
-            if not self.tension > least:
-                raise InputError(
-                    f"tension = {self.tension!r}: the belt buckles under compression; with these stiffnesses "
-                    f"(T - m_b V²) k/E0 must exceed {least:.4g}"
-                )
+            allowed = f"> {least:.4g}, (T - m_b V²) k/E0 at which the belt buckles"
+            require(self.tension > least, "tension", self.tension, allowed)
 
     @property
     def reach(self) -> float:
@@ -235,10 +228,3 @@ def _belt_symbol(belt: _BeltParameters, m: Array, j: ComplexArray, j_top: Comple
     x, w = _carcass_displacement(z, b)
     symbol: ComplexArray = j * confined_symbol(m * belt.bottom) + (b[0] * x + b[1] * w)
     return symbol
-
-
-def _real_number(name: str, value: object) -> float:
-    """The value as a float; InputError where it is not a real number."""
-    if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
-        raise InputError(f"{name} = {value!r}: a number is needed")
-    return float(value)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -10,7 +9,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
+from conveyor.arguments.limits import require
 from conveyor.contact.layers.regrid import log_places
 from conveyor.errors import InputError
 
@@ -57,18 +57,16 @@ class CreepSpectrum:
             raise InputError("weights and times: two lists of numbers are needed") from None
         if d.ndim != 1 or d.shape != z.shape:
             raise InputError(f"weights {d.shape} and times {z.shape}: give two lists of equal length")
-        if d.size and not 0.0 < d.min() <= d.max() <= 1.0 + _SUM_TOLERANCE:
-            raise InputError(
-                f"weights = {d.tolist()}: each weight is positive, the instantaneous part and all weights add to 1"
-            )
+        if d.size:
+            positive = 0.0 < d.min() <= d.max() <= 1.0 + _SUM_TOLERANCE
+            require(positive, "weights", d.tolist(), "> 0 each, instantaneous + sum(weights) = 1")
         least, most = _TIME_RANGE
         plain = z.size == 0 or least <= z.min() <= z.max() <= most
-        if not plain and not np.all((z == 0.0) | ((z >= least) & (z <= most))):
-            raise InputError(
-                f"times = {z.tolist()}: each ζ is finite and not negative: 0, or from {least:g} to {most:g}"
-            )
-        if not (math.isfinite(instantaneous) and _STIFFEST <= instantaneous <= 1.0 + _SUM_TOLERANCE):
-            raise InputError(f"instantaneous = {instantaneous!r}: j∞ = E0/E∞ lies in (0, 1]; at least {_STIFFEST:g}")
+        if not plain:
+            usable = bool(np.all((z == 0.0) | ((z >= least) & (z <= most))))
+            require(usable, "times", z.tolist(), f"0, or >= {least:g} and <= {most:g}, each ζ")
+        soft = _STIFFEST <= instantaneous <= 1.0 + _SUM_TOLERANCE
+        require(soft, "instantaneous", instantaneous, f">= {_STIFFEST:g} and <= 1 (j∞ = E0/E∞)")
         if abs((whole := instantaneous + float(d.sum())) - 1.0) > _SUM_TOLERANCE:
             raise InputError(
                 f"instantaneous + sum(weights) = {whole:.12g}: must be 1 "

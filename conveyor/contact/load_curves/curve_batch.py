@@ -15,7 +15,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
 from conveyor.contact.galerkin.galerkin_tables import GalerkinTables
 from conveyor.contact.galerkin.orders import ORDERS, lowest_order, predicted_order
 from conveyor.contact.galerkin.quadrature import CHECK_PANELS, SOLVE_PANELS, build_rule

@@ -323,7 +323,7 @@ def _pressure_array(pressure: ArrayLike) -> Array:
     try:
         return np.asarray(pressure, dtype=float)
     except (TypeError, ValueError):
-        raise InputError(f"pressure = {pressure!r}: numbers are needed") from None
+        raise InputError(f"pressure: got {pressure!r}, allowed: numbers") from None
 
 
 def _invert_loads(columns: Array, log_p: Sequence[Array]) -> Array:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from conveyor.arguments import check_arguments
+from conveyor.arguments.argument_types import check_arguments
+from conveyor.arguments.limits import require
 from conveyor.contact.galerkin.quadrature import RuleTooLongError
 from conveyor.contact.problem import ContactProblem, Status, check_rtol
 from conveyor.contact.solution import ContactSolution, SolveOutcome, SolveStats
@@ -13,12 +14,9 @@ from conveyor.contact.solvers.many_strips import CoarseContact, solve_strips
 from conveyor.contact.solvers.one_strip import HalfWidthStart, solve_one_strip
 from conveyor.contact.solvers.one_strip_batch import UnsolvedReason, solve_batch
 from conveyor.contact.solvers.solver_state import SolverState
-from conveyor.errors import InputError, NoSolutionError
+from conveyor.errors import NoSolutionError
 
-_SHALLOWEST, _DEEPEST = (
-    1e-28,
-    1e3,
-)  # of penetrations over R: the loads of others underflow or lead beyond the roll
+_SHALLOWEST, _DEEPEST = 1e-28, 1e3  # of penetrations over R: the loads of others underflow or lead beyond the roll
 
 
 @check_arguments
@@ -96,10 +94,8 @@ def solve_penetration(
     >>> round(s.problem.pressure, 6), round(s.friction, 5)
     (0.05, 0.13098)
     """
-    if not (_SHALLOWEST <= penetration <= _DEEPEST):
-        raise InputError(
-            f"penetration = {penetration!r}: Δ/R is finite and positive, from {_SHALLOWEST:g} to {_DEEPEST:g}"
-        )
+    ok = _SHALLOWEST <= penetration <= _DEEPEST
+    require(ok, "penetration", penetration, f">= {_SHALLOWEST:g} and <= {_DEEPEST:g} (Δ/R)")
     check_rtol(rtol)
     return _solve_alone(SolverState.of(problem, depth=penetration), rtol, throw)
 

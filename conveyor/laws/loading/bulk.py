@@ -9,8 +9,8 @@ import math
 from dataclasses import dataclass
 from typing import Final, NamedTuple, TypedDict
 
+from conveyor.arguments.limits import require, require_angle, require_not_negative, require_positive
 from conveyor.laws.loading.wings import NO_WING, Wing, wing_pieces
-from conveyor.require import require, require_angle, require_not_negative, require_positive
 
 EDGE_FRACTION: Final = 0.9  # ISO 5048: b = 0.9 B - 50 mm
 EDGE_MARGIN: Final = 0.05  # [m], ISO 5048, belts up to WIDE_BELT
@@ -72,7 +72,7 @@ def usable_width(belt_width: float) -> float:
     (1.03, 2.15)
     """
     narrowest = EDGE_MARGIN / EDGE_FRACTION
-    require(narrowest < belt_width < math.inf, "belt_width", belt_width, f"more than {narrowest:.4g} m is needed")
+    require(narrowest < belt_width < math.inf, "belt_width", belt_width, f"> {narrowest:.4g} m")
     if belt_width <= WIDE_BELT:
         return EDGE_FRACTION * belt_width - EDGE_MARGIN
     return belt_width - WIDE_EDGE_MARGIN
@@ -131,7 +131,7 @@ def heap_on_slope(inclination: float, *, surcharge_angle: float) -> float:
     0.794
     """
     require_angle(0.0, surcharge_angle=surcharge_angle)
-    require(abs(inclination) <= 0.5 * math.pi, "inclination", inclination, "-pi/2 to pi/2 is needed")
+    require(abs(inclination) <= 0.5 * math.pi, "inclination", inclination, ">= -pi/2 and <= pi/2 rad")
     if abs(inclination) >= surcharge_angle:
         return 0.0
     return math.sqrt(1.0 - (math.sin(inclination) / math.sin(surcharge_angle)) ** 2)
@@ -274,7 +274,7 @@ def filled_width(
         return math.sqrt(6.0 * area / steepness)
     square = cosine**2 * steepness / 6.0 + cosine * sine / 4.0
     linear = middle * (cosine * steepness / 3.0 + sine / 2.0)
-    require(square > 0.0, "surcharge_angle", surcharge_angle, "a flat belt carries a heap only, above 0 is needed")
+    require(square > 0.0, "surcharge_angle", surcharge_angle, "> 0: a flat belt carries a heap only")
     root = math.sqrt(linear**2 + 4.0 * square * (area - over_middle))
     return middle + 2.0 * (area - over_middle) / (linear + root)
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from conveyor.require import require, require_finite, require_not_negative, require_positive, require_slope
+from conveyor.arguments.limits import require, require_finite, require_not_negative, require_positive, require_slope
 
 
 def effective_tension(tension: float, *, line_mass: float, belt_speed: float) -> float:
@@ -78,7 +78,7 @@ def curve_set_force(tension: float, *, radius: float, spacing: float) -> float:
     require_not_negative(tension=tension)
     require_positive(spacing=spacing)
     ok = abs(radius) >= spacing / 2.0
-    require(ok, "radius", radius, f"at least spacing/2 = {spacing / 2.0:.4g} m in size is needed")
+    require(ok, "radius", radius, f">= spacing/2 = {spacing / 2.0:.4g} m in size")
     return 2.0 * tension * math.sin(spacing / (2.0 * radius))
 
 

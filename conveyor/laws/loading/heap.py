@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 from typing import Final, Literal
 
+from conveyor.arguments.limits import require, require_angle
 from conveyor.laws.loading.wings import NO_WING, Wing, wing_pieces
-from conveyor.require import require, require_angle
 
 Heap = Literal["parabola", "triangle"]
 EQUAL_AREA: Final = 2.0 / 3.0  # [-], tan β/tan θ: W² tan θ/6 = W² tan β/4
@@ -96,7 +96,7 @@ def shares_by_area(
     (0.681, 0.16)
     """
     require_angle(0.0, surcharge_angle=surcharge_angle)
-    require(heap in {"parabola", "triangle"}, "heap", heap, "one of parabola, triangle is needed")
+    require(heap in {"parabola", "triangle"}, "heap", heap, "parabola, triangle")
     pieces = wing_pieces(
         usable_width, middle_roll_length=middle_roll_length, trough_angle=trough_angle, inner_wing=inner_wing
     )
@@ -116,5 +116,5 @@ def shares_by_area(
         areas.append((depth - 0.5 * rise) * across + above(place + across) - above(place))
         place, depth = place + across, depth - rise
     whole = math.fsum(areas)
-    require(whole > 0.0, "surcharge_angle", surcharge_angle, "a flat belt carries a heap only, above 0 is needed")
+    require(whole > 0.0, "surcharge_angle", surcharge_angle, "> 0: a flat belt carries a heap only")
     return (areas[0] / whole, *(0.5 * area / whole for area in areas[1:]))

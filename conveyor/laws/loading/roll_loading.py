@@ -14,7 +14,7 @@ from typing import Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.require import require, require_angle, require_not_negative, require_positive
+from conveyor.arguments.limits import require, require_angle, require_not_negative, require_positive
 
 Array = NDArray[np.float64]
 Shape = Literal["uniform", "triangular"]
@@ -62,7 +62,7 @@ def middle_share_bulk(trough_angle: float) -> float:
     >>> round(middle_share_bulk(math.radians(35)), 6)
     0.675
     """
-    require(0.0 <= trough_angle <= math.pi / 3.0, "trough_angle", trough_angle, "0 to pi/3 rad is needed")
+    require(0.0 <= trough_angle <= math.pi / 3.0, "trough_angle", trough_angle, ">= 0 and <= pi/3 rad")
     return MIDDLE_SHARE_FLAT + MIDDLE_SHARE_PER_DEGREE * math.degrees(trough_angle)
 
 
@@ -93,7 +93,7 @@ def middle_share_belt(middle_roll_length: float, *, belt_width: float) -> float:
     """
     require_positive(middle_roll_length=middle_roll_length)
     strip = middle_roll_length + MIDDLE_BELT_OVERHANG
-    require(strip <= belt_width < math.inf, "belt_width", belt_width, f"at least {strip:.4g} m is needed")
+    require(strip <= belt_width < math.inf, "belt_width", belt_width, f">= {strip:.4g} m")
     return strip / belt_width
 
 
@@ -195,7 +195,7 @@ def line_loads(loads: Sequence[RollLoad], n: int) -> tuple[Array, Array]:
     >>> line_loads([wing], 2)[0].round(3).tolist()
     [[573.205, 226.795]]
     """
-    require(n >= 1, "n", n, "at least 1 point is needed")
+    require(n >= 1, "n", n, ">= 1")
     nodes, weights = _gauss(n)
     bulk, belt, length, slope = np.array([
         (load.bulk_force, load.belt_force, load.length, load.shape == "triangular") for load in loads
@@ -213,7 +213,7 @@ def _contact_lengths(n_rolls: int, roll_length: float, belt_width: float) -> tup
         outer > 0.0,
         "roll_length",
         roll_length,
-        f"less than belt_width/{max(inner, 1)} is needed to reach the wings",
+        f"< belt_width/{max(inner, 1)}, to reach the wings",
     )
     return (outer, *([roll_length] * inner), outer)
 
@@ -223,17 +223,17 @@ def _symmetric_shares(middle: float) -> tuple[float, float, float]:
 
 
 def _check_shares(name: str, shares: tuple[float, ...], n_rolls: int) -> tuple[float, ...]:
-    require(len(shares) == n_rolls, name, shares, f"one share for each of the {n_rolls} rolls is needed")
-    require(all(0.0 <= share <= 1.0 for share in shares), name, shares, "shares from 0 to 1 are needed")
+    require(len(shares) == n_rolls, name, shares, f"one share for each of the {n_rolls} rolls")
+    require(all(0.0 <= share <= 1.0 for share in shares), name, shares, "shares >= 0 and <= 1")
     total = math.fsum(shares)
-    require(abs(total - 1.0) <= SHARE_SUM_TOLERANCE, name, shares, f"the sum must be 1, it is {total:.12g}")
+    require(abs(total - 1.0) <= SHARE_SUM_TOLERANCE, name, shares, f"shares whose sum is 1; it is {total:.12g}")
     return shares
 
 
 def _bulk_shares(n_rolls: int, trough_angle: float, given: tuple[float, ...] | None) -> tuple[float, ...]:
     if given is not None:
         return _check_shares("bulk_shares", given, n_rolls)
-    advice = f"a set of {n_rolls} rolls has no rule in VDI 2341, give the {n_rolls} shares"
+    advice = f"{n_rolls} shares; a set of {n_rolls} rolls has no rule in VDI 2341"
     require(n_rolls not in {4, 5}, "bulk_shares", given, advice)
     if n_rolls == 3:
         return _symmetric_shares(middle_share_bulk(trough_angle))
@@ -330,9 +330,9 @@ def roll_loads(
     >>> [(r.name, round(r.force, 2)) for r in loads]
     [('left wing', 312.27), ('middle', 1135.84), ('right wing', 312.27)]
     """
-    require(n_rolls in _ROLE_NAMES, "n_rolls", n_rolls, "1 to 5 rolls are needed")
+    require(n_rolls in _ROLE_NAMES, "n_rolls", n_rolls, "1, 2, 3, 4, 5")
     known = outer_shape in {"triangular", "uniform"}
-    require(known, "outer_shape", outer_shape, "one of triangular, uniform is needed")
+    require(known, "outer_shape", outer_shape, "triangular, uniform")
     require_not_negative(bulk_line_mass=bulk_line_mass, belt_line_mass=belt_line_mass)
     require_positive(spacing=spacing, roll_length=roll_length, belt_width=belt_width, gravity=gravity)
     require_angle(0.0, trough_angle=trough_angle)

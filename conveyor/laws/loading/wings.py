@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Final, NamedTuple
 
-from conveyor.require import require, require_angle, require_not_negative, require_positive
+from conveyor.arguments.limits import require, require_angle, require_not_negative, require_positive
 
 
 class Wing(NamedTuple):
@@ -54,7 +54,7 @@ def wing_pieces(
     """
     require_positive(width=width)
     ok = 0.0 <= middle_roll_length <= width
-    require(ok, "middle_roll_length", middle_roll_length, f"0 to the width {width!r} m is needed")
+    require(ok, "middle_roll_length", middle_roll_length, f">= 0 and <= the width {width!r} m")
     require_not_negative(inner_wing_length=inner_wing.length)
     require_angle(0.0, trough_angle=trough_angle, inner_wing_angle=inner_wing.angle)
     beside = 0.5 * (width - middle_roll_length)
@@ -92,6 +92,6 @@ def roll_angles(rolls: int, *, trough_angle: float, inner_angle: float = 0.0) ->
     >>> roll_angles(5, trough_angle=1.0, inner_angle=0.5)
     (1.0, 0.5, 0.0, -0.5, -1.0)
     """
-    require(1 <= rolls <= 5, "rolls", rolls, "1 to 5 are needed")
+    require(1 <= rolls <= 5, "rolls", rolls, "1, 2, 3, 4, 5")
     half = (trough_angle, inner_angle)[: rolls // 2]
     return (*half, *([0.0] * (rolls % 2)), *(-angle for angle in reversed(half)))

@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final, Literal
 
+from conveyor.arguments.limits import require, require_finite, require_not_negative, require_positive
 from conveyor.laws.resistance.resistance_defaults import Default
-from conveyor.require import require, require_finite, require_not_negative, require_positive
 
 FOOT: Final = 0.3048  # [m], exact
 POUND: Final = 0.45359237  # [kg], exact
@@ -113,7 +113,7 @@ def cema_acceleration(mass_flow: float, *, belt_speed: float, initial_speed: flo
     require_not_negative(mass_flow=mass_flow)
     require_positive(belt_speed=belt_speed)
     ok = 0.0 <= initial_speed <= belt_speed
-    require(ok, "initial_speed", initial_speed, f"0 to belt_speed = {belt_speed!r} m/s is needed")
+    require(ok, "initial_speed", initial_speed, f">= 0 and <= belt_speed = {belt_speed!r} m/s")
     tons = mass_flow / SHORT_TON_PER_HOUR
     return ACCELERATION_FACTOR * tons * (belt_speed - initial_speed) / FOOT_PER_MINUTE * POUND_FORCE
 
@@ -146,7 +146,7 @@ def cema_pulley_friction(places: Sequence[Place]) -> float:
     2001.7
     """
     for place in places:
-        require(place in PULLEY_FRICTION, "places", place, f"one of {', '.join(PULLEY_FRICTION)} is needed")
+        require(place in PULLEY_FRICTION, "places", place, ", ".join(PULLEY_FRICTION))
     return math.fsum(PULLEY_FRICTION[place] for place in places) * POUND_FORCE
 
 
@@ -281,8 +281,8 @@ def cema_effective_tension(
     require_not_negative(length=length, belt_mass=belt_mass, bulk_mass=bulk_mass)
     require_not_negative(idler_factor=idler_factor, other_forces=other_forces)
     require_finite(lift=lift, temperature_factor=temperature_factor)
-    require(0.0 <= flexure_factor <= 0.1, "flexure_factor", flexure_factor, "from 0 to 0.1 is needed")
-    require(temperature_factor >= 1.0, "temperature_factor", temperature_factor, "at least 1 is needed")
+    require(0.0 <= flexure_factor <= 0.1, "flexure_factor", flexure_factor, ">= 0 and <= 0.1")
+    require(temperature_factor >= 1.0, "temperature_factor", temperature_factor, ">= 1")
     feet, rise = length / FOOT, lift / FOOT
     belt, bulk = (mass / (POUND / FOOT) for mass in (belt_mass, bulk_mass))
     kx = idler_factor / (POUND_FORCE / FOOT)

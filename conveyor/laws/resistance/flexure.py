@@ -12,8 +12,8 @@ from typing import Final
 
 import numpy as np
 
+from conveyor.arguments.limits import require, require_angle, require_not_negative, require_positive
 from conveyor.laws.resistance.resistance_defaults import FLEXURE_SHARE, Default
-from conveyor.require import require, require_angle, require_not_negative, require_positive
 
 _SITE_SOURCE: Final = (
     "The CEMA Horsepower Equation, Bulk Solids Handling 34 (2014) 7: 4860 t/h, 7.5 m/s, sets 2 m apart"
@@ -84,7 +84,7 @@ def sag_flexure_resistance(line_load: float, *, spacing: float, relative_sag: fl
     """
     require_not_negative(line_load=line_load, coefficient=coefficient)
     require_positive(spacing=spacing)
-    require(0.0 <= relative_sag <= 0.1, "relative_sag", relative_sag, "from 0 to 0.1 is needed")
+    require(0.0 <= relative_sag <= 0.1, "relative_sag", relative_sag, ">= 0 and <= 0.1")
     return coefficient * line_load * spacing * relative_sag
 
 
@@ -135,7 +135,7 @@ def belt_flexure_resistance(
     """
     require_not_negative(line_load=line_load, bending_stiffness=bending_stiffness)
     require_positive(tension=tension, spacing=spacing)
-    require(0.0 <= loss_tangent <= 1.0, "loss_tangent", loss_tangent, "from 0 to 1 is needed")
+    require(0.0 <= loss_tangent <= 1.0, "loss_tangent", loss_tangent, ">= 0 and <= 1")
     if bending_stiffness == 0.0:
         return loss_tangent * (line_load * spacing) ** 2 / (2.0 * math.pi * tension)
     ratio = 2.0 * math.pi * math.sqrt(bending_stiffness / tension) / spacing

@@ -9,13 +9,13 @@ import math
 from dataclasses import dataclass
 from typing import Final
 
+from conveyor.arguments.limits import require, require_not_negative, require_positive, require_slope
 from conveyor.laws.resistance.resistance_defaults import (
     ROLL_DRAG_LARGER,
     ROLL_DRAG_TO_153,
     ROLL_DRAG_TO_178,
     Default,
 )
-from conveyor.require import require, require_not_negative, require_positive, require_slope
 
 _DRAG_STEPS: Final = ((0.153, ROLL_DRAG_TO_153), (0.178, ROLL_DRAG_TO_178))  # roll diameter up to [m], limit
 
@@ -140,7 +140,7 @@ def idler_rotation_resistance(drag: float, *, n_rolls: int, spacing: float, leng
     """
     require_not_negative(drag=drag, length=length)
     require_positive(spacing=spacing)
-    require(n_rolls >= 1, "n_rolls", n_rolls, "at least 1 roll is needed")
+    require(n_rolls >= 1, "n_rolls", n_rolls, ">= 1")
     return drag * n_rolls * length / spacing
 
 
@@ -241,5 +241,5 @@ def flexure_resistance(other_resistance: float, *, share: float) -> float:
     1100.0
     """
     require_not_negative(other_resistance=other_resistance)
-    require(0.0 <= share < 1.0, "share", share, "from 0 to below 1 is needed")
+    require(0.0 <= share < 1.0, "share", share, ">= 0 and < 1")
     return share / (1.0 - share) * other_resistance

@@ -11,8 +11,8 @@ from typing import Final
 
 import numpy as np
 
+from conveyor.arguments.limits import require_finite, require_not_negative, require_positive, require_slope
 from conveyor.errors import RangeError, ValidityWarning
-from conveyor.require import require_finite, require_not_negative, require_positive, require_slope
 
 SHORTEST_FOR_FACTOR: Final = 80.0  # [m], ISO 5048: below, itemise the secondary resistances
 

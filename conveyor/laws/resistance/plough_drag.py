@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from typing import Final
 
+from conveyor.arguments.limits import require, require_not_negative
 from conveyor.laws.resistance.resistance_defaults import Default
-from conveyor.require import require, require_not_negative
 
 # Scraping factor k_a [N/m]
 SCRAPING_FACTOR: Final = Default(1500.0, 1500.0, 1500.0, "ISO 5048: k_a, normally 1500 N/m", True)
@@ -46,5 +46,5 @@ def plough_resistance(scraped_width: float, *, scraping_factor: float, n_ploughs
     1800.0
     """
     require_not_negative(scraped_width=scraped_width, scraping_factor=scraping_factor)
-    require(n_ploughs >= 0, "n_ploughs", n_ploughs, "at least 0 is needed")
+    require(n_ploughs >= 0, "n_ploughs", n_ploughs, ">= 0")
     return n_ploughs * scraped_width * scraping_factor

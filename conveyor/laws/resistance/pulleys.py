@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from conveyor.require import require, require_not_negative, require_positive
+from conveyor.arguments.limits import require, require_not_negative, require_positive
 
 FABRIC_WRAP: Final = (9.0, 140.0)  # [-], [N/m]: ISO 5048, in 9 B (140 + 0.01 F/B) d/D
 STEEL_CORD_WRAP: Final = (12.0, 200.0)  # [-], [N/m]: general knowledge, a flagged default
@@ -149,10 +149,10 @@ def pulley_load(
     tight, slack, mass, wrap = map(np.asarray, (tight_tension, slack_tension, pulley_mass, wrap_angle))
     for name, values in (("tight_tension", tight), ("slack_tension", slack), ("pulley_mass", mass)):
         borne = bool(((values >= 0.0) & (values < math.inf)).all())
-        require(borne, name, values.tolist(), "a finite number of at least 0 is needed")
+        require(borne, name, values.tolist(), ">= 0 and finite")
     require_positive(gravity=float(np.min(gravity)))
     turns = bool(((wrap > 0.0) & (wrap <= 2.0 * math.pi)).all())
-    require(turns, "wrap_angle", wrap.tolist(), "above 0 and at most 2 pi rad is needed")
+    require(turns, "wrap_angle", wrap.tolist(), "> 0 and <= 2 pi rad")
     # sqrt(T1² + T2² - 2 T1 T2 cos α) without cancellation at small angles
     across = 2.0 * np.sqrt(tight) * np.sqrt(slack) * np.sin(0.5 * wrap)
     return np.asarray(np.hypot(np.hypot(tight - slack, across), gravity * mass))

@@ -9,6 +9,7 @@ import math
 from dataclasses import dataclass
 from typing import Final
 
+from conveyor.arguments.limits import require, require_not_negative, require_positive
 from conveyor.errors import InputError, MessageQuantity
 from conveyor.laws.resistance.roll_bearing import (
     PER_MINUTE,
@@ -16,7 +17,6 @@ from conveyor.laws.resistance.roll_bearing import (
     bearing_load_moment,
     bearing_no_load_moment,
 )
-from conveyor.require import require, require_not_negative, require_positive
 
 TEST_LOAD: Final = 250.0  # [N], load at which rolls are accepted
 TEST_ROTATION: Final = 650.0 / PER_MINUTE  # [1/s], speed at which rolls are accepted
@@ -150,7 +150,7 @@ def bearing_roll_drag(
     """
     require_not_negative(roll_load=roll_load, seal_moment=seal_moment)
     rotation = roll_rotation(belt_speed, roll_diameter=roll_diameter)
-    require(0.0 < mean_diameter < roll_diameter, "mean_diameter", mean_diameter, "above 0 and less than D")
+    require(0.0 < mean_diameter < roll_diameter, "mean_diameter", mean_diameter, "> 0 and < D")
     no_load = bearing_no_load_moment(f0, viscosity=viscosity, rotation=rotation, mean_diameter=mean_diameter)
     each = roll_load / 2.0
     f1 = bearing_load_factor(each, static_rating=static_rating, factor=f1_factor, exponent=f1_exponent)
@@ -214,8 +214,7 @@ def linear_roll_drag(
     drag += rotation_slope * (rotation - reference_rotation)
     if drag < 0.0:
         raise InputError(
-            "reference_drag = {} is not allowed: its line gives {} at {} and {}; give smaller slopes or a measurement "
-            "nearer by",
+            "reference_drag: got {}, its line gives {} at {} and {}; give smaller slopes or a measurement nearer by",
             MessageQuantity(reference_drag, "force", f"{reference_drag!r}"),
             MessageQuantity(drag, "force", f"{drag:.3g} N"),
             MessageQuantity(load, "force", f"{load:g} N"),

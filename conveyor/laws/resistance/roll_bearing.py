@@ -11,9 +11,9 @@ import math
 import warnings
 from typing import Final
 
+from conveyor.arguments.limits import require, require_not_negative, require_positive
 from conveyor.errors import MessageQuantity, ValidityWarning
 from conveyor.laws.resistance.resistance_defaults import Default
-from conveyor.require import require, require_not_negative, require_positive
 
 MM: Final = 1e-3  # [m]
 CENTISTOKES: Final = 1e-6  # [m²/s], 1 mm²/s
@@ -91,13 +91,13 @@ def oil_viscosity(
     require_positive(second_temperature=second_temperature)
     for name, value in (("first_viscosity", first_viscosity), ("second_viscosity", second_viscosity)):
         least = WALTHER_LEAST * CENTISTOKES
-        require(least <= value < math.inf, name, value, f"at least {least:g} m²/s is needed")
+        require(least <= value < math.inf, name, value, f">= {least:g} m²/s")
     falls = (second_temperature - first_temperature) * (first_viscosity - second_viscosity) > 0.0
-    require(falls, "second_viscosity", second_viscosity, "the hotter of the two must be the thinner")
+    require(falls, "second_viscosity", second_viscosity, "< first_viscosity: the hotter of the two is the thinner")
     turn, slope = walther_constants(first_temperature, first_viscosity, second_temperature, second_viscosity)
     log_z = math.exp(turn - slope * math.log(temperature))
     cold = MessageQuantity(temperature, "temperature", f"{temperature!r}")
-    require(log_z < math.log10(1e9), "temperature", cold, "the oil is solid there, give hotter ones")
+    require(log_z < math.log10(1e9), "temperature", cold, "hotter ones: the oil is solid there")
     viscosity: float = 10.0**log_z - WALTHER_OFFSET
     if viscosity < WALTHER_LEAST:
         warnings.warn(
@@ -296,6 +296,6 @@ def labyrinth_moment(dynamic_viscosity: float, *, rotation: float, radius: float
     """
     require_not_negative(dynamic_viscosity=dynamic_viscosity, rotation=rotation, length=length)
     require_positive(radius=radius)
-    require(0.0 < gap <= radius / 10.0, "gap", gap, f"above 0 and at most a tenth of radius = {radius!r} m")
+    require(0.0 < gap <= radius / 10.0, "gap", gap, f"> 0 and <= a tenth of radius = {radius!r} m")
     shear_stress = dynamic_viscosity * 2.0 * math.pi * rotation * radius / gap
     return shear_stress * 2.0 * math.pi * radius * length * radius

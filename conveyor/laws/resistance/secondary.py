@@ -5,13 +5,13 @@ Source: ISO 5048.
 
 from __future__ import annotations
 
-from conveyor.require import require, require_not_negative, require_positive
+from conveyor.arguments.limits import require, require_not_negative, require_positive
 
 
 def _require_speeds(belt_speed: float, initial_speed: float) -> None:
     require_positive(belt_speed=belt_speed)
     ok = 0.0 <= initial_speed <= belt_speed
-    require(ok, "initial_speed", initial_speed, f"0 to belt_speed = {belt_speed!r} m/s is needed")
+    require(ok, "initial_speed", initial_speed, f">= 0 and <= belt_speed = {belt_speed!r} m/s")
 
 
 def acceleration_resistance(mass_flow: float, *, belt_speed: float, initial_speed: float) -> float:

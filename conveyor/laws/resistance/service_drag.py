@@ -13,6 +13,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from conveyor.arguments.limits import require, require_positive
 from conveyor.errors import ConveyorError, MessageQuantity
 from conveyor.laws.resistance.resistance_defaults import Default, Site
 from conveyor.laws.resistance.rim_drag import bearing_roll_drag, roll_rotation
@@ -28,7 +29,6 @@ from conveyor.laws.resistance.roll_bearing import (
     oil_viscosity,
     walther_constants,
 )
-from conveyor.require import require, require_positive
 
 Array = NDArray[np.float64]
 
@@ -148,7 +148,7 @@ def usual_bearing(roll_diameter: float) -> Bearing:
         MessageQuantity(roll_diameter, "thickness", f"{roll_diameter!r}"),
         MessageQuantity(smallest, "thickness", f"{smallest:g} m"),
     )
-    allowed = ConveyorError("more than {} is needed; give the roll's drag", least)
+    allowed = ConveyorError("> {}; give the roll's drag", least)
     require(smallest < roll_diameter < math.inf, "roll_diameter", diameter, allowed)
     return next(bearing for largest, bearing in USUAL_BEARINGS if roll_diameter <= largest)
 
@@ -235,7 +235,7 @@ def service_roll_drag(
     given = (np.asarray(one, dtype=float) for one in (roll_load, belt_speed, air_temperature))
     load, speed, air = np.broadcast_arrays(*given)
     borne = bool(np.all((load >= 0.0) & (load < math.inf)))
-    require(borne, "roll_load", roll_load, "finite numbers of at least 0 are needed")
+    require(borne, "roll_load", roll_load, ">= 0 and finite")
     (cool, thick), (warm, thin) = USUAL_OIL
     for v in np.unique(speed).tolist():
         require_positive(belt_speed=v)

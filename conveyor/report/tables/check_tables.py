@@ -8,7 +8,7 @@ from typing import Final, NamedTuple
 
 from conveyor.assessment import Assessment
 from conveyor.checks import Check, governing_by_criterion
-from conveyor.remarks import method_summary
+from conveyor.remarks.assumptions import method_summary
 from conveyor.report.json_keys import JsonObject, choice_key, number_key, text_key, value_key
 from conveyor.report.table_model import (
     Column,

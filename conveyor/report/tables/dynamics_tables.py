@@ -12,7 +12,8 @@ import numpy as np
 
 from conveyor.checks import Check, governing_by_subject
 from conveyor.dynamics.criteria import dynamics_checks, pulley_peak, tension_peaks
-from conveyor.dynamics.simulation import CalculatedDynamics, ScenarioResult
+from conveyor.dynamics.scenario_result import ScenarioResult
+from conveyor.dynamics.simulation import CalculatedDynamics
 from conveyor.laws.belt_strength import DUTY_SAFETY, SPLICE_SAFETY, belt_safety, required_strength
 from conveyor.report.dynamics_plots import scenario_figure, tension_animation
 from conveyor.report.json_keys import (

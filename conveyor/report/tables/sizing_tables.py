@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from conveyor.checks import run_checks
-from conveyor.remarks import analysis_assumptions
+from conveyor.remarks.assumptions import analysis_assumptions
 from conveyor.report.json_keys import SCHEMA_VERSION
 from conveyor.report.matplotlib_settings import own_settings
 from conveyor.report.plots import (

@@ -13,11 +13,11 @@ from conveyor.checks import run_checks
 from conveyor.contact import interior, solve
 from conveyor.errors import InputError
 from conveyor.indentation import RollContact, to_problem
-from conveyor.laws.softening import SofteningCover, loss_weighted_load, soften_at_strains, soften_or_raise
+from conveyor.indentation.softening import SofteningCover, loss_weighted_load, soften_at_strains, soften_or_raise
 from conveyor.models import RubberCompound
 from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
-from conveyor.remarks import analysis_warnings
+from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.spec import load
 
 AT = 293.15
@@ -161,7 +161,7 @@ def test_mean_load_weighs_by_what_rolls_lose():
     """8^(4/3) is 16: two rolls at 8 N/m and one at 1 lose 16 to 1 each; a load that all share is the mean."""
     assert loss_weighted_load(np.array([8.0, 1.0]), np.array([2.0, 1.0])) == pytest.approx(257.0 / 33.0, rel=1e-14)
     assert loss_weighted_load(np.array([5.0, 5.0, 5.0]), np.array([1.0, 2.0, 0.0])) == pytest.approx(5.0, rel=1e-14)
-    with pytest.raises(InputError, match=r"^line_loads: got 0\.0, allowed: a roll that carries something"):
+    with pytest.raises(InputError, match=r"^line_loads: got 0\.0, allowed: > 0: a roll that carries something"):
         loss_weighted_load(np.zeros(2), np.ones(2))
 
 
@@ -171,5 +171,5 @@ def test_mean_load_weighs_by_what_rolls_lose():
 )
 def test_strains_that_are_none_are_refused(compound, contact, worked, name):
     work = SofteningCover(contact, LOAD, compound.amplitude_factors(), AT)
-    with pytest.raises(InputError, match=rf"^{name} = .*a finite number greater than 0 is needed"):
+    with pytest.raises(InputError, match=rf"^{name}: got .*, allowed: > 0 and finite"):
         soften_at_strains([work], [worked])

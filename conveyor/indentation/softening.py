@@ -15,10 +15,11 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.arguments.limits import require, require_positive
 from conveyor.contact import Status, solve_many, working_strains
 from conveyor.errors import NoSolutionError, RangeError
-from conveyor.indentation import RollContact, no_contact_error, to_problems
-from conveyor.require import require, require_positive
+from conveyor.indentation import RollContact, to_problems
+from conveyor.indentation.indentation_results import no_contact_error
 from conveyor.rubber import (
     AmplitudeFactors,
     EquivalentLinear,
@@ -93,7 +94,7 @@ def loss_weighted_load(line_loads: Array, weights: Array) -> float:
     """
     lost = weights * line_loads**LOAD_EXPONENT
     whole = float(lost.sum())
-    require(whole > 0.0, "line_loads", whole, "a roll that carries something is needed")
+    require(whole > 0.0, "line_loads", whole, "> 0: a roll that carries something")
     return float(lost @ line_loads) / whole
 
 

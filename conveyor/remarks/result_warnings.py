@@ -1,4 +1,4 @@
-"""Assumptions behind the results, and warnings where one is strained."""
+"""Warnings where an assumption is strained, a default is in use or a result is doubtful."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from typing import Final
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks import Check
 from conveyor.files.libraries import widest_spacings
-from conveyor.laws.horizontal_curve import FULL_SLIP_TILT
 from conveyor.laws.misalignment import MISALIGNMENT
 from conveyor.laws.motion import DRIVE_INERTIA, START_FACTOR
 from conveyor.laws.resistance import (
@@ -21,118 +20,22 @@ from conveyor.laws.resistance import (
     SCRAPING_FACTOR,
     SERVICE_DRAG,
 )
-from conveyor.laws.wind import WIND_DRAG, WIND_LIFT
 from conveyor.line.belt_contacts import BeltContacts
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.line import Line
 from conveyor.line.roll_drags import acceptance_limit, assumed_bearing, bearing_viscosity
-from conveyor.line.stretches import misalignment_angle
 from conveyor.loop.annual_energy import lacks_feed_in_price
 from conveyor.models import Conveyor, IdlerSet, Roll
-from conveyor.models.library_items import LibraryItem, without_entry_fields
+from conveyor.models.library_items import without_entry_fields
 from conveyor.models.plausibility import implausible_inputs
-from conveyor.models.rolls import BearingDrag, MakerDrag
+from conveyor.models.rolls import BearingDrag
+from conveyor.remarks.assumptions import library_models, rolls_by_field
 from conveyor.units import quantity, same_value, text
 from conveyor.units.presentation import format_figure
 from conveyor.units.sentences import Message, escape_braces, message, percent
 
 LEAST_PUBLISHED_FRICTION: Final = 0.0075
 """Friction factor measured over six shifts on Henderson PC2, 16.28 km (Alspaugh, MINExpo 2004) [-]."""
-
-
-def analysis_assumptions(conveyor: Conveyor) -> tuple[str, ...]:
-    """Assumptions behind all results of an analysis, in words."""
-    support = {
-        "confined": "the cover is bonded to a carcass that does not give (a real belt differs by 1 to 8 %)",
-        "belt": "the cover is bonded to a carcass that gives, held by its tension, the other cover above; all flat",
-        "free": "the cover is a free layer that bends between the rolls (the paper's belt)",
-        "half-space": "the cover is endlessly thick",
-    }[conveyor.calculation.support]
-    return (
-        _rubber_assumption(conveyor),
-        f"Contact is plane strain, frictionless, steady, on cylinders in line: {support}.",
-        f"Contacts are solved to a relative tolerance of {conveyor.calculation.rtol:g} of the indentation resistance "
-        "(calculation.rtol); at 1e-4 half widths are good to 0.1 %. Peak pressures stand with their own error.",
-        *roll_assumptions(conveyor),
-        "The bearings of driven pulleys (at each drive's place the most wrapped ones) are included in the drive's "
-        "efficiency; tension changes the load of the rolls on curves only.",
-        *_horizontal_assumptions(conveyor),
-        *_wind_assumption(conveyor),
-        f"Covers are at {format_figure(conveyor.temperature, 'temperature', conveyor.report.units)} throughout.",
-        *_energy_assumption(conveyor),
-    )
-
-
-def _horizontal_assumptions(conveyor: Conveyor) -> Iterator[str]:
-    """Assumptions on drift in horizontal curves."""
-    if all(section.horizontal_curve is None for section in conveyor.route.sections):
-        return
-    slip, friction = math.degrees(FULL_SLIP_TILT.value), ROLL_ON_BELT_FRICTION.value
-    yield (
-        "Horizontal curves: T - m' v² over the radius against the weights along the wings (Grimmer, Kessler 1987, "
-        "Part II, load factors 1). Belt and bulk keep their place on each other as the belt drifts; the rolls bear "
-        "what then lies over them, and the part of the pull that is square to them. Each section has one drift, of its "
-        f"mean tension: divide long curves. Tilted and skewed rolls guide by a friction of at most {friction:g}, "
-        f"reached at {slip:.0f} deg (general knowledge), of which 70 to 100 % is counted on. The way "
-        "into the banking at the ends of a curve, and edge rolls, are left out."
-    )
-    if 1 in {conveyor.idlers.carry.rolls, conveyor.idlers.return_.rolls}:
-        yield (
-            "A flat set in a horizontal curve holds the course of its belt by banking and guiding friction, not its "
-            "place (derived): the belt comes in along the middle and drifts all along; its drift is that at the end."
-        )
-
-
-def _wind_assumption(conveyor: Conveyor) -> Iterator[str]:
-    """Assumptions on wind on a strand without bulk."""
-    if conveyor.ambient.wind_speed is not None:
-        yield (
-            f"Wind on a strand without bulk, no hood: it lifts by {WIND_LIFT.value:g} of its dynamic pressure on the "
-            f"belt's width ({WIND_LIFT.low:g} to {WIND_LIFT.high:g}, most if dammed below; general knowledge), "
-            "held against the belt's weight, in concave curves together with the tension. In horizontal curves it "
-            f"pushes across by {WIND_DRAG.value:g} (general knowledge) on the height of the trough, either way; the "
-            "weights that hold the belt there are taken without its lift."
-        )
-
-
-def method_summary(result: CalculatedConveyor) -> tuple[str, ...]:
-    """Method of calculation, for readers of the report alone."""
-    tested = any(level is not None for level in (cover.level for cover in result.contacts.covers.values()))
-    scaled = ", scaled to the rolling-resistance tests of the compound" if tested else ""
-    return (
-        "Indentation: steady rolling contact of a viscoelastic cover on cylinders (Menga, Bottiglione, Carbone, "
-        "Lubricants 7 (2019), with its errata), solved for every distinct roll with the relaxation spectrum of the "
-        f"rubber at belt speed and temperature{scaled}; numerical error at most {result.error_estimate:.0e}.",
-        "Other resistances: DIN 22101 / ISO 5048, item by item; the source stands beside every force.",
-        "Tensions: all forces are summed round the loop in steady running, starting and stopping; the take-up is set "
-        "for the grip of the drives (Eytelwein) and the sag between idlers, in every load and state together.",
-        "Load states: all sections loaded or empty in the combination that is worst for each figure; minimum friction "
-        f"is {percent(result.conveyor.drive.certain_friction)} of the calculated one where that is less favourable.",
-        "Checks: calculated against required, of all loads the least margin; the source of a limit stands beside it.",
-    )
-
-
-def _rubber_assumption(conveyor: Conveyor) -> str:
-    softened = list(
-        dict.fromkeys(
-            compound.name
-            for compound in compounds_by_strand(conveyor).values()
-            if compound.strain_dependence is not None and conveyor.calculation.strain != "off"
-        )
-    )
-    at = "at the strain its data were measured at"
-    if softened:
-        rest = "" if len(softened) == len({c.name for c in compounds_by_strand(conveyor).values()}) else f", else {at}"
-        at = f"at its working strain under the rolls ({', '.join(softened)}{rest})"
-    return f"Rubber is linearly viscoelastic {at}; Poisson's ratio is constant."
-
-
-def _energy_assumption(conveyor: Conveyor) -> Iterator[str]:
-    if conveyor.operation is not None and not conveyor.drive.knows_mains:
-        yield (
-            "Energy and cost are those of the motors' shafts: drive.train has no part between mains and motor shaft, "
-            "such as the motor itself or a converter."
-        )
 
 
 def analysis_warnings(result: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Message, ...]:
@@ -391,114 +294,6 @@ COLD_OIL_VISCOSITY = (
 )
 
 
-def roll_assumptions(conveyor: Conveyor) -> tuple[str, ...]:
-    """Assumptions on load shares, flexure, drag and alignment; library entries with their sources."""
-    return (
-        _share_assumption(conveyor), _flexure_assumption(conveyor), _drag_assumption(conveyor),
-        _alignment_assumption(conveyor), *_library_assumptions(conveyor)
-    )  # fmt: skip
-
-
-def _share_assumption(conveyor: Conveyor) -> str:
-    sets = (conveyor.idlers.carry, conveyor.idlers.return_)
-    rule = "VDI 2341"
-    if conveyor.idlers.carry.load_shares is not None:
-        rule = "the spec (idlers.carry.load_shares)"
-    elif conveyor.idlers.carry.share_rule == "cross-section":
-        heap = "a parabola" if conveyor.material.surcharge_convention == "ISO 5048" else "a triangle"
-        rule = (
-            f"the area of bulk above each roll at the section's filling, the heap {heap} "
-            f"({conveyor.material.surcharge_convention}), vertical columns"
-        )
-    even = all(idlers.wing_load == "uniform" for idlers in sets)
-    outer = "and outer ones" if even else "triangular on outer ones"
-    joined = "bulk uniform on inner rolls " if even else "bulk uniform on inner rolls, "
-    return f"Load shares of the rolls after {rule}; {joined}{outer}."
-
-
-def _alignment_assumption(conveyor: Conveyor) -> str:
-    carry, back = (
-        math.degrees(misalignment_angle(conveyor, idlers))
-        for idlers in (conveyor.idlers.carry, conveyor.idlers.return_)
-    )
-    return (
-        f"The axes of the idler sets are askew at random, carry {carry:.2g} deg, return {back:.2g} deg (standard "
-        f"deviation); belt on rolls has a friction of at most {ROLL_ON_BELT_FRICTION.value:g} (general knowledge)."
-    )
-
-
-def _flexure_assumption(conveyor: Conveyor) -> str:
-    calculation = conveyor.calculation
-    if calculation.flexure_share is not None:
-        return (
-            f"Flexure of belt and bulk is {text(calculation.flexure_share)} of the main resistance (no model: "
-            f"{100.0 * FLEXURE_SHARE.value:.0f} % of the total were measured at one overland site)."
-        )
-    if calculation.flexure is None:
-        carry, back = (text(idlers.sag) for idlers in (conveyor.idlers.carry, conveyor.idlers.return_))
-        return (
-            f"Flexure of belt and bulk is {FLEXURE_COEFFICIENT.value:.3f} of load times relative sag, at the sag "
-            f"the sets are designed for (carry {carry}, return {back}) at any tension and load."
-        )
-    laws = []
-    if calculation.flexure.belt is not None:
-        given = calculation.flexure.belt.tension
-        at = "the least tension that the sag allows, on the safe side" if given is None else text(given)
-        laws.append(f"of the belt as a tensioned beam with a constant loss tangent, at {at}")
-    if calculation.flexure.bulk is not None:
-        laws.append("of the bulk by Rankine's states at the opening angle given, an upper bound")
-    return f"Flexure {'; '.join(laws)}."
-
-
-def _drag_assumption(conveyor: Conveyor) -> str:
-    in_service = conveyor.calculation.roll_drag == "in service"
-    laws = {
-        strand: sorted({_law_in_words(roll, in_service=in_service) for _, roll in _rolls_by_field(idlers)})
-        for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_))
-    }
-    if all(law == ["constant"] for law in laws.values()):
-        return "Roll drag does not depend on speed, load or temperature."
-    words = [f"{strand} {' and '.join(law)}" for strand, law in laws.items()]
-    if laws["carry"] == laws["return"]:
-        words = [" and ".join(laws["carry"])]
-    return f"Roll drag: {', '.join(words)}."
-
-
-def _law_in_words(roll: Roll, *, in_service: bool) -> str:
-    if isinstance(roll.drag_law, MakerDrag):
-        return "over load and speed by the maker's line"
-    if isinstance(roll.drag_law, BearingDrag):
-        return "over load, speed and air temperature by Palmgren's bearing friction, no warming but the given"
-    if roll.drag is None and in_service:
-        return (
-            "over load, speed and air temperature by Palmgren's friction of usual bearings at their own temperature, "
-            "and usual seals"
-        )
-    return "constant"
-
-
-def _rolls_by_field(idlers: IdlerSet) -> list[tuple[str, Roll]]:
-    """Rolls of a set with their field names."""
-    rolls = [("roll", idlers.roll)]
-    return rolls if idlers.middle_roll is None else [*rolls, ("middle_roll", idlers.middle_roll)]
-
-
-def _library_models(conveyor: Conveyor) -> Iterator[tuple[str, LibraryItem]]:
-    yield "belt", conveyor.belt
-    yield "material", conveyor.material
-    for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
-        for name, roll in _rolls_by_field(idlers):
-            yield f"idlers.{strand}.{name}", roll
-
-
-def _library_assumptions(conveyor: Conveyor) -> Iterator[str]:
-    for field, model in _library_models(conveyor):
-        entry = model.entry
-        if entry is not None:
-            note = f"; {entry.note}" if entry.note else ""
-            yield f'{field}: "{entry.name}" of the library where the spec gives nothing ({entry.source}){note}.'
-
-
 def roll_warnings(result: CalculatedConveyor) -> tuple[Message, ...]:
     """Warnings on defaults in use and strained laws of rolls, sets and belt."""
     conveyor = result.conveyor
@@ -543,7 +338,7 @@ def _drag_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     air = conveyor.air_temperature
     in_service = conveyor.calculation.roll_drag == "in service"
     for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
-        for name, roll in _rolls_by_field(idlers):
+        for name, roll in rolls_by_field(idlers):
             law, field = roll.drag_law, f"idlers.{strand}.{name}"
             if isinstance(law, BearingDrag):
                 yield from _bearing_warnings(field, law, air)
@@ -619,7 +414,7 @@ def _flexure_warnings(conveyor: Conveyor) -> Iterator[Message]:
 
 
 def _library_warnings(conveyor: Conveyor) -> Iterator[Message]:
-    for field, model in _library_models(conveyor):
+    for field, model in library_models(conveyor):
         entry = model.entry
         if entry is None or not entry.general_knowledge:
             continue

@@ -1,0 +1,187 @@
+"""Criteria of drives, brakes and backstops, of starting and stopping."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Final
+
+from conveyor.calculated_conveyor import CalculatedConveyor
+from conveyor.checks.check import Check, Relation, check_against_limit, pass_or_fail
+from conveyor.laws.motion import Stop
+from conveyor.line.line import Line
+from conveyor.loop.drive_duty import coasting_flywheel
+from conveyor.units.sentences import Message, escape_braces, message
+
+_AT_MOST: Final[Relation] = "at most"
+
+
+_AT_LEAST: Final[Relation] = "at least"
+
+
+def motor_power(result: CalculatedConveyor) -> Iterator[Check]:
+    """Every drive's motors give or hold its share in steady running, with the friction at both ends of its band."""
+    line, motor = result.line, result.balance.frame.motor
+    low, high = result.drive_forces
+    for drive in line.drives:
+        least, most = motor(drive.share * low), motor(drive.share * high)
+        certain = abs(least) > abs(most)
+        power = least if certain else most
+        who = "the motor" if len(line.drives) == 1 else f'"{escape_braces(drive.name)}"'
+        yield check_against_limit(
+            "motor_power", f"motor power, {escape_braces(drive.name)}", abs(power), "at most", drive.power, "power",
+            wording=message("{}" + (" (generating)" if power < 0.0 else ""), (abs(power), "power")),
+            missing="installed power not given", where="least friction" if certain else "",
+            why=f"{who} requires {{calculated}}, {{required}} are installed: install more power",
+        )  # fmt: skip
+
+
+def starting_force(result: CalculatedConveyor) -> Iterator[Check]:
+    """Motor force suffices for a controlled start or the whole run-up, and for breaking away after standstill."""
+    start = result.motions.start
+    if start.force <= 0.0:
+        return
+    if start.available is not None and start.least is not None:
+        if start.asked is not None:
+            why = (
+                "the motors give {required} at the start (drive.torque_factor, torque_curve), {calculated} are "
+                f"required (drive.start_factor, rotating masses): it is limited to {start.factor:.3g} times the steady "
+                "force; more power, torque or a softer start"
+            )
+            given, limit, relation = start.asked, start.least, _AT_MOST
+        else:
+            why = (
+                "the motors give at least {calculated} during run-up (drive.torque_factor, torque_curve), the belt "
+                "requires {required}: more power or torque"
+            )
+            given, limit, relation = start.least, result.balance.settled.force, _AT_LEAST
+        yield check_against_limit("starting_force", "starting force, motors", given, relation, limit, "force", why=why)
+    given = start.standstill if result.start_of_motors is None else result.start_of_motors
+    yield check_against_limit(
+        "breakaway", "starting force after standstill", given, "at least", start.breakaway, "force",
+        why="the starting force of {calculated} does not overcome the resistance after standstill, up to {required}: "
+        "raise drive.start_factor or the motors' torque",
+    )  # fmt: skip
+
+
+def comes_to_rest(result: CalculatedConveyor) -> Iterator[Check]:
+    """The conveyor stops without power, by friction alone or by its brakes; both are reported."""
+    moving, brakes = result.motions, math.fsum(result.line.brakes)
+    alone, stopped = moving.coasting_least, moving.braked
+    why = message("the conveyor does not stop by itself and has no brake: give drive.brake_force")
+    if moving.runaway is not None:
+        why = message(
+            "the conveyor does not stop by itself and has no brake, it runs away at {}: give drive.brake_force",
+            (moving.runaway, "acceleration"),
+        )
+    words = _rest_text(alone, moving.runaway)
+    safe = alone is not None or stopped is not None
+    asked = message("a stop at minimum friction" if brakes == 0.0 else "a stop at minimum friction, or brakes")
+    yield Check(
+        "comes_to_rest", message("coast-down stop"), None if alone is None else alone.time, None,
+        "duration", words, asked, pass_or_fail(holds=safe), why, _AT_MOST,
+    )  # fmt: skip
+    if brakes > 0.0:
+        why = message("brakes of {} do not stop the conveyor", (brakes, "force"))
+        yield Check(
+            "comes_to_rest", message("coast-down stop, brakes on"), None if stopped is None else stopped.time,
+            None, "duration", _rest_text(stopped, None), message("a stop at minimum friction"),
+            pass_or_fail(holds=stopped is not None), why, _AT_MOST,
+        )  # fmt: skip
+
+
+def _rest_text(stopping: Stop | None, runaway: float | None) -> Message:
+    """Stop or runaway in words."""
+    if stopping is not None:
+        return message(f"in {stopping.time:,.1f} s, {{}}", (stopping.distance, "length"))
+    return message("does not") if runaway is None else message("runs away at {}", (runaway, "acceleration"))
+
+
+def holding_brake(result: CalculatedConveyor) -> Iterator[Check]:
+    """A brake or backstop holds the loaded belt, and brakes give the required deceleration."""
+    moving, line = result.motions, result.line
+    given = any(drive.brake is not None for drive in line.drives)
+    brakes = math.fsum(line.brakes)
+    if moving.brake_to_hold > 0.0:
+        what = "backstop" if moving.rolls_back else "brake"
+        bear = _backstop_forces(line) if moving.rolls_back else ()
+        known = given or bool(bear)
+        none = "no brake given, nor what a backstop bears" if moving.rolls_back else "no brake given"
+        made = check_against_limit(
+            "holding_brake", f"holding {what}, loaded belt", math.fsum((brakes, *bear)), "at least",
+            moving.brake_to_hold, "force", wording=None if known else message(none),
+            why=f"the loaded belt needs a {what} of {{required}} at the belt to stay at rest",
+        )  # fmt: skip
+        yield made if known else replace(made, verdict="not checked")
+    if moving.brake_to_stop is not None:
+        yield check_against_limit(
+            "stopping_brake", "brakes for the specified deceleration", brakes, "at least", moving.brake_to_stop,
+            "force", wording=None if given else message("no brake given"),
+            why="drive.stop_deceleration requires brakes of {required} at the belt, given: {calculated}",
+        )  # fmt: skip
+
+
+def _backstop_forces(line: Line) -> tuple[float, ...]:
+    """Forces at the belt of the backstops of given torque [N]."""
+    parts = ((drive.parts, drive.radius) for drive in line.drives)
+    return tuple(
+        part.backstop / radius
+        for part, radius in parts
+        if part is not None and part.backstop is not None and radius is not None
+    )
+
+
+def drive_parts(result: CalculatedConveyor) -> Iterator[Check]:
+    """Backstops, brakes, starts an hour and uncontrolled load sharing are within their limits; where given."""
+    motor = result.balance.frame.motor
+    for duty in result.drive_duty:
+        name, parts, installed = escape_braces(duty.drive.name), duty.parts, duty.drive.power
+        if parts.backstop is not None and duty.backstop is not None:
+            yield check_against_limit(
+                "backstop_torque", f"torque of the backstop, {name}", duty.backstop, "at most", parts.backstop,
+                "torque", where="holding" if duty.backstop == duty.holding else "motors stalled",
+                why=f'the backstop of "{name}" bears {{required}}, {{calculated}} are asked of it',
+            )  # fmt: skip
+        if parts.heat is not None and duty.heat is not None:
+            yield check_against_limit(
+                "brake_heat", f"heat of a stop in the brake, {name}", duty.heat, "at most", parts.heat, "heat",
+                why=f'a stop leaves {{calculated}} in the brake of "{name}", it bears {{required}}',
+            )  # fmt: skip
+        if parts.starts is not None and duty.allowed_starts is not None:
+            yield _motor_starts_check(name, parts.starts, duty.allowed_starts)
+        if duty.shared is not None and installed is not None:
+            yield check_against_limit(
+                "load_sharing", f"motor power by uncontrolled sharing, {name}", abs(motor(duty.shared)), "at most",
+                installed, "power",
+                why=f'"{name}" takes {{calculated}} where nothing but the belt couples the drives, installed: '
+                "{required}; control the sharing, or choose motors of more slip and pulleys alike",
+            )  # fmt: skip
+
+
+def _motor_starts_check(name: str, asked: float, allowed: float | str) -> Check:
+    subject = message(f"starts an hour, {name}")
+    if isinstance(allowed, str):
+        wanted = message("{}", (asked, "number"))
+        return Check("motor_starts", subject, asked, None, "number", wanted, message(allowed), "not checked")
+    return check_against_limit(
+        "motor_starts", subject, asked, "at most", allowed, "number",
+        asked=message(f"at most {allowed:.2f} (NEMA MG 10)"),
+        why=f'the motors of "{name}" bear {allowed:.2g} starts an hour of this load (NEMA MG 10), {asked:g} are asked '
+        "for: a coupling or an inverter",
+    )  # fmt: skip
+
+
+def coasting_time(result: CalculatedConveyor) -> Iterator[Check]:
+    """Coasting without power and brakes lasts the required time; on failure the flywheel needed is named."""
+    wanted, stopped = result.line.coast_time, result.motions.coasting
+    if wanted is None or stopped is None:
+        return
+    inertia = coasting_flywheel(result.line, result.motions)
+    figures = () if inertia is None else ((inertia, "inertia"),)
+    cure = ": a flywheel of {} at the motors' shafts" if figures else ""
+    why = message(f"the conveyor coasts for {stopped.time:,.1f} s, {wanted:,.1f} s are wanted{cure}", *figures)
+    yield check_against_limit(
+        "coasting_time", "coasting without power", stopped.time, "at least", wanted, "time", why=why,
+        wording=message(f"{stopped.time:,.1f} s"), asked=message(f"at least {wanted:,.1f} s"),
+    )  # fmt: skip

@@ -1,0 +1,169 @@
+"""What is chosen for a design: belt, rolls and troughs by the estimate, parts by exact calculations."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+from conveyor.laws.belt_strength import CLASSIC_SAFETY, least_cover
+from conveyor.laws.idler_sets import CemaClass
+from conveyor.laws.preliminary_sizing import carcass_mass, roll_shell_mass
+from conveyor.laws.tension import least_pulley_diameter, usual_stiffness
+from conveyor.models.sizing import DriveLayout
+from conveyor.units import from_si
+
+_V_ANGLE: Final = math.radians(10.0)
+
+
+@dataclass(frozen=True)
+class CarcassClass:
+    """A carcass class: kind, strength [N/m], thickness [m]; if listed mass [kg/m²] and rated tension [N/m]."""
+
+    kind: str
+    strength: float
+    thickness: float
+    listed_mass: float | None = None
+    rating: float | None = None
+
+    @property
+    def steel_cord(self) -> bool:
+        """True for steel cords."""
+        return self.kind == "steel cord"
+
+    @property
+    def mass(self) -> float:
+        """Mass per area [kg/m²]."""
+        if self.listed_mass is not None:
+            return self.listed_mass
+        return carcass_mass(self.strength, thickness=self.thickness, steel_cord=self.steel_cord)
+
+    @property
+    def safety(self) -> float:
+        """Strength over the allowed tension in steady running [-]."""
+        if self.rating is not None:
+            return self.strength / self.rating
+        return CLASSIC_SAFETY["steel cord" if self.steel_cord else "textile"]
+
+    @property
+    def stiffness(self) -> float:
+        """Usual tensile stiffness per width [N/m]."""
+        strength = self.strength if self.rating is None else None
+        usual = usual_stiffness(strength, rating=self.rating, carcass=self.kind)
+        if usual is None:
+            raise AssertionError("every kind of the series has a usual stiffness")
+        return usual
+
+    @property
+    def name(self) -> str:
+        """Trade name, such as ST1000."""
+        if self.rating is not None:
+            return f"{from_si(self.rating, 'line force', 'PIW').magnitude:.0f} PIW"
+        return f"{'ST' if self.steel_cord else 'EP'}{self.strength / 1e3:.0f}"
+
+    @property
+    def least_cover(self) -> float:
+        """Least thickness of a cover [m]."""
+        return least_cover(self.thickness, steel_cord=self.steel_cord)
+
+    @property
+    def least_pulley(self) -> float:
+        """Least diameter of a drive pulley [m]."""
+        return least_pulley_diameter(self.thickness, carcass="steel cord" if self.steel_cord else "EP")
+
+
+@dataclass(frozen=True)
+class RollSize:
+    """Rolls of one diameter [m]: wall [m], mass of the ends [kg], bearing rating C [N], CEMA class of their sets."""
+
+    diameter: float
+    wall: float
+    ends: float
+    rating: float
+    cema_class: CemaClass | None = None
+
+    def mass(self, length: float) -> float:
+        """Rotating mass of a roll of a length [kg]."""
+        return roll_shell_mass(self.diameter, wall=self.wall, length=length) + self.ends
+
+
+@dataclass(frozen=True)
+class WidthSize:
+    """A belt width and its roll lengths for sets of one, two and three [m]; `vee`: return sets are Vs of two."""
+
+    belt: float
+    one: float
+    two: float
+    three: float
+    vee: bool
+
+    @property
+    def return_rolls(self) -> tuple[int, float, float]:
+        """Number, length [m] and trough angle [rad] of the rolls of a return set."""
+        return (2, self.two, _V_ANGLE) if self.vee else (1, self.one, 0.0)
+
+
+@dataclass(frozen=True)
+class TroughSize:
+    """A belt width with a trough angle [rad] and its largest bulk cross-section on the steepest section [m²]."""
+
+    width: WidthSize
+    angle: float
+    area: float
+
+
+@dataclass(frozen=True)
+class DesignChoice:
+    """Parts of a candidate design, SI.
+
+    Attributes
+    ----------
+    trough : Trough
+        Width of the belt, and angle of the outer rolls.
+    speed, filling : float
+        Belt speed [m/s] and filling of the cross-section [-].
+    roll : RollSize
+        Rolls of both strands.
+    carry, back : float
+        Spacing of carry and return sets [m].
+    cover : int
+        Index of the compound of the bottom cover.
+    kind : str
+        Kind of carcass.
+    drives : str
+        Drive layout.
+    graduated : tuple of float
+        Spacing of the carry sets of each section [m]; empty where it is `carry`.
+    thicker : float
+        Addition to the least bottom cover [m].
+    """
+
+    trough: TroughSize
+    speed: float
+    filling: float
+    roll: RollSize
+    carry: float
+    back: float
+    cover: int
+    kind: str
+    drives: DriveLayout
+    graduated: tuple[float, ...] = ()
+    thicker: float = 0.0
+
+
+@dataclass(frozen=True)
+class SelectedParts:
+    """Parts selected from a candidate's tensions: carcass, covers [m], motors of each drive [W], brake force [N].
+
+    `backstop`: torque of that on the first pulley [N m]; `take_up`: its tension [N], 0 where grip and sag decide;
+    `settling`: selected from exact tensions already.
+    """
+
+    carcass: CarcassClass
+    top: float
+    bottom: float
+    motors: tuple[float, ...]
+    brake: float
+    backstop: float = 0.0
+    take_up: float = 0.0
+    settling: bool = False

@@ -1,0 +1,170 @@
+"""The spec of a design, as a user would write it."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any, Final
+
+from conveyor.laws.preliminary_sizing import PULLEY_MASS
+from conveyor.line.usual_parts import SHAFT_DIAMETER_RATIO
+from conveyor.models import Conveyor
+from conveyor.sizing.design_choice import DesignChoice, RollSize, SelectedParts
+from conveyor.sizing.sizing_task import SizingTask
+from conveyor.units import from_si, si
+
+_BEARING_INSET: Final = 0.02  # [m], middle of a bearing inside the tube's end; general knowledge
+
+
+_UNIT_KINDS: Final = {"m": "length", "mm": "thickness", "m/s": "speed", "deg": "angle", "kW": "power",
+"N/mm": "line force",
+                 "PIW": "line force", "kN": "force", "kN*m": "torque", "kg": "mass", "kg/m^2": "area mass"}  # fmt: skip
+
+
+_US_UNITS: Final = {
+    "m": "ft",
+    "mm": "in",
+    "m/s": "fpm",
+    "kW": "hp",
+    "kN": "lbf",
+    "kN*m": "lbf*ft",
+    "kg": "lb",
+    "kg/m^2": "lb/ft^2",
+}
+"""ST classes keep N/mm in the US."""
+
+
+def design_spec(task: SizingTask, choice: DesignChoice, chosen: SelectedParts, name: str) -> Conveyor:
+    """The complete spec of a candidate.
+
+    Raises
+    ------
+    InputError
+        The spec is invalid: the duty does not fit the choice.
+    """
+    duty, carcass, written = task.duty, chosen.carcass, partial(_written, task)
+    drive_diameter, bend_diameter = task.drive_diameter(carcass), task.bend_diameter(carcass)
+    route = duty.sized_route.as_data()
+    for section, spacing in zip(route["sections"], choice.graduated, strict=bool(choice.graduated)):
+        section["carry_spacing"] = written(spacing, "m")
+    route["pulleys"] = [
+        _pulley(task, name, place, size, choice.trough.width.belt)
+        for name, place, size in (
+            ("head", "head", drive_diameter),
+            ("take-up", "take-up", bend_diameter),
+            ("tail", "tail", drive_diameter if "tail" in choice.drives else bend_diameter),
+        )
+    ]
+    tension = {"tension": written(chosen.take_up, "kN", 4)} if chosen.take_up > 0.0 else {}
+    route["take_up"] = {"kind": "gravity", **tension}
+    covers = duty.covers
+    return Conveyor.from_data({
+        "name": name,
+        "site": duty.site,
+        "belt": {
+            "width": written(choice.trough.width.belt, "mm"),
+            "speed": written(choice.speed, "m/s"),
+            "top_cover": {"thickness": written(chosen.top, "mm"), "compound": covers[0]},
+            "bottom_cover": {"thickness": written(chosen.bottom, "mm"), "compound": covers[choice.cover]},
+            "carcass": {
+                "kind": carcass.kind,
+                **(
+                    {"strength": written(carcass.strength, "N/mm")}
+                    if carcass.rating is None
+                    else {"rating": written(carcass.rating, "PIW")}
+                ),
+                "thickness": written(carcass.thickness, "mm"),
+                "mass": written(carcass.mass, "kg/m^2", 3),
+            },
+            "wear": {
+                "lump": written(si(duty.lump), "mm"), "abrasiveness": duty.abrasiveness, "loading": duty.loading
+            },
+        },
+        "idlers": _idlers(task, choice),
+        "material": duty.material.as_data(),
+        "route": route,
+        "drive": _drive(task, choice, chosen),
+        "ambient": duty.ambient.as_data(),
+        "operation": duty.operation.as_data(),
+        "calculation": duty.calculation.as_data(),
+        "report": duty.report.as_data(),
+    })  # fmt: skip
+
+
+def _written(task: SizingTask, value: float, unit: str, digits: int = 6) -> str:
+    """Value and unit as spec text, in the unit of the series."""
+    own = _US_UNITS.get(unit, unit) if task.duty.series == "US" else unit
+    return f"{float(from_si(value, _UNIT_KINDS[unit], own).magnitude):.{digits}g} {own}"
+
+
+def _pulley(task: SizingTask, name: str, place: str, diameter: float, width: float) -> dict[str, Any]:
+    return {
+        "name": name,
+        "position": place,
+        "diameter": _written(task, diameter, "mm"),
+        "shaft_diameter": _written(task, SHAFT_DIAMETER_RATIO * diameter, "mm"),
+        "mass": _written(task, PULLEY_MASS * diameter**2 * width, "kg", 3),
+    }
+
+
+def _idlers(task: SizingTask, choice: DesignChoice) -> dict[str, Any]:
+    carry_sag, return_sag = task.sags
+    count, length, angle = choice.trough.width.return_rolls
+    rated = {} if choice.roll.cema_class is None else {"cema_class": choice.roll.cema_class}
+    return {
+        "carry": {
+            "rolls": 3,
+            "spacing": _written(task, choice.carry, "m"),
+            "trough_angle": _written(task, choice.trough.angle, "deg"),
+            "roll": _roll(task, choice.roll, choice.trough.width.three),
+            "sag": f"{100.0 * carry_sag:.6g} %",
+            **rated,
+        },
+        "return": {
+            "rolls": count,
+            "spacing": _written(task, choice.back, "m"),
+            "trough_angle": _written(task, angle, "deg"),
+            "roll": _roll(task, choice.roll, length),
+            "sag": f"{100.0 * return_sag:.6g} %",
+            **rated,
+        },
+    }
+
+
+def _drive(task: SizingTask, choice: DesignChoice, chosen: SelectedParts) -> dict[str, Any]:
+    rules, motors = task.rules, chosen.motors
+    one = {"wrap_angle": _written(task, si(rules.wrap_angle), "deg"), "friction": rules.friction}
+    brake = {"brake_force": _written(task, chosen.brake, "kN", 4)} if chosen.brake > 0.0 else {}
+    if chosen.backstop > 0.0:
+        brake["backstop_torque"] = _written(task, chosen.backstop, "kN*m", 4)
+    first = {
+        **one,
+        **brake,
+        "position": "tail" if choice.drives == "tail" else "head",
+        **_motor_fields(task, motors[0]),
+        "efficiency": f"{100.0 * task.efficiency:.6g} %",
+        "start_factor": rules.start_factor,
+    }
+    further = []
+    for number, motor in enumerate(motors[1:], start=2):
+        tail = "tail" in choice.drives and number == len(motors)
+        place = {"name": f"drive {number}", "position": "tail" if tail else "head"}
+        further.append({**one, **place, **_motor_fields(task, motor)})
+    return {**first, "further_drives": further} if further else first
+
+
+def _motor_fields(task: SizingTask, rated: float) -> dict[str, Any]:
+    """Spec fields of a pulley's motors of a total power [W]."""
+    count = task.motor_count(rated)
+    return {"installed_power": _written(task, rated, "kW")} | ({"motors": count} if count > 1 else {})
+
+
+def _roll(task: SizingTask, roll: RollSize, length: float) -> dict[str, Any]:
+    return {
+        "diameter": _written(task, roll.diameter, "mm"),
+        "length": _written(task, length, "mm"),
+        "rotating_mass": _written(task, roll.mass(length), "kg", 3),
+        "bearing": {
+            "dynamic_rating": _written(task, roll.rating, "kN"),
+            "distance": _written(task, length - 2.0 * _BEARING_INSET, "mm"),
+        },
+    }
