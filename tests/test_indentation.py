@@ -136,7 +136,7 @@ def test_a_cover_in_millimetres_is_refused():
 @pytest.mark.parametrize("words", ["80 mm", [0.08], None])
 def test_what_is_no_number_is_refused_by_its_name(words):
     rubber = shelf.compound("s100").series(293.15)
-    with pytest.raises(InputError, match=re.escape(f"radius: got {words!r}, allowed: a number in SI units")):
+    with pytest.raises(InputError, match=re.escape(f"radius = {words!r} is not allowed: a number in SI units")):
         RollContact(words, 1.5, 0.005, 5.0, rubber)
-    with pytest.raises(InputError, match=re.escape(f"temperature: got {words!r}, allowed: a number in SI")):
+    with pytest.raises(InputError, match=re.escape(f"temperature = {words!r} is not allowed: a number in SI")):
         shelf.compound("s100").series(words)

@@ -19,7 +19,7 @@ def test_plough_resistance_is_width_times_factor_times_number():
     [
         ({"scraped_width": -1.0, "scraping_factor": 1.0}, r"scraped_width = -1\.0"),
         ({"scraped_width": 1.0, "scraping_factor": float("nan")}, r"scraping_factor = nan"),
-        ({"scraped_width": 1.0, "scraping_factor": 1.0, "n_ploughs": -1}, r"n_ploughs: got -1, allowed"),
+        ({"scraped_width": 1.0, "scraping_factor": 1.0, "n_ploughs": -1}, r"n_ploughs = -1 is not allowed"),
     ],
 )
 def test_refusals(arguments, message):

@@ -217,7 +217,7 @@ def test_every_default_lies_in_its_range_and_names_a_source():
         ),
         (
             lambda: resistance.acceleration_resistance(1.0, belt_speed=2.0, initial_speed=3.0),
-            r"initial_speed: got 3\.0, allowed: >= 0 and <= belt_speed = 2\.0 m/s",
+            r"initial_speed = 3\.0 is not allowed: 0 to belt_speed = 2\.0 m/s",
         ),
         (lambda: resistance.cleaner_resistance(-0.1, pressure=3e4, friction=0.6), r"contact_area = -0\.1"),
         (
@@ -238,11 +238,11 @@ def test_every_default_lies_in_its_range_and_names_a_source():
         (lambda: resistance.roll_drag(None, roll_diameter=0.0), r"roll_diameter = 0\.0"),
         (
             lambda: resistance.idler_rotation_resistance(1.0, n_rolls=0, spacing=1.0, length=1.0),
-            r"n_rolls: got 0, allowed: at least 1 roll",
+            r"n_rolls = 0 is not allowed: at least 1 roll",
         ),
         (
             lambda: resistance.flexure_resistance(1.0, share=1.0),
-            r"share: got 1\.0, allowed: >= 0 and < 1",
+            r"share = 1\.0 is not allowed: from 0 to below 1",
         ),
     ],
 )

@@ -141,7 +141,7 @@ def test_makers_line_goes_through_the_measurement():
     [
         (
             lambda: bearing.oil_viscosity(300.0, **OIL | {"second_viscosity": 40e-6}),
-            r"second_viscosity: got 4e-05, allowed: the hotter of the two must be the thinner",
+            r"second_viscosity = 4e-05 is not allowed: the hotter of the two must be the thinner",
         ),
         (
             lambda: bearing.oil_viscosity(300.0, **OIL | {"second_temperature": 313.0}),
@@ -149,7 +149,7 @@ def test_makers_line_goes_through_the_measurement():
         ),
         (
             lambda: bearing.oil_viscosity(300.0, **OIL | {"first_viscosity": 32.0e-8}),
-            r"first_viscosity: got 3\.2e-07, allowed: at least 2e-06 m²/s",
+            r"first_viscosity = 3\.2e-07 is not allowed: at least 2e-06 m²/s",
         ),
         (lambda: bearing.oil_viscosity(100.0, **OIL), r"temperature = 100\.0 .* the oil is solid there"),
         (lambda: bearing.oil_viscosity(-5.0, **OIL), r"temperature = -5\.0"),
@@ -165,15 +165,15 @@ def test_makers_line_goes_through_the_measurement():
         (lambda: bearing.bearing_load_moment(1e-3, load=-1.0, mean_diameter=0.05), r"load = -1\.0"),
         (
             lambda: bearing.labyrinth_moment(0.5, rotation=1.0, radius=0.03, length=0.01, gap=0.004),
-            r"gap: got 0\.004, allowed: > 0 and <= a tenth of radius = 0\.03 m",
+            r"gap = 0\.004 is not allowed: above 0 and at most a tenth of radius = 0\.03 m",
         ),
         (
             lambda: drag.bearing_roll_drag(1.0, **ROLL | {"mean_diameter": 0.2}),
-            r"mean_diameter: got 0\.2, allowed: above 0 and less than D",
+            r"mean_diameter = 0\.2 is not allowed: above 0 and less than D",
         ),
         (
             lambda: drag.linear_roll_drag(0.1, load=0.0, rotation=1.0, load_slope=1e-3, rotation_slope=0.0),
-            r"reference_drag: got 0\.1, allowed: its line gives -0\.15 N at 0 N and 1 1/s",
+            r"reference_drag = 0\.1 is not allowed: its line gives -0\.15 N at 0 N and 1 1/s",
         ),
     ],
 )

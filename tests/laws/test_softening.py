@@ -161,7 +161,7 @@ def test_mean_load_weighs_by_what_rolls_lose():
     """8^(4/3) is 16: two rolls at 8 N/m and one at 1 lose 16 to 1 each; a load that all share is the mean."""
     assert loss_weighted_load(np.array([8.0, 1.0]), np.array([2.0, 1.0])) == pytest.approx(257.0 / 33.0, rel=1e-14)
     assert loss_weighted_load(np.array([5.0, 5.0, 5.0]), np.array([1.0, 2.0, 0.0])) == pytest.approx(5.0, rel=1e-14)
-    with pytest.raises(InputError, match=r"^line_loads: got 0\.0, allowed: a roll that carries something"):
+    with pytest.raises(InputError, match=r"^line_loads = 0\.0 is not allowed: a roll that carries something"):
         loss_weighted_load(np.zeros(2), np.ones(2))
 
 

@@ -255,7 +255,7 @@ def test_bearing_loads_by_moments():
     # triangle: centre 0.5/3 m from the end, 0.11667 m from the inner bearing
     wing = heavier_bearing_load(60.0, belt_force=0.0, triangular=True, **sides)
     assert wing == pytest.approx(60.0 * (1.0 - (0.5 / 3.0 - 0.05) / 0.4), rel=1e-14)
-    with pytest.raises(InputError, match=r"inset: got -0\.3, allowed: above -bearing_distance/2"):
+    with pytest.raises(InputError, match=r"inset = -0\.3 is not allowed: above -bearing_distance/2"):
         heavier_bearing_load(1.0, belt_force=0.0, triangular=True, **sides | {"inset": -0.3})
 
 

@@ -91,15 +91,15 @@ CASES = {
                material={"flow": "50 t/h"}),
     ),
     "maker's line": Case(
-        "drag_law: reference_drag: got 2.0, allowed: its line gives {} at {} and 9.57323 1/s", "N N", "",
+        "drag_law: reference_drag = 2.0 is not allowed: its line gives {} at {} and 9.57323 1/s", "N N", "",
         a_calculation(idlers=roll(SLIDING), calculation=QUICK),
     ),
     "maker's line, US": Case(
-        "drag_law: reference_drag: got {}, allowed: its line gives -21.52 lbf at 51.61 lbf and {};", "", "lbf rpm",
+        "drag_law: reference_drag = {} is not allowed: its line gives -21.52 lbf at 51.61 lbf and {};", "", "lbf rpm",
         a_calculation(idlers=roll(SLIDING), calculation=QUICK),
     ),
     "oil": Case(
-        "drag_law: temperature: got {}, allowed: the oil is solid there", "", "degF",
+        "drag_law: temperature = {} is not allowed: the oil is solid there", "", "degF",
         a_calculation(
             idlers=roll(OIL), calculation=QUICK, ambient={"temperature": "-90 degC", "belt_temperature": "10 degC"}
         ),

@@ -115,13 +115,13 @@ def test_refusals() -> None:
         bootstrap(fitted(0.02, 0.02, 1), replicas=0)
     with pytest.raises(InputError, match=r"shape \(1, 2\); got \(1, 1\)"):
         ReplicaBand([1.0, 2.0], [1e6], [[1.0]])
-    with pytest.raises(InputError, match=r"moduli\[0\]\[1\]: got -1 Pa, allowed: >= 0 Pa"):
+    with pytest.raises(InputError, match=r"moduli\[0\]\[1\] = -1 Pa must be finite and >= 0"):
         ReplicaBand([1.0, 2.0], [1e6], [[1.0, -1.0]])
     with pytest.raises(InputError, match=r"times of a band must ascend"):
         ReplicaBand([2.0, 1.0], [1e6], [[1.0, 1.0]])
-    with pytest.raises(InputError, match=r"equilibrium\[0\]: got 0 Pa, allowed: > 0 Pa"):
+    with pytest.raises(InputError, match=r"equilibrium\[0\] = 0 Pa must be > 0"):
         ReplicaBand([1.0, 2.0], [0.0], [[1.0, 1.0]])
-    with pytest.raises(InputError, match=r"level: got 1, allowed: > 0 and < 1"):
+    with pytest.raises(InputError, match=r"level = 1 must be > 0 and < 1"):
         ReplicaBand([1.0], [1e6], [[1.0]]).between(lambda s: s.loss([1.0]), level=1.0)
 
 

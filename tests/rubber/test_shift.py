@@ -129,11 +129,13 @@ def test_wlf_fit_is_a_minimum() -> None:
 def test_messages_of_the_laws() -> None:
     with pytest.raises(RangeError, match=r"-78\.45 degC is at or below the pole of the WLF law at -78\.45 degC"):
         WLF(8.86, 101.6, 296.3).log10_a_T(194.7)
-    with pytest.raises(InputError, match=r"c2: got -1 K, allowed: > 0 K"):
+    with pytest.raises(InputError, match=r"c2 = -1 K must be finite and > 0"):
         WLF(8.86, -1.0, 293.15)
-    with pytest.raises(InputError, match=r"activation_energy: got 0 J/mol, allowed: > 0 J/mol"):
+    with pytest.raises(InputError, match=r"activation_energy = 0 J/mol must be finite and > 0"):
         Arrhenius(0.0, 293.15)
-    with pytest.raises(InputError, match=r"temperature: got -20 K, allowed: > 0 K K \(this floor counts in kelvin\)"):
+    with pytest.raises(
+        InputError, match=r"temperature = -20 K must be finite and > 0 K \(this floor counts in kelvin\)"
+    ):
         Arrhenius(1e5, 293.15).log10_a_T(-20.0)
     with pytest.raises(RangeError, match=r"the shift law gives .* decades at -78\.35 degC, above 100"):
         shift_series(PronySeries(1.0, [1.0], [1.0]), WLF(8.86, 101.6, 296.3), 194.8)

@@ -365,23 +365,23 @@ def test_jonkers_scales_as_the_winkler_foundation_does():
     [
         (
             lambda: cf.hunter(0.5, memory=1.0),
-            r"modulus_ratio: got 0\.5, allowed: >= 1 and finite",
+            r"modulus_ratio = 0\.5 is not allowed: a finite number of at least 1",
         ),
-        (lambda: cf.hunter(2.0, memory=-1.0), r"memory: got -1\.0, allowed: >= 0 and <= 1e\+150, or inf"),
+        (lambda: cf.hunter(2.0, memory=-1.0), r"memory = -1\.0 is not allowed: 0 to 1e\+150, or inf"),
         (
             lambda: cf.hunter_at_load(2.0, memory=math.nan),
-            r"memory: got nan, allowed: >= 0 and <= 1e\+140, or inf",
+            r"memory = nan is not allowed: 0 to 1e\+140, or inf",
         ),
-        (lambda: cf.hunter_friction_peak(1.0), r"modulus_ratio: got 1\.0, allowed: above 1"),
+        (lambda: cf.hunter_friction_peak(1.0), r"modulus_ratio = 1\.0 is not allowed: above 1"),
         (lambda: cf.hunter(2.0, memory=1.0).pressure(np.array([1.1])), r"positions from -1 to 1"),
         (lambda: cf.low_speed_friction(memory=-1.0, radius=1.0, modulus_ratio=2.0), r"memory = -1\.0"),
         (lambda: cf.low_speed_friction(memory=math.inf, radius=1.0, modulus_ratio=2.0), r"memory = inf"),
         (lambda: cf.low_speed_friction(memory=1.0, radius=0.0, modulus_ratio=2.0), r"radius = 0\.0"),
-        (lambda: cf.plane_modulus(1.0, poisson=0.6), r"poisson: got 0\.6, allowed: >= 0 and <= 0\.5"),
-        (cf.composite_plane_modulus, r"plane_moduli: got \(\), allowed: at least one"),
+        (lambda: cf.plane_modulus(1.0, poisson=0.6), r"poisson = 0\.6 is not allowed: 0 to 0\.5"),
+        (cf.composite_plane_modulus, r"plane_moduli = \(\) is not allowed: at least one"),
         (lambda: cf.composite_plane_modulus(1.0, 0.0), r"plane_modulus = 0\.0"),
         (lambda: cf.hertz_half_width(-1.0, radius=1.0, plane_modulus=1.0), r"load = -1\.0"),
-        (lambda: cf.plate_symbol(np.array([0.1, 0.0])), r"q: got .*, allowed: > 0"),
+        (lambda: cf.plate_symbol(np.array([0.1, 0.0])), r"q = .* is not allowed: numbers greater than 0"),
         (lambda: cf.winkler(**ONE | {"equilibrium": 0.0}, entry=1.0), r"equilibrium = 0\.0"),
         (
             lambda: cf.winkler(**ONE | {"moduli": np.array([-1.0])}, entry=1.0),
@@ -396,7 +396,7 @@ def test_jonkers_scales_as_the_winkler_foundation_does():
         (lambda: cf.winkler_at_load(0.0, **ONE), r"load = 0\.0"),
         (
             lambda: cf.jonkers_friction(1.0, thickness=1.0, storage=1.0, diameter=1.0, tan_delta=-0.1),
-            r"tan_delta: got -0\.1, allowed",
+            r"tan_delta = -0\.1 is not allowed",
         ),
     ],
 )
