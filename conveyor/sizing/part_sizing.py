@@ -8,18 +8,14 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Final
 
+from conveyor.calculated_conveyor import CalculatedConveyor, NoAnswer, Variant, common_take_up_duty
 from conveyor.checks import run_checks
 from conveyor.checks.drive_checks import motor_power
 from conveyor.errors import InputError, NoSolutionError, RangeError
 from conveyor.laws.belt_strength import RATED_START
 from conveyor.laws.drives import next_preferred_number
 from conveyor.models import Conveyor
-from conveyor.calculated_conveyor import CalculatedConveyor
-    NoAnswer,
-    Variant,
-    calculate_many,
-    common_take_up_duty,
-)
+from conveyor.pipeline import calculate_many
 from conveyor.sizing.design_choice import CarcassClass, DesignChoice, SelectedParts
 from conveyor.sizing.design_spec import design_spec
 from conveyor.sizing.screen import Limit

@@ -96,7 +96,7 @@ def test_too_much_for_one_motor():
             ),
             r"duty\.mass: got 0\.0, .* some mass conveyed",
         ),
-        (lambda: energy.next_motor(1.0, reserve=0.9), r"reserve: got 0\.9, allowed: >= 1"),
+        (lambda: energy.next_motor(1.0, reserve=0.9), r"reserve = 0\.9 is not allowed: at least 1"),
     ],
 )
 def test_refusals(call, message):
