@@ -8,7 +8,6 @@ in full: its own tensions load the rolls of vertical curves, its own loads softe
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import groupby
@@ -18,7 +17,6 @@ from typing import Final
 from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.checks import Check, run_checks
 from conveyor.errors import ConveyorError
-from conveyor.line.stretches import route_sections
 from conveyor.loop.balance import Balance, close_loops, raise_first_error
 from conveyor.loop.load_superposition import DRIVE_FORCE, HOLDING_BACK, HOLDING_DOWN, Loading, SectionLoadings
 from conveyor.loop.loop_layout import TakeUpSetting
@@ -27,7 +25,7 @@ from conveyor.loop.ties import first_maximum
 from conveyor.models import Conveyor, LoadCase
 from conveyor.models.cases import STANDARD_LOADINGS
 from conveyor.models.variants import with_case, with_temperature
-from conveyor.pipeline import ProgressCallback, calculate_many
+from conveyor.pipeline import ProgressCallback, calculate, calculate_many
 from conveyor.reuse import ReuseCache
 from conveyor.studies.load_cases import (
     CalculatedCases,
@@ -230,7 +228,7 @@ def load_states(
         The spec's own load has no answer.
     """
     kept = ReuseCache() if kept is None else kept
-    own = _fix_take_up_side(_calculate_own(conveyor, kept) if given is None else given)
+    own = _fix_take_up_side(calculate(conveyor, kept) if given is None else given)
     at = own.temperature
     ends, refused = _full_and_empty(conveyor, own, cases, progress, kept)
     adding = {temperature: SectionLoadings(*pair) for temperature, pair in ends.items()}
@@ -280,23 +278,6 @@ def _superpose(
         else:
             loops[key] = loadings.open_loop(loading)
     return found | dict(zip(loops, raise_first_error(close_loops(list(loops.values()))), strict=True))
-
-
-def _calculate_own(conveyor: Conveyor, kept: ReuseCache) -> CalculatedConveyor:
-    """Calculate the spec's own load; contacts of the full and the empty belt, solved beside it, are found in the cache.
-
-    Not where tensions load the rolls: those of the other loads are not known yet.
-    """
-    beside: list[Conveyor] = []
-    if conveyor.calculation.support != "belt" and not any(one.curved for one in route_sections(conveyor)):
-        for name in ("full", "empty"):
-            with suppress(ConveyorError):
-                beside.append(with_case(conveyor, LoadCase.from_data({"name": name, "loading": name})))
-    variants = [conveyor, *(one for one in beside if one is not conveyor)]
-    own = calculate_many(list(map(Variant, variants)), kept=kept)[0]
-    if not isinstance(own, CalculatedConveyor):
-        raise own
-    return own
 
 
 def _fix_take_up_side(own: CalculatedConveyor) -> CalculatedConveyor:
