@@ -10,9 +10,7 @@ from conveyor.dynamics.scenario_result import ScenarioResult
 from conveyor.report.animation import Panel, animated_curves
 from conveyor.report.matplotlib_settings import own_settings
 from conveyor.report.plots import curve_colour, label_axes, set_title, stacked_axes
-from conveyor.report.table_model import (
-    slug,
-)
+from conveyor.report.table_model import slug
 from conveyor.units import System
 from conveyor.units.presentation import display_unit
 

@@ -14,15 +14,7 @@ from openpyxl.utils.cell import coordinate_to_tuple
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
-from conveyor.report.cells import (
-    GREY,
-    HEADING,
-    line_count,
-    mark_input,
-    write_table,
-    write_totals,
-    write_value,
-)
+from conveyor.report.cells import GREY, HEADING, line_count, mark_input, write_table, write_totals, write_value
 from conveyor.report.table_model import Contents, Figure, Table
 
 MOST_ROWS: Final = 10_000

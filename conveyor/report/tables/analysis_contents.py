@@ -13,70 +13,25 @@ from conveyor.checks import unsearched_criteria
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.stretches import STRANDS
 from conveyor.report import analysis_plots
-from conveyor.report.table_model import (
-    Contents,
-    Drawing,
-    Table,
+from conveyor.report.table_model import Contents, Drawing, Table
+from conveyor.report.tables import (
+    belt_tables,
+    check_tables,
+    curve_tables,
+    design_verdict,
+    document_tables,
+    drive_tables,
+    dynamics_tables,
+    idler_tables,
+    inputs,
+    loop_tables,
+    resistance_tables,
+    result_tables,
+    rubber_tables,
+    study_tables,
+    transfer_tables,
+    what_if,
 )
-from conveyor.report.tables.belt_tables import belt_strength_table, pulley_loads, pulley_states, pulley_table
-from conveyor.report.tables.check_tables import analysis_remarks, case_checks, case_failures, check_table
-from conveyor.report.tables.curve_tables import (
-    curve_edges,
-    drift_states,
-    drifts_by_case,
-    horizontal_curves,
-    transition_table,
-    vertical_curves,
-)
-from conveyor.report.tables.design_verdict import governing_figures
-from conveyor.report.tables.document_tables import (
-    grouped_input_table,
-    identity_table,
-    input_table,
-    provenance_table,
-    report_head,
-)
-from conveyor.report.tables.drive_tables import brake_table, drive_parts, drive_table, start_stop_table
-from conveyor.report.tables.dynamics_tables import SCENARIO_TABLES, dynamics_drawings
-from conveyor.report.tables.idler_tables import distinct_rolls, idler_sets, roll_table
-from conveyor.report.tables.inputs import input_rows
-from conveyor.report.tables.loop_tables import (
-    convergence_table,
-    profile_table,
-    section_boundaries,
-    section_ends,
-    take_up_conditions,
-    take_up_table,
-    tension_states,
-    tension_table,
-)
-from conveyor.report.tables.resistance_tables import (
-    breakdown_table,
-    cema_table,
-    classical_table,
-    resistance_table,
-    section_table,
-)
-from conveyor.report.tables.result_tables import default_table, result_table
-from conveyor.report.tables.rubber_tables import (
-    belt_support,
-    compound_facts,
-    contact_solutions,
-    indentation_table,
-    moduli_table,
-    prony_table,
-    rubber_table,
-)
-from conveyor.report.tables.study_tables import STUDY_TABLES, study_drawings
-from conveyor.report.tables.transfer_tables import (
-    cleaner_table,
-    discharge_table,
-    loading_point_table,
-    pulley_outline,
-    trajectory_table,
-)
-from conveyor.report.tables.transfer_tables import discharge_drawing as of_discharge
-from conveyor.report.tables.what_if import what_if_table
 from conveyor.spec import fingerprint
 from conveyor.studies.load_cases import Load
 from conveyor.units.presentation import display_unit
@@ -152,7 +107,9 @@ def _load_table(make: Callable[[CalculatedConveyor, Sequence[Load]], Table]) -> 
 
 def _study_maker(key: str) -> Maker:
     """Table of a study, without rows where that was not requested."""
-    return lambda made: STUDY_TABLES[key](made.assessment.studies, made.assessment.system) or _empty_table(key)
+    return lambda made: (
+        study_tables.STUDY_TABLES[key](made.assessment.studies, made.assessment.system) or _empty_table(key)
+    )
 
 
 def _scenario_maker(key: str) -> Maker:
@@ -160,7 +117,7 @@ def _scenario_maker(key: str) -> Maker:
 
     def make(made: AnalysisTables) -> Table:
         dynamics = made.assessment.dynamics
-        return _empty_table(key) if dynamics is None else SCENARIO_TABLES[key](dynamics)
+        return _empty_table(key) if dynamics is None else dynamics_tables.SCENARIO_TABLES[key](dynamics)
 
     return make
 
@@ -170,81 +127,85 @@ def _empty_table(key: str) -> Table:
 
 
 def _grouped_inputs(made: AnalysisTables, *, defaults: bool) -> Table:
-    return grouped_input_table(made["inputs"].rows, made.assessment.system, defaults=defaults)
+    return document_tables.grouped_input_table(made["inputs"].rows, made.assessment.system, defaults=defaults)
 
 
 def _governing_checks(made: AnalysisTables) -> Table:
     of = made.assessment
-    return check_table(of.governing, of.system, unsearched_criteria(of.own.line))
+    return check_tables.check_table(of.governing, of.system, unsearched_criteria(of.own.line))
 
 
 TABLES: Final[dict[str, Maker]] = {
-    "identity": lambda made: identity_table(made.own.conveyor, made.assessment.system),
-    "governing_figures": lambda made: governing_figures(made.assessment),
-    "results": lambda made: result_table(made.own, made.assessment.power_range),
+    "identity": lambda made: document_tables.identity_table(made.own.conveyor, made.assessment.system),
+    "governing_figures": lambda made: design_verdict.governing_figures(made.assessment),
+    "results": lambda made: result_tables.result_table(made.own, made.assessment.power_range),
     "inputs_given": partial(_grouped_inputs, defaults=False),
     "inputs_default": partial(_grouped_inputs, defaults=True),
-    "defaults": lambda made: default_table(made.assessment.power_range, made.assessment.system),
-    "inputs": lambda made: input_table(input_rows(made.own.conveyor)),
-    "sections": _own_table(section_table),
-    "resistances": _own_table(resistance_table),
-    "classical": _own_table(classical_table),
-    "cema": _own_table(cema_table),
-    "breakdown": _own_table(breakdown_table),
-    "distinct_rolls": lambda made: distinct_rolls(made.own, made["rolls"]),
-    "idler_sets": _load_table(idler_sets),
-    "rolls": _own_table(roll_table),
-    "section_ends": _own_table(section_ends),
-    "tensions": _own_table(tension_table),
-    "tension_states": _own_table(tension_states),
-    "profile": _own_table(profile_table),
-    "drives": _own_table(drive_table),
-    "take_up": lambda made: take_up_table(made.own, made.assessment.take_up),
-    "tension_conditions": _own_table(take_up_conditions),
-    "start_stop": _own_table(start_stop_table),
-    "brakes": _own_table(brake_table),
-    "drive_parts": _load_table(drive_parts),
-    "belt_strength": _own_table(belt_strength_table),
-    "pulleys": _own_table(pulley_table),
-    "pulley_loads": _load_table(pulley_loads),
-    "pulley_states": _load_table(pulley_states),
-    "vertical_curves": _load_table(vertical_curves),
-    "horizontal_curves": lambda made: horizontal_curves(made.assessment.loads),
-    "curve_edges": _load_table(curve_edges),
-    "drift_states": _load_table(drift_states),
-    "transitions": _load_table(transition_table),
-    "landings": _own_table(loading_point_table),
-    "cleaners": _own_table(cleaner_table),
-    "discharge": _own_table(discharge_table),
-    "trajectory": _own_table(trajectory_table),
-    "pulley_outline": _own_table(pulley_outline),
-    "convergence": _own_table(convergence_table),
-    **{key: _study_maker(key) for key in STUDY_TABLES},
-    "what_if": lambda made: what_if_table(
+    "defaults": lambda made: result_tables.default_table(made.assessment.power_range, made.assessment.system),
+    "inputs": lambda made: document_tables.input_table(inputs.input_rows(made.own.conveyor)),
+    "sections": _own_table(resistance_tables.section_table),
+    "resistances": _own_table(resistance_tables.resistance_table),
+    "classical": _own_table(resistance_tables.classical_table),
+    "cema": _own_table(resistance_tables.cema_table),
+    "breakdown": _own_table(resistance_tables.breakdown_table),
+    "distinct_rolls": lambda made: idler_tables.distinct_rolls(made.own, made["rolls"]),
+    "idler_sets": _load_table(idler_tables.idler_sets),
+    "rolls": _own_table(idler_tables.roll_table),
+    "section_ends": _own_table(loop_tables.section_ends),
+    "tensions": _own_table(loop_tables.tension_table),
+    "tension_states": _own_table(loop_tables.tension_states),
+    "profile": _own_table(loop_tables.profile_table),
+    "drives": _own_table(drive_tables.drive_table),
+    "take_up": lambda made: loop_tables.take_up_table(made.own, made.assessment.take_up),
+    "tension_conditions": _own_table(loop_tables.take_up_conditions),
+    "start_stop": _own_table(drive_tables.start_stop_table),
+    "brakes": _own_table(drive_tables.brake_table),
+    "drive_parts": _load_table(drive_tables.drive_parts),
+    "belt_strength": _own_table(belt_tables.belt_strength_table),
+    "pulleys": _own_table(belt_tables.pulley_table),
+    "pulley_loads": _load_table(belt_tables.pulley_loads),
+    "pulley_states": _load_table(belt_tables.pulley_states),
+    "vertical_curves": _load_table(curve_tables.vertical_curves),
+    "horizontal_curves": lambda made: curve_tables.horizontal_curves(made.assessment.loads),
+    "curve_edges": _load_table(curve_tables.curve_edges),
+    "drift_states": _load_table(curve_tables.drift_states),
+    "transitions": _load_table(curve_tables.transition_table),
+    "landings": _own_table(transfer_tables.loading_point_table),
+    "cleaners": _own_table(transfer_tables.cleaner_table),
+    "discharge": _own_table(transfer_tables.discharge_table),
+    "trajectory": _own_table(transfer_tables.trajectory_table),
+    "pulley_outline": _own_table(transfer_tables.pulley_outline),
+    "convergence": _own_table(loop_tables.convergence_table),
+    **{key: _study_maker(key) for key in study_tables.STUDY_TABLES},
+    "what_if": lambda made: what_if.what_if_table(
         made.own, made.assessment.studies.duty, made.assessment.governing_motor_power
     ),
-    "belt_support": _own_table(belt_support),
-    "contact_solutions": _own_table(contact_solutions),
-    "indentation": _own_table(indentation_table),
-    "rubber": _own_table(rubber_table),
+    "belt_support": _own_table(rubber_tables.belt_support),
+    "contact_solutions": _own_table(rubber_tables.contact_solutions),
+    "indentation": _own_table(rubber_tables.indentation_table),
+    "rubber": _own_table(rubber_tables.rubber_table),
     **{
         f"{name}_{strand}": _own_table(partial(make, strand=strand))
         for strand in STRANDS
-        for name, make in (("known", compound_facts), ("prony", prony_table), ("moduli", moduli_table))
+        for name, make in (
+            ("known", rubber_tables.compound_facts),
+            ("prony", rubber_tables.prony_table),
+            ("moduli", rubber_tables.moduli_table),
+        )
     },
-    **{key: _scenario_maker(key) for key in SCENARIO_TABLES},
-    "case_checks": lambda made: case_checks(made.assessment.checks, made.assessment.system),
-    "case_failures": lambda made: case_failures(made.assessment.checks, made.assessment.system),
+    **{key: _scenario_maker(key) for key in dynamics_tables.SCENARIO_TABLES},
+    "case_checks": lambda made: check_tables.case_checks(made.assessment.checks, made.assessment.system),
+    "case_failures": lambda made: check_tables.case_failures(made.assessment.checks, made.assessment.system),
     "checks": _governing_checks,
-    "remarks": lambda made: analysis_remarks(made.assessment),
-    "provenance": lambda made: provenance_table(fingerprint(made.own.conveyor)),
+    "remarks": lambda made: check_tables.analysis_remarks(made.assessment),
+    "provenance": lambda made: document_tables.provenance_table(fingerprint(made.own.conveyor)),
 }
 """Tables of the report of a conveyor, in order."""
 
 
 def analysis_contents(assessment: Assessment) -> Contents:
     """Contents of the report of an assessed conveyor, in the units of its report."""
-    about = report_head(assessment.own.conveyor, "Belt conveyor calculation", assessment.system)
+    about = document_tables.report_head(assessment.own.conveyor, "Belt conveyor calculation", assessment.system)
     tables, draw = AnalysisTables(assessment), partial(analysis_drawings, assessment)
     return Contents(about, tables, assessment.system, draw, PARTS, "conveyor")
 
@@ -262,7 +223,7 @@ def analysis_drawings(assessment: Assessment) -> Iterator[Drawing]:
     yield Drawing(
         "profile",
         "Profile of the route from the tail, with feeding points, drives and take-up.",
-        lambda: analysis_plots.route_profile(conveyor, a.line, section_boundaries(a.line), system=system),
+        lambda: analysis_plots.route_profile(conveyor, a.line, loop_tables.section_boundaries(a.line), system=system),
         "key-figures",
     )
     yield Drawing(
@@ -271,7 +232,7 @@ def analysis_drawings(assessment: Assessment) -> Iterator[Drawing]:
         lambda: analysis_plots.tension_diagram(a.balance, a.motions, system=system),
         "section_ends",
     )
-    yield from of_discharge(a, system)
+    yield from transfer_tables.discharge_drawing(a, system)
     if a.horizontal:
         yield Drawing(
             "plan",
@@ -282,7 +243,7 @@ def analysis_drawings(assessment: Assessment) -> Iterator[Drawing]:
         yield Drawing(
             "drift",
             "Drift of the belt in every horizontal curve, all states of motion of all cases; grey: room on the rolls.",
-            lambda: analysis_plots.drift_diagram(drifts_by_case(assessment.loads, system), system=system),
+            lambda: analysis_plots.drift_diagram(curve_tables.drifts_by_case(assessment.loads, system), system=system),
             "horizontal_curves",
         )
     yield Drawing(
@@ -316,6 +277,6 @@ def analysis_drawings(assessment: Assessment) -> Iterator[Drawing]:
             partial(analysis_plots.excited_master_curve, compound, at, a.contacts, on_it, system=system),
             f"known_{on_it[0]}",
         )
-    yield from study_drawings(assessment.studies, system)
+    yield from study_tables.study_drawings(assessment.studies, system)
     if assessment.dynamics is not None:
-        yield from dynamics_drawings(assessment.dynamics, system)
+        yield from dynamics_tables.dynamics_drawings(assessment.dynamics, system)

@@ -6,13 +6,7 @@ from collections.abc import Sequence
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.loop.ties import first_maximum
-from conveyor.report.table_model import (
-    Column,
-    Figure,
-    Table,
-    extreme_getter,
-    figure_table,
-)
+from conveyor.report.table_model import Column, Figure, Table, extreme_getter, figure_table
 from conveyor.studies.load_cases import Load
 
 

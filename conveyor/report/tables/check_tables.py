@@ -10,12 +10,7 @@ from conveyor.assessment import Assessment
 from conveyor.checks import Check, governing_by_criterion
 from conveyor.remarks.assumptions import method_summary
 from conveyor.report.json_keys import JsonObject, choice_key, number_key, text_key, value_key
-from conveyor.report.table_model import (
-    Column,
-    PagePlacement,
-    Table,
-    remark_table,
-)
+from conveyor.report.table_model import Column, PagePlacement, Table, remark_table
 from conveyor.studies.load_cases import AS_GIVEN
 from conveyor.units import System
 from conveyor.units.presentation import display_unit

@@ -9,14 +9,7 @@ from typing import Any, Final
 
 from conveyor.files.output_marks import package_version
 from conveyor.models import Conveyor
-from conveyor.report.table_model import (
-    Column,
-    Figure,
-    PagePlacement,
-    ReportHead,
-    Table,
-    figure_table,
-)
+from conveyor.report.table_model import Column, Figure, PagePlacement, ReportHead, Table, figure_table
 from conveyor.report.tables.inputs import InputRow, group_inputs
 from conveyor.spec import fingerprint
 from conveyor.units import Quantity, System

@@ -9,14 +9,7 @@ from functools import partial
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.laws.drives import next_preferred_number
 from conveyor.loop.drive_duty import coasting_flywheel
-from conveyor.report.table_model import (
-    Column,
-    Figure,
-    PagePlacement,
-    Table,
-    extreme_getter,
-    figure_table,
-)
+from conveyor.report.table_model import Column, Figure, PagePlacement, Table, extreme_getter, figure_table
 from conveyor.studies.load_cases import Load
 
 

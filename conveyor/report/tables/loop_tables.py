@@ -12,14 +12,7 @@ from conveyor.line.line import Line
 from conveyor.loop.take_up_duty import TakeUpDuty
 from conveyor.loop.tensions import MotionState
 from conveyor.report import analysis_plots
-from conveyor.report.table_model import (
-    Column,
-    Figure,
-    PagePlacement,
-    Table,
-    figure_table,
-    slug,
-)
+from conveyor.report.table_model import Column, Figure, PagePlacement, Table, figure_table, slug
 from conveyor.units.sentences import Message
 
 Getter = Callable[[Any], Any]

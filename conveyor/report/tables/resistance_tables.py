@@ -11,14 +11,7 @@ from conveyor.calculated_conveyor import CalculatedConveyor, StretchResult
 from conveyor.line.roll_lives import idler_set_life
 from conveyor.loop.balance import Balance
 from conveyor.loop.estimates import CemaEstimate, ClassicalEstimate
-from conveyor.report.table_model import (
-    FIGURE_NAME,
-    ROW_KIND,
-    Column,
-    Figure,
-    PagePlacement,
-    Table,
-)
+from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Column, Figure, PagePlacement, Table
 
 _HOUR: Final = 3600.0
 

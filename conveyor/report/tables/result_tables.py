@@ -6,13 +6,7 @@ from dataclasses import replace
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.laws.power import JOULE_PER_KWH
-from conveyor.report.table_model import (
-    Column,
-    Figure,
-    PagePlacement,
-    Table,
-    figure_table,
-)
+from conveyor.report.table_model import Column, Figure, PagePlacement, Table, figure_table
 from conveyor.studies.default_bands import PowerRange
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, format_figure

@@ -12,11 +12,7 @@ from conveyor.line.belt_contacts import BeltContacts
 from conveyor.line.contacts import Contacts
 from conveyor.line.covers import CoverTestFactor, compounds_by_strand
 from conveyor.line.stretches import Strand
-from conveyor.report.table_model import (
-    Column,
-    PagePlacement,
-    Table,
-)
+from conveyor.report.table_model import Column, PagePlacement, Table
 from conveyor.units.presentation import display_unit
 from conveyor.units.sentences import degree_signs, format_band
 

@@ -11,14 +11,7 @@ from conveyor.checks import run_checks
 from conveyor.remarks.assumptions import analysis_assumptions
 from conveyor.report.json_keys import SCHEMA_VERSION
 from conveyor.report.matplotlib_settings import own_settings
-from conveyor.report.plots import (
-    add_legend,
-    curve_colour,
-    finish_figure,
-    group_thousands,
-    set_title,
-    stacked_axes,
-)
+from conveyor.report.plots import add_legend, curve_colour, finish_figure, group_thousands, set_title, stacked_axes
 from conveyor.report.table_model import Column, Contents, Drawing, PagePlacement, Table, remark_table
 from conveyor.report.tables.check_tables import check_table
 from conveyor.report.tables.document_tables import provenance_table, report_head
