@@ -10,7 +10,7 @@ from conveyor.line.usual_parts import SHAFT_DIAMETER_RATIO
 from conveyor.models import Conveyor
 from conveyor.sizing.design_choice import DesignChoice, RollSize, SelectedParts
 from conveyor.sizing.sizing_task import SizingTask
-from conveyor.units import from_si, si
+from conveyor.units import from_si
 
 _BEARING_INSET: Final = 0.02  # [m], middle of a bearing inside the tube's end; general knowledge
 
@@ -41,13 +41,13 @@ def design_spec(task: SizingTask, choice: DesignChoice, chosen: SelectedParts, n
     InputError
         The spec is invalid: the duty does not fit the choice.
     """
-    duty, carcass, written = task.duty, chosen.carcass, partial(_written, task)
+    duty, carcass, written = task.duty, chosen.carcass, partial(_field_text, task)
     drive_diameter, bend_diameter = task.drive_diameter(carcass), task.bend_diameter(carcass)
     route = duty.sized_route.as_data()
     for section, spacing in zip(route["sections"], choice.graduated, strict=bool(choice.graduated)):
         section["carry_spacing"] = written(spacing, "m")
     route["pulleys"] = [
-        _pulley(task, name, place, size, choice.trough.width.belt)
+        _pulley_fields(task, name, place, size, choice.trough.width.belt)
         for name, place, size in (
             ("head", "head", drive_diameter),
             ("take-up", "take-up", bend_diameter),
@@ -76,13 +76,13 @@ def design_spec(task: SizingTask, choice: DesignChoice, chosen: SelectedParts, n
                 "mass": written(carcass.mass, "kg/m^2", 3),
             },
             "wear": {
-                "lump": written(si(duty.lump), "mm"), "abrasiveness": duty.abrasiveness, "loading": duty.loading
+                "lump": written(task.lump, "mm"), "abrasiveness": duty.abrasiveness, "loading": duty.loading
             },
         },
-        "idlers": _idlers(task, choice),
+        "idlers": _idler_fields(task, choice),
         "material": duty.material.as_data(),
         "route": route,
-        "drive": _drive(task, choice, chosen),
+        "drive": _drive_fields(task, choice, chosen),
         "ambient": duty.ambient.as_data(),
         "operation": duty.operation.as_data(),
         "calculation": duty.calculation.as_data(),
@@ -90,52 +90,52 @@ def design_spec(task: SizingTask, choice: DesignChoice, chosen: SelectedParts, n
     })  # fmt: skip
 
 
-def _written(task: SizingTask, value: float, unit: str, digits: int = 6) -> str:
+def _field_text(task: SizingTask, value: float, unit: str, digits: int = 6) -> str:
     """Value and unit as spec text, in the unit of the series."""
     own = _US_UNITS.get(unit, unit) if task.duty.series == "US" else unit
     return f"{float(from_si(value, _UNIT_KINDS[unit], own).magnitude):.{digits}g} {own}"
 
 
-def _pulley(task: SizingTask, name: str, place: str, diameter: float, width: float) -> dict[str, Any]:
+def _pulley_fields(task: SizingTask, name: str, place: str, diameter: float, width: float) -> dict[str, Any]:
     return {
         "name": name,
         "position": place,
-        "diameter": _written(task, diameter, "mm"),
-        "shaft_diameter": _written(task, SHAFT_DIAMETER_RATIO * diameter, "mm"),
-        "mass": _written(task, PULLEY_MASS * diameter**2 * width, "kg", 3),
+        "diameter": _field_text(task, diameter, "mm"),
+        "shaft_diameter": _field_text(task, SHAFT_DIAMETER_RATIO * diameter, "mm"),
+        "mass": _field_text(task, PULLEY_MASS * diameter**2 * width, "kg", 3),
     }
 
 
-def _idlers(task: SizingTask, choice: DesignChoice) -> dict[str, Any]:
+def _idler_fields(task: SizingTask, choice: DesignChoice) -> dict[str, Any]:
     carry_sag, return_sag = task.sags
     count, length, angle = choice.trough.width.return_rolls
     rated = {} if choice.roll.cema_class is None else {"cema_class": choice.roll.cema_class}
     return {
         "carry": {
             "rolls": 3,
-            "spacing": _written(task, choice.carry, "m"),
-            "trough_angle": _written(task, choice.trough.angle, "deg"),
-            "roll": _roll(task, choice.roll, choice.trough.width.three),
+            "spacing": _field_text(task, choice.carry, "m"),
+            "trough_angle": _field_text(task, choice.trough.angle, "deg"),
+            "roll": _roll_fields(task, choice.roll, choice.trough.width.three),
             "sag": f"{100.0 * carry_sag:.6g} %",
             **rated,
         },
         "return": {
             "rolls": count,
-            "spacing": _written(task, choice.back, "m"),
-            "trough_angle": _written(task, angle, "deg"),
-            "roll": _roll(task, choice.roll, length),
+            "spacing": _field_text(task, choice.back, "m"),
+            "trough_angle": _field_text(task, angle, "deg"),
+            "roll": _roll_fields(task, choice.roll, length),
             "sag": f"{100.0 * return_sag:.6g} %",
             **rated,
         },
     }
 
 
-def _drive(task: SizingTask, choice: DesignChoice, chosen: SelectedParts) -> dict[str, Any]:
+def _drive_fields(task: SizingTask, choice: DesignChoice, chosen: SelectedParts) -> dict[str, Any]:
     rules, motors = task.rules, chosen.motors
-    one = {"wrap_angle": _written(task, si(rules.wrap_angle), "deg"), "friction": rules.friction}
-    brake = {"brake_force": _written(task, chosen.brake, "kN", 4)} if chosen.brake > 0.0 else {}
+    one = {"wrap_angle": _field_text(task, task.grip[1], "deg"), "friction": rules.friction}
+    brake = {"brake_force": _field_text(task, chosen.brake, "kN", 4)} if chosen.brake > 0.0 else {}
     if chosen.backstop > 0.0:
-        brake["backstop_torque"] = _written(task, chosen.backstop, "kN*m", 4)
+        brake["backstop_torque"] = _field_text(task, chosen.backstop, "kN*m", 4)
     first = {
         **one,
         **brake,
@@ -155,16 +155,16 @@ def _drive(task: SizingTask, choice: DesignChoice, chosen: SelectedParts) -> dic
 def _motor_fields(task: SizingTask, rated: float) -> dict[str, Any]:
     """Spec fields of a pulley's motors of a total power [W]."""
     count = task.motor_count(rated)
-    return {"installed_power": _written(task, rated, "kW")} | ({"motors": count} if count > 1 else {})
+    return {"installed_power": _field_text(task, rated, "kW")} | ({"motors": count} if count > 1 else {})
 
 
-def _roll(task: SizingTask, roll: RollSize, length: float) -> dict[str, Any]:
+def _roll_fields(task: SizingTask, roll: RollSize, length: float) -> dict[str, Any]:
     return {
-        "diameter": _written(task, roll.diameter, "mm"),
-        "length": _written(task, length, "mm"),
-        "rotating_mass": _written(task, roll.mass(length), "kg", 3),
+        "diameter": _field_text(task, roll.diameter, "mm"),
+        "length": _field_text(task, length, "mm"),
+        "rotating_mass": _field_text(task, roll.mass(length), "kg", 3),
         "bearing": {
-            "dynamic_rating": _written(task, roll.rating, "kN"),
-            "distance": _written(task, length - 2.0 * _BEARING_INSET, "mm"),
+            "dynamic_rating": _field_text(task, roll.rating, "kN"),
+            "distance": _field_text(task, length - 2.0 * _BEARING_INSET, "mm"),
         },
     }

@@ -70,6 +70,11 @@ class SizingTask:
         return si(self.duty.material.density)
 
     @property
+    def lump(self) -> float:
+        """Size of the lumps [m]."""
+        return si(self.duty.lump)
+
+    @property
     def gravity(self) -> float:
         """Gravity [m/s²]."""
         return si(self.duty.calculation.gravity)
@@ -233,7 +238,7 @@ class SizingTask:
         """Belt widths that take the lumps, with every trough angle."""
         rules, surcharge = self.rules, self.duty.material.surcharge
         asked = [si(width) for width in rules.widths]
-        lumps = least_width_for_lumps(si(self.duty.lump), surcharge_angle=surcharge, share=self.duty.lumps)
+        lumps = least_width_for_lumps(self.lump, surcharge_angle=surcharge, share=self.duty.lumps)
         least = max([lumps, *self._fitted])
         shapes = []
         for row in self.sizes.widths:
@@ -265,7 +270,7 @@ class SizingTask:
             wide, free edges too narrow, rolls too fast.
         """
         duty, rules, system = self.duty, self.rules, self.duty.report.units
-        lumps = least_width_for_lumps(si(duty.lump), surcharge_angle=duty.material.surcharge, share=duty.lumps)
+        lumps = least_width_for_lumps(self.lump, surcharge_angle=duty.material.surcharge, share=duty.lumps)
         widest = max(map(si, rules.widths or [row.belt for row in self.sizes.widths]))
         if not within_limit(lumps, widest):
             asked, had = (format_figure(width, "thickness", system) for width in (lumps, widest))
@@ -381,7 +386,7 @@ class SizingTask:
     @cached_property
     def lump_factor(self) -> float:
         """Lump factor on the bulk's load for set ratings [-]; 1 outside the printed table."""
-        return usual_lump_factor(si(self.duty.lump), self.density) or 1.0
+        return usual_lump_factor(self.lump, self.density) or 1.0
 
     def turns_slowly(self, roll: RollSize, speed: float) -> bool:
         """True if a roll keeps the limit of rotation."""
@@ -397,7 +402,7 @@ class SizingTask:
         """Wear addition of the cover at a belt speed [m]."""
         duty = self.duty
         return wear_addition(
-            lump=si(duty.lump),
+            lump=self.lump,
             density=self.density,
             round_time=2.0 * self.length / speed,
             abrasiveness=duty.abrasiveness,
