@@ -17,8 +17,8 @@ from conveyor.laboratory import DmaData
 from conveyor.laboratory.groups import ISOTHERM_GAP, set_points, temperature_groups
 from conveyor.laboratory.measurement_kinds import UNLIKE_RATIO
 from conveyor.rubber import Isotherm, PronyFit, ShiftLaw, Superposition, entropic_b_T, equivalent_sweep
+from conveyor.rubber.master_curve import LEAST_ROWS
 from conveyor.rubber.misfit import scatter_within
-from conveyor.rubber.time_temperature import LEAST_ROWS
 from conveyor.units.sentences import to_celsius
 
 Array = NDArray[np.float64]

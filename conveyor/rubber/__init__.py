@@ -15,6 +15,7 @@ from conveyor.rubber.fit import PronyFit, fit_prony
 from conveyor.rubber.interconversion import equivalent_sweep
 from conveyor.rubber.kramers_kronig import KramersKronig, kramers_kronig, kramers_kronig_applicable
 from conveyor.rubber.kraus import KrausFit, KrausLaw, fit_kraus
+from conveyor.rubber.master_curve import Isotherm, Superposition
 from conveyor.rubber.misfit import Misfit
 from conveyor.rubber.prony import CreepSeries, PronySeries, creep_forms
 from conveyor.rubber.shift import WLF, Arrhenius, ShiftLaw, ShiftTable, entropic_b_T, shift_series
@@ -22,7 +23,7 @@ from conveyor.rubber.shift_fit import ShiftFit, fit_arrhenius, fit_wlf
 from conveyor.rubber.shift_laws import ShiftComparison, compare_shift_laws
 from conveyor.rubber.strain import AmplitudeFactors, StrainSweep
 from conveyor.rubber.term_count import Candidate
-from conveyor.rubber.time_temperature import Isotherm, Superposition, superpose
+from conveyor.rubber.time_temperature import superpose
 
 __all__ = [
     "WLF",

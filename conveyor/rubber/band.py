@@ -12,10 +12,10 @@ from conveyor.arguments.arrays import FloatArray, non_negative_array, positive_v
 from conveyor.arguments.limits import require, require_count
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.rubber.fit import PronyFit
+from conveyor.rubber.master_curve import Superposition
 from conveyor.rubber.prony import PronySeries
 from conveyor.rubber.shift import ShiftLaw
 from conveyor.rubber.term_count import PenalisedFit
-from conveyor.rubber.time_temperature import Superposition
 
 BOOTSTRAP_METHOD = (
     "block bootstrap of the relative residuals; penalty, weights of E' and E'' and shifts drawn too; moduli refitted at"

@@ -9,7 +9,8 @@ from conveyor.errors import InputError
 from conveyor.rubber import PronyFit, PronySeries, fit_prony
 from conveyor.rubber import band as module
 from conveyor.rubber.band import ReplicaBand, bootstrap
-from conveyor.rubber.time_temperature import Isotherm, Superposition, superpose
+from conveyor.rubber.master_curve import Isotherm, Superposition
+from conveyor.rubber.time_temperature import superpose
 
 TRUTH = PronySeries(3e6, 10 ** np.linspace(8.6, 5.5, 25) / 2, np.logspace(-10, 2, 25))
 FREQUENCY = np.logspace(-3, 10.5, 84)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from conveyor.rubber import WLF, PronySeries, superpose
-from conveyor.rubber.time_temperature import Isotherm
+from conveyor.rubber.master_curve import Isotherm
 
 FREQUENCY = np.geomspace(1.0, 50.0, 10)
 TEMPERATURES = 273.15 + np.arange(-10.0, 47.0, 7.0)

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from conveyor.errors import InputError, NoSolutionError, RangeError
+from conveyor.rubber.master_curve import Isotherm, Superposition
 from conveyor.rubber.overlap import LogIsotherm, measure_overlap
 from conveyor.rubber.prony import PronySeries
 from conveyor.rubber.shift import WLF, ShiftTable
-from conveyor.rubber.time_temperature import Isotherm, Superposition, superpose
+from conveyor.rubber.time_temperature import superpose
 
 DATA = Path(__file__).parent / "data"
 CELSIUS = 273.15
