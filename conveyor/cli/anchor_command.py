@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @session_command(
-    short_help="Set a compound's level by rolling-resistance tests.",
+    short_help="Set a compound's test factor by rolling tests.",
     without=("changed",),
     examples_of=(
         "conveyor anchor mine.yaml --tests campaign.csv -o mine-tested.yaml",
@@ -47,7 +47,7 @@ def anchor(
     ] = None,
     output: Annotated[Path | None, option("Write the compound file (.yaml).", "FILE", "-o", "--output")] = None,
 ) -> None:
-    """Set the level of a compound's indentation by rolling-resistance tests: measured over calculated."""
+    """Set a compound's test factor by rolling-resistance tests: indentation measured over calculated."""
     to = session.outputs(compound, tests)
     to.file("--output", output, *SPEC, kind=output_marks.COMPOUND)
     from conveyor import shelf as store

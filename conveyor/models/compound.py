@@ -73,9 +73,9 @@ class RubberCompound(Model):
     strain_dependence: StrainDependence | None = None
     """Softening with strain; without it the rubber is taken as linear."""
     tests: tuple[RollingTest, ...] = ()
-    """Rolling-resistance tests: they set the level of its indentation."""
+    """Rolling-resistance tests: they set its test factor, measured over computed indentation."""
     carrier: Name | None = None
-    """Compound whose spectrum stands in for one that was not measured; the tests set its level."""
+    """Compound whose spectrum stands in for one that was not measured; the tests set its test factor."""
     fit: FitStatistics | None = None
     missing: tuple[str, ...] = ()
     """What is not known about the compound."""

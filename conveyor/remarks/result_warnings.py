@@ -131,16 +131,16 @@ def _test_factor_warnings(result: CalculatedConveyor) -> Iterator[Message]:
             beyond = "" if level.anchor.tested_at(level.temperature) else ", held beyond the tested temperatures"
             yield message(
                 f'compound "{name}": indentation of the {strand} rolls {contacts.test_factor(strand):.2f} times '
-                f"the theory ({percent(low - 1.0)} to +{percent(high - 1.0)}), the level of its "
-                f"rolling-resistance tests{beyond}"
+                f"the theory ({percent(low - 1.0)} to +{percent(high - 1.0)}), the test factor of "
+                f"its rolling-resistance tests{beyond}"
             )
         elif compound.tests:
             why = "calculation.anchor is off" if calculation.anchor == "off" else "the support is not confined"
             yield message(f'compound "{name}": {why}, its rolling-resistance tests are not used')
         else:
             yield message(
-                f'compound "{name}": level not tested: published tests of low-resistance covers lie 2 to 2.5 times '
-                "above tyre-type small-strain data; give the compound rolling-resistance tests"
+                f'compound "{name}": no rolling-resistance tests: published ones of low-resistance covers lie 2 to 2.5 '
+                "times above tyre-type small-strain data; give the compound rolling-resistance tests"
             )
     if 0.0 < result.balance.friction_factor < LEAST_PUBLISHED_FRICTION:
         yield message(

@@ -200,7 +200,7 @@ DEFAULTS: Final = (
     DefaultBand("cleaners", "usual cleaners", 1.0, 1.0, "route.cleaners", usual_parts_share("cleaner"), _cleaners_band),
     proportional_default("cleaner_pressure", "pressure of the cleaners", CLEANER_PRESSURE,
     "route.cleaners[].pressure", _cleaner_pressure_share),
-    DefaultBand("level", "level of the indentation, no rolling-resistance tests", 1.0, UNTESTED_FACTOR,
+    DefaultBand("level", "test factor of the indentation, no rolling-resistance tests", 1.0, UNTESTED_FACTOR,
     "a compound with tests",
             _untested_share),
     DefaultBand("tested_level", "level of the indentation, tests and spectrum", 1.0, 1.0, "tests of the belt itself",

@@ -1,4 +1,4 @@
-"""A compound's tests set the level of its indentation, on the conveyor and wherever its result is shown."""
+"""A compound's tests set the test factor of its indentation, on the conveyor and wherever its result is shown."""
 
 from __future__ import annotations
 
@@ -120,7 +120,7 @@ def test_the_level_is_shown_wherever_its_result_is(line):
     assert math.log(carry["level_to"] / carry["level_factor"]) == pytest.approx(0.15, abs=0.01)
     assert any("times the theory" in warning and "rolling-resistance tests" in warning for warning in result.warnings)
     bare = calculate(with_compound(line, linear("s100"), "both"))
-    assert any("level not tested" in warning for warning in told(bare))
+    assert any("no rolling-resistance tests" in warning for warning in told(bare))
 
 
 def test_the_level_is_in_the_uncertainty(line):

@@ -144,7 +144,7 @@ def _rubber_quality(a: CalculatedConveyor) -> Iterator[GoverningRow]:
         else:
             quality.append("constructed spectrum, not for design")
         level = any(a.contacts.covers[strand].level is not None for strand in a.contacts.covers if strand in strands)
-        tested = "level from rolling-resistance tests" if level else "level not tested"
+        tested = "test factor of rolling-resistance tests" if level else "no rolling-resistance tests"
         yield GoverningRow(f"rubber {name}", compound.kind, "; ".join([" and ".join(strands), *quality, tested]))
 
 

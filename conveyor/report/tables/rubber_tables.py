@@ -126,9 +126,9 @@ def rubber_table(a: CalculatedConveyor) -> Table:
         Column("E'' factor of strain", "factor",
                lambda row: 1.0 if row[4] is None else row[4].loss_factor, json="loss_factor", key="loss_factor"),
         Column("tests", "count", lambda row: sum(test.points().line_load.size for test in row[1].tests), page=None),
-        Column("level factor", "factor", lambda row: contacts.test_factor(row[0]), json="level_factor"),
-        Column("level from", "factor", lambda row: _test_factor_end(contacts, row[0], -1.0), json="level_from"),
-        Column("level to", "factor", lambda row: _test_factor_end(contacts, row[0], 1.0), json="level_to"),
+        Column("test factor", "factor", lambda row: contacts.test_factor(row[0]), json="level_factor"),
+        Column("test factor from", "factor", lambda row: _test_factor_end(contacts, row[0], -1.0), json="level_from"),
+        Column("test factor to", "factor", lambda row: _test_factor_end(contacts, row[0], 1.0), json="level_to"),
     )  # fmt: skip
     heading = "Rubber excitation band, working strain and level"
     return Table("rubber", "Rubber", heading, columns, rows, "rubber")
