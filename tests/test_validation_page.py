@@ -113,7 +113,7 @@ was found, so those are compared in bands. What the models leave out is in the [
 
 @cache
 def checks() -> tuple[ReferenceCheck, ...]:
-    return tuple(reference_cases.run_checks())
+    return tuple(reference_cases.run_reference_checks())
 
 
 def shown(value: float | str) -> str:

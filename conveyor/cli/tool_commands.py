@@ -188,7 +188,7 @@ def validate(quiet: Quiet = False) -> None:
     from conveyor.cli.terminal import plain_table, terminal_console
     from conveyor.validation import reference_cases
 
-    checks = reference_cases.run_checks()
+    checks = reference_cases.run_reference_checks()
     heads = ("reference", "expected", "got", "deviation", "allowed", "")
     made = plain_table(None, heads, left=("reference",))
     for check in checks:

@@ -272,7 +272,7 @@ def _bulk_slip(scenario: ScenarioResult) -> Iterator[Check]:
                        where=section)  # fmt: skip
 
 
-CRITERIA: Final[tuple[Callable[[ScenarioResult], Iterator[Check]], ...]] = (
+DYNAMICS_CRITERIA: Final[tuple[Callable[[ScenarioResult], Iterator[Check]], ...]] = (
     _belt_strength, _splice_strength, _belt_sag, _lift_off_radius, _drive_grip, _motor_torque, _roll_back,
     _take_up_travel, _final_speed, _bulk_slip,
 )  # fmt: skip
@@ -283,7 +283,7 @@ def dynamics_checks(dynamics: CalculatedDynamics) -> tuple[Check, ...]:
     every = [*_unanswered_scenarios(dynamics)] + [
         replace(check, case=scenario_case(followed))
         for followed in dynamics.followed
-        for criterion in CRITERIA
+        for criterion in DYNAMICS_CRITERIA
         for check in criterion(followed)
     ]
     most: dict[Message, Check] = {}

@@ -9,7 +9,7 @@ from typing import Any, Final, Literal, TypeAlias
 import numpy as np
 
 from conveyor.checks import Check
-from conveyor.dynamics.criteria import CRITERIA
+from conveyor.dynamics.criteria import DYNAMICS_CRITERIA
 from conveyor.dynamics.machines import ScenarioSetup, ScenarioSize
 from conveyor.dynamics.scenario_result import ScenarioResult
 from conveyor.dynamics.simulation import ERROR, CalculatedDynamics, prepare_setups, simulate_batch, simulate_to_error
@@ -165,7 +165,7 @@ def _simulate_trials(made: Callable[[float], ScenarioSetup], values: list[float]
 
 
 def _size_checks(scenario: ScenarioResult) -> list[Check]:
-    every = [check for criterion in CRITERIA for check in criterion(scenario)]
+    every = [check for criterion in DYNAMICS_CRITERIA for check in criterion(scenario)]
     return [check for check in every if check.key not in _NOT_SIZED]
 
 

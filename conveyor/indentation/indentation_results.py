@@ -284,6 +284,7 @@ def indentation_resistance(contact: RollContact, line_load: float, rtol: float =
 
     Examples
     --------
+    >>> from conveyor.rubber import PronySeries
     >>> rubber = PronySeries(8e6, [4e6], [1e-3])
     >>> roll = RollContact(radius=0.0795, spacing=1.2, cover_thickness=6e-3, speed=5.0, rubber=rubber)
     >>> one = indentation_resistance(roll, 2000.0)

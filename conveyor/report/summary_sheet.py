@@ -33,6 +33,8 @@ from conveyor.report.table_model import CHECKS_AND_NOTES, Figure, ReportHead
 from conveyor.units.presentation import DIGITS, Unit, display_unit, label_for_people
 
 _COLUMNS: Final = "ABCDEFG"
+_LARGE_COLUMNS: Final = "ABDEFG"
+"""Columns of the large figures."""
 _WIDTHS: Final = {"A": 31, "B": 18, "C": 2, "D": 33, "E": 17, "F": 25, "G": 17}
 _CHART_ROWS: Final = 14
 _CHART_WIDTHS, _CHART_HEIGHT = (11.0, 20.4), 6.4  # [cm]
@@ -161,20 +163,22 @@ def _value_font_format(figure: Figure, written: Unit, font: Any = None) -> tuple
 
 
 def _key_figures(page: SheetWriter, row: int) -> int:
-    """Write the key figures, large; return the next row."""
+    """Write the key figures, large, six a row; return the next row."""
     sheet, system = page.sheet, page.contents.system
-    for letter in _COLUMNS:
-        sheet[f"{letter}{row}"].fill = sheet[f"{letter}{row + 1}"].fill = PALE
-    for letter, figure in zip("ABDEFG", page.contents.figures_for("large"), strict=False):
-        caption, cell = sheet[f"{letter}{row}"], sheet[f"{letter}{row + 1}"]
-        written = display_unit(figure.kind, system, large=True)
-        name = figure.called(system).replace(" of main resistance", "")
-        write_value(caption, f"as given: {written.beside(name) if written.sign else name}", GREY)
-        write_value(cell, *_value_font_format(figure, written, FIGURE))
-        caption.alignment = Alignment(horizontal="left", vertical="center", indent=1, wrap_text=True)
-        cell.alignment = Alignment(horizontal="left", vertical="center", indent=1)
-    sheet.row_dimensions[row].height, sheet.row_dimensions[row + 1].height = 42.0, 26.0
-    row += 2
+    large = page.contents.figures_for("large")
+    for start in range(0, len(large), len(_LARGE_COLUMNS)):
+        for letter in _COLUMNS:
+            sheet[f"{letter}{row}"].fill = sheet[f"{letter}{row + 1}"].fill = PALE
+        for letter, figure in zip(_LARGE_COLUMNS, large[start:], strict=False):
+            caption, cell = sheet[f"{letter}{row}"], sheet[f"{letter}{row + 1}"]
+            written = display_unit(figure.kind, system, large=True)
+            name = figure.called(system).replace(" of main resistance", "")
+            write_value(caption, f"as given: {written.beside(name) if written.sign else name}", GREY)
+            write_value(cell, *_value_font_format(figure, written, FIGURE))
+            caption.alignment = Alignment(horizontal="left", vertical="center", indent=1, wrap_text=True)
+            cell.alignment = Alignment(horizontal="left", vertical="center", indent=1)
+        sheet.row_dimensions[row].height, sheet.row_dimensions[row + 1].height = 42.0, 26.0
+        row += 2
     if "defaults" in page.contents:
         _write_across(sheet, row, page.contents["defaults"].note)
         row += 1

@@ -47,6 +47,8 @@ def starter_values(kind: Kind | Literal["duty"], units: System = "SI", *, option
     '42 in'
     """
     given: dict[str, Any] = _plain_values(read_values(f"{kind}.yaml"), units, optional=optional)
+    if "units" in given.get("report", {}):
+        given["report"]["units"] = units  # the values are those of its trade
     return given
 
 

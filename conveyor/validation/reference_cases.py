@@ -1,6 +1,6 @@
 """Checks of the package against independent figures, for `conveyor validate`.
 
-`run_checks` returns one `ReferenceCheck` for each figure. The test suite checks the same sources in more depth.
+`run_reference_checks` returns one `ReferenceCheck` for each figure. The tests check the same sources in more depth.
 """
 
 from __future__ import annotations
@@ -107,7 +107,7 @@ _LODEWIJKS = "Lodewijks (1996), finite elements"
 _CURVE_TOLERANCE = 1e-9  # ten digits given
 
 
-def run_checks() -> list[ReferenceCheck]:
+def run_reference_checks() -> list[ReferenceCheck]:
     """Compare this package with every figure it ships: contacts, closed forms, published values, identities.
 
     Returns
@@ -119,7 +119,7 @@ def run_checks() -> list[ReferenceCheck]:
 
     Examples
     --------
-    >>> all(check.passed for check in run_checks())
+    >>> all(check.passed for check in run_reference_checks())
     True
     """
     groups = (

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from conveyor.dynamics.belt_chain import Machines
-from conveyor.dynamics.criteria import CRITERIA, pulley_peak, tension_peaks
+from conveyor.dynamics.criteria import DYNAMICS_CRITERIA, pulley_peak, tension_peaks
 from conveyor.dynamics.machines import prepare_belts
 from conveyor.dynamics.simulation import CalculatedDynamics, simulate_batch
 from conveyor.dynamics.wave import simulate_belts
@@ -31,7 +31,7 @@ SPAN = LENGTH * (CELLS - 1) / CELLS
 
 
 def checks_of_one(found):
-    return [check for criterion in CRITERIA for check in criterion(found)]
+    return [check for criterion in DYNAMICS_CRITERIA for check in criterion(found)]
 
 
 def pulled(force, steps, *, time, cells=CELLS, grip=1e9, rim=HEAVY, **changes):

@@ -102,13 +102,13 @@ def test_covers_protect_the_carcass():
         ),
         (
             lambda: belt_check.required_strength(1e5, splice_strength=1.2, s0=1.1, s1=1.7),
-            r"splice_strength = 1\.2 is not allowed: above 0 and at most 1",
+            r"splice_strength: got 1\.2, allowed: > 0 and <= 1",
         ),
         (lambda: belt_check.required_strength(1e5, splice_strength=0.4, s0=0.9, s1=1.7), r"s0: got 0\.9"),
         (lambda: belt_check.required_strength(1e5, splice_strength=0.4, s0=1.1, s1=0.9), r"s1: got 0\.9"),
         (
             lambda: belt_check.pulley_group_diameter(1.0, group="D"),
-            r"group = 'D' is not allowed: one of A, B, C",
+            r"group: got 'D', allowed: A, B, C",
         ),
         (lambda: belt_check.next_pulley_diameter(0.0), r"least_diameter: got 0\.0"),
     ],

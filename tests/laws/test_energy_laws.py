@@ -57,7 +57,7 @@ def test_a_conveyor_that_only_feeds_back_earns():
 def test_a_leap_year_is_the_longest():
     whole = energy.DutyStep(time=8784 * HOUR, power=1.0, mass_flow=0.0)
     assert energy.duty_sums([whole]).drawn_kwh == pytest.approx(8.784, rel=ROUNDING)
-    with pytest.raises(InputError, match=r"at most 8784 h are in a year, these are 8785 h"):
+    with pytest.raises(InputError, match=r"allowed: <= 8784 h, a year; these are 8785 h"):
         energy.duty_sums([whole, energy.DutyStep(time=HOUR, power=1.0, mass_flow=0.0)])
 
 
@@ -96,7 +96,7 @@ def test_too_much_for_one_motor():
             ),
             r"duty\.mass: got 0\.0, .* some mass conveyed",
         ),
-        (lambda: energy.next_motor(1.0, reserve=0.9), r"reserve = 0\.9 is not allowed: at least 1"),
+        (lambda: energy.next_motor(1.0, reserve=0.9), r"reserve: got 0\.9, allowed: >= 1"),
     ],
 )
 def test_refusals(call, message):

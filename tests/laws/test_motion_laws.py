@@ -76,7 +76,7 @@ def test_no_answer(call, message):
         (lambda: motion.reduced_mass(1.0, radius=0.0), r"radius: got 0\.0"),
         (
             lambda: motion.start_force(1.0, torque_factor=1.0, efficiency=1.1, rated_belt_speed=1.0),
-            r"efficiency = 1\.1 is not allowed: above 0 and at most 1",
+            r"efficiency: got 1\.1, allowed: > 0 and <= 1",
         ),
         (
             lambda: motion.constant_force_stop(1.0, retarding_force=1.0, moving_mass=0.0),

@@ -69,7 +69,7 @@ def test_length_coefficient_is_not_extrapolated(length):
 
 
 def test_short_conveyor_is_warned_about():
-    with pytest.warns(ValidityWarning, match=r"length: got 63 m: .* meant for more than 80 m"):
+    with pytest.warns(ValidityWarning, match=r"length = 63 m: .* meant for more than 80 m"):
         assert resistance.secondary_resistance(1000.0, length=63.0) == pytest.approx(1000.0, rel=1e-12)
 
 

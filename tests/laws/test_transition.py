@@ -72,7 +72,7 @@ def test_the_strip_bears_its_limit_at_the_length_found():
 
 
 def test_refusals():
-    with pytest.raises(InputError, match=r"pulley_height = 1\.5 is not allowed: 0 to 1"):
+    with pytest.raises(InputError, match=r"pulley_height: got 1\.5, allowed: >= 0 and <= 1"):
         transition_stretch(WIDTH, middle_roll_length=MIDDLE, trough_angle=ANGLE, pulley_height=1.5)
     with pytest.raises(InputError, match="middle_roll_length"):
         transition_stretch(WIDTH, middle_roll_length=2.0, trough_angle=ANGLE, pulley_height=0.0)

@@ -98,7 +98,7 @@ def test_rolls_of_many_lines_drag_as_each_by_itself(line):
     # grease that is solid in one line's air leaves the others theirs
     cold, warm = roll_drags_many([in_air(line, "-90 degC")[0], asked[2]])
     assert isinstance(cold, InputError)
-    assert str(cold).startswith("idlers.carry.roll: drag not given: temperature = 183.1")
+    assert str(cold).startswith("idlers.carry.roll: drag not given: temperature: got 183.1")
     assert warm[0] == pytest.approx(roll_drags(*asked[2])[0], rel=ROUNDING)
 
 
@@ -217,11 +217,11 @@ def test_contradictions_are_refused(line, changes, message):
     [
         (
             MAKER | {"load": "2500 N", "load_slope": 0.01},
-            r"idlers\.carry\.roll\.drag_law: reference_drag = 2\.0 .* its line gives -",
+            r"idlers\.carry\.roll\.drag_law: reference_drag: got 2\.0, its line gives -",
         ),
         (
             BEARING | {"first_viscosity": "5000 mm^2/s", "second_viscosity": "5 mm^2/s"},
-            r"idlers\.carry\.roll\.drag_law: temperature = .* the oil is solid there",
+            r"idlers\.carry\.roll\.drag_law: temperature: got .* the oil is solid there",
         ),
     ],
 )

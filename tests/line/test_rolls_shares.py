@@ -71,9 +71,9 @@ def test_filled_width_of_a_v_without_a_heap():
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"area": 0.0}, r"area = 0\.0"),
-        ({"middle_roll_length": -1.0}, r"middle_roll_length = -1\.0"),
-        ({"trough_angle": 2.0}, r"trough_angle = 2\.0"),
+        ({"area": 0.0}, r"area: got 0\.0"),
+        ({"middle_roll_length": -1.0}, r"middle_roll_length: got -1\.0"),
+        ({"trough_angle": 2.0}, r"trough_angle: got 2\.0"),
         ({"trough_angle": 0.0, "surcharge_angle": 0.0}, r"a flat belt carries a heap only"),
     ],
 )

@@ -22,7 +22,7 @@ from conveyor.models.fields import with_fields
 from conveyor.results.analysis import studies
 from conveyor.spec import from_data
 from conveyor.units import si
-from conveyor.units.quantity_kinds import KINDS
+from conveyor.units.quantity_kinds import INPUT_KINDS
 
 Data = dict[str, Any]
 Place = tuple[Any, Any]
@@ -99,8 +99,8 @@ def _other_unit(data: Data, seeded: random.Random) -> str:
     """Give a value another unit of its kind, or of another, the number as it was."""
     place = seeded.choice(_places(data, lambda value: isinstance(value, str) and _figure_in(value) is not None))
     number, unit = _figure_in(place[0][place[1]]).groups()
-    own = [kind for kind in KINDS.values() if unit in kind.units]
-    kind = seeded.choice(own if own and seeded.random() < 0.8 else list(KINDS.values()))
+    own = [kind for kind in INPUT_KINDS.values() if unit in kind.units]
+    kind = seeded.choice(own if own and seeded.random() < 0.8 else list(INPUT_KINDS.values()))
     return _put(place, float(number), seeded.choice(sorted(kind.units)))
 
 

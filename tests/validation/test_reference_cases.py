@@ -9,7 +9,7 @@ import pytest
 
 from conveyor.contact import solve
 from conveyor.validation import contact_cases
-from conveyor.validation.reference_cases import run_checks
+from conveyor.validation.reference_cases import run_reference_checks
 from conveyor.validation.reference_check import ReferenceCheck
 
 CASES = contact_cases.reference_cases()
@@ -79,12 +79,12 @@ def test_the_tighter_tolerance_is_closer_on_the_whole():
 
 
 def test_every_shipped_check_passes():
-    failed = [check for check in run_checks() if not check.passed]
+    failed = [check for check in run_reference_checks() if not check.passed]
     assert failed == []
 
 
 def test_shipped_checks_name_source_and_quantity():
-    checks = run_checks()
+    checks = run_reference_checks()
     assert {check.source for check in checks} == {
         "Bessel-Galerkin prototype",
         "CEMA, transition",
@@ -128,6 +128,6 @@ def test_a_wrong_solver_would_fail(monkeypatch):
         return solve(replace(problem, pressure=1.01 * problem.pressure), **options)
 
     monkeypatch.setattr(contact_cases, "solve", wrong)
-    failed = [check for check in run_checks() if not check.passed]
+    failed = [check for check in run_reference_checks() if not check.passed]
     # every friction of the reference and of the split contacts, every Hunter figure that depends on the load
     assert sum("friction" in check.quantity for check in failed) == len(SINGLE) + 2 + 9
