@@ -107,7 +107,7 @@ def holding_brake(result: CalculatedConveyor) -> Iterator[Check]:
         what = "backstop" if moving.rolls_back else "brake"
         bear = _backstop_forces(line) if moving.rolls_back else ()
         known = given or bool(bear)
-        none = "no brake given, nor what a backstop bears" if moving.rolls_back else "no brake given"
+        none = "no brake and no backstop torque given" if moving.rolls_back else "no brake given"
         made = check_against_limit(
             "holding_brake", f"holding {what}, loaded belt", math.fsum((brakes, *bear)), "at least",
             moving.brake_to_hold, "force", wording=None if known else message(none),

@@ -117,12 +117,12 @@ class ImageKind(StrEnum):
 
 Spec = Annotated[Path, argument("Conveyor spec: .yaml, .json or .xlsx.", "SPEC", show_default=False)]
 Workbook = Annotated[Path | None, option("Write the workbook (.xlsx).", "FILE", "-o", "--output")]
-WebPage = Annotated[Path | None, option("Write the report as one page (.html); it prints well.", "FILE", "--html")]
-PdfPage = Annotated[Path | None, option("Write that page as it prints (.pdf).", "FILE", "--pdf")]
-TablesFolder = Annotated[Path | None, option("Write every table to a file of its own in it.", "FOLDER", "--tables")]
+WebPage = Annotated[Path | None, option("Write the report as a web page (.html).", "FILE", "--html")]
+PdfPage = Annotated[Path | None, option("Write the report as PDF.", "FILE", "--pdf")]
+TablesFolder = Annotated[Path | None, option("Folder for the tables, one file each.", "FOLDER", "--tables")]
 AsParquet = Annotated[bool, option("Tables as Parquet files; without it as CSV.", None, "--parquet")]
 Shelves = Annotated[
-    list[Path] | None, option("Further folder of compound files; may be repeated.", "FOLDER", "--shelf")
+    list[Path] | None, option("Additional folder of compound files; may be repeated.", "FOLDER", "--shelf")
 ]
 FieldChanges = Annotated[
     list[str] | None,
@@ -136,13 +136,15 @@ AsJson = Annotated[bool, option("Print one JSON object on stdout and nothing els
 UnitsOption = Annotated[
     Units | None,
     option(
-        "Units of what is shown and written; else report.units of the spec. JSON stays SI.",
+        "Units of the output; else report.units of the spec. JSON is always SI.",
         None,
         "--units",
         show_default=False,
     ),
 ]
-Force = Annotated[bool, option("Overwrite existing files of any kind; never an input.", None, "--force", "-f")]
+Force = Annotated[
+    bool, option("Overwrite existing output files; input files are never overwritten.", None, "--force", "-f")
+]
 Quiet = Annotated[bool, option("Print nothing but errors.", None, "--quiet", "-q")]
 Drawing = "to this file (.png, .svg, .pdf)."
 

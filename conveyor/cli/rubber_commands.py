@@ -213,7 +213,7 @@ def fit(
         lines += _verdict_lines(fitted, spec, said, books, paged, to)
     lines += to.save()
     lines += [
-        f'name it by its path in specs and --compound, or "{path.stem}" with --shelf {path.parent}'
+        f'use it by its path in specs and with --compound, or by the name "{path.stem}" with --shelf {path.parent}'
         for path in compounds
     ]
     if not quiet:

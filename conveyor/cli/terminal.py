@@ -160,7 +160,7 @@ def show_power(contents: Contents) -> None:
     show_notes(screen, contents.lines("warning"))
     error, balance = (_result_figure(contents, f"contact_{name}").value for name in ("error_estimate", "energy_error"))
     screen.print(
-        f"\nrelative error of the contact solutions: at most {error:.0e}; their energy balance closes to {balance:.0e}"
+        f"\nnumerical error of the contact solutions: at most {error:.0e}; their energy balance closes to {balance:.0e}"
     )
 
 
@@ -378,7 +378,7 @@ def _ranking_columns(ranked: Table, costs: Table | None, system: System) -> dict
     saved = [] if costs is None else [column for column in costs.columns if column.key == "saving_per_year"]
     if saved:
         money = display_unit(saved[0].kind, system)
-        columns[_unit_heading("saved/a", money)] = lambda row: _number_text(money, row.saving)
+        columns[_unit_heading("saved a year", money)] = lambda row: _number_text(money, row.saving)
     if any(row.payback is not None for row in ranked.rows):
         years = display_unit("years", system)
         columns[_unit_heading("payback", years)] = lambda row: _number_text(years, row.payback)

@@ -39,7 +39,7 @@ def summary_lines(rubber: FittedCompound | TabulatedCompound) -> list[str]:
             *(f"  {line}" for line in rubber.understood),
             f"{rubber.compound.name}: {series.times.size} terms as tabulated, nothing fitted; E_e "
             f"{series.equilibrium / 1e6:.4g} MPa, E_inf {series.glassy / 1e6:.4g} MPa",
-            "not known: " + "; ".join(rubber.compound.missing),
+            "missing data: " + "; ".join(rubber.compound.missing),
         ]
     return [
         "read",
@@ -50,7 +50,7 @@ def summary_lines(rubber: FittedCompound | TabulatedCompound) -> list[str]:
         *_criterion_lines(rubber),
         *_consistency_lines(rubber),
         *_failure_lines(rubber),
-        "not known: " + ("; ".join(rubber.compound.missing) or "nothing listed"),
+        "missing data: " + ("; ".join(rubber.compound.missing) or "nothing listed"),
     ]
 
 
@@ -73,7 +73,7 @@ def _shift_lines(fitted: FittedCompound) -> Iterator[str]:
     scatter = ((shifted.storage_scatter, "E'"), (shifted.loss_scatter, "E''"))
     told = " and ".join(f"{percent(value, 1)} ({name})" for value, name in scatter if value is not None)
     yield (
-        f"  overlaps differ by {' and '.join(f'{percent(value, 1)} ({name})' for value, name in overlaps)}; "
+        f"  isotherms differ in their overlaps by {' and '.join(f'{percent(value, 1)} ({name})' for value, name in overlaps)}; "
         "scatter about the "
         f"common curve {told}"
         + ("" if None not in (shifted.storage_scatter, shifted.loss_scatter) else "; it alone placed them")
@@ -110,7 +110,7 @@ def _shift_lines(fitted: FittedCompound) -> Iterator[str]:
 def _variant_lines(shifted: Superposition) -> Iterator[str]:
     """Lines on the shifts that the same isotherms have by other moduli and vertical shifts."""
     if shifted.variants:
-        yield "  the same isotherms placed otherwise: log10 a_T of the coldest and the hottest"
+        yield "  alternative shifts for comparison: log10 a_T of the coldest and the hottest isotherm"
     for one in shifted.variants:
         ends = " and ".join(
             f"{one.log10_a_T[k]:+.3f} +- {one.log10_a_T_error[k]:.3f}" for k in (0, one.log10_a_T.size - 1)
@@ -137,7 +137,7 @@ def _law_lines(fitted: FittedCompound) -> Iterator[str]:
         yield (
             f"  {law.name}: rms {law.rms:.2f}, worst {law.worst:+.2f} decades at "
             f"{to_celsius(law.worst_temperature):.0f} "
-            f"degC; a point left out is missed by {law.left_out:.2f} decades"
+            f"degC; leave-one-out error {law.left_out:.2f} decades"
         )
 
 
@@ -181,7 +181,7 @@ def _criterion_lines(fitted: FittedCompound) -> Iterator[str]:
     candidates = fitted.fit.candidates
     if len(candidates) < 2:
         return
-    yield "  number of terms by AICc, chosen first: per decade, penalty, terms, effective parameters, residual, score"
+    yield "  number of terms by AICc, the chosen one first: per decade, penalty, terms, effective parameters, residual, score"
     for candidate in candidates[:_MOST_CANDIDATES]:
         yield (
             f"    {candidate.terms_per_decade:5.2f} {candidate.regularisation:7.3g} {candidate.terms:4d} "
@@ -191,7 +191,7 @@ def _criterion_lines(fitted: FittedCompound) -> Iterator[str]:
 
 def _consistency_lines(fitted: FittedCompound) -> Iterator[str]:
     yield (
-        f"any positive spectrum leaves at least {percent(fitted.fit.consistency_floor, 1)} rms of both: that "
+        f"no Prony series fits both moduli better than {percent(fitted.fit.consistency_floor, 1)} rms of both: that "
         "much the data "
         "scatter or contradict themselves"
     )

@@ -1,4 +1,4 @@
-"""Contacts of the rolls on a belt whose carcass yields, the more the lower its tension.
+"""Contacts of the rolls on a belt whose carcass deflects, the more the lower its tension.
 
 Each contact is solved at Chebyshev-Lobatto points of ln tension, as many as the tolerance needs, and interpolated
 between.

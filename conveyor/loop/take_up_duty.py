@@ -107,7 +107,7 @@ def at_common_setting(loops: Sequence[Balance], asking: Sequence[bool] = ()) -> 
             return closed
         kept = kept._replace(tension=asked)
     raise NoSolutionError(
-        "no setting of the take-up serves every load: each makes one ask for more; check pulley diameters"
+        "no take-up tension suits every load: each increase raises what another load needs; check pulley diameters"
     )
 
 

@@ -131,7 +131,7 @@ def _test_factor_warnings(result: CalculatedConveyor) -> Iterator[Message]:
             beyond = "" if level.anchor.tested_at(level.temperature) else ", held beyond the tested temperatures"
             yield message(
                 f'compound "{name}": indentation of the {strand} rolls {contacts.test_factor(strand):.2f} times '
-                f"the theory ({percent(low - 1.0)} to +{percent(high - 1.0)}), the test factor of "
+                f"the theory ({percent(low - 1.0)} to +{percent(high - 1.0)}), by the test factor of "
                 f"its rolling-resistance tests{beyond}"
             )
         elif compound.tests:

@@ -122,8 +122,8 @@ class ShiftVariant:
     @property
     def name(self) -> str:
         """Moduli and vertical shifts in words."""
-        moduli = {"both": "E' and E''", "storage": "E' alone", "loss": "E'' alone"}[self.by]
-        return f"{moduli}, {'vertical shifts' if self.vertical else 'none vertical'}"
+        moduli = {"both": "from E' and E''", "storage": "from E' only", "loss": "from E'' only"}[self.by]
+        return f"{moduli}, {'with vertical shifts' if self.vertical else 'no vertical shift'}"
 
 
 @dataclass(frozen=True)

@@ -63,7 +63,7 @@ class Load:
 
     @property
     def forces(self) -> tuple[float, float]:
-        """Drive force with the friction at both ends of the band, which lift and acceleration of bulk lack [N]."""
+        """Drive force at low and high friction [N]; lift and acceleration of bulk do not vary."""
         return self.found.drive_forces
 
     @cached_property

@@ -23,7 +23,7 @@ def test_isotherms_placed_by_one_modulus(tmp_path: Path, by: Literal["storage", 
             rows.append(f"{celsius},{f},{series.storage(omega)},{series.loss(omega)}")
     (tmp_path / "isotherms.csv").write_text("\n".join(rows), encoding="utf-8")
     found = fit_file(tmp_path / "isotherms.csv", Request("x", by=by, replicas=0))
-    (line,) = (line for line in summary.summary_lines(found) if "overlaps differ" in line)
+    (line,) = (line for line in summary.summary_lines(found) if "isotherms differ in their overlaps" in line)
     assert line.endswith(f"({placed}); it alone placed them")
     assert "(E') and" in line
 

@@ -65,7 +65,7 @@ def comparison_notes(comparison: CalculatedComparison, system: System = "SI") ->
     ]
     for compound in comparison.compounds:
         if compound.kind == "illustrative":
-            said = "is illustrative, not measured: compare with it, do not design with it"
+            said = "is illustrative, not measured: for comparison, not for design"
             lines.append(f'compound "{compound.name}" {said}')
         rows = [row for row in comparison.coverage if row.compound == compound.name and not row.covered]
         if rows:

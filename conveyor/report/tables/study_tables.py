@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 _FLOODED = (
     "Bulk heaped from edge to edge of the belt at its surcharge angle, on the whole route, at the take-up's setting: "
-    "what structure, belt and drives may see where a feeder does not stop (general knowledge). Nothing is checked by "
+    "load on structure, belt and drives if the feeder does not stop (general knowledge). Nothing is checked by "
     "it; the mass is without sets and frame."
 )
 _STATES, _CASES, _DUTY, _UNCERTAINTY = "load-states", "load-cases", "duty", "uncertainty"
