@@ -72,10 +72,9 @@ def _shift_lines(fitted: FittedCompound) -> Iterator[str]:
     overlaps = ((shifted.storage_residual, "E'"), (shifted.loss_residual, "E''"))
     scatter = ((shifted.storage_scatter, "E'"), (shifted.loss_scatter, "E''"))
     told = " and ".join(f"{percent(value, 1)} ({name})" for value, name in scatter if value is not None)
+    apart = " and ".join(f"{percent(value, 1)} ({name})" for value, name in overlaps)
     yield (
-        f"  isotherms differ in their overlaps by {' and '.join(f'{percent(value, 1)} ({name})' for value, name in overlaps)}; "
-        "scatter about the "
-        f"common curve {told}"
+        f"  isotherms differ in their overlaps by {apart}; scatter about the common curve {told}"
         + ("" if None not in (shifted.storage_scatter, shifted.loss_scatter) else "; it alone placed them")
     )
     for one in shifted.resonances:
@@ -181,7 +180,7 @@ def _criterion_lines(fitted: FittedCompound) -> Iterator[str]:
     candidates = fitted.fit.candidates
     if len(candidates) < 2:
         return
-    yield "  number of terms by AICc, the chosen one first: per decade, penalty, terms, effective parameters, residual, score"
+    yield "  number of terms by AICc, chosen first: per decade, penalty, terms, effective parameters, residual, score"
     for candidate in candidates[:_MOST_CANDIDATES]:
         yield (
             f"    {candidate.terms_per_decade:5.2f} {candidate.regularisation:7.3g} {candidate.terms:4d} "
@@ -191,9 +190,8 @@ def _criterion_lines(fitted: FittedCompound) -> Iterator[str]:
 
 def _consistency_lines(fitted: FittedCompound) -> Iterator[str]:
     yield (
-        f"no Prony series fits both moduli better than {percent(fitted.fit.consistency_floor, 1)} rms of both: that "
-        "much the data "
-        "scatter or contradict themselves"
+        f"no Prony series fits E' and E'' better than {percent(fitted.fit.consistency_floor, 1)} rms: the data scatter "
+        "or contradict themselves by that much"
     )
     if fitted.entropic_floor is not None:
         yield (
