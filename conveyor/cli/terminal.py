@@ -378,7 +378,7 @@ def _ranking_columns(ranked: Table, costs: Table | None, system: System) -> dict
     saved = [] if costs is None else [column for column in costs.columns if column.key == "saving_per_year"]
     if saved:
         money = display_unit(saved[0].kind, system)
-        columns[_unit_heading("saved a year", money)] = lambda row: _number_text(money, row.saving)
+        columns[_unit_heading("saved/yr", money)] = lambda row: _number_text(money, row.saving)
     if any(row.payback is not None for row in ranked.rows):
         years = display_unit("years", system)
         columns[_unit_heading("payback", years)] = lambda row: _number_text(years, row.payback)

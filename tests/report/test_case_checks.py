@@ -285,7 +285,7 @@ def test_reports_say_what_is_not_to_design_by(cold: tuple[Analysis, CaseStudy]) 
     assert contents["load_cases"].frame()["covered"].tolist() == ["NO", "yes", "yes"]
     assert "winter, -25 °C" in contents["governing_cases"].note
     rows = {row.subject: row for row in contents["checks"].rows}
-    assert rows["rubber data over the excitation band, carry"].case == "winter, -25 °C; other loadings not checked"
+    assert rows["rubber data over the excitation band, carry"].case == "winter, -25 °C; other loadings not searched"
     assert any(line.startswith("winter, -90 °C: ") for line in contents.lines("warning"))
     kept = contents["case_checks"].frame()
     assert set(kept[kept["case"] == "winter, -25 °C"]["verdict"]) == {"FAIL", "not checked"}

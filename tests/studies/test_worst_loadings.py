@@ -245,7 +245,7 @@ def test_what_is_not_sought_says_so_beside_its_figure():
     loads = every_load(conveyor)
     table = check_table(loads.governing, "SI", unsearched_criteria(loads.own.line))
     shown = {row.subject: row.case for row in table.rows}
-    assert shown["penetration of the cover, carry rolls"] == "as given; other loadings not checked"
+    assert shown["penetration of the cover, carry rolls"] == "as given; other loadings not searched"
     assert not any(
         "not sought" in case for name, case in shown.items() if "penetration" not in name and "rubber" not in name
     )

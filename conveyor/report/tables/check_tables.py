@@ -34,7 +34,7 @@ class CheckRow(NamedTuple):
         name, calculated, asked = (said.text(system) for said in (check.name, check.found, check.asked))
         case = AS_GIVEN if check.case is None else check.case.text(system)
         if not_sought:
-            case += "; other loadings not checked"
+            case += "; other loadings not searched"
         margin = None if check.verdict == "not checked" else check.margin
         return cls(name, calculated, asked, margin, case, check.verdict, leads)
 
