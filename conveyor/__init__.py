@@ -117,8 +117,10 @@ __all__ = [
 
 # So are the modules that users reach as attributes.
 _MODULES = {
-    **{name: f"conveyor.{name}" for name in ("contact", "indentation", "rubber", "shelf", "spec", "studies", "units")},
-    "uncertainty": "conveyor.results.uncertainty",
+    **{
+        name: f"conveyor.{name}"
+        for name in ("contact", "indentation", "rubber", "shelf", "spec", "studies", "uncertainty", "units")
+    },
     "libraries": "conveyor.files.libraries",
 }
 

@@ -216,7 +216,7 @@ class AmplitudeFactors:
         return bool(low <= temperature <= high)
 
     def largest_strain(self, temperature: float) -> float:
-        """Largest strain amplitude measured by all runs that give the factors at a temperature [K] [-]."""
+        """Largest strain amplitude [-] measured by all runs that give the factors at a temperature [K]."""
         used = [
             level
             for level, weight in zip(

@@ -1,4 +1,4 @@
-"""Uncertainty of the power from ranges of the inputs: `conveyor.results.uncertainty.study(line).table`."""
+"""Uncertainty of the power from ranges of the inputs: `conveyor.uncertainty.study(line).table`."""
 
 from __future__ import annotations
 
