@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
+    from conveyor.fitting.fit_verdict import Criterion
     from conveyor.fitting.fitted_compound import FittedCompound, TabulatedCompound
     from conveyor.models import RubberCompound
 
@@ -199,8 +200,10 @@ def fit(
     files = [file for file in (*data, shift, strain) if file is not None]
     with _name_files(files):
         fitted = compound_file.compound_from_files(data, request)
+    criteria: tuple[Criterion, ...] = ()
     if isinstance(fitted, compound_file.FittedCompound):
-        fitted = fit_verdict.record_failures(fitted)
+        criteria = fit_verdict.fit_criteria(fitted)
+        fitted = fit_verdict.record_failures(fitted, criteria)
     lines = summary.summary_lines(fitted)
     if plot is not None:
         to.figure(summary.band_figure(fitted), plot)
@@ -210,7 +213,7 @@ def fit(
         to.add("shift factors", write_shift, {write_shift: summary.shift_table(fitted).encode()})
     _add_exports(fitted.compound, export, to)
     if books or paged or spec is not None:
-        lines += _verdict_lines(fitted, spec, said, books, paged, to)
+        lines += _verdict_lines((fitted, criteria), spec, said, books, paged, to)
     lines += to.save()
     lines += [
         f'use it by its path in specs and with --compound, or by the name "{path.stem}" with --shelf {path.parent}'
@@ -238,21 +241,24 @@ def _column_meaning(words: str) -> tuple[str, str]:
 
 
 def _verdict_lines(
-    rubber: FittedCompound | TabulatedCompound,
+    judged: tuple[FittedCompound | TabulatedCompound, tuple[Criterion, ...]],
     spec: Path | None,
     said: Mapping[str, str],
     books: Sequence[Path],
     paged: Sequence[Path],
     to: Outputs,
 ) -> list[str]:
-    """Add the page to sign and the workbook; returns the lines of the verdict."""
-    from conveyor.fitting import fit_page, fit_tables, fit_verdict
+    """Add the page to sign and the workbook of a fit and its criteria; returns the lines of the verdict."""
+    from conveyor.fitting import fit_page, fit_tables
+    from conveyor.fitting.fit_verdict import coverage_criteria
     from conveyor.fitting.fitted_compound import TabulatedCompound
     from conveyor.spec import load
 
+    rubber, criteria = judged
     if isinstance(rubber, TabulatedCompound):
         raise InputError("--html, --pdf, --spec, -o .xlsx: a Prony table has no measurement to judge")
-    criteria = fit_verdict.fit_criteria(rubber, None if spec is None else load(spec))
+    if spec is not None:
+        criteria = (*criteria, *coverage_criteria(rubber, load(spec)))
     for path in books:
         to.report(fit_tables.fit_contents(rubber, criteria, said), path)
     if paged:

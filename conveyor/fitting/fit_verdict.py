@@ -9,15 +9,12 @@ from typing import Final, Literal
 
 import numpy as np
 
-from conveyor.checks.contact_checks import rubber_coverage
 from conveyor.errors import ConveyorError
 from conveyor.fitting.amplitude import UNLIKE_STRAINS, amplitude_ratio, strain_text
 from conveyor.fitting.findings import DOUBTFUL_RESIDUAL, SCATTER_MARGIN
 from conveyor.fitting.fitted_compound import FittedCompound
 from conveyor.fitting.measured_rows import MeasuredRows
 from conveyor.models import Conveyor
-from conveyor.models.variants import with_compound
-from conveyor.pipeline import calculate
 from conveyor.rubber import ShiftComparison, Superposition
 from conveyor.units import text
 from conveyor.units.sentences import percent, to_celsius
@@ -117,7 +114,7 @@ def fit_criteria(fitted: FittedCompound, conveyor: Conveyor | None = None) -> tu
     )
     return (
         *(one for of in made for one in of(fitted)),
-        *(() if conveyor is None else _coverage_criteria(fitted, conveyor)),
+        *(() if conveyor is None else coverage_criteria(fitted, conveyor)),
     )
 
 
@@ -126,10 +123,10 @@ def is_accepted(criteria: tuple[Criterion, ...]) -> bool:
     return all(one.verdict != "FAIL" for one in criteria)
 
 
-def record_failures(fitted: FittedCompound) -> FittedCompound:
+def record_failures(fitted: FittedCompound, criteria: tuple[Criterion, ...]) -> FittedCompound:
     """Fit whose compound names the criteria that it does not meet (`fit.failed`), for every report that uses it."""
     statistics = fitted.compound.fit
-    failed = tuple(one.line for one in fit_criteria(fitted) if one.verdict == "FAIL")
+    failed = tuple(one.line for one in criteria if one.verdict == "FAIL")
     if statistics is None or failed == statistics.failed:
         return fitted
     return replace(fitted, compound=fitted.compound.replace(fit=statistics.replace(failed=failed)))
@@ -348,7 +345,12 @@ def _end_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
     yield _at_most("ends of the window", abs(means[0][worst]), END_LIMIT, _percent_text, why)
 
 
-def _coverage_criteria(fitted: FittedCompound, conveyor: Conveyor) -> Iterator[Criterion]:
+def coverage_criteria(fitted: FittedCompound, conveyor: Conveyor) -> Iterator[Criterion]:
+    """Coverage of the frequencies of a conveyor's carry rolls by the window of a fit."""
+    from conveyor.checks.contact_checks import rubber_coverage
+    from conveyor.models.variants import with_compound
+    from conveyor.pipeline import calculate
+
     where = f"window covers {conveyor.name}"
     try:
         result = calculate(with_compound(conveyor, fitted.compound, "bottom"))
