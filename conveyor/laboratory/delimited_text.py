@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import Final
 
-from conveyor.laboratory.cell_grid import TextGrid, TextLine
+from conveyor.laboratory.cell_grid import TextGrid, TextLine, cell_error
 from conveyor.laboratory.numbers import half_width, is_number, looks_like_number
 
 _SEPARATORS: Final = {"\t": "tab", ";": "semicolon", ",": "comma", " ": "blanks"}
@@ -17,6 +17,8 @@ _COMMENT: Final = re.compile(r"\s*(?:#+|%+(?!\s*[;,\t])|//+|!+)\s?")
 """A lone % before a separator is a unit, not the sign of a remark."""
 _SAMPLE_LINES: Final = 400
 """Lines sampled to find the separator; every line is checked when it is read."""
+_LONGEST_LINE: Final = 200_000
+"""Characters; the 16,384 columns of a worksheet with twelve characters each."""
 
 
 def text_grid(text: str, name: str, note: str) -> TextGrid:
@@ -26,6 +28,11 @@ def text_grid(text: str, name: str, note: str) -> TextGrid:
     -----
     The separator is the one that turns most lines into rows of two or more numbers. A line of text (a header)
     that this separator does not split into as many cells as the rows have is tried with the others.
+
+    Raises
+    ------
+    LaboratoryError
+        If a line is longer than a row of a worksheet can be.
 
     Examples
     --------
@@ -38,6 +45,10 @@ def text_grid(text: str, name: str, note: str) -> TextGrid:
         for number, line in enumerate(re.split(r"\r\n|\n|\r", half_width(text)), start=1)
         if line.strip() and not re.fullmatch(r"\s*sep=.\s*", line)
     ]
+    for number, line in raw:
+        if len(line) > _LONGEST_LINE:
+            what = f"a line of {len(line):,} characters; a table of a laboratory has at most {_LONGEST_LINE:,}"
+            raise cell_error(name, number, 0, what)
     separator, width = _find_separator([line for _, line in raw if not _COMMENT.match(line)])
     lines = []
     for number, line in raw:

