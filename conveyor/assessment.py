@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Self
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks import Check, governing_by_subject, run_checks
+from conveyor.default_bands import PowerRange, power_range
 from conveyor.loop.take_up_duty import TakeUpDuty
 from conveyor.loop.ties import first_maximum
 from conveyor.remarks.assumptions import analysis_assumptions
 from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.studies import CalculatedStudies
-from conveyor.studies.default_bands import PowerRange, power_range
 from conveyor.studies.load_cases import Load, MotorChoice
 from conveyor.studies.loads import combine_checks, design_loads, take_up_demand
 from conveyor.units import System

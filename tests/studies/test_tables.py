@@ -14,6 +14,7 @@ import pytest
 
 import conveyor
 from conveyor import shelf
+from conveyor.default_bands import power_range
 from conveyor.errors import InputError
 from conveyor.loop.ties import TIE_RTOL
 from conveyor.models import RubberCompound, standard_cases
@@ -21,7 +22,6 @@ from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
 from conveyor.report.tables.study_tables import power_bands
 from conveyor.results.analysis import studies, study_ranges
-from conveyor.studies.default_bands import power_range
 from tests.written_tables import written_tables
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"

@@ -182,7 +182,6 @@ _POWER: Final = JsonObject(
                 "in_use": JsonList(
                     _table_rows("defaults"), optional=True, item=JsonKey(lambda row: row, ROW_SCHEMA)
                 ),
-                "notes": _optional_key(text_list("assessment.power_range.notes")),
             },
         ),
         "rubber": JsonList(

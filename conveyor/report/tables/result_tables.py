@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from conveyor.calculated_conveyor import CalculatedConveyor
+from conveyor.default_bands import PowerRange
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.report.table_model import Column, Figure, PagePlacement, Table, figure_table
-from conveyor.studies.default_bands import PowerRange
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, format_figure
 
@@ -92,4 +92,4 @@ def _power_range_text(power: PowerRange, system: System) -> str:
         f"Replace first: {first.name} (give {first.give})."
     )
     untested = (f"Beyond the tests: {one.text(system)}." for one in power.untested)
-    return " ".join((said, *untested, *(f"Not included: {note}." for note in power.notes)))
+    return " ".join((said, *untested))
