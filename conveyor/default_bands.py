@@ -7,8 +7,8 @@ changes down and changes up add as the root of their squares. A default is one l
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
 
 import numpy as np
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.effects import Effect, ends_of_band
+from conveyor.errors import NoSolutionError
 from conveyor.forces import Force
 from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
 from conveyor.laws.resistance import (
@@ -35,6 +36,7 @@ from conveyor.line.belt_contacts import BeltContacts
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.roll_drags import assumed_drag_share
 from conveyor.line.stretches import STRANDS
+from conveyor.loop.balance import OpenLoop, close_loops
 from conveyor.loop.equilibrium import Equilibrium
 from conveyor.rubber.rolling_test_factor import UNTESTED_FACTOR
 from conveyor.units.sentences import Message, escape_braces, message
@@ -247,6 +249,8 @@ class PowerRange:
         One per default in use, the largest swing first.
     friction : tuple of float
         90 % band of the friction over the computed one [-]: of every force but lift and acceleration of the bulk.
+    design_friction, design : float
+        Friction that motors, belt, grip and take-up are designed for, over the computed one [-]; the power with it [W].
     untested : tuple of Message
         Rubbers without rolling-resistance tests at the belt's temperature.
     """
@@ -256,6 +260,8 @@ class PowerRange:
     high: float
     effects: tuple[DefaultEffect, ...]
     friction: tuple[float, float] = (1.0, 1.0)
+    design_friction: float = 1.0
+    design: float = 0.0
     untested: tuple[Message, ...] = ()
 
 
@@ -291,8 +297,10 @@ def power_range(result: CalculatedConveyor) -> PowerRange:
     effects.sort(key=lambda effect: -effect.swing)
     friction = _combined_band(settled, [forces for _, _, forces in changes])
     low, high = sorted(map(motor, map(settled.resistance, friction)))
-    untested = tuple(_untested_rubbers(result))
-    return PowerRange(motor(settled.force), low, high, tuple(effects), friction, untested)
+    return PowerRange(
+        motor(settled.force), low, high, tuple(effects), friction,
+        result.line.design_friction, motor(settled.design_force), tuple(_untested_rubbers(result)),
+    )  # fmt: skip
 
 
 def friction_band(result: CalculatedConveyor) -> tuple[float, float]:
@@ -301,6 +309,28 @@ def friction_band(result: CalculatedConveyor) -> tuple[float, float]:
     Bands of single defaults are independent: the changes of the drive force add as the root of their squares.
     """
     return _combined_band(result.balance.settled, [forces for _, _, forces in _force_changes(result)])
+
+
+def close_design_loops(
+    results: Sequence[CalculatedConveyor], loops: Sequence[OpenLoop]
+) -> list[CalculatedConveyor | NoSolutionError]:
+    """Results with their loops closed again, designed for the upper end of the band of friction of each.
+
+    Parameters
+    ----------
+    results : sequence of CalculatedConveyor
+        Calculated with the expected friction alone.
+    loops : sequence of OpenLoop
+        Their loops.
+    """
+    asked = [
+        loop._replace(frame=loop.frame.designed_for(friction_band(one)[1]))
+        for one, loop in zip(results, loops, strict=True)
+    ]
+    return [
+        made if isinstance(made, NoSolutionError) else replace(one, balance=made)
+        for one, made in zip(results, close_loops(asked), strict=True)
+    ]
 
 
 def _combined_band(settled: Equilibrium, changes: Iterable[tuple[float, float]]) -> tuple[float, float]:
@@ -318,7 +348,7 @@ def _force_changes(
     """Defaults in use, the ends of their bands, and the change of the drive force at both ends [N]."""
     every = result.balance.every
     for assumed in DEFAULTS:
-        depending = math.fsum(float(np.sum(force.newtons * assumed.share(result, force))) for force in every)
+        depending = math.fsum(_shared_force(force, assumed.share(result, force)) for force in every)
         if depending:
             low, high = assumed.ends(result)
             yield assumed, (low, high), ((low - 1.0) * depending, (high - 1.0) * depending)
@@ -341,3 +371,8 @@ def _untested_rubbers(result: CalculatedConveyor) -> Iterator[Message]:
             f"{'its' if len(compounds) == 1 else 'their'} {spectrum} spectrum carries it there",
             *((kelvin, "temperature") for kelvin in (*tested, result.temperature)),
         )
+
+
+def _shared_force(force: Force, share: Shares) -> float:
+    """Share of a force [N]; the same of all stretches, or one for each."""
+    return share * force.total if isinstance(share, float) else float(np.sum(force.newtons * share))

@@ -106,6 +106,7 @@ class Line:
     stop_deceleration: float | None
     coast_time: float | None
     least_friction: float
+    design_friction: float
     secondary: str
     friction_factor: float
     flexure_share: float | None
@@ -168,6 +169,7 @@ class Line:
             stop_deceleration=si_or_none(drive.stop_deceleration),
             coast_time=si_or_none(drive.coast_time),
             least_friction=si(drive.least_friction),
+            design_friction=si_or_default(drive.design_friction, 1.0),
             secondary=calculation.secondary,
             friction_factor=calculation.friction_factor,
             flexure_share=si_or_none(calculation.flexure_share),

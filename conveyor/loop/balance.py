@@ -164,6 +164,16 @@ class Balance:
         stands = settled.frame.standing_on(behind=kept.behind) is settled.frame
         return stands and settled.given and settled.setting == kept.tension
 
+    def designed_for(self, friction: float) -> Balance:
+        """The loop with a friction to design for, over the computed one [-], the take-up at its setting."""
+        frame = self.frame.designed_for(friction)
+        if frame is self.frame:
+            return self
+        (found,) = raise_first_error(
+            close_loops([OpenLoop.of(frame, self.along, self.unit_main, self.settled.take_up)])
+        )
+        return found
+
     def held(self, setting: float) -> Balance:
         """The loop with the take-up at a setting [N]."""
         (found,) = with_take_up_at([self], self.settled.take_up._replace(tension=setting))

@@ -83,8 +83,8 @@ class LoopConstants:
         Tension that a newton of each drive needs for its grip [-]; force of its brake [N].
     wrap, slope, bearings, pulley_mass, wrap_angle : ndarray, shape (pulleys,)
         Wrap without tension [N] and per newton of mean tension [-], bearings per newton of load [-], kg, rad.
-    least_friction, gravity : ndarray, shape ()
-        Least friction over the computed one [-], gravity [m/s²].
+    least_friction, design_friction, gravity : ndarray, shape ()
+        Least friction and that to design for, over the computed one [-]; gravity [m/s²].
     pull : StartingForces
         Forces of the drives at a start.
     """
@@ -101,6 +101,7 @@ class LoopConstants:
     pulley_mass: Array
     wrap_angle: Array
     least_friction: Array
+    design_friction: Array
     gravity: Array
     pull: StartingForces
 
@@ -179,6 +180,14 @@ class LoopLayout:
             return self
         made = self.of(replace(self.line, take_up=replace(unit, behind=behind)))
         made.plan = _loop_plan(made)
+        return made
+
+    def designed_for(self, friction: float) -> LoopLayout:
+        """The loop with a friction to design for, over the computed one [-]."""
+        if friction == self.line.design_friction:
+            return self
+        made = self.of(replace(self.line, design_friction=friction))
+        made.standing = replace(self.standing, design_friction=np.array(friction))
         return made
 
     def of(self, line: Line) -> LoopLayout:
@@ -279,6 +288,7 @@ def _loop_constants(frame: LoopLayout) -> LoopConstants:
         pulley_mass=np.array([pulley.mass for pulley in pulleys]),
         wrap_angle=np.array([pulley.wrap_angle for pulley in pulleys]),
         least_friction=np.array(line.least_friction),
+        design_friction=np.array(line.design_friction),
         gravity=np.array(line.gravity),
         pull=StartingForces.of(line),
     )

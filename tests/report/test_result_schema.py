@@ -136,7 +136,7 @@ def test_checks_are_numbers_with_their_units(studied):
     assert safety["margin"] == pytest.approx(safety["calculated"] / safety["required"] - 1.0, rel=1e-12)
     power = next(row for row in told if row["key"] == "motor_power")
     assert power["unit"] == "kW"
-    assert power["calculated"] == pytest.approx(result.balance.power.motor / 1e3, rel=1e-12)
+    assert power["calculated"] == pytest.approx(result.to_dict(asked)["power_kW"]["design"], rel=1e-12)
     assert {row["verdict"] for row in told} <= {"pass", "fail", "not checked"}
     assert all(row["why"] is None for row in told if row["verdict"] == "pass")
 

@@ -15,6 +15,7 @@ from conveyor.loop.tensions import MotionState
 from conveyor.loop.ties import first_maximum, first_minimum
 from conveyor.models import RubberCompound
 from conveyor.report.table_model import Column, Table
+from conveyor.report.tables.result_tables import design_friction_text
 from conveyor.studies.load_cases import AS_GIVEN
 from conveyor.units import System
 from conveyor.units.presentation import Unit, display_unit, format_figure
@@ -70,12 +71,14 @@ def _governing_rows(assessment: Assessment) -> Iterator[GoverningRow]:
     yield GoverningRow(
         "maximum motor power",
         _motor_power_text(power, most.found.governing_motor_power),
-        most.label.text(system),
+        f"{most.label.text(system)}; checked with {design_friction_text(left_open)}"
+        if left_open.design_friction > 1.0
+        else most.label.text(system),
     )
     where = format_figure(a.temperature, "temperature", system)
     if left_open.effects:
         low, high = (power.said(end, 3) for end in (left_open.low, left_open.high))
-        where += f"; design {high}, least {low} (90 % interval by site, defaults and rubber)"
+        where += f"; {low} to {high} in the 90 % band of site, defaults and rubber"
     if left_open.untested:
         where += "; beyond the tested temperatures of the rubber"
     yield GoverningRow("motor power as given, expected", power.said(left_open.motor, 3), where)

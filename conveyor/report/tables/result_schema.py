@@ -115,6 +115,7 @@ _POWER: Final = JsonObject(
         "length_m": _figure_key(),
         "lift_m": _figure_key("from tail to head, negative downhill"),
         "friction_factor": _figure_key("f that DIN 22101's main resistance needs for the same force"),
+        "design_friction": _figure_key("that motors, belt, grip and take-up are checked with, over the computed one"),
         "error_estimate": _figure_key("largest of any roll's indentation, relative"),
         "forces_N": number_object(
             lambda source: dict.fromkeys(source.own.balance.forces.parts),
@@ -122,8 +123,8 @@ _POWER: Final = JsonObject(
             of="against the motion",
         ),
         "power_kW": number_object(
-            lambda _: dict.fromkeys(("belt", "motor", "mains")), "belt", "motor", "mains",
-            of="negative where the belt drives",
+            lambda _: dict.fromkeys(("belt", "motor", "mains", "design")), "belt", "motor", "mains", "design",
+            of="negative where the belt drives; design: at the motor with the friction to design for",
         ),
         "tensions_N": row_object(
             {name: number_key(name) for name in ("tight", "slack", "tight_start", "largest", "smallest")}
