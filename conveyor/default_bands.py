@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.effects import Effect, ends_of_band
 from conveyor.errors import NoSolutionError
-from conveyor.forces import Force
+from conveyor.force_sums import Force
 from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
 from conveyor.laws.resistance import (
     CLEANER_PRESSURE,
@@ -345,7 +345,12 @@ def _combined_band(settled: Equilibrium, changes: Iterable[tuple[float, float]])
 def _force_changes(
     result: CalculatedConveyor,
 ) -> Iterator[tuple[DefaultBand, tuple[float, float], tuple[float, float]]]:
-    """Defaults in use, the ends of their bands, and the change of the drive force at both ends [N]."""
+    """Defaults in use, the ends of their bands, and the change of the drive force at both ends [N].
+
+    None by a classical method: its factors have the allowance of their book.
+    """
+    if result.line.method != "viscoelastic":
+        return
     every = result.balance.every
     for assumed in DEFAULTS:
         depending = math.fsum(_shared_force(force, assumed.share(result, force)) for force in every)

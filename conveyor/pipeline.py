@@ -232,6 +232,7 @@ def _assemble_results(
         if isinstance(one, CalculatedConveyor)
         and variants[i].design_friction is None
         and one.conveyor.drive.design_friction is None
+        and one.line.method == "viscoelastic"
     }
     designed = close_design_loops(list(own.values()), [open_loops[i][1] for i in own])
     return found | dict(zip(own, designed, strict=True))

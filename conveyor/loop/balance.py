@@ -10,7 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from conveyor.errors import NoSolutionError
-from conveyor.forces import Force, ForceSums, length_coefficient_force
+from conveyor.force_sums import Force, ForceSums
+from conveyor.forces import length_coefficient_force
 from conveyor.laws.power import belt_power, specific_energy
 from conveyor.laws.resistance import equivalent_friction_factor
 from conveyor.line.line import Line

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.errors import NoSolutionError
-from conveyor.forces import Force
+from conveyor.force_sums import Force
 from conveyor.laws.resistance import pulley_load
 from conveyor.line.line import Line
 from conveyor.loop.loop_layout import LoopLayout, TakeUpSetting

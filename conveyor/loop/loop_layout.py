@@ -10,7 +10,8 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.forces import Force, PulleyResistance, point_forces, pulley_resistances
+from conveyor.force_sums import Force
+from conveyor.forces import PulleyResistance, point_forces, pulley_resistances
 from conveyor.laws.power import belt_power, motor_power
 from conveyor.laws.tension import grip_tension
 from conveyor.line.line import Line

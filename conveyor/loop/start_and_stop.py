@@ -194,7 +194,8 @@ def _braked_stop(
 def _conveyor_start(balance: Balance, mass: float, rotating: float, friction: float) -> Start:
     """Start at a friction over the computed one [-]."""
     line, steady = balance.line, balance.settled.resistance(friction)
-    stuck = friction * (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * balance.forces.parts["idler_rotation"]
+    drag = balance.forces.parts.get("idler_rotation", float(line.rotation.sum()))
+    stuck = friction * (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * drag
     if steady <= 0.0:
         factor = line.start_over_steady
         braking = (factor - 1.0) * steady / mass

@@ -154,7 +154,7 @@ class CriterionLoadings(SectionLoadings):
         """Addition to the drag of the rolls after standstill [N], at the friction to design for; as in `at_rest`."""
         drags = []
         for one in (self.empty, self.full):
-            (drag,) = (force.newtons for force in one.along if force.key == "idler_rotation")
+            drag = next((force.newtons for force in one.along if force.key == "idler_rotation"), one.line.rotation)
             drags.append(np.broadcast_to(drag, 2 * self.count))
         bare, laden = drags
         share = self.line.design_friction * (ROLL_DRAG_STANDSTILL_FACTOR - 1.0)

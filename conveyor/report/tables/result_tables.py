@@ -21,8 +21,13 @@ def result_table(a: CalculatedConveyor, left_open: PowerRange) -> Table:
     """Figures of the whole conveyor, with the range of power due to defaults."""
     conveyor, balance = a.conveyor, a.balance
     forces, power, tensions_at, classic = balance.forces, balance.power, balance.tensions, balance.classical
-    low, high = (left_open.low, left_open.high) if left_open.effects else (None, None)
-    share = forces.indentation / forces.main
+    band = (
+        Figure("motor power, low by defaults", "power", left_open.low, "", "defaults.motor_kW.low",
+               key="motor_power_low"),
+        Figure("motor power, high by defaults", "power", left_open.high, "", "defaults.motor_kW.high",
+               key="motor_power_high"),
+    )  # fmt: skip
+    share = forces.indentation / forces.main if a.line.method == "viscoelastic" else None
     error, energy_error = a.contacts.error, a.contacts.energy_error
     safety, of_year = a.belt_duty.safety, a.year
     energy, cost = (None, None) if of_year is None else (of_year.energy * JOULE_PER_KWH, of_year.cost)
@@ -33,9 +38,7 @@ def result_table(a: CalculatedConveyor, left_open: PowerRange) -> Table:
         Figure("belt speed", "speed", a.line.speed),
         Figure("mass flow", "mass flow", a.line.flow, json="flow_t_per_h"),
         Figure("motor power", "power", power.motor, "tile large notebook", "power_kW.motor"),
-        Figure("motor power, low by defaults", "power", low, "", "defaults.motor_kW.low", key="motor_power_low"),
-        Figure("motor power, high by defaults", "power", high, "", "defaults.motor_kW.high",
-               key="motor_power_high"),
+        *(band if left_open.effects else ()),
         Figure("friction to design for, over the computed", "ratio", left_open.design_friction, "",
                "design_friction", key="design_friction"),
         Figure("motor power with the friction to design for", "power", left_open.design, "", "power_kW.design",
@@ -50,7 +53,11 @@ def result_table(a: CalculatedConveyor, left_open: PowerRange) -> Table:
             )
             for name, newtons in forces.parts.items()
         ),
-        Figure("indentation share of main resistance", "share", share, "tile large", key="indentation_share"),
+        *(
+            (Figure("indentation share of main resistance", "share", share, "tile large", key="indentation_share"),)
+            if share is not None
+            else ()
+        ),
         Figure("equivalent DIN f", "friction", balance.friction_factor, "tile large notebook", "friction_factor",
                key="equivalent_f"),
         Figure("tight side tension", "force", tensions_at.tight, "tile notebook", us="T1"),
