@@ -301,3 +301,20 @@ def test_the_tension_for_sag_is_that_of_the_span(line):
         section = check.where.partition(", ")[0]
         assert check.required == pytest.approx(spans[section], rel=1e-12)
         assert check.verdict == "pass"
+
+
+def test_the_classical_power_stands_on_page_one_with_its_difference_by_cause(line):
+    """The parts of f add up to f, the differences to that of the powers; figures to three digits."""
+    result = conveyor.analyse(line)
+    rows = {row.subject: row for row in result.contents(system="SI")["governing_figures"].rows}
+    row = rows["classical motor power, f = 0.02"]
+    balance = result.balance
+    there = balance.frame.motor(balance.classical.total)
+    assert row.value == f"{there / 1e3:.3g} kW"
+    f, parts = re.search(r"f 0\.0200 for (0\.\d+) \(([^)]*)\)", row.where).groups()
+    assert float(f) == pytest.approx(balance.friction_factor, abs=5e-5)
+    assert sum(float(part.split()[-1]) for part in parts.split(", ")) == pytest.approx(float(f), abs=2e-4)
+    changes = [float(change) for change in re.findall(r"([+-][\d.]+) kW", row.where)]
+    assert sum(changes) == pytest.approx((there - balance.power.motor) / 1e3, rel=2e-2)
+    by_f = conveyor.analyse(line.replace(calculation=line.calculation.replace(method="din 22101")))
+    assert not [row for row in by_f.contents()["governing_figures"].rows if row.subject.startswith("classical")]

@@ -182,9 +182,11 @@ def test_reports_say_the_range_and_what_to_replace_first(line):
     assert [one["key"] for one in told["in_use"]] == [one.key for one in left.effects]
     note = found.contents(system="SI")["defaults"].note
     low, motor, high = (f"{power / 1e3:.0f}" for power in (left.low, left.motor, left.high))
-    assert note.startswith(f"Motor power: expected {motor} kW, design {high} kW, least {low} kW (90 % interval by site")
+    assert note.startswith(f"Motor power: expected {motor} kW, from {low} kW to {high} kW in the 90 % band of site")
+    design = f"{left.design / 1e3:.0f} kW ({left.design_friction:.3g} times the expected friction, the upper end"
+    assert f"Motors, belt, grip and take-up are checked at {design}" in note
     assert f"Replace first: {left.effects[0].name} (give {left.effects[0].give})." in note
-    assert re.search(r"design \d+ hp, least \d+ hp", found.contents(system="US")["defaults"].note)
+    assert re.search(r"from \d+ hp to \d+ hp", found.contents(system="US")["defaults"].note)
     cleaners = [cleaner.replace(pressure="30 kPa") for cleaner in line.route.cleaners]
     pressed = line.replace(route=line.route.replace(cleaners=cleaners))
     known = conveyor.analyse(calculated(drags(pressed, "2 N"), flexure_share="10 %"))

@@ -99,10 +99,11 @@ def default_table(left_open: PowerRange, system: System) -> Table:
                  _power_range_text(left_open, system) if left_open.effects else "")  # fmt: skip
 
 
-def design_friction_text(power: PowerRange) -> str:
+def _design_friction_text(power: PowerRange) -> str:
     """Friction to design for over the computed one, and where it comes from."""
     upper_end = math.isclose(power.design_friction, power.friction[1], rel_tol=_BAND_TOLERANCE)
-    return f"friction x {power.design_friction:.2f}, {'its upper end' if upper_end else 'drive.design_friction'}"
+    source = "the upper end of the band" if upper_end else "drive.design_friction"
+    return f"{power.design_friction:.3g} times the expected friction, {source}"
 
 
 def _power_range_text(power: PowerRange, system: System) -> str:
@@ -113,7 +114,7 @@ def _power_range_text(power: PowerRange, system: System) -> str:
     first = power.effects[0]
     said = (
         f"Motor power: expected {motor}, from {low} to {high} in the 90 % band of site, defaults and rubber. Motors, "
-        f"belt, grip and take-up are checked at {design} ({design_friction_text(power)}). "
+        f"belt, grip and take-up are checked at {design} ({_design_friction_text(power)}). "
         f"Replace first: {first.name} (give {first.give})."
     )
     untested = (f"Beyond the tests: {one.text(system)}." for one in power.untested)
