@@ -128,7 +128,8 @@ def _variant_lines(shifted: Superposition) -> Iterator[str]:
     if cold is not None and cold.found:
         yield (
             f"  E' and E'' change by {slope_text(cold)} per 10 K of cold at one reduced frequency: a vertical shift of "
-            "the rubber (--vertical), or clamps and frame that change with cold; the band holds both"
+            f"the rubber{'' if shifted.with_vertical else ' (--vertical)'}, or clamps and frame that change with cold; "
+            "the band holds both"
         )
 
 
