@@ -373,13 +373,20 @@ def _ends_text(written: Unit, ends: tuple[float | None, float | None], between: 
     return "" if None in ends else between.join(_number_text(written, end) for end in ends)
 
 
+def _two_digits(percent: float) -> str:
+    return f"{percent:+.0f}" if abs(percent) >= 10.0 else f"{percent:+.1f}"
+
+
 def _ranking_columns(ranked: Table, system: System) -> dict[str, Callable[[Any], str]]:
     """Headings and cell functions of the ranking."""
     power, speed, warmth = (display_unit(kind, system, large=True) for kind in ("power", "speed", "temperature"))
 
-    def apart(row: Any) -> str:
+    def change(row: Any) -> str:
         low, high = row.band
-        return "" if low is None else f"{100.0 * low:+.1f} to {100.0 * high:+.1f}"
+        if row.change is None:
+            return ""
+        ends = "" if low is None else f" ({_two_digits(100.0 * low)} to {_two_digits(100.0 * high)})"
+        return f"{100.0 * row.change:+.1f}{ends}"
 
     columns: dict[str, Callable[[Any], str]] = {
         "compound": lambda row: str(row.compound),
@@ -390,9 +397,7 @@ def _ranking_columns(ranked: Table, system: System) -> dict[str, Callable[[Any],
     columns[_unit_heading("mean", power)] = lambda row: _number_text(power, row.motor)
     if any(row.low is not None for row in ranked.rows):
         columns[_unit_heading("90 % band", power)] = lambda row: _ends_text(power, (row.low, row.high), "-")
-    columns["change\n[%]"] = lambda row: "" if row.change is None else f"{100.0 * row.change:+.1f}"
-    if any(row.apart is not None for row in ranked.rows):
-        columns["90 %"] = apart
+    columns["change, 90 %\n[%]"] = change
     columns[_unit_heading("peak", power)] = lambda row: _number_text(power, row.peak)
     columns[_unit_heading("at", warmth)] = lambda row: (
         "" if row.temperature is None else f"{warmth.shown(row.temperature):g}"
