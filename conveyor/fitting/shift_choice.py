@@ -130,7 +130,8 @@ def _law_of_rows(
     superposition: Superposition | None, shifts: DmaData | None, reference: float, request: Request
 ) -> ShiftLaw | None:
     """Law that shifts the rows: the requested one, from superposition or given shifts; None without shifts."""
-    stored = chosen_law(compare_laws(superposition, shifts, reference), reference, request)
+    laws = () if request.law == "table" else compare_laws(superposition, shifts, reference)
+    stored = chosen_law(laws, reference, request)
     if stored is not None:
         return stored
     known = shift_factors(superposition, shifts)

@@ -121,9 +121,11 @@ def _variant_lines(shifted: Superposition) -> Iterator[str]:
         )
     phase, cold = shifted.phase_slope, shifted.cold_slope
     if phase is not None and phase.found:
+        lag = any("lag" in one.trends for one in shifted.variants)
         yield (
-            f"  E'' changes by {slope_text(phase)} per decade of measured frequency at one reduced frequency: a phase "
-            "error of the instrument; the band holds E'' as it would be with the phase right at any of its frequencies"
+            f"  E'' changes by {slope_text(phase)} per decade of measured frequency at one reduced frequency"
+            + (", in proportion to it: a time lag" if lag else ": a phase error")
+            + " of the instrument; the band holds E'' as it would be without"
         )
     if cold is not None and cold.found:
         yield (

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from conveyor.arguments.arrays import FloatArray, positive_number, positive_vector
 from conveyor.errors import InputError
+from conveyor.rubber.monotone import MonotoneCubic
 from conveyor.rubber.overlap import Overlap
 from conveyor.rubber.shift import celsius_in_message
 
@@ -320,8 +321,6 @@ class Superposition:
         chances, and the error of that one. A vertical shift with cold is taken as the rubber's or as the clamps', with
         equal chances: isotherms do not tell them apart.
         """
-        from scipy.interpolate import PchipInterpolator
-
         others = self.contradicting
         chosen = int(generator.integers(len(others) + 1)) if others else 0
         other = others[chosen - 1] if chosen else None
@@ -331,8 +330,10 @@ class Superposition:
         values, vectors = np.linalg.eigh(covariance)
         error = vectors @ (np.sqrt(np.maximum(values, 0.0)) * generator.standard_normal(values.size))
         drawn_shifts = shifts + np.array([1.0, -1.0])[:, None, None] * error.reshape(2, -1)
-        level = PchipInterpolator(self.temperatures, drawn_shifts, axis=2)(self.reference)
-        up, down = np.asarray(drawn_shifts - level[..., None])
+        up, down = (
+            np.array([row - float(MonotoneCubic(self.temperatures, row)(self.reference)) for row in one])
+            for one in drawn_shifts
+        )
         if other is None:
             return DrawnShift(up), DrawnShift(down)
         kept = "cold" not in other.trends or bool(generator.integers(2))

@@ -25,6 +25,7 @@ from conveyor.rubber.master_curve import (
     off_resonance,
 )
 from conveyor.rubber.misfit import hampel_weights
+from conveyor.rubber.monotone import MonotoneCubic
 from conveyor.rubber.overlap import LogIsotherm, first_guess, measure_overlap
 from conveyor.rubber.shift import celsius_in_message
 
@@ -439,16 +440,14 @@ def _zeroed_shifts(t: FloatArray, t_ref: float, placed: JointMinimum) -> tuple[F
 
 def _zero_at_reference(t: FloatArray, value: FloatArray, t_ref: float) -> tuple[FloatArray, FloatArray]:
     """Values less the interpolated one at the reference, and their derivative by the values."""
-    from scipy.interpolate import PchipInterpolator
-
     at = np.flatnonzero(t == t_ref)
     if at.size:
         weights = np.eye(t.size)[at[0]]
     else:
         moved = value + DIFFERENCE_STEP * np.vstack([np.eye(t.size), -np.eye(t.size)])
-        at_reference = PchipInterpolator(t, moved, axis=1)(t_ref)
+        at_reference = np.array([float(MonotoneCubic(t, row)(t_ref)) for row in moved])
         weights = (at_reference[: t.size] - at_reference[t.size :]) / (2.0 * DIFFERENCE_STEP)
-    level = float(PchipInterpolator(t, value)(t_ref))
+    level = float(MonotoneCubic(t, value)(t_ref))
     return value - level, np.eye(t.size) - weights
 
 
