@@ -133,6 +133,19 @@ def test_without_replicas_and_tests_the_band_is_that_of_lots(line):
     assert any("hold the scatter of lots alone" in said for said in comparison_notes(alone))
 
 
+def test_compounds_with_sweeps_beside_those_without_are_said(line):
+    swept = shelf.compound("s100")
+    bare = swept.replace(name="bare", strain_dependence=None)
+
+    def told(*compounds, **calculation):
+        spec = line.replace(calculation=line.calculation.replace(**calculation))
+        return [said for said in comparison_notes(compare_compounds(spec, compounds)) if "no strain sweeps" in said]
+
+    (said,) = told(swept, bare)
+    assert said.startswith('"bare": no strain sweeps, which the others have')
+    assert told(swept, swept.replace(name="again")) == told(swept, bare, strain="off") == []
+
+
 def test_lots_are_given_or_those_of_the_file_or_a_default(line):
     one, other = (shelf.compound(name) for name in NAMES[:2])
     stated = other.replace(lot_scatter="3 %")

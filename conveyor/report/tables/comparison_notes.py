@@ -63,6 +63,7 @@ def comparison_notes(comparison: CalculatedComparison, system: System = "SI") ->
         *_temperature_notes(comparison, system),
         *_tie_notes(comparison, system),
         *_untested_notes(comparison),
+        *_strain_notes(comparison),
         *_calibration_notes(comparison),
     ]
     for compound in comparison.compounds:
@@ -146,6 +147,19 @@ def _level_notes(comparison: CalculatedComparison) -> Iterator[str]:
         yield (
             "no rolling-resistance tests given: with the level of tests every indentation, and so every difference and "
             f"saving, may be up to {UNTESTED_FACTOR:g} times as much; which compound needs less does not depend on it"
+        )
+
+
+def _strain_notes(comparison: CalculatedComparison) -> Iterator[str]:
+    """Note on comparing compounds with strain sweeps and without: what strain does to both does not cancel."""
+    bare = [compound.name for compound in comparison.compounds if compound.strain_dependence is None]
+    used = comparison.conveyor.calculation.strain != "off"
+    if used and bare and len(bare) < len(comparison.compounds):
+        told = ", ".join(f'"{name}"' for name in bare)
+        yield (
+            f"{told}: no strain sweeps, which the others have: taken at the strain of the master curve, where filled "
+            "rubber costs less than under the rolls (8 to 17 % on S100); that is in no interval: measure sweeps, or "
+            "compare all without (calculation.strain: off)"
         )
 
 
