@@ -132,7 +132,7 @@ def rubber_table(a: CalculatedConveyor) -> Table:
         Column("test factor", "factor", lambda row: contacts.test_factor(row[0]), json="level_factor"),
         Column("test factor from", "factor", lambda row: _test_factor_end(contacts, row[0], -1.0), json="level_from"),
         Column("test factor to", "factor", lambda row: _test_factor_end(contacts, row[0], 1.0), json="level_to"),
-        Column("warming left out", "temperature difference", lambda _: warming, json="warming_K"),
+        Column("warming left out", "warming", lambda _: warming, json="warming_K"),
     )  # fmt: skip
     heading = "Rubber excitation band, working strain and level"
     return Table("rubber", "Rubber", heading, columns, rows, "rubber")
@@ -146,7 +146,7 @@ def cover_warming(a: CalculatedConveyor) -> float:
 
 def _taken_facts(a: CalculatedConveyor, compound: RubberCompound) -> Iterator[tuple[str, str]]:
     """Facts assumed of the rubber beside its data: warming, conditioning, ageing, lots."""
-    shown = display_unit("temperature difference", a.conveyor.report.units)
+    shown = display_unit("warming", a.conveyor.report.units)
     warm = shown.said(cover_warming(a), 2)
     yield "warming by its own loss", f"{warm} above the air, left out (heat balance of the loop)"
     yield "conditioning", "taken as run in: stiffness lost in the first cycles (Mullins) is not that of the data"
