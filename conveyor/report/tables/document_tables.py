@@ -56,8 +56,9 @@ def identity_table(conveyor: Conveyor, system: System) -> Table:
         Figure("carry idlers", "text", idlers(conveyor.idlers.carry)),
         Figure("return idlers", "text", idlers(conveyor.idlers.return_)),
         Figure("material", "text", f"{material.name}, {shown(material.density, 'density')}"),
-        Figure("resistances by", "text", _method_text(conveyor)),
     )
+    if conveyor.calculation.method != "viscoelastic":
+        rows = (*rows, Figure("resistances by", "text", _method_text(conveyor)))
     return figure_table("identity", "", "The conveyor", rows)
 
 
