@@ -388,19 +388,28 @@ class DeskServer:
         self.port = self._socket.getsockname()[1]
         self._desk = Desk(self.workbench)
         self.guard = RequestGuard(self._desk.app(), self.port)
+        config = uvicorn.Config(
+            self.guard,
+            lifespan="off",
+            log_level="error",
+            access_log=False,
+            ws="none",
+            server_header=False,
+            timeout_graceful_shutdown=1,
+        )
+        self._server = uvicorn.Server(config)
+
+    def stop(self) -> None:
+        """End `run` from another thread."""
+        self._server.should_exit = True
 
     def run(self) -> None:
         """Serve until Ctrl-C, or until no page has called for `idle_seconds`."""
-        config = uvicorn.Config(
-            self.guard, lifespan="off", log_level="error", access_log=False, ws="none", server_header=False,
-            timeout_graceful_shutdown=1,
-        )  # fmt: skip
-        server = uvicorn.Server(config)
 
         async def serve() -> None:
-            watch = asyncio.ensure_future(self._end_when_idle(server))
+            watch = asyncio.ensure_future(self._end_when_idle())
             try:
-                await server.serve(sockets=[self._socket])
+                await self._server.serve(sockets=[self._socket])
             finally:
                 watch.cancel()
 
@@ -411,10 +420,10 @@ class DeskServer:
             self._socket.close()
             self.workbench.close()
 
-    async def _end_when_idle(self, server: uvicorn.Server) -> None:
+    async def _end_when_idle(self) -> None:
         while time.monotonic() - self.guard.last_request < self.idle_seconds:
             await asyncio.sleep(min(5.0, 0.25 * self.idle_seconds))
-        server.should_exit = True
+        self.stop()
 
 
 def _loopback_socket(port: int) -> socket.socket:

@@ -396,10 +396,11 @@ function showSides() {
     make("strong", {}, state.names[i]), make("small", {}, Object.keys(state[name]).length ? `${Object.keys(state[name]).length} changed` : "as the file"));
   const rename = (i) => make("input", { "aria-label": `Name of variant ${"AB"[i]}`, value: state.names[i], maxlength: 30, onchange: (event) => { state.names[i] = event.target.value.trim() || "AB"[i]; keep(); reflect(); ask(); } });
   const button = (words, title, act) => make("button", { type: "button", title, onclick: () => { act(); keep(); build(); reflect(); ask(); } }, words);
-  place.replaceChildren(side("a", 0), side("b", 1), rename(0), rename(1), make("div", { class: "all" },
+  place.replaceChildren(side("a", 0), side("b", 1), make("div", { class: "all" },
     button("Swap", "The second becomes the first", () => { [state.a, state.b] = [state.b, state.a]; state.names.reverse(); }),
     button(`Keep ${state.names[1]}`, "Go on with the second alone", () => { state.a = state.b; state.b = null; state.side = "a"; state.names = ["A", "B"]; }),
-    button(`Drop ${state.names[1]}`, "Go on with the first alone", () => { state.b = null; state.side = "a"; state.names = ["A", "B"]; })));
+    button(`Drop ${state.names[1]}`, "Go on with the first alone", () => { state.b = null; state.side = "a"; state.names = ["A", "B"]; })),
+    make("details", { class: "all" }, make("summary", {}, "Names"), rename(0), rename(1)));
 }
 
 function printHead() {
@@ -592,7 +593,7 @@ function listen() {
   $("undo").addEventListener("click", () => step(-1));
   $("redo").addEventListener("click", () => step(1));
   $("compare").addEventListener("click", compare);
-  $("find").addEventListener("input", showFields);
+  $("find").addEventListener("input", () => { showFields(); $("h-fields").scrollIntoView({ block: "start" }); });
   $("copy").addEventListener("click", async () => { await navigator.clipboard.writeText($("command").textContent); $("status").textContent = "Copied."; $("copy").textContent = "Copied"; setTimeout(() => { $("copy").textContent = "Copy"; }, 1500); });
   $("theme").addEventListener("click", () => {
     const dark = getComputedStyle(document.body).backgroundColor !== "rgb(255, 255, 255)";
