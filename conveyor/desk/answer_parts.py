@@ -11,8 +11,8 @@ from conveyor.checks import Check
 from conveyor.report.line_drawings import PowerBand, band_chart, profile_chart, share_chart, tension_chart
 from conveyor.report.merged_notes import NOTE_HEADINGS, sort_notes
 from conveyor.report.page_elements import bullet_list, figure_list, table_html
-from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Column, Contents, Figure, Table
-from conveyor.report.tables.analysis_contents import TABLES, AnalysisTables, analysis_contents
+from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Column, Figure, Table
+from conveyor.report.tables.analysis_contents import TABLES, AnalysisTables
 from conveyor.text.markup import Html, element, escape_html, join_html
 from conveyor.units import System
 from conveyor.units.presentation import display_unit
@@ -56,7 +56,6 @@ def answer_parts(shown: NamedAssessment, beside: NamedAssessment | None = None) 
     """
     system = shown.assessment.system
     tables = shown.tables
-    contents = analysis_contents(shown.assessment)
     parts = {
         "verdict": verdict_part(tables),
         "power": power_part(shown, beside),
@@ -66,7 +65,7 @@ def answer_parts(shown: NamedAssessment, beside: NamedAssessment | None = None) 
         "tensions": tension_chart(tables["tension_states"], system),
         "shares": share_part(tables, system),
         "checks": check_part(tables["checks"], system),
-        "notes": note_part(contents),
+        "notes": note_part(tables),
         "compared": Html("") if beside is None else compared_part(*sorted((shown, beside), key=_rank_of)),
     }
     if beside is not None:
@@ -184,16 +183,17 @@ def check_part(checks: Table, system: System) -> Html:
     return join_html(parts)
 
 
-def note_part(contents: Contents) -> Html:
+def note_part(tables: Mapping[str, Table]) -> Html:
     """Warnings in two groups, and the default to replace first."""
-    grouped = zip(NOTE_HEADINGS, sort_notes(contents.lines("warning")), strict=True)
+    lines = [row.text for row in tables["remarks"].rows if row.kind == "warning"] if "remarks" in tables else []
+    grouped = zip(NOTE_HEADINGS, sort_notes(lines), strict=True)
     shown = [
         element("details", element("summary", f"{heading.capitalize()} ({len(lines)})"), bullet_list(lines))
         for heading, lines in grouped
         if lines
     ]
-    if "defaults" in contents:
-        shown.insert(0, element("p", contents["defaults"].note, class_="note"))
+    if "defaults" in tables:
+        shown.insert(0, element("p", tables["defaults"].note, class_="note"))
     return join_html(shown)
 
 

@@ -164,7 +164,10 @@ class Desk:
         """The figures of a variant as `conveyor power --json` gives them."""
         asked = await _request_data(request)
         name, changes = _text_value(asked, "file"), _variant_changes(asked, "changes") or {}
-        made = await self._calculate(request, lambda stop: analysis_json(self._assess(name, changes, None, stop)))
+        made = await self._calculate(
+            request,
+            lambda stop: analysis_json(self.workbench.with_flooded_belt(self._assess(name, changes, None, stop))),
+        )
         return JSONResponse(made)
 
     async def _curves(self, request: Request) -> Response:
@@ -210,7 +213,7 @@ class Desk:
         key = asked.get("key")
 
         def made(stop: StopSignal) -> dict[str, Any]:
-            of = self._assess(name, changes, units, stop)
+            of = self.workbench.with_flooded_belt(self._assess(name, changes, units, stop))
             if not isinstance(key, str) or not key:
                 return {"tables": table_names(of)}
             table = named_table(of, key)
@@ -242,9 +245,9 @@ class Desk:
             _variant_changes(asked, "changes") or {},
             _text_value(asked, "target"),
         )
-        digest, replace = _text_value(asked, "digest"), asked.get("replace") is True
+        digest, overwrite = _text_value(asked, "digest"), asked.get("replace") is True
         path = await self._calculate(
-            request, lambda _: self.workbench.save(name, changes, target, digest, replace=replace)
+            request, lambda _: self.workbench.save(name, changes, target, digest, overwrite=overwrite)
         )
         return JSONResponse({"saved": path.name, "folder": str(path.parent), "files": self.workbench.names})
 

@@ -7,8 +7,8 @@ import hashlib
 import threading
 import time
 from collections import OrderedDict
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Hashable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Final
@@ -137,7 +137,7 @@ class Workbench:
     _files: dict[str, OpenFile] = field(default_factory=dict, repr=False)
     _forms: dict[tuple[str, str], tuple[DesignField, ...]] = field(default_factory=dict, repr=False)
     _kept: ReuseCache = field(default_factory=ReuseCache, repr=False)
-    _answers: OrderedDict[tuple[str, bool], Assessment] = field(default_factory=OrderedDict, repr=False)
+    _answers: OrderedDict[tuple[Hashable, bool], Assessment] = field(default_factory=OrderedDict, repr=False)
 
     def __post_init__(self) -> None:
         self._drawer = TemporaryDirectory(prefix="conveyor-desk-")
@@ -290,13 +290,13 @@ class Workbench:
         CalculationStopped
             It was stopped.
         """
-        key = (spec.fingerprint(conveyor), every)
+        key = (conveyor.fingerprint, every)
         known = self._answers.pop(key, None)
         made = self._calculate(conveyor, stop, every=every) if known is None else known
         self._answers[key] = made
         while len(self._answers) > _ANSWERS_KEPT:
             self._answers.popitem(last=False)
-        return made.in_units(conveyor.report.units)
+        return made
 
     def _calculate(self, conveyor: Conveyor, stop: StopSignal, *, every: bool) -> Assessment:
         self._kept.begin()
@@ -307,8 +307,14 @@ class Workbench:
         stop.check()
         loads = every_load(conveyor, own, progress=stop.check, kept=self._kept)
         stop.check()
-        flooded = flooded_belt(loads.own, self._kept)
-        return Assessment(loads.own, CalculatedStudies(states=loads.states, cases=loads.cases, flooded=flooded))
+        return Assessment(loads.own, CalculatedStudies(states=loads.states, cases=loads.cases))
+
+    def with_flooded_belt(self, assessment: Assessment) -> Assessment:
+        """Return an assessment with the flooded belt, which only tables by name and JSON show."""
+        held = assessment.studies
+        if held.states is None or held.flooded is not None:
+            return assessment
+        return replace(assessment, studies=replace(held, flooded=flooded_belt(assessment.own, self._kept)))
 
     def curves(
         self, name: str, changes: TextChanges, sliders: Sequence[Slider], stop: StopSignal
@@ -392,7 +398,7 @@ class Workbench:
         lines = difflib.unified_diff(before.splitlines(), text.splitlines(), n=1, lineterm="")
         return [line for line in lines if not line.startswith(("---", "+++"))]
 
-    def save(self, name: str, changes: TextChanges, target: str, digest: str, *, replace: bool) -> Path:
+    def save(self, name: str, changes: TextChanges, target: str, digest: str, *, overwrite: bool) -> Path:
         """Save a variant as a spec in the folder of its file.
 
         Parameters
@@ -405,7 +411,7 @@ class Workbench:
             Name of the file to write.
         digest : str
             `OpenFile.digest` of what the page was made from.
-        replace : bool
+        overwrite : bool
             Whether another file of that name may be replaced.
 
         Raises
@@ -418,7 +424,7 @@ class Workbench:
             raise InputError(f"{of.name}: another program has changed it; look at it again, then save")
         path = self._target(of, target)
         same = of.own and path.resolve() == of.path.resolve()
-        if path.exists() and not same and not replace:
+        if path.exists() and not same and not overwrite:
             raise InputError(f"{path.name}: exists; choose another name, or replace it")
         save_files({path: self.changed_text(name, changes).encode("utf-8")})
         if not of.own:

@@ -22,6 +22,7 @@ const svg = (tag, attributes = {}, ...content) => {
 const copy = (state) => JSON.parse(JSON.stringify(state));
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 
+const PAUSE = 400; // milliseconds of rest from which curves are calculated
 const SLOW = 0.3; // seconds of an answer from which a drag is shown the own load first
 let about = { files: [], kinds: [], systems: [], folder: "" };
 let form = null; // fields of the open file
@@ -116,7 +117,7 @@ function change(path, text, open = "") {
 
 // ---- figures: one request in flight, the newest values next
 
-let flying = false, again = false, resting = null;
+let flying = false, again = false, resting = null, pause = 0;
 
 async function ask() {
   if (flying) { again = true; return; }
@@ -126,7 +127,12 @@ async function ask() {
     await answer();
   } while (again);
   flying = false;
-  rest();
+  restSoon();
+}
+
+function restSoon() {
+  clearTimeout(pause);
+  pause = setTimeout(() => { if (!flying) rest(); }, PAUSE);
 }
 
 async function answer() {
@@ -238,7 +244,7 @@ async function rest() {
       drawCurve(slider);
     }
   } catch (problem) {
-    if (problem.name === "AbortError" && !going.signal.aborted) setTimeout(() => { if (resting === going) rest(); }, 300);
+    if (problem.name === "AbortError" && !going.signal.aborted) setTimeout(() => { if (resting === going) restSoon(); }, PAUSE);
   }
 }
 
@@ -304,7 +310,7 @@ function sliderBlock(slider) {
     const number = slider.series.length ? slider.series[+event.target.value] : +event.target.value;
     change(slider.path, Math.abs(number - slider.value) < 0.501 * slider.step && !slider.series.length ? row.value : text(number), slider.path);
   };
-  const drop = () => { if (dragging) { dragging = ""; history[at].open = ""; if ($("answer").classList.contains("waiting")) ask(); else if (!flying) rest(); } };
+  const drop = () => { if (dragging) { dragging = ""; history[at].open = ""; if ($("answer").classList.contains("waiting")) ask(); else if (!flying) restSoon(); } };
   const range = make("input", { type: "range", "data-range": slider.path, "aria-label": `${slider.label}, slider`,
     min: slider.series.length ? 0 : slider.low, max: slider.series.length ? slider.series.length - 1 : slider.high, step: slider.series.length ? 1 : slider.step,
     oninput: drag, onchange: drop, onpointerup: drop, onblur: drop });
