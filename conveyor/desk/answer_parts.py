@@ -113,6 +113,7 @@ def power_part(shown: NamedAssessment, beside: NamedAssessment | None = None) ->
     drives = [drive.power for drive in shown.assessment.own.line.drives if drive.power is not None]
     installed = sum(drives) if drives else None
     _, motor, low, high, _ = _band_of(shown)
+    side = -1.0 if motor < 0.0 else 1.0  # motors hold as much as they drive
     number, _, sign = unit.said(motor, 4).partition(" ")
     said = [element("p", element("b", number), " ", element("small", sign), class_="large")]
     if low is not None and high is not None:
@@ -127,7 +128,7 @@ def power_part(shown: NamedAssessment, beside: NamedAssessment | None = None) ->
     return join_html([
         element("h2", "Motor power, expected"),
         element("div", *said),
-        band_chart(bands, installed, unit, label, limit),
+        band_chart(bands, None if installed is None else side * installed, unit, label, limit),
     ])  # fmt: skip
 
 

@@ -8,6 +8,7 @@ import socket
 import time
 from collections.abc import Awaitable, Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -58,6 +59,16 @@ class Desk:
         self.workbench = workbench
         self._worker = ThreadPoolExecutor(1, thread_name_prefix="desk")
         self._background: set[StopSignal] = set()
+
+    def begin(self) -> None:
+        """Calculate the first file while the browser opens."""
+        for name in self.workbench.names[:1]:
+            self._worker.submit(self._first_answer, name)
+
+    def _first_answer(self, name: str) -> None:
+        with suppress(ConveyorError):  # the page says what is wrong
+            self.workbench.form(name)
+            self.workbench.assess(self.workbench.file(name).conveyor, StopSignal())
 
     def close(self) -> None:
         """End the calculations."""
@@ -178,7 +189,8 @@ class Desk:
         curves = await self._calculate(
             request, lambda stop: self.workbench.curves(name, changes, sliders, stop), background=True
         )
-        unit = display_unit("power", report_system("SI", _units_value(asked)), large=True)
+        own = self.workbench.file(name).conveyor.report.units
+        unit = display_unit("power", report_system(own, _units_value(asked)), large=True)
         shown = [[(value, None if power is None else float(unit(power))) for value, power in curve] for curve in curves]
         return JSONResponse({"curves": shown, "unit": unit.sign})
 
@@ -410,6 +422,7 @@ class DeskServer:
         """Serve until Ctrl-C, or until no page has called for `idle_seconds`."""
 
         async def serve() -> None:
+            self._desk.begin()
             watch = asyncio.ensure_future(self._end_when_idle())
             try:
                 await self._server.serve(sockets=[self._socket])

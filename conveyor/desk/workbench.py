@@ -21,7 +21,7 @@ from conveyor.desk.design_sliders import Slider
 from conveyor.desk.design_variant import TextChanges, change_conveyor, guarded_resolver
 from conveyor.errors import ConveyorError, InputError, NoSolutionError
 from conveyor.files.atomic_write import save_files
-from conveyor.files.document import parse_document, read_document, yaml_text
+from conveyor.files.document import read_document, yaml_text
 from conveyor.files.edit import edit_values
 from conveyor.files.file_bytes import file_content
 from conveyor.models import Conveyor
@@ -38,6 +38,8 @@ LARGEST_SPEC: Final = 5_000_000
 """Bytes, as of every spec."""
 MOST_SECONDS: Final = 60.0
 """Time limit of one calculation [s]."""
+_MOST_BESIDE: Final = 200
+"""Files beside a spec that are looked at for compounds."""
 _ANSWERS_KEPT: Final = 24
 """Assessments kept for undo and comparison, the last used."""
 
@@ -253,8 +255,8 @@ class Workbench:
     def compounds(self, name: str) -> list[str]:
         """Compounds that the covers of a file may have: of the shelves, and files beside it."""
         of = self.file(name)
-        beside = sorted(path.name for path in of.folder.glob("*") if path.suffix.lower() in SPEC_ENDINGS)
-        return [*shelf_names(self.shelves), *(file for file in beside if _is_compound(of.folder / file))]
+        beside = sorted(path for path in of.folder.glob("*") if path.suffix.lower() in SPEC_ENDINGS)
+        return [*shelf_names(self.shelves), *(path.name for path in beside[:_MOST_BESIDE] if _is_compound(path))]
 
     def resolver(self, name: str) -> CompoundResolver:
         """Look-up of compounds for changes of a file."""
@@ -466,11 +468,9 @@ def _check_compounds(data: Mapping[str, Any], resolve: CompoundResolver) -> None
 def _is_compound(path: Path) -> bool:
     """True for a file with the look of a compound; nothing else is offered as one."""
     try:
-        content = file_content(path, largest=LARGEST_SPEC, expected="compound file").decode("utf-8")
-        data = parse_document(content, path).data
-    except (ConveyorError, UnicodeDecodeError):
+        return b"reference_temperature" in file_content(path, largest=LARGEST_SPEC, expected="compound file")
+    except InputError:
         return False
-    return isinstance(data, Mapping) and "reference_temperature" in data
 
 
 def open_workbench(paths: Iterable[Path], shelves: Iterable[Path]) -> Workbench:

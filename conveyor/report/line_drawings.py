@@ -19,7 +19,7 @@ Points = Sequence[tuple[float, float]]
 
 _DASHES: Final = (None, "7 3", "2 2.5", "9 3 2 3", "5 2 1 2 1 2", "12 4")
 _MOST_TICKS: Final = 6
-_LEFT, _RIGHT, _TOP, _BOTTOM = 54.0, 12.0, 10.0, 34.0
+_LEFT, _RIGHT, _TOP, _BOTTOM = 54.0, 20.0, 10.0, 34.0
 """Room about the plot for numbers and labels [px]."""
 _MARGIN: Final = 0.06
 """Room above and below the lines, of their range."""
@@ -239,9 +239,10 @@ def band_chart(
     most_allowed = number(limit)
     values = [0.0, *(end for of in shown for end in (of.value, of.low, of.high) if end is not None)]
     values += [] if most_allowed is None else [most_allowed]
-    low, high = min(values), max(values) or 1.0
+    low, high = min(values), max(values)
+    high = high if high > low else low + 1.0
     room = _MARGIN * (high - low)
-    high, low = high + room, low - (room if low < 0.0 else 0.0)
+    high, low = high + (room if high > 0.0 else 0.0), low - (room if low < 0.0 else 0.0)
 
     def x_of(value: float) -> float:
         return left + (right - left) * (value - low) / (high - low)

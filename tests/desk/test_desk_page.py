@@ -95,9 +95,12 @@ def test_a_drag_asks_for_the_newest_value_and_skips_the_others(page):
             flying.add(request)
             most.append(len(flying))
 
+    def end(request):
+        flying.discard(request)
+
     page.on("request", begin)
-    page.on("requestfinished", lambda request: flying.discard(request))
-    page.on("requestfailed", lambda request: flying.discard(request))
+    page.on("requestfinished", end)
+    page.on("requestfailed", end)
     box = page.locator("[data-range='belt.speed']").bounding_box()
     y = box["y"] + box["height"] / 2
     page.mouse.move(box["x"] + box["width"] / 2, y)

@@ -23,6 +23,7 @@ const copy = (state) => JSON.parse(JSON.stringify(state));
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 
 const PAUSE = 400; // milliseconds of rest from which curves are calculated
+const LEAST_SPAN = 0.05; // of the power: a curve that hardly changes is drawn nearly level
 const SLOW = 0.3; // seconds of an answer from which a drag is shown the own load first
 let about = { files: [], kinds: [], systems: [], folder: "" };
 let form = null; // fields of the open file
@@ -227,6 +228,7 @@ const curveKey = (slider) => {
 async function rest() {
   if (!form || dragging || firstErrors.some((one) => !one.other)) return;
   const going = resting = new AbortController();
+  if ($("table").value) await showTable();
   const body = { file: state.file, changes: changes(), units: state.units };
   const stale = form.sliders.filter((one) => curves.get(one.path)?.key !== curveKey(one));
   stale.forEach((one) => { curves.get(one.path) && (curves.get(one.path).passing = null); drawCurve(one); });
@@ -256,9 +258,10 @@ function drawCurve(slider) {
   const values = curve.points.map((point) => point[0]), power = curve.points.map((point) => point[1]);
   const known = power.filter((one) => one != null);
   const fresh = curve.key === curveKey(slider);
-  const low = Math.min(...known), high = Math.max(...known), span = high - low || 1;
+  const low = Math.min(...known), high = Math.max(...known);
+  const span = Math.max(high - low, LEAST_SPAN * Math.max(Math.abs(low), Math.abs(high))) || 1, foot = (low + high - span) / 2;
   const x = (i) => pad + (W - 2 * pad) * (slider.series.length ? i / (values.length - 1) : (values[i] - slider.low) / (slider.high - slider.low));
-  const y = (p) => H - 4 - (H - 8) * (p - low) / span;
+  const y = (p) => H - 4 - (H - 8) * (p - foot) / span;
   const parts = [];
   (curve.passing ?? []).forEach((passes, i) => {
     if (!passes) return;
@@ -271,15 +274,15 @@ function drawCurve(slider) {
   const line = power.map((p, i) => (p == null ? null : `${x(i).toFixed(1)},${y(p).toFixed(1)}`)).filter(Boolean).join(" ");
   parts.push(svg("polyline", { points: line, class: "l s0", "vector-effect": "non-scaling-stroke" }));
   const passing = (curve.passing ?? []).map((passes, i) => (passes ? values[i] : null)).filter((one) => one != null);
-  const said = known.length ? `${figure(low)} to ${figure(high)} ${curve.unit}` : "no answer over the range";
+  const said = known.length ? `${figure(low, high)} to ${figure(high, low)} ${curve.unit}` : "no answer over the range";
   const drawn = svg("svg", { viewBox: `0 0 ${W} ${H}`, preserveAspectRatio: "none", class: "curve", role: "img",
     "aria-label": `Motor power ${said} over the range${curve.passing ? passing.length ? `; every check passes from ${passing[0]} to ${passing.at(-1)} ${slider.unit}` : "; no value passes every check" : ""}` }, ...parts);
   drawn.style.opacity = fresh ? 1 : 0.4;
   place.replaceChildren(drawn);
-  place.nextElementSibling.nextElementSibling.children[1].textContent = fresh && known.length ? said.replace(" to ", " – ") : "";
+  place.nextElementSibling.nextElementSibling.children[1].textContent = fresh && known.length ? said : "";
 }
 
-const figure = (value) => (Math.abs(value) >= 100 ? Math.round(value).toLocaleString("en") : value.toPrecision(3));
+const figure = (value, other) => value.toLocaleString("en", { maximumSignificantDigits: Math.abs(value) >= 1000 || Math.abs(value - other) < 0.02 * Math.abs(value) ? 4 : 3 });
 const nearest = (series, value) => series.reduce((best, one, i) => (Math.abs(one - value) < Math.abs(series[best] - value) ? i : best), 0);
 
 // ---- inputs
@@ -290,12 +293,12 @@ function editor(row, id) {
   const options = row.kind === "reference" ? form.compounds : row.kind === "switch" ? ["true", "false"] : row.choices;
   if (options?.length) {
     const now = textOf(row.path);
-    const every = [...new Set([...(row.required ? [] : [""]), now, ...options])];
+    const every = [...new Set([...(row.required ? [] : [""]), now, ...options.filter((one) => one.toLowerCase() !== now.toLowerCase())])];
     const field = make("select", { ...given, onchange: set }, ...every.map((one) => make("option", { value: one }, one || "–")));
     field.value = now;
     return field;
   }
-  const field = make("input", { ...given, type: "text", autocomplete: "off", spellcheck: "false", placeholder: row.example ?? "", onchange: set });
+  const field = make("input", { ...given, type: "text", class: (row.value ?? "").length > 10 ? "wide" : null, autocomplete: "off", spellcheck: "false", placeholder: row.example ?? "", onchange: set });
   field.value = textOf(row.path);
   return field;
 }
