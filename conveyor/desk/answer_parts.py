@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, Final, NamedTuple
 
@@ -13,7 +13,7 @@ from conveyor.report.merged_notes import NOTE_HEADINGS, sort_notes
 from conveyor.report.page_elements import bullet_list, figure_list, table_html
 from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Column, Figure, Table
 from conveyor.report.tables.analysis_contents import TABLES, AnalysisTables
-from conveyor.text.markup import Html, element, escape_html, join_html
+from conveyor.text.markup import Html, element, join_html
 from conveyor.units import System
 from conveyor.units.presentation import display_unit
 
@@ -44,6 +44,11 @@ class NamedAssessment(NamedTuple):
         return cls(name, rank, assessment, AnalysisTables(assessment))
 
 
+def own_load_parts(shown: NamedAssessment, beside: NamedAssessment | None = None) -> dict[str, Html]:
+    """Pieces of the page that are right before the other loads are known: power, and what it is made of."""
+    return {"power": power_part(shown, beside), "shares": share_part(shown.tables, shown.assessment.system)}
+
+
 def answer_parts(shown: NamedAssessment, beside: NamedAssessment | None = None) -> dict[str, Html]:
     """Pieces of the page for a variant, and for one beside it, by name.
 
@@ -56,14 +61,12 @@ def answer_parts(shown: NamedAssessment, beside: NamedAssessment | None = None) 
     """
     system = shown.assessment.system
     tables = shown.tables
-    parts = {
+    parts = own_load_parts(shown, beside) | {
         "verdict": verdict_part(tables),
-        "power": power_part(shown, beside),
         "tiles": tile_part(tables, system),
         "governing": table_html(tables["governing_figures"], tables["governing_figures"].heading, system),
         "profile": profile_chart(tables["profile"], system),
         "tensions": tension_chart(tables["tension_states"], system),
-        "shares": share_part(tables, system),
         "checks": check_part(tables["checks"], system),
         "notes": note_part(tables),
         "compared": Html("") if beside is None else compared_part(*sorted((shown, beside), key=_rank_of)),
@@ -268,12 +271,14 @@ def table_names(assessment: Assessment) -> list[tuple[str, str]]:
     return [(key, tables[key].heading or key.replace("_", " ")) for key in tables]
 
 
-def named_table(assessment: Assessment, key: str) -> Html | None:
-    """One table by its name as in workbooks; None where there is none."""
+def named_table(assessment: Assessment, key: str, *, most: int | None = None) -> Html | None:
+    """One table by its name as in workbooks; None where there is none, or where it has more rows than `most`."""
     tables = AnalysisTables(assessment)
     if key not in TABLES or key not in tables:
         return None
     table = tables[key]
+    if most is not None and len(table.rows) > most:
+        return None
     cut = replace(table, rows=table.rows[:_ROWS_SHOWN], foot="" if len(table.rows) > _ROWS_SHOWN else table.foot)
     cut = cut.on_sheet() if cut.sheet else cut
     write = figure_list if cut.figures else table_html
@@ -283,9 +288,3 @@ def named_table(assessment: Assessment, key: str) -> Html | None:
     if table.note:
         parts.append(element("p", table.note, class_="note"))
     return join_html(parts)
-
-
-def error_part(messages: Iterable[str]) -> Html:
-    """Refusals that belong to no field."""
-    lines = [escape_html(line) for line in messages]
-    return element("div", *(element("p", line) for line in lines), class_="stands fail") if lines else Html("")

@@ -22,9 +22,10 @@ from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route
 
 from conveyor.assessment import Assessment
-from conveyor.desk.answer_parts import NamedAssessment, answer_parts, named_table, table_names
+from conveyor.desk.answer_parts import NamedAssessment, answer_parts, named_table, own_load_parts, table_names
 from conveyor.desk.design_sliders import Slider, choose_sliders, conveyor_kind, field_slider
 from conveyor.desk.design_variant import TextChanges, command_line, field_errors
+from conveyor.desk.further_studies import offered_studies, study_part
 from conveyor.desk.report_files import REPORTS, report_bytes
 from conveyor.desk.request_guard import RequestGuard
 from conveyor.desk.study_export import study_text
@@ -33,6 +34,7 @@ from conveyor.errors import ConveyorError, InputError
 from conveyor.files.output_marks import package_version
 from conveyor.report.tables.result_schema import analysis_json
 from conveyor.starter import KINDS, starter_text
+from conveyor.text.markup import Html
 from conveyor.units.presentation import display_unit
 from conveyor.units.unit_systems import SYSTEMS, report_system
 
@@ -41,6 +43,8 @@ T = TypeVar("T")
 IDLE_SECONDS: Final = 3600.0
 """Time after the last request at which the desk ends by itself [s]; open pages call every five minutes."""
 _PAGE: Final = Path(__file__).parent / "page"
+MOST_STUDY_SECONDS: Final = 600.0
+"""Time limit of a report or a longer study [s]."""
 _WATCH_SECONDS: Final = 0.03
 """Interval at which a waiting request looks whether its page has gone on [s]."""
 _REFUSED: Final = 422
@@ -59,6 +63,7 @@ class Desk:
         self.workbench = workbench
         self._worker = ThreadPoolExecutor(1, thread_name_prefix="desk")
         self._background: set[StopSignal] = set()
+        self._longest = StopSignal()
 
     def begin(self) -> None:
         """Calculate the first file while the browser opens."""
@@ -82,6 +87,8 @@ class Desk:
             "/files": self._files, "/form": self._form, "/answer": self._answer, "/curves": self._curves,
             "/passing": self._passing, "/table": self._table, "/result": self._result,
             "/difference": self._difference, "/save": self._save, "/report": self._report, "/study": self._study,
+            "/further": self._further,
+            "/progress": self._progress,
             "/drop": self._drop, "/new": self._new,
         }  # fmt: skip
         routes = [Route(path, _answer_errors(made), methods=["POST"]) for path, made in answers.items()]
@@ -132,6 +139,7 @@ class Desk:
                 "rows": [row.plain() for row in rows],
                 "sliders": [slider.plain() for slider in choose_sliders(of.conveyor, rows)],
                 "compounds": self.workbench.compounds(name),
+                "studies": offered_studies(of.conveyor),
             }  # fmt: skip
 
         return JSONResponse(await self._calculate(request, made))
@@ -163,7 +171,7 @@ class Desk:
                     beside = NamedAssessment.of(titles[1 - rank], 1 - rank, made)
                 except ConveyorError as error:
                     problem = self._errors(error)
-            parts = answer_parts(shown, beside)
+            parts = (answer_parts if every else own_load_parts)(shown, beside)
             return {
                 "parts": parts, "every": every, "seconds": round(time.perf_counter() - begun, 4), "beside": problem,
                 "command": command_line(name, changes), "digest": self.workbench.file(name).digest,
@@ -273,7 +281,7 @@ class Desk:
             line = self.workbench.variant(name, changes)
             return report_bytes(line, kind, report_system(line.report.units, units), stop.check)
 
-        content = await self._calculate(request, made, seconds=600.0)
+        content = await self._calculate(request, made, seconds=MOST_STUDY_SECONDS)
         return _file_answer(content, f"{Path(name).stem}{REPORTS[kind].ending}", REPORTS[kind].media_type)
 
     async def _study(self, request: Request) -> Response:
@@ -283,6 +291,23 @@ class Desk:
         variants = [made for key in ("changes", "beside") if (made := _variant_changes(asked, key)) is not None]
         text = study_text(self.workbench.file(name), self.workbench.form(name), variants)
         return _file_answer(text.encode(), f"{Path(name).stem}-study.yaml", "application/yaml")
+
+    async def _further(self, request: Request) -> Response:
+        """Tables of a study that takes longer."""
+        asked = await _request_data(request)
+        name, changes, units = _text_value(asked, "file"), _variant_changes(asked, "changes") or {}, _units_value(asked)
+        key = _text_value(asked, "key")
+
+        def made(stop: StopSignal) -> Html:
+            self._longest = stop
+            return study_part(self._assess(name, changes, units, stop), key, stop.check)
+
+        return JSONResponse({"part": await self._calculate(request, made, background=True, seconds=MOST_STUDY_SECONDS)})
+
+    async def _progress(self, _: Request) -> Response:
+        """Items done of the study that runs, and their total."""
+        told = [item for item in self._longest.told if isinstance(item, int)]
+        return JSONResponse({"done": told[0] if told else 0, "whole": told[1] if len(told) > 1 else 0})
 
     async def _drop(self, request: Request) -> Response:
         """Open a spec or template that was dropped on the page."""

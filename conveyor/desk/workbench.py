@@ -54,14 +54,15 @@ class StopSignal:
     def __init__(self, seconds: float = MOST_SECONDS) -> None:
         self._stopped = threading.Event()
         self._seconds = seconds
+        self.told: tuple[object, ...] = ()
         self._end = time.monotonic() + seconds
 
     def stop(self) -> None:
         """Stop the calculation."""
         self._stopped.set()
 
-    def check(self, *_: object) -> None:
-        """Raise if the calculation is to stop; takes what callbacks of progress are given.
+    def check(self, *told: object) -> None:
+        """Raise if the calculation is to stop; keeps what callbacks of progress are given in `told`.
 
         Raises
         ------
@@ -70,6 +71,7 @@ class StopSignal:
         NoSolutionError
             The time limit is over.
         """
+        self.told = told or self.told
         if self._stopped.is_set():
             raise CalculationStopped
         if time.monotonic() > self._end:

@@ -24,10 +24,13 @@ from conveyor.desk import desk_server
 from conveyor.desk.desk_server import Desk, DeskServer
 from conveyor.desk.request_guard import LARGEST_BODY, RequestGuard
 from conveyor.desk.workbench import CalculationStopped, StopSignal, open_workbench
+from conveyor.dynamics.simulation import standard_scenarios
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.models.fields import with_fields
 from conveyor.report.tables.result_schema import analysis_json
+from conveyor.report.tables.study_tables import year_table
 from conveyor.results.analysis import analyse, studies
+from conveyor.studies.duty import analyse_duty
 from conveyor.studies.loads import every_load
 
 PORT = 8123
@@ -235,6 +238,7 @@ def test_markup_in_a_name_stays_text(client):
 def test_the_own_load_comes_alone_when_asked(client):
     got = ask(client, "/answer", file="overland.yaml", changes={}, every=False).json()
     assert got["every"] is False
+    assert set(got["parts"]) == {"power", "shares"}  # what other loads decide is not said before they are known
     assert "1,215" in got["parts"]["power"]
 
 
@@ -533,3 +537,35 @@ def test_the_page_fits_its_budget_and_asks_nobody_else():
         assert "http://" not in text.replace("http://www.w3.org/2000/svg", "")
     assert " style=" not in files["desk.html"]
     assert "onclick" not in files["desk.html"]
+
+
+# ---- longer studies
+
+
+def test_longer_studies_are_offered_where_the_spec_has_what_they_need(client, folder, desk):
+    shutil.copy(SPECS / "overland_10km.yaml", folder / "overland_10km.yaml")
+    desk.workbench.open_path(folder / "overland_10km.yaml")
+    assert set(ask(client, "/form", file="overland.yaml").json()["studies"]) == {"starts"}
+    assert set(ask(client, "/form", file="overland_10km.yaml").json()["studies"]) == {"year", "ranges", "starts"}
+    refused = ask(client, "/further", file="overland.yaml", changes={}, key="year")
+    assert refused.status_code == 422
+
+
+def test_the_year_of_a_variant_is_that_of_the_report(client, folder, desk):
+    shutil.copy(SPECS / "overland_10km.yaml", folder / "overland_10km.yaml")
+    desk.workbench.open_path(folder / "overland_10km.yaml")
+    changes = {"cases[0].name": "first", "idlers.carry.spacing": "2 m"}
+    part = ask(client, "/further", file="overland_10km.yaml", changes=changes, key="year").json()["part"]
+    line = with_fields(conveyor.load(folder / "overland_10km.yaml"), changes)
+    loads = every_load(line)
+    year = analyse_duty(line, take_up=loads.states.take_up)
+    row = year_table(year).rows[0]
+    assert row.label in part
+    assert row.unit("SI").written(row.value) in part
+
+
+def test_starts_are_followed_through_time_and_tell_their_progress(client):
+    part = ask(client, "/further", file="downhill.yaml", changes={}, key="starts").json()["part"]
+    assert "<table" in part
+    scenarios = len(standard_scenarios(conveyor.load(SPECS / "downhill.yaml")))
+    assert ask(client, "/progress").json()["whole"] == scenarios

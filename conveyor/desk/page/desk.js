@@ -148,13 +148,14 @@ async function answer() {
     if (got.every) lastSeconds = got.seconds;
     if (got.digest !== form.digest) await loadForm();
     for (const part of document.querySelectorAll("[data-part]")) {
-      const html = got.parts[part.dataset.part] ?? "";
+      const html = got.parts[part.dataset.part] ?? (got.every ? "" : part.shown);
       if (part.shown === html) continue;
       const opened = [...part.querySelectorAll("details")].map((one) => one.open);
       part.innerHTML = part.shown = html;
       part.querySelectorAll("details").forEach((one, i) => { one.open = opened[i] ?? one.open; });
     }
     nameVerdicts();
+    if ($("further").hasChildNodes()) $("furthersaid").textContent = "of a design before the last change";
     $("answer").classList.remove("stale");
     $("answer").classList.toggle("waiting", !got.every);
     $("answer").hidden = false;
@@ -226,7 +227,7 @@ const curveKey = (slider) => {
 };
 
 async function rest() {
-  if (!form || dragging || firstErrors.some((one) => !one.other)) return;
+  if (!form || dragging || study || firstErrors.some((one) => !one.other)) return;
   const going = resting = new AbortController();
   if ($("table").value) await showTable();
   const body = { file: state.file, changes: changes(), units: state.units };
@@ -419,6 +420,42 @@ function printHead() {
     make("p", {}, state.b ? `${state.names[0]}: ${lines("a")} – ${state.names[1]}: ${lines("b")}` : `Changed: ${lines("a")}`));
 }
 
+// ---- longer studies
+
+let study = null; // what cancels the one that runs
+
+async function runStudy(key) {
+  study?.abort();
+  const going = study = new AbortController();
+  const body = { file: state.file, changes: { ...changes() }, units: state.units, key };
+  $("progress").hidden = $("cancel").hidden = false;
+  $("progress").removeAttribute("value");
+  $("furthersaid").textContent = form.studies[key];
+  $("further").replaceChildren();
+  resting?.abort();
+  const watch = setInterval(async () => {
+    const got = await post("/progress", {}).catch(() => ({ whole: 0 }));
+    if (study === going && got.whole) { $("progress").max = got.whole; $("progress").value = got.done; }
+  }, 500);
+  try {
+    const got = await post("/further", body, going.signal);
+    $("further").innerHTML = got.part;
+    $("furthersaid").textContent = `${form.studies[key]}: of the design as it was then`;
+    if (same(body.changes, changes())) $("furthersaid").textContent = form.studies[key];
+  } catch (problem) {
+    $("furthersaid").textContent = problem.name === "AbortError" ? "Stopped." : (problem.errors ?? []).map((one) => one.message).join("; ");
+  }
+  clearInterval(watch);
+  if (study !== going) return;
+  study = null;
+  $("progress").hidden = $("cancel").hidden = true;
+  restSoon();
+}
+
+function offerStudies() {
+  $("offered").replaceChildren(...Object.entries(form.studies).map(([key, words]) => make("button", { type: "button", onclick: () => runStudy(key) }, words)));
+}
+
 // ---- files
 
 async function loadForm() {
@@ -429,6 +466,7 @@ async function loadForm() {
   document.title = `${form.title} – conveyor desk`;
   $("foot").textContent = `${state.file} is saved in ${about.folder}. conveyor ${about.version}; on this machine only.`;
   build();
+  offerStudies();
 }
 
 async function openFile(read) {
@@ -614,6 +652,7 @@ function listen() {
   $("dosave").addEventListener("click", doSave);
   $("table").addEventListener("focus", listTables, { once: false });
   $("table").addEventListener("change", showTable);
+  $("cancel").addEventListener("click", () => study?.abort());
   $("upload").addEventListener("change", () => $("upload").files[0] && dropFile($("upload").files[0]));
   $("file").addEventListener("change", () => {
     const chosen = $("file").value;
