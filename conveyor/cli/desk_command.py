@@ -24,9 +24,9 @@ _PORT = 8765
 )
 def desk(
     specs: Annotated[
-        list[Path] | None, argument("Specs (.yaml, .json, .xlsx); without one, the page offers new ones.", "[SPEC]...")
+        list[Path] | None, argument("Specs (.yaml, .json, .xlsx); without one, the page offers new ones.", "SPEC")
     ] = None,
-    port: Annotated[int, option("Port on this machine; another where it is taken.", min=1024, max=65535)] = _PORT,
+    port: Annotated[int, option("Port on this machine; another where it is taken.", "N", min=1024, max=65535)] = _PORT,
     no_browser: Annotated[bool, option("Print the address, open no browser.", None, "--no-browser")] = False,
     quiet: Quiet = False,
     shelf: Shelves = None,

@@ -323,7 +323,7 @@ class Workbench:
     def curves(
         self, name: str, changes: TextChanges, sliders: Sequence[Slider], stop: StopSignal
     ) -> list[list[tuple[float, float | None]]]:
-        """Motor power of the own load over the range of each slider, in one batch [W].
+        """Motor power of the own load over the range of each slider, a batch for each [W].
 
         Parameters
         ----------
@@ -341,9 +341,14 @@ class Workbench:
         list of list of (float, float or None)
             Values in the slider's unit with the power there; None where a value has no answer.
         """
-        given: list[Conveyor | None] = []
-        for slider in sliders:
-            given += [self._variant_or_none(name, changes, slider, value) for value in slider.curve_values()]
+        return [self._curve(name, changes, slider, stop) for slider in sliders]
+
+    def _curve(
+        self, name: str, changes: TextChanges, slider: Slider, stop: StopSignal
+    ) -> list[tuple[float, float | None]]:
+        """Power at the values of one slider; small batches give way to the figures sooner than one large one."""
+        values = slider.curve_values()
+        given = [self._variant_or_none(name, changes, slider, value) for value in values]
         stop.check()
         asked = [Variant(one) for one in given if one is not None]
         results = iter(calculate_many(asked, progress=stop.check, kept=self._kept) if asked else ())
@@ -351,8 +356,7 @@ class Workbench:
         for one in given:
             result = None if one is None else next(results)
             power.append(result.balance.power.motor if isinstance(result, CalculatedConveyor) else None)
-        at = iter(power)
-        return [[(value, next(at)) for value in slider.curve_values()] for slider in sliders]
+        return list(zip(values, power, strict=True))
 
     def passing(self, name: str, changes: TextChanges, slider: Slider, value: float, stop: StopSignal) -> bool | None:
         """Tell whether a variant passes every check in every load at a value of a slider; None without an answer."""

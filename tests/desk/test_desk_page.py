@@ -242,6 +242,26 @@ def test_a_file_is_opened_from_the_page(page):
     )
 
 
+def test_changes_of_a_file_stay_while_another_is_looked_at(page):
+    set_speed(page, "5.5 m/s")
+    page.select_option("#file", "downhill.yaml")
+    wait_until(page, "document.querySelector('#command').textContent.includes('downhill.yaml')")
+    assert not page.is_visible("#changed")
+    page.select_option("#file", "overland.yaml")
+    wait_until(page, "document.querySelector('#command').textContent.includes('belt.speed=5.5 m/s')")
+    page.click("#undo")
+    wait_until(page, "!document.querySelector('#command').textContent.includes('--set')")
+
+
+def test_enter_in_the_name_of_the_file_looks_again_and_does_not_cancel(page):
+    page.keyboard.press("Control+s")
+    page.fill("#target", "x.txt")
+    page.press("#target", "Enter")
+    page.wait_for_selector("#saveerror:visible")
+    assert page.is_visible("#saver")
+    assert page.is_disabled("#dosave")
+
+
 def test_reports_are_downloaded(page):
     page.click("#save summary")
     with page.expect_download() as found:

@@ -569,3 +569,18 @@ def test_starts_are_followed_through_time_and_tell_their_progress(client):
     assert "<table" in part
     scenarios = len(standard_scenarios(conveyor.load(SPECS / "downhill.yaml")))
     assert ask(client, "/progress").json()["whole"] == scenarios
+
+
+# ---- the command
+
+
+def test_without_its_packages_the_command_says_what_to_install(monkeypatch, capsys):
+    from conveyor.cli import desk_command
+    from conveyor.cli.entry_point import main
+
+    monkeypatch.setattr(desk_command, "find_spec", lambda _: None)
+    monkeypatch.setattr(sys, "argv", ["conveyor", "desk"])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert ended.value.code == 2
+    assert 'pip install "conveyor[desk]"' in capsys.readouterr().err

@@ -22,7 +22,7 @@ const svg = (tag, attributes = {}, ...content) => {
 const copy = (state) => JSON.parse(JSON.stringify(state));
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 
-const PAUSE = 400; // milliseconds of rest from which curves are calculated
+const PAUSE = 600; // milliseconds of rest from which curves are calculated
 const LEAST_SPAN = 0.05; // of the power: a curve that hardly changes is drawn nearly level
 const SLOW = 0.3; // seconds of an answer from which a drag is shown the own load first
 let about = { files: [], kinds: [], systems: [], folder: "" };
@@ -469,10 +469,14 @@ async function loadForm() {
   offerStudies();
 }
 
+const put = new Map(); // by file: what was changed there before another file was opened
+
 async function openFile(read) {
-  state = read;
-  history = [];
-  at = -1;
+  if (state.file && state.file !== read.file) put.set(state.file, { state, history, at });
+  const before = same(read, fresh(read.file)) ? put.get(read.file) : null;
+  state = before ? { ...before.state, units: read.units } : read;
+  history = before?.history ?? [];
+  at = before?.at ?? -1;
   curves = new Map();
   showErrors([]);
   $("start").hidden = true;
@@ -484,6 +488,8 @@ async function openFile(read) {
   }
   listFiles();
   keep();
+  $("undo").disabled = at <= 0;
+  $("redo").disabled = at >= history.length - 1;
   reflect();
   await ask();
 }
@@ -648,6 +654,7 @@ function listen() {
   });
   for (const button of document.querySelectorAll("[data-save]")) button.addEventListener("click", () => save(button.dataset.save));
   $("target").addEventListener("change", showDifference);
+  $("target").addEventListener("keydown", (event) => { if (event.key === "Enter") { event.preventDefault(); showDifference(); } }); // not the Cancel of its form
   $("replace").addEventListener("change", showDifference);
   $("dosave").addEventListener("click", doSave);
   $("table").addEventListener("focus", listTables, { once: false });
