@@ -12,6 +12,7 @@ from typing import Any, Final, Literal, TypeAlias
 from conveyor.desk.design_form import DesignField, field_label
 from conveyor.files.libraries import ROLL_DIAMETERS, library_entries
 from conveyor.models import Conveyor
+from conveyor.starter.format_reference import format_fields
 
 ConveyorKind: TypeAlias = Literal["overland", "in-plant", "downhill"]
 
@@ -40,6 +41,7 @@ _FIRST: Final[Mapping[ConveyorKind, tuple[str, ...]]] = {
 """Fields in order; those that a spec does not give are passed over."""
 _FURTHER: Final = ("idlers.return.spacing", "drive.wrap_angle", "drive.friction", "drive.efficiency", _COVERS)
 _NUMBER: Final = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
+_BOUND: Final = re.compile(r"([≥≤]) ([+-]?[\d.]+(?:e[+-]?\d+)?)([^,]*)")
 _SPANS: Final = {"degC": _KELVINS, "°C": _KELVINS, "K": _KELVINS, "degF": 1.8 * _KELVINS, "°F": 1.8 * _KELVINS}
 
 
@@ -117,6 +119,10 @@ def field_slider(path: str, value: str | None) -> Slider | None:
     low, high = (number - span, number + span) if span is not None else (_LOW * number, _HIGH * number)
     if low >= high:
         return None
+    least, most = _allowed_ends(path, unit)
+    low, high = max(low, least), min(high, most)
+    if low >= high:
+        return None
     step = _round_step((high - low) / _STEPS)
     if series:
         near = tuple(one for one in series if low <= one <= high)
@@ -126,6 +132,16 @@ def field_slider(path: str, value: str | None) -> Slider | None:
     else:
         low, high = (float(f"{math.floor(end / step + 0.5) * step:.9g}") for end in (low, high))
     return Slider(path, field_label(path), unit, number, low, high, step, series)
+
+
+def _allowed_ends(path: str, unit: str) -> tuple[float, float]:
+    """Allowed range of a field as far as it is written in a unit; a bound that is excluded counts as none."""
+    field = format_fields(Conveyor).get(re.sub(r"\[\d+\]", "[]", path))
+    ends = {"≥": -math.inf, "≤": math.inf}
+    for sign, number, of in _BOUND.findall("" if field is None else field.allowed):
+        if of.strip() == unit:
+            ends[sign] = float(number)
+    return ends["≥"], ends["≤"]
 
 
 def _round_step(least: float) -> float:

@@ -87,6 +87,14 @@ def test_a_series_gives_the_steps_of_its_slider():
     assert field_slider("idlers.carry.roll.diameter", "160 mm").series == ()
 
 
+def test_a_slider_stays_in_the_allowed_range_of_its_field():
+    assert (field_slider("drive.start_factor", "1.3").low, field_slider("drive.start_factor", "1.3").high) == (
+        1.0,
+        1.82,
+    )
+    assert field_slider("drive.efficiency", "94 %").high == 100.0
+
+
 @pytest.mark.parametrize("text", ["0 m", "abc", "", None, "1e999 m", "nan m"])
 def test_no_slider_without_a_number(text):
     assert field_slider("belt.speed", text) is None

@@ -480,6 +480,7 @@ async function openFile(read) {
   curves = new Map();
   showErrors([]);
   $("start").hidden = true;
+  document.body.classList.remove("empty");
   try {
     await loadForm();
   } catch (problem) {
@@ -523,6 +524,7 @@ async function dropFile(file) {
 function showStart() {
   const place = $("start");
   place.hidden = false;
+  document.body.classList.add("empty");
   const kinds = (units) => make("div", {}, ...about.kinds.map((kind) => make("button", { type: "button", onclick: () => newSpec(kind, units) }, `${kind}, ${units}`)));
   place.replaceChildren(make("h2", {}, "Begin a design"), make("p", {}, "A conveyor to start from; every value can be changed."),
     ...about.systems.map(kinds), make("h2", {}, "Or open one"), make("p", {}, "Drop a spec (.yaml, .json) or a filled-in template (.xlsx) on this page."),
@@ -646,7 +648,7 @@ function listen() {
   $("undo").addEventListener("click", () => step(-1));
   $("redo").addEventListener("click", () => step(1));
   $("compare").addEventListener("click", compare);
-  $("find").addEventListener("input", () => { showFields(); $("h-fields").scrollIntoView({ block: "start" }); });
+  $("find").addEventListener("input", () => { showFields(); const aside = document.querySelector("aside"); aside.scrollTop = $("h-fields").offsetTop - 8; });
   $("copy").addEventListener("click", async () => { await navigator.clipboard.writeText($("command").textContent); $("status").textContent = "Copied."; $("copy").textContent = "Copied"; setTimeout(() => { $("copy").textContent = "Copy"; }, 1500); });
   $("theme").addEventListener("click", () => {
     const dark = getComputedStyle(document.body).backgroundColor !== "rgb(255, 255, 255)";
