@@ -9,9 +9,11 @@ from dataclasses import asdict, dataclass
 from typing import Any, Final
 
 from conveyor.errors import InputError
+from conveyor.files.libraries import library_entries
 from conveyor.forms.form_fields import FormField
 from conveyor.models import Conveyor
 from conveyor.models.fields import field_value
+from conveyor.models.library_items import LibraryItem
 from conveyor.report.tables.inputs import input_rows
 from conveyor.starter.format_reference import example_value, format_fields
 from conveyor.units.quantity_kinds import readable_unit
@@ -85,12 +87,15 @@ def form_rows(conveyor: Conveyor, data: Mapping[str, Any]) -> tuple[DesignField,
     for pattern, field in format_fields(Conveyor).items():
         for path in _expand_path(conveyor, pattern):
             value, origin = known.get(path, (None, ""))
-            rows.append(_form_row(path, pattern, field, value, origin))
+            choices = tuple(map(str, field.choices)) if field.kind == "choice" else _library_names(conveyor, path)
+            example = example_value(Conveyor, pattern)
+            rows.append(_form_row(path, field, value, origin, example=example, choices=choices))
     return tuple(rows)
 
 
-def _form_row(path: str, pattern: str, field: FormField, value: str | None, origin: str) -> DesignField:
-    example = example_value(Conveyor, pattern)
+def _form_row(
+    path: str, field: FormField, value: str | None, origin: str, *, example: Any, choices: tuple[str, ...]
+) -> DesignField:
     return DesignField(
         path=path,
         label=field_label(path),
@@ -99,11 +104,18 @@ def _form_row(path: str, pattern: str, field: FormField, value: str | None, orig
         doc=field.doc,
         allowed=field.allowed,
         example="" if example is None else value_text(example),
-        choices=tuple(map(str, field.choices)) if field.kind == "choice" else (),
+        choices=choices,
         required=field.required,
         value=value,
         given_by=origin,
     )
+
+
+def _library_names(conveyor: Conveyor, path: str) -> tuple[str, ...]:
+    """Names that a field `listed` may have: the entries of the library of its part."""
+    part, _, name = path.rpartition(".")
+    holder = field_value(conveyor, part) if name == "listed" else None
+    return tuple(library_entries(holder.library)) if isinstance(holder, LibraryItem) else ()
 
 
 def field_label(path: str) -> str:

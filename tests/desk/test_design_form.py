@@ -55,6 +55,13 @@ def test_the_form_has_every_field_of_the_models_once():
     assert all(row.doc or row.kind == "choice" for row in rows if not row.path.startswith("uncertainty"))
 
 
+def test_parts_of_a_library_are_chosen_by_name():
+    rows = {row.path: row for row in form_of(OVERLAND)}
+    assert "ST2100" in rows["belt.listed"].choices
+    assert "159x465" in rows["idlers.carry.roll.listed"].choices
+    assert rows["belt.speed"].choices == ()
+
+
 def test_a_default_is_flagged_with_its_value():
     gravity = next(row for row in form_of(OVERLAND) if row.path == "calculation.gravity")
     assert (gravity.value, gravity.given_by) == ("9.81 m/s²", "default")
