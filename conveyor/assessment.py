@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Self
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks import Check, governing_by_subject, run_checks
+from conveyor.default_bands import PowerRange, power_range
 from conveyor.loop.take_up_duty import TakeUpDuty
 from conveyor.loop.ties import first_maximum
+from conveyor.pipeline import calculate
 from conveyor.remarks.assumptions import analysis_assumptions
 from conveyor.remarks.result_warnings import analysis_warnings
 from conveyor.studies import CalculatedStudies
-from conveyor.studies.default_bands import PowerRange, power_range
 from conveyor.studies.load_cases import Load, MotorChoice
 from conveyor.studies.loads import combine_checks, design_loads, take_up_demand
 from conveyor.units import System
@@ -84,6 +85,15 @@ class Assessment:
     def take_up(self) -> tuple[TakeUpDuty, Message]:
         """Take-up duty of all loads to design by, and the governing load and condition."""
         return take_up_demand(self.loads, self.studies.cases)
+
+    @cached_property
+    def by_contact(self) -> CalculatedConveyor | None:
+        """The spec's own load by the rolling contact, beside a classical method; None where that is the method."""
+        conveyor = self.own.conveyor
+        if conveyor.calculation.method == "viscoelastic":
+            return None
+        given = conveyor.calculation.replace(method="viscoelastic")
+        return calculate(conveyor.replace(calculation=given))
 
     @cached_property
     def power_range(self) -> PowerRange:

@@ -55,6 +55,9 @@ class Variant:
         Factor on the drag of all rolls [-].
     take_up : TakeUpSetting, optional
         Setting of the take-up by other loads, instead of the spec's or the least [N], and its side.
+    design_friction : float, optional
+        Friction to design for over the computed one [-], where the spec gives none; 1 for the expected figures alone.
+        Without it the upper end of the band of this variant's own defaults.
     """
 
     conveyor: Conveyor
@@ -62,6 +65,7 @@ class Variant:
     level: Mapping[Strand, float] = field(default_factory=dict)
     roll_drag: float = 1.0
     take_up: TakeUpSetting | None = None
+    design_friction: float | None = None
 
     @property
     def covers_at(self) -> float:
@@ -119,7 +123,7 @@ class CalculatedConveyor:
     convergence : Convergence or None
         Convergence of tensions and roll loads; None without coupling.
     friction_band : tuple of float or None
-        Low and high factor on the computed friction [-]; drive.least_friction and 1 where None.
+        Low and high factor on the computed friction [-]; least_friction and design_friction of the line where None.
     start_of_motors : float or None
         Force at rest of motors of unknown power, sized for the load that needs most [N]; None where only this load is
         known, or every power.
@@ -138,7 +142,7 @@ class CalculatedConveyor:
     def drive_forces(self) -> tuple[float, float]:
         """Drive force at both ends of the friction band [N]."""
         settled = self.balance.settled
-        low, high = map(settled.resistance, self.friction_band or (self.line.least_friction, 1.0))
+        low, high = map(settled.resistance, self.friction_band or (self.line.least_friction, self.line.design_friction))
         return low, high
 
     @property

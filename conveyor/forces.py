@@ -1,21 +1,22 @@
 """Every resistance of a conveyor in one list, over which sums, tables, plots and the loop of tensions iterate.
 
 A new resistance is a law, its field of the spec, and its line in `forces_along_belt` (independent of the rubber:
-computed
-in `rubber_free_forces`) or `point_forces`.
+computed in `rubber_free_forces`) or `point_forces`. By a classical method the main resistance is that of
+`conveyor.classical_forces`, and by CEMA's every other one too.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.classical_forces import cema_forces_along, cema_point_forces, factor_main_force
+from conveyor.force_sums import Force, ForceSums
 from conveyor.laws.resistance import (
     ROLL_ON_BELT_FRICTION,
     TILT_COEFFICIENT_30,
@@ -40,122 +41,16 @@ from conveyor.line.bend_pulleys import BendPulley
 from conveyor.line.line import Line
 from conveyor.line.loop_positions import LoopPosition
 from conveyor.line.strands import OneStrand, Strands
-from conveyor.line.stretches import STRANDS, Strand, Stretch
+from conveyor.line.stretches import Stretch
 from conveyor.line.transfer_parts import LoadingPoint
 from conveyor.models import Calibration
 
 Array = NDArray[np.float64]
-ForceKind = Literal["main", "secondary", "special", "lift"]
 
 _TILT_STEEP = math.radians(37.5)  # trough angle midway between the two listed coefficients C_e
 _SLOPE_TENSION = 1e6  # [N], tension for the slope of a wrap; the law is linear, any would do
 _CONTACT_SOURCE = "viscoelastic contact of every roll (see Method)"
 _MISALIGNMENT_SOURCE = "friction across the belt x sine of the angle, derived"
-
-
-@dataclass(frozen=True, eq=False)
-class Force:
-    """A resistance to the belt's motion [N].
-
-    Attributes
-    ----------
-    key, name : str
-        Key in files and in Python; name in reports.
-    kind : {"main", "secondary", "special", "lift"}
-        Group of DIN 22101.
-    newtons : ndarray or float
-        Force of every stretch, shape (2n,), or one number at a single place.
-    source : str
-        Source of its law.
-    certain : bool
-        True if not by friction, so that no uncertainty of friction changes it.
-    spot, place : LoopPosition or None, str
-        Position in the loop, and in words; None and empty for forces along the belt.
-    short : str
-        Name of its column in tables of sections; `name` without it.
-    assumed : bool
-        True for a usual part that the spec does not give.
-    bulk : int or None
-        Number of the section whose bulk causes it; None without bulk, and along the belt.
-    """
-
-    key: str
-    name: str
-    kind: ForceKind
-    newtons: Array | float
-    source: str
-    certain: bool = False
-    spot: LoopPosition | None = None
-    place: str = ""
-    short: str = ""
-    assumed: bool = False
-    bulk: int | None = None
-
-    @property
-    def total(self) -> float:
-        """Total force [N]."""
-        return self.newtons if isinstance(self.newtons, float) else math.fsum(self.newtons.tolist())
-
-    @property
-    def along(self) -> Array | None:
-        """Force on every stretch [N], shape (2n,); None at one place."""
-        return None if isinstance(self.newtons, float) else self.newtons
-
-    def by_strand(self) -> dict[Strand, float]:
-        """Force on each strand [N]; empty for a force at one place."""
-        if isinstance(self.newtons, float):
-            return {}
-        halves = np.split(self.newtons, 2)
-        return {strand: math.fsum(half.tolist()) for strand, half in zip(STRANDS, halves, strict=True)}
-
-
-@dataclass(frozen=True)
-class ForceSums:
-    """Resistances of the whole conveyor [N]: main resistances by key, the others by kind."""
-
-    parts: Mapping[str, float]
-
-    @classmethod
-    def of(cls, forces: Iterable[Force]) -> ForceSums:
-        """Sum up the list."""
-        sums: dict[str, list[float]] = {}
-        for force in forces:
-            sums.setdefault(force.key if force.kind == "main" else force.kind, []).append(force.total)
-        order = [*(key for key in sums if key not in _AFTER_MAIN), *_AFTER_MAIN]
-        return cls({key: math.fsum(sums.get(key, ())) for key in order})
-
-    @property
-    def indentation(self) -> float:
-        """Indentation resistance of the covers [N]."""
-        return self.parts["indentation"]
-
-    @property
-    def main(self) -> float:
-        """Main resistance F_H: indentation, idler rotation, flexure, misalignment [N]."""
-        return math.fsum(value for key, value in self.parts.items() if key not in _AFTER_MAIN)
-
-    @property
-    def secondary(self) -> float:
-        """Secondary resistances F_N [N]."""
-        return self.parts["secondary"]
-
-    @property
-    def special(self) -> float:
-        """Special resistances F_S [N]."""
-        return self.parts["special"]
-
-    @property
-    def lift(self) -> float:
-        """Slope resistance F_St [N]."""
-        return self.parts["lift"]
-
-    @property
-    def total(self) -> float:
-        """Effective tension F_U [N]."""
-        return self.main + self.secondary + self.special + self.lift
-
-
-_AFTER_MAIN = ("secondary", "special", "lift")
 
 
 @dataclass(frozen=True, eq=False)
@@ -231,12 +126,18 @@ def forces_along_belt(
     fixed : RubberFreeForces
         Forces of `rubber_free_forces`.
     indentation : ndarray, shape (2n,)
-        Indentation resistance of every stretch [N].
+        Indentation resistance of every stretch [N]; not used by a classical method.
     roll_drag : float
         Factor on the drag of all rolls [-].
     calibration : Calibration, optional
         Factors on indentation, rotation, flexure and misalignment; 1 without.
     """
+    lift = Force("lift", "lift", "lift", fixed.lift, "ISO 5048, F_St", certain=True, short="lift force")
+    if line.method == "cema classic" and line.cema is not None:
+        return (*cema_forces_along(line, line.cema), *_guidance_forces(fixed), lift)
+    tilt = Force("tilt", "idler tilt", "special", fixed.tilt, "ISO 5048, F_e")
+    if line.method != "viscoelastic":
+        return (factor_main_force(line, fixed.unit_main), tilt, *_guidance_forces(fixed), lift)
     factors = calibration or Calibration()
     indentation = factors.indentation * indentation
     rotation = factors.idler_rotation * roll_drag * line.rotation
@@ -259,9 +160,9 @@ def forces_along_belt(
             _MISALIGNMENT_SOURCE,
             short="misalignment",
         ),
-        Force("tilt", "idler tilt", "special", fixed.tilt, "ISO 5048, F_e"),
+        tilt,
         *_guidance_forces(fixed),
-        Force("lift", "lift", "lift", fixed.lift, "ISO 5048, F_St", certain=True, short="lift force"),
+        lift,
     )
 
 
@@ -321,7 +222,9 @@ def _unit_main_force(stretch: Stretch, gravity: float) -> float:
 
 
 def point_forces(line: Line) -> tuple[Force, ...]:
-    """Forces at single places independent of tension: feeding points, cleaners, ploughs."""
+    """Forces at single places independent of tension: feeding points, cleaners, ploughs; by CEMA pulleys, too."""
+    if line.method == "cema classic" and line.cema is not None:
+        return tuple(cema_point_forces(line, line.cema))
     loaded = [force for point in line.loading for force in _loading_forces(line, point)]
     return (*loaded, *_cleaner_forces(line), *_plough_forces(line))
 
@@ -447,8 +350,9 @@ class PulleyResistance:
 
 
 def pulley_resistances(line: Line) -> tuple[PulleyResistance, ...]:
-    """Wrap resistance of every pulley, bearings of those not driven; none with the length coefficient C."""
-    return () if line.secondary == "C" else tuple(_pulley_resistance(line, pulley) for pulley in line.pulleys)
+    """Wrap resistance of every pulley, bearings of those not driven; none with the length coefficient C or by CEMA."""
+    by_others = line.secondary == "C" or line.method == "cema classic"
+    return () if by_others else tuple(_pulley_resistance(line, pulley) for pulley in line.pulleys)
 
 
 def _pulley_resistance(line: Line, pulley: BendPulley) -> PulleyResistance:

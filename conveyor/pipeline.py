@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.calculated_conveyor import CalculatedConveyor, NoAnswer, Variant
+from conveyor.default_bands import close_design_loops
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.forces import forces_along_belt
 from conveyor.line.belt_contacts import STRETCH_QUADRATURE, solve_belt_contacts
@@ -38,7 +39,7 @@ ProgressCallback: TypeAlias = Callable[[int, int], None]
 
 
 def calculate(conveyor: Conveyor, kept: ReuseCache | None = None) -> CalculatedConveyor:
-    """Calculate one conveyor under its own load.
+    """Calculate one conveyor under its own load, designed for the upper end of the band of its friction.
 
     The take-up is at its given setting, else at the least that serves this load; reports have the least that serves
     every load, from `conveyor.studies`.
@@ -225,7 +226,16 @@ def _assemble_results(
             if isinstance(made, NoSolutionError)
             else CalculatedConveyor(at.conveyor, at.covers_at, rolls, made, loaded[i].fixed)
         )
-    return found
+    own = {
+        i: one
+        for i, one in found.items()
+        if isinstance(one, CalculatedConveyor)
+        and variants[i].design_friction is None
+        and one.conveyor.drive.design_friction is None
+        and one.line.method == "viscoelastic"
+    }
+    designed = close_design_loops(list(own.values()), [open_loops[i][1] for i in own])
+    return found | dict(zip(own, designed, strict=True))
 
 
 def _open_loop(variant: Variant, loaded: PreparedLine, contacts: Contacts) -> OpenLoop:
@@ -238,7 +248,10 @@ def _open_loop(variant: Variant, loaded: PreparedLine, contacts: Contacts) -> Op
         roll_drag=variant.roll_drag,
         calibration=variant.conveyor.calculation.calibration,
     )
-    return OpenLoop.of(loaded.frame, along, float(loaded.fixed.unit_main.sum()), variant.take_up)
+    frame = loaded.frame
+    if variant.design_friction is not None and variant.conveyor.drive.design_friction is None:
+        frame = frame.designed_for(variant.design_friction)
+    return OpenLoop.of(frame, along, float(loaded.fixed.unit_main.sum()), variant.take_up)
 
 
 def _tension_convergence(result: CalculatedConveyor, step: _IterationState) -> Convergence | None:

@@ -77,7 +77,7 @@ def missing(columns: Sequence[str]) -> set[str]:
     for column in columns:
         match = re.fullmatch(r"(.*?)(?:, FAILS: [^\[]*?)?(?: \[(.*)\])?", column)
         assert match is not None
-        name = re.sub(r"motor power, [\d.]+ x friction", "motor power, … x friction", match[1])
+        name = match[1]
         unit = match[2] or ""
         listed = rows().get(name)
         priced = CURRENCY.fullmatch(unit) and {"currency", "currency/kWh"} & set(listed or ())

@@ -35,6 +35,8 @@ def cover_penetration(result: CalculatedConveyor) -> Iterator[Check]:
 
 def rubber_coverage(result: CalculatedConveyor) -> Iterator[Check]:
     """The data of each rubber cover the band of nine tenths of its rolls' energy loss."""
+    if result.line.method != "viscoelastic":
+        return
     for strand, compound in compounds_by_strand(result.conveyor).items():
         if compound.kind == "illustrative":
             if result.contacts.lossy(strand):

@@ -12,6 +12,7 @@ from conveyor.checks.check import Check, Relation, check_against_limit, pass_or_
 from conveyor.laws.motion import Stop
 from conveyor.line.line import Line
 from conveyor.loop.drive_duty import coasting_flywheel
+from conveyor.loop.equilibrium import DESIGN, LEAST
 from conveyor.units.sentences import Message, escape_braces, message
 
 _AT_MOST: Final[Relation] = "at most"
@@ -21,9 +22,10 @@ _AT_LEAST: Final[Relation] = "at least"
 
 
 def motor_power(result: CalculatedConveyor) -> Iterator[Check]:
-    """Every drive's motors give or hold its share in steady running, with the friction at both ends of its band."""
+    """Every drive's motors give its share with the friction to design for, or hold it with the least."""
     line, motor = result.line, result.balance.frame.motor
     low, high = result.drive_forces
+    designed = high > result.balance.settled.force
     for drive in line.drives:
         least, most = motor(drive.share * low), motor(drive.share * high)
         certain = abs(least) > abs(most)
@@ -32,16 +34,20 @@ def motor_power(result: CalculatedConveyor) -> Iterator[Check]:
         yield check_against_limit(
             "motor_power", f"motor power, {escape_braces(drive.name)}", abs(power), "at most", drive.power, "power",
             wording=message("{}" + (" (generating)" if power < 0.0 else ""), (abs(power), "power")),
-            missing="installed power not given", where="least friction" if certain else "",
+            missing="installed power not given", where=LEAST if certain else (DESIGN if designed else ""),
             why=f"{who} requires {{calculated}}, {{required}} are installed: install more power",
         )  # fmt: skip
 
 
 def starting_force(result: CalculatedConveyor) -> Iterator[Check]:
-    """Motor force suffices for a controlled start or the whole run-up, and for breaking away after standstill."""
-    start = result.motions.start
+    """Motor force suffices for a controlled start or the whole run-up, and for breaking away after standstill.
+
+    With the friction to design for.
+    """
+    start = result.motions.design_start
     if start.force <= 0.0:
         return
+    where = DESIGN if result.line.design_friction > 1.0 else ""
     if start.available is not None and start.least is not None:
         if start.asked is not None:
             why = (
@@ -55,11 +61,13 @@ def starting_force(result: CalculatedConveyor) -> Iterator[Check]:
                 "the motors give at least {calculated} during run-up (drive.torque_factor, torque_curve), the belt "
                 "requires {required}: more power or torque"
             )
-            given, limit, relation = start.least, result.balance.settled.force, _AT_LEAST
-        yield check_against_limit("starting_force", "starting force, motors", given, relation, limit, "force", why=why)
+            given, limit, relation = start.least, result.balance.settled.design_force, _AT_LEAST
+        yield check_against_limit(
+            "starting_force", "starting force, motors", given, relation, limit, "force", why=why, where=where
+        )
     given = start.standstill if result.start_of_motors is None else result.start_of_motors
     yield check_against_limit(
-        "breakaway", "starting force after standstill", given, "at least", start.breakaway, "force",
+        "breakaway", "starting force after standstill", given, "at least", start.breakaway, "force", where=where,
         why="the starting force of {calculated} does not overcome the resistance after standstill, up to {required}: "
         "raise drive.start_factor or the motors' torque",
     )  # fmt: skip

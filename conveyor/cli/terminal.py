@@ -195,21 +195,21 @@ def _force_table(contents: Contents) -> Grid:
     names = {"main": "main resistance", "total": whole}
     rows: list[tuple[str, float, float | None]] = [
         (row.label, row.value, None)
-        for row in (
-            _result_figure(contents, f"{name}_force")
-            for name in ("indentation", "idler_rotation", "flexure", "misalignment")
-        )
+        for row in (_result_figure(contents, f"{name}_force") for name in _main_parts(contents))
     ]
     rows += [(names.get(key, key), *sums[key][:2]) for key in _FORCE_SUMS]
-    classical = f"classical, f = {sums['friction_factor'][1]:g}"
-    made = plain_table(None, ("force", "this calculation", "share", "f", classical), left=("force",))
+    _, here, other_method, *_ = (column.label for column in contents["classical"].columns)
+    given_f = sums["friction_factor"][1]
+    other_method = f"classical, f = {given_f:g}" if other_method.startswith("classical") else other_method
+    made = plain_table(None, ("force", here, "share", "f", other_method), left=("force",))
     f, given = sums["friction_factor"][:2]
+    last_part = rows[-len(_FORCE_SUMS) - 1][0] if len(rows) > len(_FORCE_SUMS) else ""
     over = f / sums["main"][0]  # part of f over main resistance
     for name, value, other in rows:
         share = percent(value / total, 1) if total else ""
         friction = "" if name in {*_FORCE_SUMS[1:], whole} else f"{value * over:.4f}"
         beside = "" if other is None else force.said(other)
-        made.add_row(name, force.said(value), share, friction, beside, end_section=name in {"misalignment", "lift"})
+        made.add_row(name, force.said(value), share, friction, beside, end_section=name in {last_part, "lift"})
     made.add_section()
     belt, motor, mains = (_result_figure(contents, f"{name}_power").value for name in ("belt", "motor", "mains"))
     made.add_row("belt power", power.said(belt))
@@ -218,6 +218,12 @@ def _force_table(contents: Contents) -> Grid:
         made.add_row("mains power", power.said(mains))
     made.add_row("friction factor f", f"{f:.4f}", "", "", f"{given:.4f}")
     return made
+
+
+def _main_parts(contents: Contents) -> list[str]:
+    """Main resistances by name, where there are several."""
+    parts = [name for name in contents["breakdown"].rows if name not in _FORCE_SUMS]
+    return parts if len(parts) > 1 else []
 
 
 def _tension_rows(contents: Contents) -> Grid:
@@ -250,7 +256,9 @@ def _cema_table(contents: Contents) -> Grid:
     made.add_section()
     made.add_row("Te", force.said(items.totals()[-1]))
     motor = next(row.value for row in contents["classical"].rows if row.key == "motor")
-    made.add_row("motor power", power.said(motor[-1]), style="bold")
+    names = [column.label for column in contents["classical"].columns[1:]]
+    by_cema = next(value for name, value in zip(names, motor, strict=True) if "CEMA" in name)
+    made.add_row("motor power", power.said(by_cema), style="bold")
     return made
 
 

@@ -4,36 +4,31 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.contact import solve_many
 from conveyor.errors import NoSolutionError
 from conveyor.indentation import (
     Indentation,
     IndentationCurve,
     RollContact,
-    coarsen_rubber,
     curve_resistances,
     indentation_curves,
     merge_equal_contacts,
-    to_problems,
 )
 from conveyor.indentation.softening import loss_weighted_load
 from conveyor.laws.loading import RollLoad
 from conveyor.line.covers import Covers, roll_contact
+from conveyor.line.known_test_factors import TEST_FACTORS
 from conveyor.line.line import Line
 from conveyor.line.roll_kinds import RollKind
 from conveyor.line.stretches import Strand
-from conveyor.rubber.rolling_test_factor import quantile_band
 
 Array = NDArray[np.float64]
-_REPLICA_RTOL = 1e-2  # contacts of a band: a tenth of the narrowest band
-_REPLICA_MERGE_TOLERANCE = 1e-4  # error of merging a replica's terms, far below that
 LoadRanges = Mapping[RollContact, tuple[float, float]]
 """Range of line loads of each contact [N/m]."""
 LoadCurveCache: TypeAlias = dict[tuple[RollContact, float, float, float], IndentationCurve | NoSolutionError]
@@ -194,38 +189,14 @@ class Contacts:
         if level is None:
             return 1.0, 1.0
         half = level.anchor.own_half_width if own else self.test_factor_band(strand)
-        low, high = (math.hypot(half, end) for end in self._replicated[strand])
+        if level.anchor.tested_at(level.temperature):
+            return math.exp(-half), math.exp(half)
+        heaviest = max((kind for kind in self.line.kinds if kind.strand == strand), key=lambda kind: kind.highest)
+        contact, load = roll_contact(self.line, heaviest, self.covers[strand]), self.losing_load(strand)
+        temperatures = level.temperature, level.anchor.nearest(level.temperature)
+        ends = TEST_FACTORS.replica_band(level.compound, contact, load, temperatures)
+        low, high = (math.hypot(half, end) for end in ends)
         return math.exp(-low), math.exp(high)
-
-    @cached_property
-    def _replicated(self) -> dict[Strand, tuple[float, float]]:
-        """Band below and above the series by extrapolation from the nearest tested temperature, in ln factor.
-
-        Friction of each replica over that of the series, at this temperature over the same at the nearest tested one;
-        for the heaviest roll at the strain of the master curve: softening changes all alike.
-        """
-        asked: dict[Strand, list[RollContact]] = {}
-        for strand, cover in self.covers.items():
-            level = cover.level
-            if level is None or level.compound.prony.band is None or level.anchor.tested_at(level.temperature):
-                continue
-            heaviest = max((kind for kind in self.line.kinds if kind.strand == strand), key=lambda kind: kind.highest)
-            contact, load = roll_contact(self.line, heaviest, cover), self.losing_load(strand)
-            asked[strand] = [
-                coarsen_rubber(replace(contact, rubber=rubber), load, _REPLICA_MERGE_TOLERANCE)
-                for at in (level.temperature, level.anchor.nearest(level.temperature))
-                for rubber in (level.compound.series(at), *level.compound.replicas(at))
-            ]
-        loads = [self.losing_load(strand) for strand, contacts in asked.items() for _ in contacts]
-        problems = to_problems([contact for contacts in asked.values() for contact in contacts], loads)
-        solved = iter(solve_many(problems, _REPLICA_RTOL, throw=True))
-        widths: dict[Strand, tuple[float, float]] = dict.fromkeys(self.covers, (0.0, 0.0))
-        for strand, contacts in asked.items():
-            friction = np.array([next(solved).friction for _ in contacts]).reshape(2, -1)
-            carried = np.log(friction[0] / friction[1])
-            low, high = quantile_band(carried[1:] - carried[0])
-            widths[strand] = max(-low, 0.0), max(high, 0.0)
-        return widths
 
     def deepest(self, strand: Strand) -> float:
         """Largest penetration of a strand's rolls over the thickness of their cover [-]."""

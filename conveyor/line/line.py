@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from conveyor.indentation import Support
 from conveyor.laws.motion import START_FACTOR
 from conveyor.laws.resistance import (
+    LENGTH_COEFFICIENTS,
+    SHORTEST_FOR_FACTOR,
     idler_rotation_resistance,
 )
 from conveyor.laws.wind import AIR_DENSITY, WIND_LIFT, wind_force
@@ -38,6 +40,7 @@ from conveyor.line.transfer_parts import (
     plough_blades,
 )
 from conveyor.models import Calculation, Conveyor
+from conveyor.models.calculation_methods import FACTOR_METHODS, Method
 from conveyor.units import si
 from conveyor.units.unit_systems import trade_of
 
@@ -106,6 +109,8 @@ class Line:
     stop_deceleration: float | None
     coast_time: float | None
     least_friction: float
+    design_friction: float
+    method: Method
     secondary: str
     friction_factor: float
     flexure_share: float | None
@@ -168,7 +173,9 @@ class Line:
             stop_deceleration=si_or_none(drive.stop_deceleration),
             coast_time=si_or_none(drive.coast_time),
             least_friction=si(drive.least_friction),
-            secondary=calculation.secondary,
+            design_friction=si_or_default(drive.design_friction, 1.0),
+            method=calculation.method,
+            secondary=_secondary_resistances(conveyor),
             friction_factor=calculation.friction_factor,
             flexure_share=si_or_none(calculation.flexure_share),
             flexure_source=_flexure_source(calculation),
@@ -244,6 +251,15 @@ class Line:
     def loop(self) -> LoopShape:
         """The stretches as the belt meets them from the head."""
         return self.strands.loop
+
+
+def _secondary_resistances(conveyor: Conveyor) -> str:
+    """As given; by a friction factor C where it is tabled."""
+    calculation = conveyor.calculation
+    tabled = SHORTEST_FOR_FACTOR < conveyor.route.length <= LENGTH_COEFFICIENTS[-1][0]
+    if calculation.method in FACTOR_METHODS and "secondary" not in calculation.model_fields_set and tabled:
+        return "C"
+    return calculation.secondary
 
 
 def _flexure_source(calculation: Calculation) -> str:

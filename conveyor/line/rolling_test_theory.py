@@ -12,8 +12,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.contact import solve_many
 from conveyor.errors import InputError, MessageQuantity, NoSolutionError, RangeError
-from conveyor.indentation import RollContact, coarsen_rubber, indentation_resistances
+from conveyor.indentation import RollContact, coarsen_rubber, indentation_resistances, to_problems
 from conveyor.indentation.softening import COARSE_SAMPLING, SoftCover, SofteningCover, soften_covers
 from conveyor.line.covers import TERM_MERGE_SHARE
 from conveyor.models import RubberCompound
@@ -26,6 +27,7 @@ from conveyor.rubber.rolling_test_factor import (
     RollingTestFactor,
     fit_test_factor,
     load_exponent,
+    quantile_band,
 )
 from conveyor.units.sentences import to_celsius
 
@@ -35,6 +37,10 @@ RTOL: Final = 1e-4
 """Relative tolerance of the theory at the tests, far below their scatter [-]."""
 TEST_ROLL_SPACING: Final = 1.0
 """Spacing of a test's rolls [m]; on a stiff carcass it has no influence (`conveyor.indentation.SPACING_INFLUENCE`)."""
+_REPLICA_RTOL: Final = 1e-2
+"""Relative tolerance of the contacts of a band: a tenth of the narrowest band."""
+_REPLICA_MERGE_TOLERANCE: Final = 1e-4
+"""Relative error by merged terms of a replica, far below that."""
 SOFTENED_LOAD_COUNT: Final = 3
 """Number of loads at which the rubber is softened; between them ln f is a parabola in ln w."""
 
@@ -107,6 +113,48 @@ def compound_test_factors(
     """
     theory = RollingTestTheory(compounds, softened=softened)
     return theory.levels(soften_covers(theory.works))
+
+
+def replica_band(
+    compound: RubberCompound, contact: RollContact, load: float, temperatures: tuple[float, float]
+) -> tuple[float, float]:
+    """Band below and above the series by extrapolation from a tested temperature, in ln factor.
+
+    Parameters
+    ----------
+    compound : RubberCompound
+        Compound with rolling-resistance tests.
+    contact : RollContact
+        Roll on its cover; its rubber is not used.
+    load : float
+        Line load [N/m].
+    temperatures : tuple of float
+        Of the rubber, and of the nearest test [K].
+
+    Raises
+    ------
+    NoSolutionError
+        A replica's contact has no answer.
+    RangeError
+        The compound is not known at the temperature.
+
+    Notes
+    -----
+    Friction of each replica over that of the series, at this temperature over the same at the tested one, at the strain
+    of the master curve: softening changes all alike.
+    """
+    if compound.prony.band is None:
+        return 0.0, 0.0
+    contacts = [
+        coarsen_rubber(replace(contact, rubber=rubber), load, _REPLICA_MERGE_TOLERANCE)
+        for at in temperatures
+        for rubber in (compound.series(at), *compound.replicas(at))
+    ]
+    solved = solve_many(to_problems(contacts, [load] * len(contacts)), _REPLICA_RTOL, throw=True)
+    friction = np.array([one.friction for one in solved]).reshape(2, -1)
+    carried = np.log(friction[0] / friction[1])
+    low, high = quantile_band(carried[1:] - carried[0])
+    return max(-low, 0.0), max(high, 0.0)
 
 
 def factor_from_rows(compound: RubberCompound, rows: Sequence[RollingTestRow]) -> RollingTestFactor:

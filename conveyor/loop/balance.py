@@ -10,7 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from conveyor.errors import NoSolutionError
-from conveyor.forces import Force, ForceSums, length_coefficient_force
+from conveyor.force_sums import Force, ForceSums
+from conveyor.forces import length_coefficient_force
 from conveyor.laws.power import belt_power, specific_energy
 from conveyor.laws.resistance import equivalent_friction_factor
 from conveyor.line.line import Line
@@ -163,6 +164,16 @@ class Balance:
         settled = self.settled
         stands = settled.frame.standing_on(behind=kept.behind) is settled.frame
         return stands and settled.given and settled.setting == kept.tension
+
+    def designed_for(self, friction: float) -> Balance:
+        """The loop with a friction to design for, over the computed one [-], the take-up at its setting."""
+        frame = self.frame.designed_for(friction)
+        if frame is self.frame:
+            return self
+        (found,) = raise_first_error(
+            close_loops([OpenLoop.of(frame, self.along, self.unit_main, self.settled.take_up)])
+        )
+        return found
 
     def held(self, setting: float) -> Balance:
         """The loop with the take-up at a setting [N]."""

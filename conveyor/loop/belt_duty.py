@@ -183,7 +183,7 @@ def belt_duty(balance: Balance, states: Sequence[MotionState] = ()) -> BeltDuty:
     """
     states = states or tuple(balance.settled.states.values())
     belt = balance.line.belt
-    steady, largest = balance.settled.steady.largest, balance.tensions.largest
+    steady, largest = _largest_running(balance), balance.tensions.largest
 
     def safety(tension: float) -> float | None:
         if belt.strength is None:
@@ -209,12 +209,12 @@ def belt_duty(balance: Balance, states: Sequence[MotionState] = ()) -> BeltDuty:
 
 def _splice_strengths(balance: Balance, endurance: float) -> dict[str, float]:
     """Strength class needed for the splice [N/m], by load; a start may load it `RATED_START` times."""
-    belt, steady = balance.line.belt, [balance.settled.steady]
+    belt, steady = balance.line.belt, balance.settled.running
     zones = [_transition_check(balance.line, zone, steady).most for zone in balance.line.transitions]
     curves = [curve.most for curve in _curve_checks(balance, steady)]
     strips = [most for most in (*zones, *curves) if most is not None]
     loads = {
-        "steady": balance.settled.steady.largest / belt.width,
+        "steady": _largest_running(balance) / belt.width,
         "strips of transitions and curves, steady": max(strips, default=None),
         "starting and stopping": balance.tensions.largest / belt.width / RATED_START,
     }
@@ -228,6 +228,11 @@ def _splice_strengths(balance: Balance, endurance: float) -> dict[str, float]:
         for name, load in loads.items()
         if load is not None
     }
+
+
+def _largest_running(balance: Balance) -> float:
+    """Largest tension at constant speed, whatever the friction [N]."""
+    return max(state.largest for state in balance.settled.running)
 
 
 def _classic_safety(line: Line) -> float:
@@ -252,7 +257,8 @@ def _pulley_checks(balance: Balance) -> Iterator[PulleyCheck]:
             continue
         group, used, full = _pulley_group(pulley), None, 1.0
         if allowed is not None:
-            used = full = max(0.0, *pulley_tensions(balance, i, balance.settled.steady)) / (line.belt.width * allowed)
+            most = max(max(pulley_tensions(balance, i, state)) for state in balance.settled.running)
+            used = full = max(0.0, most) / (line.belt.width * allowed)
         least = pulley_group_diameter(drive, group=group, utilisation=full)
         size = None
         if line.us_sizes:

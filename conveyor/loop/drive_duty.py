@@ -23,6 +23,7 @@ from conveyor.laws.waves import MOTOR_SLIP
 from conveyor.line.drive_units import DriveParts, DriveUnit
 from conveyor.line.line import Line
 from conveyor.loop.balance import Balance
+from conveyor.loop.equilibrium import DESIGN
 from conveyor.loop.start_and_stop import StartAndStop
 from conveyor.loop.take_up_duty import belt_stiffness
 
@@ -162,15 +163,20 @@ def _has_backstop(drive: DriveUnit) -> bool:
 
 
 def _shared_drive_forces(balance: Balance) -> tuple[float, ...] | None:
-    """Forces of several drives coupled by the belt alone [N]; None where no pulley is below nominal."""
-    line, steady, stiffness = balance.line, balance.settled.steady, belt_stiffness(balance.line.belt)
+    """Forces of several drives coupled by the belt alone [N], with the friction to design for.
+
+    None where no pulley is below nominal.
+    """
+    line, stiffness = balance.line, belt_stiffness(balance.line.belt)
+    states = balance.settled.states
+    steady = states.get(DESIGN, balance.settled.steady)
     powers = [drive.power for drive in line.drives if drive.power is not None]
     smaller = any(drive.parts is not None and drive.parts.loss is not None for drive in line.drives)
     if len(line.drives) == 1 or not smaller or stiffness is None or len(powers) < len(line.drives):
         return None
     first = steady.drives[0].arriving
     return shared_forces(
-        balance.settled.force,
+        balance.settled.design_force,
         rated=[power * line.efficiency / line.speed for power in powers],
         slips=[MOTOR_SLIP.value if drive.starter is None else drive.starter.slip for drive in line.drives],
         diameters=[_diameter_ratio(drive) for drive in line.drives],

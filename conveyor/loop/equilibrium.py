@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.errors import NoSolutionError
-from conveyor.forces import Force
+from conveyor.force_sums import Force
 from conveyor.laws.resistance import pulley_load
 from conveyor.line.line import Line
 from conveyor.loop.loop_layout import LoopLayout, TakeUpSetting
@@ -23,9 +23,11 @@ _LOOP_TOLERANCE = 1e-13  # relative change of the drive force; wraps add about 1
 _SECANT_LIMIT = 1.0 / 3.0  # |q|/(1 + |q|) at a ratio of two steps q = -1/2: within ±1/2 they converge
 _SUFFICIENT_SHARE = 1.0 - 1e-9  # of the tension needed; a setting typed with rounded digits still passes
 
-START, BRAKING, LEAST, LEAST_BRAKING, BRAKES = (
+START, BRAKING, DESIGN, DESIGN_START, LEAST, LEAST_BRAKING, BRAKES = (
     "start",
     "braking",
+    "design friction",
+    "start, design friction",
     "least friction",
     "braking, least friction",
     "brakes on",
@@ -79,6 +81,11 @@ class Equilibrium:
     def force(self) -> float:
         """Drive force in steady running [N]."""
         return self.resistance(1.0)
+
+    @property
+    def design_force(self) -> float:
+        """Drive force with the friction to design for [N]."""
+        return self.resistance(self.line.design_friction)
 
     @property
     def least_force(self) -> float:
@@ -363,11 +370,14 @@ class _StateSet:
     def __init__(self, loops: LoopBatch) -> None:
         self.loops, standing, pull = loops, loops.standing, loops.standing.pull
         self.uncertain = standing.least_friction < 1.0
-        falling = (LEAST, LEAST_BRAKING) if (self.uncertain & (loops.lift < 0.0)).any() else ()
+        self.raised = standing.design_friction > 1.0
         self.braked = standing.brakes.any(axis=-1)
-        self.names = (STEADY, START, *falling, *((BRAKES,) if self.braked.any() else ()))
+        design = (DESIGN, DESIGN_START) if self.raised.any() else ()
+        falling = (LEAST, LEAST_BRAKING) if (self.uncertain & (loops.lift < 0.0)).any() else ()
+        self.names = (STEADY, START, *design, *falling, *((BRAKES,) if self.braked.any() else ()))
         self.friction = np.ones((len(loops.frames), len(self.names)))
-        self.friction[:, 2:] = standing.least_friction[:, None]
+        self.friction[:, 2 : 2 + len(design)] = standing.design_friction[:, None]
+        self.friction[:, 2 + len(design) :] = standing.least_friction[:, None]
         self.sagging = loops.sagging(self.friction)
         over = np.ones_like(self.friction)
         over[:, 1::2] = pull.factor[:, None]
@@ -380,13 +390,18 @@ class _StateSet:
         resistance = loops.lift[:, None] + self.friction * rubbing[:, None]
         acceleration, forces = self.pushes * resistance, self.shares * resistance[..., None]
         occurs = np.ones(resistance.shape, dtype=bool)
-        pulls = resistance[:, 0] > 0.0
-        if pulls.any():
-            pushed, pulled = start_motion(standing.pull, np.where(pulls, resistance[:, 0], 1.0), loops.mass)
-            acceleration[:, 1] = np.where(pulls, pushed, acceleration[:, 1])
-            forces[:, 1] = np.where(pulls[:, None], pulled, forces[:, 1])
+        for steady in (0, 2) if DESIGN in self.names else (0,):
+            pulls, start = resistance[:, steady] > 0.0, steady + 1
+            if pulls.any():
+                pushed, pulled = start_motion(standing.pull, np.where(pulls, resistance[:, steady], 1.0), loops.mass)
+                acceleration[:, start] = np.where(pulls, pushed, acceleration[:, start])
+                forces[:, start] = np.where(pulls[:, None], pulled, forces[:, start])
+        if DESIGN in self.names:
+            occurs[:, 2] = self.raised
+            occurs[:, 3] = self.raised & (resistance[:, 2] > 0.0)
         if LEAST in self.names:
-            occurs[:, 2:4] = (self.uncertain & (resistance[:, 2] < 0.0))[:, None]
+            least = self.names.index(LEAST)
+            occurs[:, least : least + 2] = (self.uncertain & (resistance[:, least] < 0.0))[:, None]
         if BRAKES in self.names:
             slows, acceleration[:, -1], forces[:, -1] = _coasting_motion(loops, resistance[:, -1], standing.brakes)
             occurs[:, -1] = slows & self.braked

@@ -9,30 +9,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from conveyor.forces import ForceSums
+from conveyor.classical_forces import cema_forces_along, cema_point_forces, cema_section_tension
+from conveyor.force_sums import ForceSums
 from conveyor.laws.resistance import (
     LENGTH_COEFFICIENTS,
     SHORTEST_FOR_FACTOR,
-    CemaTension,
-    cema_acceleration,
-    cema_effective_tension,
-    cema_idler_factor,
-    cema_pulley_friction,
-    cema_skirts,
     equivalent_friction_factor,
     secondary_resistance,
-    slope_resistance,
 )
-from conveyor.laws.resistance.cema import Place
-from conveyor.line.bend_pulleys import BendPulley
-from conveyor.line.cema_factors import CemaFactors
 from conveyor.line.line import Line
-from conveyor.line.stretches import Stretch
 
-STANDARD_GRAVITY = 9.80665
-"""Pounds force for pounds mass [m/s²]."""
 _LONGEST_FOR_FACTOR = LENGTH_COEFFICIENTS[-1][0]
-_LEAST_WRAP = math.radians(150.0)  # CEMA: below it a pulley counts as "other"
 
 
 @dataclass(frozen=True)
@@ -50,6 +37,11 @@ class ClassicalEstimate:
     def total(self) -> float:
         """Effective tension [N]."""
         return self.main + self.secondary + self.special + self.lift
+
+
+def estimate_of_forces(forces: ForceSums, friction_factor: float, secondary_by: str) -> ClassicalEstimate:
+    """Forces of a calculation in the form of an estimate, to stand beside another method's [N]."""
+    return ClassicalEstimate(friction_factor, forces.main, forces.secondary, secondary_by, forces.special, forces.lift)
 
 
 def classical_estimate(line: Line, forces: ForceSums, unit_main: float) -> ClassicalEstimate:
@@ -107,30 +99,27 @@ def cema_estimate(line: Line, unit_main: float) -> CemaEstimate | None:
     given = line.cema
     if given is None:
         return None
-    parts = [_section_tension(stretch, given) for stretch in line.stretches[: line.count]]
-    pulleys = given.pulleys
-    if pulleys is None:
-        pulleys = cema_pulley_friction([_pulley_place(pulley) for pulley in line.pulleys if not pulley.driven])
-    over = [
-        slope_resistance(point.flow / line.speed, lift=point.lift, gravity=STANDARD_GRAVITY)
-        for point in line.loading
-        if point.lift is not None
-    ]
+    along = {force.key: force.total for force in cema_forces_along(line, given)}
+    points: dict[str, list[float]] = {}
+    for force in cema_point_forces(line, given):
+        points.setdefault(force.key, []).append(force.total)
+    at = {key: math.fsum(forces) for key, forces in points.items()}
+    lift = [cema_section_tension(stretch, given).lift for stretch in line.stretches[: line.count]]
     main = (
-        ("Tx", "idlers", math.fsum(part.idlers for part in parts)),
-        ("Tyc", "flexure of the belt, carry", math.fsum(part.belt_carry for part in parts)),
-        ("Tyr", "flexure of the belt, return", math.fsum(part.belt_return for part in parts)),
-        ("Tym", "flexure of the bulk", math.fsum(part.bulk for part in parts)),
+        ("Tx", "idlers", along["Tx"]),
+        ("Tyc", "flexure of the belt, carry", along["Tyc"]),
+        ("Tyr", "flexure of the belt, return", along["Tyr"]),
+        ("Tym", "flexure of the bulk", along["Tym"]),
     )
-    secondary = (("Tp", "pulleys", pulleys), ("Tam", "acceleration of the bulk", _acceleration_force(line)))
+    secondary = (("Tp", "pulleys", at.get("Tp", 0.0)), ("Tam", "acceleration of the bulk", at.get("Tam", 0.0)))
     special = (
-        ("Tsb", "skirts", _skirt_force(line, given)),
-        ("Tbc", "cleaners", given.cleaner * math.fsum(each.count * each.width for each in line.scrapers)),
-        ("Tpl", "ploughs", given.plough * math.fsum(each.count * each.width for each in line.ploughs)),
-        ("Tac", "other accessories", given.accessories),
+        ("Tsb", "skirts", at.get("Tsb", 0.0)),
+        ("Tbc", "cleaners", at.get("Tbc", 0.0)),
+        ("Tpl", "ploughs", at.get("Tpl", 0.0)),
+        ("Tac", "other accessories", at.get("Tac", 0.0)),
     )
-    lift = (("Tm", "lift of the bulk", math.fsum([*(part.lift for part in parts), *over])),)
-    sums = [math.fsum(item[2] for item in group) for group in (main, secondary, special, lift)]
+    lifted = (("Tm", "lift of the bulk", math.fsum([*lift, at.get("tripper_lift", 0.0)])),)
+    sums = [math.fsum(item[2] for item in group) for group in (main, secondary, special, lifted)]
     return CemaEstimate(
         friction_factor=equivalent_friction_factor(sums[0], unit_main_force=unit_main),
         main=sums[0],
@@ -138,50 +127,6 @@ def cema_estimate(line: Line, unit_main: float) -> CemaEstimate | None:
         secondary_by="Tp + Tam (CEMA)",
         special=sums[2],
         lift=sums[3],
-        items=(*main, *lift, *secondary, *special),
+        items=(*main, *lifted, *secondary, *special),
         drive_pulleys=given.drive_pulleys,
     )
-
-
-def _skirt_force(line: Line, given: CemaFactors) -> float:
-    """Skirt friction of all loading points; on an empty belt of the seals alone."""
-    return math.fsum(
-        cema_skirts(
-            point.boards(line.speed, line.gravity),
-            skirt_factor=given.skirt_factor if point.flow_beyond > 0.0 else 0.0,
-            depth=given.skirt_depth,
-            seals=given.seals,
-        )
-        for point in line.loading
-    )
-
-
-def _section_tension(stretch: Stretch, factors: CemaFactors) -> CemaTension:
-    kx = cema_idler_factor(
-        stretch.belt_mass,
-        bulk_mass=stretch.bulk_mass,
-        idler_friction=factors.idler_friction,
-        spacing=stretch.spacing,
-    )
-    return cema_effective_tension(
-        stretch.length,
-        lift=stretch.rise,
-        belt_mass=stretch.belt_mass,
-        bulk_mass=stretch.bulk_mass,
-        idler_factor=kx,
-        flexure_factor=factors.flexure,
-        temperature_factor=factors.temperature,
-    )
-
-
-def _acceleration_force(line: Line) -> float:
-    return math.fsum(
-        cema_acceleration(point.flow, belt_speed=line.speed, initial_speed=point.speed) for point in line.loading
-    )
-
-
-def _pulley_place(pulley: BendPulley) -> Place:
-    """CEMA place of a pulley; tight side: head and carry strand, slack side: the rest."""
-    if pulley.wrap_angle < _LEAST_WRAP:
-        return "other"
-    return "tight" if pulley.position in {"head", "carry"} else "slack"

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from conveyor.forces import rubber_free_forces
 from conveyor.laws.tension import grip_tension
 from conveyor.loop.balance import Balance, OpenLoop, close_loops, raise_first_error
-from conveyor.loop.equilibrium import BRAKES, LEAST, LEAST_BRAKING, START
+from conveyor.loop.equilibrium import BRAKES, DESIGN, DESIGN_START, LEAST, LEAST_BRAKING, START
 from conveyor.loop.loop_events import loop_events
 from conveyor.loop.loop_layout import LoopLayout
 from conveyor.loop.run_up import is_start_uncontrolled, start_motion
@@ -41,6 +41,7 @@ TAKE_UP: Final = "tension of the take-up"
 HOLDING_BACK: Final = "holding force of a backstop"
 HOLDING_DOWN: Final = "holding force of a brake"
 _ONLY_IF_POSITIVE: Final = (LEAST_FORCE, HOLDING_BACK, HOLDING_DOWN)  # only where above 0
+_STARTS: Final = (START, DESIGN_START)
 _CANDIDATE_COUNT = 3  # highest places of the loop by the first estimate
 
 
@@ -94,7 +95,7 @@ class SectionLoadings:
         Figures are the largest drive force, the least one if negative, the largest tension, the tension of the take-up,
         that needed for the grip of each of several drives, and the force that holds a belt at rest.
         """
-        steady = self.resistance(1.0)[1]
+        steady = self.resistance(self.line.design_friction)[1]
         least = self.resistance(self.line.least_friction)[1]
         (_, lift), (_, rubbing) = self.at_rest
         candidates = [
@@ -174,7 +175,7 @@ class SectionLoadings:
                 asked.append(float((least - ends).max()))
         lift, rubbing = (base + float(more @ loading) for base, more in self.at_rest)
         named = {
-            DRIVE_FORCE: self._total(1.0, loading),
+            DRIVE_FORCE: self._total(self.line.design_friction, loading),
             LEAST_FORCE: -self._total(self.line.least_friction, loading),
             TENSION: self.setting + largest,
             TAKE_UP: max(*asked, *grips),
@@ -225,8 +226,10 @@ class SectionLoadings:
     @cached_property
     def _states(self) -> tuple[_MotionCase, ...]:
         """States of motion that may govern; the loading decides which occur."""
-        factor, certain = self.line.start_over_steady, self.line.least_friction
+        factor, certain, design = self.line.start_over_steady, self.line.least_friction, self.line.design_friction
         states = [_MotionCase(STEADY, 1.0, 1.0), _MotionCase(START, 1.0, factor)]
+        if design > 1.0:
+            states += [_MotionCase(DESIGN, design, 1.0), _MotionCase(DESIGN_START, design, factor)]
         if certain < 1.0:
             states += [_MotionCase(LEAST, certain, 1.0), _MotionCase(LEAST_BRAKING, certain, factor)]
         return (*states, _MotionCase(BRAKES, certain, None)) if self.brakes.any() else tuple(states)
@@ -238,7 +241,10 @@ class SectionLoadings:
             if state.over is None:
                 if least + float(self.brakes.sum()) > 0.0:
                     yield state
-            elif state.name in {STEADY, START} or least < 0.0:
+            elif state.name == DESIGN_START:
+                if self._total(state.friction, loading) > 0.0:
+                    yield state
+            elif state.name in {STEADY, START, DESIGN} or least < 0.0:
                 yield state
 
     def _total(self, friction: float, loading: Loading) -> float:
@@ -260,7 +266,7 @@ class SectionLoadings:
             return -slowing, np.multiply.outer(self.rotating, slowing) - _as_column(brakes, slowing)
         acceleration = (state.over - 1.0) * resistance / mass
         forces = np.multiply.outer(self.shares * state.over, resistance)
-        if state.name != START:
+        if state.name not in _STARTS:
             return acceleration, forces
         pulls = resistance > 0.0
         pushed, pulled = start_motion(self.full.frame.standing.pull, np.where(pulls, resistance, 1.0), mass)
@@ -311,7 +317,7 @@ class SectionLoadings:
         step = events.more_certain + state.friction * (events.more_force - events.more_certain)
         added = events.by_section(step + acceleration * events.more_mass, self.count)
         taken = np.zeros_like(anchor)  # share of the drives that stand before a place
-        if state.over is not None and not (state.name == START and is_start_uncontrolled(self.line)):
+        if state.over is not None and not (state.name in _STARTS and is_start_uncontrolled(self.line)):
             _, forces = self._motion(state, total, self._masses[0])
             for share, at in zip(self.shares * state.over, self.drive_at, strict=True):
                 taken[at + 1 :] += share

@@ -10,7 +10,8 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.forces import Force, PulleyResistance, point_forces, pulley_resistances
+from conveyor.force_sums import Force
+from conveyor.forces import PulleyResistance, point_forces, pulley_resistances
 from conveyor.laws.power import belt_power, motor_power
 from conveyor.laws.tension import grip_tension
 from conveyor.line.line import Line
@@ -83,8 +84,8 @@ class LoopConstants:
         Tension that a newton of each drive needs for its grip [-]; force of its brake [N].
     wrap, slope, bearings, pulley_mass, wrap_angle : ndarray, shape (pulleys,)
         Wrap without tension [N] and per newton of mean tension [-], bearings per newton of load [-], kg, rad.
-    least_friction, gravity : ndarray, shape ()
-        Least friction over the computed one [-], gravity [m/s²].
+    least_friction, design_friction, gravity : ndarray, shape ()
+        Least friction and that to design for, over the computed one [-]; gravity [m/s²].
     pull : StartingForces
         Forces of the drives at a start.
     """
@@ -101,6 +102,7 @@ class LoopConstants:
     pulley_mass: Array
     wrap_angle: Array
     least_friction: Array
+    design_friction: Array
     gravity: Array
     pull: StartingForces
 
@@ -179,6 +181,14 @@ class LoopLayout:
             return self
         made = self.of(replace(self.line, take_up=replace(unit, behind=behind)))
         made.plan = _loop_plan(made)
+        return made
+
+    def designed_for(self, friction: float) -> LoopLayout:
+        """The loop with a friction to design for, over the computed one [-]."""
+        if friction == self.line.design_friction:
+            return self
+        made = self.of(replace(self.line, design_friction=friction))
+        made.standing = replace(self.standing, design_friction=np.array(friction))
         return made
 
     def of(self, line: Line) -> LoopLayout:
@@ -279,6 +289,7 @@ def _loop_constants(frame: LoopLayout) -> LoopConstants:
         pulley_mass=np.array([pulley.mass for pulley in pulleys]),
         wrap_angle=np.array([pulley.wrap_angle for pulley in pulleys]),
         least_friction=np.array(line.least_friction),
+        design_friction=np.array(line.design_friction),
         gravity=np.array(line.gravity),
         pull=StartingForces.of(line),
     )

@@ -72,8 +72,8 @@ class StartAndStop:
     ----------
     moving_mass, rotating_mass : float
         Mass of belt, bulk and rolls; that of the drives, reduced to the belt [kg].
-    start : Start
-        Start at the spec's start factor.
+    start, design_start : Start
+        Start at the spec's start factor, with the expected friction and with that to design for.
     coasting, coasting_least : Stop or None
         Stop without brakes, at computed and least certain friction; None where the belt does not stop by itself.
     braked : Stop or None
@@ -100,6 +100,7 @@ class StartAndStop:
     moving_mass: float
     rotating_mass: float
     start: Start
+    design_start: Start
     coasting: Stop | None
     coasting_least: Stop | None
     braked: Stop | None
@@ -140,11 +141,14 @@ def start_and_stop(balance: Balance) -> StartAndStop:
     whole = mass + rotating
     gripping = max(0.0, line.speed - least / whole * line.brake_delay)
     stopped, heat = (None, None) if brakes == 0.0 else _braked_stop(line, least, brakes, whole, gripping)
-    off = settled.coasting
+    off, expected = settled.coasting, _conveyor_start(balance, mass, rotating, 1.0)
     return StartAndStop(
         moving_mass=mass,
         rotating_mass=rotating,
-        start=_conveyor_start(balance, mass, rotating),
+        start=expected,
+        design_start=expected
+        if line.design_friction == 1.0
+        else _conveyor_start(balance, mass, rotating, line.design_friction),
         coasting=_stop_under_force(line.speed, settled.force, whole),
         coasting_least=_stop_under_force(line.speed, least, whole),
         braked=stopped,
@@ -187,9 +191,11 @@ def _braked_stop(
     return whole, brakes * made.distance
 
 
-def _conveyor_start(balance: Balance, mass: float, rotating: float) -> Start:
-    line, steady = balance.line, balance.settled.force
-    stuck = (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * balance.forces.parts["idler_rotation"]
+def _conveyor_start(balance: Balance, mass: float, rotating: float, friction: float) -> Start:
+    """Start at a friction over the computed one [-]."""
+    line, steady = balance.line, balance.settled.resistance(friction)
+    drag = balance.forces.parts.get("idler_rotation", float(line.rotation.sum()))
+    stuck = friction * (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * drag
     if steady <= 0.0:
         factor = line.start_over_steady
         braking = (factor - 1.0) * steady / mass

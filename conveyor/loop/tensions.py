@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.forces import Force
+from conveyor.force_sums import Force
 from conveyor.loop.loop_layout import LoopConstants, LoopLayout
 
 Array = NDArray[np.float64]

@@ -24,7 +24,7 @@ from conveyor.laws.resistance.resistance_defaults import ROLL_DRAG_STANDSTILL_FA
 from conveyor.laws.tension import grip_tension
 from conveyor.line.set_limits import raised_height
 from conveyor.line.stretches import STRANDS
-from conveyor.loop.equilibrium import BRAKES, BRAKING, COASTING, LEAST, LEAST_BRAKING, START
+from conveyor.loop.equilibrium import BRAKES, BRAKING, COASTING, DESIGN_START, LEAST, LEAST_BRAKING, START
 from conveyor.loop.load_superposition import Array, Loading, SectionLoadings
 from conveyor.loop.run_up import is_start_uncontrolled, rated_force, start_force_ratio
 from conveyor.loop.tensions import STEADY
@@ -81,8 +81,8 @@ class CriterionLoadings(SectionLoadings):
     def _corners(self) -> LoadingRows:
         """Loadings at corners of the sums of resistance and mass, with sections that slip first."""
         mass, rows = self._masses[1], list[LoadingRows]()
-        steady, least = (self.resistance(friction)[1] for friction in (1.0, self.line.least_friction))
-        for more in (steady, least, steady + self._sticking[1]):
+        every = [self.resistance(friction)[1] for friction in self._frictions]
+        for more in (*every, self.resistance(self.line.design_friction)[1] + self._sticking[1]):
             square = 0.5 * np.pi
             turns = np.sort(np.concatenate([np.arctan2(mass, more) + s * square for s in (-1.0, 1.0)]))
             between = 0.5 * (turns + np.append(turns[1:], turns[0] + 4.0 * square))
@@ -99,7 +99,7 @@ class CriterionLoadings(SectionLoadings):
         events = self.events
         everywhere = range(events.force.size + 1)
         places = everywhere if self.count <= SINGLE_CHANGE_SECTIONS else sorted(self._places)
-        for friction in (1.0, self.line.least_friction):
+        for friction in self._frictions:
             step = events.more_certain + friction * (events.more_force - events.more_certain)
             whole = self.resistance(friction)[1]
             for at in places:
@@ -108,6 +108,11 @@ class CriterionLoadings(SectionLoadings):
                 rise -= float(weights[self.drive_at] @ self.shares) * whole
                 yield rise > 0.0
                 yield rise < 0.0
+
+    @cached_property
+    def _frictions(self) -> tuple[float, ...]:
+        """Frictions of the states of motion over the computed one [-]: expected, to design for, least."""
+        return tuple(dict.fromkeys((1.0, self.line.design_friction, self.line.least_friction)))
 
     @cached_property
     def _places(self) -> set[int]:
@@ -146,13 +151,13 @@ class CriterionLoadings(SectionLoadings):
 
     @cached_property
     def _sticking(self) -> tuple[float, Array]:
-        """Addition to the drag of the rolls after standstill [N], at most; as in `at_rest`."""
+        """Addition to the drag of the rolls after standstill [N], at the friction to design for; as in `at_rest`."""
         drags = []
         for one in (self.empty, self.full):
-            (drag,) = (force.newtons for force in one.along if force.key == "idler_rotation")
+            drag = next((force.newtons for force in one.along if force.key == "idler_rotation"), one.line.rotation)
             drags.append(np.broadcast_to(drag, 2 * self.count))
         bare, laden = drags
-        share = ROLL_DRAG_STANDSTILL_FACTOR - 1.0
+        share = self.line.design_friction * (ROLL_DRAG_STANDSTILL_FACTOR - 1.0)
         return share * float(bare.sum()), share * (laden - bare)[: self.count]
 
     @cached_property
@@ -195,7 +200,9 @@ class CriterionLoadings(SectionLoadings):
     def _of_motion(self, flags: LoadingRows) -> CriterionFigures:
         """Figures that depend on resistance and mass alone."""
         line, figures = self.line, CriterionFigures()
-        steady, least = (self._sums(self.resistance(f), flags) for f in (1.0, line.least_friction))
+        steady, most, least = (
+            self._sums(self.resistance(f), flags) for f in (1.0, line.design_friction, line.least_friction)
+        )
         mass = self._sums(self._masses, flags)
         whole, brakes = mass + self.rotating.sum(), float(self.brakes.sum())
         if line.stop_deceleration is not None:
@@ -213,30 +220,33 @@ class CriterionLoadings(SectionLoadings):
                 stops, line.brake_delay + after, _where_present((gripping == 0.0) & (least > 0.0), unbraked)
             )
             slowing = np.maximum(slowing, braked)
-        start, pushing = self._motion(self._states[1], steady, mass)
+        start, _ = self._motion(self._states[1], steady, mass)
         *limits, slides = self._slip_limits
         hard, fast = (np.where(flags, limit, np.inf).min(axis=-1) for limit in limits)
         rests = np.asarray(~(flags & slides).any(axis=-1))
         figures["slip on stopping"] = _where_present(rests, np.maximum(slowing, -start) / hard)
         figures["slip on starting"] = _where_present(rests, np.maximum(start, 0.0) / fast)
-        pulls, pull = steady > 0.0, self.full.frame.standing.pull
+        pulls, pull = most > 0.0, self.full.frame.standing.pull
         if pull.kind == "limited":
-            asked = start_force_ratio(pull, np.where(pulls, steady, 1.0), mass)
+            asked = start_force_ratio(pull, np.where(pulls, most, 1.0), mass)
             figures["start of the motors"] = _where_present(pulls, asked)
-        at_rest, rated = np.ones_like(steady), rated_force(line)  # motors not given are one for every load
+        at_rest, rated = np.ones_like(most), rated_force(line)  # motors not given are one for every load
         if is_start_uncontrolled(line):
-            at_rest = steady + (line.torque_curve[0][1] * (rated or 0.0) - steady) * mass / whole
+            at_rest = most + (line.torque_curve[0][1] * (rated or 0.0) - most) * mass / whole
         elif rated is not None:
+            pushing = self._motion(self._states[1], most, mass)[1]
             at_rest = np.maximum(pushing.sum(axis=0), rated)
-        figures["breakaway"] = _where_present(pulls, -at_rest / (steady + self._sums(self._sticking, flags)))
+        figures["breakaway"] = _where_present(pulls, -at_rest / (most + self._sums(self._sticking, flags)))
         return figures
 
     def _of_tension(self, flags: LoadingRows) -> CriterionFigures:
         """Figures that depend on tensions, in every state of motion that occurs under each loading."""
         line, figures = self.line, CriterionFigures()
-        steady, least = (self._sums(self.resistance(f), flags) for f in (1.0, line.least_friction))
+        resistances = {friction: self._sums(self.resistance(friction), flags) for friction in self._frictions}
+        steady, least = resistances[1.0], resistances[line.least_friction]
         mass, brakes = self._sums(self._masses, flags), float(self.brakes.sum())
         occurs = {
+            DESIGN_START: resistances[line.design_friction] > 0.0,
             LEAST: least < 0.0,
             LEAST_BRAKING: least < 0.0,
             BRAKES: least + brakes > 0.0,
@@ -247,8 +257,7 @@ class CriterionLoadings(SectionLoadings):
             here = occurs.get(state.name, np.ones(len(flags), dtype=bool))
             if not here.any():
                 continue
-            resistance = steady if state.friction == 1.0 else least
-            acceleration, forces = self._motion(state, resistance, mass)
+            acceleration, forces = self._motion(state, resistances[state.friction], mass)
             tensions = self.setting + self._over_the_take_up(state.friction, flags, acceleration, forces)
             ends = np.stack([tensions[:, self.stretch_at], tensions[:, self.stretch_at + 1]])
             shares = line.loop.length / (2.0 * float(line.loop.way[-1]))

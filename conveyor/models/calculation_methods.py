@@ -1,14 +1,26 @@
-"""Optional laws of a calculation: flexure, CEMA, calibration factors."""
+"""Method of a calculation and its optional laws: flexure, CEMA, calibration factors."""
 
 from __future__ import annotations
 
-from typing import Annotated, Final, Self
+from collections.abc import Mapping
+from typing import Annotated, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
 from conveyor.laws.resistance.cema import CLEANER_PER_INCH, PLOUGH_PER_INCH, SEALS_PER_FOOT
 from conveyor.models.base import Model, Number, Problem, raise_problems
 from conveyor.units import Angle, BendingStiffness, Bounds, Force, LineForce, Thickness, quantity
+
+Method = Literal["viscoelastic", "iso 5048", "din 22101", "cema classic"]
+FACTOR_METHODS: Final[tuple[Method, ...]] = ("iso 5048", "din 22101")
+"""Methods with one friction factor f."""
+METHOD_NAMES: Final[Mapping[Method, str]] = {
+    "viscoelastic": "rolling contact",
+    "iso 5048": "ISO 5048",
+    "din 22101": "DIN 22101",
+    "cema classic": "CEMA classic",
+}
+"""Methods as reports name them."""
 
 
 class BeltFlexure(Model):

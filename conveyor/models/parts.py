@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 from conveyor.laws.resistance import FRICTION_FACTOR, Site
 from conveyor.models.base import Model, Name, Number, Problem, raise_problems
 from conveyor.models.belt import Belt
-from conveyor.models.calculation_methods import Calibration, Cema, Flexure
+from conveyor.models.calculation_methods import Calibration, Cema, Flexure, Method
 from conveyor.models.compound import RubberCompound
 from conveyor.models.drive import Drive
 from conveyor.models.idlers import Idlers
@@ -38,6 +38,9 @@ class Ambient(Model):
 class Calculation(Model):
     """How to calculate."""
 
+    method: Method = "viscoelastic"
+    """What the forces, and with them tensions, motors, take-up and checks, follow: the contact of every roll on its
+    cover, the factor f (friction_factor, with C where it is tabled), or the factors of CEMA's classic form (cema)."""
     support: Literal["confined", "belt", "free", "half-space"] = "confined"
     """What holds the cover: a stiff carcass (confined), the belt under its tension, nothing (free), endless rubber."""
     rtol: Annotated[Number, Field(ge=1e-10, le=1e-2)] = 1e-4
@@ -53,7 +56,7 @@ class Calculation(Model):
     not_given: Literal["usual values", "nothing"] = "usual values"
     """What stands in where the route has no feeding, no cleaners or no pulleys: usual ones, or nothing."""
     friction_factor: Annotated[Number, Field(gt=0, le=0.1)] = FRICTION_FACTOR.value
-    """Friction factor f of the classical estimate, for comparison."""
+    """Friction factor f of the classical estimate, and of the methods that follow it."""
     roll_drag: Literal["in service", "acceptance limit"] = "in service"
     """Drag of rolls without one: usual bearings, grease and seals over load, speed and air; or a new roll's limit."""
     flexure_share: Annotated[Fraction, Bounds(ge="0 %", lt="100 %")] | None = None
@@ -66,6 +69,16 @@ class Calculation(Model):
     """Factors of the classic form of CEMA, computed beside this calculation where they are given."""
     gravity: Annotated[Acceleration, Bounds(ge="9.7 m/s^2", le="9.9 m/s^2")] = quantity("9.81 m/s^2")
     """Acceleration of gravity at the site."""
+
+    @model_validator(mode="after")
+    def _whole_method(self) -> Self:
+        if self.method == "cema classic" and self.cema is None:
+            message = "missing: method cema classic needs Ky and Ai from the book: give cema"
+            raise_problems("Calculation", [Problem(("cema",), message)])
+        if self.method != "viscoelastic" and self.calibration is not None:
+            message = f"given beside method {self.method}, which has no such forces: remove it"
+            raise_problems("Calculation", [Problem(("calibration",), message)])
+        return self
 
     @model_validator(mode="after")
     def _one_flexure(self) -> Self:

@@ -237,6 +237,10 @@ class SizingDuty(Model):
             yield Problem(("lift",), "is not less than length, which is along the belt; correct one of the two")
         if self.route is not None:
             yield from self._sized_problems(self.route)
+        method = self.calculation.method
+        if method != "viscoelastic":
+            told = f'got "{method}": a duty is sized by the rolling contact; give the method to the sized spec'
+            yield Problem(("calculation", "method"), told)
         if si(self.material.flow) == 0.0:
             yield Problem(("material", "flow"), "got 0: an empty belt has no duty; give what is conveyed")
         rows = size_series(self.series).widths

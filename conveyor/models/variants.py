@@ -199,6 +199,21 @@ def _temperature_setting(loaded: Conveyor | ConveyorError, temperature: Quantity
     return Setting(si(temperature), si(speed), loaded)
 
 
+def require_rolling_contact(conveyor: Conveyor, what: str) -> None:
+    """Refuse a classical method where forces must follow the rubber.
+
+    Raises
+    ------
+    InputError
+        The method of the spec is not viscoelastic.
+    """
+    method = conveyor.calculation.method
+    if method != "viscoelastic":
+        raise InputError(
+            f'calculation.method: "{method}" knows no rubber; {what} by the rolling contact ("viscoelastic")'
+        )
+
+
 def with_compound(conveyor: Conveyor, compound: RubberCompound, cover: CoverChoice) -> Conveyor:
     """Conveyor with one cover or both of another compound.
 

@@ -12,6 +12,7 @@ from conveyor.laws.wind import WIND_DRAG, WIND_LIFT
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.stretches import misalignment_angle
 from conveyor.models import Conveyor, IdlerSet, Roll
+from conveyor.models.calculation_methods import FACTOR_METHODS, METHOD_NAMES
 from conveyor.models.library_items import LibraryItem
 from conveyor.models.rolls import BearingDrag, MakerDrag
 from conveyor.units import text
@@ -76,19 +77,36 @@ def _wind_assumption(conveyor: Conveyor) -> Iterator[str]:
 
 def method_summary(result: CalculatedConveyor) -> tuple[str, ...]:
     """Method of calculation, for readers of the report alone."""
-    tested = any(level is not None for level in (cover.level for cover in result.contacts.covers.values()))
-    scaled = ", scaled to the rolling-resistance tests of the compound" if tested else ""
+    least = percent(result.conveyor.drive.certain_friction)
     return (
-        "Indentation: steady rolling contact of a viscoelastic cover on cylinders (Menga, Bottiglione, Carbone, "
-        "Lubricants 7 (2019), with its errata), solved for every distinct roll with the relaxation spectrum of the "
-        f"rubber at belt speed and temperature{scaled}; numerical error at most {result.error_estimate:.0e}.",
-        "Other resistances: DIN 22101 / ISO 5048, item by item; the source stands beside every force.",
+        *_resistance_method(result),
         "Tensions: all forces are summed round the loop in steady running, starting and stopping; the take-up is set "
         "for the grip of the drives (Eytelwein) and the sag between idlers, in every load and state together.",
-        "Load states: all sections loaded or empty in the combination that is worst for each figure; minimum friction "
-        f"is {percent(result.conveyor.drive.certain_friction)} of the calculated one where that is less favourable.",
+        "Load states: all sections loaded or empty in the combination that is worst for each figure; friction is "
+        f"{result.line.design_friction:.3g} times the calculated one for motors, belt, grip and take-up (design), "
+        f"{least} of it where the belt drives or is to be held (least).",
         "Checks: calculated against required, of all loads the least margin; the source of a limit stands beside it.",
     )
+
+
+def _resistance_method(result: CalculatedConveyor) -> Iterator[str]:
+    """Sentences on the method of the resistances."""
+    line = result.line
+    if line.method != "viscoelastic":
+        factors = f"the factor f = {line.friction_factor:g}" if line.method in FACTOR_METHODS else "Kx, Ky and Kt"
+        yield (
+            f"Resistances: {METHOD_NAMES[line.method]} with {factors}; tensions, motors, take-up and checks follow it. "
+            "The rolling contact of every roll is computed beside, for loads of rolls and covers."
+        )
+        return
+    tested = any(level is not None for level in (cover.level for cover in result.contacts.covers.values()))
+    scaled = ", scaled to the rolling-resistance tests of the compound" if tested else ""
+    yield (
+        "Indentation: steady rolling contact of a viscoelastic cover on cylinders (Menga, Bottiglione, Carbone, "
+        "Lubricants 7 (2019), with its errata), solved for every distinct roll with the relaxation spectrum of the "
+        f"rubber at belt speed and temperature{scaled}; numerical error at most {result.error_estimate:.0e}."
+    )
+    yield "Other resistances: DIN 22101 / ISO 5048, item by item; the source stands beside every force."
 
 
 def _rubber_assumption(conveyor: Conveyor) -> str:

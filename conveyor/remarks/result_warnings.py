@@ -41,14 +41,15 @@ LEAST_PUBLISHED_FRICTION: Final = 0.0075
 def analysis_warnings(result: CalculatedConveyor, checked: Iterable[Check]) -> tuple[Message, ...]:
     """Warnings: strained assumptions, defaults in use, failed checks, doubtful results."""
     conveyor = result.conveyor
+    by_rubber = result.line.method == "viscoelastic"
     return tuple(
         dict.fromkeys(
             (
                 *implausible_inputs(conveyor),
-                *_rubber_warnings(conveyor),
-                *_strain_warnings(result),
-                *_test_factor_warnings(result),
-                *_contact_warnings(result),
+                *(_rubber_warnings(conveyor) if by_rubber else ()),
+                *(_strain_warnings(result) if by_rubber else ()),
+                *(_test_factor_warnings(result) if by_rubber else ()),
+                *(_contact_warnings(result) if by_rubber else ()),
                 *roll_warnings(result),
                 *_omission_warnings(result),
                 *_tripper_warnings(result.line),
@@ -297,12 +298,13 @@ COLD_OIL_VISCOSITY = (
 def roll_warnings(result: CalculatedConveyor) -> tuple[Message, ...]:
     """Warnings on defaults in use and strained laws of rolls, sets and belt."""
     conveyor = result.conveyor
+    itemised = result.line.method == "viscoelastic"  # a classical method has neither of these in its forces
     return (
         *_mass_warnings(conveyor),
-        *_drag_warnings(result),
-        *_flexure_warnings(conveyor),
+        *(_drag_warnings(result) if itemised else ()),
+        *(_flexure_warnings(conveyor) if itemised else ()),
         *_library_warnings(conveyor),
-        *_alignment_warnings(conveyor),
+        *(_alignment_warnings(conveyor) if itemised else ()),
         *_cover_warnings(conveyor),
         *_set_warnings(result),
         *_other_warnings(conveyor),

@@ -353,6 +353,7 @@ def _calibrate_estimate(
             exact = main["indentation"].by_strand()[strand]
             over.setdefault((strand, cover), []).append(exact / estimate.indentation[i, k])
         over.setdefault("drag", []).append(main["idler_rotation"].total / estimate.rolls[i])
+        over.setdefault("design", []).append(one.line.design_friction / levels.design)
         over.setdefault("rest", []).append((forces.secondary + forces.special) / estimate.rest[i])
 
     for i, used in uses.items():
@@ -366,13 +367,15 @@ def _calibrate_estimate(
                    zip(STRANDS, (levels.carry, levels.back), strict=True))  # fmt: skip
     drag = middle("drag") if "drag" in over else levels.drag
     limits = {limit: levels.uses.get(limit, 1.0) * middle(limit) for limit in estimate.uses}
-    return EstimateCalibration(tuple(carry), tuple(back), drag, levels.rest * middle("rest"), limits)
+    design = levels.design * middle("design")
+    return EstimateCalibration(tuple(carry), tuple(back), drag, levels.rest * middle("rest"), design, limits)
 
 
 def _estimated_parts(task: SizingTask, choice: DesignChoice, estimate: Estimates, i: int) -> SelectedParts:
     """Belt class and motors by the estimate."""
     carcass = task.carcasses[choice.kind][int(estimate.carcass[i])]
-    power = abs(float(estimate.force[i])) * choice.speed / task.efficiency
+    force = max(abs(float(estimate.force[i])), abs(float(estimate.design_force[i])))
+    power = force * choice.speed / task.efficiency
     most = task.largest_drive / task.rules.motor_reserve
     motors = tuple(task.motors(min(each, most)) for each in drive_powers(power, choice.drives))
     return SelectedParts(carcass, *task.covers(choice, carcass), motors, 0.0)

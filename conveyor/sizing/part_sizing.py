@@ -286,7 +286,7 @@ def _required_power(task: SizingTask, loads: Sequence[CalculatedConveyor]) -> fl
     Breakaway may use the rated power itself, so that its reserve is taken off.
     """
     running = max(check.calculated or 0.0 for one in loads for check in motor_power(one))
-    starts = [(one, one.motions.start) for one in loads]
+    starts = [(one, one.motions.design_start) for one in loads]
     stuck = max(
         (start.breakaway * one.line.speed / (one.line.efficiency * len(one.line.drives))
          for one, start in starts if 0.0 < start.force < start.breakaway),

@@ -55,6 +55,8 @@ class EstimateCalibration:
         Drag of a roll [N].
     rest : float
         Secondary and special resistances over the estimated ones [-].
+    design : float
+        Friction to design for over the expected one [-].
     uses : mapping of str to float
         Calculated over estimated use of each limit [-]; 1 for those left out.
     """
@@ -63,6 +65,7 @@ class EstimateCalibration:
     back: tuple[float, ...]
     drag: float
     rest: float
+    design: float = 1.25
     uses: Mapping[Limit, float] = field(default_factory=dict)
 
 
@@ -157,8 +160,8 @@ class Estimates:
         Yearly cost [currency/a]; `year` is infinite if no belt, motor or bearing of the series suffices.
     carcass : ndarray of int
         Index of the belt class.
-    force : ndarray
-        Force of all drives [N].
+    force, design_force : ndarray
+        Force of all drives, as expected and with the friction to design for [N].
     indentation : ndarray, shape (n, 2)
         Of carry and return strand [N].
     rolls : ndarray
@@ -173,6 +176,7 @@ class Estimates:
     year: Array
     carcass: NDArray[np.int64]
     force: Array
+    design_force: Array
     indentation: Array
     rolls: Array
     rest: Array
@@ -226,9 +230,9 @@ class _BeltSeries(NamedTuple):
 class _LoopEstimate(NamedTuple):
     """Estimate of candidates with a belt class each.
 
-    Covers [m], load of the middle roll and of carry and return sets, indentation, force of all drives, tension behind
-    the head [N]; the class required by the tensions, and with the strongest class the use of its strength and of the
-    take-up's travel [-].
+    Covers [m], load of the middle roll and of carry and return sets, indentation, force of all drives, as expected and
+    with the friction to design for, tension behind the head [N]; the class required by the tensions, and with the
+    strongest class the use of its strength and of the take-up's travel [-].
     """
 
     covers: Array
@@ -236,6 +240,7 @@ class _LoopEstimate(NamedTuple):
     sets: Array
     indentation: Array
     force: Array
+    design_force: Array
     slack: Array
     carcass: NDArray[np.int64]
     strength: Array
@@ -264,7 +269,7 @@ def screen_candidates(task: SizingTask, every: Candidates, levels: EstimateCalib
             figure[rows] = value
     (top, bottom), carcass, force = around.covers.T, around.carcass, around.force
     power, drives = (
-        np.abs(force) * speed / task.efficiency,
+        np.maximum(np.abs(force), np.abs(around.design_force)) * speed / task.efficiency,
         every.driven(lambda one: len(drive_powers(1.0, one))),
     )
     life = _roll_life(every, around.middle)
@@ -294,7 +299,7 @@ def screen_candidates(task: SizingTask, every: Candidates, levels: EstimateCalib
     yearly = np.asarray(cost.year)
     year = np.where(possible, yearly, np.inf)
     rolls = length * per_metre.sum(axis=0)
-    return Estimates(yearly, year, carcass, force, around.indentation, rolls, rest, uses)
+    return Estimates(yearly, year, carcass, force, around.design_force, around.indentation, rolls, rest, uses)
 
 
 def _estimate_loop(
@@ -335,12 +340,14 @@ def _estimate_loop(
     square = 1.0 - (1.0 - of_bulk) * np.sin(every.runs(lambda on: on.trough.angle)) ** 2  # wings turn by cos λ
     askew = task.misalignment_friction * g * np.array([(belt + bulk) * square, belt])
     friction = indentation / length + levels.drag * np.array([3.0 / carry, count / back]) + bent + askew
-    up = np.outer(bulk + belt, g * sections[:, 1]) + np.outer(friction[0], sections[:, 0])
-    down = np.outer(-belt, g * sections[:, 1]) + np.outer(friction[1], sections[:, 0])
-    up[:, 0] += rest
-    force = up.sum(axis=1) + down.sum(axis=1)
+    rubbing = levels.design * friction
+    up = np.outer(bulk + belt, g * sections[:, 1]) + np.outer(rubbing[0], sections[:, 0])
+    down = np.outer(-belt, g * sections[:, 1]) + np.outer(rubbing[1], sections[:, 0])
+    up[:, 0] += levels.design * rest
+    design_force = up.sum(axis=1) + down.sum(axis=1)
+    force = friction.sum(axis=0) * length + rest + bulk * g * sections[:, 1].sum()
     spans = belt * g * back, (belt + bulk) * g * carry
-    slack, largest, mean = _loop_tensions(every, force, (down[:, ::-1], up), spans)
+    slack, largest, mean = _loop_tensions(every, design_force, (down[:, ::-1], up), spans)
     strength = safety * largest / width
     lasting = np.array([task.lasting_strain(one) for one in task.kinds])[kind]
     travel = levels.uses.get("take-up travel", 1.0) / task.take_up_strain
@@ -352,7 +359,7 @@ def _estimate_loop(
     travel = travel * (mean / width / series.stiffest[kind] + lasting)
     sets = np.array([(belt + task.lump_factor * bulk) * g * carry, spans[0]]).T
     chosen = np.minimum(asked, last)
-    return _LoopEstimate(covers, middle, sets, indentation.T, force, slack, chosen, strength, travel)
+    return _LoopEstimate(covers, middle, sets, indentation.T, force, design_force, slack, chosen, strength, travel)
 
 
 def _roll_life(every: Candidates, middle: Array) -> Array:

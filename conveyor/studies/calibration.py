@@ -17,6 +17,7 @@ from importlib.metadata import version
 from conveyor.arguments.argument_types import check_arguments
 from conveyor.errors import InputError, MessageQuantity, NoSolutionError
 from conveyor.models import CALIBRATED_FORCES, Calibration, Conveyor, MeasuredRun
+from conveyor.models.variants import require_rolling_contact
 from conveyor.pipeline import ProgressCallback, calculate_many
 from conveyor.studies.factor_fit import (
     MOST_ITERATIONS,
@@ -144,7 +145,7 @@ def fit_factors(
     ------
     InputError
         Fewer runs than factors, runs at the mains without the train's efficiency, runs that brake without theirs or
-        against the calculation, factors that are not resolved or come out negative.
+        against the calculation, factors that are not resolved or come out negative, or a classical method.
     NoSolutionError, RangeError
         A run has no answer.
 
@@ -154,6 +155,7 @@ def fit_factors(
     that is improbable (below 1 %), or from the residuals, with Student's t. The forces that have no factor (lift, tilt,
     secondary resistances) and the efficiencies are taken as the spec says.
     """
+    require_rolling_contact(conveyor, "factors of its forces are found")
     _check_runs(conveyor, runs, error, factors)
     plain = conveyor.replace(calculation=conveyor.calculation.replace(calibration=None))
     solve = partial(calculate_many, rtol=rtol, progress=progress)

@@ -22,7 +22,7 @@ from conveyor.arguments.argument_types import check_arguments
 from conveyor.errors import ConveyorError, InputError
 from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.operation import BeltSpeed
-from conveyor.models.variants import CoverChoice, distinct_values, with_compound
+from conveyor.models.variants import CoverChoice, distinct_values, require_rolling_contact, with_compound
 from conveyor.pipeline import ProgressCallback
 from conveyor.reuse import ReuseCache
 from conveyor.studies.comparison_scenes import (
@@ -228,12 +228,14 @@ def compare_compounds(
     Raises
     ------
     InputError
-        No compound, one twice, an unknown base or name, a value without unit or outside its range.
+        No compound, one twice, an unknown base or name, a value without unit or outside its range, or a classical
+        method of calculation.
     ConveyorError
         A worker was lost.
     """
     if cover not in get_args(CoverChoice):
         raise InputError(f'cover = "{cover}": allowed are {", ".join(get_args(CoverChoice))}')
+    require_rolling_contact(conveyor, "compounds are compared")
     chosen = _resolve_compounds(compounds, shelves)
     at = [conveyor.ambient.belt] if temperatures is None else _read_quantities(temperatures, "temperature")
     runs = [conveyor.belt.speed] if speeds is None else _read_quantities(speeds, "speed")

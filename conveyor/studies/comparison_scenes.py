@@ -159,7 +159,7 @@ def calculate_compound(
     runs: dict[float, list[int]] = {}
     for i, (setting, _) in enumerate(going):
         runs.setdefault(setting.temperature, []).append(i)
-    variants = [Variant(c, s.temperature) for s, c in going]
+    variants = [Variant(c, s.temperature, design_friction=1.0) for s, c in going]
     answers = iter(calculate_many(variants, rtol, kept=kept, runs=runs.values()))
     solved: list[CalculatedConveyor] = []
     refused = []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from scipy.special import chdtrc, stdtrit
 
 from conveyor.calculated_conveyor import CalculatedConveyor, NoAnswer, Variant
-from conveyor.errors import InputError
+from conveyor.default_bands import close_design_loops
+from conveyor.errors import InputError, NoSolutionError
 from conveyor.forces import forces_along_belt
 from conveyor.loop.balance import OpenLoop, close_loops, raise_first_error
 from conveyor.models import CALIBRATED_FORCES, Calibration, Conveyor, MeasuredRun
@@ -143,7 +144,13 @@ class SolvedRuns:
             )
             for one in runs
         ]
-        power = {one: made.power for one, made in zip(runs, raise_first_error(close_loops(loops)), strict=True)}
+        closed = raise_first_error(close_loops(loops))
+        if self.found[0].conveyor.drive.design_friction is None:
+            scaled = [replace(one, balance=balance) for one, balance in zip(runs, closed, strict=True)]
+            closed = raise_first_error(
+                [one if isinstance(one, NoSolutionError) else one.balance for one in close_design_loops(scaled, loops)]
+            )
+        power = {one: made.power for one, made in zip(runs, closed, strict=True)}
         pairs = zip(self.found, self.at, strict=True)
         return np.array([power[one].mains if at == "mains" else power[one].motor for one, at in pairs])
 

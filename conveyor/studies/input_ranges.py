@@ -20,6 +20,8 @@ from scipy.special import ndtri
 
 from conveyor.arguments.argument_types import check_arguments
 from conveyor.calculated_conveyor import CalculatedConveyor, NoAnswer, Variant
+from conveyor.default_bands import power_range
+from conveyor.effects import Effect, root_of_squares
 from conveyor.errors import InputError
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.stretches import Strand
@@ -28,8 +30,6 @@ from conveyor.models import Conveyor, RubberCompound, StrainDependence, Uncertai
 from conveyor.models.variants import scale_quantity, with_alternative, with_belt_temperature_changed
 from conveyor.pipeline import ProgressCallback, calculate_many
 from conveyor.rubber.rolling_test_factor import BAND_COVERAGE, quantile_band
-from conveyor.studies.default_bands import power_range
-from conveyor.studies.effects import Effect, root_of_squares
 from conveyor.studies.monte_carlo import DrawnInput, MonteCarlo, calculate_draws
 from conveyor.units import Quantity, from_si, interpolate_quantity, text
 from conveyor.units.presentation import format_figure

@@ -171,7 +171,8 @@ class CalculatedCases:
     cases : tuple of LoadCase
         The requested cases.
     friction_band : tuple of float
-        Friction over the computed one, low and high end [-]; lift and acceleration of bulk have none.
+        Friction over the computed one, low and high end [-]; lift and acceleration of bulk have none. That to design
+        for is of the spec's own load where each case has its own.
     results, refused : tuple
         Results in the order case, speed, temperature, and cases without an answer.
     as_given : CalculatedConveyor or None
@@ -259,8 +260,9 @@ def analyse_cases(
     cases : sequence of LoadCase, optional
         By default those of the spec, or the standard ones: full, empty, inclines only, declines only.
     friction_band : tuple of float, optional
-        Least certain and highest expected friction over the computed one [-]. By default drive.least_friction (0.6
-        unless given, general knowledge: f 0.012 over 0.020) and 1: the computed resistances.
+        Least certain friction and that to design for, over the computed one [-]. By default drive.least_friction (0.6
+        unless given, general knowledge: f 0.012 over 0.020) and drive.design_friction, without it the upper end of the
+        band of the defaults of each case.
     rtol : float, optional
         Relative tolerance of the contacts [-]; by default that of the spec.
     progress : callable, optional
@@ -290,9 +292,9 @@ def analyse_cases(
     twice = next((name for name in names if names.count(name) > 1), None)
     if not chosen or twice is not None:
         raise InputError(f'cases: "{twice}" is given twice' if chosen else "cases: give at least one")
-    band = (conveyor.drive.certain_friction, 1.0) if friction_band is None else friction_band
-    if not 0.0 < band[0] <= 1.0 <= band[1] < math.inf:
-        raise InputError(f"friction_band = {band}: 0 < low <= 1 <= high is needed")
+    if friction_band is not None and not 0.0 < friction_band[0] <= 1.0 <= friction_band[1] < math.inf:
+        raise InputError(f"friction_band = {friction_band}: 0 < low <= 1 <= high is needed")
+    design = None if friction_band is None else friction_band[1]
     settings = [(case, setting) for case in chosen for setting in case_settings(conveyor, case)]
     made = [(case, s, s.conveyor) for case, s in settings if isinstance(s.conveyor, Conveyor)]
     refused = [
@@ -300,7 +302,7 @@ def analyse_cases(
         for case, s in settings
         if not isinstance(s.conveyor, Conveyor)
     ]
-    variants = [Variant(conveyor), *(Variant(variant) for _, _, variant in made)]
+    variants = [Variant(one, design_friction=design) for one in (conveyor, *(variant for _, _, variant in made))]
     as_given, *answers = calculate_many(
         variants,
         rtol,
@@ -312,10 +314,11 @@ def analyse_cases(
     for (case, setting, _), result in zip(made, answers, strict=True):
         if isinstance(result, CalculatedConveyor):
             label = _case_label(case, result.temperature, result.line.speed)
-            results.append(CaseResult(case.name, label, replace(result, friction_band=band), case))
+            results.append(CaseResult(case.name, label, replace(result, friction_band=friction_band), case))
         else:
             refused.append(CaseRefusal(case.name, setting.temperature, setting.speed, str(result)))
     own = as_given if isinstance(as_given, CalculatedConveyor) else None
+    band = friction_band or (conveyor.drive.certain_friction, 1.0 if own is None else own.line.design_friction)
     return with_motors(CalculatedCases(conveyor, chosen, band, tuple(results), tuple(refused), own))
 
 
@@ -334,7 +337,7 @@ def motor_start_force(loads: Sequence[CalculatedConveyor]) -> float | None:
     """Starting force at the belt for the load that needs most [N]; None if the motors' power is given."""
     if not loads or all(drive.power is not None for drive in loads[0].line.drives):
         return None
-    return max(load.motions.start.standstill for load in loads)
+    return max(load.motions.design_start.standstill for load in loads)
 
 
 _FIGURES: Final[dict[str, tuple[str, str, bool, Callable[[Load], float]]]] = {

@@ -211,7 +211,10 @@ def _state_name(figures: Sequence[str]) -> str:
 
 def _reload_rolls(loads: Sequence[CalculatedConveyor], take_up: TakeUpSetting) -> list[CalculatedConveyor]:
     """Loads recalculated with the rolls loaded by the tension at a take-up setting; the first is the spec's own."""
-    variants = [Variant(one.conveyor, one.temperature, take_up=take_up) for one in loads]
+    variants = [
+        Variant(one.conveyor, one.temperature, take_up=take_up, design_friction=one.line.design_friction)
+        for one in loads
+    ]
     made = []
     for before, again in zip(loads, calculate_many(variants, known=loads[0]), strict=True):
         if not isinstance(again, CalculatedConveyor):

@@ -242,7 +242,7 @@ def load_states(
         for (temperature, _), (loading, figures) in worst.items()
         if not _IN_FULL.isdisjoint(figures) and loading.any() and not loading.all()
     ]
-    full_ones = dict(zip(alone, _calculate_in_full(conveyor, alone, own, kept), strict=True))
+    full_ones = dict(zip(alone, _calculate_in_full(conveyor, alone, own, adding, kept), strict=True))
     balances = {
         (temperature, loaded): one.balance
         for (temperature, loaded), one in full_ones.items()
@@ -331,7 +331,12 @@ def _full_and_empty(
         for temperature, name in wanted
         if name == "full" and (temperature, "full") in solved and (temperature, "empty") in solved
     }
-    return ends, refused
+    return {temperature: _at_one_design_friction(*pair) for temperature, pair in ends.items()}, refused
+
+
+def _at_one_design_friction(full: Balance, empty: Balance) -> _Ends:
+    """Full and empty belt designed for the friction of the full one."""
+    return full, empty.designed_for(full.line.design_friction)
 
 
 def _load_conveyor(conveyor: Conveyor, case: LoadCase, temperature: float, own: CalculatedConveyor) -> Conveyor:
@@ -359,7 +364,11 @@ def _worst_loadings(
 
 
 def _calculate_in_full(
-    conveyor: Conveyor, loads: Sequence[tuple[float, tuple[str, ...]]], own: CalculatedConveyor, kept: ReuseCache
+    conveyor: Conveyor,
+    loads: Sequence[tuple[float, tuple[str, ...]]],
+    own: CalculatedConveyor,
+    adding: Mapping[float, SectionLoadings],
+    kept: ReuseCache,
 ) -> list[CalculatedConveyor | ConveyorError]:
     """Calculate loadings at temperatures with their own contacts, or return the errors."""
     made: list[CalculatedConveyor | ConveyorError] = []
@@ -371,7 +380,8 @@ def _calculate_in_full(
         except ConveyorError as error:
             made.append(error)
         else:
-            variants[i] = Variant(one, take_up=own.balance.settled.take_up)
+            friction = adding[temperature].line.design_friction
+            variants[i] = Variant(one, take_up=own.balance.settled.take_up, design_friction=friction)
             made.append(own)
     if variants:
         for i, answer in zip(variants, calculate_many(list(variants.values()), known=own, kept=kept), strict=True):

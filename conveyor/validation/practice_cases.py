@@ -16,11 +16,11 @@ from typing import Any, Final, Literal
 from ruamel.yaml import YAML
 
 from conveyor.calculated_conveyor import CalculatedConveyor
+from conveyor.default_bands import power_range
 from conveyor.models import LoadCase
 from conveyor.models.variants import with_case
 from conveyor.pipeline import calculate
 from conveyor.spec import load
-from conveyor.studies.default_bands import power_range
 
 Evidence = Literal["printed", "measured"]
 Resistance = Literal["friction", "main", "f", "carry set"]

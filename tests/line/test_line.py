@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from conveyor.forces import Force, ForceSums
+from conveyor.force_sums import Force, ForceSums
 from conveyor.indentation import RollContact, indentation_curve, indentation_resistance
 from conveyor.laboratory import read_dma
 from conveyor.laws.resistance import length_coefficient

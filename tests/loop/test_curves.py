@@ -63,8 +63,8 @@ def test_tension_and_loads_agree_within_the_bound(hill):
     assert found.bound <= 1e-6
     fine = curved(HILL, calculation={"rtol": 2e-7})
     finer = calculate(fine)
-    # the contacts' own tolerance comes on top of the bound
-    assert hill.balance.tensions.largest == pytest.approx(finer.balance.tensions.largest, rel=found.bound + 1e-6)
+    # the contacts' own tolerance comes on top of the bound, and with the friction to design for once more
+    assert hill.balance.tensions.largest == pytest.approx(finer.balance.tensions.largest, rel=found.bound + 2e-6)
     again = Strands.of(fine, CurveLoads(pressing_masses(finer.line, finer.balance.settled.steady)))
     assert _borne(again) == pytest.approx(_borne(finer.line), rel=1e-6)
 

@@ -42,9 +42,11 @@ def failed(checks_of):
 
 def test_example_passes(line, all_of):
     assert failed(all_of) == []
-    motor = conveyor.analyse(line).balance.power.motor
-    assert all_of["motor power, drive"].found == f"{motor / 1e3:.0f} kW"
-    assert all_of["motor power, drive"].verdict == "pass"
+    balance = conveyor.analyse(line).balance
+    motor = balance.frame.motor(balance.settled.design_force)
+    assert motor > balance.power.motor
+    assert all_of["motor power, drive (design friction)"].found == f"{motor / 1e3:.0f} kW"
+    assert all_of["motor power, drive (design friction)"].verdict == "pass"
     rubber = all_of["rubber, carry"]  # of the shelf's constructed covers
     assert (rubber.asked, rubber.verdict) == ("a measured compound required", "not checked")
 
@@ -74,20 +76,20 @@ def test_data_cover_the_excited_band_where_they_reach_beyond_both_its_ends(low, 
 
 
 def test_us_units(line):
-    of = found(line, "US")["motor power, drive"]
-    assert of.found == f"{conveyor.analyse(line).balance.power.motor / 745.699872:.0f} hp"  # 550 ft lbf/s
+    of, balance = found(line, "US")["motor power, drive (design friction)"], conveyor.analyse(line).balance
+    assert of.found == f"{balance.frame.motor(balance.settled.design_force) / 745.699872:.0f} hp"  # 550 ft lbf/s
     assert of.asked == "at most 300 hp"
 
 
 @pytest.mark.parametrize(
     ("part", "change", "subject", "warned"),
     [
-        ("drive", {"installed_power": "50 kW"}, "motor power, drive", "the motor requires"),
+        ("drive", {"installed_power": "50 kW"}, "motor power, drive (design friction)", "the motor requires"),
         # motors of known power would give their rated force to break away
         (
             "drive",
             {"start_factor": 1.01, "installed_power": None},
-            "starting force after standstill",
+            "starting force after standstill (design friction)",
             "raise drive.start_factor",
         ),
         (
@@ -172,7 +174,7 @@ def test_not_given_is_not_checked(line):
     without = {name: value for name, value in line.drive.as_data().items() if name != "installed_power"}
     carcass = {name: value for name, value in line.belt.carcass.as_data().items() if name != "rating"}
     of = found(line.replace(drive=without, belt=line.belt.replace(carcass=carcass)))
-    assert of["motor power, drive"].verdict == "not checked"
+    assert of["motor power, drive (design friction)"].verdict == "not checked"
     assert of["belt safety factor, steady"].verdict == "not checked"
     assert of["holding backstop, loaded belt"].verdict == "not checked"
 
@@ -299,3 +301,20 @@ def test_the_tension_for_sag_is_that_of_the_span(line):
         section = check.where.partition(", ")[0]
         assert check.required == pytest.approx(spans[section], rel=1e-12)
         assert check.verdict == "pass"
+
+
+def test_the_classical_power_stands_on_page_one_with_its_difference_by_cause(line):
+    """The parts of f add up to f, the differences to that of the powers; figures to three digits."""
+    result = conveyor.analyse(line)
+    rows = {row.subject: row for row in result.contents(system="SI")["governing_figures"].rows}
+    row = rows["classical motor power, f = 0.02"]
+    balance = result.balance
+    there = balance.frame.motor(balance.classical.total)
+    assert row.value == f"{there / 1e3:.3g} kW"
+    f, parts = re.search(r"f 0\.0200 for (0\.\d+) \(([^)]*)\)", row.where).groups()
+    assert float(f) == pytest.approx(balance.friction_factor, abs=5e-5)
+    assert sum(float(part.split()[-1]) for part in parts.split(", ")) == pytest.approx(float(f), abs=2e-4)
+    changes = [float(change) for change in re.findall(r"([+-][\d.]+) kW", row.where)]
+    assert sum(changes) == pytest.approx((there - balance.power.motor) / 1e3, rel=2e-2)
+    by_f = conveyor.analyse(line.replace(calculation=line.calculation.replace(method="din 22101")))
+    assert not [row for row in by_f.contents()["governing_figures"].rows if row.subject.startswith("classical")]

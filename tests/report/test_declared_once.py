@@ -15,7 +15,7 @@ import conveyor
 from conveyor import pipeline
 from conveyor.checks import check_against_limit, register
 from conveyor.cli.terminal import show_power
-from conveyor.forces import Force
+from conveyor.force_sums import Force
 from conveyor.report import excel, html, table_files
 from conveyor.report.page_elements import notebook_summary
 from conveyor.report.table_model import Column, Figure, PagePlacement, Table

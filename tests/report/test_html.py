@@ -218,8 +218,8 @@ def test_curves_differ_without_colour(text):
         if "stroke: #" in (style := a.get("style", "")) and "stroke-width: 1.6" in style
     }
     dashes = [re.search(r"stroke-dasharray: [^;]*", style) for style in styles]
-    assert len(dashes) == 3
-    assert len({found[0] if found else "solid" for found in dashes}) == 3
+    assert len(dashes) == 5
+    assert len({found[0] if found else "solid" for found in dashes}) == 5
 
 
 def test_verdicts_are_words(result, page, studied):

@@ -23,6 +23,8 @@ CONVEYOR, COMPARISON = "Workbook of a conveyor", "Workbook of a comparison"
 STATES = {
     "steady",
     "braking",
+    "design friction",
+    "start, design friction",
     "least friction",
     "braking, least friction",
     "brakes on",
@@ -44,7 +46,7 @@ def _label(key, words):
         return "<compound>"
     if key == "landings" and words != "quantity":
         return "<loading point>"
-    return re.sub(r"motor power, [\d.]+ x friction", "motor power, <n> x friction", words)
+    return words
 
 
 def _read_words():

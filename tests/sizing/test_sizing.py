@@ -113,7 +113,8 @@ def test_no_weaker_class_and_no_smaller_motor_would_do(small, sized):
         weaker = [one for one in task.carcasses["EP"] if one.strength < design.chosen.carcass.strength]
         assert design.safety >= 8.0
         (motor,) = design.chosen.motors
-        needed = small.rules.motor_reserve * abs(design.coldest.balance.power.motor)
+        balance = design.coldest.balance
+        needed = small.rules.motor_reserve * abs(balance.frame.motor(balance.settled.design_force))
         assert (
             needed <= motor <= 1.35 * needed
         )  # the widest step of the series: 1.1 to 1.5 of small, 1.33 of large ones

@@ -323,7 +323,10 @@ def test_the_command_writes_page_figures_designs_and_specs_that_power_reads(tmp_
     assert len(specs) == 2
     shown = command("power", specs[0], "--json", "--set", "material.flow=100 t/h")
     highest = min(float(row["motor power, highest [kW]"]) for row in rows)
-    assert json.loads(shown.stdout)["power_kW"]["motor"] == pytest.approx(highest, rel=2e-4)
+    assert json.loads(shown.stdout)["power_kW"]["motor"] == pytest.approx(
+        highest,
+        rel=1e-3,  # the take-up of every load and its wraps
+    )
 
 
 def test_energy_is_paid_at_the_price_of_the_design(line, answers):

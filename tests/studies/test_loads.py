@@ -100,7 +100,7 @@ def test_the_load_as_given_is_among_those_that_govern():
     level = load(SPECS / "curved.yaml").replace(cases=[{"name": "empty", "loading": "empty"}])
     found = studies(level)
     assert [row.result.name for row in found.governing if row.key.startswith("largest_motor")] == ["as given"]
-    assert found.motors[0].needed == pytest.approx(found.states.own.balance.power.motor, rel=RTOL)
+    assert found.motors[0].needed == pytest.approx(found.states.own.governing_motor_power, rel=RTOL)
 
 
 def test_of_two_loads_that_are_one_the_same_governs_everywhere():

@@ -14,6 +14,7 @@ import pytest
 
 import conveyor
 from conveyor import shelf
+from conveyor.default_bands import power_range
 from conveyor.errors import InputError
 from conveyor.loop.ties import TIE_RTOL
 from conveyor.models import RubberCompound, standard_cases
@@ -21,7 +22,6 @@ from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
 from conveyor.report.tables.study_tables import power_bands
 from conveyor.results.analysis import studies, study_ranges
-from conveyor.studies.default_bands import power_range
 from tests.written_tables import written_tables
 
 SPECS = Path(__file__).parent.parent.parent / "examples" / "specs"
@@ -63,8 +63,8 @@ def test_governing_cases_are_the_extremes_of_the_table(cases):
     table = cases.table
     by_figure = {row.figure: row for row in cases.governing}
     columns = {
-        "maximum motor power": ("motor power, 1 x friction [kW]", "max", 1e3),
-        "minimum motor power": ("motor power, 0.6 x friction [kW]", "min", 1e3),
+        "maximum motor power": ("motor power, design friction [kW]", "max", 1e3),
+        "minimum motor power": ("motor power, least friction [kW]", "min", 1e3),
         "maximum belt tension": ("maximum tension [N]", "max", 1.0),
         "minimum belt tension, steady": ("minimum tension, steady [N]", "min", 1.0),
         "required take-up tension": ("required take-up tension [N]", "max", 1.0),
@@ -100,7 +100,7 @@ def test_load_cases_as_plain_data(line):
     found = studies(given)
     data = json.loads(json.dumps(found.to_dict()["load_cases"], allow_nan=False))
     assert len(data["cases"]) == len(found.cases.results) == 4
-    assert data["friction_band"] == [pytest.approx(0.6), 1.0]
+    assert data["friction_band"] == [pytest.approx(0.6), found.cases.as_given.line.design_friction]
     assert data["cases"][-1]["energy [kWh/(t km)]"] is None  # declines only
     assert [row["figure"] for row in data["governing"]] == [row.figure for row in found.cases.governing]
     assert data["motors"][0]["drive"] == "drive"

@@ -10,12 +10,12 @@ import pytest
 from scipy.special import ndtri
 
 from conveyor import shelf
+from conveyor.effects import Effect, root_of_squares
 from conveyor.errors import InputError
 from conveyor.models import Conveyor, RubberCompound, Uncertainty
 from conveyor.pipeline import calculate
 from conveyor.rubber.rolling_test_factor import BAND_COVERAGE
 from conveyor.spec import load
-from conveyor.studies.effects import Effect, root_of_squares
 from conveyor.studies.input_ranges import SAMPLES, analyse_ranges, hypercube_band
 from conveyor.units import quantity, si
 

@@ -17,6 +17,7 @@ import pytest
 
 from conveyor import shelf
 from conveyor.calculated_conveyor import CalculatedConveyor
+from conveyor.default_bands import power_range
 from conveyor.laws.take_up import take_up_mass
 from conveyor.laws.tension import sag_tension
 from conveyor.line.rolling_test_theory import compound_test_factor, rolling_test_rows
@@ -25,7 +26,6 @@ from conveyor.models.variants import with_case
 from conveyor.pipeline import calculate
 from conveyor.spec import load
 from conveyor.starter.starter_writer import starter_text
-from conveyor.studies.default_bands import power_range
 
 SPECS = Path(str(resources.files("conveyor") / "_reference" / "practice"))
 BAND = (0.8, 1.25)

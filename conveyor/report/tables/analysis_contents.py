@@ -145,7 +145,7 @@ TABLES: Final[dict[str, Maker]] = {
     "inputs": lambda made: document_tables.input_table(inputs.input_rows(made.own.conveyor)),
     "sections": _own_table(resistance_tables.section_table),
     "resistances": _own_table(resistance_tables.resistance_table),
-    "classical": _own_table(resistance_tables.classical_table),
+    "classical": lambda made: resistance_tables.classical_table(made.own, made.assessment.by_contact),
     "cema": _own_table(resistance_tables.cema_table),
     "breakdown": _own_table(resistance_tables.breakdown_table),
     "distinct_rolls": lambda made: idler_tables.distinct_rolls(made.own, made["rolls"]),

@@ -14,6 +14,7 @@ from conveyor.loop.equilibrium import START
 from conveyor.loop.tensions import MotionState
 from conveyor.loop.ties import first_maximum, first_minimum
 from conveyor.models import RubberCompound
+from conveyor.models.calculation_methods import FACTOR_METHODS
 from conveyor.report.table_model import Column, Table
 from conveyor.studies.load_cases import AS_GIVEN
 from conveyor.units import System
@@ -26,6 +27,8 @@ _TAKE_UP_CRITERIA: Final = ("take_up_tension", "sag", "drive_grip")
 _NO_MARGIN: Final = 1e-6  # [-], margin of the take-up below which its setting is the minimum; it is exact to rounding
 _DOMINANT_SHARE: Final = 0.3
 """Indentation share of the main resistance above which the quality of the rubber data is reported."""
+_SMALL_CHANGE: Final = 5e-3
+"""Share of the power below which a difference between two methods is not said."""
 _FAILURES_SHOWN: Final = 3  # failures reported in full
 
 
@@ -70,15 +73,17 @@ def _governing_rows(assessment: Assessment) -> Iterator[GoverningRow]:
     yield GoverningRow(
         "maximum motor power",
         _motor_power_text(power, most.found.governing_motor_power),
-        most.label.text(system),
+        f"{most.label.text(system)}{_friction_text(most.found)}",
     )
     where = format_figure(a.temperature, "temperature", system)
     if left_open.effects:
         low, high = (power.said(end, 3) for end in (left_open.low, left_open.high))
-        where += f"; design {high}, least {low} (90 % interval by site, defaults and rubber)"
+        where += f"; {low} to {high} in the 90 % band of site, defaults and rubber"
     if left_open.untested:
         where += "; beyond the tested temperatures of the rubber"
     yield GoverningRow("motor power as given, expected", power.said(left_open.motor, 3), where)
+    if a.line.method not in FACTOR_METHODS:
+        yield _classical_power(a, power)
     installed = [drive.power for drive in a.line.drives if drive.power is not None]
     if installed:
         yield GoverningRow("installed power", power.said(sum(installed), 3), f"{len(installed)} driven pulleys"
@@ -112,6 +117,37 @@ def _governing_rows(assessment: Assessment) -> Iterator[GoverningRow]:
     yield from _belt_utilisation(assessment.governing, system)
     if a.balance.forces.indentation > _DOMINANT_SHARE * abs(a.balance.forces.main):
         yield from _rubber_quality(a)
+
+
+def _classical_power(a: CalculatedConveyor, power: Unit) -> GoverningRow:
+    """Power by a given f, and its difference from the expected one by cause."""
+    balance, classical, motor = a.balance, a.balance.classical, a.balance.frame.motor
+    here, there, more = balance.power.motor, motor(classical.total), classical.total - balance.forces.total
+    watts = (there - here) / more if more else 0.0
+    main = {force.key for force in balance.along if force.kind == "main"}
+    parts = [(name, newtons / balance.unit_main) for name, newtons in balance.forces.parts.items() if name in main]
+    of_parts = ", ".join(f"{name.replace('_', ' ')} {part:.4f}" for name, part in parts)
+    causes = (
+        (f"main resistance, f {classical.friction_factor:.4f} for {balance.friction_factor:.4f} ({of_parts})", "main"),
+        ("secondary resistances by C" if classical.secondary_by.startswith("(C") else "secondary resistances",
+         "secondary"),
+        ("special resistances", "special"),
+        ("lift", "lift"),
+    )  # fmt: skip
+    changes = [(name, watts * (getattr(classical, key) - getattr(balance.forces, key))) for name, key in causes]
+    shown = [(name, change) for name, change in changes if abs(change) > _SMALL_CHANGE * abs(here)]
+    said = [f"{name}: {'-' if change < 0.0 else '+'}{power.said(abs(change), 3)}" for name, change in shown]
+    where = f"against the expected: {'; '.join(said)}" if said else "as expected"
+    return GoverningRow(f"classical motor power, f = {classical.friction_factor:g}", power.said(there, 3), where)
+
+
+def _friction_text(result: CalculatedConveyor) -> str:
+    """Friction that the highest power has, over the computed one; empty where it is the computed one."""
+    line = result.line
+    name, factor = ("design", line.design_friction)
+    if result.governing_motor_power < 0.0:
+        name, factor = "least", line.least_friction
+    return "" if factor == 1.0 else f"; {name} friction, {factor:.3g} times the expected"
 
 
 def _motor_power_text(power: Unit, watts: float) -> str:

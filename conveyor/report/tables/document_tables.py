@@ -9,6 +9,7 @@ from typing import Any, Final
 
 from conveyor.files.output_marks import package_version
 from conveyor.models import Conveyor
+from conveyor.models.calculation_methods import FACTOR_METHODS, METHOD_NAMES
 from conveyor.report.table_model import Column, Figure, PagePlacement, ReportHead, Table, figure_table
 from conveyor.report.tables.inputs import InputRow, group_inputs
 from conveyor.spec import fingerprint
@@ -55,8 +56,16 @@ def identity_table(conveyor: Conveyor, system: System) -> Table:
         Figure("carry idlers", "text", idlers(conveyor.idlers.carry)),
         Figure("return idlers", "text", idlers(conveyor.idlers.return_)),
         Figure("material", "text", f"{material.name}, {shown(material.density, 'density')}"),
+        Figure("resistances by", "text", _method_text(conveyor)),
     )
     return figure_table("identity", "", "The conveyor", rows)
+
+
+def _method_text(conveyor: Conveyor) -> str:
+    """Method of the resistances, with the friction factor of those that have one."""
+    calculation = conveyor.calculation
+    f = f", f = {calculation.friction_factor:g}" if calculation.method in FACTOR_METHODS else ""
+    return f"{METHOD_NAMES[calculation.method]}{f}"
 
 
 def input_table(entries: tuple[InputRow, ...]) -> Table:

@@ -10,7 +10,8 @@ from typing import Final
 from conveyor.calculated_conveyor import CalculatedConveyor, StretchResult
 from conveyor.line.roll_lives import idler_set_life
 from conveyor.loop.balance import Balance
-from conveyor.loop.estimates import CemaEstimate, ClassicalEstimate
+from conveyor.loop.estimates import CemaEstimate, ClassicalEstimate, estimate_of_forces
+from conveyor.models.calculation_methods import FACTOR_METHODS, METHOD_NAMES
 from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Column, Figure, PagePlacement, Table
 
 _HOUR: Final = 3600.0
@@ -99,10 +100,18 @@ def breakdown_table(a: CalculatedConveyor) -> Table:
     return Table("breakdown", "Resistances", heading, columns, tuple(forces.parts), printed=False)
 
 
-def classical_table(a: CalculatedConveyor) -> Table:
-    """Comparison with ISO 5048 / DIN 22101 at a given f, and with CEMA where its factors are given."""
+def classical_table(a: CalculatedConveyor, by_contact: CalculatedConveyor | None = None) -> Table:
+    """Comparison with the other methods: a given f, CEMA where its factors are given, else the rolling contact."""
     balance, forces = a.balance, a.balance.forces
-    estimates = [("classical, given f", balance.classical), ("CEMA classic, given Ky", balance.cema)]
+    of_rolls = None
+    if by_contact is not None:
+        other = by_contact.balance
+        of_rolls = estimate_of_forces(other.forces, other.friction_factor, "itemised")
+    estimates: list[tuple[str, ClassicalEstimate | None]] = [
+        ("rolling contact", of_rolls),
+        ("classical, given f", None if a.line.method in FACTOR_METHODS else balance.classical),
+        ("CEMA classic, given Ky", None if a.line.method == "cema classic" else balance.cema),
+    ]
     others = [(name, made) for name, made in estimates if made is not None]
 
     def row(label: str, kind: str, name: str, here: float) -> Figure:
@@ -119,17 +128,22 @@ def classical_table(a: CalculatedConveyor) -> Table:
         replace(row("effective tension", "force", "total", forces.total), us="Te"),
         Figure("motor power", "power", powers, key="motor"),
     )
-    names = ["this calculation", *(name for name, _ in others)]
+    names = [method_label(a), *(name for name, _ in others)]
     columns = (
         Column("quantity", FIGURE_NAME, "label"),
         *(Column(name, ROW_KIND, f"value.{i}", key=f"estimate_{i}") for i, name in enumerate(names)),
     )
-    heading = "Comparison with ISO 5048 / DIN 22101, given f"
+    heading = "This calculation and the other methods"
+    classical = f"secondary resistances of the classical estimate: {balance.classical.secondary_by}; "
     note = (
-        f"secondary resistances of the classical estimate: {balance.classical.secondary_by}; "
-        f"governing at the drive: {balance.tensions.governed_by}"
+        f"{'' if a.line.method in FACTOR_METHODS else classical}governing at the drive: {balance.tensions.governed_by}"
     )
     return Table("classical", "Resistances", heading, columns, rows, "resistances", note)
+
+
+def method_label(a: CalculatedConveyor) -> str:
+    """Name of the column of the calculation itself."""
+    return "this calculation" if a.line.method == "viscoelastic" else f"this calculation, {METHOD_NAMES[a.line.method]}"
 
 
 def cema_table(a: CalculatedConveyor) -> Table:

@@ -96,6 +96,11 @@ def _give_first(source: _Source) -> str | None:
     return effects[0].give if effects else None
 
 
+def _power_band_keys(source: _Source) -> Any:
+    """Ends of the range of power, figures of the results; left out where no default is in use."""
+    return dict.fromkeys(("low", "high")) if source.assessment.power_range.effects else LEFT_OUT
+
+
 def _table_rows(key: str) -> Callable[[_Source], list[dict[str, Any]]]:
     """Rows of a table; none where it is left out."""
     return lambda source: source.tables[key].plain() if key in source.tables else []
@@ -115,15 +120,17 @@ _POWER: Final = JsonObject(
         "length_m": _figure_key(),
         "lift_m": _figure_key("from tail to head, negative downhill"),
         "friction_factor": _figure_key("f that DIN 22101's main resistance needs for the same force"),
+        "design_friction": _figure_key("that motors, belt, grip and take-up are checked with, over the computed one"),
         "error_estimate": _figure_key("largest of any roll's indentation, relative"),
         "forces_N": number_object(
             lambda source: dict.fromkeys(source.own.balance.forces.parts),
-            "indentation", "idler_rotation", "flexure", "misalignment", "secondary", "special", "lift", "total",
-            of="against the motion",
+            "secondary", "special", "lift", "total",
+            of="against the motion; before these the main resistances: indentation, idler_rotation, flexure, "
+            "misalignment, or by their keys those of a classical method",
         ),
         "power_kW": number_object(
-            lambda _: dict.fromkeys(("belt", "motor", "mains")), "belt", "motor", "mains",
-            of="negative where the belt drives",
+            lambda _: dict.fromkeys(("belt", "motor", "mains", "design")), "belt", "motor", "mains", "design",
+            of="negative where the belt drives; design: at the motor with the friction to design for",
         ),
         "tensions_N": row_object(
             {name: number_key(name) for name in ("tight", "slack", "tight_start", "largest", "smallest")}
@@ -177,12 +184,11 @@ _POWER: Final = JsonObject(
             describe_value("defaults in use and the range of power they leave open") | {"type": ["object", "null"]},
             optional=True,
             keys={
-                "motor_kW": _optional_key(number_object(lambda _: dict.fromkeys(("low", "high")), "low", "high")),
+                "motor_kW": _optional_key(number_object(_power_band_keys, "low", "high")),
                 "replace_first": _optional_key(text_key(_give_first, known=False)),
                 "in_use": JsonList(
                     _table_rows("defaults"), optional=True, item=JsonKey(lambda row: row, ROW_SCHEMA)
                 ),
-                "notes": _optional_key(text_list("assessment.power_range.notes")),
             },
         ),
         "rubber": JsonList(
@@ -209,7 +215,7 @@ _POWER: Final = JsonObject(
                 {"section": text_key("section"), "strand": choice_key("strand", "carry", "return")}
                 | {
                     name: number_key(name)
-                    for name in ("length_m", "lift_m", "indentation_N", "idler_rotation_N", "total_N")
+                    for name in ("length_m", "lift_m", "total_N")
                 },
                 {"additionalProperties": {"type": "number"}},
             ),

@@ -2,22 +2,32 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
+from typing import Final
 
 from conveyor.calculated_conveyor import CalculatedConveyor
+from conveyor.default_bands import PowerRange
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.report.table_model import Column, Figure, PagePlacement, Table, figure_table
-from conveyor.studies.default_bands import PowerRange
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, format_figure
+
+_BAND_TOLERANCE: Final = 1e-3
+"""Of the upper end of the band against the friction to design for: the take-up moves the wraps of the pulleys."""
 
 
 def result_table(a: CalculatedConveyor, left_open: PowerRange) -> Table:
     """Figures of the whole conveyor, with the range of power due to defaults."""
     conveyor, balance = a.conveyor, a.balance
     forces, power, tensions_at, classic = balance.forces, balance.power, balance.tensions, balance.classical
-    low, high = (left_open.low, left_open.high) if left_open.effects else (None, None)
-    share = forces.indentation / forces.main
+    band = (
+        Figure("motor power, low by defaults", "power", left_open.low, "", "defaults.motor_kW.low",
+               key="motor_power_low"),
+        Figure("motor power, high by defaults", "power", left_open.high, "", "defaults.motor_kW.high",
+               key="motor_power_high"),
+    )  # fmt: skip
+    share = forces.indentation / forces.main if a.line.method == "viscoelastic" else None
     error, energy_error = a.contacts.error, a.contacts.energy_error
     safety, of_year = a.belt_duty.safety, a.year
     energy, cost = (None, None) if of_year is None else (of_year.energy * JOULE_PER_KWH, of_year.cost)
@@ -28,9 +38,11 @@ def result_table(a: CalculatedConveyor, left_open: PowerRange) -> Table:
         Figure("belt speed", "speed", a.line.speed),
         Figure("mass flow", "mass flow", a.line.flow, json="flow_t_per_h"),
         Figure("motor power", "power", power.motor, "tile large notebook", "power_kW.motor"),
-        Figure("motor power, low by defaults", "power", low, "", "defaults.motor_kW.low", key="motor_power_low"),
-        Figure("motor power, high by defaults", "power", high, "", "defaults.motor_kW.high",
-               key="motor_power_high"),
+        *(band if left_open.effects else ()),
+        Figure("friction to design for, over the computed", "ratio", left_open.design_friction, "",
+               "design_friction", key="design_friction"),
+        Figure("motor power with the friction to design for", "power", left_open.design, "", "power_kW.design",
+               key="motor_power_design"),
         Figure("belt power", "power", power.belt, "large notebook", "power_kW.belt"),
         Figure("mains power", "power", power.mains, "", "power_kW.mains"),
         Figure("effective tension", "force", forces.total, "tile large notebook", "forces_N.total", us="Te"),
@@ -41,7 +53,11 @@ def result_table(a: CalculatedConveyor, left_open: PowerRange) -> Table:
             )
             for name, newtons in forces.parts.items()
         ),
-        Figure("indentation share of main resistance", "share", share, "tile large", key="indentation_share"),
+        *(
+            (Figure("indentation share of main resistance", "share", share, "tile large", key="indentation_share"),)
+            if share is not None
+            else ()
+        ),
         Figure("equivalent DIN f", "friction", balance.friction_factor, "tile large notebook", "friction_factor",
                key="equivalent_f"),
         Figure("tight side tension", "force", tensions_at.tight, "tile notebook", us="T1"),
@@ -83,13 +99,23 @@ def default_table(left_open: PowerRange, system: System) -> Table:
                  _power_range_text(left_open, system) if left_open.effects else "")  # fmt: skip
 
 
+def _design_friction_text(power: PowerRange) -> str:
+    """Friction to design for over the computed one, and where it comes from."""
+    upper_end = math.isclose(power.design_friction, power.friction[1], rel_tol=_BAND_TOLERANCE)
+    source = "the upper end of the band" if upper_end else "drive.design_friction"
+    return f"{power.design_friction:.3g} times the expected friction, {source}"
+
+
 def _power_range_text(power: PowerRange, system: System) -> str:
-    """Power with its range, and the default to replace first."""
-    low, high = (format_figure(end, "power", system) for end in (power.low, power.high))
-    first, motor = power.effects[0], format_figure(power.motor, "power", system)
+    """Power with its range and what is designed by it, and the default to replace first."""
+    motor, low, high, design = (
+        format_figure(end, "power", system) for end in (power.motor, power.low, power.high, power.design)
+    )
+    first = power.effects[0]
     said = (
-        f"Motor power: expected {motor}, design {high}, least {low} (90 % interval by site, defaults and rubber). "
+        f"Motor power: expected {motor}, from {low} to {high} in the 90 % band of site, defaults and rubber. Motors, "
+        f"belt, grip and take-up are checked at {design} ({_design_friction_text(power)}). "
         f"Replace first: {first.name} (give {first.give})."
     )
     untested = (f"Beyond the tests: {one.text(system)}." for one in power.untested)
-    return " ".join((said, *untested, *(f"Not included: {note}." for note in power.notes)))
+    return " ".join((said, *untested))

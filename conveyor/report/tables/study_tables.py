@@ -120,7 +120,6 @@ def case_tensions(study: CalculatedCases) -> Table:
 
 def case_table(study: CalculatedCases) -> Table:
     """Load cases, one row per case, speed and temperature."""
-    low, high = study.friction_band
     columns = (
         Column("case", "text", "case.name"),
         Column("loading", "text", "case.loading", page=None),
@@ -131,8 +130,8 @@ def case_table(study: CalculatedCases) -> Table:
         Column("main resistance", "force", "found.balance.forces.main", page=None),
         Column("effective tension", "force", "found.balance.forces.total"),
         Column("motor power", "power", "found.balance.power.motor"),
-        Column(f"motor power, {low:g} x friction", "power", "motors.0", page=None),
-        Column(f"motor power, {high:g} x friction", "power", "motors.1", page=None),
+        Column("motor power, least friction", "power", "motors.0", page=None),
+        Column("motor power, design friction", "power", "motors.1", page=None),
         Column("equivalent DIN f", "friction", "found.balance.friction_factor", page=None),
         Column("tight side tension", "force", "found.balance.tensions.tight", page=None),
         Column("slack side tension", "force", "found.balance.tensions.slack", page=None),
@@ -169,7 +168,7 @@ def governing_cases(study: CalculatedCases, governing: Sequence[GoverningLoad]) 
     rows = tuple(Figure(row.figure, row.kind, row, key=f"governing_{row.key}") for row in governing)
     left_out = [row.label.text() for row in study.results if not row.covered]
     held = "; negative: the motors hold the belt" if any(row.value < 0.0 for row in governing) else ""
-    note = f"friction factor {low:g}-{high:g}, least favourable{held}"
+    note = f"friction {low:.3g} to {high:.3g} times the computed, least favourable{held}"
     if left_out:
         note += f"; without {'; '.join(left_out)}: the rubber data do not cover the excitation band there"
     return Table("governing_cases", "Load cases", "Governing cases", columns, rows, _CASES, note, links=True)

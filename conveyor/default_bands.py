@@ -1,14 +1,13 @@
 """Range of the power from the defaults in use: each at both ends of its band.
 
-Forces are linear in the defaults, so no contact is solved again: the forces are scaled and the loop of tensions is
-closed around them. Bands are taken to be independent; changes down and changes up add as the root of their squares. A
-default is one line of `DEFAULTS`.
+Forces are linear in the defaults, so neither contacts nor tensions are solved again. Bands are taken to be independent;
+changes down and changes up add as the root of their squares. A default is one line of `DEFAULTS`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
 
@@ -16,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.calculated_conveyor import CalculatedConveyor
+from conveyor.effects import Effect, ends_of_band
 from conveyor.errors import NoSolutionError
-from conveyor.forces import Force
+from conveyor.force_sums import Force
 from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
 from conveyor.laws.resistance import (
     CLEANER_PRESSURE,
@@ -36,10 +36,10 @@ from conveyor.line.belt_contacts import BeltContacts
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.roll_drags import assumed_drag_share
 from conveyor.line.stretches import STRANDS
-from conveyor.loop.balance import Balance, OpenLoop, close_loops
+from conveyor.loop.balance import OpenLoop, close_loops
+from conveyor.loop.equilibrium import Equilibrium
 from conveyor.rubber.rolling_test_factor import UNTESTED_FACTOR
-from conveyor.studies.effects import Effect, ends_of_band, root_of_squares
-from conveyor.units.sentences import Message, error_in_units, escape_braces, message
+from conveyor.units.sentences import Message, escape_braces, message
 
 Shares: TypeAlias = NDArray[np.float64] | float
 """Share of a force that depends on a default [-]: of every stretch, shape (2n,), or at one place."""
@@ -247,10 +247,10 @@ class PowerRange:
         At the motors' shafts: computed, and its 90 % band [W].
     effects : tuple of DefaultEffect
         One per default in use, the largest swing first.
-    notes : tuple of str
-        Ends of bands without an answer, and the reason.
     friction : tuple of float
-        90 % band of the effective tension less lift, over the computed one [-].
+        90 % band of the friction over the computed one [-]: of every force but lift and acceleration of the bulk.
+    design_friction, design : float
+        Friction that motors, belt, grip and take-up are designed for, over the computed one [-]; the power with it [W].
     untested : tuple of Message
         Rubbers without rolling-resistance tests at the belt's temperature.
     """
@@ -259,8 +259,9 @@ class PowerRange:
     low: float
     high: float
     effects: tuple[DefaultEffect, ...]
-    notes: tuple[str, ...] = ()
     friction: tuple[float, float] = (1.0, 1.0)
+    design_friction: float = 1.0
+    design: float = 0.0
     untested: tuple[Message, ...] = ()
 
 
@@ -279,23 +280,14 @@ def power_range(result: CalculatedConveyor) -> PowerRange:
 
     Notes
     -----
-    On vertical curves the rolls keep their loads. A default for which the loop has no answer at an end of its band is
-    left out and noted.
+    Rolls keep their loads, and pulleys their wraps but for those that scale with a default of their own; what the
+    tensions add to both is of second order.
     """
-    motor = result.balance.power.motor
-    using = [one for one in DEFAULTS if any(_uses_default(one, result, force) for force in result.balance.every)]
-    bands = [assumed.ends(result) for assumed in using]
-    pairs = zip(using, bands, strict=True)
-    closed = close_loops([_scale_loop(result, assumed, factor) for assumed, ends in pairs for factor in ends])
-    effects, notes, frictions = [], [], []
-    computed = _friction_force(result.balance)
-    for assumed, ends, *both in zip(using, bands, closed[::2], closed[1::2], strict=True):
-        why = next((end for end in both if isinstance(end, NoSolutionError)), None)
-        if why is not None:
-            notes.append(f"{assumed.what} at an end of its band: {error_in_units(why, result.conveyor.report.units)}")
-            continue
-        low, high = (end.power.motor for end in both if isinstance(end, Balance))
-        frictions.append([_friction_force(end) / computed for end in both if isinstance(end, Balance)])
+    motor, settled = result.balance.frame.motor, result.balance.settled
+    changes = list(_force_changes(result))
+    effects = []
+    for assumed, ends, forces in changes:
+        low, high = (motor(settled.force + change) for change in forces)
         effects.append(
             DefaultEffect(
                 assumed.what, f"x {ends[0]:.3g}", "x 1", f"x {ends[1]:.3g}", low, high,
@@ -303,15 +295,68 @@ def power_range(result: CalculatedConveyor) -> PowerRange:
             )
         )  # fmt: skip
     effects.sort(key=lambda effect: -effect.swing)
+    friction = _combined_band(settled, [forces for _, _, forces in changes])
+    low, high = sorted(map(motor, map(settled.resistance, friction)))
     return PowerRange(
-        motor, *root_of_squares(motor, effects), tuple(effects), tuple(notes),
-        ends_of_band(1.0, frictions), tuple(_untested_rubbers(result)),
+        motor(settled.force), low, high, tuple(effects), friction,
+        result.line.design_friction, motor(settled.design_force), tuple(_untested_rubbers(result)),
     )  # fmt: skip
 
 
-def _friction_force(balance: Balance) -> float:
-    """Effective tension less lift [N]."""
-    return balance.forces.total - balance.forces.lift
+def friction_band(result: CalculatedConveyor) -> tuple[float, float]:
+    """90 % band of the friction over the computed one [-], from the defaults in use; certain forces have none.
+
+    Bands of single defaults are independent: the changes of the drive force add as the root of their squares.
+    """
+    return _combined_band(result.balance.settled, [forces for _, _, forces in _force_changes(result)])
+
+
+def close_design_loops(
+    results: Sequence[CalculatedConveyor], loops: Sequence[OpenLoop]
+) -> list[CalculatedConveyor | NoSolutionError]:
+    """Results with their loops closed again, designed for the upper end of the band of friction of each.
+
+    Parameters
+    ----------
+    results : sequence of CalculatedConveyor
+        Calculated with the expected friction alone.
+    loops : sequence of OpenLoop
+        Their loops.
+    """
+    asked = [
+        loop._replace(frame=loop.frame.designed_for(friction_band(one)[1]))
+        for one, loop in zip(results, loops, strict=True)
+    ]
+    return [
+        made if isinstance(made, NoSolutionError) else replace(one, balance=made)
+        for one, made in zip(results, close_loops(asked), strict=True)
+    ]
+
+
+def _combined_band(settled: Equilibrium, changes: Iterable[tuple[float, float]]) -> tuple[float, float]:
+    """Band of the friction over the computed one [-] from changes of the drive force at both ends [N]."""
+    rubbing = settled.force - settled.resistance(0.0)
+    if rubbing <= 0.0:
+        return 1.0, 1.0
+    low, high = ends_of_band(0.0, changes)
+    return 1.0 + low / rubbing, 1.0 + high / rubbing
+
+
+def _force_changes(
+    result: CalculatedConveyor,
+) -> Iterator[tuple[DefaultBand, tuple[float, float], tuple[float, float]]]:
+    """Defaults in use, the ends of their bands, and the change of the drive force at both ends [N].
+
+    None by a classical method: its factors have the allowance of their book.
+    """
+    if result.line.method != "viscoelastic":
+        return
+    every = result.balance.every
+    for assumed in DEFAULTS:
+        depending = math.fsum(_shared_force(force, assumed.share(result, force)) for force in every)
+        if depending:
+            low, high = assumed.ends(result)
+            yield assumed, (low, high), ((low - 1.0) * depending, (high - 1.0) * depending)
 
 
 def _untested_rubbers(result: CalculatedConveyor) -> Iterator[Message]:
@@ -333,16 +378,6 @@ def _untested_rubbers(result: CalculatedConveyor) -> Iterator[Message]:
         )
 
 
-def _uses_default(assumed: DefaultBand, result: CalculatedConveyor, force: Force) -> bool:
-    """True if a force depends on a default."""
-    return bool(np.any(np.asarray(assumed.share(result, force)) * np.asarray(force.newtons)))
-
-
-def _scale_loop(result: CalculatedConveyor, assumed: DefaultBand, factor: float) -> OpenLoop:
-    """The loop with the forces of a default scaled."""
-
-    def scaled(force: Force) -> Force:
-        return replace(force, newtons=force.newtons * (1.0 + (factor - 1.0) * assumed.share(result, force)))
-
-    along = tuple(map(scaled, result.balance.along))
-    return OpenLoop(result.balance.frame.scaled(scaled), along, result.balance.unit_main)
+def _shared_force(force: Force, share: Shares) -> float:
+    """Share of a force [N]; the same of all stretches, or one for each."""
+    return share * force.total if isinstance(share, float) else float(np.sum(force.newtons * share))

@@ -1,0 +1,154 @@
+"""Resistances by the classical methods: one friction factor (ISO 5048, DIN 22101), or CEMA's classic form.
+
+CEMA: Kx computed, Ky, Kt, Ai, Cs from the user's copy of Belt Conveyors for Bulk Materials, 5th ed. 1997, chapter 6, as
+commonly reproduced; skirts, cleaners, ploughs and pulleys by its figures.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import partial
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from conveyor.force_sums import Force
+from conveyor.laws.resistance import (
+    CemaTension,
+    cema_acceleration,
+    cema_effective_tension,
+    cema_idler_factor,
+    cema_pulley_friction,
+    cema_skirts,
+    slope_resistance,
+)
+from conveyor.laws.resistance.cema import Place
+from conveyor.line.bend_pulleys import BendPulley
+from conveyor.line.cema_factors import CemaFactors
+from conveyor.line.line import Line
+from conveyor.line.stretches import Stretch
+
+Array = NDArray[np.float64]
+
+STANDARD_GRAVITY: Final = 9.80665
+"""Pounds force for pounds mass [m/s²]."""
+_LEAST_WRAP: Final = math.radians(150.0)  # CEMA: below it a pulley counts as "other"
+_BOOK: Final = "CEMA classic"
+
+
+def factor_main_force(line: Line, unit_main: Array) -> Force:
+    """Main resistance by one friction factor, f L g (m'_R + (2 m'_G + m'_L) cos δ), stretch by stretch.
+
+    Parameters
+    ----------
+    line : Line
+        The conveyor, with its f.
+    unit_main : ndarray, shape (2n,)
+        Main resistance of every stretch for f = 1 [N].
+    """
+    name = {"iso 5048": "ISO 5048", "din 22101": "DIN 22101"}[line.method]
+    return Force(
+        "main_by_factor", f"main resistance, f = {line.friction_factor:g}", "main", line.friction_factor * unit_main,
+        f"{name}, F_H with f given", short="main resistance",
+    )  # fmt: skip
+
+
+def cema_section_tension(stretch: Stretch, factors: CemaFactors) -> CemaTension:
+    """Parts of Te of a section, from its carry stretch."""
+    kx = cema_idler_factor(
+        stretch.belt_mass,
+        bulk_mass=stretch.bulk_mass,
+        idler_friction=factors.idler_friction,
+        spacing=stretch.spacing,
+    )
+    return cema_effective_tension(
+        stretch.length,
+        lift=stretch.rise,
+        belt_mass=stretch.belt_mass,
+        bulk_mass=stretch.bulk_mass,
+        idler_factor=kx,
+        flexure_factor=factors.flexure,
+        temperature_factor=factors.temperature,
+    )
+
+
+def cema_forces_along(line: Line, factors: CemaFactors) -> tuple[Force, ...]:
+    """L Kt (Kx + Ky Wb + 0.015 Wb) + L Ky Wm: idlers and flexure of carry strand, flexure of return strand [N].
+
+    Notes
+    -----
+    Kx is that of the carry sets, for the idlers of both strands, and stands on the carry strand.
+    """
+    count = line.count
+    parts = {one.section: cema_section_tension(one, factors) for one in line.stretches[:count]}
+    carry = [parts[one.section] for one in line.stretches[:count]]
+    back = [parts[one.section] for one in line.stretches[count:]]
+    none = np.zeros(count)
+
+    def force(symbol: str, name: str, of_carry: Array, of_return: Array) -> Force:
+        both = np.concatenate([of_carry, of_return])
+        return Force(symbol, f"{symbol}, {name}", "main", both, f"{_BOOK}, {symbol}", short=symbol)
+
+    return (
+        force("Tx", "idlers", np.array([part.idlers for part in carry]), none),
+        force("Tyc", "flexure of the belt, carry", np.array([part.belt_carry for part in carry]), none),
+        force("Tyr", "flexure of the belt, return", none, np.array([part.belt_return for part in back])),
+        force("Tym", "flexure of the bulk", np.array([part.bulk for part in carry]), none),
+    )
+
+
+def cema_point_forces(line: Line, factors: CemaFactors) -> Iterator[Force]:
+    """Tp, Tam, Tsb, Tbc, Tpl, Tac and the lift over trippers where they stand [N]."""
+    for point in line.loading:
+        here = partial(Force, place=point.place, assumed=point.assumed)
+        if point.lift is not None and point.flow > 0.0:
+            over = slope_resistance(point.flow / line.speed, lift=point.lift, gravity=STANDARD_GRAVITY)
+            yield here("tripper_lift", f"lift over the tripper{point.name}", "lift", over, f"{_BOOK}, Tm",
+                       certain=True, spot=point.before, bulk=point.comes_with)  # fmt: skip
+        if point.flow > 0.0:
+            inertia = cema_acceleration(point.flow, belt_speed=line.speed, initial_speed=point.speed)
+            yield here("Tam", f"Tam, acceleration of the bulk{point.name}", "secondary", inertia, f"{_BOOK}, Tam",
+                       certain=True, spot=point.spot, bulk=point.comes_with)  # fmt: skip
+        boards = point.boards(line.speed, line.gravity)
+        seals = cema_skirts(boards, skirt_factor=0.0, depth=factors.skirt_depth, seals=factors.seals)
+        yield here("Tsb", f"Tsb, seals of the skirts{point.name}", "special", seals, f"{_BOOK}, Tsb", spot=point.spot)
+        if point.flow_beyond > 0.0:
+            depth = factors.skirt_depth
+            rubbing = cema_skirts(boards, skirt_factor=factors.skirt_factor, depth=depth, seals=0.0)
+            yield here("Tsb", f"Tsb, skirts{point.name}", "special", rubbing, f"{_BOOK}, Tsb", spot=point.spot,
+                       bulk=point.section)  # fmt: skip
+    for i, each in enumerate(line.scrapers, start=1):
+        force = factors.cleaner * each.count * each.width
+        yield Force("Tbc", f"Tbc, cleaner {i} (x{each.count})", "special", force, f"{_BOOK}, Tbc",
+                    spot=line.places.behind("head", None), place="head", assumed=each.assumed)  # fmt: skip
+    for i, plough in enumerate(line.ploughs, start=1):
+        force = factors.plough * plough.count * plough.width
+        yield Force("Tpl", f"Tpl, plough {i} (x{plough.count})", "special", force, f"{_BOOK}, Tpl", spot=plough.spot,
+                    place=plough.place)  # fmt: skip
+    yield from _pulley_forces(line, factors)
+    landing = line.loading[0].spot if line.loading else line.places.landing(None)
+    if factors.accessories > 0.0:
+        yield Force("Tac", "Tac, other accessories", "special", factors.accessories, f"{_BOOK}, Tac", spot=landing,
+                    place=line.places.name(landing))  # fmt: skip
+
+
+def _pulley_forces(line: Line, factors: CemaFactors) -> Iterator[Force]:
+    """Tp of every pulley that is not driven; a given sum stands at the tail."""
+    if factors.pulleys is not None:
+        tail = line.places.before("tail", None)
+        yield Force("Tp", "Tp, pulleys", "secondary", factors.pulleys, f"{_BOOK}, Tp given", spot=tail, place="tail")
+        return
+    for pulley in line.pulleys:
+        if not pulley.driven:
+            force = cema_pulley_friction([cema_pulley_place(pulley)])
+            yield Force("Tp", f"Tp, {pulley.name}", "secondary", force, f"{_BOOK}, Tp", spot=pulley.spot,
+                        place=pulley.place, assumed=pulley.assumed)  # fmt: skip
+
+
+def cema_pulley_place(pulley: BendPulley) -> Place:
+    """CEMA place of a pulley; tight side: head and carry strand, slack side: the rest."""
+    if pulley.wrap_angle < _LEAST_WRAP:
+        return "other"
+    return "tight" if pulley.position in {"head", "carry"} else "slack"

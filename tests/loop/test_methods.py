@@ -1,0 +1,156 @@
+"""The whole design by a classical method: forces, tensions, take-up, checks and load states follow it."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import conveyor
+from conveyor.calculated_conveyor import Variant
+from conveyor.checks import run_checks
+from conveyor.errors import InputError
+from conveyor.models.calculation_methods import METHOD_NAMES
+from conveyor.models.variants import with_case
+from conveyor.pipeline import calculate, calculate_many
+from conveyor.results.analysis import studies
+from conveyor.studies.loads import every_load
+from conveyor.studies.study_file import read_duty
+
+SPECS = Path(__file__).parents[2] / "examples" / "specs"
+ROUNDING = 1e-12
+CEMA = {"flexure_factor": 0.022, "idler_friction": "1.5 lbf", "temperature_factor": 1.2, "accessories": "500 N",
+        "skirt_factor": 0.128, "skirt_depth": "100 mm"}  # fmt: skip
+
+
+def by(stem, method, **calculation):
+    line = conveyor.load(SPECS / f"{stem}.yaml")
+    return line.replace(calculation=line.calculation.replace(method=method, **calculation))
+
+
+@pytest.mark.parametrize("method", ["iso 5048", "din 22101"])
+@pytest.mark.parametrize("stem", ["in_plant_us", "downhill", "curved"])
+def test_forces_are_f_and_c(stem, method):
+    """Against the estimate that stands beside the rolling contact of the same spec."""
+    made, beside = calculate(by(stem, method)), calculate(by(stem, "viscoelastic")).balance.classical
+    forces = made.balance.forces
+    for name in ("main", "secondary", "special", "lift", "total"):
+        # sets that guide in curves rub by the tension of their own method
+        assert getattr(forces, name) == pytest.approx(getattr(beside, name), rel=1e-5 if stem == "curved" else ROUNDING)
+    assert made.balance.friction_factor == pytest.approx(made.line.friction_factor, rel=ROUNDING)
+    assert list(forces.parts) == ["main_by_factor", "secondary", "special", "lift"]
+
+
+def test_secondary_resistances_that_are_given_itemised_stay_so():
+    made = calculate(by("in_plant_us", "din 22101", secondary="itemised")).balance
+    assert {force.key for force in made.singles} >= {"acceleration", "cleaner", "wrap"}
+    assert "secondary_by_length" not in {force.key for force in made.singles}
+
+
+@pytest.mark.parametrize("stem", ["in_plant_us", "overland", "shuttle"])
+def test_cema_is_the_classic_form_item_by_item(stem):
+    made = calculate(by(stem, "cema classic", cema=CEMA))
+    beside = calculate(by(stem, "viscoelastic", cema=CEMA)).balance.cema
+    sums = {}
+    for force in made.balance.every:
+        sums[force.key] = sums.get(force.key, 0.0) + force.total
+    items = {symbol: newtons for symbol, _, newtons in beside.items}
+    for symbol, newtons in items.items():
+        if symbol != "Tm":
+            assert sums.get(symbol, 0.0) == pytest.approx(newtons, rel=ROUNDING), symbol
+    # the book lifts with standard gravity, the conveyor with the site's
+    assert made.balance.forces.lift == pytest.approx(items["Tm"] * 9.81 / 9.80665, rel=1e-9, abs=1e-6)
+    assert made.balance.forces.total - made.balance.forces.lift == pytest.approx(beside.total - items["Tm"], rel=1e-9)
+
+
+def test_tensions_take_up_and_motors_follow():
+    """T1 - T2 is Te; the slack side is Eytelwein's at the start where grip governs; the motor gives Te v / η."""
+    line = by("overland", "din 22101")
+    result = calculate(line)
+    drive = result.balance.settled.steady.drives[0]
+    assert drive.tight - drive.slack == pytest.approx(result.balance.forces.total, rel=1e-9)
+    assert result.balance.settled.governed_by == "grip"
+    start = 1.3 * result.balance.forces.total
+    slack = start / math.expm1(0.35 * math.radians(210.0))
+    assert result.balance.settled.states["start"].drives[0].slack == pytest.approx(slack, rel=1e-9)
+    (motor,) = (check for check in run_checks(result) if check.key == "motor_power")
+    assert motor.calculated == pytest.approx(result.balance.forces.total * 5.0 / 0.94, rel=1e-9)
+    assert result.line.design_friction == 1.0  # f has the allowance of its standard
+
+
+def test_a_design_friction_is_taken_where_it_is_given():
+    line = by("overland", "din 22101")
+    high = calculate(line.replace(drive=line.drive.replace(design_friction="110 %")))
+    plain = calculate(line)
+    rubbing = plain.balance.forces.total - plain.balance.forces.lift
+    certain = sum(force.total for force in plain.balance.every if force.certain and force.kind != "lift")
+    expected = plain.balance.forces.total + 0.1 * (rubbing - certain)
+    assert high.balance.settled.design_force == pytest.approx(expected, rel=1e-3)  # of the wraps at the higher take-up
+
+
+@pytest.mark.parametrize(("method", "cema"), [("din 22101", None), ("cema classic", CEMA)])
+def test_load_states_are_those_of_the_method(method, cema):
+    line = by("overland", method, cema=cema)
+    loads = every_load(line)
+    settled = loads.own.balance.settled
+    parts = (("empty", "empty"), ("inclines", "inclines only"), ("declines", "declines only"))
+    for key, loading in parts if cema is None else parts[:1]:  # CEMA's seals stand at every point that a case feeds
+        case = with_case(line, conveyor.LoadCase(name=loading, loading=loading))
+        (alone,) = calculate_many([Variant(case, take_up=settled.take_up)])
+        state = loads.states.state(key)
+        assert state.balance.forces.total == pytest.approx(alone.balance.forces.total, rel=1e-9)
+        assert state.balance.tensions.largest == pytest.approx(alone.balance.tensions.largest, rel=1e-9)
+    worst = loads.states.state("worst").balance.settled.force
+    count = loads.own.line.count
+    flags = np.array([[bool(k >> i & 1) for i in range(count)] for k in range(2**count)])
+    rises = np.array([section.rise for section in loads.own.line.sections])
+    assert worst >= loads.own.balance.settled.force
+    assert flags.shape == (1024, 10)
+    assert set(np.array([s.name for s in loads.own.line.sections])[rises > 0.0]) <= set(
+        loads.states.state("worst").loaded
+    )
+
+
+@pytest.mark.parametrize("stem", ["overland", "in_plant_us", "downhill_brakes", "curved", "transfer"])
+@pytest.mark.parametrize(("method", "cema"), [("din 22101", None), ("cema classic", CEMA)])
+def test_every_report_can_be_made(stem, method, cema, tmp_path):
+    line = by(stem, method, cema=cema)
+    analysis = conveyor.analyse(line)
+    made = studies(line, analysis)
+    name = METHOD_NAMES[method]
+    page = analysis.to_html(tmp_path / "page.html", made).read_text(encoding="utf-8")
+    assert f"this calculation, {name}" in page
+    assert f"Resistances: {name} with" in page
+    assert "rolling contact" in page
+    analysis.to_excel(tmp_path / "book.xlsx", made)
+    told = json.loads(json.dumps(analysis.to_dict(made), allow_nan=False))
+    # the take-up of every load moves the wraps of pulleys that are itemised
+    assert told["power_kW"]["motor"] == pytest.approx(analysis.balance.power.motor / 1e3, rel=1e-3)
+    assert not [text for text in analysis.warnings if "illustrative" in text or "roll drag not given" in text]
+
+
+def test_the_rolling_contact_stands_beside():
+    assessed = conveyor.analyse(by("in_plant_us", "din 22101")).assess()
+    other = calculate(by("in_plant_us", "viscoelastic"))
+    assert assessed.by_contact.balance.power.motor == pytest.approx(other.balance.power.motor, rel=1e-9)
+    assert conveyor.analyse(by("in_plant_us", "viscoelastic")).assess().by_contact is None
+
+
+def test_what_a_method_does_not_know_is_refused():
+    with pytest.raises(InputError, match=r"cema: missing: method cema classic needs Ky and Ai"):
+        by("overland", "cema classic")
+    with pytest.raises(InputError, match="calibration"):
+        by("overland", "din 22101", calibration={"indentation": 1.2})
+    with pytest.raises(InputError, match='"din 22101" knows no rubber; compounds are compared'):
+        conveyor.compare(by("overland", "din 22101"), ["S100", "S120"])
+    with pytest.raises(InputError, match="method"):
+        by("overland", "din 22102")
+
+
+def test_a_duty_is_sized_by_the_rolling_contact():
+    duty = read_duty(SPECS.parent / "duties" / "in_plant.yaml")
+    with pytest.raises(InputError, match="a duty is sized by the rolling contact"):
+        duty.replace(calculation={"method": "din 22101"})
