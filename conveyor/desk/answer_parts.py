@@ -120,7 +120,9 @@ def power_part(shown: NamedAssessment, beside: NamedAssessment | None = None) ->
     number, _, sign = unit.said(motor, 4).partition(" ")
     said = [element("p", element("b", number), " ", element("small", sign), class_="large")]
     if low is not None and high is not None:
-        said.append(element("p", f"least {unit.said(low, 3)} · design {unit.said(high, 3)}", class_="note"))
+        band = f"90 % band {unit.said(low, 3)} to {unit.said(high, 3)}"
+        design = f"to design for {unit.said(shown.assessment.power_range.design, 3)}"
+        said.append(element("p", band, element("br"), design, class_="note"))
     if beside is not None:
         other = beside.assessment.power_range.motor
         gap, sign = motor - other, "+" if motor >= other else "−"

@@ -36,7 +36,9 @@ def main() -> None:
         browser.close()
         server.stop()
         thread.join()
-        Image.open(shot).convert("RGB").quantize(COLOURS).save(FOLDER / "desk.png", optimize=True)
+        Image.open(shot).convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE).save(
+            FOLDER / "desk.png", optimize=True
+        )
 
 
 if __name__ == "__main__":
