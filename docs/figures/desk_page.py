@@ -15,7 +15,7 @@ from conveyor.desk.workbench import open_workbench
 
 FOLDER = Path(__file__).parent
 SPEC = FOLDER.parent.parent / "examples" / "specs" / "overland.yaml"
-COLOURS = 160  # of a palette: lines keep theirs
+COLOURS = 250  # of a palette: pale grounds and lines keep theirs
 SLIDERS = 6
 
 
@@ -36,7 +36,7 @@ def main() -> None:
         browser.close()
         server.stop()
         thread.join()
-        Image.open(shot).convert("RGB").quantize(COLOURS, Image.Quantize.MAXCOVERAGE).save(
+        Image.open(shot).convert("RGB").quantize(COLOURS, kmeans=2).save(
             FOLDER / "desk.png", optimize=True
         )
 
