@@ -20,6 +20,8 @@ from conveyor.units.quantity_kinds import readable_unit
 
 _INDEX: Final = re.compile(r"\[(\d+)\]")
 _YES: Final = {"true": True, "yes": True, "false": False, "no": False}
+MOST_ENTRIES: Final = 100
+"""Entries of a list that a form has fields for; longer ones are changed in the file."""
 _STEPS_NAMED: Final = 2
 """Last steps of a path that name a field: "carry spacing"."""
 
@@ -228,6 +230,6 @@ def _expand_path(conveyor: Conveyor, pattern: str) -> Iterator[str]:
 
 
 def _list_length(conveyor: Conveyor, path: str) -> int:
-    """Entries of a list of a spec; none where it is not given."""
+    """Entries of a list of a spec that have fields; none where it is not given."""
     value = field_value(conveyor, path)
-    return len(value) if isinstance(value, tuple) else 0
+    return min(len(value), MOST_ENTRIES) if isinstance(value, tuple) else 0

@@ -193,9 +193,10 @@ class Desk:
         """Power over the range of each slider."""
         asked = await _request_data(request)
         name, changes = _text_value(asked, "file"), _variant_changes(asked, "changes") or {}
-        sliders = self._sliders(name, asked)
         curves = await self._calculate(
-            request, lambda stop: self.workbench.curves(name, changes, sliders, stop), background=True
+            request,
+            lambda stop: self.workbench.curves(name, changes, self._sliders(name, asked), stop),
+            background=True,
         )
         own = self.workbench.file(name).conveyor.report.units
         unit = display_unit("power", report_system(own, _units_value(asked)), large=True)
@@ -206,10 +207,10 @@ class Desk:
         """Tell whether every check passes at the values of a slider."""
         asked = await _request_data(request)
         name, changes = _text_value(asked, "file"), _variant_changes(asked, "changes") or {}
-        (slider,) = self._sliders(name, asked)
 
         def made(stop: StopSignal) -> list[bool | None]:
             found = []
+            (slider, *_) = self._sliders(name, asked)
             for value in slider.curve_values():
                 stop.check()
                 found.append(self.workbench.passing(name, changes, slider, value, stop))

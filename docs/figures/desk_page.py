@@ -36,9 +36,7 @@ def main() -> None:
         browser.close()
         server.stop()
         thread.join()
-        Image.open(shot).convert("RGB").quantize(COLOURS, kmeans=2).save(
-            FOLDER / "desk.png", optimize=True
-        )
+        Image.open(shot).convert("RGB").quantize(COLOURS, kmeans=2).save(FOLDER / "desk.png", optimize=True)
 
 
 if __name__ == "__main__":

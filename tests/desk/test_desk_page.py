@@ -327,3 +327,11 @@ def test_without_a_spec_it_offers_one_of_each_kind(browser, tmp_path, monkeypatc
         context.close()
         server.stop()
         thread.join()
+
+
+def test_a_file_changed_in_an_editor_is_read_again(page, tmp_path):
+    path = tmp_path / "overland.yaml"
+    path.write_text(path.read_text(encoding="utf-8").replace("speed: 5 m/s", "speed: 5.2 m/s"), encoding="utf-8")
+    page.evaluate("window.dispatchEvent(new Event('focus'))")
+    wait_until(page, f"document.querySelector({SPEED!r}.replaceAll('\\\\', '')).value === '5.2 m/s'")
+    assert not page.is_visible("#changed")

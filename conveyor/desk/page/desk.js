@@ -681,6 +681,7 @@ function listen() {
   document.addEventListener("dragover", (event) => { event.preventDefault(); document.body.classList.add("dropping"); });
   document.addEventListener("dragleave", (event) => { if (!event.relatedTarget) document.body.classList.remove("dropping"); });
   document.addEventListener("drop", (event) => { event.preventDefault(); document.body.classList.remove("dropping"); if (event.dataTransfer.files[0]) dropFile(event.dataTransfer.files[0]); });
+  window.addEventListener("focus", () => { if (form && !flying && !dragging) ask(); }); // the file may have been changed meanwhile
   window.addEventListener("hashchange", () => { const read = readAddress(); if (!same(read, state) && read.file) openFile(read); });
   window.addEventListener("beforeprint", () => document.querySelectorAll("#answer details").forEach((one) => { one.wasOpen = one.open; one.open = true; }));
   window.addEventListener("afterprint", () => document.querySelectorAll("#answer details").forEach((one) => { one.open = one.wasOpen; }));
