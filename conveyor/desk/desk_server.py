@@ -28,8 +28,9 @@ from conveyor.desk.design_variant import TextChanges, command_line, field_errors
 from conveyor.desk.further_studies import offered_studies, study_part
 from conveyor.desk.report_files import REPORTS, report_bytes
 from conveyor.desk.request_guard import RequestGuard
+from conveyor.desk.stop_signal import CalculationStopped, StopSignal
 from conveyor.desk.study_export import study_text
-from conveyor.desk.workbench import CalculationStopped, StopSignal, Workbench
+from conveyor.desk.workbench import Workbench
 from conveyor.errors import ConveyorError, InputError
 from conveyor.files.output_marks import package_version
 from conveyor.report.tables.result_schema import analysis_json
@@ -135,6 +136,7 @@ class Desk:
             of, rows = self.workbench.file(name), self.workbench.form(name)
             return {
                 "file": name, "title": of.conveyor.name, "digest": of.digest, "saved": of.saved_name, "own": of.own,
+                "folder": str(of.folder),
                 "kind": conveyor_kind(of.conveyor), "units": of.conveyor.report.units,
                 "rows": [row.plain() for row in rows],
                 "sliders": [slider.plain() for slider in choose_sliders(of.conveyor, rows)],

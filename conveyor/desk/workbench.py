@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import difflib
 import hashlib
-import threading
-import time
 from collections import OrderedDict
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -19,8 +17,10 @@ from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.desk.design_form import DesignField, form_rows, read_change
 from conveyor.desk.design_sliders import Slider
 from conveyor.desk.design_variant import TextChanges, change_conveyor, guarded_resolver
-from conveyor.errors import ConveyorError, InputError, NoSolutionError
+from conveyor.desk.stop_signal import StopSignal
+from conveyor.errors import ConveyorError, InputError
 from conveyor.files.atomic_write import save_files
+from conveyor.files.compound_folders import folders
 from conveyor.files.document import read_document, yaml_text
 from conveyor.files.edit import edit_values
 from conveyor.files.file_bytes import file_content
@@ -36,48 +36,10 @@ from conveyor.studies.loads import every_load
 SPEC_ENDINGS: Final = (".yaml", ".yml", ".json")
 LARGEST_SPEC: Final = 5_000_000
 """Bytes, as of every spec."""
-MOST_SECONDS: Final = 60.0
-"""Time limit of one calculation [s]."""
 _MOST_BESIDE: Final = 200
 """Files beside a spec that are looked at for compounds."""
 _ANSWERS_KEPT: Final = 24
 """Assessments kept for undo and comparison, the last used."""
-
-
-class CalculationStopped(Exception):  # noqa: N818 no error: nobody waits for the answer any more
-    """A calculation ended early, as its page has asked for a newer one."""
-
-
-class StopSignal:
-    """Stops a calculation at its next step: where a newer one is wanted, or its time is over."""
-
-    def __init__(self, seconds: float = MOST_SECONDS) -> None:
-        self._stopped = threading.Event()
-        self._seconds = seconds
-        self.told: tuple[object, ...] = ()
-        self._end = time.monotonic() + seconds
-
-    def stop(self) -> None:
-        """Stop the calculation."""
-        self._stopped.set()
-
-    def check(self, *told: object) -> None:
-        """Raise if the calculation is to stop; keeps what callbacks of progress are given in `told`.
-
-        Raises
-        ------
-        CalculationStopped
-            Nobody waits for the answer.
-        NoSolutionError
-            The time limit is over.
-        """
-        self.told = told or self.told
-        if self._stopped.is_set():
-            raise CalculationStopped
-        if time.monotonic() > self._end:
-            raise NoSolutionError(
-                f"stopped after {self._seconds:.0f} s, the limit of the desk; conveyor power calculates it without one"
-            )
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,7 +83,7 @@ class OpenFile:
     @property
     def saved_name(self) -> str:
         """Name under which it is saved unless another is given."""
-        return self.name if self.content is not None else f"{Path(self.name).stem}.yaml"
+        return self.path.name if self.content is not None else f"{Path(self.name).stem}.yaml"
 
 
 @dataclass
@@ -485,10 +447,12 @@ def open_workbench(paths: Iterable[Path], shelves: Iterable[Path]) -> Workbench:
     Raises
     ------
     InputError
-        A file is refused.
+        A file is refused, or a shelf does not exist.
     """
     given = tuple(paths)
-    made = Workbench(given[0].resolve().parent if given else Path.cwd(), tuple(shelves))
+    listed = tuple(path.resolve() for path in shelves)
+    folders(listed)  # a folder that does not exist is refused before the page opens
+    made = Workbench(given[0].resolve().parent if given else Path.cwd(), listed)
     try:
         for path in given:
             made.open_path(path.resolve())

@@ -23,7 +23,8 @@ from conveyor import shelf
 from conveyor.desk import desk_server
 from conveyor.desk.desk_server import Desk, DeskServer
 from conveyor.desk.request_guard import LARGEST_BODY, RequestGuard
-from conveyor.desk.workbench import CalculationStopped, StopSignal, open_workbench
+from conveyor.desk.stop_signal import CalculationStopped, StopSignal
+from conveyor.desk.workbench import open_workbench
 from conveyor.dynamics.simulation import standard_scenarios
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.models.fields import with_fields
@@ -529,6 +530,24 @@ def test_a_file_that_is_refused_stops_the_desk_before_it_begins(tmp_path):
     (tmp_path / "x.yaml").write_text("name: 3\n", encoding="utf-8")
     with pytest.raises(InputError, match="name"):
         open_workbench([tmp_path / "x.yaml"], ())
+
+
+def test_a_shelf_that_does_not_exist_stops_it_too(folder):
+    with pytest.raises(InputError, match="no such folder"):
+        open_workbench([folder / "overland.yaml"], [folder / "nowhere"])
+
+
+def test_files_of_one_name_are_kept_apart_and_saved_where_they_were(folder):
+    other = folder / "other"
+    other.mkdir()
+    shutil.copy(SPECS / "overland.yaml", other / "overland.yaml")
+    bench = open_workbench([folder / "overland.yaml", other / "overland.yaml"], ())
+    assert bench.names == ("overland.yaml", "overland (2).yaml")
+    second = bench.file("overland (2).yaml")
+    bench.save(second.name, {"site": "poor"}, second.saved_name, second.digest, overwrite=False)
+    bench.close()
+    assert conveyor.load(other / "overland.yaml").site == "poor"
+    assert conveyor.load(folder / "overland.yaml").site == "overland"
 
 
 def test_the_page_fits_its_budget_and_asks_nobody_else():

@@ -464,7 +464,7 @@ async function loadForm() {
   form.rows.forEach((row) => { row.value ??= null; });
   $("title").textContent = form.title;
   document.title = `${form.title} – conveyor desk`;
-  $("foot").textContent = `${state.file} is saved in ${about.folder}. conveyor ${about.version}; on this machine only.`;
+  $("foot").textContent = `${state.file} ${form.own ? "is saved in" : "is not saved yet; it will be in"} ${form.folder}. conveyor ${about.version}; on this machine only.`;
   build();
   offerStudies();
 }
