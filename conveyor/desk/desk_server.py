@@ -269,10 +269,11 @@ class Desk:
             _text_value(asked, "target"),
         )
         digest, overwrite = _text_value(asked, "digest"), asked.get("replace") is True
-        path = await self._calculate(
+        made = await self._calculate(
             request, lambda _: self.workbench.save(name, changes, target, digest, overwrite=overwrite)
         )
-        return JSONResponse({"saved": path.name, "folder": str(path.parent), "files": self.workbench.names})
+        where = {"file": made.name, "saved": made.path.name, "folder": str(made.folder)}
+        return JSONResponse({**where, "files": self.workbench.names})
 
     async def _report(self, request: Request) -> Response:
         """Workbook, page or PDF of a variant, with its studies, as the command line writes it."""

@@ -368,7 +368,7 @@ class Workbench:
         lines = difflib.unified_diff(before.splitlines(), text.splitlines(), n=1, lineterm="")
         return [line for line in lines if not line.startswith(("---", "+++"))]
 
-    def save(self, name: str, changes: TextChanges, target: str, digest: str, *, overwrite: bool) -> Path:
+    def save(self, name: str, changes: TextChanges, target: str, digest: str, *, overwrite: bool) -> OpenFile:
         """Save a variant as a spec in the folder of its file.
 
         Parameters
@@ -383,6 +383,11 @@ class Workbench:
             `OpenFile.digest` of what the page was made from.
         overwrite : bool
             Whether another file of that name may be replaced.
+
+        Returns
+        -------
+        OpenFile
+            The file as it is now open.
 
         Raises
         ------
@@ -399,8 +404,7 @@ class Workbench:
         save_files({path: self.changed_text(name, changes).encode("utf-8")})
         if not of.own:
             del self._files[name]  # it lies in the user's folder from now on
-        self._keep(path, path.parent, own=True, name=name if same else None)
-        return path
+        return self._keep(path, path.parent, own=True, name=name if same else None)
 
     def _target(self, of: OpenFile, target: str) -> Path:
         check_file_name(target)

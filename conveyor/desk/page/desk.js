@@ -587,7 +587,7 @@ async function doSave() {
     const got = await post("/save", { file: state.file, changes: saved, target: $("target").value.trim(), digest: form.digest, replace: $("replace").checked });
     $("saver").close();
     about.files = got.files;
-    rebase(saved, got.saved);
+    rebase(saved, got.file);
     await loadForm();
     listFiles();
     reflect();
