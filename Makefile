@@ -9,7 +9,7 @@ OUT ?= out
 $(VENV)/.run: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --upgrade pip
-	$(BIN)/python -m pip install --quiet -e ".[pdf]"
+	$(BIN)/python -m pip install --quiet -e ".[pdf,desk]"
 	@touch $@
 
 $(VENV)/.test: $(VENV)/.run

@@ -13,6 +13,7 @@ from conveyor.cli import (  # noqa: E402, F401 each registers its commands
     anchor_command,
     calibrate_command,
     compare_command,
+    desk_command,
     dynamics_command,
     new_command,
     optimise_command,

@@ -66,8 +66,8 @@ class _CommandGroup(typer.core.TyperGroup):
 
 
 COMMAND_ORDER = (
-    "new", "size", "power", "compare", "study", "optimise", "dynamics", "calibrate", "template", "fit", "anchor",
-    "shelf",
+    "new", "desk", "size", "power", "compare", "study", "optimise", "dynamics", "calibrate", "template", "fit",
+    "anchor", "shelf",
     "verify-sheet", "contact", "validate", "schema",
 )  # fmt: skip
 

@@ -153,7 +153,17 @@ def read_document(path: Path) -> Document:
         if path.is_dir():
             raise InputError(f"{path}: is a folder; give a file in it")
         raise InputError(f'{path}: expected a file that ends in .yaml, .yml or .json, got "{path.name}"')
-    content = _file_text(path)
+    return parse_document(_file_text(path), path)
+
+
+def parse_document(content: str, path: Path) -> Document:
+    """Read the text of a file; `path` gives its format and stands in messages.
+
+    Raises
+    ------
+    InputError
+        As `read_document`.
+    """
     is_json = path.suffix.lower() == ".json"
     data: Any = _json_data(content, path) if is_json else None
     root = _yaml_nodes(content.replace("\t", " ") if is_json else content, path)

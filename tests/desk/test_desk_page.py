@@ -1,0 +1,337 @@
+"""The page of the desk in a real Chromium: drag, error, undo, save, compare, print, phone."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import threading
+import time
+from pathlib import Path
+
+import pytest
+
+import conveyor
+from conveyor.desk.workbench import open_workbench
+from conveyor.models.fields import with_fields
+from conveyor.studies.loads import every_load
+
+playwright = pytest.importorskip("playwright.sync_api", reason="needs the package playwright")
+pytest.importorskip("starlette")
+desk_server = pytest.importorskip("conveyor.desk.desk_server")
+
+CHROMIUM = next(
+    (found for name in ("chromium", "chromium-browser", "google-chrome") if (found := shutil.which(name))), None
+)
+pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
+
+SPECS = Path("examples/specs").resolve()
+FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-quic", "--no-first-run"]
+SPEED = "#sliders input[data-path='belt.speed']"
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with playwright.sync_playwright() as started:
+        made = started.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        yield made
+        made.close()
+
+
+@pytest.fixture
+def server(tmp_path):
+    for name in ("overland.yaml", "downhill.yaml"):
+        shutil.copy(SPECS / name, tmp_path / name)
+    made = desk_server.DeskServer(open_workbench([tmp_path / "overland.yaml", tmp_path / "downhill.yaml"], ()))
+    thread = threading.Thread(target=made.run)
+    thread.start()
+    yield made
+    made.stop()
+    thread.join()
+
+
+@pytest.fixture
+def page(browser, server):
+    """A page with its first figures; every request to another host, and every error of the script, fails the test."""
+    context = browser.new_context(viewport={"width": 1440, "height": 900})
+    made = context.new_page()
+    made.set_default_timeout(30_000)
+    faults, asked = [], []
+    made.on("pageerror", lambda error: faults.append(str(error)))
+    made.on(
+        "console", lambda said: faults.append(said.text) if said.type == "error" and "422" not in said.text else None
+    )
+    made.on("request", lambda request: asked.append(request.url))
+    made.goto(server.guard.address)
+    made.wait_for_selector("#answer:not([hidden])")
+    yield made
+    context.close()
+    assert faults == []
+    own = f"http://127.0.0.1:{server.port}/"
+    assert [url for url in asked if not url.startswith((own, "data:", "blob:"))] == []
+
+
+def kilowatts(page) -> float:
+    return float(page.inner_text("[data-part=power] .large b").replace(",", ""))
+
+
+def wait_until(page, script: str, seconds: float = 30.0) -> None:
+    """Wait for a condition of the page; Playwright's own way is eval, which the page forbids."""
+    end = time.monotonic() + seconds
+    while not page.evaluate(script):
+        assert time.monotonic() < end, script
+        page.wait_for_timeout(30)
+
+
+def set_speed(page, text: str) -> None:
+    page.fill(SPEED, text)
+    page.press(SPEED, "Enter")
+
+
+def test_a_drag_asks_for_the_newest_value_and_skips_the_others(page):
+    before = kilowatts(page)
+    asked, flying, most = [], set(), []
+
+    def begin(request):
+        if request.url.endswith("/answer"):
+            asked.append(request.post_data_json)
+            flying.add(request)
+            most.append(len(flying))
+
+    def end(request):
+        flying.discard(request)
+
+    page.on("request", begin)
+    page.on("requestfinished", end)
+    page.on("requestfailed", end)
+    box = page.locator("[data-range='belt.speed']").bounding_box()
+    y = box["y"] + box["height"] / 2
+    page.mouse.move(box["x"] + box["width"] / 2, y)
+    page.mouse.down()
+    for step in range(1, 31):
+        page.mouse.move(box["x"] + box["width"] / 2 + step * 3, y)
+    page.mouse.up()
+    shown = page.input_value(SPEED)
+    wait_until(page, f"document.querySelector('#command').textContent.includes('belt.speed={shown}')")
+    wait_until(page, "!document.querySelector('#answer').classList.contains('waiting')")
+    assert len(asked) <= 12
+    assert max(most) == 1
+    assert asked[-1]["changes"] == {"belt.speed": shown}
+    assert kilowatts(page) > before
+    page.keyboard.press("Escape")
+    page.click("#undo")  # the whole drag is one step
+    wait_until(page, "document.querySelector('#changed').hidden")
+    assert page.input_value(SPEED) == "5 m/s"
+
+
+def test_a_wrong_value_says_so_at_its_field_and_loses_nothing(page):
+    before = kilowatts(page)
+    set_speed(page, "90 m/s")
+    page.wait_for_selector("#answer.stale")
+    assert "<= 20 m/s" in page.inner_text("[data-error='belt.speed']")
+    assert page.get_attribute(SPEED, "aria-invalid") == "true"
+    assert kilowatts(page) == before
+    page.click("#alerts button")
+    assert page.evaluate("document.activeElement.dataset.path") == "belt.speed"
+    set_speed(page, "5.5 m/s")
+    page.wait_for_selector("#answer:not(.stale)")
+    assert page.inner_text("#alerts") == ""
+    assert page.get_attribute(SPEED, "aria-invalid") is None
+    assert kilowatts(page) > before
+
+
+def test_undo_redo_and_the_address_bar_hold_the_state(page):
+    before = kilowatts(page)
+    set_speed(page, "6 m/s")
+    wait_until(page, "document.querySelector('#command').textContent.includes('6 m/s')")
+    fast = kilowatts(page)
+    page.locator("body").click(position={"x": 700, "y": 5})
+    page.keyboard.press("Control+z")
+    wait_until(page, "!document.querySelector('#command').textContent.includes('--set')")
+    assert kilowatts(page) == before
+    page.keyboard.press("Control+y")
+    wait_until(page, "document.querySelector('#command').textContent.includes('6 m/s')")
+    assert "a%3Abelt.speed=6+m%2Fs" in page.url
+    page.reload()
+    page.wait_for_selector("#answer:not([hidden])")
+    assert kilowatts(page) == pytest.approx(fast, rel=1e-3)  # four digits are shown
+    assert page.input_value(SPEED) == "6 m/s"
+
+
+def test_saving_shows_the_difference_and_undo_goes_back_behind_it(page, tmp_path):
+    set_speed(page, "5.5 m/s")
+    page.click("#save summary")
+    page.click("[data-save=spec]")
+    page.wait_for_selector("#diff .add")
+    assert page.inner_text("#diff .del").strip() == "-  speed: 5 m/s"
+    assert page.inner_text("#diff .add").strip() == "+  speed: 5.5 m/s"
+    page.click("#dosave")
+    wait_until(page, "document.querySelector('#foot').textContent.startsWith('Saved overland.yaml')")
+    before = (SPECS / "overland.yaml").read_bytes()
+    assert (tmp_path / "overland.yaml").read_bytes() == before.replace(b"speed: 5 m/s", b"speed: 5.5 m/s", 1)
+    assert not page.is_visible("#changed")
+    page.click("#undo")
+    wait_until(page, "document.querySelector('#command').textContent.includes('belt.speed=5 m/s')")
+    assert page.input_value(SPEED) == "5 m/s"
+
+
+def test_two_variants_stand_beside_each_other(page):
+    page.click("#compare")
+    set_speed(page, "4 m/s")
+    page.wait_for_selector("[data-part=verdict] .fail")
+    assert page.is_visible("#comparison")
+    assert "filling of the belt" in page.inner_text("[data-part=compared]")
+    assert "against A" in page.inner_text("[data-part=power]")
+    verdicts = page.locator(".verdicts .stands")
+    assert verdicts.count() == 2
+    page.click("text=Swap")
+    wait_until(page, "!document.querySelector('[data-part=verdict] .fail')")
+    wait_until(page, "!!document.querySelector('[data-part=verdict_beside] .fail')")
+    page.click("text=/^Keep/")
+    wait_until(page, "document.querySelector('#comparison').hidden")
+    assert page.input_value(SPEED) == "5 m/s"
+
+
+def test_every_field_is_found_by_its_words_and_changed(page):
+    page.fill("#find", "wrap angle")
+    page.fill("#fields input[data-path='drive.wrap_angle']", "180 deg")
+    page.press("#fields input[data-path='drive.wrap_angle']", "Enter")
+    wait_until(page, "document.querySelector('#command').textContent.includes('drive.wrap_angle=180 deg')")
+    page.fill("#find", "site")
+    page.select_option("#fields select[data-path='site']", "poor")
+    wait_until(page, "document.querySelector('#command').textContent.includes('site=poor')")
+    page.fill("#find", "nothing is called that")
+    assert "No field" in page.inner_text("#fields")
+
+
+def test_it_is_used_by_keyboard_alone(page):
+    page.locator("#file").focus()
+    for _ in range(60):
+        page.keyboard.press("Tab")
+        if page.evaluate("document.activeElement.dataset.range") == "belt.speed":
+            break
+    else:
+        pytest.fail("the slider is not reached by Tab")
+    page.keyboard.press("ArrowRight")
+    wait_until(page, "document.querySelector('#command').textContent.includes('belt.speed=5.05 m/s')")
+    assert page.get_attribute("[data-range='belt.speed']", "aria-valuetext") == "5.05 m/s"
+
+
+def test_units_change_at_a_click_and_curves_follow(page):
+    page.click("#units button[value=US]")
+    wait_until(page, "document.querySelector('[data-part=power]').textContent.includes('hp')")
+    curve = page.locator("[data-curve='belt.speed'] svg")
+    end = time.monotonic() + 60
+    while "hp" not in (said := curve.get_attribute("aria-label")) or "passes" not in said:
+        assert time.monotonic() < end, said
+        page.wait_for_timeout(100)
+    line = conveyor.load(SPECS / "overland.yaml")
+    speeds = (3, 3.5, 4, 4.5, 5, 5.5, 6, 6.5, 7)
+    serve = [v for v in speeds if not every_load(with_fields(line, {"belt.speed": f"{v} m/s"})).failed]
+    assert said.endswith(f"every check passes from {serve[0]} to {serve[-1]} m/s")
+
+
+def test_a_compound_of_the_shelf_is_chosen(page):
+    before = kilowatts(page)
+    page.select_option("#covers select[data-path='belt.bottom_cover.compound']", "standard-cover")
+    wait_until(page, "document.querySelector('#command').textContent.includes('compound=standard-cover')")
+    assert kilowatts(page) > before
+
+
+def test_a_file_is_opened_from_the_page(page):
+    page.set_input_files("#upload", SPECS / "shuttle.yaml")
+    wait_until(page, "document.querySelector('#file').value === 'shuttle.yaml'")
+    wait_until(page, "!document.querySelector('#command').textContent || true")
+    page.select_option("#file", "downhill.yaml")
+    wait_until(
+        page, f"document.querySelector('#title').textContent === '{conveyor.load(SPECS / 'downhill.yaml').name}'"
+    )
+
+
+def test_changes_of_a_file_stay_while_another_is_looked_at(page):
+    set_speed(page, "5.5 m/s")
+    page.select_option("#file", "downhill.yaml")
+    wait_until(page, "document.querySelector('#command').textContent.includes('downhill.yaml')")
+    assert not page.is_visible("#changed")
+    page.select_option("#file", "overland.yaml")
+    wait_until(page, "document.querySelector('#command').textContent.includes('belt.speed=5.5 m/s')")
+    page.click("#undo")
+    wait_until(page, "!document.querySelector('#command').textContent.includes('--set')")
+
+
+def test_enter_in_the_name_of_the_file_looks_again_and_does_not_cancel(page):
+    page.keyboard.press("Control+s")
+    page.fill("#target", "x.txt")
+    page.press("#target", "Enter")
+    page.wait_for_selector("#saveerror:visible")
+    assert page.is_visible("#saver")
+    assert page.is_disabled("#dosave")
+
+
+def test_reports_are_downloaded(page):
+    page.click("#save summary")
+    with page.expect_download() as found:
+        page.click("[data-save=workbook]")
+    assert found.value.suggested_filename == "overland.xlsx"
+    assert Path(found.value.path()).read_bytes()[:2] == b"PK"
+
+
+def test_paper_has_the_figures_and_what_was_changed(page):
+    set_speed(page, "5.5 m/s")
+    wait_until(page, "document.querySelector('#command').textContent.includes('5.5')")
+    page.emulate_media(media="print")
+    assert not page.is_visible("aside")
+    assert not page.is_visible("header")
+    assert "belt.speed 5.5 m/s" in page.inner_text(".printed")
+    paper = page.pdf(format="A4")
+    pypdf = pytest.importorskip("pypdf")
+    from io import BytesIO
+
+    read = pypdf.PdfReader(BytesIO(paper))
+    text = " ".join(sheet.extract_text() for sheet in read.pages)
+    assert len(read.pages) <= 4
+    assert re.search(r"belt\.speed 5\.5 m/s", text)
+    assert "more that pass" not in text or "holding" in text
+
+
+def test_a_phone_scrolls_down_only_and_has_the_sliders_near_the_figures(page):
+    page.set_viewport_size({"width": 390, "height": 844})
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    tops = {
+        name: page.locator(place).bounding_box()["y"]
+        for name, place in (("power", "[data-part=power]"), ("slider", "#sliders"), ("checks", "[data-part=checks]"))
+    }
+    assert tops["power"] < tops["slider"] < tops["checks"]
+    assert page.locator("[data-range='belt.speed']").bounding_box()["height"] >= 24  # WCAG 2.2, 2.5.8
+
+
+def test_without_a_spec_it_offers_one_of_each_kind(browser, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    server = desk_server.DeskServer(open_workbench((), ()))
+    thread = threading.Thread(target=server.run)
+    thread.start()
+    context = browser.new_context()
+    try:
+        page = context.new_page()
+        page.goto(server.guard.address)
+        page.click("text=in-plant, SI")
+        page.wait_for_selector("#answer:not([hidden])")
+        assert kilowatts(page) > 0
+        page.keyboard.press("Control+s")
+        page.fill("#target", "mine.yaml")
+        page.press("#target", "Tab")
+        page.wait_for_selector("#dosave:enabled")
+        page.click("#dosave")
+        wait_until(page, "document.querySelector('#foot').textContent.startsWith('Saved mine.yaml')")
+        assert conveyor.load(tmp_path / "mine.yaml").belt_speed > 0
+    finally:
+        context.close()
+        server.stop()
+        thread.join()
+
+
+def test_a_file_changed_in_an_editor_is_read_again(page, tmp_path):
+    path = tmp_path / "overland.yaml"
+    path.write_text(path.read_text(encoding="utf-8").replace("speed: 5 m/s", "speed: 5.2 m/s"), encoding="utf-8")
+    page.evaluate("window.dispatchEvent(new Event('focus'))")
+    wait_until(page, f"document.querySelector({SPEED!r}.replaceAll('\\\\', '')).value === '5.2 m/s'")
+    assert not page.is_visible("#changed")
