@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -17,6 +18,7 @@ from conveyor.cli.application import (
     one_of,
     option,
     parse_values,
+    si_of,
 )
 from conveyor.cli.output_files import FIGURE
 from conveyor.cli.shared_options import Session, session_command
@@ -69,6 +71,15 @@ def compare(
         list[str] | None,
         option("What its belt costs above the base's; may be repeated.", "NAME=AMOUNT", "--extra-cost"),
     ] = None,
+    lot_scatter: Annotated[
+        list[str] | None,
+        option(
+            'Half-width of the 90 % interval of the indentation from lot to lot: "5 %" of all, or "NAME=5 %" of one, '
+            "repeated for others; else of the compound file, else 8 %.",
+            "[NAME=]SHARE",
+            "--lot-scatter",
+        ),
+    ] = None,
     output: Workbook = None,
     html: WebPage = None,
     pdf: PdfPage = None,
@@ -104,6 +115,7 @@ def compare(
             cover=one_of("--cover", cover, ("bottom", "top", "both")),
             base=base,
             extra_costs=dict(_extra_cost(item) for item in extra_costs or ()),
+            lot_scatter=_lot_scatter(lot_scatter or ()),
             shelves=session.shelf or (),
             executor=executor,
             workers=workers,
@@ -132,6 +144,17 @@ def compare(
 def _all_values(given: list[str] | None, option: str, *units: str) -> list[str] | None:
     """Values of a repeatable option; None where it is not given."""
     return [value for words in given for value in parse_values(words, option, *units)] if given else None
+
+
+def _lot_scatter(given: Sequence[str]) -> float | dict[str, float] | None:
+    """Scatter of all compounds, or by name; None where it is not given."""
+    shares: dict[str, float] = {}
+    for words in given:
+        name, _, share = words.rpartition("=")
+        shares[name.strip()] = si_of("--lot-scatter", share.strip(), "fraction") or 0.0
+    if "" in shares and len(given) > 1:
+        raise InputError('--lot-scatter: one share of all compounds, or each with its name: "mine=5 %"')
+    return shares.get("", shares or None)
 
 
 def _extra_cost(given: str) -> tuple[str, float]:

@@ -349,25 +349,52 @@ def show_comparison(contents: Contents) -> None:
     facts = dict(contents.document.facts)
     title = f"{contents.document.title}: {facts['cover']} cover, against {facts['savings against']}"
     ranked = contents["ranking"]
-    columns = _ranking_columns(ranked, contents.by_key.get("costs"), contents.system)
-    made = plain_table(title, columns, left=("compound",))
-    for row in ranked.rows:
-        made.add_row(*(plain_text(shown(row)) for shown in columns.values()))
     screen = terminal_console()
-    screen.print(made)
+    savings = _saving_columns(ranked, contents.by_key.get("costs"), contents.system)
+    for heading, columns in ((title, _ranking_columns(ranked, contents.system)), ("Saving a year", savings)):
+        if columns:
+            made = plain_table(heading, columns, left=("compound",))
+            for row in ranked.rows:
+                made.add_row(*(plain_text(shown(row)) for shown in columns.values()))
+            screen.print(made)
     show_notes(screen, contents.lines("warning"))
 
 
-def _ranking_columns(ranked: Table, costs: Table | None, system: System) -> dict[str, Callable[[Any], str]]:
+def _saving_columns(ranked: Table, costs: Table | None, system: System) -> dict[str, Callable[[Any], str]]:
+    """Headings and cell functions of savings and paybacks; empty without prices."""
+    saved = [] if costs is None else [column for column in costs.columns if column.key == "saving_per_year"]
+    if not saved:
+        return {}
+    money, years = display_unit(saved[0].kind, system), display_unit("years", system)
+    columns: dict[str, Callable[[Any], str]] = {
+        "compound": lambda row: str(row.compound),
+        _unit_heading("saved/yr", money): lambda row: _number_text(money, row.saving),
+        _unit_heading("90 % interval", money): lambda row: _ends_text(money, row.savings),
+    }
+    if any(row.paybacks[0] is not None for row in ranked.rows):
+        columns[_unit_heading("payback", years)] = lambda row: _number_text(years, row.payback)
+        columns[_unit_heading("90 % interval ", years)] = lambda row: _ends_text(years, row.paybacks)
+    return columns
+
+
+def _ends_text(written: Unit, ends: tuple[float | None, float | None], between: str = " to ") -> str:
+    return "" if None in ends else between.join(_number_text(written, end) for end in ends)
+
+
+def _two_digits(percent: float) -> str:
+    return f"{percent:+.0f}" if abs(percent) >= 10.0 else f"{percent:+.1f}"
+
+
+def _ranking_columns(ranked: Table, system: System) -> dict[str, Callable[[Any], str]]:
     """Headings and cell functions of the ranking."""
     power, speed, warmth = (display_unit(kind, system, large=True) for kind in ("power", "speed", "temperature"))
 
-    def band(row: Any) -> str:
-        return (
-            ""
-            if row.low is None or row.high is None
-            else f"{_number_text(power, row.low)}-{_number_text(power, row.high)}"
-        )
+    def change(row: Any) -> str:
+        low, high = row.band
+        if row.change is None:
+            return ""
+        ends = "" if low is None else f" ({_two_digits(100.0 * low)} to {_two_digits(100.0 * high)})"
+        return f"{100.0 * row.change:+.1f}{ends}"
 
     columns: dict[str, Callable[[Any], str]] = {
         "compound": lambda row: str(row.compound),
@@ -377,19 +404,12 @@ def _ranking_columns(ranked: Table, costs: Table | None, system: System) -> dict
         columns[speed.sign] = lambda row: f"{speed.shown(row.speed):.4g}"
     columns[_unit_heading("mean", power)] = lambda row: _number_text(power, row.motor)
     if any(row.low is not None for row in ranked.rows):
-        columns[_unit_heading("90 % band", power)] = band
-    columns["change"] = lambda row: "" if row.change is None else f"{100.0 * row.change:+.1f} %"
+        columns[_unit_heading("90 % band", power)] = lambda row: _ends_text(power, (row.low, row.high), "-")
+    columns["change, 90 %\n[%]"] = change
     columns[_unit_heading("peak", power)] = lambda row: _number_text(power, row.peak)
     columns[_unit_heading("at", warmth)] = lambda row: (
         "" if row.temperature is None else f"{warmth.shown(row.temperature):g}"
     )
-    saved = [] if costs is None else [column for column in costs.columns if column.key == "saving_per_year"]
-    if saved:
-        money = display_unit(saved[0].kind, system)
-        columns[_unit_heading("saved/yr", money)] = lambda row: _number_text(money, row.saving)
-    if any(row.payback is not None for row in ranked.rows):
-        years = display_unit("years", system)
-        columns[_unit_heading("payback", years)] = lambda row: _number_text(years, row.payback)
     return columns
 
 

@@ -14,6 +14,7 @@ from conveyor.fitting.amplitude import UNLIKE_STRAINS, amplitude_ratio, strain_t
 from conveyor.fitting.findings import DOUBTFUL_RESIDUAL, SCATTER_MARGIN
 from conveyor.fitting.fitted_compound import FittedCompound
 from conveyor.fitting.measured_rows import MeasuredRows
+from conveyor.fitting.shift_choice import slope_text
 from conveyor.models import Conveyor
 from conveyor.rubber import ShiftComparison, Superposition
 from conveyor.units import text
@@ -185,7 +186,7 @@ def _shift_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
             SHIFT_LIMIT,
             _decades_text,
             "too little overlap or too much scatter"
-            if not any(one.differs for one in shifted.variants)
+            if not shifted.contradicting
             else "E' and E'' ask for different shifts, or vertical ones: the error holds their spread",
         )
         yield from _phase_criteria(shifted)
@@ -209,16 +210,16 @@ def _shift_criteria(fitted: FittedCompound) -> Iterator[Criterion]:
 
 
 def _phase_criteria(shifted: Superposition) -> Iterator[Criterion]:
-    """E'' over measured frequency, isotherms placed by E' alone."""
+    """E'' over measured frequency, at one reduced frequency."""
     name, slope = "E'' over measured frequency", shifted.phase_slope
     if slope is None:
-        yield _not_checked(name, "fewer than three isotherms that E' places")
+        yield _not_checked(name, "fewer than three isotherms, or they do not tell")
         return
-    known = max(abs(slope.per_decade) - 2.0 * slope.error, 0.0)
+    known = max(abs(slope.slope) - 2.0 * slope.error, 0.0)
     yield Criterion(
-        name, f"{percent(slope.per_decade, 1, signed=True)} +- {percent(slope.error, 1)} per decade",
+        name, f"{slope_text(slope)} per decade",
         f"at most {percent(PHASE_SLOPE_LIMIT)}", "pass" if known <= PHASE_SLOPE_LIMIT else "FAIL",
-        "a rubber has none: phase error of the instrument, or its frame and clamps give",
+        "a rubber has none: a phase error of the instrument",
     )  # fmt: skip
 
 

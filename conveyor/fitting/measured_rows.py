@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ from conveyor.laboratory import DmaData
 from conveyor.laboratory.groups import ISOTHERM_GAP, set_points, temperature_groups
 from conveyor.laboratory.measurement_kinds import UNLIKE_RATIO
 from conveyor.rubber import Isotherm, PronyFit, ShiftLaw, Superposition, entropic_b_T, equivalent_sweep
-from conveyor.rubber.master_curve import LEAST_ROWS
+from conveyor.rubber.master_curve import LEAST_ROWS, ShiftVariant
 from conveyor.rubber.misfit import scatter_within
 from conveyor.units.sentences import to_celsius
 
@@ -262,12 +262,10 @@ def _relaxation_sweeps(read: DmaData, number: int, stated: Mapping[int, float]) 
 
 def override_shifts(superposition: Superposition, given: DmaData) -> tuple[Superposition, tuple[str, ...]]:
     """Replace shift factors by those of a file, each at the isotherm of its temperature."""
-    shift, vertical = superposition.log10_a_T.copy(), superposition.log10_b_T.copy()
-    error, said = superposition.log10_a_T_error.copy(), []
-    covariance = superposition.joint_covariance.copy()
     own = shift_factors(None, given)
     if own is None:
         raise InputError(f"{given.source}: holds no shift factors")
+    said, places = [], []
     for k, (t, a) in enumerate(zip(own.temperatures.tolist(), own.log10_a_T.tolist(), strict=True)):
         at = int(np.argmin(np.abs(superposition.temperatures - t)))
         if abs(superposition.temperatures[at] - t) > ISOTHERM_GAP:
@@ -275,15 +273,35 @@ def override_shifts(superposition: Superposition, given: DmaData) -> tuple[Super
                 f"{given.source}:{given.row_numbers[k]}: no isotherm at {t - 273.15:.2f} degC; those measured are at "
                 + ", ".join(f"{kelvin - 273.15:.2f}" for kelvin in superposition.temperatures.tolist())
             )
-        said.append(f"shift at {t - 273.15:.2f} degC given, {a:+.4f}; the isotherms give {shift[at]:+.4f} decades")
-        shift[at], error[at] = a, 0.0
-        covariance[at] = covariance[:, at] = 0.0
-        if own.log10_b_T is not None:
-            vertical[at] = own.log10_b_T[k]
+        found = float(superposition.log10_a_T[at])
+        said.append(f"shift at {t - 273.15:.2f} degC given, {a:+.4f}; the isotherms give {found:+.4f} decades")
+        places.append(at)
     moved = replace(
-        superposition, log10_a_T=shift, log10_a_T_error=error, log10_b_T=vertical, joint_covariance=covariance
+        _at_given_shifts(superposition, own, places),
+        own_covariance=_without_errors(superposition.own_covariance, places),
+        variants=tuple(_at_given_shifts(one, own, places) for one in superposition.variants),
     )
     return moved, tuple(said)
+
+
+_Shifted = TypeVar("_Shifted", Superposition, ShiftVariant)
+
+
+def _at_given_shifts(one: _Shifted, given: ShiftFactors, places: list[int]) -> _Shifted:
+    """The same with the given shifts, without error, at the isotherms numbered."""
+    shift, vertical, error = one.log10_a_T.copy(), one.log10_b_T.copy(), one.log10_a_T_error.copy()
+    shift[places], error[places] = given.log10_a_T, 0.0
+    if given.log10_b_T is not None:
+        vertical[places] = given.log10_b_T
+    covariance = _without_errors(one.joint_covariance, places)
+    return replace(one, log10_a_T=shift, log10_a_T_error=error, log10_b_T=vertical, joint_covariance=covariance)
+
+
+def _without_errors(covariance: Array, places: list[int]) -> Array:
+    """Covariance with those rows and columns 0."""
+    known = covariance.copy()
+    known[places] = known[:, places] = 0.0
+    return known
 
 
 def entropic_shift(read: DmaData, shifts: DmaData | None, reference: float) -> Array:

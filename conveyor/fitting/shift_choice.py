@@ -37,10 +37,11 @@ from conveyor.rubber import (
     fit_wlf,
     superpose,
 )
+from conveyor.rubber.master_curve import TrendSlope
 from conveyor.rubber.shift_laws import LEAST_TEMPERATURES
 from conveyor.rubber.strain import SAME_TEMPERATURE
 from conveyor.units import read_si
-from conveyor.units.sentences import ZERO_CELSIUS, to_celsius
+from conveyor.units.sentences import ZERO_CELSIUS, percent, to_celsius
 
 _REFERENCE_NAMES = frozenset(
     {
@@ -129,7 +130,8 @@ def _law_of_rows(
     superposition: Superposition | None, shifts: DmaData | None, reference: float, request: Request
 ) -> ShiftLaw | None:
     """Law that shifts the rows: the requested one, from superposition or given shifts; None without shifts."""
-    stored = chosen_law(compare_laws(superposition, shifts, reference), reference, request)
+    laws = () if request.law == "table" else compare_laws(superposition, shifts, reference)
+    stored = chosen_law(laws, reference, request)
     if stored is not None:
         return stored
     known = shift_factors(superposition, shifts)
@@ -290,3 +292,8 @@ def compare_laws(
         return ()
     error = None if known.error is None else np.maximum(known.error, _SMALLEST_ERROR)
     return compare_shift_laws(known.temperatures, known.log10_a_T, reference, error=error)
+
+
+def slope_text(slope: TrendSlope) -> str:
+    """Slope of a trend with its standard error."""
+    return f"{percent(slope.slope, 1, signed=True)} +- {percent(slope.error, 1)}"

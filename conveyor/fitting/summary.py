@@ -8,6 +8,7 @@ import numpy as np
 
 from conveyor.errors import InputError
 from conveyor.fitting.fitted_compound import FittedCompound, TabulatedCompound
+from conveyor.fitting.shift_choice import slope_text
 from conveyor.report.matplotlib_settings import own_settings
 from conveyor.report.plots import add_legend, curve_colour, master_curve, stacked_axes
 from conveyor.rubber.time_temperature import OUTLIER_TRUST
@@ -25,8 +26,6 @@ if TYPE_CHECKING:
 _MOST_CANDIDATES = 6  # of the criterion's table that are printed
 _MOST_OUTLIERS = 6  # outliers that are named
 _POINTS = 400
-SLOPE_TRUST = 3.0
-"""Standard errors from which a slope is told [-]."""
 _SHAPE_CORRELATION = 0.5  # of neighbouring residuals beyond which isotherms differ in shape
 
 
@@ -115,17 +114,24 @@ def _variant_lines(shifted: Superposition) -> Iterator[str]:
             f"{one.log10_a_T[k]:+.3f} +- {one.log10_a_T_error[k]:.3f}" for k in (0, one.log10_a_T.size - 1)
         )
         yield f"    {one.name}: {ends}" + (", differs beyond chance" if one.differs else "")
-    if any(one.differs for one in shifted.variants):
+    if shifted.contradicting:
         yield (
-            "  E' and E'' ask for different shifts: the errors above, and the band, hold the largest difference; look "
-            "for the cause before the compound is used"
+            "  E' and E'' ask for different shifts: the errors above hold the largest difference, the band every one; "
+            "look for the cause before the compound is used"
         )
-    slope = shifted.phase_slope
-    if slope is not None and abs(slope.per_decade) > SLOPE_TRUST * slope.error:
+    phase, cold = shifted.phase_slope, shifted.cold_slope
+    if phase is not None and phase.found:
+        lag = any("lag" in one.trends for one in shifted.variants)
         yield (
-            f"  placed by E' alone, E'' changes by {percent(slope.per_decade, 1, signed=True)} +- "
-            f"{percent(slope.error, 1)} per decade of measured frequency: a phase error of the instrument, or its "
-            "frame and clamps give"
+            f"  E'' changes by {slope_text(phase)} per decade of measured frequency at one reduced frequency"
+            + (", in proportion to it: a time lag" if lag else ": a phase error")
+            + " of the instrument; the band holds E'' as it would be without"
+        )
+    if cold is not None and cold.found:
+        yield (
+            f"  E' and E'' change by {slope_text(cold)} per 10 K of cold at one reduced frequency: a vertical shift of "
+            f"the rubber{'' if shifted.with_vertical else ' (--vertical)'}, or clamps and frame that change with cold; "
+            "the band holds both"
         )
 
 

@@ -28,7 +28,7 @@ from conveyor.models.rubber_data import (
     StrainDependence,
     TableShift,
 )
-from conveyor.units import Bounds, Density, Quantity, from_si, si, text
+from conveyor.units import Bounds, Density, Fraction, Quantity, from_si, si, text
 from conveyor.units.presentation import format_figure
 
 if TYPE_CHECKING:
@@ -74,6 +74,8 @@ class RubberCompound(Model):
     """Softening with strain; without it the rubber is taken as linear."""
     tests: tuple[RollingTest, ...] = ()
     """Rolling-resistance tests: they set its test factor, measured over computed indentation."""
+    lot_scatter: Annotated[Fraction, Bounds(ge="0 %", le="50 %")] | None = None
+    """Half-width of the 90 % interval of its indentation from lot to lot, by the maker's records; 8 % without it."""
     carrier: Name | None = None
     """Compound whose spectrum stands in for one that was not measured; the tests set its test factor."""
     fit: FitStatistics | None = None
@@ -224,6 +226,11 @@ class RubberCompound(Model):
     def reference(self) -> float:
         """Reference temperature [K]."""
         return si(self.reference_temperature)
+
+    @property
+    def stated_lot_scatter(self) -> float | None:
+        """Half-width of the 90 % interval of its indentation from lot to lot [-]; None if not stated."""
+        return None if self.lot_scatter is None else si(self.lot_scatter)
 
     @cached_property
     def series_at_reference(self) -> PronySeries:

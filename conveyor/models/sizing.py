@@ -187,7 +187,7 @@ class SiteRules(Model):
     take_up_travel: Annotated[Distance, Bounds(gt="0 m", le="500 m")] = quantity("30 m")
     """Longest travel of the take-up, which keeps textile belts to short conveyors."""
     motor_reserve: Annotated[Number, Field(ge=1, le=3)] = 1.1
-    """Rated power of motors over the highest needed."""
+    """Rated power of motors over the highest needed, with the friction to design for."""
 
 
 class SizingDuty(Model):

@@ -38,7 +38,9 @@ def analysis_assumptions(conveyor: Conveyor) -> tuple[str, ...]:
         "efficiency; tension changes the load of the rolls on curves only.",
         *_horizontal_assumptions(conveyor),
         *_wind_assumption(conveyor),
-        f"Covers are at {format_figure(conveyor.temperature, 'temperature', conveyor.report.units)} throughout.",
+        f"Covers are at {format_figure(conveyor.temperature, 'temperature', conveyor.report.units)} throughout; "
+        "their warming by their own loss stands in the table of the rubber and is left out. Their rubber is that of "
+        "the data: as conditioned there, of that lot, not aged.",
         *_energy_assumption(conveyor),
     )
 

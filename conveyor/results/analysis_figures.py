@@ -199,7 +199,7 @@ class _ConveyorSweep:
 
 def _sweep_conveyor(conveyor: Conveyor, temperatures: list[Quantity], speeds: list[Quantity]) -> _ConveyorSweep:
     compound = conveyor.carry_compound
-    varied = calculate_compound(conveyor, compound, temperatures, speeds, cover="bottom", rtol=_RTOL)
+    varied = calculate_compound(conveyor, compound, temperatures, speeds, cover="bottom", rtol=_RTOL, lot_scatter=0.0)
     if not varied.scenes:
         why = "; ".join(dict.fromkeys(refusal.reason for refusal in varied.refused))
         raise InputError(f"nothing to draw: {why}")

@@ -186,7 +186,11 @@ def bootstrap(
     rows shows, the band covers how far the compromise moves with their weights.
 
     Of isotherms, each replica first draws the shifts from their covariance, in pairs of both signs, vertical ones
-    too where they were fitted or are missing, and lays the rows out anew. It keeps these shifts: at another
+    too where they were fitted or are missing, and lays the rows out anew. Where the isotherms contradict each other it
+    takes the chosen shifts or one of the variants that contradict them, with equal chances
+    (`conveyor.rubber.master_curve.Superposition.drawn`). E'' that grows in proportion to measured frequency is
+    brought down to what it is at none; E'' that grows with its decades to what it is at one, drawn evenly over the
+    measured decades: where the instrument tells the phase rightly is not known. It keeps these shifts: at another
     temperature most of an error of the shift takes back what it did to the curve. A law is made anew of them, and of
     what it missed of the shifts with signs drawn (wild bootstrap): where shifts do not follow it, the band is as wide.
 
@@ -237,7 +241,8 @@ def bootstrap(
     kept: list[_ReplicaShift] = []
     draws = None
     if superposition is not None:
-        draws = _draw_shifts(superposition, _row_temperatures(superposition, temperature, size), law, generator)
+        at = _row_temperatures(superposition, temperature, size)
+        draws = _draw_shifts(superposition, at, rows.frequency, law, generator)
     for _ in range(DRAWS_PER_REPLICA * replicas):
         starts = generator.integers(0, size, -(-size // block))
         taken = ((starts[:, None] + np.arange(block)) % size).ravel()[:size]
@@ -250,6 +255,7 @@ def bootstrap(
         if shift is not None:
             drawn = replace(drawn, frequency=rows.frequency * 10.0 ** shift.moved[0])
             target = target * np.tile(10.0 ** -shift.moved[1], 2)
+            target[size:] *= np.exp(-shift.tilt)
         problem = PenalisedFit(drawn, times, fit.held)
         bends = spread * generator.standard_normal(len(problem.bends))
         moduli = problem.solve(target, fit.regularisation, bends)
@@ -272,16 +278,17 @@ def bootstrap(
         laws = tuple(one.law for one in kept if one.law is not None)
         return ReplicaBand(times, equilibrium, moduli, laws=laws)
     tables = np.array([one.shifts for one in kept])
-    vertical = tables[:, 1] if np.any(superposition.log10_b_T_error) else None
+    vertical = tables[:, 1] if np.any(tables[:, 1]) or np.any(superposition.log10_b_T_error) else None
     return ReplicaBand(times, equilibrium, moduli, tables[:, 0], vertical)
 
 
 @dataclass(frozen=True, eq=False)
 class _ReplicaShift:
-    """log10 a_T and log10 b_T of a replica, shape `(2, t)`, the move of each row, and their law [decades]."""
+    """log10 a_T and log10 b_T of a replica, shape `(2, t)` [decades]; move of each row, error of its E''; law."""
 
     shifts: FloatArray
     moved: list[FloatArray]
+    tilt: FloatArray
     law: ShiftLaw | None
 
 
@@ -300,6 +307,7 @@ def _row_temperatures(superposition: Superposition, temperature: ArrayLike | Non
 def _draw_shifts(
     superposition: Superposition,
     at: FloatArray,
+    frequency: FloatArray,
     maker: Callable[[FloatArray], ShiftLaw] | None,
     generator: np.random.Generator,
 ) -> Iterator[_ReplicaShift | None]:
@@ -309,18 +317,24 @@ def _draw_shifts(
     if maker is not None:
         laid = np.array([maker(laid[0]).log10_a_T(known), laid[1]])
     missed = (superposition.shifts - laid)[0]
+    measured = np.log10(frequency) - np.interp(at, known, laid[0])
     while True:
         for drawn in reversed(superposition.drawn(generator)):
-            law, shifts = None, drawn
+            law, shifts = None, drawn.shifts
             if maker is not None:
                 try:
-                    law = maker(drawn[0] + generator.choice([-2.0, 0.0], known.size) * missed)
+                    law = maker(shifts[0] + generator.choice([-2.0, 0.0], known.size) * missed)
                 except NoSolutionError:
                     yield None
                     continue
-                shifts = np.array([law.log10_a_T(known), drawn[1]])
+                shifts = np.array([law.log10_a_T(known), shifts[1]])
             moved = [np.interp(at, known, change) for change in shifts - laid]
-            yield None if np.any(np.diff(shifts[0]) >= 0.0) else _ReplicaShift(shifts, moved, law)
+            tilt = drawn.lag_slope * 10.0**measured
+            if drawn.phase_slope:
+                right = generator.uniform(float(measured.min()), float(measured.max()))
+                tilt += drawn.phase_slope * (measured - right)
+            kept = shifts if drawn.vertical else shifts * [[1.0], [0.0]]
+            yield None if np.any(np.diff(shifts[0]) >= 0.0) else _ReplicaShift(kept, moved, tilt, law)
 
 
 def _resampling_ratios(

@@ -19,11 +19,15 @@ from conveyor.rubber.common_curve import (
     SplineBasis,
     spline_basis,
 )
+from conveyor.rubber.master_curve import COLD_UNIT, Trend
 from conveyor.rubber.misfit import hampel_weights
 from conveyor.rubber.overlap import LogIsotherm, shift_limits
 
 ModulusCurves = tuple[SmoothCurve, ...]
 """Common curve of each modulus that counts."""
+
+LOSS = 1
+"""Number of E'' among the moduli [-]."""
 
 CHOICE_ROUNDS = 6
 """Rounds in which stiffness, noise and weights are chosen anew; afterwards they stay, so that the objective
@@ -72,6 +76,11 @@ class JointMinimum:
         Largest correlation of residuals of neighbouring rows [-].
     residual : numpy.ndarray
         ln E about its curve, shape `(moduli, m)` [-].
+    slope : numpy.ndarray
+        Of each trend, in the order asked for: change of ln E'' a decade of measured frequency ("phase"), of ln E'' up
+        to the highest one ("lag"), of ln E per 10 K of cold ("cold"), shape `(trends,)` [-].
+    slope_covariance : numpy.ndarray
+        Of them, shape `(trends, trends)` [-].
     """
 
     shift: FloatArray
@@ -81,6 +90,8 @@ class JointMinimum:
     scatter: tuple[float, ...]
     correlation: float
     residual: FloatArray
+    slope: FloatArray
+    slope_covariance: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,33 +116,50 @@ class JointShift:
         Those that count: 0 is E', 1 is E'' [-].
     vertical : bool
         Whether ln b_T is fitted [-].
+    trends : tuple of {"phase", "lag", "cold"}
+        Trends that are fitted besides; "cold" without `vertical` only, which holds it [-].
 
     Notes
     -----
-    The unknowns are the steps between neighbours, cold less hot: log10 a_T of all pairs, then ln b_T. A step
-    stays within the limits of `shift_limits`: isotherms of different shape would otherwise be torn apart, since
-    without an overlap nothing contradicts.
+    The unknowns are the steps between neighbours, cold less hot: log10 a_T of all pairs, then ln b_T; behind them the
+    slopes of the trends. A step stays within the limits of `shift_limits`: isotherms of different shape would otherwise
+    be torn apart, since without an overlap nothing contradicts.
     """
 
-    def __init__(self, sheets: list[LogIsotherm], *, moduli: tuple[int, ...], vertical: bool) -> None:
+    def __init__(
+        self, sheets: list[LogIsotherm], *, moduli: tuple[int, ...], vertical: bool, trends: tuple[Trend, ...] = ()
+    ) -> None:
         self.moduli = moduli
         self.count = len(sheets)
         self.x = np.concatenate([s.x for s in sheets])
         self.y = np.hstack([s.y[list(moduli)] for s in sheets])
         self.of = np.repeat(np.arange(self.count), [s.x.size for s in sheets])
         summed = np.triu(np.ones((self.count, self.count - 1)))
-        self.sums = summed if not vertical else np.kron(np.eye(2), summed)
+        t = np.array([s.temperature for s in sheets])
+        cold = (t[-1] - t) / COLD_UNIT
+        zero, no_trend = np.zeros_like(summed), np.zeros(self.count)
+        horizontal = [summed, *([zero] if vertical else []), *(no_trend[:, None] for _ in trends)]
+        upright = [zero, *([summed] if vertical else []), *((cold * (one == "cold"))[:, None] for one in trends)]
+        self.to_isotherms = np.vstack([np.hstack(horizontal), np.hstack(upright)])
         self.to_rows = summed[self.of]
+        loss = np.equal(self.moduli, LOSS)[:, None]
+        rows = {
+            "phase": loss * self.x,
+            "lag": loss * 10.0 ** (self.x - self.x.max()),
+            "cold": np.ones_like(loss, dtype=float) * cold[self.of],
+        }
+        self.trends = [rows[one] for one in trends]
         self.vertical = vertical
-        kelvin = np.diff([s.temperature for s in sheets])
-        self.rates = np.pad(np.diag(1.0 / kelvin), ((0, 0), (0, len(kelvin) if vertical else 0)))
-        limits = np.array([shift_limits(cold, hot) for cold, hot in pairwise(sheets)])
-        free = np.full((self.count - 1 if vertical else 0, 2), [-np.inf, np.inf])
+        others = (self.count - 1 if vertical else 0) + len(trends)
+        self.rates = np.pad(np.diag(1.0 / np.diff(t)), ((0, 0), (0, others)))
+        limits = np.array([shift_limits(*pair) for pair in pairwise(sheets)])
+        free = np.full((others, 2), [-np.inf, np.inf])
         self.lower, self.upper = np.vstack([limits, free]).T
 
     def minimum(self, start: FloatArray) -> JointMinimum:
         """Solve for steps of log10 a_T and ln b_T between neighbours, stiffness and weights re-estimated each round."""
-        place = np.clip(start.ravel() if self.vertical else start[0], self.lower, self.upper)
+        steps = start.ravel() if self.vertical else start[0]
+        place = np.clip(np.pad(steps, (0, len(self.trends))), self.lower, self.upper)
         share, weight = np.zeros(len(self.y)), np.ones_like(self.y)
         state = self._choose_smoothing(place, weight, share)
         for turn in range(ROUNDS):
@@ -214,9 +242,10 @@ class JointShift:
     ) -> tuple[FloatArray, FloatArray]:
         """Normal matrices of the steps of each modulus, curves eliminated; downward gradient."""
         parts, gradient = [], np.zeros(self.lower.size)
-        for one, weight, variance in zip(curves, state.weight, state.variance, strict=True):
+        for row, (one, weight, variance) in enumerate(zip(curves, state.weight, state.variance, strict=True)):
             across = one.slope[:, None] * self.to_rows
             columns = np.hstack([across, self.to_rows]) if self.vertical else across
+            columns = np.column_stack([columns, *(trend[row] for trend in self.trends)])
             weighted = weight[:, None] * columns
             cross = splines.matrix.T @ weighted
             parts.append((columns.T @ weighted - cross.T @ one.solve(cross)) / variance)
@@ -234,26 +263,29 @@ class JointShift:
     def _moved(self, place: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Reduced frequency and moduli at a place."""
         steps = self.count - 1
-        x = self.x + self.to_rows @ place[:steps]
-        return x, self.y - self.to_rows @ place[steps:] if self.vertical else self.y
+        x, y = self.x + self.to_rows @ place[:steps], self.y
+        if self.vertical:
+            y = y - self.to_rows @ place[steps : 2 * steps]
+        for slope, trend in zip(place[place.size - len(self.trends) :], self.trends, strict=True):
+            y = y - slope * trend
+        return x, y
 
     def _placed(
         self, place: FloatArray, covariance: FloatArray, state: _RoundState, curves: ModulusCurves
     ) -> JointMinimum:
-        n = self.count
-        full, each = np.zeros((2 * n, 2 * n)), np.zeros(2 * n)
-        size = len(self.sums)
-        each[:size] = self.sums @ place
-        full[:size, :size] = self.sums @ covariance @ self.sums.T
+        n, behind = self.count, place.size - len(self.trends)
+        each = self.to_isotherms @ place
         at_limit = (place <= self.lower) | (place >= self.upper)
         return JointMinimum(
             shift=each[:n],
             offset=each[n:],
-            covariance=full,
+            covariance=self.to_isotherms @ covariance @ self.to_isotherms.T,
             held=at_limit[: n - 1],
             scatter=tuple(np.sqrt(state.variance).tolist()),
             correlation=max(_isotherm_correlation(c.residual, self.of) for c in curves),
             residual=np.array([c.residual for c in curves]),
+            slope=place[behind:],
+            slope_covariance=covariance[behind:, behind:],
         )
 
 

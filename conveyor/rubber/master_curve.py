@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.arguments.arrays import FloatArray, positive_number, positive_vector
 from conveyor.errors import InputError
+from conveyor.rubber.monotone import MonotoneCubic
 from conveyor.rubber.overlap import Overlap
 from conveyor.rubber.shift import celsius_in_message
 
@@ -17,6 +18,13 @@ LEAST_ROWS = 3
 """Least rows of an isotherm: two moduli at three frequencies separate a shift from noise."""
 SAME_FREQUENCY = 1.0e-4
 """Frequencies closer than this are one setting of the instrument [decades]."""
+COLD_UNIT = 10.0
+"""Cold by which a trend is stated [K]."""
+TREND_LIMIT = 2.576
+"""Standard errors beyond which a trend is none of chance: 99 % of a normal distribution lie within [-]."""
+Trend: TypeAlias = Literal["phase", "lag", "cold"]
+"""E'' that grows with every decade of measured frequency, or in proportion to it, which no rubber's does; both moduli
+that grow with cold, a vertical shift."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,10 +113,18 @@ class ShiftVariant:
         Shifts, shape `(n,)` [decades].
     log10_a_T_error : numpy.ndarray
         Standard uncertainty of log10 a_T, shape `(n,)` [decades].
+    joint_covariance : numpy.ndarray
+        Of log10 a_T, then log10 b_T, shape `(2n, 2n)` [-].
     correlation : float
         Correlation of residuals of neighbouring rows [-].
     differs : bool
-        True if its log10 a_T differ from those chosen beyond chance (99.9 %).
+        True if its shifts differ from those chosen beyond chance.
+    trends : tuple of {"phase", "lag", "cold"}
+        Trends that were fitted with the shifts.
+    phase_slope : float
+        d ln E''/d log10 f that was fitted; 0 without [-].
+    lag_slope : float
+        d ln E''/df that was fitted besides; 0 without [1/Hz].
     """
 
     by: Literal["both", "storage", "loss"]
@@ -116,33 +132,66 @@ class ShiftVariant:
     log10_a_T: FloatArray  # noqa: N815
     log10_b_T: FloatArray  # noqa: N815
     log10_a_T_error: FloatArray  # noqa: N815
+    joint_covariance: FloatArray = field(repr=False)
     correlation: float
     differs: bool
+    trends: tuple[Trend, ...] = ()
+    phase_slope: float = 0.0
+    lag_slope: float = 0.0
 
     @property
     def name(self) -> str:
-        """Moduli and vertical shifts in words."""
+        """Moduli, vertical shifts and trends in words."""
         moduli = {"both": "from E' and E''", "storage": "from E' only", "loss": "from E'' only"}[self.by]
+        fitted = {
+            "phase": "E'' free to grow with measured decades", "lag": "E'' with measured frequency",
+            "cold": "E' and E'' with cold",
+        }  # fmt: skip
+        if self.trends:
+            return f"{moduli}, {' and '.join(fitted[one] for one in self.trends)}"
         return f"{moduli}, {'with vertical shifts' if self.vertical else 'no vertical shift'}"
+
+    @property
+    def shifts(self) -> FloatArray:
+        """log10 a_T, then log10 b_T, shape `(2, n)` [decades]."""
+        return np.array([self.log10_a_T, self.log10_b_T])
 
 
 @dataclass(frozen=True)
-class PhaseSlope:
-    """Change of E'' with measured frequency at one reduced frequency, isotherms placed by E' alone.
+class TrendSlope:
+    """Change of moduli along what they do not depend on, at one reduced frequency; fitted together with the shifts.
 
-    A rubber has none: E'' of neighbouring isotherms agrees where E' does. A phase error of the instrument that grows
-    with frequency, or stiffness of clamps and frame that softens the stiff specimen, leaves one.
+    Of E'' with measured frequency: a rubber has none; a phase error of the instrument that grows with frequency leaves
+    one. Of both moduli with cold: a vertical shift, of the rubber, or of clamps that stiffen with it.
 
     Parameters
     ----------
-    per_decade : float
-        d ln E'' / d log10 f [-].
+    slope : float
+        d ln E''/d log10 f, or d ln E per 10 K of cold [-].
     error : float
-        Its standard error, from the scatter among the pairs of neighbours [-].
+        Its standard error [-].
     """
 
-    per_decade: float
+    slope: float
     error: float
+
+    @property
+    def found(self) -> bool:
+        """True if it is none of chance: beyond 99 % of a normal distribution."""
+        return abs(self.slope) > TREND_LIMIT * self.error
+
+
+class DrawnShift(NamedTuple):
+    """Shifts that the isotherms could have had: log10 a_T and log10 b_T, shape `(2, n)`.
+
+    `phase_slope` and `lag_slope` are the d ln E''/d log10 f and d ln E''/df that go with them, 0 of a rubber;
+    `vertical` tells whether that shift is the rubber's.
+    """
+
+    shifts: FloatArray
+    phase_slope: float = 0.0
+    lag_slope: float = 0.0
+    vertical: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,7 +214,9 @@ class Superposition:
         Its standard uncertainty, shape `(n,)` [decades].
     joint_covariance : numpy.ndarray
         Of log10 a_T, then log10 b_T, shape `(2n, 2n)`: neighbours share the chain to the reference, and its
-        errors [-].
+        errors; with the spread of `contradicting` [-].
+    own_covariance : numpy.ndarray
+        The same of scatter and overlap alone [-].
     frequency : numpy.ndarray
         Reduced frequency f a_T of the master curve, ascending, shape `(m,)` [Hz].
     storage : numpy.ndarray
@@ -195,8 +246,11 @@ class Superposition:
     variants : tuple of ShiftVariant
         The same isotherms placed by the other moduli, and with or without vertical shifts. Where one differs beyond
         chance, the isotherms contradict each other, and the errors above hold the spread.
-    phase_slope : PhaseSlope or None
-        Change of E'' with measured frequency; None where E' does not place the isotherms.
+    phase_slope : TrendSlope or None
+        Change of ln E'' a decade of measured frequency, mean over the measured ones; None with fewer than three
+        isotherms, or where it is not determined.
+    cold_slope : TrendSlope or None
+        Change of both moduli per 10 K of cold; None likewise, and with vertical shifts.
     """
 
     reference: float
@@ -206,6 +260,7 @@ class Superposition:
     log10_b_T: FloatArray  # noqa: N815
     log10_b_T_error: FloatArray  # noqa: N815
     joint_covariance: FloatArray = field(repr=False)
+    own_covariance: FloatArray = field(repr=False)
     frequency: FloatArray = field(repr=False)
     storage: FloatArray = field(repr=False)
     loss: FloatArray = field(repr=False)
@@ -219,7 +274,8 @@ class Superposition:
     resonances: tuple[Resonance, ...] = ()
     with_vertical: Superposition | None = field(default=None, repr=False)
     variants: tuple[ShiftVariant, ...] = field(default=(), repr=False)
-    phase_slope: PhaseSlope | None = None
+    phase_slope: TrendSlope | None = None
+    cold_slope: TrendSlope | None = None
 
     @property
     def covariance(self) -> FloatArray:
@@ -236,7 +292,17 @@ class Superposition:
         """True for rows at frequencies [Hz] without resonance, shape `(m,)`."""
         return off_resonance(np.log10(frequency), [one.frequency for one in self.resonances])
 
-    def drawn(self, generator: np.random.Generator) -> FloatArray:
+    @property
+    def contradicting(self) -> tuple[ShiftVariant, ...]:
+        """Variants that contradict the chosen shifts: the one with trends, where it makes the isotherms one curve.
+
+        Else all that differ.
+        """
+        chance = 2.0 / np.sqrt(self.frequency.size)
+        trends = tuple(one for one in self.variants if one.trends and one.correlation <= chance)
+        return trends or tuple(one for one in self.variants if one.differs)
+
+    def drawn(self, generator: np.random.Generator) -> tuple[DrawnShift, DrawnShift]:
         """Draw shifts from their covariance: plus an error, and minus the same error.
 
         Parameters
@@ -246,16 +312,33 @@ class Superposition:
 
         Returns
         -------
-        numpy.ndarray
-            Both, each log10 a_T, then log10 b_T, shape `(2, 2, n)` [decades].
-        """
-        from scipy.interpolate import PchipInterpolator
+        tuple of DrawnShift
+            Both.
 
-        values, vectors = np.linalg.eigh(self.joint_covariance)
+        Notes
+        -----
+        Where the isotherms contradict each other, a draw takes the chosen shifts or one of `contradicting`, with equal
+        chances, and the error of that one. A vertical shift with cold is taken as the rubber's or as the clamps', with
+        equal chances: isotherms do not tell them apart.
+        """
+        others = self.contradicting
+        chosen = int(generator.integers(len(others) + 1)) if others else 0
+        other = others[chosen - 1] if chosen else None
+        shifts, covariance = (
+            (self.shifts, self.own_covariance) if other is None else (other.shifts, other.joint_covariance)
+        )
+        values, vectors = np.linalg.eigh(covariance)
         error = vectors @ (np.sqrt(np.maximum(values, 0.0)) * generator.standard_normal(values.size))
-        drawn_shifts = self.shifts + np.array([1.0, -1.0])[:, None, None] * error.reshape(2, -1)
-        level = PchipInterpolator(self.temperatures, drawn_shifts, axis=2)(self.reference)
-        return np.asarray(drawn_shifts - level[..., None])
+        drawn_shifts = shifts + np.array([1.0, -1.0])[:, None, None] * error.reshape(2, -1)
+        up, down = (
+            np.array([row - float(MonotoneCubic(self.temperatures, row)(self.reference)) for row in one])
+            for one in drawn_shifts
+        )
+        if other is None:
+            return DrawnShift(up), DrawnShift(down)
+        kept = "cold" not in other.trends or bool(generator.integers(2))
+        slopes = other.phase_slope, other.lag_slope
+        return DrawnShift(up, *slopes, kept), DrawnShift(down, *slopes, kept)
 
 
 def off_resonance(x: FloatArray, frequencies: list[float]) -> NDArray[np.bool_]:

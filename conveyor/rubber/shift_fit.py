@@ -91,20 +91,24 @@ def fit_wlf(
     weight = _shift_weights(x, error)
     floor = max(0.0, -float(x.min()))
 
-    def slope(v: float) -> tuple[float, FloatArray]:
-        basis = -x / (floor + np.exp(v) + x)
-        return float((weight * basis) @ y / ((weight * basis) @ basis)), basis
+    def slope(v: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """c1 at places of the pole, shape `(m,)`, and its factors, shape `(m, n)`."""
+        basis = -x / (floor + np.exp(np.atleast_1d(v))[:, None] + x)
+        return (weight * basis) @ y / np.einsum("ij,ij->i", weight * basis, basis), basis
+
+    def costs(v: ArrayLike) -> FloatArray:
+        c1, basis = slope(v)
+        return np.asarray((c1[:, None] * basis - y) ** 2 @ weight)
 
     def cost(v: float) -> float:
-        c1, basis = slope(v)
-        return float(weight @ (c1 * basis - y) ** 2)
+        return float(costs(v)[0])
 
     grid = np.linspace(np.log(POLE_DISTANCE[0]), np.log(POLE_DISTANCE[1]), SEARCH_POINTS)
-    best = int(np.argmin([cost(float(v)) for v in grid]))
+    best = int(np.argmin(costs(grid)))
     if best in {0, SEARCH_POINTS - 1}:
         raise NoSolutionError("the shifts do not follow a WLF law (its pole leaves the searched range): use a table")
     least = minimize_scalar(cost, bounds=(grid[best - 1], grid[best + 1]), method="bounded", options={"xatol": 1e-10})
-    c1, _ = slope(float(least.x))
+    c1 = float(slope(float(least.x))[0][0])
     if c1 <= 0.0:
         raise NoSolutionError("the shifts rise with temperature: no WLF law; reversed sign, or log of 1/a_T?")
     return _with_residuals(WLF(c1, floor + float(np.exp(least.x)), float(reference)), t, y)

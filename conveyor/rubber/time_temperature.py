@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import Literal, TypeAlias
+from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -15,15 +15,18 @@ from conveyor.rubber.joint_shift import LONGEST_STEP, JointMinimum, JointShift
 from conveyor.rubber.master_curve import (
     LEAST_ROWS,
     SAME_FREQUENCY,
+    TREND_LIMIT,
     Isotherm,
-    PhaseSlope,
     Resonance,
     ShiftVariant,
     Superposition,
+    Trend,
+    TrendSlope,
     off_resonance,
 )
 from conveyor.rubber.misfit import hampel_weights
-from conveyor.rubber.overlap import LogIsotherm, first_guess, measure_overlap, modulus_differences
+from conveyor.rubber.monotone import MonotoneCubic
+from conveyor.rubber.overlap import LogIsotherm, first_guess, measure_overlap
 from conveyor.rubber.shift import celsius_in_message
 
 DIFFERENCE_STEP = 1.0e-4
@@ -37,7 +40,8 @@ OUTLIER_TRUST = 0.5
 LEAST_VERTICAL = 0.004
 """Least range of log10 b_T: below it a vertical shift changes no modulus by 1 % [decades]."""
 NORMAL_QUANTILE_999 = 3.09
-"""Quantile of the normal distribution [-]."""
+NORMAL_QUANTILE_99 = 2.326
+"""Quantiles of the normal distribution [-]."""
 RANK_TOLERANCE = 1.0e-10
 """Eigenvalues of a covariance below this share of the largest are rounding: the reference has no error [-]."""
 LN10 = float(np.log(10.0))
@@ -97,11 +101,16 @@ def superpose(
     isotherm carry less information; the covariance is widened by (1 + c)/(1 - c). Without `vertical`, a score
     test shows whether vertical shifts are missing.
 
-    E' and E'' of one rubber ask for the same shifts. They are placed by E' alone, by E'' alone and by both, by both
-    also with vertical shifts. The difference of each to the chosen one is tested against its own uncertainty
-    (Hausman's test: the less efficient estimate differs by no more than its variance). Beyond the 99.9 % quantile the
-    larger one of the moduli, and that of the vertical shifts, enter the uncertainty, each as one standard deviation.
-    Not covered: errors
+    E' and E'' of one rubber ask for the same shifts. Trends that contradict that are fitted together with the
+    shifts: E'' that grows with each decade of measured frequency (a phase error) or in proportion to it (a time lag of
+    the instrument), and both moduli that grow with cold (a vertical shift, or clamps). Where all together are beyond
+    chance (99 %), they are left out one by one, the least first, until each is; with those left the shifts are a
+    variant. The isotherms are placed by E' alone, by
+    E'' alone and by both too, by both also with vertical shifts; where no trends make the isotherms one curve, each of
+    these that differs from the chosen one beyond chance (99.9 %, twice) is one too: by Hausman's test (the less
+    efficient estimate differs by no more than its variance), which takes the curves as straight as far as the shifts
+    are uncertain, and by the likelihood ratio, which does not. The largest difference enters the uncertainty as one
+    standard deviation. Not covered: errors
     of the thermometer (1 K is 0.1 decade or more near the glass transition), nor what all rows share.
 
     A reference between two isotherms is placed by monotone (PCHIP) interpolation of log10 a_T over T, as
@@ -138,72 +147,146 @@ def superpose(
         sheets = [_without_frequencies(sheet, [one.frequency for one in resonances]) for sheet in sheets]
         placed = _place_isotherms(sheets, moduli, vertical=vertical)
     chosen = replace(_assemble_master_curve(sheets, t_ref, moduli, placed), resonances=resonances)
-    others = _place_otherwise(sheets, t_ref, by, vertical=vertical)
-    if not vertical:
-        shifted = others.get(("both", True)) if by == "both" else None
-        chosen = replace(chosen, with_vertical=_needed_vertical(chosen, sheets, (moduli, placed), shifted))
-    storage = chosen if (by, vertical) == ("storage", False) else others.get(("storage", False))
-    slope = None if storage is None else _phase_slope(sheets, storage.log10_a_T)
-    return replace(_add_spread(chosen, (by, vertical), others), phase_slope=slope)
+    others = _place_otherwise(sheets, by, vertical=vertical)
+    if not vertical and by == "both" and (shifted := others.get(("both", True))) is not None:
+        needed = _needs_vertical(chosen, sheets, (moduli, placed), shifted)
+        if needed:
+            chosen = replace(chosen, with_vertical=_assemble_master_curve(sheets, t_ref, moduli, shifted))
+    variants = [_tested_variant(chosen, (by, vertical), other, placement) for placement, other in others.items()]
+    joint = placed if by == "both" else others.get(("both", vertical))
+    trends = None
+    if joint is not None and len(sheets) >= LEAST_ISOTHERMS:
+        trends = _find_trends(sheets, joint, vertical=vertical)
+    if trends is not None:
+        chosen = replace(chosen, phase_slope=trends.phase, cold_slope=trends.cold)
+        if trends.found:
+            variants.append(_shift_variant(chosen, trends.placed, ("both", vertical), trends))
+    return _add_spread(replace(chosen, variants=tuple(variants)))
 
 
 Placement: TypeAlias = tuple[Literal["both", "storage", "loss"], bool]
 """Moduli that count, and True with vertical shifts."""
 
 
-def _place_otherwise(
-    sheets: list[LogIsotherm], t_ref: float, by: str, *, vertical: bool
-) -> dict[Placement, Superposition]:
-    """Superpositions by the other moduli, and by both with vertical shifts, as far as they are determined.
+def _place_otherwise(sheets: list[LogIsotherm], by: str, *, vertical: bool) -> dict[Placement, JointMinimum]:
+    """Isotherms placed by the other moduli, and by both with vertical shifts, as far as they are determined.
 
     Of one modulus alone only the bend of its curve separates a vertical shift from a horizontal one: it says nothing.
     """
-    made: dict[Placement, Superposition] = {}
+    made: dict[Placement, JointMinimum] = {}
     others: list[Placement] = [("both", vertical), ("storage", vertical), ("loss", vertical)]
     for other, shifted in others if vertical else [*others, ("both", True)]:
         if (other, shifted) != (by, vertical):
             try:
-                placed = _place_isotherms(sheets, MODULI[other], vertical=shifted)
+                made[other, shifted] = _place_isotherms(sheets, MODULI[other], vertical=shifted)
             except NoSolutionError:  # flat curves; straight lines in log-log with vertical shifts
                 continue
-            made[other, shifted] = _assemble_master_curve(sheets, t_ref, MODULI[other], placed)
     return made
 
 
-def _add_spread(
-    chosen: Superposition, placement: Placement, others: Mapping[Placement, Superposition]
-) -> Superposition:
-    """Add the differences that are beyond chance to the uncertainty: the largest by moduli, that by vertical shifts."""
+class _Trends(NamedTuple):
+    """Isotherms placed with the trends that are beyond chance, which those are, and what they come to."""
+
+    placed: JointMinimum
+    found: tuple[Trend, ...]
+    phase: TrendSlope | None
+    cold: TrendSlope | None
+
+    def slope(self, trend: Trend) -> float:
+        """Slope of a trend; 0 where it is not among those found."""
+        return float(self.placed.slope[self.found.index(trend)]) if trend in self.found else 0.0
+
+
+def _find_trends(sheets: list[LogIsotherm], without: JointMinimum, *, vertical: bool) -> _Trends | None:
+    """Fit all trends together, and leave out the least until each is beyond chance; None if not determined."""
+    decades = float(np.ptp(np.concatenate([sheet.x for sheet in sheets])))
+    weights = {"phase": 1.0, "lag": -np.expm1(-LN10 * decades) / decades}
+    found: tuple[Trend, ...] = ("phase", "lag") if vertical else ("phase", "lag", "cold")
+    phase, cold = None, None
+    while True:
+        try:
+            placed = _place_isotherms(sheets, MODULI["both"], vertical=vertical, trends=found)
+        except NoSolutionError:  # flat curves
+            return None
+        if {"phase", "lag"} & set(found):
+            phase = _summed_slope(placed, [weights.get(one, 0.0) for one in found])
+        if "cold" in found:
+            cold = _summed_slope(placed, [float(one == "cold") for one in found])
+        if not _beyond_chance(placed, without):
+            return _Trends(placed, (), phase, cold)
+        z = np.abs(placed.slope) / np.sqrt(np.diagonal(placed.slope_covariance))
+        if np.min(z) > TREND_LIMIT or len(found) == 1:
+            return _Trends(placed, found if np.min(z) > TREND_LIMIT else (), phase, cold)
+        found = tuple(one for k, one in enumerate(found) if k != int(np.argmin(z)))
+
+
+def _beyond_chance(placed: JointMinimum, without: JointMinimum) -> bool:
+    """True if trends are beyond chance (99 %), all together and in what they leave of the moduli.
+
+    On a plateau the shifts follow from their prior, and so would trends: the scatter of the rows does not fall.
+    """
+    limit = _chi2_limit(placed.slope.size, NORMAL_QUANTILE_99)
+    together = float(placed.slope @ np.linalg.solve(placed.slope_covariance, placed.slope))
+    fall = float(np.sum(np.log(np.array(without.scatter) / np.array(placed.scatter))))
+    return together > limit and 2.0 * placed.residual.shape[1] * fall > limit
+
+
+def _summed_slope(placed: JointMinimum, weights: list[float]) -> TrendSlope:
+    """Weighted sum of the slopes of trends, with its error."""
+    w = np.array(weights)
+    return TrendSlope(float(w @ placed.slope), float(np.sqrt(w @ placed.slope_covariance @ w)))
+
+
+def _shift_variant(
+    chosen: Superposition, placed: JointMinimum, placement: Placement, trends: _Trends | None = None
+) -> ShiftVariant:
+    """Another placement beside the chosen one."""
+    a, b, covariance = _zeroed_shifts(chosen.temperatures, chosen.reference, placed)
+    other = ShiftVariant(
+        *placement, a, b, _standard_errors(covariance[: a.size, : a.size]), covariance, placed.correlation,
+        differs=False,
+    )  # fmt: skip
+    if trends is None:
+        return other
+    highest = float((chosen.frequency / 10.0 ** chosen.log10_a_T[chosen.isotherm]).max())
+    return replace(
+        other, differs=True, trends=trends.found, phase_slope=trends.slope("phase"),
+        lag_slope=trends.slope("lag") / highest,
+    )  # fmt: skip
+
+
+def _tested_variant(
+    chosen: Superposition, placement: Placement, placed: JointMinimum, other_placement: Placement
+) -> ShiftVariant:
+    """Another placement, tested against the chosen one."""
+    other = _shift_variant(chosen, placed, other_placement)
+    differs = _differs_beyond_chance(chosen, placement, other) and _fits_beyond_chance(chosen, placement, placed, other)
+    return replace(other, differs=differs)
+
+
+def _add_spread(chosen: Superposition) -> Superposition:
+    """Add the largest difference to a contradicting variant to the uncertainty."""
     n = chosen.temperatures.size
-    variants, apart = [], {False: np.zeros(2 * n), True: np.zeros(2 * n)}
-    for (by, vertical), other in others.items():
-        differs = _differs_beyond_chance(chosen, placement, other, (by, vertical))
-        variants.append(
-            ShiftVariant(
-                by, vertical, other.log10_a_T, other.log10_b_T, other.log10_a_T_error, other.correlation, differs
-            )
-        )
-        difference, shifted = (other.shifts - chosen.shifts).ravel(), vertical != placement[1]
-        if differs and np.linalg.norm(difference[:n]) > np.linalg.norm(apart[shifted][:n]):
-            apart[shifted] = difference
-    covariance = chosen.joint_covariance + sum(np.outer(one, one) for one in apart.values())
+    apart = [(other.shifts - chosen.shifts).ravel() for other in chosen.contradicting]
+    if not apart:
+        return chosen
+    largest = max(apart, key=lambda one: float(np.linalg.norm(one[:n])))
+    covariance = chosen.own_covariance + np.outer(largest, largest)
     return replace(
         chosen,
         joint_covariance=covariance,
         log10_a_T_error=_standard_errors(covariance[:n, :n]),
         log10_b_T_error=_standard_errors(covariance[n:, n:]),
-        variants=tuple(variants),
     )
 
 
-def _differs_beyond_chance(
-    chosen: Superposition, placement: Placement, other: Superposition, other_placement: Placement
-) -> bool:
+def _differs_beyond_chance(chosen: Superposition, placement: Placement, other: ShiftVariant) -> bool:
     """True if two placements differ in log10 a_T by more than the less efficient of them may."""
-    (by, vertical), (other_by, other_vertical) = placement, other_placement
-    nested = set(MODULI[other_by]) <= set(MODULI[by]) and other_vertical >= vertical
-    contains = set(MODULI[by]) <= set(MODULI[other_by]) and vertical >= other_vertical
-    covariance = other.covariance if nested else chosen.covariance if contains else other.covariance + chosen.covariance
+    (by, vertical), n = placement, chosen.temperatures.size
+    nested = set(MODULI[other.by]) <= set(MODULI[by]) and other.vertical >= vertical
+    contains = set(MODULI[by]) <= set(MODULI[other.by]) and vertical >= other.vertical
+    own, others = chosen.covariance, other.joint_covariance[:n, :n]
+    covariance = others if nested else own if contains else own + others
     apart = other.log10_a_T - chosen.log10_a_T
     values, vectors = np.linalg.eigh(covariance)
     known = values > RANK_TOLERANCE * values[-1]
@@ -211,57 +294,52 @@ def _differs_beyond_chance(
     return statistic > _chi2_limit(int(np.count_nonzero(known)))
 
 
-def _phase_slope(sheets: list[LogIsotherm], log10_a_T: FloatArray) -> PhaseSlope | None:
-    """Slope of ln E'' over measured frequency at one reduced frequency; None with fewer than three isotherms.
+def _fits_beyond_chance(chosen: Superposition, placement: Placement, placed: JointMinimum, other: ShiftVariant) -> bool:
+    """True if the freer of two placements leaves less of the moduli that place it, by more than chance.
 
-    In the overlap of two neighbours the colder one was measured log10 a_T apart, at the lower frequency.
+    The likelihood ratio of both scatters, of the moduli in common; True where they have none.
     """
-    if len(sheets) < LEAST_ISOTHERMS:
-        return None
-    apart = -np.diff(log10_a_T)
-    differences = [
-        float(np.nanmean(modulus_differences(cold, hot, np.array([step]))[1, 0]))
-        for (cold, hot), step in zip(pairwise(sheets), apart.tolist(), strict=True)
-    ]
-    offsets, squares = np.array(differences), float(apart @ apart)
-    slope = -float(apart @ offsets) / squares
-    left = offsets + slope * apart
-    return PhaseSlope(slope, float(np.sqrt(left @ left / (apart.size - 1) / squares)))
+    scatter = {0: chosen.storage_scatter, 1: chosen.loss_scatter}
+    others = dict(zip(MODULI[other.by], placed.scatter, strict=True))
+    rows, common = chosen.frequency.size, sorted(set(MODULI[placement[0]]) & set(MODULI[other.by]))
+    if not common:
+        return True
+    logs = [np.log((scatter[k] or 0.0) / others[k]) for k in common]
+    return 2.0 * rows * abs(float(np.sum(logs))) > _chi2_limit(chosen.temperatures.size - 1)
 
 
-def _needed_vertical(
+def _needs_vertical(
     chosen: Superposition,
     sheets: list[LogIsotherm],
     placed: tuple[tuple[int, ...], JointMinimum],
-    other: Superposition | None,
-) -> Superposition | None:
-    """Superposition with vertical shifts if the isotherms need it: score test, size, and one curve by it."""
-    if other is None:
-        return None
+    other: JointMinimum,
+) -> bool:
+    """True if the isotherms need vertical shifts: score test, size, and one curve by it."""
     moduli, minimum = placed
     steps = -np.diff(minimum.shift)
     score = JointShift(sheets, moduli=moduli, vertical=True).score(
         np.concatenate([steps, np.zeros_like(steps)]), minimum.residual
     )
     chance = 2.0 / np.sqrt(chosen.frequency.size)
-    needed = (
+    return bool(
         score >= _chi2_limit(steps.size)
-        and np.ptp(other.log10_b_T) >= LEAST_VERTICAL
+        and np.ptp(other.offset) >= LEAST_VERTICAL * LN10
         # else the slopes hardly separate one shift from the other
-        and np.max(np.abs(np.diff(other.log10_a_T - chosen.log10_a_T))) <= LONGEST_STEP
+        and np.max(np.abs(np.diff(other.shift - minimum.shift))) <= LONGEST_STEP
         and other.correlation <= max(chance, 0.5 * chosen.correlation)
     )
-    return other if needed else None
 
 
-def _chi2_limit(freedom: int) -> float:
-    """99.9 % quantile of chi squared: Wilson and Hilferty, PNAS 17 (1931) 684-688."""
+def _chi2_limit(freedom: int, quantile: float = NORMAL_QUANTILE_999) -> float:
+    """Quantile of chi squared, 99.9 % by default: Wilson and Hilferty, PNAS 17 (1931) 684-688."""
     step = 2.0 / (9.0 * freedom)
-    return float(freedom * (1.0 - step + NORMAL_QUANTILE_999 * np.sqrt(step)) ** 3)
+    return float(freedom * (1.0 - step + quantile * np.sqrt(step)) ** 3)
 
 
-def _place_isotherms(sheets: list[LogIsotherm], moduli: tuple[int, ...], *, vertical: bool) -> JointMinimum:
-    joint = JointShift(sheets, moduli=moduli, vertical=vertical)
+def _place_isotherms(
+    sheets: list[LogIsotherm], moduli: tuple[int, ...], *, vertical: bool, trends: tuple[Trend, ...] = ()
+) -> JointMinimum:
+    joint = JointShift(sheets, moduli=moduli, vertical=vertical, trends=trends)
     start = [first_guess(cold, hot, moduli=moduli, vertical=vertical) for cold, hot in pairwise(sheets)]
     return joint.minimum(np.array(start).T)
 
@@ -316,12 +394,9 @@ def _assemble_master_curve(
 ) -> Superposition:
     """Move the zero of the shifts to the reference, and shift the rows."""
     t = np.array([s.temperature for s in sheets])
-    shift, offset = placed.shift, placed.offset
     size = t.size
-    a, from_a = _zero_at_reference(t, shift, t_ref)
-    b, from_b = _zero_at_reference(t, offset, t_ref)
-    from_both = np.block([[from_a, np.zeros((size, size))], [np.zeros((size, size)), from_b / LN10]])
-    covariance = from_both @ placed.covariance @ from_both.T
+    a, log10_b, covariance = _zeroed_shifts(t, t_ref, placed)
+    b = LN10 * log10_b
     overlaps = tuple(
         measure_overlap(sheets[i], sheets[i + 1], -da, -db, held=bool(placed.held[i]))
         for i, (da, db) in enumerate(zip(np.diff(a).tolist(), np.diff(b).tolist(), strict=True))
@@ -337,9 +412,10 @@ def _assemble_master_curve(
         temperatures=t,
         log10_a_T=a,
         log10_a_T_error=_standard_errors(covariance[:size, :size]),
-        log10_b_T=b / LN10,
+        log10_b_T=log10_b,
         log10_b_T_error=_standard_errors(covariance[size:, size:]),
         joint_covariance=covariance,
+        own_covariance=covariance,
         frequency=10.0 ** x[order],
         storage=modulus[0],
         loss=modulus[1],
@@ -353,18 +429,25 @@ def _assemble_master_curve(
     )
 
 
+def _zeroed_shifts(t: FloatArray, t_ref: float, placed: JointMinimum) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """log10 a_T, log10 b_T and their covariance, 0 at the reference [K]."""
+    size = t.size
+    a, from_a = _zero_at_reference(t, placed.shift, t_ref)
+    b, from_b = _zero_at_reference(t, placed.offset, t_ref)
+    from_both = np.block([[from_a, np.zeros((size, size))], [np.zeros((size, size)), from_b / LN10]])
+    return a, b / LN10, from_both @ placed.covariance @ from_both.T
+
+
 def _zero_at_reference(t: FloatArray, value: FloatArray, t_ref: float) -> tuple[FloatArray, FloatArray]:
     """Values less the interpolated one at the reference, and their derivative by the values."""
-    from scipy.interpolate import PchipInterpolator
-
     at = np.flatnonzero(t == t_ref)
     if at.size:
         weights = np.eye(t.size)[at[0]]
     else:
         moved = value + DIFFERENCE_STEP * np.vstack([np.eye(t.size), -np.eye(t.size)])
-        at_reference = PchipInterpolator(t, moved, axis=1)(t_ref)
+        at_reference = np.array([float(MonotoneCubic(t, row)(t_ref)) for row in moved])
         weights = (at_reference[: t.size] - at_reference[t.size :]) / (2.0 * DIFFERENCE_STEP)
-    level = float(PchipInterpolator(t, value)(t_ref))
+    level = float(MonotoneCubic(t, value)(t_ref))
     return value - level, np.eye(t.size) - weights
 
 

@@ -13,7 +13,7 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
-from typing import Final, NamedTuple, get_args
+from typing import Final, Literal, NamedTuple, get_args
 
 from pydantic import TypeAdapter, ValidationError
 
@@ -25,6 +25,7 @@ from conveyor.models.operation import BeltSpeed
 from conveyor.models.variants import CoverChoice, distinct_values, require_rolling_contact, with_compound
 from conveyor.pipeline import ProgressCallback
 from conveyor.reuse import ReuseCache
+from conveyor.rubber.lots import LARGEST_LOT_SCATTER, LOT_SCATTER
 from conveyor.studies.comparison_scenes import (
     ComparedScene,
     CompoundStudy,
@@ -71,6 +72,8 @@ class CalculatedComparison:
         Scenes with and without an answer.
     coverage : tuple of Coverage
         For each compound and temperature, the excited band against that of the data.
+    lots : mapping
+        Scatter of each compound's indentation from lot to lot.
     extra_costs : mapping
         Price of a belt of each compound above the base's [currency of the spec].
     years : mapping
@@ -84,6 +87,7 @@ class CalculatedComparison:
     scenes: tuple[ComparedScene, ...]
     refused: tuple[Refusal, ...]
     coverage: tuple[Coverage, ...]
+    lots: Mapping[str, LotScatter]
     extra_costs: Mapping[str, float]
     years: Mapping[str, CalculatedYear] = field(default_factory=dict)
 
@@ -111,11 +115,24 @@ class CalculatedComparison:
         tests = {compound.name: {test.conditions for test in compound.tests} for compound in self.compounds}
         return bool(tests[one]) and tests[one] == tests[other]
 
+    def difference(self, one: RankedPower, other: RankedPower) -> tuple[float, float]:
+        """90 % interval of the power of one compound less that of another [W].
+
+        The root of the squares of both errors. Of belts tested alike the common ones raise or lower both powers: what
+        they have of the difference remains.
+        """
+        apart = one.motor - other.motor
+        if self.tested_alike(one.compound, other.compound):
+            common = [abs(mine - theirs) for mine, theirs in zip(one.common, other.common, strict=True)]
+            below = math.hypot(one.own[0], other.own[1], common[0])
+            above = math.hypot(one.own[1], other.own[0], common[1])
+        else:
+            below, above = math.hypot(one.whole[0], other.whole[1]), math.hypot(one.whole[1], other.whole[0])
+        return apart - below, apart + above
+
     def differs_clearly(self, less: RankedPower, more: RankedPower) -> bool:
-        """True if `more` exceeds `less` by more than the root of the squares of both errors, without common ones."""
-        alike = self.tested_alike(less.compound, more.compound)
-        (_, up), (down, _) = (less.own, more.own) if alike else (less.whole, more.whole)
-        return more.motor - less.motor > math.hypot(up, down)
+        """True if `more` exceeds `less` by more than both may be off, without what they have in common."""
+        return self.difference(more, less)[0] > 0.0
 
     def groups(self, standings: Iterable[RankedPower]) -> list[list[RankedPower]]:
         """Compounds by power, the least first, grouped where they do not clearly differ from the first of the group."""
@@ -133,6 +150,13 @@ class CalculatedComparison:
             return False
         tested = {compound.name: bool(compound.tests) for compound in self.compounds}
         return tested[name] != tested[self.base]
+
+
+class LotScatter(NamedTuple):
+    """Half-width of the 90 % interval of an indentation from lot to lot [-], and who states it."""
+
+    half_width: float
+    origin: Literal["given", "compound", "default"]
 
 
 @dataclass(frozen=True)
@@ -154,6 +178,12 @@ class RankedPower:
     whole: tuple[float, float]
     own: tuple[float, float]
 
+    @property
+    def common(self) -> tuple[float, float]:
+        """Errors below and above that belts tested alike have in common [W]."""
+        low, high = (math.sqrt(max(a * a - b * b, 0.0)) for a, b in zip(self.whole, self.own, strict=True))
+        return low, high
+
     @classmethod
     def of(cls, scenes: Sequence[ComparedScene]) -> RankedPower:
         """Mean of at least one scene of one compound.
@@ -164,10 +194,9 @@ class RankedPower:
         motor = math.fsum(scene.motor for scene in scenes) / count
         solved = math.fsum(scene.error * abs(scene.motor) for scene in scenes) / count
 
-        def mean(ends: Iterable[float | None]) -> float:
-            """Distance of the mean of the ends from the mean; the error of the contacts alone if an end is unknown."""
-            known = [end for end in ends if end is not None]
-            return solved + (abs(math.fsum(known) / count - motor) if len(known) == count else 0.0)
+        def mean(ends: Iterable[float]) -> float:
+            """Distance of the mean of the ends from the mean, with the error of the contacts."""
+            return solved + abs(math.fsum(ends) / count - motor)
 
         return cls(
             scenes[0].compound,
@@ -187,6 +216,7 @@ def compare_compounds(
     cover: CoverChoice = "bottom",
     base: str | None = None,
     extra_costs: Mapping[str, float] | None = None,
+    lot_scatter: float | Mapping[str, float] | None = None,
     rtol: float = RTOL,
     shelves: Iterable[str | Path] = (),
     executor: Executor | None = None,
@@ -209,6 +239,9 @@ def compare_compounds(
         Name of the reference compound; by default the first.
     extra_costs : mapping of str to float, optional
         Price of a belt of a compound above that of the base, in the currency of the spec's energy price.
+    lot_scatter : float or mapping of str to float, optional
+        Half-width of the 90 % interval of the indentation from lot to lot, of all compounds or by name [-]; by default
+        what a compound's file states, else `conveyor.rubber.lots.LOT_SCATTER`.
     rtol : float
         Relative tolerance of the contacts [-].
     shelves : iterable of path
@@ -241,7 +274,8 @@ def compare_compounds(
     runs = [conveyor.belt.speed] if speeds is None else _read_quantities(speeds, "speed")
     costs = {_compound_name(name, chosen): cost for name, cost in (extra_costs or {}).items()}
     reference = chosen[0].name if base is None else _compound_name(base, chosen)
-    job = _ComparisonJob(conveyor, tuple(map(text, at)), tuple(map(text, runs)), cover, rtol)
+    lots = _lots_of_compounds(chosen, lot_scatter)
+    job = _ComparisonJob(conveyor, tuple(map(text, at)), tuple(map(text, runs)), cover, rtol, lots)
     answers: list[_CompoundAnswer] = []
     if progress is not None:
         progress(0, len(chosen))
@@ -259,6 +293,7 @@ def compare_compounds(
         tuple(one for study in studies for one in study.scenes),
         tuple(one for study in studies for one in study.refused),
         tuple(one for study in studies for one in study.coverage),
+        lots,
         costs,
         {compound.name: year for compound, year in years if year is not None},
     )
@@ -280,6 +315,7 @@ class _ComparisonJob:
     speeds: tuple[str, ...]
     cover: CoverChoice
     rtol: float
+    lots: Mapping[str, LotScatter]
 
     def of(self, compound: RubberCompound, kept: ReuseCache) -> _CompoundAnswer:
         """Scenes and year of a compound."""
@@ -290,6 +326,7 @@ class _ComparisonJob:
             [quantity(one, "speed") for one in self.speeds],
             cover=self.cover,
             rtol=self.rtol,
+            lot_scatter=self.lots[compound.name].half_width,
             kept=kept,
         )
         return _CompoundAnswer(study, _duty_year(self.conveyor, compound, self.cover, self.rtol))
@@ -348,6 +385,27 @@ def _resolve_compounds(
     if twice is not None:
         raise InputError(f'compounds: "{twice}" is given twice; each one once, under its own name')
     return chosen
+
+
+def _lots_of_compounds(
+    compounds: Sequence[RubberCompound], given: float | Mapping[str, float] | None
+) -> dict[str, LotScatter]:
+    """Scatter from lot to lot of each compound: as given, as its file states, or the default."""
+    by_name = given if isinstance(given, Mapping) else {} if given is None else {one.name: given for one in compounds}
+    by_name = {_compound_name(name, compounds): value for name, value in by_name.items()}
+    for name, value in by_name.items():
+        if not 0.0 <= value <= LARGEST_LOT_SCATTER:
+            raise InputError(f'lot_scatter of "{name}": got {value!r}, allowed: >= 0 and <= {LARGEST_LOT_SCATTER:g}')
+    lots = {}
+    for compound in compounds:
+        stated = compound.stated_lot_scatter
+        if compound.name in by_name:
+            lots[compound.name] = LotScatter(by_name[compound.name], "given")
+        elif stated is not None:
+            lots[compound.name] = LotScatter(stated, "compound")
+        else:
+            lots[compound.name] = LotScatter(LOT_SCATTER, "default")
+    return lots
 
 
 def _compound_name(name: str, compounds: Sequence[RubberCompound]) -> str:

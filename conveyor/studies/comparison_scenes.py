@@ -44,9 +44,11 @@ class ComparedScene:
         The f that DIN 22101's main resistance would need [-].
     motor : float
         Motor power [W].
-    motor_low, motor_high : float or None
-        90 % band from the tests or the replicas of the fit [W]; None if the compound has neither.
-    own_low, own_high : float or None
+    rubber : float
+        Part of the motor power that goes with the compound: indentation of the strands compared [W].
+    motor_low, motor_high : float
+        90 % band from lot to lot, and from the tests or the replicas of the fit where the compound has them [W].
+    own_low, own_high : float
         The same without errors common to belts tested alike [W].
     largest_tension : float
         Belt tension, start included [N].
@@ -63,10 +65,11 @@ class ComparedScene:
     effective: float
     friction_factor: float
     motor: float
-    motor_low: float | None
-    motor_high: float | None
-    own_low: float | None
-    own_high: float | None
+    rubber: float
+    motor_low: float
+    motor_high: float
+    own_low: float
+    own_high: float
     largest_tension: float
     energy_per_tonne_km: float | None
     energy_per_year: float | None
@@ -128,6 +131,7 @@ def calculate_compound(
     *,
     cover: CoverChoice,
     rtol: float,
+    lot_scatter: float,
     kept: ReuseCache | None = None,
 ) -> CompoundStudy:
     """Calculate every temperature and speed of one compound.
@@ -144,6 +148,8 @@ def calculate_compound(
         Cover that changes.
     rtol : float
         Relative tolerance of the contacts [-].
+    lot_scatter : float
+        Half-width of the 90 % interval of the indentation from lot to lot [-].
     kept : ReuseCache, optional
         Results shared with earlier compounds: lines, and the rolls under an unchanged cover.
 
@@ -172,7 +178,10 @@ def calculate_compound(
     by_temperature: dict[float, list[CalculatedConveyor]] = {}
     for one in solved:
         by_temperature.setdefault(one.temperature, []).append(one)
-    bands = {at: _indentation_band(compound, at, ones, strands) for at, ones in by_temperature.items()}
+    bands = {
+        at: tuple(_with_lots(band, lot_scatter) for band in _indentation_band(compound, at, ones, strands))
+        for at, ones in by_temperature.items()
+    }
     coverage = (_frequency_coverage(compound, at, ones, strands) for at, ones in by_temperature.items())
     return CompoundStudy(
         tuple(_compared_scene(compound.name, one, strands, bands[one.temperature]) for one in solved),
@@ -190,22 +199,23 @@ def affected_strands(conveyor: Conveyor, cover: CoverChoice) -> frozenset[Strand
     return frozenset(() if conveyor.route.turned_over else ("return",))
 
 
-_Bands: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
+_Bands: TypeAlias = tuple[tuple[float, float], ...]
 
 
-def _compared_scene(
-    name: str, one: CalculatedConveyor, strands: frozenset[Strand], bands: _Bands | None
-) -> ComparedScene:
+def _with_lots(band: tuple[float, float], lot_scatter: float) -> tuple[float, float]:
+    """Band of the factor on the indentation with the scatter of lots: root of the squares at both ends."""
+    low, high = band
+    return 1.0 - math.hypot(1.0 - low, lot_scatter), 1.0 + math.hypot(high - 1.0, lot_scatter)
+
+
+def _compared_scene(name: str, one: CalculatedConveyor, strands: frozenset[Strand], bands: _Bands) -> ComparedScene:
     balance, year = one.balance, one.year
     forces, power = balance.forces, balance.power
-    whole: tuple[float | None, float | None] = (None, None)
-    own = whole
-    if bands is not None:
-        indented = balance.along[0].by_strand()
-        changed = math.fsum(indented[strand] for strand in strands) / (1.0 - (one.line.flexure_share or 0.0))
-        motor = balance.frame.motor
-        powers = [sorted(motor(forces.total + (factor - 1.0) * changed) for factor in band) for band in bands]
-        whole, own = ((low, high) for low, high in powers)
+    indented = balance.along[0].by_strand()
+    changed = math.fsum(indented[strand] for strand in strands) / (1.0 - (one.line.flexure_share or 0.0))
+    motor = balance.frame.motor
+    powers = [sorted(motor(forces.total + (factor - 1.0) * changed) for factor in band) for band in bands]
+    whole, own = ((low, high) for low, high in powers)
     return ComparedScene(
         compound=name,
         temperature=one.temperature,
@@ -214,6 +224,7 @@ def _compared_scene(
         effective=forces.total,
         friction_factor=balance.friction_factor,
         motor=power.motor,
+        rubber=power.motor - motor(forces.total - changed),
         motor_low=whole[0],
         motor_high=whole[1],
         own_low=own[0],
@@ -238,12 +249,12 @@ def _indentation_band(
     temperature: float,
     results: Sequence[CalculatedConveyor],
     strands: frozenset[Strand],
-) -> _Bands | None:
+) -> _Bands:
     """90 % bands of the indentation factor from the tests, else from the replicas of the fit; whole and own.
 
-    The own band leaves out errors common to belts tested alike. Replicas are evaluated for the roll with the highest
-    loss at the middle speed: other rolls and speeds excite nearly the same band. Fit and replicas are both taken at the
-    strain of the master curve: softening changes all alike.
+    Without both it is 1. The own band leaves out errors common to belts tested alike. Replicas are evaluated for the
+    roll with the highest loss at the middle speed: other rolls and speeds excite nearly the same band. Fit and replicas
+    are both taken at the strain of the master curve: softening changes all alike.
     """
     middle = results[len(results) // 2]
     roll = _highest_loss_roll(middle, strands)
@@ -254,7 +265,7 @@ def _indentation_band(
         return whole, own
     replicas = compound.replicas(temperature)
     if not replicas or roll is None:
-        return None
+        return (1.0, 1.0), (1.0, 1.0)
     base = compound.series(temperature)
     contact, load = roll.curve.contact, roll.load.peak_line_load
     problems = [to_problem(replace(contact, rubber=rubber), load) for rubber in (base, *replicas)]

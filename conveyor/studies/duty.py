@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from conveyor.arguments.argument_types import check_arguments
@@ -37,6 +38,8 @@ class DutyRow:
         Drive force F_U [N].
     shaft, mains : float
         Power at the motors' shafts and from the mains [W], negative when fed back.
+    indentation : mapping of str to float
+        Indentation of each strand [N].
     excited : mapping of str to tuple or None
         Frequencies that hold 90 % of the loss of each strand's cover [Hz]; None without loss.
     """
@@ -49,12 +52,18 @@ class DutyRow:
     effective: float
     shaft: float
     mains: float
+    indentation: Mapping[Strand, float]
     excited: Mapping[Strand, tuple[float, float] | None]
 
     @property
     def step(self) -> DutyStep:
         """Input to the energy laws."""
         return DutyStep(time=3600.0 * self.hours, power=self.mains, mass_flow=self.flow)
+
+    def mains_with(self, factor: float, strands: Iterable[Strand]) -> float:
+        """Power from the mains with a factor on the indentation of strands, in proportion to the drive force [W]."""
+        changed = math.fsum(self.indentation[strand] for strand in strands)
+        return self.mains * (1.0 + (factor - 1.0) * changed / self.effective) if self.effective else self.mains
 
     @property
     def energy(self) -> float:
@@ -196,5 +205,6 @@ def _duty_row(entry: DutyEntry, result: CalculatedConveyor) -> DutyRow:
         effective=result.balance.forces.total,
         shaft=power.motor,
         mains=power.mains,
+        indentation=result.balance.along[0].by_strand(),
         excited={strand: result.contacts.excited_band(strand) for strand in STRANDS},
     )

@@ -136,16 +136,17 @@ class SolvedRuns:
     def power(self, calibration: Calibration) -> Array:
         """Power of every run at its point of measurement [W], with the loop closed on the scaled forces."""
         runs = dict.fromkeys(self.found)
+        own_band = self.found[0].conveyor.drive.design_friction is None
         loops = [
             OpenLoop(
-                one.balance.frame,
+                one.balance.frame.designed_for(1.0) if own_band else one.balance.frame,
                 forces_along_belt(one.line, one.fixed, one.contacts.indentation, calibration=calibration),
                 one.balance.unit_main,
             )
             for one in runs
         ]
         closed = raise_first_error(close_loops(loops))
-        if self.found[0].conveyor.drive.design_friction is None:
+        if own_band:
             scaled = [replace(one, balance=balance) for one, balance in zip(runs, closed, strict=True)]
             closed = raise_first_error(
                 [one if isinstance(one, NoSolutionError) else one.balance for one in close_design_loops(scaled, loops)]

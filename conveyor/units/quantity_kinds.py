@@ -152,6 +152,7 @@ KINDS: dict[str, Kind] = {
     "passing": Kind(Shown("Hz", ",.0f")),
     "swing": Kind(Shown("Hz", ".1f")),
     "rise": Kind(Shown("K", ",.0f")),
+    "warming": Kind(Shown("K", ".2f")),
     "spacing": Kind(Shown("m", ".2f")),
     "size": Kind(Shown("mm", ",.1f")),
     "roll force": Kind(Shown("N", ",.1f")),

@@ -46,7 +46,7 @@ SYSTEMS: Final[dict[str, UnitSystem]] = {
         "belt rating": Shown("PIW", ",.1f"), "spring rate": Shown("lbf/in"), "pressure": Shown("psi", ",.1f"),
         "moment": Shown("lbf*in"), "torque": Shown("lbf*ft", ",.0f"), "inertia": Shown("lb*ft^2", ",.1f"),
         "bending stiffness": Shown("lbf*in^2"), "viscosity": Shown("cSt"), "temperature": Shown("degF", ".1f"),
-        "temperature difference": Shown("delta_degF"), "rise": Shown("Δ°F", ",.0f"),
+        "temperature difference": Shown("delta_degF"), "rise": Shown("Δ°F", ",.0f"), "warming": Shown("Δ°F", ".2f"),
         "mass flow": Shown("stph", ",.1f"), "volume flow": Shown("ft^3/min"), "carryback": Shown("lb/h", ",.1f"),
         "conveyed": Shown("short ton", ",.0f"), "carbon dioxide": Shown("metric ton", ",.0f"),
         "power": Shown("hp", ",.1f"), "specific energy": Shown("kWh/(short ton mile)", ".4f"),

@@ -16,6 +16,8 @@ from conveyor.models.variants import with_compound
 from conveyor.pipeline import calculate
 from conveyor.report.merged_notes import sort_notes
 from conveyor.report.tables.comparison_notes import comparison_notes
+from conveyor.report.tables.ranking_tables import rank_compounds
+from conveyor.rubber.lots import LOT_SCATTER
 from conveyor.spec import load
 from conveyor.studies.comparison import RTOL, RankedPower, compare_compounds
 from conveyor.studies.duty import analyse_duty
@@ -96,6 +98,7 @@ def test_band_is_what_the_replicas_make_of_the_power(line, found):
         (replica,) = compare_compounds(line, [other], temperatures=["20 degC"], speeds=["5 m/s"]).scenes
         powers.append(replica.motor)
     low, high = np.quantile(powers, (0.05, 0.95), method="weibull")
+    (one,) = compare_compounds(line, [compound], temperatures=["20 degC"], speeds=["5 m/s"], lot_scatter=0.0).scenes
     assert one.motor_low < one.motor < one.motor_high
     width = high - low
     # other rolls and the softening at each replica's own strain move the ends by a part of the band
@@ -114,16 +117,88 @@ def test_band_of_two_replicas_is_both_of_them(line):
         "moduli": [[share * modulus for modulus in fit.moduli.tolist()] for share in (1.0, 1.5)],
     }
     stiff = compound.replace(prony=compound.prony.replace(band=band))
-    (one,) = compare_compounds(line, [stiff]).scenes
+    (one,) = compare_compounds(line, [stiff], lot_scatter=0.0).scenes
     assert one.motor_low < 0.99 * one.motor  # stiff rubber is indented less
     assert one.motor_high == pytest.approx(one.motor, rel=1e-9)
 
 
-def test_no_replicas_and_no_tests_no_band(line):
+def test_without_replicas_and_tests_the_band_is_that_of_lots(line):
     cover = shelf.compound("standard-cover")
     untested = cover.replace(strain_dependence=None, tests=(), prony=cover.prony.replace(band=None))
-    (one,) = compare_compounds(line, [untested]).scenes
-    assert (one.motor_low, one.motor_high) == (None, None)
+    alone = compare_compounds(line, [untested], lot_scatter=0.1)
+    (one,) = alone.scenes
+    # the drives' efficiency is constant: power goes with the indentation, all of it but the flexure
+    assert one.motor_high - one.motor == pytest.approx(0.1 * one.rubber, rel=1e-9)
+    assert one.motor - one.motor_low == pytest.approx(0.1 * one.rubber, rel=1e-9)
+    # the rolls of the carry side have most of both strands' indentation
+    assert 0.5 < one.rubber / (one.motor * one.indentation / one.effective) < 1.0
+    assert any("hold the scatter of lots alone" in said for said in comparison_notes(alone))
+
+
+def test_compounds_with_sweeps_beside_those_without_are_said(line):
+    swept = shelf.compound("s100")
+    bare = swept.replace(name="bare", strain_dependence=None)
+
+    def told(*compounds, **calculation):
+        spec = line.replace(calculation=line.calculation.replace(**calculation))
+        return [said for said in comparison_notes(compare_compounds(spec, compounds)) if "no strain sweeps" in said]
+
+    (said,) = told(swept, bare)
+    assert said.startswith('"bare": no strain sweeps, which the others have')
+    assert told(swept, swept.replace(name="again")) == told(swept, bare, strain="off") == []
+
+
+def test_lots_are_given_or_those_of_the_file_or_a_default(line):
+    one, other = (shelf.compound(name) for name in NAMES[:2])
+    stated = other.replace(lot_scatter="3 %")
+    default, filed = compare_compounds(line, [one, stated]).lots.values()
+    assert default == (LOT_SCATTER, "default")
+    assert (filed.half_width, filed.origin) == (pytest.approx(0.03), "compound")
+    given = compare_compounds(line, [one, stated], lot_scatter={stated.name.upper(): 0.02}).lots
+    assert [lot.half_width for lot in given.values()] == [LOT_SCATTER, 0.02]
+    said = " ".join(comparison_notes(compare_compounds(line, [one, stated])))
+    assert f'"{one.name}": scatter from lot to lot assumed, 8 % of the indentation' in said
+    assert f'"{stated.name}": 3.0 % of indentation from lot to lot, as stated' in said
+    with pytest.raises(InputError, match=r"lot_scatter of .*: got 0\.6, allowed: >= 0 and <= 0\.5"):
+        compare_compounds(line, [one], lot_scatter=0.6)
+
+
+def test_the_default_of_lots_follows_from_hardness_and_loss_tangent():
+    """Gent (1958): E = 0.0981 (56 + 7.62336 S)/(0.137505 (254 - 2.54 S)) MPa; indentation goes as tan δ E^(-1/3)."""
+
+    def modulus(shore):
+        return 0.0981 * (56.0 + 7.62336 * shore) / (0.137505 * (254.0 - 2.54 * shore))
+
+    stiffness = 0.5 * np.log(modulus(63.0) / modulus(57.0))
+    assert stiffness == pytest.approx(0.12, abs=0.005)
+    assert np.hypot(stiffness / 3.0, 0.07) == pytest.approx(LOT_SCATTER, abs=0.005)
+
+
+def test_a_difference_is_what_both_errors_leave_of_it(found):
+    """Own errors by the root of their squares; a common one by what it has of the difference."""
+    less = RankedPower(NAMES[1], 100.0, (5.0, 5.0), (3.0, 3.0))  # common 4
+    more = RankedPower(NAMES[0], 120.0, (13.0, 13.0), (5.0, 5.0))  # common 12
+    assert found.difference(more, less) == pytest.approx((20.0 - np.sqrt(98.0), 20.0 + np.sqrt(98.0)))
+    assert found.difference(less, more) == pytest.approx((-20.0 - np.sqrt(98.0), -20.0 + np.sqrt(98.0)))
+
+
+def test_one_rubber_measured_twice_is_not_told_apart(line):
+    """Neither a rank, a saving nor a payback: their intervals hold nothing saved."""
+    one = shelf.compound("s100")
+    again = one.replace(name="again", prony=one.prony.replace(equilibrium=quantity("3.45 MPa")))
+    both = compare_compounds(line, [one, again], temperatures=["20 degC"], extra_costs={"again": 2e4})
+    rows = {row.compound: row for row in rank_compounds(both, both.scenes[0].speed)}
+    assert [row.rank for row in rows.values()] == [1, 1]
+    base, other = rows[one.name], rows["again"]
+    assert (base.verdict, other.verdict) == ("base", "cannot be told apart")
+    assert other.payback is None
+    least, largest = other.savings
+    assert least < 0.0 < largest
+    assert other.paybacks == (pytest.approx(2e4 / largest), np.inf)
+    # the power at the ends of the interval, at the price of the year
+    price = other.cost / other.motor
+    assert largest - least == pytest.approx(price * (other.apart[1] - other.apart[0]), rel=1e-6)
+    assert any('"again" and the base "S100" cannot be told apart' in said for said in comparison_notes(both))
 
 
 def test_coverage_is_the_excited_band_of_the_analysis(line, found):

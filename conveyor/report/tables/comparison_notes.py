@@ -6,11 +6,12 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from conveyor.loop.annual_energy import lacks_feed_in_price
+from conveyor.rubber.lots import LOT_SCATTER
 from conveyor.rubber.rolling_test_factor import UNTESTED_FACTOR
 from conveyor.studies.comparison import RankedPower
 from conveyor.units import System
 from conveyor.units.presentation import display_unit
-from conveyor.units.sentences import degree_signs
+from conveyor.units.sentences import degree_signs, percent
 
 if TYPE_CHECKING:
     from conveyor.studies.comparison import CalculatedComparison, ComparedScene
@@ -60,7 +61,9 @@ def comparison_notes(comparison: CalculatedComparison, system: System = "SI") ->
     """Notes of a comparison in a system of units: conditions and assumptions."""
     lines = [
         *_temperature_notes(comparison, system),
+        *_tie_notes(comparison, system),
         *_untested_notes(comparison),
+        *_strain_notes(comparison),
         *_calibration_notes(comparison),
     ]
     for compound in comparison.compounds:
@@ -94,16 +97,87 @@ def comparison_notes(comparison: CalculatedComparison, system: System = "SI") ->
             if compound.name not in comparison.years
         ]
     lines.append("means over temperatures give each the same weight; only indentation follows the temperature")
+    lines += [*_lot_notes(comparison), *_level_notes(comparison), *_scatter_notes(comparison)]
     return (*lines, *_band_notes(comparison))
+
+
+def _tie_notes(comparison: CalculatedComparison, system: System) -> Iterator[str]:
+    """Notes on compounds that cannot be told apart from the base, by the mean over temperatures."""
+    for speed in sorted({scene.speed for scene in comparison.scenes}):
+        at = comparison.common(speed)
+        means: dict[str, list[ComparedScene]] = {}
+        for scene in comparison.covered:
+            if scene.speed == speed and scene.temperature in at and not comparison.test_basis_differs(scene.compound):
+                means.setdefault(scene.compound, []).append(scene)
+        if comparison.base not in means:
+            continue
+        base = RankedPower.of(means.pop(comparison.base))
+        alike = [
+            name
+            for name, scenes in means.items()
+            if (ends := comparison.difference(RankedPower.of(scenes), base))[0] <= 0.0 <= ends[1]
+        ]
+        if alike:
+            told = ", ".join(f'"{name}"' for name in alike)
+            run = display_unit("speed", system).said(speed, 4)
+            yield (
+                f'{told} and the base "{comparison.base}" cannot be told apart at {run}: they differ by less than both '
+                "may be off, so neither a saving nor a payback is shown by these data"
+            )
+
+
+def _lot_notes(comparison: CalculatedComparison) -> Iterator[str]:
+    """Notes on the scatter from lot to lot that intervals hold, and where it is a default."""
+    taken = [name for name, lot in comparison.lots.items() if lot.origin == "default"]
+    if taken:
+        told = ", ".join(f'"{name}"' for name in taken)
+        yield (
+            f"{told}: scatter from lot to lot assumed, {percent(LOT_SCATTER)} of the indentation; state the maker's in "
+            "the compound file (lot_scatter) or with --lot-scatter"
+        )
+    stated = {name: lot for name, lot in comparison.lots.items() if lot.origin != "default"}
+    for name, lot in stated.items():
+        yield f'compound "{name}": {percent(lot.half_width, 1)} of indentation from lot to lot, as stated'
+
+
+def _level_notes(comparison: CalculatedComparison) -> Iterator[str]:
+    """Note on differences of compounds without tests: their common level is left out."""
+    tests = comparison.conveyor.calculation.anchor == "tests"
+    if tests and not any(compound.tests for compound in comparison.compounds):
+        yield (
+            "no rolling-resistance tests given: with the level of tests every indentation, and so every difference and "
+            f"saving, may be up to {UNTESTED_FACTOR:g} times as much; which compound needs less does not depend on it"
+        )
+
+
+def _strain_notes(comparison: CalculatedComparison) -> Iterator[str]:
+    """Note on comparing compounds with strain sweeps and without: what strain does to both does not cancel."""
+    bare = [compound.name for compound in comparison.compounds if compound.strain_dependence is None]
+    used = comparison.conveyor.calculation.strain != "off"
+    if used and bare and len(bare) < len(comparison.compounds):
+        told = ", ".join(f'"{name}"' for name in bare)
+        yield (
+            f"{told}: no strain sweeps, which the others have: taken at the strain of the master curve, where filled "
+            "rubber costs less than under the rolls (8 to 17 % on S100); that is in no interval: measure sweeps, or "
+            "compare all without (calculation.strain: off)"
+        )
+
+
+def _scatter_notes(comparison: CalculatedComparison) -> Iterator[str]:
+    """Notes on compounds without replicas and tests."""
+    for compound in comparison.compounds:
+        tested = compound.tests and comparison.conveyor.calculation.anchor == "tests"
+        if compound.prony.band is None and not tested:
+            yield f'compound "{compound.name}" has no band of its data: its intervals hold the scatter of lots alone'
 
 
 def _band_notes(comparison: CalculatedComparison) -> Iterator[str]:
     """Note on the bands, which are narrower than the interval of `conveyor power`."""
-    if any(scene.motor_low is not None for scene in comparison.scenes):
+    if comparison.scenes:
         yield (
-            "90 % bands are of the rubber alone, its data and its tests; the interval of conveyor power has what is "
-            "left to defaults, too. One rank: the difference is less than both may be off, without what belts tested "
-            "alike have in common"
+            "90 % bands are of the rubber alone: its data, its tests, its lots; the interval of conveyor power has "
+            "what is left to defaults, too. One rank: the difference is less than both may be off, without what belts "
+            "tested alike have in common; intervals of difference, saving and payback likewise"
         )
 
 

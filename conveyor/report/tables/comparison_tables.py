@@ -110,8 +110,8 @@ def scene_table(comparison: CalculatedComparison) -> Table:
         Column("effective tension", "force", "effective"),
         Column("equivalent DIN f", "friction", "friction_factor"),
         Column("motor power", "power", "motor"),
-        Column("motor power, low", "power", "motor_low", sparse=True),
-        Column("motor power, high", "power", "motor_high", sparse=True),
+        Column("motor power, low", "power", "motor_low"),
+        Column("motor power, high", "power", "motor_high"),
         Column("largest tension", "force", "largest_tension"),
         Column("energy", "specific energy", "energy_per_tonne_km", sparse=True),
         Column("energy per year", "energy", lambda row: kwh_in_joules(known(row, row.energy_per_year)), None,
@@ -209,7 +209,8 @@ def comparison_drawings(comparison: CalculatedComparison, system: System) -> Ite
         shown = [(_compound_label(row, comparison, system), row.change, row.band) for row in ranked]
         yield Drawing(
             "differences",
-            f"Difference of the mean motor power to {comparison.base}, with the 90 % band where it is known.",
+            f"Difference of the mean motor power to {comparison.base} and its 90 % interval: one that holds 0 tells "
+            "nothing apart.",
             lambda: plots.power_differences(shown, comparison.base),
             "ranking",
         )

@@ -43,7 +43,7 @@ def identity_table(conveyor: Conveyor, system: System) -> Table:
     known = ("breaking", carcass.strength, "belt strength"), ("rated", carcass.rating, "belt rating")
     strengths = "".join(f", {what} {format_figure(v, kind, system)}" for what, v, kind in known if v is not None)
     above = "rubber of the bottom cover" if top.compound is None else top.compound.name
-    rows = (
+    rows: tuple[Figure, ...] = (
         Figure("length", "length", conveyor.route.length),
         Figure("lift", "length", conveyor.route.rise),
         Figure("belt width", "size", conveyor.belt_width),
@@ -56,8 +56,9 @@ def identity_table(conveyor: Conveyor, system: System) -> Table:
         Figure("carry idlers", "text", idlers(conveyor.idlers.carry)),
         Figure("return idlers", "text", idlers(conveyor.idlers.return_)),
         Figure("material", "text", f"{material.name}, {shown(material.density, 'density')}"),
-        Figure("resistances by", "text", _method_text(conveyor)),
     )
+    if conveyor.calculation.method != "viscoelastic":
+        rows = (*rows, Figure("resistances by", "text", _method_text(conveyor)))
     return figure_table("identity", "", "The conveyor", rows)
 
 

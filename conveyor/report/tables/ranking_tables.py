@@ -7,12 +7,13 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from conveyor.laws.energy import DutySums, duty_emission
+from conveyor.laws.energy import DutySums, duty_emission, duty_sums
 from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.loop.annual_energy import annual_cost
 from conveyor.report.table_model import Column, PagePlacement, Table, figure_table
 from conveyor.report.tables import what_if
 from conveyor.studies.comparison import RankedPower
+from conveyor.studies.comparison_scenes import affected_strands
 from conveyor.units.presentation import MONEY, NEVER
 
 if TYPE_CHECKING:
@@ -21,8 +22,10 @@ if TYPE_CHECKING:
 
 
 COSTS = (
-    "energy_per_year", "cost_per_year", "saving_per_year", "carbon_dioxide_per_year", "extra_cost_of_the_belt",
-    "payback", "energy_drawn", "energy_fed_back",
+    "energy_per_year", "cost_per_year", "saving_per_year", "saving_per_year_low", "saving_per_year_high",
+    "carbon_dioxide_per_year", "extra_cost_of_the_belt", "payback", "payback_low", "payback_high", "energy_drawn",
+    "energy_fed_back", "energy_drawn_at_least_saving", "energy_fed_back_at_least_saving",
+    "energy_drawn_at_largest_saving", "energy_fed_back_at_largest_saving",
 )  # fmt: skip
 
 
@@ -62,8 +65,14 @@ class RankedCompound:
         Means [N, W], ends of the band [W], peak power [W]; None where its data do not reach.
     base : float or None
         Mean power of the base [W]; None if not comparable.
+    apart : tuple of float or None
+        90 % interval of the difference of power to the base, without what both have in common [W]; None of the base.
     year : DutySums or None
         Energy drawn and fed back.
+    dearest, cheapest : DutySums or None
+        The same at the upper and at the lower end of `apart`.
+    most, least : float or None
+        Their costs [currency].
     cost, before, emission, extra : float or None
         Cost of a year [currency]; the base's; carbon dioxide [kg]; extra cost of its belt [currency].
     why : str or None
@@ -82,7 +91,12 @@ class RankedCompound:
     high: float | None
     peak: float | None
     base: float | None
+    apart: tuple[float, float] | None
     year: DutySums | None
+    dearest: DutySums | None
+    cheapest: DutySums | None
+    most: float | None
+    least: float | None
     cost: float | None
     before: float | None
     emission: float | None
@@ -97,11 +111,27 @@ class RankedCompound:
 
     @property
     def band(self) -> tuple[float | None, float | None]:
-        """Band of the relative difference of power to the base [-]."""
-        if not self.base:
+        """90 % interval of the relative difference of power to the base [-]; None of the base itself."""
+        if not self.base or self.apart is None:
             return None, None
-        low, high = (None if end is None else end / self.base - 1.0 for end in (self.low, self.high))
+        low, high = sorted(end / self.base for end in self.apart)
         return low, high
+
+    @property
+    def told_apart(self) -> bool:
+        """True if its power differs from the base's by more than both may be off."""
+        return self.apart is not None and not self.apart[0] <= 0.0 <= self.apart[1]
+
+    @property
+    def verdict(self) -> str | None:
+        """Its power against the base's in words; None if not compared."""
+        if self.base is None:
+            return None
+        if self.apart is None:
+            return "base"
+        if not self.told_apart:
+            return "cannot be told apart"
+        return "more" if self.apart[0] > 0.0 else "less"
 
     @property
     def saving(self) -> float | None:
@@ -109,9 +139,25 @@ class RankedCompound:
         return None if self.cost is None or self.before is None else self.before - self.cost
 
     @property
+    def savings(self) -> tuple[float | None, float | None]:
+        """90 % interval of the saving [currency a year]; None of the base itself."""
+        if self.before is None or self.most is None or self.least is None:
+            return None, None
+        return self.before - self.most, self.before - self.least
+
+    @property
     def payback(self) -> float | None:
-        """Extra cost over saving [a]; infinite where nothing is saved, None where either is not known."""
-        saved = self.saving
+        """Extra cost over saving [a]; None where either is not known, or base and compound cannot be told apart."""
+        return self._payback_of(self.saving) if self.told_apart else None
+
+    @property
+    def paybacks(self) -> tuple[float | None, float | None]:
+        """90 % interval of the payback [a]."""
+        least, largest = self.savings
+        return self._payback_of(largest), self._payback_of(least)
+
+    def _payback_of(self, saved: float | None) -> float | None:
+        """Payback at a saving [a]; infinite where nothing is saved."""
         if self.extra is None or saved is None:
             return None
         return self.extra / saved if saved > 0.0 else math.inf
@@ -139,6 +185,7 @@ def ranking_table(comparison: CalculatedComparison) -> Table:
                key="motor_power_against_base"),
         Column("difference, low", "share", "band.0", sparse=True),
         Column("difference, high", "share", "band.1", sparse=True),
+        Column("power against base", "text", "verdict", sparse=True),
         Column("peak motor power", "power", "peak", sparse=True),
         Column("at temperature", "temperature", "temperature", sparse=True),
         *_year_columns(comparison, rows),
@@ -167,28 +214,55 @@ def _year_columns(comparison: CalculatedComparison, rows: tuple[RankedCompound, 
     def saving(row: RankedCompound) -> str:
         return "" if row.saving is None else f"[cost_per_year:{bases[row.speed]}]-[cost_per_year]"
 
+    def saving_at(end: str) -> Callable[[RankedCompound], str]:
+        """Formula of the saving at an end of its interval."""
+        cost = what_if.cost_formula(f"[energy_drawn_at_{end}_saving]", f"[energy_fed_back_at_{end}_saving]")
+        return lambda row: "" if row.most is None else f"[cost_per_year:{bases[row.speed]}]-({cost})"
+
     yield Column(
-        "energy per year", "energy", _energy_getter("net_kwh"), sparse=True,
+        "energy per year", "energy", _energy_getter("year", "net_kwh"), sparse=True,
         formula=where("year", f"({of[0]}-{of[1]}){what_if.HOURS_RATIO}"),
     )  # fmt: skip
     yield Column("cost per year", money, "cost", sparse=True, formula=where("cost", what_if.cost_formula(*of)))
     yield Column("saving per year", money, "saving", sparse=True, formula=saving)
+    yield Column("saving per year, low", money, "savings.0", sparse=True, formula=saving_at("least"))
+    yield Column("saving per year, high", money, "savings.1", sparse=True, formula=saving_at("largest"))
     yield Column(
         "carbon dioxide per year", "carbon dioxide", "emission", sparse=True,
         formula=where("emission", what_if.emission_formula(*of)),
     )  # fmt: skip
     if any(row.saving is not None for row in rows):
-        extra, saved = "[extra_cost_of_the_belt]", "[saving_per_year]"
-        formula = f'IF({extra}="","",IF({saved}>0,{extra}/{saved},"{NEVER}"))'
+        extra = "[extra_cost_of_the_belt]"
+
+        def payback(saved: str) -> str:
+            return f'IF({extra}="","",IF({saved}>0,{extra}/{saved},"{NEVER}"))'
+
         yield Column("extra cost of the belt", money, "extra", shown, asked=True)
-        yield Column("payback", "years", "payback", shown, formula=where("saving", formula))
-    yield Column("energy drawn", "energy", _energy_getter("drawn_kwh"), None, sparse=True)
-    yield Column("energy fed back", "energy", _energy_getter("fed_back_kwh"), None, sparse=True)
+        yield Column(
+            "payback", "years", "payback", shown,
+            formula=lambda row: payback("[saving_per_year]") if row.saving is not None and row.told_apart else "",
+        )  # fmt: skip
+        yield Column(
+            "payback, low", "years", "paybacks.0", shown, formula=where("most", payback("[saving_per_year_high]"))
+        )
+        yield Column(
+            "payback, high", "years", "paybacks.1", shown, formula=where("most", payback("[saving_per_year_low]"))
+        )
+    for kind, of_year in (("drawn", "drawn_kwh"), ("fed back", "fed_back_kwh")):
+        yield Column(f"energy {kind}", "energy", _energy_getter("year", of_year), None, sparse=True)
+    for end, year in (("least", "dearest"), ("largest", "cheapest")):
+        for kind, of_year in (("drawn", "drawn_kwh"), ("fed back", "fed_back_kwh")):
+            yield Column(f"energy {kind} at {end} saving", "energy", _energy_getter(year, of_year), None, sparse=True)
 
 
-def _energy_getter(name: str) -> Callable[[RankedCompound], float | None]:
-    """Getter of an energy of the year [J]."""
-    return lambda row: None if row.year is None else kwh_in_joules(getattr(row.year, name))
+def _energy_getter(year: str, name: str) -> Callable[[RankedCompound], float | None]:
+    """Getter of an energy of a year [J]."""
+
+    def energy(row: RankedCompound) -> float | None:
+        sums = getattr(row, year)
+        return None if sums is None else kwh_in_joules(getattr(sums, name))
+
+    return energy
 
 
 def what_if_table(comparison: CalculatedComparison) -> Table:
@@ -238,6 +312,12 @@ def _ranking_row(
     operation = comparison.conveyor.operation
     year = None if why else _year_energies(comparison, name, speed, at)
     before = None if why else _year_energies(comparison, comparison.base, speed, base)
+    apart, dearest, cheapest = None, None, None
+    if why is None and name != comparison.base:
+        mine, theirs = RankedPower.of(at), RankedPower.of(base)
+        apart = comparison.difference(mine, theirs)
+        down, up = (end - (mine.motor - theirs.motor) for end in apart)
+        cheapest, dearest = (_year_energies(comparison, name, speed, at, change) for change in (down, up))
     peak = max(scenes.values(), key=lambda scene: scene.motor) if scenes else None
     return RankedCompound(
         compound=name,
@@ -250,7 +330,12 @@ def _ranking_row(
         high=_mean_or_none([s.motor_high for s in at]),
         peak=None if peak is None else peak.motor,
         base=None if why else _mean_or_none([s.motor for s in base]),
+        apart=apart,
         year=year,
+        dearest=dearest,
+        cheapest=cheapest,
+        most=_energy_cost(operation, dearest),
+        least=_energy_cost(operation, cheapest),
         cost=_energy_cost(operation, year),
         before=_energy_cost(operation, before),
         emission=_year_emission(operation, year),
@@ -281,14 +366,26 @@ def _why_not_compared(
 
 
 def _year_energies(
-    comparison: CalculatedComparison, name: str, speed: float, at: list[ComparedScene]
+    comparison: CalculatedComparison, name: str, speed: float, at: list[ComparedScene], change: float = 0.0
 ) -> DutySums | None:
-    """Energies of a year: from the duty at the spec's speed if there is one, else from all hours."""
+    """Energies of a year: from the duty at the spec's speed if there is one, else from all hours.
+
+    With a change of the mean power [W]: of the indentation, by one factor in all bars.
+    """
     operation = comparison.conveyor.operation
     if comparison.conveyor.duty:
         study = comparison.years.get(name) if speed == comparison.conveyor.belt_speed else None
-        return None if study is None else study.year
-    net = [scene.energy_per_year for scene in at if scene.energy_per_year is not None]
+        rubber = math.fsum(scene.rubber for scene in at) / len(at)
+        if study is None or not change or not rubber:
+            return None if study is None else study.year
+        strands = affected_strands(study.conveyor, comparison.cover)
+        factor = 1.0 + change / rubber
+        return duty_sums([replace(row.step, power=row.mains_with(factor, strands)) for row in study.rows])
+    net = [
+        scene.energy_per_year * (1.0 + change / scene.motor if scene.motor else 1.0)
+        for scene in at
+        if scene.energy_per_year is not None
+    ]
     if operation is None or not net:
         return None
     drawn, fed_back = (math.fsum(max(sign * kwh, 0.0) for kwh in net) / len(net) for sign in (1.0, -1.0))

@@ -206,6 +206,7 @@ _POWER: Final = JsonObject(
                     name: number_key(name, known=False, optional=True)
                     for name in ("level_factor", "level_from", "level_to")
                 },
+                "warming_K": number_key("warming_K"),
             }),
         ),
         "sections": JsonList(

@@ -8,13 +8,16 @@ from typing import Any, Final
 import numpy as np
 
 from conveyor.calculated_conveyor import CalculatedConveyor
+from conveyor.laws.belt_warming import belt_warming
 from conveyor.line.belt_contacts import BeltContacts
 from conveyor.line.contacts import Contacts
 from conveyor.line.covers import CoverTestFactor, compounds_by_strand
 from conveyor.line.stretches import Strand
+from conveyor.models import RubberCompound
 from conveyor.report.table_model import Column, PagePlacement, Table
+from conveyor.rubber.lots import LOT_SCATTER
 from conveyor.units.presentation import display_unit
-from conveyor.units.sentences import degree_signs, format_band
+from conveyor.units.sentences import degree_signs, format_band, percent
 
 CURVE_POINTS: Final = 25
 _DECADES, _PER_DECADE = (-3, 7), 4  # of frequency shown in the rubber table [Hz]
@@ -110,7 +113,7 @@ def rubber_table(a: CalculatedConveyor) -> Table:
         strain = a.contacts.covers[strand].strain
         band, data = a.contacts.excited_band(strand), compound.frequencies(at)
         rows.append((strand, compound, band or (None, None), data or (None, None), strain))
-    contacts = a.contacts
+    contacts, warming = a.contacts, cover_warming(a)
     columns = (
         Column("strand", "text", "0", json="strand"),
         Column("compound", "text", "1.name", json="compound"),
@@ -129,9 +132,28 @@ def rubber_table(a: CalculatedConveyor) -> Table:
         Column("test factor", "factor", lambda row: contacts.test_factor(row[0]), json="level_factor"),
         Column("test factor from", "factor", lambda row: _test_factor_end(contacts, row[0], -1.0), json="level_from"),
         Column("test factor to", "factor", lambda row: _test_factor_end(contacts, row[0], 1.0), json="level_to"),
+        Column("warming left out", "warming", lambda _: warming, json="warming_K"),
     )  # fmt: skip
     heading = "Rubber excitation band, working strain and level"
     return Table("rubber", "Rubber", heading, columns, rows, "rubber")
+
+
+def cover_warming(a: CalculatedConveyor) -> float:
+    """Temperature of the belt above the air by its own indentation, which is left out of the power [K]."""
+    loss = max(a.balance.forces.indentation, 0.0) * a.line.speed
+    return belt_warming(loss, width=a.line.belt.width, length=a.conveyor.route.length, speed=a.line.speed)
+
+
+def _taken_facts(a: CalculatedConveyor, compound: RubberCompound) -> Iterator[tuple[str, str]]:
+    """Facts assumed of the rubber beside its data: warming, conditioning, ageing, lots."""
+    shown = display_unit("warming", a.conveyor.report.units)
+    warm = shown.said(cover_warming(a), 2)
+    yield "warming by its own loss", f"{warm} above the air, left out (heat balance of the loop)"
+    yield "conditioning", "taken as run in: stiffness lost in the first cycles (Mullins) is not that of the data"
+    yield "ageing", "taken as in the data; covers harden in service, by 5 to 10 Shore A in years (general knowledge)"
+    lots = compound.stated_lot_scatter
+    words = f"{percent(LOT_SCATTER)} of the indentation (assumed)" if lots is None else f"{percent(lots, 1)} (stated)"
+    yield "scatter from lot to lot", f"{words}, 90 %; in comparisons of compounds, not in the range of the power"
 
 
 def _test_factor_end(contacts: Contacts, strand: Strand, sign: float) -> float | None:
@@ -181,6 +203,7 @@ def compound_facts(a: CalculatedConveyor, strand: Strand) -> Table:
         ("fit", "" if fit is None else fit.method),
         ("rms errors of E', E''", "" if fit is None or compound.kind != "measured" else
          f"{share.said(fit.storage_rms, 4)}, {share.said(fit.loss_rms, 4)}"),
+        *_taken_facts(a, compound),
         ("unknown", "; ".join(compound.missing) or "nothing listed"),
     )  # fmt: skip
     columns = (Column("fact", "text", "0"), Column("value", "text", "1"))
