@@ -21,7 +21,7 @@ from conveyor.desk.stop_signal import StopSignal
 from conveyor.errors import ConveyorError, InputError
 from conveyor.files.atomic_write import save_files
 from conveyor.files.compound_folders import folders
-from conveyor.files.document import read_document, yaml_text
+from conveyor.files.document import fault_lines, read_document, yaml_text
 from conveyor.files.edit import edit_values
 from conveyor.files.file_bytes import file_content
 from conveyor.models import Conveyor
@@ -166,6 +166,8 @@ class Workbench:
             from conveyor.forms.form_reader import read_template
 
             filled = read_template(path)
+            if not own:
+                _check_compounds(filled.data, guarded_resolver(folder, self.shelves))
             line = spec.from_data(filled.data, where=filled.where, shelves=self.shelves, base=folder)
             return None, filled.data, line
         if own:
@@ -174,9 +176,8 @@ class Workbench:
         else:
             document = read_document(path)
             if document.findings:
-                spec.load(path, shelves=self.shelves)  # raises, with every finding
-            resolve = guarded_resolver(folder, self.shelves)
-            _check_compounds(document.data, resolve)
+                raise InputError(fault_lines(path.name, document.findings))
+            _check_compounds(document.data, guarded_resolver(folder, self.shelves))
             line = spec.from_data(
                 document.data,
                 where=lambda at: "{}:{}:{}".format(path.name, *document.place(at)),

@@ -437,6 +437,39 @@ def test_a_dropped_spec_reads_no_compound_outside_the_folder(client, folder):
     assert "outside the folder" in got.text
 
 
+def test_a_dropped_file_with_other_errors_reads_none_either(client, folder):
+    (folder.parent / "secret.yaml").write_text("password: swordfish\n", encoding="utf-8")
+    content = (SPECS / "overland.yaml").read_text(encoding="utf-8")
+    forged = content.replace("compound: standard-cover", "compound: ../secret.yaml") + "name: given twice\n"
+    got = client.post("/drop?name=forged.yaml", content=forged.encode())
+    assert got.status_code == 422
+    assert "given twice" in got.text
+    assert "password" not in got.text
+
+
+def test_a_dropped_template_reads_no_compound_outside_the_folder(client, folder):
+    from io import BytesIO
+
+    import openpyxl
+
+    from conveyor.starter.template_writer import template_bytes
+
+    book = openpyxl.load_workbook(
+        BytesIO(template_bytes(conveyor.load(SPECS / "overland.yaml"), shelves=(), units="SI"))
+    )
+    cells = [c for sheet in book for row in sheet.iter_rows() for c in row if c.value == "standard-cover"]
+    assert cells
+    for cell in cells:
+        cell.value = "../secret.yaml"
+    (folder.parent / "secret.yaml").write_text("password: swordfish\n", encoding="utf-8")
+    content = BytesIO()
+    book.save(content)
+    got = client.post("/drop?name=forged.xlsx", content=content.getvalue())
+    assert got.status_code == 422
+    assert "outside the folder" in got.text
+    assert "password" not in got.text
+
+
 @pytest.mark.parametrize(("kind", "units"), [("overland", "SI"), ("in-plant", "US"), ("downhill", "SI")])
 def test_a_new_spec_of_each_kind_calculates(client, kind, units):
     name = ask(client, "/new", kind=kind, units=units).json()["file"]
