@@ -29,6 +29,8 @@ LEAST_ENERGY_POWER = (
 ORDER_BOUND = 2.3  # 1/(1 - (3/4)²): of an error that grows like n²
 _LASTING_SAMPLES = 16  # samples: a ripple of the highest order changes sign after four
 _RIPPLE_TAILS = 4.0  # an unresolved edge layer dips below zero by up to 2.1 tails, a resolved split by more than 20
+_EDGE_SAMPLES = 12  # from an edge, three half waves of the highest order: undershoots end at 3 to 11, splits lie inside
+_DIP_ROUNDING = 1e-12  # of the largest pressure
 WRAP_EXTENT = 0.5  # (a + |e|)/R beyond which a second eccentricity and a gap outside are looked for
 _GAP_TOLERANCE = 1e-4  # of the depth
 _GAP_REACH = 100.0  # m α of the series: (m α)^(-5/2) = 1e-5 of the depth
@@ -182,16 +184,20 @@ class PressureSign(Enum):
 
 
 def worst_sign(contact: Contact, rtol: float) -> PressureSign:
-    """Worst sign of a batch's pressure at 4n + 1 points, against the tail of its series."""
-    return worst_sign_and_tension(contact, rtol)[0]
-
-
-def worst_sign_and_tension(contact: Contact, rtol: float) -> tuple[PressureSign, float]:
-    """Worst sign of a batch, and the largest share of a load that tension carries [-]; zero unless all press."""
-    pulling, pressing, tension = pressure_signs(contact, rtol)
+    """Worst sign of a batch's pressure, against the tail of its series."""
+    pulling, pressing, _ = pressure_signs(contact, rtol)
     if pressing.all():
-        return PressureSign.PRESSING, float(tension.max())
-    return (PressureSign.PULLING if pulling.any() else PressureSign.UNDECIDED), 0.0
+        return PressureSign.PRESSING
+    return PressureSign.PULLING if pulling.any() else PressureSign.UNDECIDED
+
+
+def interior_dip(contact: Contact) -> tuple[float, float]:
+    """Depth over the largest pressure and width X of the widest place inside a strip where its pressure is negative."""
+    n = contact.c.shape[1]
+    fine = sample_sine_sum(contact.c, 8 * n + 4)
+    inside = np.maximum(-fine[:, 1 + 2 * _EDGE_SAMPLES : -1 - 2 * _EDGE_SAMPLES], 0.0)
+    widest = float((_longest_run(inside > 0.0) * contact.alpha).max()) * np.pi / (8 * n + 4)
+    return float((inside.max(axis=1) / fine.max(axis=1)).max()), widest
 
 
 class PressureSigns(NamedTuple):
@@ -205,24 +211,36 @@ class PressureSigns(NamedTuple):
 def pressure_signs(contact: Contact, rtol: Array | float) -> PressureSigns:
     """Sign of the sampled pressure of each contact, shape (b,).
 
-    A contact presses where its tension carries no more than `rtol` of the load: friction may be off by as much. Beyond
-    that it pulls if the tension exceeds the ripple of the order or lasts longer than a ripple: a thin plate that
-    follows the roll lifts off by far less than the tails of its two high peaks.
+    A contact presses where its tension carries no more than `rtol` of the load, friction may be off by as much, and
+    lies at the edges, where an order that does not resolve an edge layer undershoots. Else it pulls if the tension
+    exceeds the ripple of the order or lasts longer than a ripple: a thin plate that follows the roll lifts off by far
+    less than the tails of its two high peaks.
     """
     n = contact.c.shape[1]
-    p = sample_sine_sum(contact.c, 4 * n + 2)[:, 1:-1]
+    fine = sample_sine_sum(contact.c, 8 * n + 4)[:, 1:-1]
+    p = fine[:, 1::2]
     tension = np.maximum(-p, 0.0)
     step = np.pi / (4 * n + 2)
     pulled = step * (tension @ np.sin(step * np.arange(1, 4 * n + 2)))
     share = pulled / (0.5 * np.pi * contact.c[:, 0])
-    pressing = share <= rtol
+    highest = p.max(axis=1)
+    inside = _lowest_between(fine[:, 2 * _EDGE_SAMPLES : -2 * _EDGE_SAMPLES]) < -_DIP_ROUNDING * highest
+    pressing = (share <= rtol) & ~inside
     if pressing.all():
         return PressureSigns(~pressing, pressing, share)
-    highest = p.max(axis=1)
     tail = np.abs(contact.c[:, -(n // 4) :]).sum(axis=1) / highest
     ripple = tension.max(axis=1) <= _RIPPLE_TAILS * tail * highest
     pulling = ~pressing & (~ripple | (_longest_run(tension > 0.0) >= _LASTING_SAMPLES))
     return PressureSigns(pulling, pressing, share)
+
+
+def _lowest_between(p: Array) -> Array:
+    """Lowest pressure of each row, by parabolas through three samples around each lowest one, shape (b,)."""
+    before, here, after = p[:, :-2], p[:, 1:-1], p[:, 2:]
+    bend = before - 2.0 * here + after
+    low = (here <= before) & (here <= after) & (bend > 0.0)
+    lowest: Array = (here - np.where(low, (after - before) ** 2 / (8.0 * np.where(low, bend, 1.0)), 0.0)).min(axis=1)
+    return lowest
 
 
 def _longest_run(flags: NDArray[np.bool_]) -> NDArray[np.int_]:
