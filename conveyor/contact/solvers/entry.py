@@ -148,6 +148,8 @@ def _solve_alone(
 def _best_outcome(problem: ContactProblem, depth: float | None, rtol: float, outcome: SolveOutcome) -> SolveOutcome:
     """The outcome of the smallest estimate: this one, or one of the tolerances between rtol and its estimate."""
     told = 1.0 if outcome.found is None else outcome.found.error_estimate
+    if outcome.way == "grid" and outcome.grid:
+        return outcome  # another tolerance comes to the same grids
     decades = math.floor(math.log10(min(told, LARGEST_RTOL) / rtol))
     best = outcome
     for decade in range(decades, 0, -1):

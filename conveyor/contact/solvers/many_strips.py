@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from conveyor.contact.fields.contact_fields import RESOLVED_FROM, GridFields, SpectralFields
 from conveyor.contact.galerkin.orders import ORDERS, next_order
 from conveyor.contact.galerkin.spectral import Contact
-from conveyor.contact.problem import Status
+from conveyor.contact.problem import LARGEST_RTOL, Status
 from conveyor.contact.solution import ContactResult, SolveOutcome
 from conveyor.contact.solvers.acceptance import (
     ENERGY_MARGIN,
@@ -53,6 +53,7 @@ _FIRST_POLISH, _WRAP_LEVEL, _FINEST = 2, 6, 10  # doublings of it
 _MOST_POINTS = 1 << 20
 _LAST_TRIAL_ORDER, _ORDER_FAILURES = 64, 2  # low orders may have no contact near the grid's
 _FINAL_ENDS = (RefinementEnd.MET, RefinementEnd.EXHAUSTED)
+_MOST_STRIPS = 8  # three at most were seen to converge
 _POLISHES = 3  # grids whose strips are refined spectrally
 _FIRST_WIDTH, _LARGEST_FIT, _FIT_STEPS = (
     1e-3,
@@ -132,7 +133,7 @@ def solve_strips(scene: SolverState, rtol: float, seen: CoarseContact | None = N
     failures: list[str] = []
     best: SolveOutcome | None = None
     polishes = 0
-    for grids in _finer_grids(scene, seen, failures):
+    for grids in _finer_grids(scene, seen, rtol, failures):
         steady = len(grids) > _FIRST_POLISH and len(grids[-1].strips) == len(grids[-2].strips)
         start = _initial_strips(scene, grids[-1]) if steady and polishes < _POLISHES else None
         if start is None:
@@ -140,20 +141,25 @@ def solve_strips(scene: SolverState, rtol: float, seen: CoarseContact | None = N
         polishes += 1
         end, found = _polish_strips(scene, grids[-1], start, rtol)
         best = better_outcome(best, found) if found is not None else best
-        if best is not None and (end in _FINAL_ENDS or polishes == _POLISHES):
+        if best is not None and end in _FINAL_ENDS:
             return best
-    if best is not None:
-        return best
+        if polishes == _POLISHES and best is not None and best.found and best.found.error_estimate <= LARGEST_RTOL:
+            break
     if not grids:
         return SolveOutcome(Status.NOT_CONVERGED, way="grid", remarks=tuple(failures))
     if grids[-1].at_roll_end:
         seen = seen or CoarseContact.of(scene, grids[-1].mean_pressure)
         return _wrap_outcome(grids[-1], seen.limit)
-    return _grid_outcome(scene, grids, rtol)
+    return better_outcome(best, _grid_outcome(scene, grids, rtol))
 
 
-def _finer_grids(scene: SolverState, seen: CoarseContact | None, failures: list[str]) -> Iterator[list[GridContact]]:
-    """Contacts on grids so far, one more each time; why one has none is appended to `failures`."""
+def _finer_grids(
+    scene: SolverState, seen: CoarseContact | None, rtol: float, failures: list[str]
+) -> Iterator[list[GridContact]]:
+    """Contacts on grids so far, one more each time; why one has none is appended to `failures`.
+
+    Ends where even the finest grid would miss `rtol`: strips that no grid so far resolves are not seen by finer ones.
+    """
     grids: list[GridContact] = []
     for doubling in range(_FINEST + 1):
         points = _coarsest_points(scene.problem.rho) << doubling
@@ -165,8 +171,15 @@ def _finer_grids(scene: SolverState, seen: CoarseContact | None, failures: list[
             failures.append(str(unsettled))
             return
         yield grids
-        if grids[-1].at_roll_end and (doubling >= _WRAP_LEVEL or 2 * points > _MOST_POINTS):
+        if doubling >= _WRAP_LEVEL and (grids[-1].at_roll_end or _left_at_finest(scene, grids, doubling) > rtol):
             return
+
+
+def _left_at_finest(scene: SolverState, grids: list[GridContact], doubling: int) -> float:
+    """Relative error of friction that the finest grid would leave: errors fall like step^(3/2)."""
+    coarser, grid = grids[-2:]
+    change = abs(grid.friction - coarser.friction) / _error_scale(scene, grid.friction)
+    return float(change * 2.0 ** (-1.5 * (_FINEST - doubling)))
 
 
 def _polish_strips(scene: SolverState, grid: GridContact, start: _StartStrips, rtol: float) -> Refined:
@@ -191,10 +204,14 @@ def _grid_contact(
 def _initial_strips(scene: SolverState, grid: GridContact) -> _StartStrips | None:
     """Start strips from the grid; a strip that it does not resolve gets the half width that carries its force.
 
-    None where strips touch one another or come too near to the roll's end.
+    None where strips touch one another, come too near to the roll's end, or are too many.
     """
     step, rho = 2.0 * math.pi / grid.points, scene.problem.rho
-    if grid.at_roll_end or (grid.strips[1:, 0] - grid.strips[:-1, 1] <= _GAP_NODES * step).any():
+    if (
+        grid.at_roll_end
+        or len(grid.strips) > _MOST_STRIPS
+        or (grid.strips[1:, 0] - grid.strips[:-1, 1] <= _GAP_NODES * step).any()
+    ):
         return None
     centre, alpha = grid.strips.mean(axis=1), 0.5 * (grid.strips[:, 1] - grid.strips[:, 0])
     unseen = np.flatnonzero(alpha <= 0.5 * _STRIP_NODES * step)
@@ -239,23 +256,22 @@ class StripsOrders:
         """Change of friction; a low order may have no strips near the grid's."""
         if closed:
             return self._error
-        self._before = self._strips
-        while (found := self._balance_near(self._before)) is None:
+        before, friction_before = self._strips, self._friction
+        while (found := self._balance_near(before)) is None:
             self._failures += 1
             if self._failures > self._start.failures or self.order >= _LAST_TRIAL_ORDER:
                 return None
             self.order = next_order(self.order, 1.0, self._rtol)
-            self._before, self._friction = None, math.inf
-        self._strips = found
+            before, friction_before = None, math.inf
+        self._before, self._strips = before, found
         friction, self._scale = found.friction, _error_scale(self.scene, found.friction)
         self.cancelled = self._tight * found.gross_friction > self._rtol * self._scale
         if self.cancelled:
             friction = friction_by_loss(self.scene, found)
             self._scale = _error_scale(self.scene, friction)
-        change = min(abs(self._friction - friction) / self._scale, 1.0)
-        self._falls = 0.0
-        if self._before is not None and change > 0.0 and self._error > 0.0:
-            self._falls = math.log(self._error / change) / math.log(self.order / self._before.order)
+        change = min(abs(friction_before - friction) / self._scale, 1.0)
+        now = self.order, change
+        self._falls = 0.0 if before is None else convergence_power(now, (before.order, self._error))
         self._friction, self._error = friction, change
         return change
 
@@ -313,6 +329,13 @@ class StripsOrders:
         fields = SpectralFields(scene.problem.layer, scene.creep, strips.contact, scene.problem.rho, strips.depth)
         found = _strips_result(strips, self._before, fields, (checked.error, checked.energy))
         return replace(found, friction=self._friction)
+
+
+def convergence_power(now: tuple[int, float], before: tuple[int, float]) -> float:
+    """Power of the order that changes fall with, from orders and changes; zero where either change is zero."""
+    if now[1] == 0.0 or before[1] == 0.0:
+        return 0.0
+    return math.log(before[1] / now[1]) / math.log(now[0] / before[0])
 
 
 def _error_scale(scene: SolverState, friction: float) -> float:

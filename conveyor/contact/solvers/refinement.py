@@ -91,8 +91,9 @@ class Refined(NamedTuple):
 def refine_contact(ladder: OrderLadder, rtol: float) -> Refined:
     """Raise the order until friction is known to `rtol`."""
     best: SolveOutcome | None = None
+    balanced = False
     while (error := ladder.balance()) is not None:
-        checked = None
+        checked, balanced = None, True
         splits = (
             error <= _SETTLED_CHANGE and ladder.may_split() and worst_sign(ladder.contact, rtol) is PressureSign.PULLING
         )
@@ -100,7 +101,7 @@ def refine_contact(ladder: OrderLadder, rtol: float) -> Refined:
             return Refined(RefinementEnd.SPLITS, None)
         if splits or error <= rtol or ladder.is_last():
             if ladder.balance(closed=True) is None:
-                break
+                break  # what was balanced before is told with its load's miss
             checked, sign = ladder.check_energy(), worst_sign(ladder.contact, rtol)
             outcome = _closed_outcome(ladder, checked, sign, rtol)
             if outcome is None or splits or sign is PressureSign.PULLING:
@@ -110,6 +111,8 @@ def refine_contact(ladder: OrderLadder, rtol: float) -> Refined:
                 return Refined(RefinementEnd.MET, outcome)
         if not ladder.advance(checked):
             return Refined(RefinementEnd.EXHAUSTED, best)
+    if balanced and best is None:
+        best = _closed_outcome(ladder, ladder.check_energy(), worst_sign(ladder.contact, rtol), rtol)
     return Refined(RefinementEnd.LOST, best)
 
 
@@ -143,4 +146,4 @@ def _closed_outcome(ladder: OrderLadder, checked: EnergyCheck, sign: PressureSig
         remarks = (_LIFT_REMARK.format(depth, width / ladder.scene.problem.rho),)
         result = replace(result, edge_error=result.edge_error + width)
     status = Status.OK if estimate <= rtol else Status.NOT_CONVERGED
-    return SolveOutcome(status, result, ladder.order, remarks=remarks)
+    return SolveOutcome(status, result, int(contact.c.shape[1]), remarks=remarks)

@@ -50,6 +50,7 @@ _NEWTON_STEPS = 24
 _STEP_SHRINKAGE = 0.25  # a step of the one before; else the Jacobian is formed anew
 _STALL_FACTOR = 100.0  # times the tolerance: steps that shrink no more are rounding
 _CLOSING = 0.25  # of the first gap: strips that come as close run into one another
+_LARGEST_GROWTH = math.log(10.0)  # of ln α from the first: a line that grows as much has no balance here
 _DIFFERENCE = 1e-6  # of α, for the Jacobian's columns: Newton then gains six digits a step
 _LARGEST_STEP, _LARGEST_LOG, _ROOM = (
     0.5,
@@ -137,7 +138,8 @@ def balance_strips(
     closest = _CLOSING * smallest_gap(centre, alpha)
     for _ in range(_NEWTON_STEPS):
         x, a = place[:count], np.exp(place[count:])
-        if np.any(a + np.abs(x) >= rho) or too_close(x, a) or smallest_gap(x, a) < closest:
+        astray = np.abs(np.log(a / alpha)).max() > _LARGEST_GROWTH or smallest_gap(x, a) < closest
+        if astray or np.any(a + np.abs(x) >= rho) or too_close(x, a):
             return None
         unit = np.concatenate([a, np.ones(count)])
         steps = _DIFFERENCE * unit if jacobian is None else np.empty(0)
