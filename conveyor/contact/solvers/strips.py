@@ -36,6 +36,7 @@ from conveyor.contact.galerkin.spectral import (
     assemble_matrix,
     contact_from_coefficients,
     mean_displacement,
+    sign_factors,
 )
 from conveyor.contact.solvers.solver_state import SolverState
 
@@ -258,27 +259,22 @@ def _coupling_blocks(scene: SolverState, n: int, centre: Array, alpha: Array) ->
     gap = min(smallest_gap(centre[i], alpha[i]) for i in range(k))
     m, weights = _gap_window(scene, gap, max(_outer_span(centre[i], alpha[i]) for i in range(k)))
     apart, same = np.unique(alpha.ravel(), return_inverse=True)
-    i, v = np.arange(n + 1), np.arange(1.0, n + 1.0)
-    turn = ((1j) ** (i % 4))[:, None]
+    real, imaginary, _ = sign_factors(n)
+    v = np.arange(1.0, n + 1.0)
+    turn = v * (1j) ** ((1 - np.arange(1, n + 1)) % 4)
     slopes, heights = np.zeros((k, count, n + 1, count, n)), np.zeros((k, count, count, n))
     step = max(64, _CHUNK // (k * count * (n + 1)))
     for start in range(0, m.size, step):
         part, weight = m[start : start + step], weights[start : start + step]
         table = np.moveaxis(bessel_j(n, np.multiply.outer(apart, part)), 0, 1)[same].reshape(k, count, n + 1, -1)
-        test = table * (turn * np.exp(1j * np.multiply.outer(centre, part))[:, :, None])
-        source = np.conj(test[:, :, 1:]) * weight
-        # Re(t s) in one real product: parts of complex arrays are strided, which no BLAS multiplies
-        tests = np.concatenate([test.real, test.imag], axis=-1)
-        sources = np.concatenate([source.real, -source.imag], axis=-1)
-        level = 1j * test[:, :, :1] / part
-        levels = np.concatenate([level.real, level.imag], axis=-1)
         for one, other in permutations(range(count), 2):
-            across = sources[:, other].swapaxes(1, 2)
-            slopes[:, one, :, other] -= tests[:, one] @ across
-            heights[:, one, other] += (levels[:, one] @ across)[:, 0]
-    slopes *= v
-    slopes[:, :, 1:] *= 2.0
-    return slopes, heights * v
+            wave = weight * np.exp(1j * np.multiply.outer(centre[:, one] - centre[:, other], part))
+            across = table[:, other, 1:].swapaxes(1, 2)
+            for side, factor, height in ((wave.real, real, turn.real), (wave.imag, imaginary, -turn.imag)):
+                rows = table[:, one] * side[:, None]
+                slopes[:, one, :, other] += factor * (rows @ across)
+                heights[:, one, other] += height * ((rows[:, :1] / part) @ across)[:, 0]
+    return slopes, heights
 
 
 def friction_by_loss(scene: SolverState, strips: Strips) -> float:
