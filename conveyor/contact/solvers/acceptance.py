@@ -30,6 +30,7 @@ ORDER_BOUND = 2.3  # 1/(1 - (3/4)²): of an error that grows like n²
 _LASTING_SAMPLES = 16  # samples: a ripple of the highest order changes sign after four
 _RIPPLE_TAILS = 4.0  # an unresolved edge layer dips below zero by up to 2.1 tails, a resolved split by more than 20
 _EDGE_SAMPLES = 12  # from an edge, three half waves of the highest order: undershoots end at 3 to 11, splits lie inside
+_RIPPLE_ORDER = 96  # from which on a dip inside within the ripple is one: splits of friction less than rtol show before
 _DIP_ROUNDING = 1e-12  # of the largest pressure
 WRAP_EXTENT = 0.5  # (a + |e|)/R beyond which a second eccentricity and a gap outside are looked for
 _GAP_TOLERANCE = 1e-4  # of the depth
@@ -225,13 +226,15 @@ def pressure_signs(contact: Contact, rtol: Array | float) -> PressureSigns:
     share = pulled / (0.5 * np.pi * contact.c[:, 0])
     highest = p.max(axis=1)
     inside = _lowest_between(fine[:, 2 * _EDGE_SAMPLES : -2 * _EDGE_SAMPLES]) < -_DIP_ROUNDING * highest
-    pressing = (share <= rtol) & ~inside
+    slight = share <= rtol
+    pressing = slight & ~inside
     if pressing.all():
         return PressureSigns(~pressing, pressing, share)
+    tension[slight, :_EDGE_SAMPLES] = tension[slight, -_EDGE_SAMPLES:] = 0.0
     tail = np.abs(contact.c[:, -(n // 4) :]).sum(axis=1) / highest
     ripple = tension.max(axis=1) <= _RIPPLE_TAILS * tail * highest
     pulling = ~pressing & (~ripple | (_longest_run(tension > 0.0) >= _LASTING_SAMPLES))
-    return PressureSigns(pulling, pressing, share)
+    return PressureSigns(pulling, pressing | (slight & ~pulling & (n >= _RIPPLE_ORDER)), share)
 
 
 def _lowest_between(p: Array) -> Array:
