@@ -187,12 +187,11 @@ class PressureSign(Enum):
     UNDECIDED = "negative by no more than the ripple: a higher order decides"
 
 
-def worst_sign(contact: Contact, rtol: float) -> PressureSign:
-    """Worst sign of a batch's pressure, against the tail of its series."""
-    pulling, pressing, _ = pressure_signs(contact, rtol)
-    if pressing.all():
-        return PressureSign.PRESSING
-    return PressureSign.PULLING if pulling.any() else PressureSign.UNDECIDED
+def worst_sign(contact: Contact, rtol: float) -> tuple[PressureSign, float]:
+    """Worst sign of a batch's pressure, and the largest share of a load that tension carries [-]."""
+    pulling, pressing, tension = pressure_signs(contact, rtol)
+    sign = PressureSign.PULLING if pulling.any() else PressureSign.UNDECIDED
+    return PressureSign.PRESSING if pressing.all() else sign, float(tension.max())
 
 
 def interior_dip(contact: Contact) -> tuple[float, float]:

@@ -14,7 +14,7 @@ from typing import NamedTuple, Protocol
 from conveyor.contact.galerkin.spectral import Contact
 from conveyor.contact.problem import Status
 from conveyor.contact.solution import ContactResult, SolveOutcome
-from conveyor.contact.solvers.acceptance import PressureSign, interior_dip, pressure_signs, worst_sign
+from conveyor.contact.solvers.acceptance import PressureSign, interior_dip, worst_sign
 from conveyor.contact.solvers.solver_state import SolverState
 
 ROUNDING = 1e-14
@@ -94,16 +94,17 @@ def refine_contact(ladder: OrderLadder, rtol: float) -> Refined:
     balanced = False
     while (error := ladder.balance()) is not None:
         checked, balanced = None, True
-        splits = (
-            error <= _SETTLED_CHANGE and ladder.may_split() and worst_sign(ladder.contact, rtol) is PressureSign.PULLING
-        )
-        if splits and _tension_share(ladder.contact, rtol) > rtol:
-            return Refined(RefinementEnd.SPLITS, None)
+        splits = False
+        if error <= _SETTLED_CHANGE and ladder.may_split():
+            sign, tension = worst_sign(ladder.contact, rtol)
+            splits = sign is PressureSign.PULLING
+            if splits and tension > rtol:
+                return Refined(RefinementEnd.SPLITS, None)
         if splits or error <= rtol or ladder.is_last():
             if ladder.balance(closed=True) is None:
                 break  # what was balanced before is told with its load's miss
-            checked, sign = ladder.check_energy(), worst_sign(ladder.contact, rtol)
-            outcome = _closed_outcome(ladder, checked, sign, rtol)
+            checked = ladder.check_energy()
+            outcome, sign = _closed_outcome(ladder, checked, rtol)
             if outcome is None or splits or sign is PressureSign.PULLING:
                 return Refined(RefinementEnd.SPLITS, outcome)
             best = better_outcome(best, outcome)
@@ -112,7 +113,7 @@ def refine_contact(ladder: OrderLadder, rtol: float) -> Refined:
         if not ladder.advance(checked):
             return Refined(RefinementEnd.EXHAUSTED, best)
     if balanced and best is None:
-        best = _closed_outcome(ladder, ladder.check_energy(), worst_sign(ladder.contact, rtol), rtol)
+        best, _ = _closed_outcome(ladder, ladder.check_energy(), rtol)
     return Refined(RefinementEnd.LOST, best)
 
 
@@ -125,19 +126,15 @@ def better_outcome(one: SolveOutcome | None, other: SolveOutcome) -> SolveOutcom
     return other
 
 
-def _tension_share(contact: Contact, rtol: float) -> float:
-    """Share of the load that tension carries."""
-    return float(pressure_signs(contact, rtol).tension.max())
-
-
-def _closed_outcome(ladder: OrderLadder, checked: EnergyCheck, sign: PressureSign, rtol: float) -> SolveOutcome | None:
+def _closed_outcome(ladder: OrderLadder, checked: EnergyCheck, rtol: float) -> tuple[SolveOutcome | None, PressureSign]:
     """Outcome of a closed contact; its friction may be off by the share of the load that tension carries."""
     contact = ladder.contact
-    tension = 0.0 if sign is PressureSign.UNDECIDED else _tension_share(contact, rtol)
+    sign, tension = worst_sign(contact, rtol)
+    tension = 0.0 if sign is PressureSign.UNDECIDED else tension
     estimate = max(checked.error, tension, ROUNDING)
     result = ladder.result(EnergyCheck(checked.energy, estimate))
     if result is None:
-        return None
+        return None, sign
     remarks: tuple[str, ...] = ()
     if sign is PressureSign.UNDECIDED:
         remarks = (_EDGE_LAYER_REMARK,)
@@ -146,4 +143,4 @@ def _closed_outcome(ladder: OrderLadder, checked: EnergyCheck, sign: PressureSig
         remarks = (_LIFT_REMARK.format(depth, width / ladder.scene.problem.rho),)
         result = replace(result, edge_error=result.edge_error + width)
     status = Status.OK if estimate <= rtol else Status.NOT_CONVERGED
-    return SolveOutcome(status, result, int(contact.c.shape[1]), remarks=remarks)
+    return SolveOutcome(status, result, int(contact.c.shape[1]), remarks=remarks), sign
