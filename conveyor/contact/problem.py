@@ -39,6 +39,7 @@ _LIMITS = {
     "pressure": (1e-30, _HEAVIEST, " (mean pressure)"),
     "poisson": (0.0, 0.5, ""),
 }
+LARGEST_RTOL = 1e-2
 _TRIAL_WAVES = 5  # wave numbers at which a user's own layer is checked
 
 
@@ -154,4 +155,4 @@ def _check_symbol(layer: Layer, creep: CreepSpectrum) -> None:
 def check_rtol(rtol: float) -> None:
     """Raise InputError for a tolerance outside [1e-12, 1e-2]."""
     require_number(rtol=rtol)
-    require(1e-12 <= rtol <= 1e-2, "rtol", rtol, ">= 1e-12 and <= 0.01")
+    require(1e-12 <= rtol <= LARGEST_RTOL, "rtol", rtol, f">= 1e-12 and <= {LARGEST_RTOL:g}")

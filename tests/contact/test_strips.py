@@ -13,6 +13,7 @@ from scipy import special
 from conveyor.contact import ContactProblem, CreepSpectrum, Status, solve
 from conveyor.contact.solvers import many_strips as module
 from conveyor.contact.solvers.grid_solver import solve_grid
+from conveyor.contact.solvers.refinement import Refined, RefinementEnd
 from conveyor.contact.solvers.solver_state import SolverState
 from conveyor.contact.solvers.strips import (
     _gap_window,
@@ -261,7 +262,7 @@ def test_two_lines_of_a_small_roll_are_polished():
 
 def test_strips_that_cannot_be_polished_keep_the_grid_with_its_error(monkeypatch):
     exact = solve(SPLIT, rtol=1e-9)
-    monkeypatch.setattr(module, "_polish_strips", lambda *_: None)
+    monkeypatch.setattr(module, "_polish_strips", lambda *_: Refined(RefinementEnd.LOST, None))
     monkeypatch.setattr(module, "_FINEST", 6)
     found = solve(SPLIT, rtol=1e-9, throw=False)
     assert found.status is Status.NOT_CONVERGED

@@ -106,7 +106,8 @@ def test_a_long_tail_gives_what_a_dense_matrix_does():
     # order 128 meets 1e-8 here; the same scene by a core of 64 and a tail to 1024
     problem = ContactProblem("confined", 0.1, 1e-3, CreepSpectrum(0.05, [0.95], [0.01]), 0.5)
     dense = solve(problem, rtol=1e-8)
-    long = solve_one_strip(SolverState.of(problem), 1e-8, HalfWidthStart(np.log(dense.half_width * problem.rho), 2.0))
+    start = HalfWidthStart(np.log(dense.half_width * problem.rho), 2.0)
+    long = solve_one_strip(SolverState.of(problem), 1e-8, start).best
     assert long.order == 1024
     assert long.found.friction == pytest.approx(dense.friction, rel=2e-8)
     assert long.found.fields.depth() == pytest.approx(dense.penetration, rel=1e-8)

@@ -59,7 +59,7 @@ def select_contacts(contact: Contact, at: NDArray[np.int_] | slice) -> Contact:
 
 
 @lru_cache(maxsize=32)
-def _sign_factors(n: int) -> tuple[Array, Array, Array]:
+def sign_factors(n: int) -> tuple[Array, Array, Array]:
     """Factors of Re S and Im S in the matrix, and of the retardation products, shape (n+1, n)."""
     i, v = np.arange(n + 1.0)[:, None], np.arange(1.0, n + 1.0)[None, :]
     q = i - v
@@ -94,7 +94,7 @@ def assemble_matrix(
     ik : ProductIK, optional
         Bessel products of these half widths, if known.
     """
-    real, imaginary, retarded = _sign_factors(n)
+    real, imaginary, retarded = sign_factors(n)
     place = alpha[:, None] * rule.nodes
     shown = nonzero_orders(place, n)
     table = bessel_j(shown, place).swapaxes(0, 1)
@@ -322,5 +322,5 @@ def mean_displacement(rule: Rule, creep: CreepSpectrum, alpha: Array, n: int, ik
     if creep.weights.size:
         ik = ProductIK(n, alpha[:, None] / creep.times) if ik is None else ik
         products, _ = ik.weighted_sums(creep.weights * creep.times)
-        out += products[:, 0, 1:] * _sign_factors(n)[2][0]
+        out += products[:, 0, 1:] * sign_factors(n)[2][0]
     return out

@@ -48,7 +48,6 @@ from conveyor.contact.solvers.acceptance import (
     pressure_signs,
 )
 from conveyor.contact.solvers.entry import solve
-from conveyor.contact.solvers.one_strip import ROUNDING, SIGN_ORDER
 from conveyor.contact.solvers.one_strip_batch import (
     CHUNK_SIZE,
     PLACE_SHARE,
@@ -60,6 +59,7 @@ from conveyor.contact.solvers.one_strip_batch import (
     guess_half_widths,
     plainly_narrow,
 )
+from conveyor.contact.solvers.refinement import ROUNDING, SIGN_ORDER
 from conveyor.contact.solvers.solver_state import merge_instant_terms
 from conveyor.errors import InputError, NoSolutionError
 

@@ -29,6 +29,12 @@ LEAST_ENERGY_POWER = (
 ORDER_BOUND = 2.3  # 1/(1 - (3/4)²): of an error that grows like n²
 _LASTING_SAMPLES = 16  # samples: a ripple of the highest order changes sign after four
 _RIPPLE_TAILS = 4.0  # an unresolved edge layer dips below zero by up to 2.1 tails, a resolved split by more than 20
+_EDGE_SAMPLES = 12  # from an edge, three half waves of the highest order: undershoots end at 3 to 11, splits lie inside
+_RIPPLE_ORDER = 96  # from which on a dip inside within the ripple is one: splits of friction less than rtol show before
+_BETWEEN_SAMPLES = (
+    0.05  # of the largest pressure: it falls by less than 0.02 between 8n samples (Bernstein's inequality)
+)
+_DIP_ROUNDING = 1e-12  # of the largest pressure
 WRAP_EXTENT = 0.5  # (a + |e|)/R beyond which a second eccentricity and a gap outside are looked for
 _GAP_TOLERANCE = 1e-4  # of the depth
 _GAP_REACH = 100.0  # m α of the series: (m α)^(-5/2) = 1e-5 of the depth
@@ -181,17 +187,20 @@ class PressureSign(Enum):
     UNDECIDED = "negative by no more than the ripple: a higher order decides"
 
 
-def worst_sign(contact: Contact, rtol: float) -> PressureSign:
-    """Worst sign of a batch's pressure at 4n + 1 points, against the tail of its series."""
-    return worst_sign_and_tension(contact, rtol)[0]
-
-
-def worst_sign_and_tension(contact: Contact, rtol: float) -> tuple[PressureSign, float]:
-    """Worst sign of a batch, and the largest share of a load that tension carries [-]; zero unless all press."""
+def worst_sign(contact: Contact, rtol: float) -> tuple[PressureSign, float]:
+    """Worst sign of a batch's pressure, and the largest share of a load that tension carries [-]."""
     pulling, pressing, tension = pressure_signs(contact, rtol)
-    if pressing.all():
-        return PressureSign.PRESSING, float(tension.max())
-    return (PressureSign.PULLING if pulling.any() else PressureSign.UNDECIDED), 0.0
+    sign = PressureSign.PULLING if pulling.any() else PressureSign.UNDECIDED
+    return PressureSign.PRESSING if pressing.all() else sign, float(tension.max())
+
+
+def interior_dip(contact: Contact) -> tuple[float, float]:
+    """Depth over the largest pressure and width X of the widest place inside a strip where its pressure is negative."""
+    n = contact.c.shape[1]
+    fine = sample_sine_sum(contact.c, 8 * n + 4)
+    inside = np.maximum(-fine[:, 1 + 2 * _EDGE_SAMPLES : -1 - 2 * _EDGE_SAMPLES], 0.0)
+    widest = float((_longest_run(inside > 0.0) * contact.alpha).max()) * np.pi / (8 * n + 4)
+    return float((inside.max(axis=1) / fine.max(axis=1)).max()), widest
 
 
 class PressureSigns(NamedTuple):
@@ -205,24 +214,41 @@ class PressureSigns(NamedTuple):
 def pressure_signs(contact: Contact, rtol: Array | float) -> PressureSigns:
     """Sign of the sampled pressure of each contact, shape (b,).
 
-    A contact presses where its tension carries no more than `rtol` of the load: friction may be off by as much. Beyond
-    that it pulls if the tension exceeds the ripple of the order or lasts longer than a ripple: a thin plate that
-    follows the roll lifts off by far less than the tails of its two high peaks.
+    A contact presses where its tension carries no more than `rtol` of the load, friction may be off by as much, and
+    lies at the edges, where an order that does not resolve an edge layer undershoots. Else it pulls if the tension
+    exceeds the ripple of the order or lasts longer than a ripple: a thin plate that follows the roll lifts off by far
+    less than the tails of its two high peaks.
     """
     n = contact.c.shape[1]
-    p = sample_sine_sum(contact.c, 4 * n + 2)[:, 1:-1]
+    fine = sample_sine_sum(contact.c, 8 * n + 4)[:, 1:-1]
+    p = fine[:, 1::2]
     tension = np.maximum(-p, 0.0)
     step = np.pi / (4 * n + 2)
     pulled = step * (tension @ np.sin(step * np.arange(1, 4 * n + 2)))
     share = pulled / (0.5 * np.pi * contact.c[:, 0])
-    pressing = share <= rtol
+    highest = p.max(axis=1)
+    middle = fine[:, 2 * _EDGE_SAMPLES : -2 * _EDGE_SAMPLES]
+    inside = middle.min(axis=1) < _BETWEEN_SAMPLES * highest
+    if inside.any():
+        inside[inside] = _lowest_between(middle[inside]) < -_DIP_ROUNDING * highest[inside]
+    slight = share <= rtol
+    pressing = slight & ~inside
     if pressing.all():
         return PressureSigns(~pressing, pressing, share)
-    highest = p.max(axis=1)
+    tension[slight, :_EDGE_SAMPLES] = tension[slight, -_EDGE_SAMPLES:] = 0.0
     tail = np.abs(contact.c[:, -(n // 4) :]).sum(axis=1) / highest
     ripple = tension.max(axis=1) <= _RIPPLE_TAILS * tail * highest
     pulling = ~pressing & (~ripple | (_longest_run(tension > 0.0) >= _LASTING_SAMPLES))
-    return PressureSigns(pulling, pressing, share)
+    return PressureSigns(pulling, pressing | (slight & ~pulling & (n >= _RIPPLE_ORDER)), share)
+
+
+def _lowest_between(p: Array) -> Array:
+    """Lowest pressure of each row, by parabolas through three samples around each lowest one, shape (b,)."""
+    before, here, after = p[:, :-2], p[:, 1:-1], p[:, 2:]
+    bend = before - 2.0 * here + after
+    low = (here <= before) & (here <= after) & (bend > 0.0)
+    lowest: Array = (here - np.where(low, (after - before) ** 2 / (8.0 * np.where(low, bend, 1.0)), 0.0)).min(axis=1)
+    return lowest
 
 
 def _longest_run(flags: NDArray[np.bool_]) -> NDArray[np.int_]:

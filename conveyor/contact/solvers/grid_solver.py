@@ -389,7 +389,7 @@ def _solve_active_set(surface: SurfaceOperator, nodes: NDArray[np.int_], right: 
     for k in range(right.shape[1]):
         out[:, k], failed = gmres(product, right[:, k], rtol=_KRYLOV_RTOL, restart=_RESTART, maxiter=cycles, M=inverse)
         if failed and nodes.size <= _DENSE_AT_WORST:
-            return _solve_densely(surface, nodes, right), _DENSE_PREFERRED
+            return _solve_densely(surface, nodes, right), max(_DENSE_PREFERRED, nodes.size)
         if failed:
             raise NoSolutionError(f"GMRES did not settle on {nodes.size} active nodes of the grid")
     return out, dense

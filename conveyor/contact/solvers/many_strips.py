@@ -8,6 +8,7 @@ keep the grid's solution and error.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
@@ -17,26 +18,29 @@ from numpy.typing import NDArray
 
 from conveyor.contact.fields.contact_fields import RESOLVED_FROM, GridFields, SpectralFields
 from conveyor.contact.galerkin.orders import ORDERS, next_order
-from conveyor.contact.problem import Status
+from conveyor.contact.galerkin.spectral import Contact
+from conveyor.contact.problem import LARGEST_RTOL, Status
 from conveyor.contact.solution import ContactResult, SolveOutcome
 from conveyor.contact.solvers.acceptance import (
     ENERGY_MARGIN,
     ENERGY_OVER_ERROR,
     ORDER_BOUND,
-    PressureSign,
     overlaps_roll,
-    worst_sign_and_tension,
 )
 from conveyor.contact.solvers.grid_solver import ContactGrid, GridContact, RaisedContact, solve_grid
 from conveyor.contact.solvers.one_strip import (
     LAYER_OVER_ENERGY,
     LOAD_FLOOR,
-    ROUNDING,
-    SETTLED_CHANGE,
-    SIGN_ORDER,
     layer_beyond_reach,
     layer_resolution,
-    pressure_remarks,
+)
+from conveyor.contact.solvers.refinement import (
+    ROUNDING,
+    EnergyCheck,
+    Refined,
+    RefinementEnd,
+    better_outcome,
+    refine_contact,
 )
 from conveyor.contact.solvers.solver_state import SolverState
 from conveyor.contact.solvers.strips import Strips, balance_strips, friction_by_loss, strip_loads, too_close
@@ -48,6 +52,8 @@ _COARSEST = 64  # nodes on the roll of the first grid
 _FIRST_POLISH, _WRAP_LEVEL, _FINEST = 2, 6, 10  # doublings of it
 _MOST_POINTS = 1 << 20
 _LAST_TRIAL_ORDER, _ORDER_FAILURES = 64, 2  # low orders may have no contact near the grid's
+_FINAL_ENDS = (RefinementEnd.MET, RefinementEnd.EXHAUSTED)
+_MOST_STRIPS = 8  # three at most were seen to converge
 _POLISHES = 3  # grids whose strips are refined spectrally
 _FIRST_WIDTH, _LARGEST_FIT, _FIT_STEPS = (
     1e-3,
@@ -124,31 +130,66 @@ class CoarseContact:
 def solve_strips(scene: SolverState, rtol: float, seen: CoarseContact | None = None) -> SolveOutcome:
     """Solve for a contact of any number of strips; `seen` is the coarse contact, if known."""
     grids: list[GridContact] = []
-    failure, polishes = "", 0
-    for doubling in range(_FINEST + 1):
-        points = _coarsest_points(scene.problem.rho) << doubling
-        if points > _MOST_POINTS:
-            break
-        try:
-            grids.append(_grid_contact(scene, points, grids[-1] if grids else None, seen))
-        except NoSolutionError as unsettled:
-            failure = str(unsettled)
-            break
-        if grids[-1].at_roll_end and (doubling >= _WRAP_LEVEL or 2 * points > _MOST_POINTS):
-            break
-        steady = doubling >= _FIRST_POLISH and len(grids[-1].strips) == len(grids[-2].strips)
+    failures: list[str] = []
+    best: SolveOutcome | None = None
+    polishes = 0
+    for grids in _finer_grids(scene, seen, rtol, failures):
+        steady = len(grids) > _FIRST_POLISH and len(grids[-1].strips) == len(grids[-2].strips)
         start = _initial_strips(scene, grids[-1]) if steady and polishes < _POLISHES else None
-        if start is not None:
-            polishes += 1
-            outcome = _polish_strips(scene, grids[-1], start, rtol)
-            if outcome is not None:
-                return outcome
+        if start is None:
+            continue
+        polishes += 1
+        end, found = _polish_strips(scene, grids[-1], start, rtol)
+        best = better_outcome(best, found) if found is not None else best
+        if best is not None and end in _FINAL_ENDS:
+            return best
+        if polishes == _POLISHES and best is not None and best.found and best.found.error_estimate <= LARGEST_RTOL:
+            break
     if not grids:
-        return SolveOutcome(Status.NOT_CONVERGED, way="grid", remarks=(failure,))
+        return SolveOutcome(Status.NOT_CONVERGED, way="grid", remarks=tuple(failures))
     if grids[-1].at_roll_end:
         seen = seen or CoarseContact.of(scene, grids[-1].mean_pressure)
         return _wrap_outcome(grids[-1], seen.limit)
-    return _grid_outcome(scene, grids, rtol)
+    return better_outcome(best, _grid_outcome(scene, grids, rtol))
+
+
+def _finer_grids(
+    scene: SolverState, seen: CoarseContact | None, rtol: float, failures: list[str]
+) -> Iterator[list[GridContact]]:
+    """Contacts on grids so far, one more each time; why one has none is appended to `failures`.
+
+    Ends where even the finest grid would miss `rtol`: strips that no grid so far resolves are not seen by finer ones.
+    """
+    grids: list[GridContact] = []
+    for doubling in range(_FINEST + 1):
+        points = _coarsest_points(scene.problem.rho) << doubling
+        if points > _MOST_POINTS:
+            return
+        try:
+            grids.append(_grid_contact(scene, points, grids[-1] if grids else None, seen))
+        except NoSolutionError as unsettled:
+            failures.append(str(unsettled))
+            return
+        yield grids
+        if doubling >= _WRAP_LEVEL and (grids[-1].at_roll_end or _left_at_finest(scene, grids, doubling) > rtol):
+            return
+
+
+def _left_at_finest(scene: SolverState, grids: list[GridContact], doubling: int) -> float:
+    """Relative error of friction that the finest grid would leave: errors fall like step^(3/2)."""
+    coarser, grid = grids[-2:]
+    change = abs(grid.friction - coarser.friction) / _error_scale(scene, grid.friction)
+    return float(change * 2.0 ** (-1.5 * (_FINEST - doubling)))
+
+
+def _polish_strips(scene: SolverState, grid: GridContact, start: _StartStrips, rtol: float) -> Refined:
+    """Refine the grid's strips spectrally."""
+    orders = StripsOrders(scene, start, rtol)
+    end, found = refine_contact(orders, rtol)
+    if found is None:
+        return Refined(end, None)
+    remarks = (*found.remarks, *((_CANCELLATION_REMARK,) if orders.cancelled else ()))
+    return Refined(end, replace(found, grid=grid.points, way="strips", remarks=remarks))
 
 
 def _grid_contact(
@@ -163,10 +204,14 @@ def _grid_contact(
 def _initial_strips(scene: SolverState, grid: GridContact) -> _StartStrips | None:
     """Start strips from the grid; a strip that it does not resolve gets the half width that carries its force.
 
-    None where strips touch one another or come too near to the roll's end.
+    None where strips touch one another, come too near to the roll's end, or are too many.
     """
     step, rho = 2.0 * math.pi / grid.points, scene.problem.rho
-    if grid.at_roll_end or (grid.strips[1:, 0] - grid.strips[:-1, 1] <= _GAP_NODES * step).any():
+    if (
+        grid.at_roll_end
+        or len(grid.strips) > _MOST_STRIPS
+        or (grid.strips[1:, 0] - grid.strips[:-1, 1] <= _GAP_NODES * step).any()
+    ):
         return None
     centre, alpha = grid.strips.mean(axis=1), 0.5 * (grid.strips[:, 1] - grid.strips[:, 0])
     unseen = np.flatnonzero(alpha <= 0.5 * _STRIP_NODES * step)
@@ -185,84 +230,117 @@ def _initial_strips(scene: SolverState, grid: GridContact) -> _StartStrips | Non
     return _StartStrips(centre, alpha, 0)
 
 
-def _polish_strips(scene: SolverState, grid: GridContact, start: _StartStrips, rtol: float) -> SolveOutcome | None:
-    """Spectral solution from the grid's strips, the order raised until friction converges; None where they fail."""
-    centre, alpha, allowed = start
-    scene.rules.clear()  # made for wider strips, and longer
-    tight = max(1e-3 * rtol, LOAD_FLOOR)
-    n, before, failures, friction_before, change_before = ORDERS[0], None, 0, math.inf, 1.0
-    while True:
-        strips = balance_strips(
-            scene, n, centre, alpha, tight, jacobian=before.jacobian if before is not None else None
-        )
-        if strips is None:
-            # a low order may have no contact near the grid's
-            failures += 1
-            if failures > allowed or n >= _LAST_TRIAL_ORDER:
+class StripsOrders:
+    """Orders of strips that are balanced from the grid's; the error of an order is the change from the one before."""
+
+    def __init__(self, scene: SolverState, start: _StartStrips, rtol: float) -> None:
+        scene.rules.clear()  # made for wider strips, and longer
+        self.scene, self._rtol, self._start = scene, rtol, start
+        self._tight = max(1e-3 * rtol, LOAD_FLOOR)
+        self.order, self._failures = ORDERS[0], 0
+        self._strips: Strips | None = None
+        self._before: Strips | None = None
+        self._friction, self._error, self._falls, self._scale, self.cancelled = math.inf, 1.0, 0.0, 1.0, False
+
+    @property
+    def contact(self) -> Contact:
+        """Strips last balanced."""
+        return self._balanced.contact
+
+    @property
+    def _balanced(self) -> Strips:
+        assert self._strips is not None  # noqa: S101 balanced before it is asked for
+        return self._strips
+
+    def balance(self, *, closed: bool = False) -> float | None:
+        """Change of friction; a low order may have no strips near the grid's."""
+        if closed:
+            return self._error
+        before, friction_before = self._strips, self._friction
+        while (found := self._balance_near(before)) is None:
+            self._failures += 1
+            if self._failures > self._start.failures or self.order >= _LAST_TRIAL_ORDER:
                 return None
-            centre, alpha = start.centre, start.alpha
-            n, before, friction_before = next_order(n, 1.0, rtol), None, math.inf
-            continue
-        friction, scale = strips.friction, _error_scale(scene, strips.friction)
-        cancelled = tight * strips.gross_friction > rtol * scale
-        if cancelled:
-            friction = friction_by_loss(scene, strips)
-            scale = _error_scale(scene, friction)
-        error = change = min(abs(friction_before - friction) / scale, 1.0)
-        pressing, tension = worst_sign_and_tension(strips.contact, rtol)
-        if pressing is PressureSign.PULLING and error <= SETTLED_CHANGE:
-            return None
-        falls = math.log(change_before / change) / math.log(n / before.order) if before and change else 0.0
-        hopeless = n >= _LAST_TRIAL_ORDER and layer_beyond_reach(
-            scene, strips.contact, (n, ORDERS[-1]), error / rtol, falls
+            self.order = next_order(self.order, 1.0, self._rtol)
+            before, friction_before = None, math.inf
+        self._before, self._strips = before, found
+        friction, self._scale = found.friction, _error_scale(self.scene, found.friction)
+        self.cancelled = self._tight * found.gross_friction > self._rtol * self._scale
+        if self.cancelled:
+            friction = friction_by_loss(self.scene, found)
+            self._scale = _error_scale(self.scene, friction)
+        change = min(abs(friction_before - friction) / self._scale, 1.0)
+        now = self.order, change
+        self._falls = 0.0 if before is None else convergence_power(now, (before.order, self._error))
+        self._friction, self._error = friction, change
+        return change
+
+    def _balance_near(self, before: Strips | None) -> Strips | None:
+        """Strips of the present order from those of the one before, or from the grid's."""
+        if before is None:
+            return balance_strips(self.scene, self.order, self._start.centre, self._start.alpha, self._tight)
+        place = before.contact.eps, before.contact.alpha
+        return balance_strips(self.scene, self.order, *place, self._tight, jacobian=before.jacobian)
+
+    def may_split(self) -> bool:
+        """At any order."""
+        return True
+
+    def is_last(self) -> bool:
+        """True at the highest order, and where none resolves the edge layer."""
+        return self.order == ORDERS[-1] or self._is_hopeless()
+
+    def _is_hopeless(self) -> bool:
+        excess = self._error / self._rtol
+        return self.order >= _LAST_TRIAL_ORDER and layer_beyond_reach(
+            self.scene, self.contact, (self.order, ORDERS[-1]), excess, self._falls
         )
-        if error <= rtol or n == ORDERS[-1] or hopeless:
-            by_loss = friction if cancelled else friction_by_loss(scene, strips)
-            energy = abs(by_loss - strips.friction) / scale
-            if not cancelled:
-                # errors by order, and by Newton's remainder of forces that partly cancel
-                most = (
-                    ORDER_BOUND * error
-                    + strips.left * (strips.gross_friction + _relative_half_width(strips, scene)) / scale
-                )
-                rounding = ROUNDING * strips.gross_friction / scale
-                resolved = layer_resolution(scene, strips.contact, n) >= RESOLVED_FROM
-                most = most if resolved else math.inf  # orders agree before an edge layer is resolved
-                error = max(error, energy / ENERGY_OVER_ERROR, min(ENERGY_MARGIN * energy, most), rounding)
-            error = max(
-                error,
-                LAYER_OVER_ENERGY * energy if hopeless else ROUNDING,
-                _NEWTON_FACTOR * strips.left,
-                tension,
-            )
-            decided = n >= SIGN_ORDER or pressing is not PressureSign.UNDECIDED
-            if (error <= rtol and decided) or n == ORDERS[-1] or hopeless:
-                if overlaps_roll(scene, strips.contact, strips.depth):
-                    return None
-                fields = SpectralFields(
-                    scene.problem.layer, scene.creep, strips.contact, scene.problem.rho, strips.depth
-                )
-                return SolveOutcome(
-                    status=Status.OK if error <= rtol else Status.NOT_CONVERGED,
-                    found=replace(_strips_result(strips, before, fields, (error, energy)), friction=friction),
-                    order=n,
-                    grid=grid.points,
-                    way="strips",
-                    remarks=(*pressure_remarks(pressing), *((_CANCELLATION_REMARK,) if cancelled else ())),
-                )
-        before, centre, alpha = strips, strips.contact.eps, strips.contact.alpha
-        friction_before, change_before = friction, change
-        n = next_order(n, error if error < 1.0 else 0.0, rtol)
+
+    def check_energy(self) -> EnergyCheck:
+        """Energy, and errors by order, energy and Newton's rest."""
+        strips, scale, error, hopeless = self._balanced, self._scale, self._error, self._is_hopeless()
+        by_loss = self._friction if self.cancelled else friction_by_loss(self.scene, strips)
+        energy = abs(by_loss - strips.friction) / scale
+        if not self.cancelled:
+            # errors by order, and by Newton's remainder of forces that partly cancel
+            turned = strips.gross_friction + float(strips.contact.alpha.max()) / self.scene.problem.rho
+            most = ORDER_BOUND * error + strips.left * turned / scale
+            if layer_resolution(self.scene, strips.contact, self.order) < RESOLVED_FROM:
+                most = math.inf  # orders agree before an edge layer is resolved
+            rounding = ROUNDING * strips.gross_friction / scale
+            error = max(error, energy / ENERGY_OVER_ERROR, min(ENERGY_MARGIN * energy, most), rounding)
+        return EnergyCheck(
+            energy, max(error, LAYER_OVER_ENERGY * energy if hopeless else 0.0, _NEWTON_FACTOR * strips.left)
+        )
+
+    def advance(self, checked: EnergyCheck | None) -> bool:
+        """Raise the order, by two where the error is far off."""
+        if self.is_last():
+            return False
+        error = self._error if checked is None else checked.error
+        self.order = next_order(self.order, error if error < 1.0 else 0.0, self._rtol)
+        return True
+
+    def result(self, checked: EnergyCheck) -> ContactResult | None:
+        """Result, unless the layer touches the roll outside the strips."""
+        scene, strips = self.scene, self._balanced
+        if overlaps_roll(scene, strips.contact, strips.depth):
+            return None
+        fields = SpectralFields(scene.problem.layer, scene.creep, strips.contact, scene.problem.rho, strips.depth)
+        found = _strips_result(strips, self._before, fields, (checked.error, checked.energy))
+        return replace(found, friction=self._friction)
+
+
+def convergence_power(now: tuple[int, float], before: tuple[int, float]) -> float:
+    """Power of the order that changes fall with, from orders and changes; zero where either change is zero."""
+    if now[1] == 0.0 or before[1] == 0.0:
+        return 0.0
+    return math.log(before[1] / now[1]) / math.log(now[0] / before[0])
 
 
 def _error_scale(scene: SolverState, friction: float) -> float:
     """Reference of relative errors of friction; one for an elastic layer, whose friction is zero."""
     return abs(friction) if scene.lossy and friction else 1.0
-
-
-def _relative_half_width(strips: Strips, scene: SolverState) -> float:
-    """Largest half width over R: turn of a strip's force as it moves by its half width."""
-    return float(strips.contact.alpha.max()) / scene.problem.rho
 
 
 def _strip_edges(strips: Strips) -> Array:

@@ -11,28 +11,22 @@ from conveyor.contact.fields.contact_fields import RESOLVED_FROM, SpectralFields
 from conveyor.contact.galerkin.order_tail import DENSE_ORDER, FIRST_TAIL, longest_tail
 from conveyor.contact.galerkin.orders import ORDERS, next_order
 from conveyor.contact.galerkin.spectral import Contact, lower_order_contacts
-from conveyor.contact.problem import Status
-from conveyor.contact.solution import ContactResult, SolveOutcome
+from conveyor.contact.solution import ContactResult
 from conveyor.contact.solvers.acceptance import (
     LEAST_ENERGY_POWER,
     OrderErrors,
-    PressureSign,
     edge_layer_error,
     energy_error,
     error_from_energy,
     may_touch_elsewhere,
     order_errors,
     overlaps_roll,
-    worst_sign,
-    worst_sign_and_tension,
 )
 from conveyor.contact.solvers.load_control import LoadSearch, contact_at_load, guess_half_width
+from conveyor.contact.solvers.refinement import EnergyCheck, Refined, refine_contact
 from conveyor.contact.solvers.solver_state import OrderResult, SolverState
 
 LOAD_FLOOR = 2e-13  # rounding of the load at a condition number of 100
-SIGN_ORDER = 256  # splits show below it; a dip that lasts is an edge layer that friction does not feel
-SETTLED_CHANGE = 1e-3  # change of friction below which tension is no longer the order's ripple
-ROUNDING = 1e-14
 _CORE, _WIDEST_CORE = 64, 512
 _LEAST_RESOLUTION, _FAR_OFF = (
     2.0,
@@ -42,7 +36,6 @@ _UNRESOLVED_POWER = 2.4  # power of n that they fall with before
 LAYER_OVER_ENERGY = 10.0  # friction's error over that of the energy where a layer is not resolved: 2 to 7 seen
 _MISMATCH_FACTOR = 2.0  # times the mismatch: 1.05 seen in friction
 _FIRST_LOAD_TOLERANCE = 1e-3  # while the order is still rising
-EDGE_LAYER_REMARK = "a layer at the contact's edge is thinner than the order resolves: pressure ripples there"
 
 
 @dataclass(frozen=True)
@@ -55,94 +48,129 @@ class HalfWidthStart:
 
 def solve_one_strip(
     scene: SolverState, rtol: float, near: HalfWidthStart | None = None, *, doubtful: bool = False
-) -> SolveOutcome | None:
-    """Solve a contact as one strip; None where it splits, overlaps the roll outside or is not single-valued in α.
+) -> Refined:
+    """Solve a contact as one strip.
 
     `near` is the start where order `DENSE_ORDER` did not suffice; with `doubtful` the gap outside is checked.
     """
-    half_width = _converge_order(scene, rtol, near)
-    if half_width is None:
-        return None
-    state, contact, error, energy, edges = half_width
-    rho = scene.problem.rho
-    pressing, tension = worst_sign_and_tension(contact, rtol)
-    if pressing is PressureSign.PULLING:
-        return None
-    alpha, eps = float(contact.alpha[0]), float(contact.eps[0])
-    depth = None
-    elsewhere = doubtful or bool(may_touch_elsewhere(contact, rho)[0])
-    if elsewhere or state.system.tail is not None:
-        depth = scene.depth_of(state.system, state.contact)
-    if elsewhere and depth is not None and overlaps_roll(scene, contact, depth):
-        return None
-    estimate = max(error, ROUNDING, tension)
-    return SolveOutcome(
-        status=Status.OK if estimate <= rtol else Status.NOT_CONVERGED,
-        found=ContactResult(
+    return refine_contact(OneStripOrders(scene, rtol, near, doubtful=doubtful), rtol)
+
+
+class OneStripOrders:
+    """Orders of a strip of a half width that carries the load: a core, from `DENSE_ORDER` on closed by a tail."""
+
+    _state: OrderResult
+    _pairs: list[OrderErrors]
+    _by_order: OrderErrors
+    _error: float
+    _reach: float
+    _following: tuple[int, int] | None
+    _whole: Contact | None
+
+    def __init__(self, scene: SolverState, rtol: float, near: HalfWidthStart | None, *, doubtful: bool) -> None:
+        self.scene, self._rtol, self._doubtful = scene, rtol, doubtful
+        start = guess_half_width(scene) if near is None else (near.log_alpha, near.slope)
+        self._search = LoadSearch(scene.target, *start)
+        self._tight, self._tolerance = max(1e-3 * rtol, LOAD_FLOOR), _FIRST_LOAD_TOLERANCE
+        self._n, self._last = (ORDERS[0], ORDERS[0]) if near is None else (_CORE, FIRST_TAIL)
+        self._longest = longest_tail(scene.creep.weights.size)
+        self._before: tuple[int, float] | None = None  # order and energy error of the last check
+
+    @property
+    def order(self) -> int:
+        """Last order of the tail."""
+        return self._last
+
+    @property
+    def contact(self) -> Contact:
+        """Strip with the coefficients of its tail."""
+        if self._whole is None:
+            self._whole = self._state.system.whole(self._state.contact)
+        return self._whole
+
+    def balance(self, *, closed: bool = False) -> float | None:
+        """Error by the lower orders of core and tail."""
+        if closed:
+            if self._tolerance == self._tight or self._state.miss <= self._tight:
+                return self._error
+            self._tolerance = self._tight
+        state = contact_at_load(self.scene, self._search, self._n, self._tolerance, self._last)
+        if state is None:
+            return None
+        self._state, self._whole = state, None
+        self._pairs = _lower_order_errors(self.scene, self._search, state)
+        self._by_order = OrderErrors(*(np.max(errors, axis=0) for errors in zip(*self._pairs, strict=True)))
+        self._error = float(self._by_order.friction[0])
+        self._following = self._next(bounds=False)
+        self._reach = layer_resolution(self.scene, state.contact, self._longest) if self._tailed else math.inf
+        return self._error
+
+    @property
+    def _tailed(self) -> bool:
+        return self._last > self._n
+
+    def _next(self, *, bounds: bool) -> tuple[int, int] | None:
+        return _next_orders((self._n, self._last), self._pairs, self._rtol, self._longest, bounds=bounds)
+
+    def may_split(self) -> bool:
+        """True up to the first tail."""
+        return self._last <= FIRST_TAIL
+
+    def is_last(self) -> bool:
+        """True where there is no order after this one, or where none resolves the edge layer."""
+        return self._following is None or self._reach < _LEAST_RESOLUTION
+
+    def check_energy(self) -> EnergyCheck:
+        """Energy, and errors by order, load and energy."""
+        state, contact = self._state, self.contact
+        settled = self._error <= self._rtol or self._following is None
+        energy = energy_error(self.scene, state.contact, state.system.loss_beyond_core(contact))
+        by_loss = float(error_from_energy(energy, self._by_order.most)[0])
+        error = max(self._error, _load_mismatch_error(self._search, state.miss), by_loss)
+        self._following = self._next(bounds=by_loss > self._rtol)
+        if (
+            settled
+            and self._tailed
+            and layer_beyond_reach(self.scene, contact, (self._last, self._longest), error / self._rtol)
+        ):
+            self._following = None
+        here = self._last, float(energy[0])
+        if not _energy_error_falls(self._before, here):
+            error = max(error, float(edge_layer_error(energy, self.scene.creep, contact.alpha, self._last)[0]))
+            if self._reach < _LEAST_RESOLUTION and self._before is not None and here[1] > _FAR_OFF * self._rtol:
+                self._following = None
+        self._before = here
+        return EnergyCheck(here[1], error)
+
+    def advance(self, checked: EnergyCheck | None) -> bool:  # noqa: ARG002 as every ladder has it
+        """Raise the order of the core or of its tail, whichever leaves more."""
+        if self._following is None:
+            return False
+        self._n, self._last = self._following
+        self._search.reset_bracket()
+        return True
+
+    def result(self, checked: EnergyCheck) -> ContactResult | None:
+        """Result, unless the layer touches the roll outside."""
+        scene, contact = self.scene, self.contact
+        alpha, eps, rho = float(contact.alpha[0]), float(contact.eps[0]), scene.problem.rho
+        elsewhere = self._doubtful or bool(may_touch_elsewhere(contact, rho)[0])
+        depth = None
+        if elsewhere or self._tailed:
+            depth = scene.depth_of(self._state.system, self._state.contact)
+        if elsewhere and overlaps_roll(scene, contact, depth):
+            return None
+        return ContactResult(
             friction=float(contact.friction[0]),
             mean_pressure=float(contact.pressure[0]),
             half_width=alpha,
             centre=eps,
             strips=np.array([[eps - alpha, eps + alpha]]),
-            energy_error=energy,
-            error_estimate=estimate,
-            edge_error=edges,
+            energy_error=checked.energy,
+            error_estimate=checked.error,
+            edge_error=float(self._by_order.edges[0]),
             fields=SpectralFields(scene.problem.layer, scene.creep, contact, rho, depth),
-        ),
-        order=int(contact.c.shape[1]),
-        remarks=pressure_remarks(pressing),
-    )
-
-
-def pressure_remarks(pressing: PressureSign) -> tuple[str, ...]:
-    """Remarks of the solution on its pressure."""
-    return (EDGE_LAYER_REMARK,) if pressing is PressureSign.UNDECIDED else ()
-
-
-def _converge_order(
-    scene: SolverState, rtol: float, near: HalfWidthStart | None
-) -> tuple[OrderResult, Contact, float, float, float] | None:
-    """Raise the order until the error meets rtol, then close the load and check the energy."""
-    search = LoadSearch(scene.target, *(guess_half_width(scene) if near is None else (near.log_alpha, near.slope)))
-    tight = max(1e-3 * rtol, LOAD_FLOOR)
-    tolerance = _FIRST_LOAD_TOLERANCE
-    n, last = (ORDERS[0], ORDERS[0]) if near is None else (_CORE, FIRST_TAIL)
-    longest = longest_tail(scene.creep.weights.size)
-    lost: tuple[int, float] | None = None
-    while True:
-        state = contact_at_load(scene, search, n, tolerance, last)
-        if state is None:
-            return None
-        pairs = _lower_order_errors(scene, search, state)
-        by_order = OrderErrors(*(np.max(errors, axis=0) for errors in zip(*pairs, strict=True)))
-        error = float(by_order.friction[0])
-        if error <= SETTLED_CHANGE and last <= FIRST_TAIL and _splits_in_tension(state, rtol):
-            return None
-        following = _next_orders((n, last), pairs, rtol, longest)
-        reach = layer_resolution(scene, state.contact, longest) if last > n else math.inf
-        if error <= rtol or following is None or reach < _LEAST_RESOLUTION:
-            settled = error <= rtol or following is None
-            if state.miss > tight and tolerance > tight:
-                tolerance = tight
-                continue
-            contact = state.system.whole(state.contact)
-            energy = energy_error(scene, state.contact, state.system.loss_beyond_core(contact))
-            by_loss = float(error_from_energy(energy, by_order.most)[0])
-            error = max(error, _load_mismatch_error(search, state.miss), by_loss)
-            following = _next_orders((n, last), pairs, rtol, longest, bounds=by_loss > rtol)
-            decided = last >= SIGN_ORDER or worst_sign(contact, rtol) is not PressureSign.UNDECIDED
-            if settled and last > n and layer_beyond_reach(scene, contact, (last, longest), error / rtol):
-                following = None
-            here = last, float(energy[0])
-            if not _energy_error_falls(lost, here):
-                error = max(error, float(edge_layer_error(energy, scene.creep, contact.alpha, last)[0]))
-                if reach < _LEAST_RESOLUTION and lost is not None and here[1] > _FAR_OFF * rtol:
-                    following = None
-            lost = here
-            if (error <= rtol and decided) or following is None:
-                return state, contact, error, here[1], float(by_order.edges[0])
-        n, last = following
-        search.reset_bracket()
+        )
 
 
 def _lower_order_errors(scene: SolverState, search: LoadSearch, state: OrderResult) -> list[OrderErrors]:
@@ -152,11 +180,6 @@ def _lower_order_errors(scene: SolverState, search: LoadSearch, state: OrderResu
         order_errors(state.contact, lower_order_contacts(lower, state.contact, scene.problem.rho), exponent)
         for lower in state.system.lower
     ]
-
-
-def _splits_in_tension(state: OrderResult, rtol: float) -> bool:
-    """True where the contact, with the orders of its tail, is in tension somewhere: it splits."""
-    return worst_sign(state.system.whole(state.contact), rtol) is PressureSign.PULLING
 
 
 def _load_mismatch_error(search: LoadSearch, miss: float) -> float:

@@ -59,6 +59,7 @@ Index = NDArray[np.int_]
 _SEARCH_ORDER = 10
 ROUGH_RTOL = 1e-6  # relative error of eccentricities on the way: a tenth of the cubics'
 _SAMPLES, SEARCH_RANGE = 4, 0.25  # half widths sampled, to both sides of the guess in ln α
+_GUESS_RANGES = (SEARCH_RANGE, SEARCH_RANGE, SEARCH_RANGE, 0.05, 0.05, 0.05)  # those near the roll's end come last
 _SPAN = 2.0 * math.cos(0.5 * math.pi / _SAMPLES)  # of the samples, over that range
 _OUTSIDE_SHARE = 0.2  # of the samples' span of ln p: farther beyond them, the guess was wrong
 WIDTH_ROOM = 1.4  # the rule is valid for contacts wider than the guess by this factor: exp(1.3 x 0.25)
@@ -75,7 +76,6 @@ _WIDEST_ON_ROLL = 0.98  # of its radius: the widest half width
 _WIDE_CHUNK = 16  # wide ones have several times the nodes
 _MOST_ENTRIES = 3_000_000  # of the matrices that are formed together
 _LARGEST_ORDER_STEP = 2.0  # times the order, in one step
-_MOST_GUESSES = 4
 _FLATTEST, _FARTHEST_GUESS = 0.4, 1.5  # d ln p/d ln α; ln of half widths
 _CAPS = np.array(WINDOW_CAPS)
 CHUNK_SIZE = 200  # problems whose tables stay in the processor's cache
@@ -139,16 +139,15 @@ def solve_batch(
     grades = rule_grades(rtol)
     for members in group_by_layer(problems):
         group = ProblemBatch.of([problems[i] for i in members], [creeps[i] for i in members])
-        widest = np.minimum(_WIDEST_ON_ROLL * group.rho, WINDOW_CAPS[-1]) / WIDTH_ROOM
-        alpha = guess_half_widths(group)
-        rows = np.arange(alpha.size)
-        for _ in range(_MOST_GUESSES):
-            alpha = np.minimum(alpha, widest)
+        alpha, rows = guess_half_widths(group), np.arange(len(members))
+        for span in _GUESS_RANGES:
+            room = WIDTH_ROOM ** (span / SEARCH_RANGE)
+            alpha = np.minimum(alpha, np.minimum(_WIDEST_ON_ROLL * group.rho, WINDOW_CAPS[-1]) / room)
             strayed = []
-            for chosen in _similar_chunks(group, alpha, rows, grades[0]):
+            for chosen in _similar_chunks(group, room * alpha, rows, grades[0]):
                 part = group[chosen]
-                rules = short_rules(part.layers, part.creeps, WIDTH_ROOM * alpha[chosen], grades)
-                search = HalfWidthSearch(part, rules, alpha[chosen], rtol)
+                rules = short_rules(part.layers, part.creeps, room * alpha[chosen], grades)
+                search = HalfWidthSearch(part, rules, alpha[chosen], rtol, span)
                 for row, outcome in _OrderControl(search, rtol).outcomes().items():
                     outcomes[members[chosen[row]]] = outcome
                 if search.stray.any():
@@ -160,9 +159,9 @@ def solve_batch(
     return outcomes
 
 
-def _similar_chunks(group: ProblemBatch, alpha: Array, rows: Index, grade: RuleGrade) -> Iterator[Index]:
+def _similar_chunks(group: ProblemBatch, widest: Array, rows: Index, grade: RuleGrade) -> Iterator[Index]:
     """Chunks of similar problems that fit the cache, without those whose rules would be too long."""
-    half_width = WIDTH_ROOM * alpha[rows]
+    half_width = widest[rows]
     caps = np.searchsorted(_CAPS, half_width)
     panels = panel_count(group.layers.reach(grade.depth)[rows], half_width, grade)
     order = np.lexsort((half_width, panels, caps))
@@ -206,10 +205,10 @@ def guess_half_widths(group: ProblemBatch) -> Array:
     return np.exp([np.interp(*each) for each in zip(group.target, log_load, log_alpha, strict=True)])
 
 
-@lru_cache(maxsize=1)
-def _sample_ratios() -> tuple[float, ...]:
-    """Half widths over the guess at Chebyshev points of the search range, from the widest down."""
-    return tuple(np.exp(SEARCH_RANGE * np.cos((np.arange(_SAMPLES) + 0.5) * (np.pi / _SAMPLES))).tolist())
+@lru_cache(maxsize=2)
+def _sample_ratios(span: float) -> tuple[float, ...]:
+    """Half widths over the guess at Chebyshev points of a range of ln α, from the widest down."""
+    return tuple(np.exp(span * np.cos((np.arange(_SAMPLES) + 0.5) * (np.pi / _SAMPLES))).tolist())
 
 
 class CubicInterpolants:
@@ -269,13 +268,14 @@ class HalfWidthSearch:
     evaluation gives the next place, and the contact there once it is near.
     """
 
-    def __init__(self, group: ProblemBatch, rules: Sequence[ShortRule], alpha: Array, rtol: float) -> None:
-        self.group, self.tolerance = group, PLACE_SHARE * rtol
+    def __init__(self, group: ProblemBatch, rules: Sequence[ShortRule], alpha: Array, rtol: float, span: float) -> None:
+        self.group, self.tolerance, self.width = group, PLACE_SHARE * rtol, _SPAN * span
         self.rule, self.check = rules
         self.middle = np.log(alpha)
         size = alpha.size
-        sampled = np.multiply.outer(alpha, _sample_ratios()).ravel()
-        matrix = GalerkinTables.of(group.creeps, alpha).matrices(self.rule, _SEARCH_ORDER, _sample_ratios())
+        ratios = _sample_ratios(span)
+        sampled = np.multiply.outer(alpha, ratios).ravel()
+        matrix = GalerkinTables.of(group.creeps, alpha).matrices(self.rule, _SEARCH_ORDER, ratios)
         contact = solve_equilibrium(matrix, sampled, np.repeat(group.rho, _SAMPLES), tolerance=ROUGH_RTOL)
         pressing = contact.inside & (contact.pressure > 0.0)
         good = pressing.reshape(size, _SAMPLES).all(axis=1)
@@ -302,7 +302,7 @@ class HalfWidthSearch:
     @property
     def extrapolated(self) -> Array:
         """Half widths where a straight line through the middle meets the load, for those far outside."""
-        exponent = np.maximum(self.span / (_SPAN * SEARCH_RANGE), _FLATTEST)
+        exponent = np.maximum(self.span / self.width, _FLATTEST)
         away = (self.group.target - self.cubics.y.mean(axis=1)) / exponent
         values: Array = np.exp(self.middle + np.clip(away, -_FARTHEST_GUESS, _FARTHEST_GUESS))
         return values
@@ -363,7 +363,7 @@ class HalfWidthSearch:
         # errors of the cubics: of friction, of the load
         cut = _CUBIC_ERROR * np.abs(self.cubics.parts[3][:, rows]) * (self.span[rows] / _SPAN) ** 3
         off = np.where(lossy, np.abs(_log_magnitude(contact.friction, lossy) - here[2]) + cut[2], 0.0)
-        off += np.abs(self.group.target[rows] + miss - y_from) + cut[0] * self.span[rows] / (_SPAN * SEARCH_RANGE)
+        off += np.abs(self.group.target[rows] + miss - y_from) + cut[0] * self.span[rows] / self.width
         met = Contact(
             alpha,
             eps,

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import permutations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,6 +36,7 @@ from conveyor.contact.galerkin.spectral import (
     assemble_matrix,
     contact_from_coefficients,
     mean_displacement,
+    sign_factors,
 )
 from conveyor.contact.solvers.solver_state import SolverState
 
@@ -48,6 +50,8 @@ _CHUNK = 4_000_000
 _NEWTON_STEPS = 24
 _STEP_SHRINKAGE = 0.25  # a step of the one before; else the Jacobian is formed anew
 _STALL_FACTOR = 100.0  # times the tolerance: steps that shrink no more are rounding
+_CLOSING = 0.25  # of the first gap: strips that come as close run into one another
+_LARGEST_GROWTH = math.log(10.0)  # of ln α from the first: a line that grows as much has no balance here
 _DIFFERENCE = 1e-6  # of α, for the Jacobian's columns: Newton then gains six digits a step
 _LARGEST_STEP, _LARGEST_LOG, _ROOM = (
     0.5,
@@ -132,9 +136,11 @@ def balance_strips(
     count, rho = alpha.size, scene.problem.rho
     place = np.concatenate([centre, np.log(alpha)])
     before = last = math.inf
+    closest = _CLOSING * smallest_gap(centre, alpha)
     for _ in range(_NEWTON_STEPS):
         x, a = place[:count], np.exp(place[count:])
-        if np.any(a + np.abs(x) >= rho) or too_close(x, a):
+        astray = np.abs(np.log(a / alpha)).max() > _LARGEST_GROWTH or smallest_gap(x, a) < closest
+        if astray or np.any(a + np.abs(x) >= rho) or too_close(x, a):
             return None
         unit = np.concatenate([a, np.ones(count)])
         steps = _DIFFERENCE * unit if jacobian is None else np.empty(0)
@@ -248,34 +254,26 @@ def _gap_window(
 
 
 def _coupling_blocks(scene: SolverState, n: int, centre: Array, alpha: Array) -> tuple[Array, Array]:
-    """Slopes and heights of strip l per coefficient of strip r; shapes (k, l, n+1, l, n) and (k, l, l, n).
-
-    Blocks l = r are meaningless: the slope's is replaced by the caller, the height's set to zero.
-    """
+    """Slopes and heights of strip l per coefficient of strip r ≠ l; shapes (k, l, n+1, l, n) and (k, l, l, n)."""
     k, count = alpha.shape
     gap = min(smallest_gap(centre[i], alpha[i]) for i in range(k))
     m, weights = _gap_window(scene, gap, max(_outer_span(centre[i], alpha[i]) for i in range(k)))
-    i = np.arange(n + 1)
-    turn = (1j) ** (i % 4)
-    slopes = np.zeros((k, count * (n + 1), count * n))
-    heights = np.zeros((k, count, count * n))
+    apart, same = np.unique(alpha.ravel(), return_inverse=True)
+    real, imaginary, _ = sign_factors(n)
+    v = np.arange(1.0, n + 1.0)
+    turn = v * (1j) ** ((1 - np.arange(1, n + 1)) % 4)
+    slopes, heights = np.zeros((k, count, n + 1, count, n)), np.zeros((k, count, count, n))
     step = max(64, _CHUNK // (k * count * (n + 1)))
     for start in range(0, m.size, step):
         part, weight = m[start : start + step], weights[start : start + step]
-        table = np.moveaxis(bessel_j(n, np.multiply.outer(alpha, part)), 0, 2)
-        wave = np.exp(1j * np.multiply.outer(centre, part))[:, :, None]
-        test = turn[:, None] * table * wave
-        source = np.conj(test[:, :, 1:]) * weight
-        tests = test.reshape(k, count * (n + 1), part.size)
-        sources = source.reshape(k, count * n, part.size).swapaxes(1, 2)
-        slopes -= tests.real @ sources.real - tests.imag @ sources.imag
-        heights += np.real((1j * test[:, :, 0] / part) @ sources)
-    v = np.arange(1.0, n + 1.0)
-    slopes = slopes.reshape(k, count, n + 1, count, n) * v
-    slopes[:, :, 1:] *= 2.0
-    heights = heights.reshape(k, count, count, n) * v
-    strip = np.arange(count)
-    heights[:, strip, strip] = 0.0
+        table = np.moveaxis(bessel_j(n, np.multiply.outer(apart, part)), 0, 1)[same].reshape(k, count, n + 1, -1)
+        for one, other in permutations(range(count), 2):
+            wave = weight * np.exp(1j * np.multiply.outer(centre[:, one] - centre[:, other], part))
+            across = table[:, other, 1:].swapaxes(1, 2)
+            for side, factor, height in ((wave.real, real, turn.real), (wave.imag, imaginary, -turn.imag)):
+                rows = table[:, one] * side[:, None]
+                slopes[:, one, :, other] += factor * (rows @ across)
+                heights[:, one, other] += height * ((rows[:, :1] / part) @ across)[:, 0]
     return slopes, heights
 
 
