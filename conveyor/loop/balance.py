@@ -71,7 +71,7 @@ class Balance:
     --------
     >>> import conveyor
     >>> conveyor.analyse(conveyor.load("examples/specs/overland.yaml")).balance
-    Balance(effective tension 228 kN, motor 1,210 kW, f 0.0129, tight side 342 kN, slack side 114 kN)
+    Balance(effective tension 229 kN, motor 1,220 kW, f 0.0129, tight side 366 kN, slack side 137 kN)
     """
 
     along: tuple[Force, ...]
