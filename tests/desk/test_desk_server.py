@@ -33,6 +33,7 @@ from conveyor.report.tables.study_tables import year_table
 from conveyor.results.analysis import analyse, studies
 from conveyor.studies.duty import analyse_duty
 from conveyor.studies.loads import every_load
+from tests.command_line import run
 
 PORT = 8123
 TWICE_RTOL = 2e-4
@@ -630,13 +631,9 @@ def test_starts_are_followed_through_time_and_tell_their_progress(client):
 # ---- the command
 
 
-def test_without_its_packages_the_command_says_what_to_install(monkeypatch, capsys):
+def test_without_its_packages_the_command_says_what_to_install():
     from conveyor.cli import desk_command
-    from conveyor.cli.entry_point import main
 
-    monkeypatch.setattr(desk_command, "find_spec", lambda _: None)
-    monkeypatch.setattr(sys, "argv", ["conveyor", "desk"])
-    with pytest.raises(SystemExit) as ended:
-        main()
-    assert ended.value.code == 2
-    assert 'pip install "conveyor[desk]"' in capsys.readouterr().err
+    done = run("desk", spoil=lambda patched: patched.setattr(desk_command, "find_spec", lambda _: None))
+    assert done.returncode == 2
+    assert 'pip install "conveyor[desk]"' in done.stderr
