@@ -61,7 +61,7 @@ def test_the_take_up_serves_the_expected_and_the_design_friction():
     plain, more = designed("overland", 1.0).balance.settled, designed("overland", 1.4).balance.settled
     assert set(more.states) - set(plain.states) == {DESIGN, DESIGN_START}
     assert more.needed > plain.needed
-    assert more.needed == max(more.conditions.values())
+    assert more.needed == pytest.approx(max(more.conditions.values()), rel=ROUNDING)
     assert "design friction" in more.governing
     # Eytelwein at the start: slack side over drive force, 210 deg at 0.35
     start = more.states[DESIGN_START].drives[0]

@@ -61,7 +61,7 @@ def test_each_default_scales_its_force_and_nothing_else(bare):
         force = parts[keys[one.key]]
         for factor, power in ((one.low_factor, one.motor_low), (one.high_factor, one.motor_high)):
             assert power - left.motor == pytest.approx((factor - 1.0) * force * watts, rel=ROUNDING)
-    assert (left.low, left.high) == root_of_squares(left.motor, left.effects)
+    assert (left.low, left.high) == pytest.approx(root_of_squares(left.motor, left.effects), rel=ROUNDING)
     rotation, flexure, rubber, askew = (
         parts[key] * watts for key in ("idler_rotation", "flexure", "indentation", "misalignment")
     )
