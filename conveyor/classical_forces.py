@@ -29,6 +29,7 @@ from conveyor.line.bend_pulleys import BendPulley
 from conveyor.line.cema_factors import CemaFactors
 from conveyor.line.line import Line
 from conveyor.line.stretches import Stretch
+from conveyor.models.calculation_methods import METHOD_NAMES
 
 Array = NDArray[np.float64]
 
@@ -48,10 +49,9 @@ def factor_main_force(line: Line, unit_main: Array) -> Force:
     unit_main : ndarray, shape (2n,)
         Main resistance of every stretch for f = 1 [N].
     """
-    name = {"iso 5048": "ISO 5048", "din 22101": "DIN 22101"}[line.method]
     return Force(
         "main_by_factor", f"main resistance, f = {line.friction_factor:g}", "main", line.friction_factor * unit_main,
-        f"{name}, F_H with f given", short="main resistance",
+        f"{METHOD_NAMES[line.method]}, F_H with f given", short="main resistance",
     )  # fmt: skip
 
 
