@@ -251,6 +251,8 @@ class PowerRange:
         90 % band of the friction over the computed one [-]: of every force but lift and acceleration of the bulk.
     design_friction, design : float
         Friction that motors, belt, grip and take-up are designed for, over the computed one [-]; the power with it [W].
+    design_given : bool
+        True if the spec gives that friction; else it is the upper end of the band.
     untested : tuple of Message
         Rubbers without rolling-resistance tests at the belt's temperature.
     """
@@ -262,6 +264,7 @@ class PowerRange:
     friction: tuple[float, float] = (1.0, 1.0)
     design_friction: float = 1.0
     design: float = 0.0
+    design_given: bool = False
     untested: tuple[Message, ...] = ()
 
 
@@ -299,7 +302,8 @@ def power_range(result: CalculatedConveyor) -> PowerRange:
     low, high = sorted(map(motor, map(settled.resistance, friction)))
     return PowerRange(
         motor(settled.force), low, high, tuple(effects), friction,
-        result.line.design_friction, motor(settled.design_force), tuple(_untested_rubbers(result)),
+        result.line.design_friction, motor(settled.design_force), result.conveyor.drive.design_friction is not None,
+        tuple(_untested_rubbers(result)),
     )  # fmt: skip
 
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
-from typing import Final
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.default_bands import PowerRange
@@ -12,9 +10,6 @@ from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.report.table_model import Column, Figure, PagePlacement, Table, figure_table
 from conveyor.units import System
 from conveyor.units.presentation import MONEY, format_figure
-
-_BAND_TOLERANCE: Final = 1e-3
-"""Of the upper end of the band against the friction to design for: the take-up moves the wraps of the pulleys."""
 
 
 def result_table(a: CalculatedConveyor, left_open: PowerRange) -> Table:
@@ -101,8 +96,7 @@ def default_table(left_open: PowerRange, system: System) -> Table:
 
 def _design_friction_text(power: PowerRange) -> str:
     """Friction to design for over the computed one, and where it comes from."""
-    upper_end = math.isclose(power.design_friction, power.friction[1], rel_tol=_BAND_TOLERANCE)
-    source = "the upper end of the band" if upper_end else "drive.design_friction"
+    source = "drive.design_friction" if power.design_given else "the upper end of the band"
     return f"{power.design_friction:.3g} times the expected friction, {source}"
 
 
