@@ -57,8 +57,10 @@ class Line:
         The sections, and their stretches with the loads of their rolls.
     roll_drags : tuple of tuple of float
         Drag of each roll of one set at its rim, of every stretch [N].
-    speed, flow, density, gravity : float
+    speed, flow, gravity : float
         Of the belt, the bulk, the site.
+    density, weight_density : float
+        Of the bulk as it fills the cross-section, and at its heaviest [kg/m³].
     lump : float or None
         Largest size of the bulk [m], where the spec says it.
     drives : tuple of DriveUnit
@@ -87,6 +89,7 @@ class Line:
     speed: float
     flow: float
     density: float
+    weight_density: float
     lump: float | None
     gravity: float
     loading: tuple[LoadingPoint, ...]
@@ -151,6 +154,7 @@ class Line:
             speed=si(conveyor.belt.speed),
             flow=si(conveyor.material.flow),
             density=si(conveyor.material.density),
+            weight_density=si(conveyor.material.heaviest),
             lump=None if conveyor.belt.wear is None else si(conveyor.belt.wear.lump),
             gravity=si(calculation.gravity),
             loading=loading_points(conveyor, places),
