@@ -37,8 +37,8 @@ class BulkMaterial(LibraryItem):
         heavy = self.weight_density
         if heavy is not None and si(heavy) < si(self.density):
             message = (
-                f"got {text(heavy)}, less than the density {text(self.density)} that fills the belt: density is that of "
-                "the loosest bulk, weight_density that of the heaviest; exchange the two"
+                f"got {text(heavy)}, less than the density {text(self.density)} that fills the belt: density is that "
+                "of the loosest bulk, weight_density that of the heaviest; exchange the two"
             )
             raise_problems("BulkMaterial", [Problem(("weight_density",), message)])
         return self

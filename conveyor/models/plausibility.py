@@ -55,8 +55,8 @@ def _check_density(conveyor: Conveyor) -> Iterator[Message]:
     field = "density" if material.weight_density is None else "weight_density"
     if si(material.heaviest) > HEAVIEST_BULK:
         yield message(
-            f"material.{field} {text(material.heaviest)}: no bulk that belts carry is heavier than {{}} (general knowledge); "
-            "look again",
+            f"material.{field} {text(material.heaviest)}: no bulk that belts carry is heavier than {{}} (general "
+            "knowledge); look again",
             (HEAVIEST_BULK, "density"),
         )
 

@@ -85,13 +85,13 @@ def test_both_stand_in_the_report(own):
 
 
 def test_less_than_what_fills_is_refused(spec):
-    with pytest.raises(InputError, match="less than the density 1860 kg/m\\^3 that fills the belt.*exchange the two"):
+    with pytest.raises(InputError, match=r"less than the density 1860 kg/m\^3 that fills the belt.*exchange the two"):
         with_fields(spec, {"material.weight_density": "1.5 t/m^3"})
 
 
 def test_heavy_bulk_needs_its_density(spec):
     bare = {"material.weight_density": None, "cases": [{"name": "heavy", "loading": "heavy bulk"}]}
-    with pytest.raises(InputError, match='got "heavy bulk" without material.weight_density'):
+    with pytest.raises(InputError, match=r'got "heavy bulk" without material\.weight_density'):
         with_fields(spec, bare)
 
 

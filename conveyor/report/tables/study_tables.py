@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 
 _FLOODED = (
     "Bulk at its heaviest, heaped from edge to edge of the belt at its surcharge angle, on the whole route, at the "
-    "take-up's setting: load on structure, belt and drives if the feeder does not stop (general knowledge). Nothing is checked by "
-    "it; the mass is without sets and frame."
+    "take-up's setting: load on structure, belt and drives if the feeder does not stop (general knowledge). Nothing is "
+    "checked by it; the mass is without sets and frame."
 )
 _STATES, _CASES, _DUTY, _UNCERTAINTY = "load-states", "load-cases", "duty", "uncertainty"
 _TENSIONS = (
