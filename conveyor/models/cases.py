@@ -23,7 +23,7 @@ class LoadCase(Model):
     name: Name
     """Each its own."""
     loading: Loading = "as given"
-    """Sections that bear bulk: as given (part load, heavy bulk too), all, none, those that rise or fall only, those named."""
+    """Sections that bear bulk: as given (part load, heavy bulk too), all, none, those up or down only, those named."""
     sections: Annotated[tuple[Name, ...], Field(max_length=20000)] = ()
     """The sections that bear bulk, for loading "sections"."""
     share: Annotated[Fraction, Bounds(gt="0 %", le="200 %")] | None = None
