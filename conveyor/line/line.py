@@ -39,6 +39,7 @@ from conveyor.line.transfer_parts import (
     loading_points,
     plough_blades,
 )
+from conveyor.line.weigh_sections import WeighSection, weigh_sections
 from conveyor.models import Calculation, Conveyor
 from conveyor.models.calculation_methods import FACTOR_METHODS, Method
 from conveyor.units import si
@@ -97,6 +98,7 @@ class Line:
     carryback: tuple[float | None, float | None]
     discharge: HeadDischarge | None
     ploughs: tuple[PloughBlade, ...]
+    belt_scales: tuple[WeighSection, ...]
     pulleys: tuple[BendPulley, ...]
     transitions: tuple[TransitionZone, ...]
     drives: tuple[DriveUnit, ...]
@@ -162,6 +164,7 @@ class Line:
             carryback=(si_or_none(conveyor.route.carryback), si_or_none(conveyor.route.carryback_allowed)),
             discharge=head_discharge(conveyor),
             ploughs=plough_blades(conveyor, places),
+            belt_scales=weigh_sections(conveyor),
             pulleys=bend_pulleys(conveyor, places),
             transitions=transition_zones(conveyor),
             drives=drive_units(conveyor, places),
