@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterator
 
 from conveyor.calculated_conveyor import CalculatedConveyor
-from conveyor.checks.check import Check, Verdict, check_against_limit, pass_or_fail
+from conveyor.checks.check import Check, Relation, Verdict, check_against_limit, pass_or_fail
 from conveyor.laws.weighing import LEAST_CURVE_DISTANCE, SCALE_CONVEYOR_LENGTHS, alignment_error, weigh_idler_distance
 from conveyor.line.line import Line
 from conveyor.line.weigh_sections import WeighSection
@@ -55,7 +55,10 @@ def _trade_checks(line: Line, scale: WeighSection) -> Iterator[Check]:
     if not scale.for_trade:
         return
     name, (shortest, longest) = escape_braces(scale.name), SCALE_CONVEYOR_LENGTHS
-    for key, relation, limit in (("shortest", "at least", shortest), ("longest", "at most", longest)):
+    limits: tuple[tuple[str, Relation, float], ...] = (
+        ("shortest", "at least", shortest), ("longest", "at most", longest),
+    )  # fmt: skip
+    for key, relation, limit in limits:
         yield check_against_limit(
             f"scale_{key}", f"length of a conveyor with a scale for trade, {name}, {key}", line.length, relation, limit,
             "length", source=_SOURCE,
