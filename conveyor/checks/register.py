@@ -37,6 +37,7 @@ from conveyor.checks.pulley_checks import (
     pulley_diameter,
     pulley_shaft,
 )
+from conveyor.checks.scale_checks import belt_scales
 from conveyor.checks.tension_checks import belt_sag, drive_grip, slack_belt, take_up_tension, take_up_travel
 from conveyor.line.line import Line
 from conveyor.loop.worst_loadings import SINGLE_CHANGE_SECTIONS
@@ -74,7 +75,8 @@ CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     belt_filling, motor_power, take_up_tension, take_up_travel, drive_grip, belt_sag, slack_belt, belt_safety,
     belt_rating,
     belt_breakage, splice_strength, cover_thickness, belt_temperature, pulley_diameter, curve_radius,
-    wind_lift, horizontal_edges, belt_drift, belt_transitions, impact_load, skirtboards, belt_cleaning, pulley_shaft,
+    wind_lift, horizontal_edges, belt_drift, belt_transitions, impact_load, skirtboards, belt_cleaning, belt_scales,
+    pulley_shaft,
     pulley_bearings, lagging_pressure, starting_force, comes_to_rest, holding_brake, drive_parts, coasting_time,
     bulk_slip,
     cover_penetration, roll_life, set_rating, roll_axle, belt_flap, rubber_coverage,

@@ -109,7 +109,7 @@ def _cover_requirements(conveyor: Conveyor) -> tuple[CoverRequirement, ...]:
     least = least_cover(si(belt.carcass.thickness), steel_cord=belt.carcass.kind == "steel cord")
     wear = wear_addition(
         lump=si(belt.wear.lump),
-        density=si(conveyor.material.density),
+        density=si(conveyor.material.heaviest),
         round_time=2.0 * conveyor.route.length / si(belt.speed),
         abrasiveness=belt.wear.abrasiveness,
         loading=belt.wear.loading or fall_severity(drop),

@@ -39,6 +39,7 @@ from conveyor.line.transfer_parts import (
     loading_points,
     plough_blades,
 )
+from conveyor.line.weigh_sections import WeighSection, weigh_sections
 from conveyor.models import Calculation, Conveyor
 from conveyor.models.calculation_methods import FACTOR_METHODS, Method
 from conveyor.units import si
@@ -57,8 +58,10 @@ class Line:
         The sections, and their stretches with the loads of their rolls.
     roll_drags : tuple of tuple of float
         Drag of each roll of one set at its rim, of every stretch [N].
-    speed, flow, density, gravity : float
+    speed, flow, gravity : float
         Of the belt, the bulk, the site.
+    density, weight_density : float
+        Of the bulk as it fills the cross-section, and at its heaviest [kg/m³].
     lump : float or None
         Largest size of the bulk [m], where the spec says it.
     drives : tuple of DriveUnit
@@ -89,6 +92,7 @@ class Line:
     speed: float
     flow: float
     density: float
+    weight_density: float
     lump: float | None
     gravity: float
     loading: tuple[LoadingPoint, ...]
@@ -96,6 +100,7 @@ class Line:
     carryback: tuple[float | None, float | None]
     discharge: HeadDischarge | None
     ploughs: tuple[PloughBlade, ...]
+    belt_scales: tuple[WeighSection, ...]
     pulleys: tuple[BendPulley, ...]
     transitions: tuple[TransitionZone, ...]
     drives: tuple[DriveUnit, ...]
@@ -154,6 +159,7 @@ class Line:
             speed=si(conveyor.belt.speed),
             flow=si(conveyor.material.flow),
             density=si(conveyor.material.density),
+            weight_density=si(conveyor.material.heaviest),
             lump=None if conveyor.belt.wear is None else si(conveyor.belt.wear.lump),
             gravity=si(calculation.gravity),
             loading=loading_points(conveyor, places),
@@ -161,6 +167,7 @@ class Line:
             carryback=(si_or_none(conveyor.route.carryback), si_or_none(conveyor.route.carryback_allowed)),
             discharge=head_discharge(conveyor),
             ploughs=plough_blades(conveyor, places),
+            belt_scales=weigh_sections(conveyor),
             pulleys=bend_pulleys(conveyor, places),
             transitions=transition_zones(conveyor),
             drives=drive_units(conveyor, places),

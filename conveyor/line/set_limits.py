@@ -64,7 +64,7 @@ class SetLimits:
     def of(cls, stretch: Stretch, line: Line, *, tension: float) -> SetLimits:
         """Limits and load of a stretch's sets at the highest belt tension that occurs there [N]."""
         given, belt_width = stretch.idlers, line.belt.width
-        lumps = given.lump_factor or usual_lump_factor(line.lump, line.density)
+        lumps = given.lump_factor or usual_lump_factor(line.lump, line.weight_density)
         load = math.fsum(roll.belt_force + (lumps or 1.0) * roll.bulk_force for roll in stretch.loads)
         load += raised_set_load(max(tension, 0.0), height=raised_height(stretch), spacing=stretch.spacing)
         ratings = {

@@ -11,7 +11,7 @@ from conveyor.models.base import Model, Name, Problem, raise_problems
 from conveyor.models.operation import BeltSpeed, EarthTemperature
 from conveyor.units import Bounds, Fraction, Quantity, text
 
-Loading = Literal["as given", "full", "empty", "inclines only", "declines only", "part load", "sections"]
+Loading = Literal["as given", "full", "empty", "inclines only", "declines only", "part load", "heavy bulk", "sections"]
 
 STANDARD_LOADINGS: Final[tuple[Loading, ...]] = ("full", "empty", "inclines only", "declines only")
 """Loadings that every conveyor with inclines and declines is checked for."""
@@ -23,7 +23,7 @@ class LoadCase(Model):
     name: Name
     """Each its own."""
     loading: Loading = "as given"
-    """Sections that bear bulk: as given (part load too), all, none, those that rise or fall only, or those named."""
+    """Sections that bear bulk: as given (part load, heavy bulk too), all, none, those up or down only, those named."""
     sections: Annotated[tuple[Name, ...], Field(max_length=20000)] = ()
     """The sections that bear bulk, for loading "sections"."""
     share: Annotated[Fraction, Bounds(gt="0 %", le="200 %")] | None = None

@@ -89,8 +89,12 @@ class Conveyor(ConveyorParts):
         yield from duplicate_case_names(self.cases)
 
     def _case_problems(self) -> Iterator[Problem]:
-        """Refuse cases and scenarios that name sections or drives the conveyor does not have."""
+        """Refuse cases and scenarios that name sections, drives or a density the conveyor does not have."""
         named = [("cases", i, case.sections) for i, case in enumerate(self.cases)]
+        for i, case in enumerate(self.cases):
+            if case.loading == "heavy bulk" and self.material.weight_density is None:
+                message = 'got "heavy bulk" without material.weight_density; give that, or another loading'
+                yield Problem(("cases", i, "loading"), message)
         named += [("scenarios", i, scenario.sections) for i, scenario in enumerate(self.scenarios)]
         for field, i, sections in named:
             for j, name in enumerate(sections):
@@ -111,6 +115,6 @@ class Conveyor(ConveyorParts):
 CHECKS: Final[Mapping[Callable[[Any], Iterator[Problem]], tuple[str, ...]]] = {
     **CONFLICTS,
     Conveyor._case_names: ("cases",),  # noqa: SLF001 of this module
-    Conveyor._case_problems: ("cases", "drive", "route", "scenarios"),  # noqa: SLF001
+    Conveyor._case_problems: ("cases", "drive", "material", "route", "scenarios"),  # noqa: SLF001
 }
 """Checks across fields, and the fields that each check reads."""

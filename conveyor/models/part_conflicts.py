@@ -155,6 +155,20 @@ def _spacing_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
                 yield from overlap_problems(("route", "sections", i, f"{strand}_spacing"), spacing, idlers)
 
 
+def _scale_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Refuse a belt scale that does not end within its section."""
+    lengths = {section.name: section for section in conveyor.route.sections}
+    for i, scale in enumerate(conveyor.route.belt_scales):
+        section = lengths[scale.section]
+        spacing = section.carry_spacing or conveyor.idlers.carry.spacing
+        if si(scale.distance) + (scale.weigh_sets - 1) * si(spacing) > si(section.length):
+            yield Problem(
+                ("route", "belt_scales", i, "distance"),
+                f"got {text(scale.distance)} and {scale.weigh_sets} weigh_sets {text(spacing)} apart, but section "
+                f'"{section.name}" is only {text(section.length)} long: stand it nearer, or name the section it is in',
+            )
+
+
 def _cover_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Refuse a cover as thick as the radius of a roll that runs on it."""
     belt, idlers = conveyor.belt, conveyor.idlers
@@ -321,6 +335,7 @@ CONFLICTS: Final[Mapping[Callable[[ConveyorParts], Iterator[Problem]], tuple[str
     _roll_length_problems: ("belt", "idlers"),
     _fill_problems: ("belt", "idlers", "material"),
     _spacing_problems: ("idlers", "route"),
+    _scale_problems: ("idlers", "route"),
     _idler_class_problems: ("belt", "idlers"),
     _wear_problems: ("belt", "route"),
     _cover_problems: ("belt", "idlers", "route"),

@@ -51,11 +51,12 @@ def _check_flow(conveyor: Conveyor) -> Iterator[Message]:
 
 
 def _check_density(conveyor: Conveyor) -> Iterator[Message]:
-    density = conveyor.material.density
-    if si(density) > HEAVIEST_BULK:
+    material = conveyor.material
+    field = "density" if material.weight_density is None else "weight_density"
+    if si(material.heaviest) > HEAVIEST_BULK:
         yield message(
-            f"material.density {text(density)}: no bulk that belts carry is heavier than {{}} (general knowledge); "
-            "look again",
+            f"material.{field} {text(material.heaviest)}: no bulk that belts carry is heavier than {{}} (general "
+            "knowledge); look again",
             (HEAVIEST_BULK, "density"),
         )
 

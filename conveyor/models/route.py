@@ -13,6 +13,7 @@ from pydantic import Field, model_validator
 from conveyor.laws.resistance import BULK_ON_BELT_FRICTION, BULK_ON_SKIRT_FRICTION, CLEANER_FRICTION, CLEANER_PRESSURE
 from conveyor.laws.transfer import CLEANER_EFFICIENCY
 from conveyor.models.base import Model, Name, Number, Problem, Switch, raise_problems
+from conveyor.models.belt_scale import BeltScale
 from conveyor.models.idlers import Spacing
 from conveyor.models.loop_parts import Pulley, TakeUp, Transition
 from conveyor.models.ploughs import Plough
@@ -278,6 +279,7 @@ class Route(Model):
     discharge: Discharge | None = None
     """Over the head pulley; no trajectory without it."""
     ploughs: Annotated[tuple[Plough, ...], Field(max_length=100)] = ()
+    belt_scales: Annotated[tuple[BeltScale, ...], Field(max_length=10)] = ()
     pulleys: Annotated[tuple[Pulley, ...], Field(max_length=100)] = ()
     head_transition: Transition | None = None
     """From the last full trough to the head pulley."""
@@ -307,6 +309,7 @@ class Route(Model):
             (("pulleys", i, "section"), pulley.section) for i, pulley in enumerate(self.pulleys)
         ]
         named += [(("ploughs", i, "section"), plough.section) for i, plough in enumerate(self.ploughs)]
+        named += [(("belt_scales", i, "section"), scale.section) for i, scale in enumerate(self.belt_scales)]
         named += [(("further_feeding", i, "section"), f.section) for i, f in enumerate(self.further_feeding)]
         if self.feeding is not None:
             named.append((("feeding", "section"), self.feeding.section))

@@ -11,6 +11,7 @@ from conveyor.models.cases import LoadCase
 from conveyor.models.compound import RubberCompound
 from conveyor.models.conveyor import Conveyor
 from conveyor.models.fields import with_fields
+from conveyor.models.material import BulkMaterial
 from conveyor.models.route import Route, Section
 from conveyor.models.runs import MeasuredRun
 from conveyor.reuse import ReuseCache
@@ -64,12 +65,20 @@ def with_case(conveyor: Conveyor, case: LoadCase, *, speed: Quantity | None = No
     if case.loading in {"empty", "part load"}:
         share = 0.0 if case.share is None else si(case.share)
         changes["material"] = conveyor.material.replace(flow=scale_quantity(conveyor.material.flow, share))
+    if case.loading == "heavy bulk":
+        changes["material"] = heavy_bulk(conveyor.material)
     if case.loading in {"full", "inclines only", "declines only", "sections"}:
         named = frozenset(case.sections)
         sections = [_load_section(section, case, named) for section in conveyor.route.sections]
         if any(new is not old for new, old in zip(sections, conveyor.route.sections, strict=True)):
             changes["route"] = _feed_sections(conveyor, sections, conveyor.belt.speed if speed is None else speed)
     return conveyor.replace(**changes) if changes else conveyor
+
+
+def heavy_bulk(material: BulkMaterial) -> BulkMaterial:
+    """Bulk of the same volume flow at the density for weight."""
+    over = si(material.heaviest) / si(material.density)
+    return material.replace(density=material.heaviest, flow=scale_quantity(material.flow, over))
 
 
 def at_reduced_speed(conveyor: Conveyor, share: float) -> Conveyor:

@@ -14,7 +14,7 @@ from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.errors import ConveyorError
 from conveyor.line.stretches import Stretch
 from conveyor.models import LoadCase
-from conveyor.models.variants import with_case
+from conveyor.models.variants import heavy_bulk, with_case
 from conveyor.pipeline import calculate_many
 from conveyor.reuse import ReuseCache
 from conveyor.units import from_si
@@ -67,7 +67,7 @@ def _set_load(stretch: Stretch) -> float:
 
 
 def flooded_belt(own: CalculatedConveyor, kept: ReuseCache | None = None) -> FloodedBelt | None:
-    """Calculate a conveyor with bulk heaped from edge to edge at its surcharge angle; None if it carries no bulk.
+    """Calculate a conveyor heaped from edge to edge with bulk at its heaviest; None if it carries no bulk.
 
     Parameters
     ----------
@@ -80,8 +80,8 @@ def flooded_belt(own: CalculatedConveyor, kept: ReuseCache | None = None) -> Flo
     section, held = conveyor.flooded_section, conveyor.section_on_slope(0.0)
     if line.flow == 0.0 or section == 0.0:
         return None
-    material = conveyor.material
-    flow = from_si(section * line.speed * line.density, "mass flow", "kg/s")
+    material = heavy_bulk(conveyor.material)
+    flow = from_si(section * line.speed * line.weight_density, "mass flow", "kg/s")
     try:
         filled = conveyor.replace(material=material.replace(flow=flow))
         flooded = with_case(filled, LoadCase.from_data({"name": "flooded", "loading": "full"}))

@@ -322,7 +322,10 @@ def _with_flow(conveyor: Conveyor, factor: float) -> Conveyor:
 
 def _with_density(conveyor: Conveyor, factor: float) -> Conveyor:
     material = conveyor.material
-    return conveyor.replace(material=material.replace(density=scale_quantity(material.density, factor)))
+    densities = {"density": scale_quantity(material.density, factor)}
+    if material.weight_density is not None:
+        densities["weight_density"] = scale_quantity(material.weight_density, factor)
+    return conveyor.replace(material=material.replace(**densities))
 
 
 def _with_belt_mass(conveyor: Conveyor, factor: float) -> Conveyor:

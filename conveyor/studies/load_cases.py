@@ -30,7 +30,7 @@ MOTOR_RESERVE: Final = 1.1
 """Rated power over the largest needed [-]; general knowledge (10 to 15 % is customary), not a source."""
 AS_GIVEN: Final = "as given"
 """Name of the spec's own load."""
-_CARRYING: Final = frozenset({AS_GIVEN, "full", "part load"})
+_CARRYING: Final = frozenset({AS_GIVEN, "full", "part load", "heavy bulk"})
 
 
 @dataclass(frozen=True, eq=False)

@@ -43,6 +43,7 @@ def identity_table(conveyor: Conveyor, system: System) -> Table:
     known = ("breaking", carcass.strength, "belt strength"), ("rated", carcass.rating, "belt rating")
     strengths = "".join(f", {what} {format_figure(v, kind, system)}" for what, v, kind in known if v is not None)
     above = "rubber of the bottom cover" if top.compound is None else top.compound.name
+    heavy = "" if material.weight_density is None else f" (at its heaviest {shown(material.weight_density, 'density')})"
     rows: tuple[Figure, ...] = (
         Figure("length", "length", conveyor.route.length),
         Figure("lift", "length", conveyor.route.rise),
@@ -55,7 +56,7 @@ def identity_table(conveyor: Conveyor, system: System) -> Table:
         Figure("bottom cover", "text", f"{shown(bottom.thickness, 'thickness')}, {bottom.compound.name}"),
         Figure("carry idlers", "text", idlers(conveyor.idlers.carry)),
         Figure("return idlers", "text", idlers(conveyor.idlers.return_)),
-        Figure("material", "text", f"{material.name}, {shown(material.density, 'density')}"),
+        Figure("material", "text", f"{material.name}, {shown(material.density, 'density')}{heavy}"),
     )
     if conveyor.calculation.method != "viscoelastic":
         rows = (*rows, Figure("resistances by", "text", _method_text(conveyor)))

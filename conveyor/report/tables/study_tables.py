@@ -28,9 +28,9 @@ if TYPE_CHECKING:
     from conveyor.studies.states import CalculatedStates
 
 _FLOODED = (
-    "Bulk heaped from edge to edge of the belt at its surcharge angle, on the whole route, at the take-up's setting: "
-    "load on structure, belt and drives if the feeder does not stop (general knowledge). Nothing is checked by "
-    "it; the mass is without sets and frame."
+    "Bulk at its heaviest, heaped from edge to edge of the belt at its surcharge angle, on the whole route, at the "
+    "take-up's setting: load on structure, belt and drives if the feeder does not stop (general knowledge). Nothing is "
+    "checked by it; the mass is without sets and frame."
 )
 _STATES, _CASES, _DUTY, _UNCERTAINTY = "load-states", "load-cases", "duty", "uncertainty"
 _TENSIONS = (
