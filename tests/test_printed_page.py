@@ -46,7 +46,9 @@ TAIL = """
   (spacing, rolls) is open: they lie below the band.
 * **What was looked at and not added.** Losses of gears and motors at part load: the printed empties above are those
   of the belt, so they explain none of it (a motor loses typically 4 points of efficiency at 25 % load, Western Area
-  Power Administration 2003; enter `drive.efficiency` for the load you ask about).
+  Power Administration 2003; enter `drive.efficiency` for the load you ask about). Flexure at the tension that stands
+  there instead of at the design sag: it would lower long belts and raise slack ones, but the tension of the one
+  measured site is not published, so its size is open by a factor of four.
 """
 
 

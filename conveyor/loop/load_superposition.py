@@ -148,13 +148,7 @@ class SectionLoadings:
             ),
         )
         along = tuple(
-            replace(
-                laden,
-                newtons=np.where(on, laden.newtons, bare.newtons),
-                at_sag_limit=None
-                if laden.at_sag_limit is None or bare.at_sag_limit is None
-                else np.where(on, laden.at_sag_limit, bare.at_sag_limit),
-            )
+            replace(laden, newtons=np.where(on, laden.newtons, bare.newtons))
             for laden, bare in zip(self.full.along, self.empty.along, strict=True)
         )
         unit_main = float(rubber_free_forces(mixed.strands).unit_main.sum())
