@@ -50,6 +50,7 @@ _MOST_CHECKS: Final = 28
 _ROW_HEIGHT: Final = 15.0  # [pt]
 _GAP_HEIGHT: Final = 7.0  # [pt]
 _LINE_CHARACTERS: Final = 118
+_WHERE_CHARACTERS: Final = 105  # of a line beside a governing figure
 """Characters of the verdict on one line."""
 
 
@@ -130,7 +131,9 @@ def _governing_rows(page: SheetWriter, row: int) -> int:
         write_value(sheet.cell(i, 4), line.where, GREY)
         for j in range(1, 8):
             sheet.cell(i, j).border = _HAIR
-            sheet.cell(i, j).alignment = Alignment(horizontal="left")
+            sheet.cell(i, j).alignment = Alignment(horizontal="left", vertical="top", wrap_text=j == 4)
+        sheet.merge_cells(start_row=i, start_column=4, end_row=i, end_column=len(_COLUMNS))
+        sheet.row_dimensions[i].height = _ROW_HEIGHT * (1 + len(line.where) // _WHERE_CHARACTERS)
     return _blank_row(sheet, row + 1 + len(part.rows))
 
 

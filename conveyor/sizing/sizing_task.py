@@ -386,7 +386,7 @@ class SizingTask:
     @cached_property
     def lump_factor(self) -> float:
         """Lump factor on the bulk's load for set ratings [-]; 1 outside the printed table."""
-        return usual_lump_factor(self.lump, self.density) or 1.0
+        return usual_lump_factor(self.lump, si(self.duty.material.heaviest)) or 1.0
 
     def turns_slowly(self, roll: RollSize, speed: float) -> bool:
         """True if a roll keeps the limit of rotation."""
@@ -403,7 +403,7 @@ class SizingTask:
         duty = self.duty
         return wear_addition(
             lump=self.lump,
-            density=self.density,
+            density=si(self.duty.material.heaviest),
             round_time=2.0 * self.length / speed,
             abrasiveness=duty.abrasiveness,
             loading=duty.loading,

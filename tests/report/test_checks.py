@@ -318,3 +318,10 @@ def test_the_classical_power_stands_on_page_one_with_its_difference_by_cause(lin
     assert sum(changes) == pytest.approx((there - balance.power.motor) / 1e3, rel=2e-2)
     by_f = conveyor.analyse(line.replace(calculation=line.calculation.replace(method="din 22101")))
     assert not [row for row in by_f.contents()["governing_figures"].rows if row.subject.startswith("classical")]
+
+
+@pytest.mark.parametrize("method", ["viscoelastic", "iso 5048"])
+def test_six_figures_are_large_by_every_method(line, method):
+    made = conveyor.analyse(line.replace(calculation=line.calculation.replace(method=method))).contents()
+    for place in ("tile", "large"):
+        assert len({figure.label for figure in made.figures_for(place)}) == 6

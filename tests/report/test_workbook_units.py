@@ -317,3 +317,17 @@ def test_comparison_in_us_units(tmp_path):
     assert books[1]["Ranking"].page_setup.fitToHeight == 1
     covered = [row[6] for row in books[1]["Coverage"]["A3:G6"]]
     assert all(cell.fill.fgColor.rgb == VERDICT_STYLES[cell.value].fill.fgColor.rgb for cell in covered)
+
+
+def test_what_stands_beside_a_governing_figure_keeps_to_its_columns(pair):
+    """Wrapped over the columns to the right edge, as high as its lines."""
+    for book in pair:
+        sheet = book["Summary"]
+        column = [sheet.cell(row, 1).value for row in range(1, sheet.max_row)]
+        first, last = (column.index(heading) for heading in ("What governs the design", "The conveyor"))
+        rows = [row for row in range(first + 2, last + 1) if sheet.cell(row, 4).value]
+        assert any("classical motor power" in sheet.cell(row, 1).value for row in rows)
+        for row in rows:
+            assert sheet.cell(row, 4).alignment.wrap_text
+            assert f"D{row}:G{row}" in {str(merged) for merged in sheet.merged_cells.ranges}
+            assert sheet.row_dimensions[row].height >= 15.0 * (len(sheet.cell(row, 4).value) / 118)

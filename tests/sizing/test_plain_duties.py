@@ -12,8 +12,9 @@ import pytest
 from conveyor import shelf
 from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.errors import NoSolutionError
-from conveyor.laws.preliminary_sizing import annuity
+from conveyor.laws.preliminary_sizing import annuity, wear_addition
 from conveyor.line.stretches import STRANDS
+from conveyor.line.usual_parts import usual_lump_factor
 from conveyor.models.sizing import SizingDuty
 from conveyor.pipeline import calculate_many
 from conveyor.sizing import size_conveyor
@@ -291,3 +292,20 @@ def test_what_a_distance_is_worth_is_what_the_energy_of_a_year_costs():
     frames = best.costs.yearly["rolls"] * (1.0 + best.costs.capital["idler frames"] / best.costs.capital["rolls"])
     falls = math.fsum(row.falls / row.built * row.length for row in rows)
     assert falls == pytest.approx(rotation * running + float(frames), rel=0.02)  # a set more or less at the ends
+
+
+def test_lumps_and_wear_are_of_the_bulk_at_its_heaviest():
+    """By hand: the wear addition and the lump factor of 1.5 t/m³ where 0.85 t/m³ fills the belt."""
+    loose, heavy = (
+        SizingTask(given.replace(material=given.material.replace(weight_density=weight)))
+        for given in (duty(1000.0, 800.0, 15.0),)
+        for weight in (None, "1500 kg/m^3")
+    )
+    assert heavy.density == loose.density
+    for task, density in ((loose, 850.0), (heavy, 1500.0)):
+        alone = wear_addition(
+            lump=task.lump, density=density, round_time=2.0 * task.length / 2.5,
+            abrasiveness=task.duty.abrasiveness, loading=task.duty.loading,
+        )  # fmt: skip
+        assert task.wear(2.5) == pytest.approx(alone, rel=1e-12)
+        assert task.lump_factor == pytest.approx(usual_lump_factor(task.lump, density) or 1.0, rel=1e-12)

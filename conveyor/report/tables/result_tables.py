@@ -22,6 +22,7 @@ def result_table(a: CalculatedConveyor, left_open: PowerRange) -> Table:
         Figure("motor power, high by defaults", "power", left_open.high, "", "defaults.motor_kW.high",
                key="motor_power_high"),
     )  # fmt: skip
+    # six figures in large: by a classical method two others stand for the share
     share = forces.indentation / forces.main if a.line.method == "viscoelastic" else None
     error, energy_error = a.contacts.error, a.contacts.energy_error
     safety, of_year = a.belt_duty.safety, a.year
@@ -38,7 +39,7 @@ def result_table(a: CalculatedConveyor, left_open: PowerRange) -> Table:
                "design_friction", key="design_friction"),
         Figure("motor power with the friction to design for", "power", left_open.design, "", "power_kW.design",
                key="motor_power_design"),
-        Figure("belt power", "power", power.belt, "large notebook", "power_kW.belt"),
+        Figure("belt power", "power", power.belt, f"{'tile ' if share is None else ''}large notebook", "power_kW.belt"),
         Figure("mains power", "power", power.mains, "", "power_kW.mains"),
         Figure("effective tension", "force", forces.total, "tile large notebook", "forces_N.total", us="Te"),
         *(
@@ -55,7 +56,7 @@ def result_table(a: CalculatedConveyor, left_open: PowerRange) -> Table:
         ),
         Figure("equivalent DIN f", "friction", balance.friction_factor, "tile large notebook", "friction_factor",
                key="equivalent_f"),
-        Figure("tight side tension", "force", tensions_at.tight, "tile notebook", us="T1"),
+        Figure("tight side tension", "force", tensions_at.tight, f"tile {'large ' if share is None else ''}notebook", us="T1"),
         Figure("slack side tension", "force", tensions_at.slack, "notebook", us="T2"),
         Figure("tight side tension at start", "force", tensions_at.tight_start),
         Figure("minimum tension, steady", "force", tensions_at.smallest, key="smallest_tension"),
