@@ -41,6 +41,8 @@ class Force:
         True for a usual part that the spec does not give.
     bulk : int or None
         Number of the section whose bulk causes it; None without bulk, and along the belt.
+    at_sag_limit : ndarray or None, shape (2n,)
+        Flexure at the largest sag [N], of which the tension that stands there leaves `newtons`; None if independent.
     """
 
     key: str
@@ -54,6 +56,7 @@ class Force:
     short: str = ""
     assumed: bool = False
     bulk: int | None = None
+    at_sag_limit: Array | None = None
 
     @property
     def total(self) -> float:

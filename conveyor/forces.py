@@ -117,7 +117,7 @@ def forces_along_belt(
     roll_drag: float = 1.0,
     calibration: Calibration | None = None,
 ) -> tuple[Force, ...]:
-    """Return the forces along the belt.
+    """Return the forces along the belt, flexure by load and sag at the largest sag.
 
     Parameters
     ----------
@@ -147,11 +147,13 @@ def forces_along_belt(
             flexure_resistance(other, share=share) for other in (indentation + rotation).tolist()
         ])  # fmt: skip
     flexure = factors.flexure * flexure
+    slackens = flexure if line.flexes_by_sag else None
     misalignment = factors.misalignment * fixed.misalignment
     return (
         Force("indentation", "indentation", "main", indentation, _CONTACT_SOURCE),
         Force("idler_rotation", "idler rotation", "main", rotation, "roll drag x number of rolls"),
-        Force("flexure", "flexure of belt and bulk", "main", flexure, line.flexure_source, short="flexure"),
+        Force("flexure", "flexure of belt and bulk", "main", flexure, line.flexure_source, short="flexure",
+              at_sag_limit=slackens),
         Force(
             "misalignment",
             "misaligned idlers",

@@ -46,10 +46,7 @@ TAIL = """
   (spacing, rolls) is open: they lie below the band.
 * **What was looked at and not added.** Losses of gears and motors at part load: the printed empties above are those
   of the belt, so they explain none of it (a motor loses typically 4 points of efficiency at 25 % load, Western Area
-  Power Administration 2003; enter `drive.efficiency` for the load you ask about). Flexure at the tension that stands
-  there instead of at the design sag: with the measured site at a sag of 0.4 %, between 0.2 and 1 % by what its belt
-  bears, overland conveyors fall by 4 to 10 % and ordinary plants rise by up to 9 %, nearly all towards what is stated,
-  and one case more lies in the band. Loads then no longer add by section, which the worst loadings rest on.
+  Power Administration 2003; enter `drive.efficiency` for the load you ask about).
 """
 
 

@@ -19,7 +19,7 @@ from conveyor.contact import solve
 from conveyor.contact.galerkin.sampling import interpolation_errors, interpolation_weights, lobatto_points
 from conveyor.errors import MessageQuantity, NoSolutionError
 from conveyor.indentation import Indentation, IndentationCurve, RollContact, indentation_curves, to_problem
-from conveyor.laws.resistance import FLEXURE_COEFFICIENT, sag_flexure_resistance
+from conveyor.laws.resistance import FLEXURE_COEFFICIENT, mean_sag_ratio, sag_flexure_resistance
 from conveyor.line.contacts import Contacts, RollResult, integrate_along_rolls
 from conveyor.line.covers import belt_backing, roll_contact
 from conveyor.line.stretches import Strand
@@ -179,17 +179,20 @@ class BeltContacts(Contacts):
 
     @cached_property
     def flexure_left_out(self) -> float:
-        """Flexure of the empty belt by the law of load and sag [N]; here the contacts include it."""
+        """Flexure of the belt by the law of load and sag, without that of its bulk [N]; the contacts include it."""
         weight = self.line.gravity
+        limits = np.array([stretch.least_tension for stretch in self.line.stretches]) / self.line.belt.width
+        middle, half = self.pulls[:, 1], 0.5 * np.diff(self.pulls[:, ::2])[:, 0] / np.ptp(STRETCH_QUADRATURE[0])
+        slack = mean_sag_ratio(middle - half, middle + half, limit=limits)
         return math.fsum(
             stretch.sets
             * sag_flexure_resistance(
                 stretch.belt_mass * weight * math.cos(stretch.inclination),
                 spacing=stretch.spacing,
-                relative_sag=si(stretch.idlers.sag),
+                relative_sag=share * si(stretch.idlers.sag),
                 coefficient=FLEXURE_COEFFICIENT.value,
             )
-            for stretch in self.line.stretches
+            for stretch, share in zip(self.line.stretches, slack.tolist(), strict=True)
         )
 
     def _give(self, strand: Strand) -> BeltCompliance:

@@ -76,6 +76,8 @@ class Line:
         Support and tolerance of the contacts; True if strain softens the rubber; share of flexure or None [-].
     carryback : tuple of float or None
         Carryback before the cleaners, and the most allowed behind them [kg/m²].
+    flexes_by_sag : bool
+        True if the flexure is that of load and sag, at the tension that stands there.
     flexure_source : str
         Source of the flexure for reports.
     us_sizes : bool
@@ -119,6 +121,7 @@ class Line:
     secondary: str
     friction_factor: float
     flexure_share: float | None
+    flexes_by_sag: bool
     flexure_source: str
     cema: CemaFactors | None
     support: Support
@@ -185,6 +188,7 @@ class Line:
             secondary=_secondary_resistances(conveyor),
             friction_factor=calculation.friction_factor,
             flexure_share=si_or_none(calculation.flexure_share),
+            flexes_by_sag=calculation.flexure is None and calculation.flexure_share is None,
             flexure_source=_flexure_source(calculation),
             cema=cema_factors(calculation.cema),
             support=calculation.support,

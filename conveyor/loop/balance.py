@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from conveyor.errors import NoSolutionError
 from conveyor.force_sums import Force, ForceSums
@@ -20,6 +21,8 @@ from conveyor.loop.estimates import CemaEstimate, ClassicalEstimate, cema_estima
 from conveyor.loop.loop_layout import LoopLayout, TakeUpSetting
 from conveyor.loop.tensions import LoopBatch, MotionState
 from conveyor.units.presentation import format_figure
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -246,15 +249,29 @@ def close_loops(asked: Sequence[OpenLoop]) -> list[Balance | NoSolutionError]:
         alike.setdefault((one.frame.plan.key, setting is None), []).append(i)
     found: dict[int, Balance | NoSolutionError] = {}
     for rows in alike.values():
-        these = [asked[i] for i in rows]
+        these = [asked[i]._replace(along=_flexed(asked[i].along)) for i in rows]
         further = [_length_coefficient_forces(one) for one in these]
         loops = LoopBatch([one.frame for one in these], [one.along for one in these], further)
         held = [setting for i in rows if (setting := given[i]) is not None]
         closed, refused = solve_equilibria(loops, np.array(held) if held else None)
         for row, (i, one) in enumerate(zip(rows, these, strict=True)):
-            settled = Equilibrium(closed, row, (*one.frame.points, *further[row]))
-            found[i] = refused[row] if row in refused else Balance(one.along, one.unit_main, settled)
+            if row in refused:
+                found[i] = refused[row]
+                continue
+            made = one._replace(along=_flexed(one.along, closed.flexure[row]))
+            settled = Equilibrium(closed, row, (*one.frame.points, *_length_coefficient_forces(made)))
+            found[i] = Balance(made.along, one.unit_main, settled)
     return [found[i] for i in range(len(asked))]
+
+
+def _flexed(along: tuple[Force, ...], flexure: Array | None = None) -> tuple[Force, ...]:
+    """Forces along the belt with a flexure by load and sag in loop order [N], or that at the largest sag."""
+    return tuple(
+        force
+        if (most := force.at_sag_limit) is None
+        else replace(force, newtons=most if flexure is None else np.roll(flexure, most.size // 2))
+        for force in along
+    )
 
 
 def _length_coefficient_forces(one: OpenLoop) -> tuple[Force, ...]:

@@ -238,6 +238,8 @@ class BatchEquilibrium:
         Resistance of every pulley at equilibrium [N].
     pulleys : ndarray, shape (b, pulleys, 2)
         Wrap and bearing resistance of every pulley [N].
+    flexure : ndarray, shape (b, 2n)
+        Flexure by load and sag at the tensions of steady running, in loop order [N].
     given : bool
         True if the settings were given.
     """
@@ -249,6 +251,7 @@ class BatchEquilibrium:
     needed: Array
     bends: Array
     pulleys: Array
+    flexure: Array
     given: bool
 
     @cached_property
@@ -278,6 +281,8 @@ def solve_equilibria(
 ) -> tuple[BatchEquilibrium, dict[int, NoSolutionError]]:
     """Solve the equilibrium of loops under the forces along their belts, each independently.
 
+    Wraps and bearings of pulleys and the flexure by load and sag depend on the tensions of steady running.
+
     Parameters
     ----------
     loops : LoopBatch
@@ -296,29 +301,33 @@ def solve_equilibria(
     Where the tension comes out negative the belt bends round pulleys and loads bearings as at zero tension. Tensions
     are reported as they come out, below zero by what the take-up lacks.
     """
-    kinds, b, whole = _StateSet(loops), len(loops.frames), np.abs(loops.along[:, :2, -1].sum(axis=-1))
-    bends, drive = np.zeros((b, len(loops.plan.bends))), np.full(b, np.inf)
+    kinds, whole = _StateSet(loops), np.abs(loops.along[:, :2, -1].sum(axis=-1))
+    b, pulleys, sags = len(loops.frames), len(loops.plan.bends), bool(loops.flexure.any())
+    yielding, drive = np.concatenate([np.zeros((b, pulleys)), loops.flexure], axis=-1), np.full(b, np.inf)
     going, refused = np.ones(b, dtype=bool), dict[int, NoSolutionError]()
     last: tuple[Array, Array] | None = None
     for _ in range(_MAX_LOOP_STEPS):
-        before, now = drive, kinds.at(bends)
+        bends, flexure = yielding[:, :pulleys], yielding[:, pulleys:]
+        flexed = loops.flexed(flexure) if sags else loops
+        before, now = drive, kinds.at(flexed, bends)
         drive = now.resistance[:, 0]
-        asked = np.where(now.occurs[..., None], now.moving.asked(kinds.sagging), -np.inf)
+        asked = np.where(now.occurs[..., None], now.moving.asked(flexed.sagging(kinds.friction)), -np.inf)
         needed = asked.max(axis=(1, 2))
         setting = needed if given is None else given
         going &= ~(np.abs(drive - before) <= _LOOP_TOLERANCE * np.maximum(np.abs(drive), whole))
-        wraps, bearings = _pulley_forces(loops, now.moving, setting, refused)
+        wraps, bearings = _pulley_forces(flexed, now.moving, setting, refused)
         if refused:
             going[list(refused)] = False
         if not going.any():
             break
-        step = (wraps + bearings, wraps + bearings - bends)
-        bends = np.where(going[:, None], step[0] if last is None else _secant_step(last, step), bends)
+        found = np.concatenate([wraps + bearings, now.moving.flexure(setting) if sags else flexure], axis=-1)
+        step = (found, found - yielding)
+        yielding = np.where(going[:, None], found if last is None else _secant_step(last, step), yielding)
         last = step
     else:
         refused |= {row: _divergence_error() for row in np.flatnonzero(going).tolist()}
-    pulleys = np.stack([wraps, bearings], axis=-1)
-    return BatchEquilibrium(loops, now, asked, setting, needed, bends, pulleys, given is not None), refused
+    single = np.stack([wraps, bearings], axis=-1)
+    return BatchEquilibrium(flexed, now, asked, setting, needed, bends, single, flexure, given is not None), refused
 
 
 def _divergence_error() -> NoSolutionError:
@@ -328,7 +337,7 @@ def _divergence_error() -> NoSolutionError:
 def _secant_step(last: tuple[Array, Array], step: tuple[Array, Array]) -> Array:
     """Secant step (Anderson mixing of depth one), or the plain last step where steps do not shrink.
 
-    A step is the new resistances of the pulleys and their change.
+    A step is the new resistances that depend on tension and their change.
     """
     (before, was), (here, short) = last, step
     turned = short - was
@@ -368,7 +377,7 @@ class _StateSet:
     """States in which the drives must grip: friction and motion of each."""
 
     def __init__(self, loops: LoopBatch) -> None:
-        self.loops, standing, pull = loops, loops.standing, loops.standing.pull
+        standing, pull = loops.standing, loops.standing.pull
         self.uncertain = standing.least_friction < 1.0
         self.raised = standing.design_friction > 1.0
         self.braked = standing.brakes.any(axis=-1)
@@ -378,14 +387,13 @@ class _StateSet:
         self.friction = np.ones((len(loops.frames), len(self.names)))
         self.friction[:, 2 : 2 + len(design)] = standing.design_friction[:, None]
         self.friction[:, 2 + len(design) :] = standing.least_friction[:, None]
-        self.sagging = loops.sagging(self.friction)
         over = np.ones_like(self.friction)
         over[:, 1::2] = pull.factor[:, None]
         self.shares, self.pushes = over[..., None] * pull.share[:, None], (over - 1.0) / loops.mass[:, None]
 
-    def at(self, bends: Array) -> LoopStates:
-        """States at given pulley resistances [N], shape (b, pulleys)."""
-        loops, standing = self.loops, self.loops.standing
+    def at(self, loops: LoopBatch, bends: Array) -> LoopStates:
+        """States of the loops at given pulley resistances [N], shape (b, pulleys)."""
+        standing = loops.standing
         rubbing = loops.rubbing + bends.sum(axis=-1)
         resistance = loops.lift[:, None] + self.friction * rubbing[:, None]
         acceleration, forces = self.pushes * resistance, self.shares * resistance[..., None]

@@ -148,7 +148,13 @@ class SectionLoadings:
             ),
         )
         along = tuple(
-            replace(laden, newtons=np.where(on, laden.newtons, bare.newtons))
+            replace(
+                laden,
+                newtons=np.where(on, laden.newtons, bare.newtons),
+                at_sag_limit=None
+                if laden.at_sag_limit is None or bare.at_sag_limit is None
+                else np.where(on, laden.at_sag_limit, bare.at_sag_limit),
+            )
             for laden, bare in zip(self.full.along, self.empty.along, strict=True)
         )
         unit_main = float(rubber_free_forces(mixed.strands).unit_main.sum())

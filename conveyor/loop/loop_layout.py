@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from conveyor.force_sums import Force
 from conveyor.forces import PulleyResistance, point_forces, pulley_resistances
 from conveyor.laws.power import belt_power, motor_power
+from conveyor.laws.resistance import secondary_resistance
 from conveyor.laws.tension import grip_tension
 from conveyor.line.line import Line
 from conveyor.line.loop_positions import LoopPosition
@@ -46,8 +47,8 @@ class LoopPlan:
         Place of the take-up; None on the slack side of the drives.
     station : tuple of int
         Places before and behind the drives at the first one's spot.
-    head : int
-        Place before all items at the head.
+    head, landing : int
+        Place before all items at the head; item of the forces where the bulk lands.
     keeps_length : bool
         True if the take-up fixes the belt's length.
     """
@@ -65,6 +66,7 @@ class LoopPlan:
     held: int | None
     station: tuple[int, int]
     head: int
+    landing: int
     keeps_length: bool
 
 
@@ -78,14 +80,16 @@ class LoopConstants:
         Forces at single places without and with friction [N], and masses of the runs [kg].
     mass : ndarray, shape (2n + 1,)
         Running sum of the moving masses [kg].
-    least, lengths : ndarray, shape (2n,)
-        Least tension for the sag [N], and length [m] of the stretches.
+    least, centrifugal, lengths : ndarray, shape (2n,)
+        Least tension for the sag, m' v² [N], and length [m] of the stretches.
     grip, brakes : ndarray, shape (d,)
         Tension that a newton of each drive needs for its grip [-]; force of its brake [N].
     wrap, slope, bearings, pulley_mass, wrap_angle : ndarray, shape (pulleys,)
         Wrap without tension [N] and per newton of mean tension [-], bearings per newton of load [-], kg, rad.
     least_friction, design_friction, gravity : ndarray, shape ()
         Least friction and that to design for, over the computed one [-]; gravity [m/s²].
+    by_length : ndarray, shape ()
+        Secondary resistances over the main ones, C - 1 [-]; 0 where they are itemised.
     pull : StartingForces
         Forces of the drives at a start.
     """
@@ -93,6 +97,7 @@ class LoopConstants:
     met: Array
     mass: Array
     least: Array
+    centrifugal: Array
     lengths: Array
     grip: Array
     brakes: Array
@@ -104,6 +109,7 @@ class LoopConstants:
     least_friction: Array
     design_friction: Array
     gravity: Array
+    by_length: Array
     pull: StartingForces
 
     @classmethod
@@ -262,6 +268,7 @@ def _loop_plan(frame: LoopLayout) -> LoopPlan:
         held=held,
         station=station,
         head=runs[-1] + 1,
+        landing=spots[frame.at[frame.landing]],
         keeps_length=keeps,
     )
 
@@ -280,6 +287,7 @@ def _loop_constants(frame: LoopLayout) -> LoopConstants:
         met=met,
         mass=mass,
         least=shape.least,
+        centrifugal=line.speed**2 * np.array([stretch.line_mass for stretch in shape.stretches]),
         lengths=shape.length,
         grip=np.array([grip_tension(1.0, friction=d.friction, wrap_angle=d.wrap_angle) for d in line.drives]),
         brakes=np.array(line.brakes),
@@ -291,5 +299,6 @@ def _loop_constants(frame: LoopLayout) -> LoopConstants:
         least_friction=np.array(line.least_friction),
         design_friction=np.array(line.design_friction),
         gravity=np.array(line.gravity),
+        by_length=np.array(secondary_resistance(1.0, length=line.length) if line.secondary == "C" else 0.0),
         pull=StartingForces.of(line),
     )

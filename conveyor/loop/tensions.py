@@ -8,6 +8,7 @@ Loops of one plan are computed in one batch, b of them in m states: no result de
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -15,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.force_sums import Force
+from conveyor.laws.resistance import mean_sag_ratio
 from conveyor.loop.loop_layout import LoopConstants, LoopLayout
 
 Array = NDArray[np.float64]
@@ -116,6 +118,8 @@ class LoopBatch:
         self.frames, self.plan, count = frames, frames[0].plan, frames[0].line.count
         self.standing = LoopConstants.side_by_side([frame.standing for frame in frames])
         forces = np.roll([_force_sums(each, count) for each in along], count, axis=-1)
+        self.flexure = np.roll([_flexure_by_sag(each, count) for each in along], count, axis=-1)
+        """Flexure at the largest sag, in loop order [N], shape (b, 2n); 0 where it does not depend on tension."""
         self.along = np.zeros((len(frames), 3, 2 * count + 1))
         """Running sums of the forces along the belt without and with friction [N], and of the mass [kg]."""
         np.cumsum(forces, axis=-1, out=self.along[:, :2, 1:])
@@ -129,6 +133,21 @@ class LoopBatch:
                     met[1, self.plan.spots[frame.at[force.spot]]] += force.total
         self.lift, self.rubbing = self.met[:, 0].sum(axis=-1), self.met[:, 1].sum(axis=-1)
         self.mass = self.standing.mass[:, -1]
+
+    def flexed(self, flexure: Array) -> LoopBatch:
+        """The loops with a flexure [N] in place of that at the largest sag, in loop order, shape (b, 2n)."""
+        made, plan = copy(self), self.plan
+        made.__dict__.pop("_means", None)
+        made.along, made.met = self.along.copy(), self.met.copy()
+        relief = np.zeros((len(flexure), flexure.shape[1] + 1))
+        np.cumsum(self.flexure - flexure, axis=-1, out=relief[:, 1:])
+        made.along[:, 1] -= relief
+        runs = relief[:, plan.boundaries]
+        made.met[:, 1, plan.runs] -= runs[:, 1:] - runs[:, :-1]
+        by_length = self.standing.by_length * relief[:, -1]
+        made.met[:, 1, plan.landing] -= by_length
+        made.rubbing = self.rubbing - relief[:, -1] - by_length
+        return made
 
     @cached_property
     def _shares(self) -> Array:
@@ -218,6 +237,23 @@ class MotionOffsets:
         """Offsets along the belt without point forces [N], shape (b, m, 2n + 1)."""
         return _totals_in_state(self.loops.along, self.friction, self.acceleration)
 
+    def ends(self, level: Array) -> Array:
+        """Tension at both ends of every stretch in the first k states, in loop order [N], shape (2, b, k, 2n).
+
+        `level` is the tension of the strand that leaves the head, shape (b, k).
+        """
+        k, plan = level.shape[1], self.loops.plan
+        along = self.along[:, :k]
+        single = self.offsets[:, :k, plan.runs] - along[..., plan.boundaries[:-1]]
+        shift = level[..., None] + np.repeat(single, np.diff(plan.boundaries), axis=-1)
+        return np.stack([along[..., :-1] + shift, along[..., 1:] + shift])
+
+    def flexure(self, setting: Array) -> Array:
+        """Flexure at the tensions of steady running with the take-ups at a setting, in loop order [N], shape (b, 2n)."""
+        standing = self.loops.standing
+        starts, ends = self.ends((setting - self.anchor[:, 0])[:, None])[:, :, 0] - standing.centrifugal
+        return self.loops.flexure * mean_sag_ratio(starts, ends, limit=standing.least)
+
 
 @dataclass(frozen=True, eq=False)
 class BatchTensions:
@@ -234,10 +270,7 @@ class BatchTensions:
     @cached_property
     def ends(self) -> Array:
         """Tension at both ends of every stretch, in loop order [N], shape (2, b, m, 2n)."""
-        plan, along = self.moving.loops.plan, self.moving.along
-        single = self.moving.offsets[..., plan.runs] - along[..., plan.boundaries[:-1]]
-        shift = self.level[..., None] + np.repeat(single, np.diff(plan.boundaries), axis=-1)
-        return np.stack([along[..., :-1] + shift, along[..., 1:] + shift])
+        return self.moving.ends(self.level)
 
     @cached_property
     def extremes(self) -> tuple[Array, Array]:
@@ -281,6 +314,11 @@ def _force_sums(along: Sequence[Force], count: int) -> Array:
     for force in along:
         sums[0 if force.certain else 1] += force.newtons
     return sums
+
+
+def _flexure_by_sag(along: Sequence[Force], count: int) -> Array:
+    """Flexure of a belt at the largest sag, shape (2n,); 0 where it does not depend on tension."""
+    return next((force.at_sag_limit for force in along if force.at_sag_limit is not None), np.zeros(2 * count))
 
 
 def _totals_in_state(parts: Array, friction: Array, acceleration: Array) -> Array:

@@ -180,8 +180,8 @@ def _flexure_assumption(conveyor: Conveyor) -> str:
     if calculation.flexure is None:
         carry, back = (text(idlers.sag) for idlers in (conveyor.idlers.carry, conveyor.idlers.return_))
         return (
-            f"Flexure of belt and bulk is {FLEXURE_COEFFICIENT.value:.3f} of load times relative sag, at the sag "
-            f"the sets are designed for (carry {carry}, return {back}) at any tension and load."
+            f"Flexure of belt and bulk is {FLEXURE_COEFFICIENT.value:.3f} of load times relative sag, at the steady "
+            f"tension that stands there, at most at the sag the sets are designed for (carry {carry}, return {back})."
         )
     laws = []
     if calculation.flexure.belt is not None:

@@ -15,6 +15,7 @@ from conveyor.laws.resistance import (
     CARCASS_BENDING,
     FLEXURE_COEFFICIENT,
     FLEXURE_SHARE,
+    SITE_SAG,
     ROLL_CONDITION,
     ROLL_ON_BELT_FRICTION,
     SCRAPING_FACTOR,
@@ -397,7 +398,8 @@ def _flexure_warnings(conveyor: Conveyor) -> Iterator[Message]:
             c = FLEXURE_COEFFICIENT
             yield message(
                 f"calculation.flexure not given: load x sag x {c.value:.3f} ({c.low:.3f} to {c.high:.3f}) assumed, so "
-                f"that one measured site has its {100.0 * FLEXURE_SHARE.value:.0f} % at 1 % sag (general knowledge)"
+                f"that one measured site has its {100.0 * FLEXURE_SHARE.value:.0f} % at a sag of "
+                f"{100.0 * SITE_SAG.value:.1f} %, which is not published"
             )
         return
     left_out = [name for name in ("belt", "bulk") if getattr(flexure, name) is None]

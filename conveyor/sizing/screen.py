@@ -35,6 +35,7 @@ _WING_LOAD_FACTOR: Final = 2.0**_LOAD_EXPONENT / (_LOAD_EXPONENT + 1.0)  # a tri
 _CLEANERS: Final = 2.0 * 0.008 * CLEANER_PRESSURE.value * 0.6  # [N/m] of belt width: `line.defaults`
 _SKIRTS: Final = 2.0 * 0.7 * 9.81 / 0.625**2  # [m/s²]: both zones of the usual skirts, over (Q/v)²/(ρ B²) and 1 m
 _SET_LIFE_SHARE: Final = 0.5  # bearing life of a set over that of its most loaded bearing
+_FLEXURE_PASSES: Final = 3  # flexure is a tenth of the friction, its tension settles to a per cent of it
 _START_MEAN_SHARE: Final = 0.375  # mean round the loop of a start's extra force, over it; 1/4 of the mass returns
 _ROUNDS: Final = 4  # of belt class, mass and tensions
 
@@ -336,18 +337,23 @@ def _estimate_loop(
         * length / back,
     ])  # fmt: skip
     sags = np.array(task.sags)[:, None]
-    bent = FLEXURE_COEFFICIENT.value * g * sags * np.array([belt + bulk, belt])
+    hanging = g * np.array([belt + bulk, belt])
+    spans = hanging * np.array([carry, back])
     square = 1.0 - (1.0 - of_bulk) * np.sin(every.runs(lambda on: on.trough.angle)) ** 2  # wings turn by cos λ
     askew = task.misalignment_friction * g * np.array([(belt + bulk) * square, belt])
-    friction = indentation / length + levels.drag * np.array([3.0 / carry, count / back]) + bent + askew
-    rubbing = levels.design * friction
-    up = np.outer(bulk + belt, g * sections[:, 1]) + np.outer(rubbing[0], sections[:, 0])
-    down = np.outer(-belt, g * sections[:, 1]) + np.outer(rubbing[1], sections[:, 0])
-    up[:, 0] += levels.design * rest
-    design_force = up.sum(axis=1) + down.sum(axis=1)
+    straight = indentation / length + levels.drag * np.array([3.0 / carry, count / back]) + askew
+    sag = sags
+    for _ in range(_FLEXURE_PASSES):  # the sag follows the tension, which follows the flexure
+        friction = straight + FLEXURE_COEFFICIENT.value * sag * hanging
+        rubbing = levels.design * friction
+        up = np.outer(bulk + belt, g * sections[:, 1]) + np.outer(rubbing[0], sections[:, 0])
+        down = np.outer(-belt, g * sections[:, 1]) + np.outer(rubbing[1], sections[:, 0])
+        up[:, 0] += levels.design * rest
+        design_force = up.sum(axis=1) + down.sum(axis=1)
+        slack, largest, mean = _loop_tensions(every, design_force, (down[:, ::-1], up), spans)
+        sag = np.minimum(sags, spans / (8.0 * mean))
     force = friction.sum(axis=0) * length + rest + bulk * g * sections[:, 1].sum()
-    spans = belt * g * back, (belt + bulk) * g * carry
-    slack, largest, mean = _loop_tensions(every, design_force, (down[:, ::-1], up), spans)
+    mean += (task.rules.start_factor - 1.0) * np.abs(design_force) * _START_MEAN_SHARE
     strength = safety * largest / width
     lasting = np.array([task.lasting_strain(one) for one in task.kinds])[kind]
     travel = levels.uses.get("take-up travel", 1.0) / task.take_up_strain
@@ -357,7 +363,7 @@ def _estimate_loop(
     asked, last = weak.sum(axis=1), series.last[kind]
     strength *= levels.uses.get("belt strength", 1.0) / series.strongest[kind]
     travel = travel * (mean / width / series.stiffest[kind] + lasting)
-    sets = np.array([(belt + task.lump_factor * bulk) * g * carry, spans[0]]).T
+    sets = np.array([(belt + task.lump_factor * bulk) * g * carry, spans[1]]).T
     chosen = np.minimum(asked, last)
     return _LoopEstimate(covers, middle, sets, indentation.T, force, design_force, slack, chosen, strength, travel)
 
@@ -380,14 +386,14 @@ def _rotating_mass(every: Candidates, carry: Array, back: Array) -> Array:
 
 
 def _loop_tensions(
-    every: Candidates, force: Array, along: tuple[Array, Array], spans: tuple[Array, Array]
+    every: Candidates, force: Array, along: tuple[Array, Array], spans: Array
 ) -> tuple[Array, Array, Array]:
-    """Tension right behind the head, the largest, and the highest mean round the loop at a start, by grip and sag [N].
+    """Tension right behind the head, the largest, and the mean round the loop in steady running, by grip and sag [N].
 
     `along` are the forces on return sections from the head and carry sections from the tail, `spans` the loads of
-    return and carry strand between two sets [N].
+    carry and return strand between two sets [N].
     """
-    (down, up), (span_back, span_carry) = along, spans
+    (down, up), (span_carry, span_back) = along, spans
     task, at_tail = every.task, every.driven(_tail_share)
     friction, wrap = task.grip
     grips = 1.0 / np.expm1(
@@ -408,7 +414,7 @@ def _loop_tensions(
     highest = np.maximum(np.maximum(0.0, returning.max(axis=1)), np.maximum(after_tail, carrying.max(axis=1)))
     lengths = np.array([length for length, _ in task.sections]) / (2.0 * task.length)
     mean = slack + (returning - 0.5 * down) @ lengths[::-1] + (carrying - 0.5 * up) @ lengths
-    return slack, slack + highest, mean + (start - 1.0) * np.abs(force) * _START_MEAN_SHARE
+    return slack, slack + highest, mean
 
 
 def _tail_share(drives: DriveLayout) -> float:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
+from scipy.integrate import quad
 
 from conveyor.errors import InputError
 from conveyor.laws.resistance import flexure
@@ -52,13 +54,44 @@ def test_soft_belt_needs_no_stiffness_and_is_the_sag():
 def test_the_measured_coefficient_gives_the_site_its_share():
     # belt 39.5 kg/m and 1764 N/m of coal, sets 2 m apart: 11 % of 61.7 N a set; 4302 N a set is printed to 0.5 N
     load = 1764.0 + 39.5 * 9.80665
-    span = {"spacing": 2.0, "relative_sag": 0.01, "coefficient": flexure.FLEXURE_COEFFICIENT.value}
+    span = {"spacing": 2.0, "relative_sag": 0.004, "coefficient": flexure.FLEXURE_COEFFICIENT.value}
     assert flexure.sag_flexure_resistance(load, **span) == pytest.approx(0.11 * 61.7, rel=1.0 / 4302.0)
-    # its band: a sag there of 2 and of 0.5 % instead of 1 %
+    # its band: a sag there of 1 and of 0.2 % instead of 0.4 %
     low, high = flexure.FLEXURE_COEFFICIENT.low, flexure.FLEXURE_COEFFICIENT.high
-    for sag, coefficient in ((0.02, low), (0.005, high)):
+    for sag, coefficient in ((0.01, low), (0.002, high)):
         at = {"spacing": 2.0, "relative_sag": sag, "coefficient": coefficient}
         assert flexure.sag_flexure_resistance(load, **at) == pytest.approx(0.11 * 61.7, rel=1.0 / 4302.0)
+
+
+def test_the_sag_of_the_assumed_tensions_at_the_site():
+    # ST 1600 of 1.6 m: 1 % sag, and safety 6.7; the sag at their geometric mean, T - m' v² taken as T
+    load = 1764.0 + 39.5 * 9.80665
+    least, most = load * 2.0 / (8.0 * 0.01), 1600.0 * 1600.0 / 6.7
+    assert (least / 1e3, most / 1e3) == (pytest.approx(55.0, abs=2.0), pytest.approx(380.0, abs=3.0))
+    assert load * 2.0 / (8.0 * math.sqrt(least * most)) == pytest.approx(flexure.SITE_SAG.value, abs=0.0005)
+
+
+@pytest.mark.parametrize(
+    ("start", "end", "limit"),
+    [(2e4, 5e4, 1e4), (5e4, 2e4, 1e4), (-1e4, 3e4, 1e4), (1e3, 9e3, 1e4), (2e4, 2e4 * (1 + 1e-9), 1e4), (1e4, 1e4, 1e4)],
+)
+def test_the_mean_sag_is_the_integral_along_the_stretch(start, end, limit):
+    def ratio(s):
+        return limit / max(start + (end - start) * s, limit)
+
+    kink = [(limit - start) / (end - start)] if start < limit < end else None
+    whole = quad(ratio, 0.0, 1.0, points=kink, epsabs=1e-13, epsrel=1e-13)[0]
+    mean = flexure.mean_sag_ratio(np.array(start), np.array(end), limit=np.array(limit))
+    assert float(mean) == pytest.approx(whole, rel=1e-11)
+
+
+def test_the_mean_sag_of_halves_is_that_of_the_whole():
+    starts, ends, limit = np.array([3e4, -5e3]), np.array([1.2e4, 4e4]), np.full(2, 1e4)
+    middle = 0.5 * (starts + ends)
+    halves = [flexure.mean_sag_ratio(*pair, limit=limit) for pair in ((starts, middle), (middle, ends))]
+    assert 0.5 * sum(halves) == pytest.approx(flexure.mean_sag_ratio(starts, ends, limit=limit), rel=1e-13)
+    with pytest.raises(InputError, match="limit"):
+        flexure.mean_sag_ratio(starts, ends, limit=np.zeros(2))
 
 
 def test_load_and_sag_are_the_soft_belt_with_its_loss_as_coefficient():

@@ -213,7 +213,9 @@ def test_the_loss_of_a_carcass_that_bends_reaches_up_to_the_flexure_that_is_left
     found, fast = calculate(gives), calculate(stiff)
     left_out = found.contacts.flexure_left_out
     law, bulk = (one.balance.forces.parts["flexure"] for one in (fast, found))
-    assert left_out == pytest.approx(law - bulk)
+    tensions = [one.balance.tensions.smallest for one in (fast, found)]
+    assert tensions[0] == pytest.approx(tensions[1], rel=1e-3)  # and so does the flexure at them
+    assert left_out == pytest.approx(law - bulk, rel=5e-3)
     (bends,) = (one for one in power_range(found).effects if one.key == "bending_loss")
     assert bends.low_factor == 1.0
     assert bends.high_factor - 1.0 == pytest.approx(left_out / found.balance.forces.indentation)
