@@ -152,8 +152,15 @@ def forces_along_belt(
     return (
         Force("indentation", "indentation", "main", indentation, _CONTACT_SOURCE),
         Force("idler_rotation", "idler rotation", "main", rotation, "roll drag x number of rolls"),
-        Force("flexure", "flexure of belt and bulk", "main", flexure, line.flexure_source, short="flexure",
-              at_sag_limit=slackens),
+        Force(
+            "flexure",
+            "flexure of belt and bulk",
+            "main",
+            flexure,
+            line.flexure_source,
+            short="flexure",
+            at_sag_limit=slackens,
+        ),
         Force(
             "misalignment",
             "misaligned idlers",

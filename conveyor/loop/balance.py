@@ -249,7 +249,7 @@ def close_loops(asked: Sequence[OpenLoop]) -> list[Balance | NoSolutionError]:
         alike.setdefault((one.frame.plan.key, setting is None), []).append(i)
     found: dict[int, Balance | NoSolutionError] = {}
     for rows in alike.values():
-        these = [asked[i]._replace(along=_flexed(asked[i].along)) for i in rows]
+        these = [asked[i]._replace(along=_with_flexure(asked[i].along)) for i in rows]
         further = [_length_coefficient_forces(one) for one in these]
         loops = LoopBatch([one.frame for one in these], [one.along for one in these], further)
         held = [setting for i in rows if (setting := given[i]) is not None]
@@ -258,13 +258,13 @@ def close_loops(asked: Sequence[OpenLoop]) -> list[Balance | NoSolutionError]:
             if row in refused:
                 found[i] = refused[row]
                 continue
-            made = one._replace(along=_flexed(one.along, closed.flexure[row]))
+            made = one._replace(along=_with_flexure(one.along, closed.flexure[row]))
             settled = Equilibrium(closed, row, (*one.frame.points, *_length_coefficient_forces(made)))
             found[i] = Balance(made.along, one.unit_main, settled)
     return [found[i] for i in range(len(asked))]
 
 
-def _flexed(along: tuple[Force, ...], flexure: Array | None = None) -> tuple[Force, ...]:
+def _with_flexure(along: tuple[Force, ...], flexure: Array | None = None) -> tuple[Force, ...]:
     """Forces along the belt with a flexure by load and sag in loop order [N], or that at the largest sag."""
     return tuple(
         force

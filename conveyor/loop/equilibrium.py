@@ -101,7 +101,7 @@ class Equilibrium:
     def take_up(self) -> TakeUpSetting:
         """Setting of the take-up, and its side of the drives."""
         given = self.line.take_up.behind
-        return TakeUpSetting(self.setting, self.force >= 0.0 if given is None else given)
+        return TakeUpSetting(self.setting, bool(self.closed.loops.pulled[self.row]) if given is None else given)
 
     @property
     def needed(self) -> float:
@@ -271,7 +271,7 @@ class BatchEquilibrium:
         drive = now.resistance[:, 0]
         occurs, acceleration, forces = _coasting_motion(loops, drive, np.zeros_like(loops.standing.brakes))
         states = np.ones((len(drive), 1)), acceleration[:, None], forces[:, None]
-        moving = loops.moving(*states, self.bends, drive >= 0.0)
+        moving = loops.moving(*states, self.bends)
         return occurs, BatchTensions(moving, self.setting)
 
 
@@ -308,14 +308,14 @@ def solve_equilibria(
     last: tuple[Array, Array] | None = None
     for _ in range(_MAX_LOOP_STEPS):
         bends, flexure = yielding[:, :pulleys], yielding[:, pulleys:]
-        flexed = loops.flexed(flexure) if sags else loops
-        before, now = drive, kinds.at(flexed, bends)
+        bent = loops.with_flexure(flexure) if sags else loops
+        before, now = drive, kinds.at(bent, bends)
         drive = now.resistance[:, 0]
-        asked = np.where(now.occurs[..., None], now.moving.asked(flexed.sagging(kinds.friction)), -np.inf)
+        asked = np.where(now.occurs[..., None], now.moving.asked(bent.sagging(kinds.friction)), -np.inf)
         needed = asked.max(axis=(1, 2))
         setting = needed if given is None else given
         going &= ~(np.abs(drive - before) <= _LOOP_TOLERANCE * np.maximum(np.abs(drive), whole))
-        wraps, bearings = _pulley_forces(flexed, now.moving, setting, refused)
+        wraps, bearings = _pulley_forces(bent, now.moving, setting, refused)
         if refused:
             going[list(refused)] = False
         if not going.any():
@@ -327,7 +327,7 @@ def solve_equilibria(
     else:
         refused |= {row: _divergence_error() for row in np.flatnonzero(going).tolist()}
     single = np.stack([wraps, bearings], axis=-1)
-    return BatchEquilibrium(flexed, now, asked, setting, needed, bends, single, flexure, given is not None), refused
+    return BatchEquilibrium(bent, now, asked, setting, needed, bends, single, flexure, given is not None), refused
 
 
 def _divergence_error() -> NoSolutionError:
@@ -413,7 +413,7 @@ class _StateSet:
         if BRAKES in self.names:
             slows, acceleration[:, -1], forces[:, -1] = _coasting_motion(loops, resistance[:, -1], standing.brakes)
             occurs[:, -1] = slows & self.braked
-        moving = loops.moving(self.friction, acceleration, forces, bends, resistance[:, 0] >= 0.0)
+        moving = loops.moving(self.friction, acceleration, forces, bends)
         return LoopStates(self.names, resistance, rubbing, moving, occurs)
 
 

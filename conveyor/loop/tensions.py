@@ -133,8 +133,10 @@ class LoopBatch:
                     met[1, self.plan.spots[frame.at[force.spot]]] += force.total
         self.lift, self.rubbing = self.met[:, 0].sum(axis=-1), self.met[:, 1].sum(axis=-1)
         self.mass = self.standing.mass[:, -1]
+        self.pulled = self.lift + self.rubbing >= 0.0
+        """True where the drives pull without the pulleys' losses, which sets the side of a slack-side take-up."""
 
-    def flexed(self, flexure: Array) -> LoopBatch:
+    def with_flexure(self, flexure: Array) -> LoopBatch:
         """The loops with a flexure [N] in place of that at the largest sag, in loop order, shape (b, 2n)."""
         made, plan = copy(self), self.plan
         made.__dict__.pop("_means", None)
@@ -164,9 +166,7 @@ class LoopBatch:
         begun = self.along[..., self.plan.boundaries[:-1]] * self._shares[:, None]
         return np.asarray((mean - begun.sum(axis=-1))[..., None])
 
-    def moving(
-        self, friction: Array, acceleration: Array, forces: Array, bends: Array, driving: NDArray[np.bool_]
-    ) -> MotionOffsets:
+    def moving(self, friction: Array, acceleration: Array, forces: Array, bends: Array) -> MotionOffsets:
         """Tension offsets of states with given drive forces, which balance resistances and inertia.
 
         Parameters
@@ -177,8 +177,6 @@ class LoopBatch:
             Forces of the drives [N].
         bends : ndarray, shape (b, pulleys)
             Resistances of the pulleys [N].
-        driving : ndarray, shape (b,)
-            True if the drives pull in steady running, which sets the side of a slack-side take-up.
         """
         plan = self.plan
         steps = _totals_in_state(self.met, friction, acceleration)
@@ -193,7 +191,7 @@ class LoopBatch:
             anchor = offsets[..., plan.held]
         else:
             before, behind = plan.station
-            anchor = np.where(driving[:, None], offsets[..., behind], offsets[..., before])
+            anchor = np.where(self.pulled[:, None], offsets[..., behind], offsets[..., before])
         return MotionOffsets(self, friction, acceleration, forces, offsets, anchor)
 
     def sagging(self, friction: Array) -> Array:

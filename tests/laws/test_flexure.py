@@ -73,7 +73,14 @@ def test_the_sag_of_the_assumed_tensions_at_the_site():
 
 @pytest.mark.parametrize(
     ("start", "end", "limit"),
-    [(2e4, 5e4, 1e4), (5e4, 2e4, 1e4), (-1e4, 3e4, 1e4), (1e3, 9e3, 1e4), (2e4, 2e4 * (1 + 1e-9), 1e4), (1e4, 1e4, 1e4)],
+    [
+        (2e4, 5e4, 1e4),
+        (5e4, 2e4, 1e4),
+        (-1e4, 3e4, 1e4),
+        (1e3, 9e3, 1e4),
+        (2e4, 2e4 * (1 + 1e-9), 1e4),
+        (1e4, 1e4, 1e4),
+    ],
 )
 def test_the_mean_sag_is_the_integral_along_the_stretch(start, end, limit):
     def ratio(s):

@@ -81,11 +81,15 @@ def line(**changes: dict[str, Any]) -> Conveyor:
     return from_data(data(**changes))
 
 
-def closed(conveyor: Conveyor, friction: float = FRICTION) -> Balance:
-    """The loop around forces along the belt with an indentation of `friction` times the load."""
+def closed(conveyor: Conveyor, friction: float = FRICTION, *, by_sag: bool = False) -> Balance:
+    """The loop around forces along the belt with an indentation of `friction` times the load.
+
+    Its flexure is a share of the load, so that no force along the belt depends on the tension, or that of the sag.
+    """
     made = Line.of(conveyor)
     fixed = rubber_free_forces(made.strands)
-    fixed = replace(fixed, flexure=0.002 * fixed.unit_main)
+    if not by_sag:
+        made, fixed = replace(made, flexes_by_sag=False), replace(fixed, flexure=0.002 * fixed.unit_main)
     along = forces_along_belt(made, fixed, friction * fixed.unit_main)
     return close_loop(LoopLayout(made), along, float(fixed.unit_main.sum()))
 

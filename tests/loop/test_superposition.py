@@ -7,6 +7,7 @@ import itertools
 import numpy as np
 import pytest
 
+from conveyor.loop.balance import with_take_up_at
 from conveyor.loop.load_superposition import (
     DRIVE_FORCE,
     HOLDING_BACK,
@@ -30,7 +31,7 @@ FEEDING = DATA["route"]["feeding"]
 def route(rng, count):
     """A conveyor that rises and falls, with drives, take-up, brakes and feeding points by chance; no pulleys.
 
-    Without pulleys nothing depends on the tensions, so that sums of forces are exact.
+    Without pulleys and flexure by sag nothing depends on the tensions, so that sums of forces are exact.
     """
     sections = [
         {"name": f"s{i}", "length": f"{rng.uniform(50, 600):.3f} m", "lift": f"{rng.uniform(-40, 40):.3f} m"}
@@ -125,6 +126,26 @@ def test_no_loading_of_all_beats_the_worst(seed):
     rng = np.random.default_rng(100 + seed)
     count = int(rng.integers(2, 10))
     _never_beaten(added(route(rng, count)))
+
+
+@pytest.mark.parametrize("seed", [901, *range(905, 911)])
+def test_where_flexure_follows_the_tension_a_loading_is_closed_in_full_and_none_is_worse_by_more_than_it(seed):
+    """Superposition takes the flexure of the full and the empty belt: the worst is off by no more than all of it."""
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(2, 7))
+    conveyor = route(rng, count)
+    ends = [closed(with_case(conveyor, LoadCase(name=name, loading=name)), by_sag=True) for name in ("full", "empty")]
+    found = SectionLoadings(*at_common_setting(ends))
+    every = [np.array(on) for on in itertools.product([False, True], repeat=count)]
+    alone = [closed(bearing(conveyor, loading), by_sag=True) for loading in every]
+    alone = list(map(looked_for, with_take_up_at(alone, found.full.settled.take_up)))
+    for one, expected in zip(found.loaded(every), alone, strict=True):
+        scale = CLOSED * one.tensions.largest
+        assert looked_for(one) == pytest.approx(expected, rel=CLOSED, abs=scale)
+    flexure = max(one.forces.parts["flexure"] for one in (found.full, found.empty))
+    for figure, loading in found.worst().items():
+        (worst,) = found.loaded([loading])
+        assert looked_for(worst)[figure] >= max(one[figure] for one in alone) - flexure, figure
 
 
 def test_no_loading_of_twelve_sections_beats_the_worst():

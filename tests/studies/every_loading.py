@@ -36,8 +36,8 @@ PARTS = {"pulley_diameter": "1 m", "backstop": True, "backstop_torque": "150 kN*
 
 
 def calculated(conveyor, take_up=None):
-    """A conveyor without contacts, its take-up at a setting."""
-    balance = closed(conveyor)
+    """A conveyor without contacts, its take-up at a setting; with pulleys its flexure, too, follows the tension."""
+    balance = closed(conveyor, by_sag=bool(conveyor.route.pulleys))
     if take_up is not None:
         (balance,) = with_take_up_at([balance], take_up)
     contacts, fixed = Contacts(balance.line, {}, (), ()), rubber_free_forces(balance.line.strands)
@@ -52,7 +52,7 @@ def calculated_many(variants, *_args, **_kwargs):
 def route(rng, count, pulleys=()):
     """A conveyor that rises and falls, with all that criteria look at by chance.
 
-    Without pulleys nothing depends on the tensions, and sums of forces are exact.
+    Without pulleys nothing depends on the tensions, flexure included, and sums of forces are exact.
     """
     sections = [_section(rng, i) for i in range(count)]
     drive = {"position": str(rng.choice(["head", "tail"]))}

@@ -118,11 +118,11 @@ class Found:
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.usefixtures("without_contacts")
 def test_with_pulleys_no_loading_is_worse_by_more_than_what_bends_the_belt(seed):
-    """Superposition takes the pulleys' resistance of the full belt: it is off by no more than that resistance."""
+    """Superposition takes wraps and flexure of the full and the empty belt: it is off by no more than all of them."""
     conveyor = route(np.random.default_rng(500 + seed), 4, PULLEYS)
     states, governing = reported(conveyor)
     loads = list(every_loading(conveyor, states.take_up))
-    bends = max(math.fsum(found.balance.settled.bends) for _, found in loads)
+    bends = max(math.fsum(found.balance.settled.bends) + found.balance.forces.parts["flexure"] for _, found in loads)
     lowest = min(abs(found.balance.settled.steady.smallest) for _, found in loads)
     never_worse(governing, loads, 2.0 * bends / lowest)
 
@@ -193,7 +193,7 @@ def test_the_backstop_holds_what_lifts_more_than_its_friction():
     case = LoadCase(name="again", loading="sections", sections=worst.loaded)
     (again,) = calculate_many([Variant(with_case(conveyor, case), take_up=states.take_up)])
     assert governs.required == pytest.approx(again.motions.brake_to_hold, rel=1e-6)
-    assert governs.required > 1.5 * states.load(states.state("inclines")).found.motions.brake_to_hold
+    assert governs.required > 1.3 * states.load(states.state("inclines")).found.motions.brake_to_hold
 
 
 def test_downhill_with_brakes_no_loading_calculated_in_full_is_worse():
@@ -218,7 +218,7 @@ def test_downhill_with_brakes_no_loading_calculated_in_full_is_worse():
         "plant",
     )
     (slip,) = (c for (key, _), c in governing.items() if key == "bulk_slip_stopping")
-    assert slip.calculated == pytest.approx(1.506, abs=0.0005)
+    assert slip.calculated == pytest.approx(1.501, abs=0.0005)
 
 
 def test_of_criteria_without_anything_there_the_one_that_needs_most_governs():
