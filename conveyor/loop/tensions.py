@@ -247,7 +247,7 @@ class MotionOffsets:
         return np.stack([along[..., :-1] + shift, along[..., 1:] + shift])
 
     def flexure(self, setting: Array) -> Array:
-        """Flexure at the tensions of steady running with the take-ups at a setting, in loop order [N], shape (b, 2n)."""
+        """Flexure in steady running with the take-ups at a setting, in loop order [N], shape (b, 2n)."""
         standing = self.loops.standing
         starts, ends = self.ends((setting - self.anchor[:, 0])[:, None])[:, :, 0] - standing.centrifugal
         return self.loops.flexure * mean_sag_ratio(starts, ends, limit=standing.least)

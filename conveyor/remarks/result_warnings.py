@@ -15,11 +15,11 @@ from conveyor.laws.resistance import (
     CARCASS_BENDING,
     FLEXURE_COEFFICIENT,
     FLEXURE_SHARE,
-    SITE_SAG,
     ROLL_CONDITION,
     ROLL_ON_BELT_FRICTION,
     SCRAPING_FACTOR,
     SERVICE_DRAG,
+    SITE_SAG,
 )
 from conveyor.line.belt_contacts import BeltContacts
 from conveyor.line.covers import compounds_by_strand

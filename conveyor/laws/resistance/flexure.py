@@ -27,8 +27,8 @@ SITE_LOSS: Final = 61.7  # [N a set], all losses measured there but those of the
 SITE_LOAD: Final = 4302.0  # [N a set], belt and bulk there
 SITE_SAG: Final = Default(
     0.004, 0.002, 0.01,
-    "tension there is not published: an ST 1600 belt of its width runs between 55 kN (1 % sag) and 380 kN (safety 6.7), "
-    "0.4 % in the middle",
+    "tension there is not published: an ST 1600 belt of its width runs between 55 kN (1 % sag) and 380 kN "
+    "(safety 6.7), 0.4 % in the middle",
     True,
 )  # [-]  # fmt: skip
 
@@ -99,7 +99,7 @@ def sag_flexure_resistance(line_load: float, *, spacing: float, relative_sag: fl
 
 
 def mean_sag_ratio(start: Array, end: Array, *, limit: Array) -> Array:
-    """Mean sag along stretches over the sag at a tension limit, (1/L) ∫ T_0/max(T, T_0) ds (h/a = q a/(8 T), DIN 22101).
+    """Mean sag along stretches over that at a tension limit, (1/L) ∫ T_0/max(T, T_0) ds (h/a = q a/(8 T), DIN 22101).
 
     Parameters
     ----------
