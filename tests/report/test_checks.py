@@ -108,7 +108,7 @@ def test_us_units(line):
             "take-up",
             {"kind": "gravity", "tension": "15 kN"},
             "take-up tension (sag, carry, incline, steady)",
-            "requires 25.9 kN",
+            "requires 25.6 kN",
         ),
     ],
 )

@@ -106,7 +106,7 @@ def test_the_load_as_given_is_among_those_that_govern():
 def test_of_two_loads_that_are_one_the_same_governs_everywhere():
     """The empty belt as a load case and as a load state, which asks for most of motors and take-up."""
     given = load(SPECS / "downhill.yaml")
-    route = given.route.replace(sections=[{"name": "slope", "length": "1800 m", "lift": "-50 m"}])
+    route = given.route.replace(sections=[{"name": "slope", "length": "1800 m", "lift": "-54 m"}])
     given = given.replace(route=route, cases=[{"name": "bare", "loading": "empty"}])
     found = studies(given)
     told = analyse(given).to_dict(found)
