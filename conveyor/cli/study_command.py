@@ -156,14 +156,16 @@ def _write_study_files(
 
 
 def show_best(contents: Contents, deciding: Set[str]) -> None:
-    """Print the best designs with the deciding figures only."""
-    from conveyor.cli.terminal import report_grid, terminal_console
+    """Print the best designs with the deciding figures only, and the remarks."""
+    from conveyor.cli.terminal import report_grid, show_notes, terminal_console
 
     if "best" in contents:
         facts = dict(contents.document.facts)
         best, title = contents["best"], f"{contents.document.title}: {facts['study']}; {facts['sought']}"
         shown = tuple(one for one in best.columns if one.kind in {"text", "count"} or one.key in deciding)
         terminal_console().print(report_grid(replace(best, columns=shown), contents.system, title))
+    if "remarks" in contents:
+        show_notes(terminal_console(), [row.text for row in contents["remarks"].rows])
 
 
 def design_spec(campaign: ParametricStudy, design: Design, figures: str) -> bytes:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.laws.horizontal_curve import FULL_SLIP_TILT
@@ -11,7 +11,7 @@ from conveyor.laws.resistance import FLEXURE_COEFFICIENT, FLEXURE_SHARE, ROLL_ON
 from conveyor.laws.wind import WIND_DRAG, WIND_LIFT
 from conveyor.line.covers import compounds_by_strand
 from conveyor.line.stretches import misalignment_angle
-from conveyor.models import Conveyor, IdlerSet, Roll
+from conveyor.models import Conveyor, IdlerSet, Roll, RubberCompound
 from conveyor.models.calculation_methods import FACTOR_METHODS, METHOD_NAMES
 from conveyor.models.library_items import LibraryItem
 from conveyor.models.rolls import BearingDrag, MakerDrag
@@ -43,6 +43,13 @@ def analysis_assumptions(conveyor: Conveyor) -> tuple[str, ...]:
         "the data: as conditioned there, of that lot, not aged.",
         *_energy_assumption(conveyor),
     )
+
+
+def failed_fits(compounds: Iterable[RubberCompound]) -> Iterator[str]:
+    """Compounds whose fit does not meet its criteria, with those, in words."""
+    for compound in dict.fromkeys(compounds):
+        if compound.fit is not None and compound.fit.failed:
+            yield f'the fit of "{compound.name}" fails, do not design by it: {"; ".join(compound.fit.failed)}'
 
 
 def _horizontal_assumptions(conveyor: Conveyor) -> Iterator[str]:

@@ -30,7 +30,7 @@ from conveyor.models import Conveyor, IdlerSet, Roll
 from conveyor.models.library_items import without_entry_fields
 from conveyor.models.plausibility import implausible_inputs
 from conveyor.models.rolls import BearingDrag
-from conveyor.remarks.assumptions import library_models, rolls_by_field
+from conveyor.remarks.assumptions import failed_fits, library_models, rolls_by_field
 from conveyor.units import quantity, same_value, text
 from conveyor.units.presentation import format_figure
 from conveyor.units.sentences import Message, escape_braces, message, percent
@@ -74,15 +74,14 @@ def _name_case(check: Check, why: Message) -> Message:
 
 
 def _rubber_warnings(conveyor: Conveyor) -> Iterator[Message]:
-    for strand, compound in compounds_by_strand(conveyor).items():
+    by_strand = compounds_by_strand(conveyor)
+    yield from (message(escape_braces(failure)) for failure in failed_fits(by_strand.values()))
+    for strand, compound in by_strand.items():
         name = escape_braces(compound.name)
         if compound.kind == "illustrative":
             yield message(f'compound "{name}" is illustrative, not measured: for comparison, not for design')
         if strand == "return" and conveyor.belt.top_cover.compound is None and not conveyor.route.turned_over:
             yield message(f'top_cover.compound is not given: the return rolls run on the bottom cover\'s, "{name}"')
-        if compound.fit is not None and compound.fit.failed:
-            failed = escape_braces("; ".join(compound.fit.failed))
-            yield message(f'compound "{name}": its fit fails, do not design by it: {failed}')
         if compound.missing and compound.kind == "measured":
             yield message(f'compound "{name}": unknown: {escape_braces("; ".join(compound.missing))}')
 

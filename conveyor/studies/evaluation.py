@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.errors import InputError
-from conveyor.models import Conveyor
+from conveyor.models import Conveyor, RubberCompound
 from conveyor.models.study import Direction, StudyPlan, Value
 from conveyor.studies.design_figures import Design, DesignFigure, pareto_front
 from conveyor.studies.parametric_study import ParametricStudy
@@ -120,6 +120,8 @@ class StudySummary:
         Reasons why designs have no answer, with their number.
     count : int
         Number of designs, those without an answer included.
+    compounds : tuple of RubberCompound
+        Compounds of the designs.
     """
 
     plan: StudyPlan
@@ -135,6 +137,7 @@ class StudySummary:
     best: tuple[Design, ...]
     refused: dict[str, int]
     count: int
+    compounds: tuple[RubberCompound, ...]
 
     @property
     def currency(self) -> str:
@@ -257,6 +260,7 @@ def summarise_study(campaign: ParametricStudy, designs: Iterable[Design]) -> Stu
         tuple(design for _, design in sorted(best, key=lambda one: one[0], reverse=True)),
         dict(refused.most_common()),
         count,
+        campaign.rubbers,
     )
 
 

@@ -120,6 +120,17 @@ class ParametricStudy:
         return cls(plan, base, compounds, outputs)
 
     @property
+    def rubbers(self) -> tuple[RubberCompound, ...]:
+        """Compounds of the points: those that the plan names, and those of covers that it does not change."""
+        covers = {"belt.bottom_cover": self.base.carry_compound, "belt.top_cover": self.base.return_compound}
+        kept = [
+            compound
+            for path, compound in covers.items()
+            if not {"belt", path, f"{path}.compound"} & set(self.plan.paths)
+        ]
+        return (*self.compounds.values(), *kept)
+
+    @property
     def listed(self) -> StudyPlan:
         """The plan, if it lists its points.
 

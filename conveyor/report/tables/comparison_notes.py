@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from conveyor.loop.annual_energy import lacks_feed_in_price
+from conveyor.remarks.assumptions import failed_fits
 from conveyor.rubber.lots import LOT_SCATTER
 from conveyor.rubber.rolling_test_factor import UNTESTED_FACTOR
 from conveyor.studies.comparison import RankedPower
@@ -60,6 +61,7 @@ def _temperature_notes(comparison: CalculatedComparison, system: System) -> Iter
 def comparison_notes(comparison: CalculatedComparison, system: System = "SI") -> tuple[str, ...]:
     """Notes of a comparison in a system of units: conditions and assumptions."""
     lines = [
+        *failed_fits(comparison.compounds),
         *_temperature_notes(comparison, system),
         *_tie_notes(comparison, system),
         *_untested_notes(comparison),

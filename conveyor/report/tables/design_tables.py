@@ -6,9 +6,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
+from conveyor.remarks.assumptions import failed_fits
 from conveyor.report.design_plots import DesignPlots
 from conveyor.report.point_tables import money_kind
-from conveyor.report.table_model import Column, Contents, Drawing, PagePlacement, Table
+from conveyor.report.table_model import Column, Contents, Drawing, PagePlacement, Table, remark_table
 from conveyor.report.tables.document_tables import provenance_table, report_head
 from conveyor.spec import fingerprint
 from conveyor.units import System
@@ -25,6 +26,7 @@ PARTS: Final = (
     ("map", "The two fields that matter most"),
     ("lines", "All designs"),
     ("refused", "Without an answer"),
+    ("remarks", "Remarks"),
     ("provenance", "Provenance"),
 )
 """Parts of the page."""
@@ -48,6 +50,7 @@ def study_contents(study: StudySummary, system: System) -> Contents:
         pareto_front(study),
         effect_table(study),
         refused_designs(study),
+        remark_table({"warning": failed_fits(study.compounds)}, "Notes", page="remarks"),
         provenance_table(fingerprint(study.base), "Notes"),
     )
     facts = (

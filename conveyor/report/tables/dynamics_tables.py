@@ -15,6 +15,8 @@ from conveyor.dynamics.criteria import dynamics_checks, pulley_peak, tension_pea
 from conveyor.dynamics.scenario_result import ScenarioResult
 from conveyor.dynamics.simulation import CalculatedDynamics
 from conveyor.laws.belt_strength import DUTY_SAFETY, SPLICE_SAFETY, belt_safety, required_strength
+from conveyor.line.covers import compounds_by_strand
+from conveyor.remarks.assumptions import failed_fits
 from conveyor.report.dynamics_plots import scenario_figure, tension_animation
 from conveyor.report.json_keys import (
     LEFT_OUT,
@@ -271,9 +273,12 @@ SCENARIO_TABLES: Final = {
 def _dynamics_remarks(dynamics: CalculatedDynamics, every: tuple[Check, ...], system: System) -> Table:
     """Failed checks and assumptions."""
     warned = [
-        f"{check.case.text(system)}: {check.why.text(system)}"
-        for check in every
-        if check.failed and check.why is not None and check.case is not None
+        *failed_fits(compounds_by_strand(dynamics.conveyor).values()),
+        *(
+            f"{check.case.text(system)}: {check.why.text(system)}"
+            for check in every
+            if check.failed and check.why is not None and check.case is not None
+        ),
     ]
     return remark_table({"warning": warned, "assumption": dynamics.assumptions})
 

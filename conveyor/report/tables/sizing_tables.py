@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from conveyor.checks import run_checks
-from conveyor.remarks.assumptions import analysis_assumptions
+from conveyor.line.covers import compounds_by_strand
+from conveyor.remarks.assumptions import analysis_assumptions, failed_fits
 from conveyor.report.json_keys import SCHEMA_VERSION
 from conveyor.report.matplotlib_settings import own_settings
 from conveyor.report.plots import add_legend, curve_colour, finish_figure, group_thousands, set_title, stacked_axes
@@ -206,6 +207,7 @@ def _sizing_remarks(sizing: CalculatedSizing) -> Table:
     best = sizing.best
     told = _CANDIDATES.format(calculated=sizing.calculated, possible=f"{sizing.possible:,}")
     lines = [
+        *failed_fits(compounds_by_strand(best.conveyor).values()),
         f"the ranks are exact: {told}; a candidate that was not calculated may be better by what the estimate is off",
         f"the estimate's cost of a year was off by at most {percent(sizing.estimate_error, 1)} where it was calculated",
         f"{sizing.candidates:,} combinations keep the rules of width, lumps, filling, edge distance and rotation",
