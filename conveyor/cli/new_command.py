@@ -25,6 +25,7 @@ class StarterKind(StrEnum):
     DOWNHILL = "downhill"
     DUTY = "duty"
     SHUTTLE = "shuttle"
+    REVERSIBLE = "reversible"
     CURVED = "curved"
     BRAKES = "brakes"
     TRANSFER = "transfer"

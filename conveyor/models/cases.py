@@ -7,7 +7,7 @@ from typing import Annotated, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
-from conveyor.models.base import Model, Name, Problem, raise_problems
+from conveyor.models.base import Model, Name, Problem, Switch, raise_problems
 from conveyor.models.operation import BeltSpeed, EarthTemperature
 from conveyor.units import Bounds, Fraction, Quantity, text
 
@@ -28,6 +28,8 @@ class LoadCase(Model):
     """The sections that bear bulk, for loading "sections"."""
     share: Annotated[Fraction, Bounds(gt="0 %", le="200 %")] | None = None
     """Mass flow over material.flow, for part load (a surge is above 100 %)."""
+    reversed: Switch = False
+    """Whether the belt runs the other way, from head to tail; up is then what was down."""
     temperatures: Annotated[tuple[EarthTemperature, ...], Field(max_length=100)] = ()
     """Of the belt's covers; that of ambient without."""
     speeds: Annotated[tuple[BeltSpeed, ...], Field(max_length=100)] = ()

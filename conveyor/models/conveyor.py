@@ -12,6 +12,7 @@ from conveyor.models.cases import LoadCase, duplicate_case_names
 from conveyor.models.part_conflicts import CONFLICTS, flooded_section, largest_section
 from conveyor.models.parts import ConveyorParts
 from conveyor.models.report import Report
+from conveyor.models.reversal import reversal_problems
 from conveyor.models.scenarios import Scenario, scenario_problems
 from conveyor.models.uncertain_inputs import Uncertainty
 from conveyor.reuse import part_key
@@ -89,12 +90,16 @@ class Conveyor(ConveyorParts):
         yield from duplicate_case_names(self.cases)
 
     def _case_problems(self) -> Iterator[Problem]:
-        """Refuse cases and scenarios that name sections, drives or a density the conveyor does not have."""
+        """Refuse cases and scenarios that ask for sections, drives, a density or a direction it does not have."""
         named = [("cases", i, case.sections) for i, case in enumerate(self.cases)]
         for i, case in enumerate(self.cases):
             if case.loading == "heavy bulk" and self.material.weight_density is None:
                 message = 'got "heavy bulk" without material.weight_density; give that, or another loading'
                 yield Problem(("cases", i, "loading"), message)
+            if case.reversed:
+                for problem in reversal_problems(self):
+                    message = f"cases[{i}] is reversed: {problem.message}"
+                    yield Problem(problem.location, message)
         named += [("scenarios", i, scenario.sections) for i, scenario in enumerate(self.scenarios)]
         for field, i, sections in named:
             for j, name in enumerate(sections):
@@ -115,6 +120,6 @@ class Conveyor(ConveyorParts):
 CHECKS: Final[Mapping[Callable[[Any], Iterator[Problem]], tuple[str, ...]]] = {
     **CONFLICTS,
     Conveyor._case_names: ("cases",),  # noqa: SLF001 of this module
-    Conveyor._case_problems: ("cases", "drive", "material", "route", "scenarios"),  # noqa: SLF001
+    Conveyor._case_problems: ("cases", "drive", "idlers", "material", "route", "scenarios"),  # noqa: SLF001
 }
 """Checks across fields, and the fields that each check reads."""

@@ -12,6 +12,7 @@ from conveyor.models.compound import RubberCompound
 from conveyor.models.conveyor import Conveyor
 from conveyor.models.fields import with_fields
 from conveyor.models.material import BulkMaterial
+from conveyor.models.reversal import with_direction_reversed
 from conveyor.models.route import Route, Section
 from conveyor.models.runs import MeasuredRun
 from conveyor.reuse import ReuseCache
@@ -59,6 +60,8 @@ def with_case(conveyor: Conveyor, case: LoadCase, *, speed: Quantity | None = No
     for name in case.sections:
         for problem in conveyor.route.section_problem(("sections",), name):
             raise InputError(f'load case "{case.name}": sections: {problem.message}')
+    if case.reversed:
+        conveyor = with_direction_reversed(conveyor)
     changes: dict[str, object] = {}
     if speed is not None and si(speed) != si(conveyor.belt.speed):
         changes["belt"] = conveyor.belt.replace(speed=speed)

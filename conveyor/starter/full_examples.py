@@ -19,6 +19,7 @@ class Example(NamedTuple):
 
 EXAMPLES: Final = {
     "shuttle": Example("specs/shuttle.yaml"),
+    "reversible": Example("specs/reversible.yaml"),
     "curved": Example("specs/curved.yaml"),
     "brakes": Example("specs/downhill_brakes.yaml"),
     "transfer": Example("specs/transfer.yaml"),

@@ -134,7 +134,8 @@ def _existing_loadings(states: CalculatedStates, cases: CalculatedCases | None) 
     """Temperature and loaded sections of every load calculated at the spec's speed and full cross-section."""
     there = {(state.temperature, state.loaded) for state in states.states if state.keys}
     for result in () if cases is None else cases.designing:
-        if result.speed == states.own.line.speed and result.case.loading in STANDARD_LOADINGS:
+        own_way = result.speed == states.own.line.speed and not result.case.reversed
+        if own_way and result.case.loading in STANDARD_LOADINGS:
             stretches = result.found.line.stretches[: result.found.line.count]
             there.add((result.temperature, tuple(s.section for s in stretches if s.bulk_mass > 0.0)))
     return there

@@ -301,7 +301,8 @@ def _full_and_empty(
 
     A temperature at which a case is outside the rubber's data is left out: worst loadings would be designed by it.
     """
-    every = [] if cases is None else [r for r in cases.results if r.speed == own.line.speed]
+    here = () if cases is None else cases.results
+    every = [result for result in here if result.speed == own.line.speed and not result.case.reversed]
     beyond = {r.temperature for r in every if not r.covered}
     results = [r for r in every if r.temperature not in beyond]
     known: dict[tuple[float, str], CalculatedConveyor] = {(r.temperature, r.case.loading): r.found for r in results}

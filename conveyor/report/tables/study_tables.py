@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from conveyor.studies.duty import CalculatedYear
     from conveyor.studies.flooding import FloodedBelt
     from conveyor.studies.input_ranges import CalculatedRanges
-    from conveyor.studies.load_cases import CalculatedCases, GoverningLoad
+    from conveyor.studies.load_cases import CalculatedCases, CaseResult, GoverningLoad
     from conveyor.studies.monte_carlo import Percentiles
     from conveyor.studies.states import CalculatedStates
 
@@ -118,11 +118,15 @@ def case_tensions(study: CalculatedCases) -> Table:
     return replace(tensions, key="case_tensions", heading=heading, columns=columns, page=_CASES)
 
 
+def _loading_text(result: CaseResult) -> str:
+    return f"{result.case.loading}, reversed" if result.case.reversed else result.case.loading
+
+
 def case_table(study: CalculatedCases) -> Table:
     """Load cases, one row per case, speed and temperature."""
     columns = (
         Column("case", "text", "case.name"),
-        Column("loading", "text", "case.loading", page=None),
+        Column("loading", "text", _loading_text, page=None),
         *_CONDITIONS,
         Column("covered", "verdict", lambda row: "yes" if row.covered else "NO"),
         Column("mass flow", "mass flow", "found.line.flow"),
