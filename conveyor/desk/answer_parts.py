@@ -8,9 +8,18 @@ from typing import Any, Final, NamedTuple
 
 from conveyor.assessment import Assessment
 from conveyor.checks import Check
-from conveyor.report.line_drawings import PowerBand, band_chart, profile_chart, share_chart, tension_chart
+from conveyor.report.line_drawings import (
+    NamedTable,
+    PowerBand,
+    band_chart,
+    profile_chart,
+    set_chart,
+    share_chart,
+    tension_chart,
+)
 from conveyor.report.merged_notes import NOTE_HEADINGS, sort_notes
 from conveyor.report.page_elements import bullet_list, figure_list, table_html
+from conveyor.report.set_outline import set_outlines
 from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Column, Figure, Table
 from conveyor.report.tables.analysis_contents import TABLES, AnalysisTables
 from conveyor.text.markup import Html, element, join_html
@@ -65,8 +74,9 @@ def answer_parts(shown: NamedAssessment, beside: NamedAssessment | None = None) 
         "verdict": verdict_part(tables),
         "tiles": tile_part(tables, system),
         "governing": table_html(tables["governing_figures"], tables["governing_figures"].heading, system),
-        "profile": profile_chart(tables["profile"], system),
-        "tensions": tension_chart(tables["tension_states"], system),
+        "profile": profile_chart(tables["profile"], system, _table_beside(beside, "profile")),
+        "tensions": tension_chart(tables["tension_states"], system, _table_beside(beside, "tension_states")),
+        "sets": set_part(shown.assessment),
         "checks": check_part(tables["checks"], system),
         "notes": note_part(tables),
         "compared": Html("") if beside is None else compared_part(*sorted((shown, beside), key=_rank_of)),
@@ -74,6 +84,17 @@ def answer_parts(shown: NamedAssessment, beside: NamedAssessment | None = None) 
     if beside is not None:
         parts["verdict_beside"] = verdict_part(beside.tables)
     return parts
+
+
+def _table_beside(beside: NamedAssessment | None, key: str) -> NamedTable | None:
+    return None if beside is None else NamedTable(beside.name, beside.tables[key])
+
+
+def set_part(assessment: Assessment) -> Html:
+    """Sets of both strands with belt and bulk."""
+    own = assessment.own
+    outlines = set_outlines(own.line, own.conveyor.material.surcharge)
+    return set_chart(outlines, display_unit("size", assessment.system), own.line.belt.width)
 
 
 def verdict_part(tables: Mapping[str, Table]) -> Html:

@@ -6,8 +6,7 @@ Axes are in SI units (kN, kW, MPa), or in US units (lbf, hp, psi).
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from functools import partial
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,7 +15,6 @@ from numpy.typing import NDArray
 from conveyor.contact import solve
 from conveyor.errors import InputError
 from conveyor.indentation import to_problem
-from conveyor.laws.loading import Wing, spread_bulk, wing_pieces
 from conveyor.laws.tension import grip_tension
 from conveyor.line.contacts import Contacts, RollResult
 from conveyor.line.stretches import STRANDS
@@ -32,6 +30,7 @@ from conveyor.report.plots import (
     set_title,
     stacked_axes,
 )
+from conveyor.report.set_outline import set_outlines
 from conveyor.report.table_model import FAILS
 from conveyor.units import System
 from conveyor.units.presentation import display_unit
@@ -41,7 +40,7 @@ if TYPE_CHECKING:
 
     from conveyor.calculated_conveyor import CalculatedConveyor
     from conveyor.line.line import Line
-    from conveyor.line.stretches import RouteSection, Strand, Stretch
+    from conveyor.line.stretches import RouteSection, Strand
     from conveyor.loop.balance import Balance
     from conveyor.loop.estimates import ClassicalEstimate
     from conveyor.loop.horizontal_curve_duty import HorizontalCurveCheck
@@ -279,7 +278,6 @@ _FAILS = "#B3261E"
 _LOOP_DISTANCE = "distance from the head along the belt, return strand first"
 _CURVE_CHORDS = 24  # chords of a curve in plan
 _OFF_ROLLS = 1.5  # of the free roll width: drawn length of an unbounded drift
-_HEAP_POINTS = 41  # points of its outline
 _LEVEL_MARGIN = 0.05  # of the length, above and below a level route
 _ASPECT = 5.0  # a height that is less than a fifth of the length is drawn larger
 
@@ -341,59 +339,18 @@ def route_profile(
 def cross_section(conveyor: Conveyor, line: Line, *, system: System = "SI") -> Figure:
     """An idler set of each strand with its belt and bulk, to scale; the belt is centred."""
     figure, axes = stacked_axes(2, 1.4 * _HEIGHT)
-    size, width = display_unit("size", system), line.belt.width
-    for axis, strand in zip(axes, STRANDS, strict=True):
-        stretch = max((s for s in line.stretches if s.strand == strand), key=lambda s: s.bulk_mass)
-        middle, angle = stretch.idlers.middle_belt(width), stretch.trough_angle
-        trough = partial(
-            wing_pieces, middle_roll_length=middle, trough_angle=angle, inner_wing=stretch.idlers.inner_wing
-        )
-        for x, y in _roll_outlines(stretch, 0.5 * middle, trough(width)):
+    size = display_unit("size", system)
+    for axis, one in zip(axes, set_outlines(line, conveyor.material.surcharge), strict=True):
+        for x, y in one.rolls:
             axis.fill(size(x), size(y), color="0.85", edgecolor="0.4")
-        x, y = _symmetric_belt(0.5 * middle, trough(width))
-        axis.plot(size(x), size(y), color="#1F4E79", linewidth=3, zorder=3)
-        if stretch.bulk_mass > 0.0:
-            covered, slope = spread_bulk(
-                stretch.bulk_mass / line.density,
-                belt_width=width,
-                middle_roll_length=middle,
-                trough_angle=angle,
-                surcharge_angle=conveyor.material.surcharge,
-                inner_wing=stretch.idlers.inner_wing,
-            )
-            lying = 0.5 * min(middle, covered)
-            x, y = _symmetric_belt(lying, trough(covered) if covered > middle else ())
-            over = np.linspace(x[-1], x[0], _HEAP_POINTS)
-            heap = y[-1] + math.tan(slope) * (x[-1] ** 2 - over**2) / (2.0 * x[-1])
-            axis.fill(size(np.append(x, over)), size(np.append(y, heap)), color="#C9A66B", zorder=2)
+        axis.plot(*map(size, one.belt), color="#1F4E79", linewidth=3, zorder=3)
+        if one.bulk is not None:
+            axis.fill(*map(size, one.bulk), color="#C9A66B", zorder=2)
         axis.set_aspect("equal", adjustable="datalim")
-        axis.set_ylabel(size.beside(f"{strand}, up"))
+        axis.set_ylabel(size.beside(f"{one.strand}, up"))
     axes[1].set_xlabel(size.beside("across the belt"))
     set_title(figure, "Sets, belt and bulk")
     return figure
-
-
-def _symmetric_belt(flat: float, half: Sequence[Wing]) -> tuple[Array, Array]:
-    """Outline of a belt (across, up) [m], from left to right: level to `flat` on both sides, then along the wings."""
-    x = np.cumsum([flat, *(wing.length * math.cos(wing.angle) for wing in half)])
-    y = np.cumsum([0.0, *(wing.length * math.sin(wing.angle) for wing in half)])
-    return np.concatenate([-x[::-1], x]), np.concatenate([y[::-1], y])
-
-
-def _roll_outlines(stretch: Stretch, flat: float, half: Sequence[Wing]) -> Iterator[tuple[Array, Array]]:
-    """Outlines of the rolls [m]; a wing roll begins at the bend before it."""
-    count, long = len(stretch.radii), stretch.roll_length
-    if count % 2:
-        thick = 2.0 * stretch.radii[count // 2]
-        yield np.array([-0.5, 0.5, 0.5, -0.5]) * long, np.array([0.0, 0.0, -thick, -thick])
-    x, y = flat, 0.0
-    for wing, radius in zip(half, stretch.radii[(count + 1) // 2 :], strict=False):
-        along = long * np.array([math.cos(wing.angle), math.sin(wing.angle)])
-        down = 2.0 * radius * np.array([math.sin(wing.angle), -math.cos(wing.angle)])
-        outline = np.array([x, y]) + np.array([0.0 * along, along, along + down, down])
-        for side in (1.0, -1.0):
-            yield side * outline[:, 0], outline[:, 1]
-        x, y = x + wing.length * math.cos(wing.angle), y + wing.length * math.sin(wing.angle)
 
 
 def _plan_steps(section: RouteSection, heading: float) -> tuple[Array, float]:

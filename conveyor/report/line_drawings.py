@@ -10,7 +10,10 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final, NamedTuple
 
-from conveyor.report.table_model import Table
+import numpy as np
+
+from conveyor.report.set_outline import Outline, SetOutline
+from conveyor.report.table_model import Column, Table
 from conveyor.text.markup import Html, element, join_html
 from conveyor.units import System
 from conveyor.units.presentation import Unit, display_unit, format_number
@@ -23,6 +26,10 @@ _LEFT, _RIGHT, _TOP, _BOTTOM = 54.0, 20.0, 10.0, 34.0
 """Room about the plot for numbers and labels [px]."""
 _MARGIN: Final = 0.06
 """Room above and below the lines, of their range."""
+_OTHER, _OTHER_DASHES = "other", "6 4"
+"""Class and dashes of the lines of another variant."""
+_SET_WIDTH, _SET_MARGIN = 384.0, 8.0
+"""Width and margins of the drawing of the sets [px]."""
 _BAND_ROW: Final = 14.0
 """Height of a bar with a band [px]."""
 
@@ -151,7 +158,14 @@ class PowerBand(NamedTuple):
     style: int = 0
 
 
-def tension_chart(states: Table, system: System) -> Html:
+class NamedTable(NamedTuple):
+    """A table of another variant, and the name of that."""
+
+    name: str
+    table: Table
+
+
+def tension_chart(states: Table, system: System, beside: NamedTable | None = None) -> Html:
     """Draw the tension round the loop in every state of motion, from the head.
 
     Parameters
@@ -160,26 +174,43 @@ def tension_chart(states: Table, system: System) -> Html:
         The table `tension_states`.
     system : {"SI", "US"}
         Units of the axes.
+    beside : NamedTable, optional
+        The same of another variant: its first state, steady running, is drawn too.
     """
     force, length = (display_unit(kind, system, large=True) for kind in ("force", "length"))
-    columns = {column.key: column for column in states.columns}
-    way = [float(length(columns["distance_from_head"].get(row))) for row in states.rows]
+
+    def way_of(table: Table) -> list[float]:
+        get = next(column.get for column in table.columns if column.key == "distance_from_head")
+        return [float(length(get(row))) for row in table.rows]
+
+    def line_of(table: Table, column: Column, name: str, style: str, dashes: str | None) -> ChartLine:
+        values = [float(force(column.get(row))) for row in table.rows]
+        return ChartLine(name, list(zip(way_of(table), values, strict=True)), style, dashes)
+
     lines = []
-    for k, column in enumerate(c for c in states.columns if c.kind == "force" and c.key != "least_for_sag"):
-        values = [float(force(column.get(row))) for row in states.rows]
-        name, dashes = column.label.replace("_", " "), _DASHES[k % len(_DASHES)]
-        lines.append(ChartLine(name, list(zip(way, values, strict=True)), f"s{k}", dashes))
-    least = [float(force(columns["least_for_sag"].get(row))) for row in states.rows]
-    lines.append(ChartLine("minimum for sag", list(zip(way, least, strict=True)), "s9", "2 3"))
-    tail = (0.5 * max(way), "tail")
-    label = f"Tension round the loop in {len(lines) - 1} states of motion, from the head"
+    for k, column in enumerate(_states_of_motion(states)):
+        name = column.label.replace("_", " ")
+        lines.append(line_of(states, column, name, f"s{k}", _DASHES[k % len(_DASHES)]))
+    label = f"Tension round the loop in {len(lines)} states of motion, from the head"
+    least = next(column for column in states.columns if column.key == "least_for_sag")
+    lines.append(line_of(states, least, "minimum for sag", "s9", "2 3"))
+    tail = (0.5 * max(way_of(states)), "tail")
+    if beside is not None:
+        steady = _states_of_motion(beside.table)[0]
+        name = f"{beside.name}, {steady.label.replace('_', ' ')}"
+        lines.append(line_of(beside.table, steady, name, _OTHER, _OTHER_DASHES))
+        label += f"; {name}"
     return LineChart(
         label, length.beside("distance from the head along the loop"), force.beside("tension"), tuple(lines),
         uprights=(tail,), zero=True,
     ).drawn()  # fmt: skip
 
 
-def profile_chart(profile: Table, system: System) -> Html:
+def _states_of_motion(states: Table) -> list[Column]:
+    return [column for column in states.columns if column.kind == "force" and column.key != "least_for_sag"]
+
+
+def profile_chart(profile: Table, system: System, beside: NamedTable | None = None) -> Html:
     """Draw the route's profile from the tail, with feeding points, drives and take-up.
 
     Parameters
@@ -188,16 +219,19 @@ def profile_chart(profile: Table, system: System) -> Html:
         The table `profile`.
     system : {"SI", "US"}
         Units of the axes.
+    beside : NamedTable, optional
+        The same of another variant: its ground is drawn where it differs.
     """
     length = display_unit("length", system, large=True)
-    columns = {column.key: column for column in profile.columns}
 
-    def points_of(key: str) -> list[tuple[float, float]]:
-        get, across = columns[key].get, columns["horizontal"].get
-        pairs = ((across(row), get(row)) for row in profile.rows)
+    def points_of(key: str, table: Table = profile) -> list[tuple[float, float]]:
+        columns = {column.key: column.get for column in table.columns}
+        pairs = ((columns["horizontal"](row), columns[key](row)) for row in table.rows)
         return [(float(length(x)), float(length(z))) for x, z in pairs if z is not None]
 
-    ground = ChartLine("", points_of("height"))
+    lines = [ChartLine("", points_of("height"))]
+    if beside is not None and (other := points_of("height", beside.table)) != lines[0].points:
+        lines.append(ChartLine(beside.name, other, _OTHER, _OTHER_DASHES))
     others = [c for c in profile.columns if c.key not in {"behind_section", "along_the_belt", "horizontal", "height"}]
     marks = tuple(
         ChartMark(column.label.removesuffix(" at height"), points_of(column.key), f"m{k % 3}", _SHAPES[k % 3])
@@ -205,7 +239,46 @@ def profile_chart(profile: Table, system: System) -> Html:
     )
     label = f"Profile of the route, {len(profile.rows) - 1} sections"
     across, up = length.beside("horizontal distance from the tail"), length.beside("height over the tail")
-    return LineChart(label, across, up, (ground,), marks).drawn()
+    return LineChart(label, across, up, tuple(lines), marks).drawn()
+
+
+def set_chart(outlines: Sequence[SetOutline], unit: Unit, width: float) -> Html:
+    """Draw a set of each strand with its belt and bulk, to one scale.
+
+    Parameters
+    ----------
+    outlines : sequence of SetOutline
+        Of the carry and the return strand.
+    unit : Unit
+        Unit of the width of the belt.
+    width : float
+        Width of the belt [m].
+    """
+    reach = max(float(np.max(np.abs(x))) for one in outlines for x, _ in (*one.rolls, one.belt))
+    scale, middle = 0.5 * (_SET_WIDTH - 2.0 * _SET_MARGIN) / reach, 0.5 * _SET_WIDTH
+    body, top = [], _SET_MARGIN
+    for one in outlines:
+        shapes = [*one.rolls, one.belt, *(() if one.bulk is None else (one.bulk,))]
+        low, high = (float(end(y for _, of in shapes for y in of)) for end in (min, max))
+
+        def places(outline: Outline, high: float = high, top: float = top) -> str:
+            pairs = zip(
+                (middle + scale * outline[0]).tolist(), (top + scale * (high - outline[1])).tolist(), strict=True
+            )
+            return " ".join(f"{x:.1f},{y:.1f}" for x, y in pairs)
+
+        body += [element("polygon", points=places(roll), class_="roll") for roll in one.rolls]
+        body += [] if one.bulk is None else [element("polygon", points=places(one.bulk), class_="bulk")]
+        body.append(element("polyline", points=places(one.belt), class_="l belt s0", fill="none"))
+        top += scale * (high - low) + 2.0 * _SET_MARGIN
+    label = f"Carry and return set with belt and bulk, to scale; belt {unit.said(width, 4)}"
+    svg = element("svg", *body, viewBox=f"0 0 {_SET_WIDTH:g} {top:.1f}", role="img", aria_label=label, class_="chart")
+    return element(
+        "figure",
+        element("figcaption", f"belt {unit.said(width, 4)}: carry and return set, to scale"),
+        svg,
+        class_="drawn",
+    )
 
 
 def band_chart(

@@ -210,6 +210,8 @@ def test_a_second_variant_is_compared(client):
     assert "filling of the belt" in got["compared"]  # passes before, fails after
     assert "Not adequate" in got["verdict"]
     assert "Adequate" in got["verdict_beside"]
+    assert "as built, steady" in got["tensions"]
+    assert "as built" not in got["profile"]  # one route
     one = ask(client, "/result", file="overland.yaml", changes={}).json()["power_kW"]["motor"]
     two = ask(client, "/result", file="overland.yaml", changes={"belt.speed": "4 m/s"}).json()["power_kW"]["motor"]
     assert f"{two - one:,.1f}" in got["compared"]

@@ -10,10 +10,22 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from conveyor.report.line_drawings import ChartLine, LineChart, PowerBand, band_chart, profile_chart, tension_chart
+from conveyor.pipeline import calculate
+from conveyor.report.line_drawings import (
+    ChartLine,
+    LineChart,
+    NamedTable,
+    PowerBand,
+    band_chart,
+    profile_chart,
+    set_chart,
+    tension_chart,
+)
+from conveyor.report.set_outline import set_outlines
 from conveyor.report.tables.analysis_contents import AnalysisTables
+from conveyor.spec import load
 from conveyor.units.presentation import display_unit
-from tests.worked_examples import worked_example
+from tests.worked_examples import SPECS, worked_example
 
 PIXEL = 0.1
 """Places are written to a tenth of a pixel: half of it for the point, half for the ends of the scale."""
@@ -110,3 +122,41 @@ def test_a_level_line_is_drawn_in_the_middle():
 def test_drawing_needs_no_matplotlib():
     code = "import sys; import conveyor.report.line_drawings; sys.exit('matplotlib' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_another_variant_is_drawn_over_it_where_it_differs(tables):
+    """Steady tensions of the in-plant belt over those of the overland belt, on one scale; one ground is drawn once."""
+    result, studies = worked_example("in_plant_us")
+    other = AnalysisTables(result.assess(studies))
+    figure = parsed(tension_chart(tables["tension_states"], "SI", NamedTable("B", other["tension_states"])))
+    own, *_, line = figure.iter("polyline")
+    force, drawn, wanted = display_unit("force", "SI", large=True), [], []
+    for table, places in ((tables["tension_states"], own), (other["tension_states"], line)):
+        steady = next(column for column in table.columns if column.label == "steady")
+        drawn += [y for _, y in points(places)]
+        wanted += [float(force(steady.get(row))) for row in table.rows]
+    zero, size = scale_of(drawn, wanted)
+    assert drawn == pytest.approx([zero + size * value for value in wanted], abs=PIXEL)
+    assert "B, steady" in "".join(figure.itertext())
+    count = [
+        len(list(parsed(profile_chart(tables["profile"], "SI", NamedTable("B", of["profile"]))).iter("polyline")))
+        for of in (tables, other)
+    ]
+    assert count == [1, 2]
+
+
+def test_sets_are_drawn_to_one_scale():
+    """Widths on the drawing over those of belt and rolls are one number; the bulk has the area of its line mass."""
+    own = calculate(load(SPECS / "overland.yaml"))
+    outlines = set_outlines(own.line, own.conveyor.material.surcharge)
+    drawn = parsed(set_chart(outlines, display_unit("size"), own.line.belt.width))
+    belts = [points(line) for line in drawn.iter("polyline")]
+    lengths = [sum(math.dist(*pair) for pair in pairwise(belt)) for belt in belts]
+    scale = lengths[0] / own.line.belt.width
+    assert lengths[1] == pytest.approx(lengths[0], rel=PIXEL / 100.0)
+    polygons = list(drawn.iter("polygon"))
+    (bulk,) = (points(one) for one in polygons if one.attrib["class"] == "bulk")
+    area = 0.5 * abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in pairwise([*bulk, bulk[0]]))) / scale**2
+    mass = max(stretch.bulk_mass for stretch in own.line.stretches)
+    assert area == pytest.approx(mass / own.line.density, rel=2e-3)  # a parabola by 40 chords: 1/40², and pixels
+    assert len([one for one in polygons if one.attrib["class"] == "roll"]) == 5
