@@ -27,7 +27,7 @@ from conveyor.desk.design_sliders import Slider, choose_sliders, conveyor_kind, 
 from conveyor.desk.design_variant import TextChanges, command_line, field_errors
 from conveyor.desk.further_studies import offered_studies, study_part
 from conveyor.desk.report_files import REPORTS, report_bytes
-from conveyor.desk.request_guard import RequestGuard
+from conveyor.desk.request_guard import LOOPBACK, RequestGuard
 from conveyor.desk.stop_signal import CalculationStopped, StopSignal
 from conveyor.desk.study_export import study_text
 from conveyor.desk.workbench import Workbench
@@ -420,18 +420,31 @@ class DeskServer:
         Port; another free one where it is taken.
     idle_seconds : float
         Time after the last request at which it ends by itself [s].
+    host : str
+        Address of this machine that it listens to.
+    password : str or None
+        Opens the page from other machines; needed with another host than the loopback address.
+
+    Raises
+    ------
+    InputError
+        The host is no address of this machine, has no free port, or no password goes with it.
     """
 
     workbench: Workbench
     port: int = 0
     idle_seconds: float = IDLE_SECONDS
+    host: str = LOOPBACK
+    password: str | None = field(default=None, repr=False)
     guard: RequestGuard = field(init=False)
 
     def __post_init__(self) -> None:
-        self._socket = _loopback_socket(self.port)
+        if self.host != LOOPBACK and not self.password:
+            raise InputError(f"host {self.host}: other machines reach it, so it needs a password")
+        self._socket = _listening_socket(self.host, self.port)
         self.port = self._socket.getsockname()[1]
         self._desk = Desk(self.workbench)
-        self.guard = RequestGuard(self._desk.app(), self.port)
+        self.guard = RequestGuard(self._desk.app(), self.port, host=self.host, password=self.password)
         config = uvicorn.Config(
             self.guard,
             lifespan="off",
@@ -471,16 +484,16 @@ class DeskServer:
         self.stop()
 
 
-def _loopback_socket(port: int) -> socket.socket:
-    """Socket on the loopback address, on a free port where the given one is taken."""
+def _listening_socket(host: str, port: int) -> socket.socket:
+    """Socket on an address of this machine, on a free port where the given one is taken."""
     for tried in dict.fromkeys((port, 0)):
         made = socket.socket()
         made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
-            made.bind(("127.0.0.1", tried))
+            made.bind((host, tried))
         except OSError:
             made.close()
             continue
         made.listen(64)
         return made
-    raise InputError("no free port on 127.0.0.1")
+    raise InputError(f"host {host}: no address of this machine, or no port of it is free")

@@ -12,6 +12,7 @@ import pytest
 
 import conveyor
 from conveyor.desk.workbench import open_workbench
+from conveyor.errors import InputError
 from conveyor.models.fields import with_fields
 from conveyor.studies.loads import every_load
 
@@ -26,6 +27,7 @@ pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this ma
 
 SPECS = Path("examples/specs").resolve()
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-quic", "--no-first-run"]
+PASSWORD = "correct horse battery"  # noqa: S105 of a test
 SPEED = "#sliders input[data-path='belt.speed']"
 
 
@@ -335,3 +337,32 @@ def test_a_file_changed_in_an_editor_is_read_again(page, tmp_path):
     page.evaluate("window.dispatchEvent(new Event('focus'))")
     wait_until(page, f"document.querySelector({SPEED!r}.replaceAll('\\\\', '')).value === '5.2 m/s'")
     assert not page.is_visible("#changed")
+
+
+def test_from_another_machine_the_password_opens_it(browser, tmp_path):
+    """Through the browser's own form: with an origin, a cookie, and without a secure context."""
+    shutil.copy(SPECS / "overland.yaml", tmp_path)
+    bench = open_workbench([tmp_path / "overland.yaml"], ())
+    try:
+        made = desk_server.DeskServer(bench, host="127.0.0.2", password=PASSWORD)
+    except InputError:
+        bench.close()
+        pytest.skip("127.0.0.2 is no address of this machine")
+    thread = threading.Thread(target=made.run)
+    thread.start()
+    context = browser.new_context()
+    try:
+        page = context.new_page()
+        page.set_default_timeout(30_000)
+        page.goto(f"http://127.0.0.2:{made.port}/")
+        page.fill("input[name=password]", "not this one, no")
+        page.click("button")
+        assert "This is not the password." in page.inner_text("[role=alert]")
+        page.fill("input[name=password]", PASSWORD)
+        page.click("button")
+        page.wait_for_selector("#answer:not([hidden])")
+        assert kilowatts(page) > 0.0
+    finally:
+        context.close()
+        made.stop()
+        thread.join()

@@ -122,6 +122,83 @@ def test_the_own_page_may_ask(client):
     assert client.post("/files", json={}, headers={"host": f"localhost:{PORT}"}).status_code in {200, 403}
 
 
+# ---- for an intranet
+
+
+HOST = "192.0.2.7"
+PASSWORD = "long enough, ä"  # noqa: S105 of a test
+
+
+@pytest.fixture
+def shared(desk):
+    """A client of a desk on an address of an intranet, before the password."""
+    guard = RequestGuard(desk.app(), PORT, "the-token", host=HOST, password=PASSWORD)
+    return TestClient(guard, base_url=f"http://{HOST}:{PORT}", raise_server_exceptions=False, follow_redirects=False)
+
+
+def test_without_the_password_there_is_a_form_and_nothing_else(shared):
+    assert shared.get("/").headers["location"] == "/open"
+    form = shared.get("/open")
+    assert form.status_code == 200
+    assert 'type="password"' in form.text
+    assert "form-action 'self'" in form.headers["content-security-policy"]
+    assert form.headers["referrer-policy"] == "same-origin"  # else a browser sends the form's origin as null
+    for path in ("/desk.js", "/desk.css"):
+        assert shared.get(path).status_code == 403
+    assert shared.post("/files", json={}).status_code == 403
+    assert shared.get("/open?token=wrong").status_code == 403
+
+
+def test_the_password_opens_the_page(shared):
+    opened = shared.post("/open", data={"password": PASSWORD}, headers={"origin": f"http://{HOST}:{PORT}"})
+    assert (opened.status_code, opened.headers["location"]) == (303, "/")
+    assert "SameSite=Strict" in opened.headers["set-cookie"]
+    assert shared.get("/").status_code == 200
+    assert shared.post("/files", json={}).json()["files"]
+
+
+def test_wrong_passwords_are_counted(shared):
+    for given in ("", "x", PASSWORD[:-1], PASSWORD + "x", "y" * 10000):
+        refused = shared.post("/open", data={"password": given})
+        assert refused.status_code == 403
+        assert "set-cookie" not in refused.headers
+        assert "This is not the password." in refused.text
+    late = shared.post("/open", data={"password": PASSWORD})
+    assert late.status_code == 429
+    assert "wait a minute" in late.text
+    assert "set-cookie" not in late.headers
+
+
+def test_an_intranet_forges_no_hosts_or_origins_either(shared):
+    for host in (f"evil.example:{PORT}", f"127.0.0.1:{PORT}", f"localhost:{PORT}"):
+        assert shared.post("/open", data={"password": PASSWORD}, headers={"host": host}).status_code == 421
+    foreign = {"origin": "http://evil.example"}
+    assert shared.post("/open", data={"password": PASSWORD}, headers=foreign).status_code == 403
+
+
+def test_another_host_needs_a_password_and_to_be_of_this_machine(desk):
+    with pytest.raises(InputError, match=r"host 192\.0\.2\.7: other machines reach it, so it needs a password"):
+        DeskServer(desk.workbench, host=HOST)
+    with pytest.raises(InputError, match=r"host 192\.0\.2\.7: no address of this machine"):
+        DeskServer(desk.workbench, host=HOST, password=PASSWORD)
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        (["--host", "127.0.0.2"], "--host: needs a password: --password-file FILE, or CONVEYOR_DESK_PASSWORD"),
+        (["--host", "127.0.0.2", "--password-file", "short"], "short: a password of at least 12 characters, got 5"),
+        (["--host", "127.0.0.2", "--password-file", "none"], "none: no such file"),
+        (["--password-file", "short"], "--password-file: only --host needs a password"),
+    ],
+)
+def test_what_is_no_password_is_refused(folder, more, said):
+    (folder / "short").write_text("abcde\n", encoding="utf-8")
+    done = run("desk", "overland.yaml", "--no-browser", *more, cwd=folder)
+    assert done.returncode == 2
+    assert said in done.stderr
+
+
 def test_bodies_are_limited_whether_they_say_their_size_or_not(client):
     def pieces():
         for _ in range(LARGEST_BODY // 65536 + 2):

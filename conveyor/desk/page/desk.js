@@ -649,7 +649,7 @@ function listen() {
   $("redo").addEventListener("click", () => step(1));
   $("compare").addEventListener("click", compare);
   $("find").addEventListener("input", () => { showFields(); const aside = document.querySelector("aside"); aside.scrollTop = $("h-fields").offsetTop - 8; });
-  $("copy").addEventListener("click", async () => { await navigator.clipboard.writeText($("command").textContent); $("status").textContent = "Copied."; $("copy").textContent = "Copied"; setTimeout(() => { $("copy").textContent = "Copy"; }, 1500); });
+  $("copy").addEventListener("click", async () => { if (!navigator.clipboard) { getSelection().selectAllChildren($("command")); return; } await navigator.clipboard.writeText($("command").textContent); $("status").textContent = "Copied."; $("copy").textContent = "Copied"; setTimeout(() => { $("copy").textContent = "Copy"; }, 1500); });
   $("theme").addEventListener("click", () => {
     const dark = getComputedStyle(document.body).backgroundColor !== "rgb(255, 255, 255)";
     document.documentElement.dataset.theme = localStorage.theme = dark ? "light" : "dark";
