@@ -249,7 +249,7 @@ def close_loops(asked: Sequence[OpenLoop]) -> list[Balance | NoSolutionError]:
         alike.setdefault((one.frame.plan.key, setting is None), []).append(i)
     found: dict[int, Balance | NoSolutionError] = {}
     for rows in alike.values():
-        these = [asked[i]._replace(along=_with_flexure(asked[i].along)) for i in rows]
+        these = [asked[i] for i in rows]
         further = [_length_coefficient_forces(one) for one in these]
         loops = LoopBatch([one.frame for one in these], [one.along for one in these], further)
         held = [setting for i in rows if (setting := given[i]) is not None]
@@ -264,12 +264,10 @@ def close_loops(asked: Sequence[OpenLoop]) -> list[Balance | NoSolutionError]:
     return [found[i] for i in range(len(asked))]
 
 
-def _with_flexure(along: tuple[Force, ...], flexure: Array | None = None) -> tuple[Force, ...]:
-    """Forces along the belt with a flexure by load and sag in loop order [N], or that at the largest sag."""
+def _with_flexure(along: tuple[Force, ...], flexure: Array) -> tuple[Force, ...]:
+    """Forces along the belt with a flexure by load and sag in loop order [N]."""
     return tuple(
-        force
-        if (most := force.at_sag_limit) is None
-        else replace(force, newtons=most if flexure is None else np.roll(flexure, most.size // 2))
+        force if force.at_sag_limit is None else replace(force, newtons=np.roll(flexure, flexure.size // 2))
         for force in along
     )
 

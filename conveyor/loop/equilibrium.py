@@ -303,7 +303,7 @@ def solve_equilibria(
     """
     kinds, whole = _StateSet(loops), np.abs(loops.along[:, :2, -1].sum(axis=-1))
     b, pulleys, sags = len(loops.frames), len(loops.plan.bends), bool(loops.flexure.any())
-    yielding, drive = np.concatenate([np.zeros((b, pulleys)), loops.flexure], axis=-1), np.full(b, np.inf)
+    yielding, drive = np.concatenate([np.zeros((b, pulleys)), loops.given], axis=-1), np.full(b, np.inf)
     going, refused = np.ones(b, dtype=bool), dict[int, NoSolutionError]()
     last: tuple[Array, Array] | None = None
     for _ in range(_MAX_LOOP_STEPS):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, NamedTuple, Self
 
 import numpy as np
@@ -68,6 +69,11 @@ class LoopPlan:
     head: int
     landing: int
     keeps_length: bool
+
+    @cached_property
+    def run_lengths(self) -> PlaceIndices:
+        """Number of stretches of each run, shape (runs,)."""
+        return np.diff(self.boundaries)
 
 
 @dataclass(frozen=True, eq=False)

@@ -118,8 +118,9 @@ class LoopBatch:
         self.frames, self.plan, count = frames, frames[0].plan, frames[0].line.count
         self.standing = LoopConstants.side_by_side([frame.standing for frame in frames])
         forces = np.roll([_force_sums(each, count) for each in along], count, axis=-1)
-        self.flexure = np.roll([_flexure_by_sag(each, count) for each in along], count, axis=-1)
-        """Flexure at the largest sag, in loop order [N], shape (b, 2n); 0 where it does not depend on tension."""
+        by_sag = np.roll([_flexure_by_sag(each, count) for each in along], count, axis=-1)
+        self.given, self.flexure = by_sag[:, 0], by_sag[:, 1]
+        """Flexure as given and at the largest sag, in loop order [N], shape (b, 2n); 0 where it is another law's."""
         self.along = np.zeros((len(frames), 3, 2 * count + 1))
         """Running sums of the forces along the belt without and with friction [N], and of the mass [kg]."""
         np.cumsum(forces, axis=-1, out=self.along[:, :2, 1:])
@@ -133,16 +134,17 @@ class LoopBatch:
                     met[1, self.plan.spots[frame.at[force.spot]]] += force.total
         self.lift, self.rubbing = self.met[:, 0].sum(axis=-1), self.met[:, 1].sum(axis=-1)
         self.mass = self.standing.mass[:, -1]
-        self.pulled = self.lift + self.rubbing >= 0.0
+        relieved = (1.0 + self.standing.by_length) * (self.flexure - self.given).sum(axis=-1)
+        self.pulled = self.lift + self.rubbing + relieved >= 0.0
         """True where the drives pull without the pulleys' losses, which sets the side of a slack-side take-up."""
 
     def with_flexure(self, flexure: Array) -> LoopBatch:
-        """The loops with a flexure [N] in place of that at the largest sag, in loop order, shape (b, 2n)."""
+        """The loops with another flexure [N], in loop order, shape (b, 2n)."""
         made, plan = copy(self), self.plan
         made.__dict__.pop("_means", None)
         made.along, made.met = self.along.copy(), self.met.copy()
         relief = np.zeros((len(flexure), flexure.shape[1] + 1))
-        np.cumsum(self.flexure - flexure, axis=-1, out=relief[:, 1:])
+        np.cumsum(self.given - flexure, axis=-1, out=relief[:, 1:])
         made.along[:, 1] -= relief
         runs = relief[:, plan.boundaries]
         made.met[:, 1, plan.runs] -= runs[:, 1:] - runs[:, :-1]
@@ -235,22 +237,13 @@ class MotionOffsets:
         """Offsets along the belt without point forces [N], shape (b, m, 2n + 1)."""
         return _totals_in_state(self.loops.along, self.friction, self.acceleration)
 
-    def ends(self, level: Array) -> Array:
-        """Tension at both ends of every stretch in the first k states, in loop order [N], shape (2, b, k, 2n).
-
-        `level` is the tension of the strand that leaves the head, shape (b, k).
-        """
-        k, plan = level.shape[1], self.loops.plan
-        along = self.along[:, :k]
-        single = self.offsets[:, :k, plan.runs] - along[..., plan.boundaries[:-1]]
-        shift = level[..., None] + np.repeat(single, np.diff(plan.boundaries), axis=-1)
-        return np.stack([along[..., :-1] + shift, along[..., 1:] + shift])
-
     def flexure(self, setting: Array) -> Array:
         """Flexure in steady running with the take-ups at a setting, in loop order [N], shape (b, 2n)."""
-        standing = self.loops.standing
-        starts, ends = self.ends((setting - self.anchor[:, 0])[:, None])[:, :, 0] - standing.centrifugal
-        return self.loops.flexure * mean_sag_ratio(starts, ends, limit=standing.least)
+        loops, plan, standing = self.loops, self.loops.plan, self.loops.standing
+        along = loops.along[:, 0] + loops.along[:, 1]
+        shift = (setting - self.anchor[:, 0])[:, None] + self.offsets[:, 0, plan.runs] - along[:, plan.boundaries[:-1]]
+        shift = np.repeat(shift, plan.run_lengths, axis=-1) - standing.centrifugal
+        return loops.flexure * mean_sag_ratio(along[:, :-1] + shift, along[:, 1:] + shift, limit=standing.least)
 
 
 @dataclass(frozen=True, eq=False)
@@ -268,7 +261,10 @@ class BatchTensions:
     @cached_property
     def ends(self) -> Array:
         """Tension at both ends of every stretch, in loop order [N], shape (2, b, m, 2n)."""
-        return self.moving.ends(self.level)
+        plan, along = self.moving.loops.plan, self.moving.along
+        single = self.moving.offsets[..., plan.runs] - along[..., plan.boundaries[:-1]]
+        shift = self.level[..., None] + np.repeat(single, plan.run_lengths, axis=-1)
+        return np.stack([along[..., :-1] + shift, along[..., 1:] + shift])
 
     @cached_property
     def extremes(self) -> tuple[Array, Array]:
@@ -315,8 +311,11 @@ def _force_sums(along: Sequence[Force], count: int) -> Array:
 
 
 def _flexure_by_sag(along: Sequence[Force], count: int) -> Array:
-    """Flexure of a belt at the largest sag, shape (2n,); 0 where it does not depend on tension."""
-    return next((force.at_sag_limit for force in along if force.at_sag_limit is not None), np.zeros(2 * count))
+    """Flexure of a belt as given and at the largest sag, shape (2, 2n); 0 where tension does not change it."""
+    for force in along:
+        if force.at_sag_limit is not None:
+            return np.stack([force.newtons, force.at_sag_limit])
+    return np.zeros((2, 2 * count))
 
 
 def _totals_in_state(parts: Array, friction: Array, acceleration: Array) -> Array:
