@@ -347,3 +347,32 @@ def test_shelf_draws(tmp_path: Path) -> None:
     assert run("shelf", "--plot", every).returncode == 0
     assert one.read_bytes().startswith(b"\x89PNG")
     assert "S100" in every.read_text(encoding="utf-8") or every.stat().st_size > 10_000
+
+
+def test_doctor_says_what_is_installed_and_calculates_published_figures() -> None:
+    done = run("doctor")
+    assert done.returncode == 0
+    for word in ("conveyor ", "numpy ", "typst", "BLAS", "shelf", "1 hp = 745.6999 W", "nothing wrong"):
+        assert word in done.stdout
+    found = json.loads(run("doctor", "--json").stdout)
+    assert found["wrong"] == []
+    assert found["self test"]["contacts"] == "5 figures as published"
+
+
+def test_doctor_ends_with_1_where_a_figure_is_not_the_published_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    from conveyor.validation import contact_cases
+    from conveyor.validation.reference_check import relative_check
+
+    off = relative_check("source", "friction", 1.0, 1.1, 1e-3)
+    monkeypatch.setattr(contact_cases, "reference_contacts", lambda: iter([off]))
+    done = run("doctor")
+    assert done.returncode == 1
+    assert "WRONG: friction: 1.1, published 1.0" in done.stdout
+    assert "1 found wrong" in done.stdout
+
+
+def test_the_package_runs_as_a_module(tmp_path: Path) -> None:
+    said = subprocess.run(
+        [sys.executable, "-m", "conveyor", "--version"], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    assert said.stdout.startswith("conveyor ")

@@ -20,7 +20,7 @@ IRREGULAR = set(
 NOUNS_IN_ED = {"bed", "feed", "need", "seed", "speed"}
 
 ONE_WORD = set(
-    "anchor calibrate compare contact desk dynamics fit new optimise power schema shelf size study template "
+    "anchor calibrate compare contact desk doctor dynamics fit new optimise power schema shelf size study template "
     "validate "  # commands
     "load calculate dump fingerprint main "
     "solve frictions interior hunter winkler "  # contact: what is solved, and whose closed form

@@ -14,6 +14,7 @@ from conveyor.cli import (  # noqa: E402, F401 each registers its commands
     calibrate_command,
     compare_command,
     desk_command,
+    doctor_command,
     dynamics_command,
     new_command,
     optimise_command,

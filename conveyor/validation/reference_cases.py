@@ -127,7 +127,7 @@ def run_reference_checks() -> list[ReferenceCheck]:
         split_contacts(),
         hunter_contacts(),
         contact_program(),
-        _iso_5048(),
+        iso_5048_example(),
         _pulley_shaft(),
         _idler_roll(),
         _take_up_and_sag(),
@@ -145,7 +145,7 @@ def run_reference_checks() -> list[ReferenceCheck]:
     return [check for group in groups for check in group]
 
 
-def _iso_5048() -> Iterator[ReferenceCheck]:
+def iso_5048_example() -> Iterator[ReferenceCheck]:
     """Coal 0.85 t/m³, 2300 t/h, 4.8 m/s, 143 m level, belt 1.2 m, g 9.81 m/s²; itemised."""
     g, speed, flow = 9.81, 4.8, 2300.0 / 3.6
     bulk = loading.bulk_line_mass(flow, belt_speed=speed)
