@@ -18,6 +18,7 @@ from conveyor.errors import InputError
 from conveyor.files.document import error_lines, read_document, yaml_text
 from conveyor.models import Conveyor
 from conveyor.models.base import Model, field_path, real_errors, validate_model
+from conveyor.models.maker_lists import MakerLists
 from conveyor.models.model_file import read_model
 from conveyor.models.validation_messages import Location, error_message
 
@@ -34,7 +35,8 @@ def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
     path : str or Path
         The spec.
     shelves : iterable of path
-        Further folders of compounds. Paths of compounds in the spec start from the spec's folder.
+        Further folders of compounds. Paths of compounds in the spec start from the spec's folder, and so does the
+        search for makers' lists.
 
     Returns
     -------
@@ -57,7 +59,7 @@ def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
         raise InputError(f"{where}: a workbook or table is read as .xlsx only; save a workbook as .xlsx")
     if where.suffix.lower() not in {".yaml", ".yml", ".json"} and not where.is_dir():
         raise InputError(f'{where}: expected a file that ends in .yaml, .yml, .json or .xlsx, got "{where.name}"')
-    return read_model(Conveyor, where, {"compound": shelf.resolver(extra=shelves, base=where.parent)})
+    return read_model(Conveyor, where, _name_context(shelves, where.parent))
 
 
 @check_arguments
@@ -85,7 +87,7 @@ def from_data(
         Refused; all errors at once, each on a line ``place field: message``.
     """
     try:
-        return validate_model(Conveyor, dict(data), {"compound": shelf.resolver(extra=shelves, base=base)})
+        return validate_model(Conveyor, dict(data), _name_context(shelves, base))
     except ValidationError as error:
 
         def line(item: Any) -> str:
@@ -94,6 +96,11 @@ def from_data(
             return f"{place}{field_path(location) or 'conveyor'}: {error_message(item, Conveyor)}"
 
         raise InputError(error_lines(real_errors(error), line)) from None
+
+
+def _name_context(shelves: Iterable[str | Path], base: Path | None) -> dict[str, Any]:
+    """Where models look up names: compounds on the shelf, items in makers' lists."""
+    return {"compound": shelf.resolver(extra=shelves, base=base), "lists": MakerLists(base)}
 
 
 @contextmanager

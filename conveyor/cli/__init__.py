@@ -16,6 +16,7 @@ from conveyor.cli import (  # noqa: E402, F401 each registers its commands
     desk_command,
     doctor_command,
     dynamics_command,
+    library_command,
     new_command,
     optimise_command,
     power_command,

@@ -67,7 +67,7 @@ class _CommandGroup(typer.core.TyperGroup):
 
 COMMAND_ORDER = (
     "new", "desk", "size", "power", "compare", "study", "optimise", "dynamics", "calibrate", "template", "fit",
-    "anchor", "shelf",
+    "anchor", "shelf", "library",
     "verify-sheet", "contact", "validate", "schema",
 )  # fmt: skip
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Final, Literal
+from typing import TYPE_CHECKING, Any, Final, Literal, cast, get_args
 
 from conveyor.errors import InputError, shorten_text
 from conveyor.files.document import read_document
@@ -72,6 +72,22 @@ def library_entries(library: Library) -> Mapping[str, LibraryEntry]:
     """
     data = read_document(_FOLDER / f"{library}.yaml").data
     return MappingProxyType({str(name): LibraryEntry(str(name), **held) for name, held in data["entries"].items()})
+
+
+def built_in_entries(library: str) -> Mapping[str, LibraryEntry]:
+    """Entries of a library by name; none of a kind that only makers' lists have.
+
+    Examples
+    --------
+    >>> len(built_in_entries("pulleys"))
+    0
+    """
+    return library_entries(cast("Library", library)) if library in get_args(Library) else {}
+
+
+def has_entry(entries: Mapping[str, LibraryEntry], name: str) -> bool:
+    """True if a library has an entry of a name, in any case."""
+    return name.casefold().strip() in {other.casefold() for other in entries}
 
 
 def library_entry(library: Library, name: str) -> LibraryEntry:

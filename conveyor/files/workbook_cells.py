@@ -6,7 +6,7 @@ import re
 import warnings
 import zipfile
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from io import BytesIO
 from typing import IO, Any, Final, Literal
 from xml.parsers import expat
@@ -65,11 +65,14 @@ class SheetCell:
         A date or time, an error of a formula, a formula without a stored value, else a value.
     percent : bool
         True if the number is formatted as a percentage.
+    formula : bool
+        True if the value is that of a formula.
     """
 
     value: Any
     kind: Literal["value", "date", "error", "no result"] = "value"
     percent: bool = False
+    formula: bool = False
 
 
 @dataclass(frozen=True)
@@ -89,6 +92,13 @@ class Sheet:
     def rows(self) -> list[int]:
         """Numbers of the rows with content."""
         return sorted({row for row, _ in self.cells})
+
+
+def cell_name(row: int, column: int) -> str:
+    """Name of a cell, such as B4."""
+    from openpyxl.utils import get_column_letter
+
+    return f"{get_column_letter(column)}{row}"
 
 
 def read_sheets(content: bytes, place: str, limits: ArchiveLimits) -> tuple[Sheet, ...]:
@@ -217,14 +227,17 @@ def _on_sheet(reference: str) -> bool:
 def _read_sheet(sheet: Any, place: str) -> Sheet:
     """Cells stored in the file: openpyxl's own reader trusts a stated size and fills gaps and merged ranges."""
     from openpyxl.cell.read_only import ReadOnlyCell
-    from openpyxl.utils import get_column_letter
     from openpyxl.worksheet._reader import FORMULA_TAG, WorkSheetParser
+
+    formulas: set[tuple[int, int]] = set()
 
     class Parser(WorkSheetParser):
         def parse_cell(self, element: Any) -> dict[str, Any]:
             cell: dict[str, Any] = super().parse_cell(element)
-            if cell["value"] is None and element.find(FORMULA_TAG) is not None:
-                cell["data_type"] = "f"
+            if element.find(FORMULA_TAG) is not None:
+                formulas.add((cell["row"], cell["column"]))
+                if cell["value"] is None:
+                    cell["data_type"] = "f"
             return cell
 
     book = sheet.parent
@@ -240,10 +253,12 @@ def _read_sheet(sheet: Any, place: str) -> Sheet:
         )
         for _, row in parser.parse():
             for read in row:
-                values = _sheet_cell(ReadOnlyCell(sheet, **read))
                 where = (read["row"], read["column"])
+                values = _sheet_cell(ReadOnlyCell(sheet, **read))
+                if values is not None and where in formulas:
+                    values = replace(values, formula=True)
                 if values is not None and cells.setdefault(where, values) is not values:
-                    cell = f"{get_column_letter(where[1])}{where[0]}"
+                    cell = cell_name(*where)
                     raise InputError(
                         f"{place}: sheet '{sheet.title}' has cell {cell} twice; open and save the workbook again"
                     )

@@ -10,7 +10,8 @@ from pydantic import Field, model_validator
 from conveyor.laws.preliminary_sizing import Severity
 from conveyor.models.base import Model, Number, Problem, raise_problems, value_digest
 from conveyor.models.compound import CompoundReference, RubberCompound
-from conveyor.models.library_items import EntryName, LibraryItem
+from conveyor.models.library_items import LibraryItem
+from conveyor.models.maker_lists import Listed
 from conveyor.units import (
     AreaMass,
     BeltMass,
@@ -85,7 +86,7 @@ class BulkWear(Model):
 class Carcass(Model):
     """The tension member between the covers."""
 
-    kind: Literal["steel cord", "EP", "polyamide", "aramid", "cotton"]
+    kind: Literal["steel cord", "EP", "polyamide", "aramid", "cotton", "solid woven"]
     """Material: decides pulley diameters and the resistance of wrapping a pulley."""
     thickness: Annotated[Thickness, Bounds(gt="0 mm", le="50 mm")]
     """Of plies or cords between the covers."""
@@ -162,8 +163,8 @@ class Belt(LibraryItem):
     """Lowest temperature that covers and carcass bear, by the belt's maker."""
     highest_temperature: Annotated[Temperature, Bounds(ge="-100 degC", le="400 degC")] | None = None
     """Highest temperature that they bear."""
-    listed: EntryName | None = None
-    """Entry of the belt library that gives what is not given here."""
+    listed: Listed | None = None
+    """Entry of the belt library, or item of a maker's list, that gives what is not given here."""
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:

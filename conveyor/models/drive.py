@@ -7,12 +7,14 @@ import math
 from collections.abc import Iterator
 from typing import Annotated, Any, Final, Self
 
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import ConfigDict, Field, ValidationInfo, model_validator
 
 from conveyor.laws.resistance import FRICTION_FACTOR, FRICTION_FACTOR_DOWNHILL
 from conveyor.models.base import Model, Name, Number, Problem, Switch, raise_problems
 from conveyor.models.drive_train import PRODUCT_TOLERANCE, DrivePart, train_efficiency, with_efficiency
+from conveyor.models.listed_parts import with_listed_parts
 from conveyor.models.loop_parts import Position, position_problem
+from conveyor.models.maker_lists import Listed
 from conveyor.models.motor_starter import Starter
 from conveyor.models.route import SHARE_SUM_TOLERANCE
 from conveyor.units import (
@@ -82,6 +84,16 @@ class DrivePulley(Model):
     """Mass of its brake's disc or drum, for the rise of its temperature in a stop."""
     brake_heat: Annotated[Heat, Bounds(gt="0 J", le="10 MWh")] | None = None
     """Heat of one stop that its brake bears, by the brake's maker."""
+    listed: Annotated[tuple[Listed, ...], Field(max_length=10)] = ()
+    """Items of makers' lists: motor, gearbox, coupling, backstop, brake; they give what is not given here."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_listed_parts(cls, data: Any, info: ValidationInfo) -> Any:
+        if not isinstance(data, dict):
+            return data
+        data = with_listed_parts(data, cls, info)
+        return with_efficiency(data) if "train" in cls.model_fields else data
 
     @model_validator(mode="after")
     def _placed(self) -> Self:
@@ -133,9 +145,9 @@ class FurtherDrive(DrivePulley):
 
 
 def _efficiency_or_train(schema: dict[str, Any]) -> None:
-    """JSON schema: either the efficiency or the parts of the drive train."""
+    """JSON schema: either the efficiency or the parts of the drive train, also of makers' lists."""
     schema["required"] = [name for name in schema["required"] if name != "efficiency"]
-    schema["anyOf"] = [{"required": ["efficiency"]}, {"required": ["train"]}]
+    schema["anyOf"] = [{"required": [name]} for name in ("efficiency", "train", "listed")]
 
 
 class Drive(DrivePulley):
@@ -169,11 +181,6 @@ class Drive(DrivePulley):
     the band of the defaults in use."""
     further_drives: Annotated[tuple[FurtherDrive, ...], Field(max_length=20)] = ()
     """Drives beside the first; at one place the belt meets them in the order of the list."""
-
-    @model_validator(mode="before")
-    @classmethod
-    def _efficiency_of_train(cls, data: Any) -> Any:
-        return with_efficiency(data) if isinstance(data, dict) else data
 
     @model_validator(mode="after")
     def _shared(self) -> Self:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
 from conveyor.laws.pulley import Keyway, Steel
 from conveyor.laws.take_up import LOOP_STRANDS, TRAVEL_RESERVE
 from conveyor.models.base import Model, Name, Number, Problem, raise_problems
+from conveyor.models.library_items import LibraryItem
+from conveyor.models.maker_lists import Listed
 from conveyor.units import (
     Angle,
     Bounds,
@@ -41,8 +43,10 @@ def position_problem(position: str, section: str | None) -> list[Problem]:
     return []
 
 
-class Pulley(Model):
+class Pulley(LibraryItem):
     """A pulley that bends the belt and turns in bearings."""
+
+    library: ClassVar = "pulleys"
 
     name: Name
     """Each its own."""
@@ -76,6 +80,8 @@ class Pulley(Model):
     """L10 asked of each bearing in steady running."""
     lagging_pressure: Annotated[Pressure, Bounds(gt="0 Pa", le="100 MPa")] | None = None
     """Pressure of the belt that its lagging bears, by the lagging's maker."""
+    listed: Listed | None = None
+    """Item of a maker's list that gives what is not given here."""
 
     @model_validator(mode="after")
     def _shaft_inside(self) -> Self:

@@ -8,7 +8,8 @@ from pydantic import model_validator
 
 from conveyor.laws.loading import surcharge_from_slope
 from conveyor.models.base import Name, Problem, raise_problems
-from conveyor.models.library_items import EntryName, LibraryItem
+from conveyor.models.library_items import LibraryItem
+from conveyor.models.maker_lists import EntryName
 from conveyor.units import Angle, Bounds, Density, MassFlow, Quantity, si, text
 
 

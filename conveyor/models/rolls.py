@@ -14,7 +14,8 @@ from conveyor.laws.resistance import (
     TEST_ROTATION,
 )
 from conveyor.models.base import Model, Number, Problem, raise_problems
-from conveyor.models.library_items import EntryName, LibraryItem
+from conveyor.models.library_items import LibraryItem
+from conveyor.models.maker_lists import Listed
 from conveyor.units import (
     Angle,
     Bounds,
@@ -145,8 +146,8 @@ class Roll(LibraryItem):
     """Law of the drag over load, speed and temperature, instead of one figure."""
     bearing: RollBearing | None = None
     """Bearings, for the rating life; without them no life is computed."""
-    listed: EntryName | None = None
-    """Entry of the roll library that gives what is not given here."""
+    listed: Listed | None = None
+    """Entry of the roll library, or item of a maker's list, that gives what is not given here."""
 
     @model_validator(mode="after")
     def _one_drag(self) -> Self:

@@ -14,6 +14,7 @@ from conveyor.line.stretches import misalignment_angle
 from conveyor.models import Conveyor, IdlerSet, Roll, RubberCompound
 from conveyor.models.calculation_methods import FACTOR_METHODS, METHOD_NAMES
 from conveyor.models.library_items import LibraryItem
+from conveyor.models.maker_lists import ListedItem
 from conveyor.models.rolls import BearingDrag, MakerDrag
 from conveyor.units import text
 from conveyor.units.presentation import format_figure
@@ -240,11 +241,16 @@ def library_models(conveyor: Conveyor) -> Iterator[tuple[str, LibraryItem]]:
     for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
         for name, roll in rolls_by_field(idlers):
             yield f"idlers.{strand}.{name}", roll
+    for i, pulley in enumerate(conveyor.route.pulleys):
+        yield f"route.pulleys[{i}]", pulley
 
 
 def _library_assumptions(conveyor: Conveyor) -> Iterator[str]:
-    for field, model in library_models(conveyor):
-        entry = model.entry
+    entries = [(field, model.entry) for field, model in library_models(conveyor)]
+    for i, drive in enumerate(conveyor.drive.pulleys):
+        field = f"drive.further_drives[{i - 1}]" if i else "drive"
+        entries += [(field, item.entry) for item in drive.listed if isinstance(item, ListedItem)]
+    for field, entry in entries:
         if entry is not None:
             note = f"; {entry.note}" if entry.note else ""
             yield f'{field}: "{entry.name}" of the library where the spec gives nothing ({entry.source}){note}.'

@@ -16,6 +16,7 @@ from conveyor.laboratory.cell_grid import TextLine, cell_error
 from conveyor.laboratory.delimited_text import table_lines
 from conveyor.laboratory.encoding import decode_text
 from conveyor.models.base import field_path
+from conveyor.models.maker_lists import MakerLists
 from conveyor.models.model_file import read_model
 from conveyor.models.sizing import SizingDuty
 from conveyor.models.study import (
@@ -62,7 +63,8 @@ def read_duty(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Sizing
         As `read_plan`.
     """
     where = Path(path)
-    return read_model(SizingDuty, where, {"compound": shelf.resolver(extra=shelves, base=where.parent)})
+    context = {"compound": shelf.resolver(extra=shelves, base=where.parent), "lists": MakerLists(where.parent)}
+    return read_model(SizingDuty, where, context)
 
 
 @contextmanager

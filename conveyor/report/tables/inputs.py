@@ -9,6 +9,7 @@ from typing import Any, Literal
 from conveyor.models import Conveyor, Model, RubberCompound
 from conveyor.models.base import field_path
 from conveyor.models.library_items import LibraryItem
+from conveyor.models.maker_lists import ListedItem
 from conveyor.units import System, is_quantity, si_with_unit, text
 from conveyor.units.presentation import format_figure
 
@@ -21,7 +22,7 @@ def _entered_text(value: Any) -> Any:
 
 
 def input_rows(conveyor: Conveyor) -> tuple[InputRow, ...]:
-    """Rows of all fields that have a value: field, text as entered, SI value, SI unit, origin; compounds by name."""
+    """Rows of all fields that have a value: field, text as entered, SI value, unit, origin; compounds, items by name."""
     return tuple(_value_rows((), conveyor, "spec"))
 
 
@@ -30,7 +31,7 @@ def _value_rows(place: tuple[str | int, ...], value: Any, origin: Origin, entry:
     field = field_path(place)
     if value is None:
         return
-    if isinstance(value, RubberCompound):
+    if isinstance(value, RubberCompound | ListedItem):
         yield field, value.name, None, "", origin
     elif isinstance(value, Model):
         yield from _field_rows(place, value, origin, entry)
