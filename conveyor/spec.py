@@ -99,7 +99,7 @@ def from_data(
 
 
 def _name_context(shelves: Iterable[str | Path], base: Path | None) -> dict[str, Any]:
-    """Where models look up names: compounds on the shelf, items in makers' lists."""
+    """Context in which models look up names: compounds on the shelf, items in makers' lists."""
     return {"compound": shelf.resolver(extra=shelves, base=base), "lists": MakerLists(base)}
 
 

@@ -24,7 +24,7 @@ from conveyor.files.output_marks import TO_FILL_IN
 library = typer.Typer(
     rich_markup_mode=None,
     short_help="Makers' lists of rolls, belts, pulleys and drive parts.",
-    help="Keep makers' lists, whose items specs name with `listed` and sizing may draw from.",
+    help="Keep makers' lists, whose items specs name with `listed`.",
 )
 app.add_typer(library, name="library")
 

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 from typing import Any, Final
 
 from conveyor.errors import InputError
-from conveyor.files.libraries import library_entries
+from conveyor.files.libraries import built_in_entries
 from conveyor.forms.form_fields import FormField
 from conveyor.models import Conveyor
 from conveyor.models.fields import field_value
@@ -117,7 +117,7 @@ def _library_names(conveyor: Conveyor, path: str) -> tuple[str, ...]:
     """Names that a field `listed` may have: the entries of the library of its part."""
     part, _, name = path.rpartition(".")
     holder = field_value(conveyor, part) if name == "listed" else None
-    return tuple(library_entries(holder.library)) if isinstance(holder, LibraryItem) else ()
+    return tuple(built_in_entries(holder.library)) if isinstance(holder, LibraryItem) else ()
 
 
 def field_label(path: str) -> str:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
+import numpy as np
+
 from conveyor.arguments.argument_types import check_arguments
 from conveyor.errors import InputError, SpecError
 from conveyor.files import libraries
@@ -61,7 +63,8 @@ class ListForm:
         return part
 
 
-_COMPOUND: Final = RubberCompound.from_series(PronySeries(1e6, [1e7], [1e-3]), name="any", reference_temperature=293.15)
+_SERIES: Final = PronySeries(1e6, np.array([1e7]), np.array([1e-3]))
+_COMPOUND: Final = RubberCompound.from_series(_SERIES, name="any", reference_temperature=293.15)
 _DRIVE: Final = {"wrap_angle": "180 deg", "friction": 0.3, "efficiency": "100 %", "installed_power": "1 kW",
                  "brake_force": "1 kN"}  # fmt: skip
 LIST_FORMS: Final[Mapping[MakerKind, ListForm]] = {
@@ -276,7 +279,7 @@ class _SheetReader:
             self._refuse(row, self._number(column), path, message)
 
     def _model_problems(self, fields: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-        """What the model of the part that names it has against an item, with what the spec gives beside."""
+        """Refusals of an item by the model of the part that names it, with the values that the spec gives beside."""
         kept = set(flatten_fields(fields))
         try:
             self._form.model.from_data(merge_fields(self._form.sample, fields))

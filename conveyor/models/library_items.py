@@ -34,7 +34,7 @@ class LibraryItem(Model):
         built_in = libraries.built_in_entries(cls.library)
         try:
             if cls.library in MAKER_KINDS and not libraries.has_entry(built_in, listed):
-                item = find_item((cast("MakerKind", cls.library),), listed, info, built_in)
+                item = find_item((cls.library,), listed, info, built_in)
                 return merge_fields(item.fields, data) | {"listed": item}
             return merge_fields(libraries.library_entry(cast("libraries.Library", cls.library), listed).fields, data)
         except InputError as error:

@@ -22,7 +22,7 @@ def _entered_text(value: Any) -> Any:
 
 
 def input_rows(conveyor: Conveyor) -> tuple[InputRow, ...]:
-    """Rows of all fields that have a value: field, text as entered, SI value, unit, origin; compounds, items by name."""
+    """Rows of all fields with a value: field, text as entered, SI value, unit, origin; compounds, items by name."""
     return tuple(_value_rows((), conveyor, "spec"))
 
 

@@ -1,0 +1,193 @@
+"""A maker's list from the empty form to a calculated conveyor, and what is refused on the way."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from openpyxl import load_workbook
+
+import conveyor
+from conveyor.errors import InputError
+from conveyor.files.libraries import flatten_fields
+from conveyor.forms.maker_list_reader import LIST_FORMS, add_maker_list, read_maker_list
+from conveyor.models.maker_lists import MAKER_KINDS
+from conveyor.pipeline import calculate
+from conveyor.spec import dump
+from conveyor.starter.maker_list_form import write_maker_list_form
+from conveyor.units import si
+from tests.command_line import run
+
+SPECS = Path(__file__).parents[2] / "examples" / "specs"
+ITEMS: list[tuple[str, dict[str, Any]]] = [
+    ("Rolls", {"name": "R-159-465", "source": "list of X, p. 12", "diameter": 159, "length": 465, "rotating_mass": 8.4,
+               "drag": 1.9, "bearing.dynamic_rating": 22.5, "bearing.distance": 525}),
+    ("Belts", {"name": "EP630/4 5+2", "source": "list of Y, p. 3", "carcass.kind": "EP", "carcass.strength": 630,
+               "carcass.thickness": 4.8, "carcass.mass": 6.1, "top_cover.thickness": 5, "bottom_cover.thickness": 2,
+               "note": "4 plies"}),
+    ("Pulleys", {"name": "P800", "source": "list of P", "diameter": 800, "shaft_diameter": 160, "mass": 1400}),
+    ("Motors", {"name": "M315", "source": "list of Z, p. 9", "installed_power": 315, "motor_speed": 1488,
+                "inertia": 5.2, "efficiency": 96}),
+    ("Gearboxes", {"name": "G20", "source": "list of Z, p. 19", "gear_ratio": 20.1, "efficiency": 97}),
+    ("Backstops", {"name": "BS40", "source": "list of Z, p. 30", "backstop_torque": 40}),
+]  # fmt: skip
+
+
+def filled(folder: Path, items: list[tuple[str, dict[str, Any]]], name: str = "list.xlsx") -> Path:
+    """The empty form with items filled in, a row each."""
+    path = write_maker_list_form(folder / name)
+    book = load_workbook(path)
+    rows: dict[str, int] = {}
+    for sheet, values in items:
+        heads = {str(cell.value).split(" [")[0]: cell.column for cell in book[sheet][1]}
+        rows[sheet] = rows.get(sheet, 1) + 1
+        for field, value in values.items():
+            book[sheet].cell(rows[sheet], heads[field]).value = value
+    book.save(path)
+    return path
+
+
+def spec_of(folder: Path, **changes: Any) -> Path:
+    """The overland spec without its carry roll and drive, which the list gives."""
+    data = conveyor.load(SPECS / "overland.yaml").as_data()
+    data["idlers"]["carry"]["roll"] = {"listed": "r-159-465"}
+    data["drive"] = {"wrap_angle": "210 deg", "friction": 0.35, "motors": 4, "listed": ["M315", "G20", "BS40"],
+                     "start_factor": 1.3} | changes  # fmt: skip
+    path = folder / "spec.json"
+    path.write_text(json.dumps(data, default=str), encoding="utf-8")
+    return path
+
+
+def test_the_form_has_every_column_with_its_unit(tmp_path):
+    book = load_workbook(write_maker_list_form(tmp_path / "form.xlsx"))
+    assert book.sheetnames == ["Columns", *(kind.capitalize() for kind in MAKER_KINDS)]
+    for kind, form in LIST_FORMS.items():
+        heads = [cell.value for cell in book[kind.capitalize()][1]]
+        assert heads == ["name", "source", *(f"{p} [{u}]" if u else p for p, u in form.columns.items()), "note"]
+
+
+def test_a_list_is_read_kept_and_found_by_specs(tmp_path):
+    kept = add_maker_list(filled(tmp_path, ITEMS), tmp_path / "conveyor-library")
+    assert kept == tmp_path / "conveyor-library" / "list.yaml"
+    line = conveyor.load(spec_of(tmp_path))
+    roll = line.idlers.carry.roll
+    assert (si(roll.diameter), si(roll.drag), si(roll.bearing.dynamic_rating)) == pytest.approx((0.159, 1.9, 22500.0))
+    drive = line.drive
+    # powers and inertias of a list are those of one motor, of a drive those of all
+    assert si(drive.installed_power) == pytest.approx(4 * 315e3)
+    assert si(drive.inertia) == pytest.approx(4 * 5.2)
+    assert si(drive.backstop_torque) == pytest.approx(40e3)
+    found = calculate(line).balance.power
+    assert found.motor == pytest.approx(found.belt / 0.97, rel=1e-12)
+    assert found.mains == pytest.approx(found.motor / 0.96, rel=1e-12)
+    (tmp_path / "deep" / "er").mkdir(parents=True)  # from a folder below the project's
+    assert conveyor.load(spec_of(tmp_path / "deep" / "er")).idlers.carry.roll.diameter == roll.diameter
+    said = " ".join(conveyor.analyse(line).to_dict()["assumptions"])
+    assert '"R-159-465" of the library where the spec gives nothing (list of X, p. 12)' in said
+
+
+def test_a_spec_that_was_read_needs_no_list(tmp_path):
+    add_maker_list(filled(tmp_path, ITEMS), tmp_path / "conveyor-library")
+    line = conveyor.load(spec_of(tmp_path))
+    elsewhere = tmp_path.parent / f"{tmp_path.name}-elsewhere"
+    elsewhere.mkdir()
+    (elsewhere / "copy.yaml").write_text(dump(line), encoding="utf-8")
+    assert conveyor.load(elsewhere / "copy.yaml") == line
+
+
+def test_what_the_spec_gives_goes_before_the_list(tmp_path):
+    add_maker_list(filled(tmp_path, ITEMS), tmp_path / "conveyor-library")
+    line = conveyor.load(spec_of(tmp_path, installed_power="1600 kW", efficiency="90 %"))
+    assert si(line.drive.installed_power) == pytest.approx(1600e3)
+    assert si(line.drive.efficiency) == pytest.approx(0.9)
+
+
+def test_added_again_it_replaces_its_items(tmp_path):
+    folder = tmp_path / "conveyor-library"
+    add_maker_list(filled(tmp_path, ITEMS), folder)
+    heavier = [("Rolls", ITEMS[0][1] | {"rotating_mass": 9.9})]
+    add_maker_list(filled(tmp_path, heavier), folder)
+    (item,) = read_maker_list(tmp_path / "list.xlsx").items
+    assert flatten_fields(item.fields)["rotating_mass"] == "9.9 kg"
+    with pytest.raises(InputError, match=r'other\.xlsx: roll "R-159-465" is in .*list\.yaml, too; rename one'):
+        add_maker_list(filled(tmp_path, heavier, "other.xlsx"), folder)
+
+
+@pytest.mark.parametrize(
+    ("sheet", "changes", "says"),
+    [
+        ("Rolls", {"diameter": None}, "Rolls!C2 diameter: is empty; every item has it: fill it in"),
+        ("Rolls", {"diameter": "thick"}, 'Rolls!C2 diameter: expected a length such as "120 mm", got "thick mm"'),
+        ("Rolls", {"diameter": -159}, "Rolls!C2 diameter: got -159 mm"),
+        ("Rolls", {"diameter": "=1+1"}, "Rolls!C2 diameter: a formula"),
+        ("Rolls", {"source": None}, "Rolls!B2 source: is empty; every item has it: fill it in"),
+        ("Rolls", {"name": "159x465"}, 'Rolls!A2 name: got "159x465", which the package\'s own library has'),
+        ("Rolls", {"bearing.distance": None}, "bearing.distance: missing"),
+        ("Belts", {"carcass.kind": "wool"}, "Belts!C2 carcass.kind: got"),
+        ("Motors", {"efficiency": 105}, "Motors!F2 efficiency: got 105 %"),
+    ],
+)
+def test_a_wrong_cell_is_refused_by_its_place(tmp_path, sheet, changes, says):
+    values = next(values for name, values in ITEMS if name == sheet)
+    with pytest.raises(InputError) as refused:
+        add_maker_list(filled(tmp_path, [(sheet, values | changes)]), tmp_path / "conveyor-library")
+    assert says in str(refused.value)
+    assert str(refused.value).startswith(str(tmp_path / "list.xlsx"))
+    assert not (tmp_path / "conveyor-library").exists()
+
+
+@pytest.mark.parametrize(
+    ("heading", "says"),
+    [
+        ("diameter", 'has no unit; write it behind the field, such as "diameter [mm]"'),
+        ("colour", 'got "colour", which no figure or check uses; columns are name, source, diameter,'),
+        ("note [mm]", 'got the unit "mm" of a field that has none'),
+        ("length [mm]", "is there twice; remove one column"),
+    ],
+)
+def test_a_wrong_heading_is_refused(tmp_path, heading, says):
+    path = filled(tmp_path, ITEMS[:1])
+    book = load_workbook(path)
+    book["Rolls"].cell(1, 3).value = heading
+    book["Rolls"].delete_cols(book["Rolls"].max_column)  # the note
+    book.save(path)
+    with pytest.raises(InputError) as refused:
+        read_maker_list(path)
+    assert says in str(refused.value)
+
+
+def test_units_of_the_heading_are_those_of_the_column(tmp_path):
+    path = filled(tmp_path, ITEMS[:1])
+    book = load_workbook(path)
+    book["Rolls"].cell(1, 3).value, book["Rolls"].cell(2, 3).value = "diameter [in]", 6.25
+    book.save(path)
+    (item,) = read_maker_list(path).items
+    assert item.fields["diameter"] == "6.25 in"
+
+
+def test_an_unknown_name_says_what_there_is(tmp_path):
+    add_maker_list(filled(tmp_path, ITEMS), tmp_path / "conveyor-library")
+    with pytest.raises(InputError, match=r'drive\.listed\[0\]: "M351" is not in the library of .*did you mean "M315"'):
+        conveyor.load(spec_of(tmp_path, listed=["M351"]))
+    with pytest.raises(InputError, match=r'drive\.listed\[1\]: got "M315", the second of motors; a drive has one'):
+        conveyor.load(spec_of(tmp_path, listed=["M315", "M315"]))
+
+
+def test_the_commands(tmp_path, monkeypatch):
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    assert "no items" in run("library", "list", cwd=tmp_path).stdout
+    made = run("library", "template", "list.xlsx", cwd=tmp_path)
+    assert made.returncode == 0, made.stderr
+    assert "has no items" in run("library", "add", "list.xlsx", cwd=tmp_path).stderr
+    filled(tmp_path, ITEMS)
+    added = run("library", "add", "list.xlsx", cwd=tmp_path)
+    assert (added.returncode, added.stderr) == (0, "")
+    listed = json.loads(run("library", "list", "--json", cwd=tmp_path).stdout)
+    assert [item["name"] for item in listed] == [values["name"] for _, values in ITEMS]
+    done = run("power", spec_of(tmp_path), cwd=tmp_path)
+    assert "torque of the backstop" in done.stdout, done.stderr
+    personal = run("library", "add", "list.xlsx", "--personal", cwd=tmp_path)
+    assert personal.returncode == 2
+    assert "too; rename one" in personal.stderr
