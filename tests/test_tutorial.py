@@ -128,7 +128,7 @@ def test_tutorial_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
             kinds = [kind for one in cell["outputs"] for kind in one.get("data", ())]
             wanted = [] if last is None else ["image/png" if isinstance(last, Figure) else "text/html", "text/plain"]
             assert kinds == wanted
-    for said in ("motor 1216.1 kW", "f = 0.0129", "standard cover:  1307.2 kW", "at -20 degC:  2005.2 kW"):
+    for said in ("motor 1144.5 kW", "f = 0.0117", "standard cover:  1233.4 kW", "at -20 degC:  1921.0 kW"):
         assert said in printed
     left, right = space["solution"].patches[0]
     assert right > -left > 0.0  # reaches farther to the side that the belt comes from, as its text says

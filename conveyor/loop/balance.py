@@ -74,7 +74,7 @@ class Balance:
     --------
     >>> import conveyor
     >>> conveyor.analyse(conveyor.load("examples/specs/overland.yaml")).balance
-    Balance(effective tension 229 kN, motor 1,220 kW, f 0.0129, tight side 366 kN, slack side 137 kN)
+    Balance(effective tension 215 kN, motor 1,140 kW, f 0.0117, tight side 344 kN, slack side 128 kN)
     """
 
     along: tuple[Force, ...]

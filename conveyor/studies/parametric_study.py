@@ -324,7 +324,8 @@ class ResultStore:
         with self._told():
             row = self._file.execute(query, (key,)).fetchone()
         if row is None or not _is_whole(key, *row):
-            raise ConveyorError(f"{self._path}: an answer does not match its checksum; run the study again")
+            said = "an answer does not match its checksum; remove the file and run the study again"
+            raise ConveyorError(f"{self._path}: {said}")
         answer: Answer = json.loads(row[0])
         return answer
 

@@ -586,8 +586,9 @@ def _or_refused(study, path):
     """The answers, or nothing where the file is refused by its name."""
     try:
         return answered(study, path)
-    except InputError as error:
-        if re.search(rf"^{re.escape(str(path))}: holds something else .*; remove it", str(error)):
+    except ConveyorError as error:
+        said = r"holds something else .*; remove it|an answer does not match its checksum; remove the file"
+        if re.search(rf"^{re.escape(str(path))}: ({said})", str(error)):
             return None
         raise
 
