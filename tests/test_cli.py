@@ -214,6 +214,16 @@ def test_help_imports_nothing_heavy() -> None:
     assert done.stdout.strip() == "[]"
 
 
+def test_power_of_a_spec_without_scenarios_does_not_import_dynamics() -> None:
+    code = (
+        "import sys, conveyor.cli\ntry:\n    conveyor.cli.main()\nfinally:\n    print(sorted(name for name in sys.modules"
+        " if name.startswith(('conveyor.dynamics', 'scipy.linalg', 'scipy.optimize', 'pandas', 'matplotlib', 'openpyxl'))))"
+    )
+    spec = ROOT / "examples" / "specs" / "overland.yaml"
+    done = subprocess.run([sys.executable, "-c", code, "power", str(spec)], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"
+
+
 def test_fit_takes_the_temperature_from_the_file() -> None:
     done = run("fit", ROOT / "materials" / "s100.dma.csv")
     assert done.returncode == 0, done.stderr

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from conveyor.dynamics.scenario_result import ScenarioResult
 from conveyor.report.animation import Panel, animated_curves
 from conveyor.report.matplotlib_settings import own_settings
 from conveyor.report.plots import curve_colour, label_axes, set_title, stacked_axes
@@ -18,6 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure as Picture
 
+    from conveyor.dynamics.scenario_result import ScenarioResult
     from conveyor.text.markup import Html
 
 

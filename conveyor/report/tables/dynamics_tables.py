@@ -6,14 +6,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from operator import attrgetter
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from conveyor.checks import Check, governing_by_subject
-from conveyor.dynamics.criteria import dynamics_checks, pulley_peak, tension_peaks
-from conveyor.dynamics.scenario_result import ScenarioResult
-from conveyor.dynamics.simulation import CalculatedDynamics
 from conveyor.laws.belt_strength import DUTY_SAFETY, SPLICE_SAFETY, belt_safety, required_strength
 from conveyor.line.covers import compounds_by_strand
 from conveyor.remarks.assumptions import failed_fits
@@ -48,6 +45,10 @@ from conveyor.report.tables.document_tables import provenance_table, report_head
 from conveyor.spec import fingerprint
 from conveyor.units import System
 
+if TYPE_CHECKING:  # 0.1 s that a report without starts and stops does not pay
+    from conveyor.dynamics.scenario_result import ScenarioResult
+    from conveyor.dynamics.simulation import CalculatedDynamics
+
 PARTS: Final = (
     ("dynamics", "Starting and stopping"),
     ("checks", "Checks"),
@@ -63,7 +64,7 @@ _SCENARIO = Column("scenario", "text", "0", json="scenario")
 
 def dynamics_contents(dynamics: CalculatedDynamics, system: System) -> Contents:
     """Contents of the report on starts and stops in a unit system."""
-    every = dynamics_checks(dynamics)
+    every = _every_check(dynamics)
     parts = (
         *(make(dynamics) for make in SCENARIO_TABLES.values()), check_table(governing_by_subject(every), system),
         _dynamics_remarks(dynamics, every, system),
@@ -73,6 +74,13 @@ def dynamics_contents(dynamics: CalculatedDynamics, system: System) -> Contents:
     about = report_head(dynamics.conveyor, "Starting and stopping", system, (("scenarios", names),))
     drawn = tuple(dynamics_drawings(dynamics, system))
     return Contents.of(about, parts, system, drawings=drawn, page=PARTS)
+
+
+def _every_check(dynamics: CalculatedDynamics) -> tuple[Check, ...]:
+    """Every check of every scenario."""
+    from conveyor.dynamics.criteria import dynamics_checks
+
+    return dynamics_checks(dynamics)
 
 
 _PEAKS: Final = (
@@ -174,6 +182,8 @@ def scenario_drives(dynamics: CalculatedDynamics) -> Table:
 
 def scenario_pulleys(dynamics: CalculatedDynamics) -> Table:
     """Highest and lowest tension at every pulley in every scenario, with their times; safety of the belt."""
+    from conveyor.dynamics.criteria import pulley_peak
+
     belt = dynamics.given.line.belt
 
     def safety(row: Any) -> float | None:
@@ -217,6 +227,8 @@ def splice_tensions(dynamics: CalculatedDynamics) -> Table:
 
 def scenario_tensions(dynamics: CalculatedDynamics) -> Table:
     """Highest and lowest tension of every section and strand in every scenario, with their times."""
+    from conveyor.dynamics.criteria import tension_peaks
+
     rows = [(one.name, peak) for one in dynamics.followed for peak in tension_peaks(one)]
     columns = (
         _SCENARIO,
@@ -360,7 +372,7 @@ DYNAMICS_KEYS: Final = JsonObject(
         "sizes": _SIZES,
         **SCENARIO_KEYS,
         "checks": JsonList(
-            lambda dynamics: check_pairs(every := dynamics_checks(dynamics), governing_by_subject(every)),
+            lambda dynamics: check_pairs(every := _every_check(dynamics), governing_by_subject(every)),
             describe_value("every criterion of every scenario; `case` is the scenario"),
             item=CHECK_KEYS,
         ),
