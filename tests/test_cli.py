@@ -215,10 +215,12 @@ def test_help_imports_nothing_heavy() -> None:
 
 
 def test_power_of_a_spec_without_scenarios_does_not_import_dynamics() -> None:
-    code = (
-        "import sys, conveyor.cli\ntry:\n    conveyor.cli.main()\nfinally:\n    print(sorted(name for name in sys.modules"
-        " if name.startswith(('conveyor.dynamics', 'scipy.linalg', 'scipy.optimize', 'pandas', 'matplotlib', 'openpyxl'))))"
-    )
+    heavy = "('conveyor.dynamics', 'scipy.linalg', 'scipy.optimize', 'pandas', 'matplotlib', 'openpyxl')"
+    code = f"""import sys, conveyor.cli
+try:
+    conveyor.cli.main()
+finally:
+    print([name for name in sys.modules if name.startswith({heavy})])"""
     spec = ROOT / "examples" / "specs" / "overland.yaml"
     done = subprocess.run([sys.executable, "-c", code, "power", str(spec)], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines()[-1] == "[]"
