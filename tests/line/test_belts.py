@@ -72,6 +72,14 @@ def test_what_is_read_between_tensions_is_what_is_solved_there(found):
     assert found.error_estimate <= RTOL
 
 
+def test_order_cost_and_frequencies_are_those_of_the_nearest_tension(found):
+    among = found.contacts.rolls[0][0].curve.among
+    assert len(among.curves) > 2
+    for one, tension in zip(among.curves, among.tensions.tolist(), strict=True):
+        for beside in (0.999 * tension, 1.001 * tension):
+            assert among.under(beside).curve is one.curve
+
+
 def test_a_stretch_feels_the_mean_over_its_tensions(found):
     # three Gauss points integrate a fifth power: what single solves at seven places give is the same
     contacts, i = found.contacts, 0

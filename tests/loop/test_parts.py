@@ -191,6 +191,29 @@ def test_a_backstop_holds_and_bears_stalled_motors():
     assert [duty.holding for duty in of_two.drive_duty] == pytest.approx([0.7 * alone] * 2, rel=1e-12)
 
 
+def test_two_brakes_share_the_heat_of_a_stop_by_their_forces():
+    disc = 46e3  # J/K of 100 kg of steel
+    found = drives(
+        {"pulley_diameter": "1 m", "brake_force": "10 kN"},
+        brake_force="30 kN", brake_disc="100 kg", brake_heat="20 kJ",
+    )  # fmt: skip
+    first, second = found.drive_duty
+    whole = found.motions.braking_heat
+    assert whole > 0.0
+    assert (first.heat, second.heat) == pytest.approx((0.75 * whole, 0.25 * whole), rel=1e-12)
+    assert first.disc_rise == pytest.approx(0.75 * whole / disc, rel=1e-9)
+    assert second.disc_rise is None
+    heat = only(check for check in drive_parts(found) if check.key == "brake_heat")
+    assert (heat.calculated, heat.required, heat.failed) == (pytest.approx(0.75 * whole), 20e3, True)
+    unknown = drives(brake_force="30 kN", brake_disc="100 kg")
+    assert [check for check in drive_parts(unknown) if check.key == "brake_heat"] == []
+
+
+def test_a_drive_without_a_brake_has_no_heat():
+    (duty,) = drives(starts_per_hour=3).drive_duty
+    assert (duty.heat, duty.disc_rise) == (None, None)
+
+
 def test_a_backstop_that_friction_spares_has_no_size():
     sections = [{"name": name, "length": "250 m", "lift": "1 m"} for name in "abcd"]
     found = calculated(drive=DATA["drive"] | PARTS | {"backstop": True}, route={"sections": sections})

@@ -292,3 +292,14 @@ def test_of_states_that_load_a_shaft_alike_the_first_is_named():
     )
     alike = replace(duty, loads=states)
     assert (alike.largest.state, alike.safety[1]) == ("steady", "steady")
+
+
+def test_pulleys_of_a_belt_without_a_strength_are_for_all_of_it():
+    """DIN 22101: D_A = c_tr times the carcass, 145 for steel cord, times 1, 0.8, 0.63 for groups A, B, C."""
+    carcass = {"kind": "steel cord", "thickness": "5 mm"}
+    found = closed(line(belt=DATA["belt"] | {"carcass": carcass}))
+    pulleys = {check.name: check for check in belt_duty(found, motion_states(found, start_and_stop(found))).pulleys}
+    assert {check.utilisation for check in pulleys.values()} == {None}
+    least = {name: check.least for name, check in pulleys.items()}
+    whole = 145 * 0.005
+    assert least == pytest.approx({"head": whole, "bend": 0.8 * whole, "tail": 0.8 * whole, "snub": 0.63 * whole})

@@ -163,6 +163,29 @@ def _never_beaten(found):
         assert (figure in worst) == (max(figures[figure] for figures in every) > 0.0)
 
 
+@pytest.mark.parametrize("seed", range(20, 28))
+def test_estimates_at_constant_speed_are_the_extremes_of_every_loading(seed):
+    """With one drive and a weight tensions are linear in the loading: sums of what every section adds are exact."""
+    rng = np.random.default_rng(seed)
+    conveyor = route(rng, int(rng.integers(2, 7)))
+    alone = conveyor.drive.replace(further_drives=(), position="head")
+    unit = {"kind": "gravity", "position": "tail" if seed % 2 else "head"}
+    simple = conveyor.route.replace(feeding=None, further_feeding=(), take_up=unit)
+    calculation = conveyor.calculation.replace(secondary="itemised")
+    found = added(conveyor.replace(drive=alone, route=simple, calculation=calculation))
+    state = found._states[0]
+    every = []
+    for on in itertools.product([False, True], repeat=found.count):
+        loading = np.array(on)
+        offsets = found._offsets(state, loading, *found._moved(state, loading))
+        every.append(offsets - found._anchor @ offsets)
+    scale, ends = CLOSED * np.abs(every).max(), found.stretch_at + 1
+    tight, low = found._estimates(state)
+    assert tight[ends] == pytest.approx(np.max(every, axis=0)[ends], rel=CLOSED, abs=scale)
+    sag = np.maximum(found.least, found.least + found.more_least)
+    assert np.all(low[ends] >= sag - np.min(every, axis=0)[ends] - scale)
+
+
 def test_signs_by_hand():
     # a level, b up, c steeply down: bulk on c drives, on the others it drags
     sections = [{"name": "a", "length": "300 m"}, {"name": "b", "length": "400 m", "lift": "20 m"},

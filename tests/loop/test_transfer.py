@@ -55,6 +55,18 @@ def test_seals_drag_over_the_skirtboards_and_nothing_else_changes(plain, found):
     assert after.indentation == pytest.approx(before.indentation, rel=1e-12)
 
 
+def test_without_a_spring_rate_a_lump_is_not_checked_and_the_stream_alone_is():
+    def of(**given):
+        feeding = {"drop_height": "1.5 m", "idler_spacing": "0.4 m", "idler_rating": "15 kN"} | given
+        (check,) = impact_load(calculate(from_data(_spec(feeding=feeding))))
+        return check.verdict, check.required, check.asked.text()
+
+    assert of(lump_mass="30 kg") == (
+        "not checked", None, "spring rate for the lump (idler_stiffness) not given",
+    )  # fmt: skip
+    assert of()[:2] == ("pass", 15e3)
+
+
 def test_impact_is_the_lump_on_its_spring_over_what_rests_there(found):
     (landing,) = found.loading_point_duty
     weight, stretch = 30.0 * found.line.gravity, found.line.stretches[0]
