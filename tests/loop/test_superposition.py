@@ -168,8 +168,8 @@ def test_estimates_at_constant_speed_are_the_extremes_of_every_loading(seed):
     """With one drive and a weight tensions are linear in the loading: sums of what every section adds are exact."""
     rng = np.random.default_rng(seed)
     conveyor = route(rng, int(rng.integers(2, 7)))
-    alone = conveyor.drive.replace(further_drives=(), position="head")
-    unit = {"kind": "gravity", "position": "tail" if seed % 2 else "head"}
+    alone = conveyor.drive.replace(further_drives=(), position="head" if seed % 2 else "tail")
+    unit = {"kind": "gravity", "position": "tail" if seed % 4 < 2 else "head"}
     simple = conveyor.route.replace(feeding=None, further_feeding=(), take_up=unit)
     calculation = conveyor.calculation.replace(secondary="itemised")
     found = added(conveyor.replace(drive=alone, route=simple, calculation=calculation))

@@ -96,7 +96,7 @@ def test_every_bar_is_the_analysis_at_its_load_temperature_and_speed(line):
 
 
 def test_power_with_a_factor_on_the_indentation_is_that_of_the_conveyor_calculated_with_it(line):
-    """Force and power from the mains are proportional; flexure falls at most as the tension rises: by its share of the change."""
+    """Power is proportional to force; flexure falls at most as the tension rises: by its share of the change."""
     factor = 1.3
     (row,) = analyse_duty(operated(line, HOURS), rtol=RTOL).rows
     calibrated = line.calculation.replace(calibration={"indentation": factor})
