@@ -1,4 +1,4 @@
-"""Resistances by the classical methods: one friction factor (ISO 5048, DIN 22101), or CEMA's classic form.
+"""Resistances by the classical methods: friction factors f (ISO 5048, DIN 22101), or CEMA's classic form.
 
 CEMA: Kx computed, Ky, Kt, Ai, Cs from the user's copy of Belt Conveyors for Bulk Materials, 5th ed. 1997, chapter 6, as
 commonly reproduced; skirts, cleaners, ploughs and pulleys by its figures.
@@ -22,6 +22,8 @@ from conveyor.laws.resistance import (
     cema_idler_factor,
     cema_pulley_friction,
     cema_skirts,
+    roll_line_mass,
+    section_main_resistance,
     slope_resistance,
 )
 from conveyor.laws.resistance.cema import Place
@@ -39,18 +41,31 @@ _LEAST_WRAP: Final = math.radians(150.0)  # CEMA: below it a pulley counts as "o
 _BOOK: Final = "CEMA classic"
 
 
+def unit_main_force(stretch: Stretch, gravity: float) -> float:
+    """Main resistance of a stretch for f = 1 [N]."""
+    return section_main_resistance(
+        friction_factor=1.0,
+        length=stretch.length,
+        roll_mass=roll_line_mass(stretch.set_mass, spacing=stretch.spacing),
+        belt_mass=stretch.belt_mass,
+        bulk_mass=stretch.bulk_mass,
+        inclination=stretch.inclination,
+        gravity=gravity,
+    )
+
+
 def factor_main_force(line: Line, unit_main: Array) -> Force:
-    """Main resistance by one friction factor, f L g (m'_R + (2 m'_G + m'_L) cos δ), stretch by stretch.
+    """Main resistance by friction factors, f L g (m'_R + (m'_G + m'_L) cos δ), stretch by stretch.
 
     Parameters
     ----------
     line : Line
-        The conveyor, with its f.
+        The conveyor, with f of every stretch.
     unit_main : ndarray, shape (2n,)
         Main resistance of every stretch for f = 1 [N].
     """
     return Force(
-        "main_by_factor", f"main resistance, f = {line.friction_factor:g}", "main", line.friction_factor * unit_main,
+        "main_by_factor", f"main resistance, {line.friction_text}", "main", line.friction_factors * unit_main,
         f"{METHOD_NAMES[line.method]}, F_H with f given", short="main resistance",
     )  # fmt: skip
 
@@ -69,7 +84,7 @@ def cema_section_tension(stretch: Stretch, factors: CemaFactors) -> CemaTension:
         belt_mass=stretch.belt_mass,
         bulk_mass=stretch.bulk_mass,
         idler_factor=kx,
-        flexure_factor=factors.flexure,
+        flexure_factor=factors.flexure_of(stretch.section),
         temperature_factor=factors.temperature,
     )
 

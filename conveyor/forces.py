@@ -15,7 +15,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.classical_forces import cema_forces_along, cema_point_forces, factor_main_force
+from conveyor.classical_forces import cema_forces_along, cema_point_forces, factor_main_force, unit_main_force
 from conveyor.force_sums import Force, ForceSums
 from conveyor.laws.resistance import (
     ROLL_ON_BELT_FRICTION,
@@ -29,9 +29,7 @@ from conveyor.laws.resistance import (
     idler_tilt_resistance,
     plough_resistance,
     pulley_bearing_resistance,
-    roll_line_mass,
     secondary_resistance,
-    section_main_resistance,
     skirt_resistance,
     slope_resistance,
     steel_cord_wrap_resistance,
@@ -104,7 +102,7 @@ def strand_rubber_free_forces(strand: OneStrand) -> RubberFreeForces:
         tilt=each(_tilt_force),
         guidance=each(_guidance_force) if skewed else None,
         lift=each(_lift_force),
-        unit_main=each(_unit_main_force),
+        unit_main=each(unit_main_force),
         flexure=each(_flexure_force) if strand.flexes else None,
     )
 
@@ -216,18 +214,6 @@ def _guidance_forces(fixed: RubberFreeForces) -> Iterator[Force]:
 
 def _lift_force(stretch: Stretch, gravity: float) -> float:
     return slope_resistance(stretch.line_mass, lift=stretch.rise, gravity=gravity)
-
-
-def _unit_main_force(stretch: Stretch, gravity: float) -> float:
-    return section_main_resistance(
-        friction_factor=1.0,
-        length=stretch.length,
-        roll_mass=roll_line_mass(stretch.set_mass, spacing=stretch.spacing),
-        belt_mass=stretch.belt_mass,
-        bulk_mass=stretch.bulk_mass,
-        inclination=stretch.inclination,
-        gravity=gravity,
-    )
 
 
 def point_forces(line: Line) -> tuple[Force, ...]:

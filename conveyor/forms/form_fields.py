@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from enum import Enum
+from functools import cache
 from types import NoneType, UnionType
 from typing import Annotated, Any, Final, Literal, TypeAlias, Union, get_args, get_origin
 
@@ -95,6 +96,7 @@ class _FieldHead:
     default: Any = None
 
 
+@cache
 def model_layout(model: type[BaseModel]) -> FieldGroup:
     """Return the fields of a model, in its order, nested models and lists included.
 

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from conveyor.line.optional_quantities import si_or_default, si_or_none
-from conveyor.models.calculation_methods import Cema
+from conveyor.models import Conveyor
 from conveyor.units import si
 
 
 @dataclass(frozen=True)
 class CemaFactors:
-    """Factors of the classic CEMA form: Ky, Kt, Cs [-], Ai, Tp (None: by table), accessories [N], hs [m], N/m."""
+    """Factors of the classic CEMA form: Ky, Kt, Cs [-], Ai, Tp (None: by table), accessories [N], hs [m], N/m.
+
+    `section_flexure` is Ky of the sections that have their own.
+    """
 
     flexure: float
     temperature: float
@@ -24,10 +28,16 @@ class CemaFactors:
     pulleys: float | None
     drive_pulleys: float
     accessories: float
+    section_flexure: Mapping[str, float]
+
+    def flexure_of(self, section: str) -> float:
+        """Ky of a section [-]."""
+        return self.section_flexure.get(section, self.flexure)
 
 
-def cema_factors(factors: Cema | None) -> CemaFactors | None:
+def cema_factors(conveyor: Conveyor) -> CemaFactors | None:
     """Factors of the CEMA estimate; None without them."""
+    factors = conveyor.calculation.cema
     if factors is None:
         return None
     return CemaFactors(
@@ -42,4 +52,9 @@ def cema_factors(factors: Cema | None) -> CemaFactors | None:
         pulleys=si_or_none(factors.pulley_friction),
         drive_pulleys=si(factors.drive_pulley_friction),
         accessories=si(factors.accessories),
+        section_flexure={
+            section.name: section.flexure_factor
+            for section in conveyor.route.sections
+            if section.flexure_factor is not None
+        },
     )

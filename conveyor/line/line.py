@@ -21,6 +21,7 @@ from conveyor.line.belt_body import BeltBody, belt_body
 from conveyor.line.bend_pulleys import BendPulley, TransitionZone, bend_pulleys, transition_zones
 from conveyor.line.cema_factors import CemaFactors, cema_factors
 from conveyor.line.drive_units import DriveUnit, drive_units, torque_curve
+from conveyor.line.friction_factors import friction_factors
 from conveyor.line.loop_positions import LoopPositions
 from conveyor.line.optional_quantities import si_or_default, si_or_none
 from conveyor.line.roll_drags import RollDrags, roll_drags
@@ -119,7 +120,7 @@ class Line:
     design_friction: float
     method: Method
     secondary: str
-    friction_factor: float
+    friction_factors: Array
     flexure_share: float | None
     flexes_by_sag: bool
     flexure_source: str
@@ -186,17 +187,23 @@ class Line:
             design_friction=si_or_default(drive.design_friction, 1.0),
             method=calculation.method,
             secondary=_secondary_resistances(conveyor),
-            friction_factor=calculation.friction_factor,
+            friction_factors=friction_factors(conveyor, strands.stretches),
             flexure_share=si_or_none(calculation.flexure_share),
             flexes_by_sag=calculation.flexure is None and calculation.flexure_share is None,
             flexure_source=_flexure_source(calculation),
-            cema=cema_factors(calculation.cema),
+            cema=cema_factors(conveyor),
             support=calculation.support,
             rtol=calculation.rtol,
             softened=calculation.strain != "off",
             us_sizes=trade_of(conveyor.report.units) == "US",
             wind_speed=si_or_none(conveyor.ambient.wind_speed),
         )
+
+    @property
+    def friction_text(self) -> str:
+        """Friction factor f of all stretches, or the range of theirs."""
+        low, high = float(self.friction_factors.min()), float(self.friction_factors.max())
+        return f"f = {low:g}" if low == high else f"f = {low:g} to {high:g}"
 
     @property
     def uplift(self) -> float:

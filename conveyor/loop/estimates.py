@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from conveyor.classical_forces import cema_forces_along, cema_point_forces, cema_section_tension
+from conveyor.classical_forces import cema_forces_along, cema_point_forces, cema_section_tension, unit_main_force
 from conveyor.force_sums import ForceSums
 from conveyor.laws.resistance import (
     LENGTH_COEFFICIENTS,
@@ -24,7 +24,7 @@ _LONGEST_FOR_FACTOR = LENGTH_COEFFICIENTS[-1][0]
 
 @dataclass(frozen=True)
 class ClassicalEstimate:
-    """An estimate with a given friction factor f, for the same spec [N]."""
+    """An estimate with a given friction factor f, the mean of them where it has several, for the same spec [N]."""
 
     friction_factor: float
     main: float
@@ -50,16 +50,22 @@ def classical_estimate(line: Line, forces: ForceSums, unit_main: float) -> Class
     Parameters
     ----------
     line : Line
-        The conveyor, with its f.
+        The conveyor, with f of every stretch.
     forces : ForceSums
         Special, lift and itemised secondary resistances of the calculation.
     unit_main : float
         Main resistance for f = 1 [N].
     """
-    main = line.friction_factor * unit_main
+    factors = line.friction_factors
+    if factors.min() == factors.max():
+        main, factor = float(factors[0]) * unit_main, float(factors[0])
+    else:
+        each = (unit_main_force(stretch, line.gravity) for stretch in line.stretches)
+        main = math.fsum(f * unit for f, unit in zip(factors.tolist(), each, strict=True))
+        factor = equivalent_friction_factor(main, unit_main_force=unit_main)
     tabled = SHORTEST_FOR_FACTOR < line.length <= _LONGEST_FOR_FACTOR
     return ClassicalEstimate(
-        friction_factor=line.friction_factor,
+        friction_factor=factor,
         main=main,
         secondary=secondary_resistance(main, length=line.length) if tabled else forces.secondary,
         secondary_by="(C-1) F_H" if tabled else f"itemised (C is tabled for {SHORTEST_FOR_FACTOR:g} to 5000 m)",
@@ -92,9 +98,10 @@ def cema_estimate(line: Line, unit_main: float) -> CemaEstimate | None:
 
     Notes
     -----
-    Ky is one value for the whole conveyor, though the book's table has one for each length, slope and load. Pulleys
-    are 200, 150 or 100 lbf by position unless given; unlisted pulleys count nothing. Skirts are the whole skirtboards,
-    Lb of the book, with the zone of acceleration. Lengths are along the belt; Kx includes the tilt of idlers.
+    Ky is that of the conveyor where a section has none of its own; the book's table has one for each length, slope and
+    load. Pulleys are 200, 150 or 100 lbf by position unless given; unlisted pulleys count nothing. Skirts are the whole
+    skirtboards, Lb of the book, with the zone of acceleration. Lengths are along the belt; Kx includes the tilt of
+    idlers.
     """
     given = line.cema
     if given is None:

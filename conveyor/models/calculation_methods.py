@@ -23,6 +23,12 @@ METHOD_NAMES: Final[Mapping[Method, str]] = {
 """Methods as reports name them."""
 
 
+FrictionFactor = Annotated[Number, Field(gt=0, le=0.1)]
+"""f of ISO 5048 and DIN 22101."""
+FlexureFactor = Annotated[Number, Field(gt=0, le=0.1)]
+"""Ky of CEMA."""
+
+
 class BeltFlexure(Model):
     """Loss of the belt that bends over the idler sets: a tensioned beam with a loss tangent."""
 
@@ -60,8 +66,8 @@ class Flexure(Model):
 class Cema(Model):
     """Factors of the classic form of CEMA, from the user's copy of the book."""
 
-    flexure_factor: Annotated[Number, Field(gt=0, le=0.1)]
-    """Ky, from the book's table over spacing, slope, length and load (0.016 to 0.035)."""
+    flexure_factor: FlexureFactor
+    """Ky, from the book's table over spacing, slope, length and load (0.016 to 0.035); sections may have their own."""
     temperature_factor: Annotated[Number, Field(ge=1, le=10)] = 1.0
     """Kt, 1 above freezing."""
     idler_friction: Annotated[Force, Bounds(ge="0 N", le="1 kN")]

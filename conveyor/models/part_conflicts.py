@@ -331,6 +331,17 @@ def _length_coefficient_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
         )
 
 
+def _flexure_factor_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Refuse Ky of a section without the other factors of CEMA."""
+    for i, section in enumerate(conveyor.route.sections):
+        if section.flexure_factor is not None and conveyor.calculation.cema is None:
+            message = (
+                f"got {section.flexure_factor:g}, Ky of CEMA, without its other factors; give calculation.cema, or "
+                "remove it"
+            )
+            yield Problem(("route", "sections", i, "flexure_factor"), message)
+
+
 CONFLICTS: Final[Mapping[Callable[[ConveyorParts], Iterator[Problem]], tuple[str, ...]]] = {
     _roll_length_problems: ("belt", "idlers"),
     _fill_problems: ("belt", "idlers", "material"),
@@ -345,6 +356,7 @@ CONFLICTS: Final[Mapping[Callable[[ConveyorParts], Iterator[Problem]], tuple[str
     _drive_section_problems: ("drive", "route"),
     _inertia_problems: ("drive", "route"),
     _length_coefficient_problems: ("calculation", "route"),
+    _flexure_factor_problems: ("calculation", "route"),
     _bulk_flexure_problems: ("calculation", "idlers"),
     _belt_support_problems: ("belt", "calculation"),
     _curve_problems: ("idlers", "route"),

@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 from conveyor.laws.resistance import FRICTION_FACTOR, Site
 from conveyor.models.base import Model, Name, Number, Problem, raise_problems
 from conveyor.models.belt import Belt
-from conveyor.models.calculation_methods import Calibration, Cema, Flexure, Method
+from conveyor.models.calculation_methods import Calibration, Cema, Flexure, FrictionFactor, Method
 from conveyor.models.compound import RubberCompound
 from conveyor.models.drive import Drive
 from conveyor.models.idlers import Idlers
@@ -55,8 +55,12 @@ class Calculation(Model):
     """Secondary resistances one by one, or all by the length coefficient C (80 m and longer)."""
     not_given: Literal["usual values", "nothing"] = "usual values"
     """What stands in where the route has no feeding, no cleaners or no pulleys: usual ones, or nothing."""
-    friction_factor: Annotated[Number, Field(gt=0, le=0.1)] = FRICTION_FACTOR.value
-    """Friction factor f of the classical estimate, and of the methods that follow it."""
+    friction_factor: FrictionFactor = FRICTION_FACTOR.value
+    """Friction factor f of the classical estimate, and of the methods that follow it; sections may have their own."""
+    return_friction_factor: FrictionFactor | None = None
+    """f of the return strand, where it differs."""
+    empty_friction_factor: FrictionFactor | None = None
+    """f of the carry strand where it bears no bulk, where it differs; of sections with an f of their own too."""
     roll_drag: Literal["in service", "acceptance limit"] = "in service"
     """Drag of rolls without one: usual bearings, grease and seals over load, speed and air; or a new roll's limit."""
     flexure_share: Annotated[Fraction, Bounds(ge="0 %", lt="100 %")] | None = None

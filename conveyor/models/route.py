@@ -14,6 +14,7 @@ from conveyor.laws.resistance import BULK_ON_BELT_FRICTION, BULK_ON_SKIRT_FRICTI
 from conveyor.laws.transfer import CLEANER_EFFICIENCY
 from conveyor.models.base import Model, Name, Number, Problem, Switch, raise_problems
 from conveyor.models.belt_scale import BeltScale
+from conveyor.models.calculation_methods import FlexureFactor, FrictionFactor
 from conveyor.models.idlers import Spacing
 from conveyor.models.loop_parts import Pulley, TakeUp, Transition
 from conveyor.models.ploughs import Plough
@@ -91,6 +92,12 @@ class Section(Model):
     """Angle in plan by which the carry sets are turned to steer the belt out of the horizontal curve."""
     return_skew: Skew | None = None
     """Angle in plan by which the return sets are turned to steer the belt out of the horizontal curve."""
+    friction_factor: FrictionFactor | None = None
+    """Friction factor f of the carry strand here, by ISO 5048 and DIN 22101; that of calculation without it."""
+    return_friction_factor: FrictionFactor | None = None
+    """f of the return strand here; that of calculation without it."""
+    flexure_factor: FlexureFactor | None = None
+    """Ky of CEMA here, by the book's table for its slope, length and load; that of calculation.cema without it."""
 
     @model_validator(mode="after")
     def _one_slope(self) -> Self:

@@ -103,7 +103,7 @@ def _resistance_method(result: CalculatedConveyor) -> Iterator[str]:
     """Sentences on the method of the resistances."""
     line = result.line
     if line.method != "viscoelastic":
-        factors = f"the factor f = {line.friction_factor:g}" if line.method in FACTOR_METHODS else "Kx, Ky and Kt"
+        factors = f"the factor {line.friction_text}" if line.method in FACTOR_METHODS else "Kx, Ky and Kt"
         yield (
             f"Resistances: {METHOD_NAMES[line.method]} with {factors}; tensions, motors, take-up and checks follow it. "
             "The rolling contact of every roll is computed beside, for loads of rolls and covers."

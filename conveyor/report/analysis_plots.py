@@ -68,7 +68,7 @@ def resistance_breakdown(balance: Balance, *, system: System = "SI") -> Figure:
     force = display_unit("force", system, large=True)
     figure, (axis,) = stacked_axes(1, 4.4)
     estimates: list[tuple[str, ClassicalEstimate]] = [
-        (f"ISO 5048 / DIN 22101, f = {balance.classical.friction_factor:g}", balance.classical)
+        (f"ISO 5048 / DIN 22101, f = {balance.classical.friction_factor:.4g}", balance.classical)
     ]
     if balance.cema is not None:
         estimates.append(("CEMA classic, given Ky", balance.cema))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 from pathlib import Path
@@ -40,8 +41,72 @@ def test_forces_are_f_and_c(stem, method):
     for name in ("main", "secondary", "special", "lift", "total"):
         # sets that guide in curves rub by the tension of their own method
         assert getattr(forces, name) == pytest.approx(getattr(beside, name), rel=1e-5 if stem == "curved" else ROUNDING)
-    assert made.balance.friction_factor == pytest.approx(made.line.friction_factor, rel=ROUNDING)
+    assert made.balance.friction_factor == pytest.approx(made.line.friction_factors, rel=ROUNDING)
     assert list(forces.parts) == ["main_by_factor", "secondary", "special", "lift"]
+
+
+def with_sections(line, **given):
+    """The conveyor with fields of sections by position."""
+    sections = list(line.route.sections)
+    for place, fields in given.items():
+        sections[int(place[1:])] = sections[int(place[1:])].replace(**fields)
+    return line.replace(route=line.route.replace(sections=sections))
+
+
+def test_f_is_that_of_section_strand_and_load():
+    """F_H of a stretch is f L g (m'_R + (m'_G + m'_L) cos δ), each with its own f."""
+    line = by("overland", "din 22101", return_friction_factor=0.016, empty_friction_factor=0.028)
+    own = {"friction_factor": 0.024, "return_friction_factor": 0.013}
+    line = with_sections(line, _1=own | {"loaded": False}, _2=own, _4={"friction_factor": 0.018})
+    made = calculate(line)
+    n = made.line.count
+    expected = {0: 0.02, 1: 0.028, 2: 0.024, 4: 0.018, n + 1: 0.013, n + 2: 0.013, n + 4: 0.016}
+    (main,) = (force for force in made.balance.along if force.key == "main_by_factor")
+    for i, f in expected.items():
+        k = i if i < n else n + (2 * n - 1 - i)  # the return strand from the head
+        stretch = made.line.stretches[k]
+        weighs = stretch.set_mass / stretch.spacing + stretch.line_mass * math.cos(stretch.inclination)
+        assert main.newtons[k] == pytest.approx(f * stretch.length * 9.81 * weighs, rel=1e-12), stretch
+    beside = calculate(line.replace(calculation=line.calculation.replace(method="viscoelastic"))).balance.classical
+    assert beside.main == pytest.approx(main.total, rel=ROUNDING)
+    assert beside.friction_factor == pytest.approx(made.balance.friction_factor, rel=ROUNDING)
+    assert "f = 0.013 to 0.028" in main.name
+
+
+def test_load_states_have_the_f_of_the_empty_belt():
+    line = by("overland", "din 22101", secondary="itemised", empty_friction_factor=0.03)
+    loads = every_load(line)
+    settled = loads.own.balance.settled
+    for key, loading in (("empty", "empty"), ("inclines", "inclines only")):
+        case = with_case(line, conveyor.LoadCase(name=loading, loading=loading))
+        (alone,) = calculate_many([Variant(case, take_up=settled.take_up)])
+        state = loads.states.state(key).balance
+        assert state.forces.total == pytest.approx(alone.balance.forces.total, rel=1e-9)
+    empty, full = loads.states.state("empty").balance, loads.own.balance
+    assert empty.friction_factor > 0.024 > full.friction_factor  # the return strand keeps f 0.02
+    # the worst loading leaves sections empty only where they resist more so: of all 2^n none is worse
+    worst = loads.states.state("worst").balance.settled.force
+    every = itertools.product([False, True], repeat=loads.own.line.count)
+    for loaded in itertools.islice(every, 0, None, 97):
+        sections = {f"_{i}": {"loaded": on} for i, on in enumerate(loaded)}
+        (alone,) = calculate_many([Variant(with_sections(line, **sections), take_up=settled.take_up)])
+        assert alone.balance.settled.force <= worst * (1.0 + 1e-4)
+
+
+def test_ky_is_that_of_the_section():
+    """Te of a section: L Kt (Kx + Ky Wb + 0.015 Wb) + L Ky Wm, in pounds force per foot and pounds mass alike."""
+    plain = calculate(by("overland", "cema classic", cema=CEMA))
+    own = calculate(with_sections(by("overland", "cema classic", cema=CEMA), _2={"flexure_factor": 0.03}))
+    stretch, more = own.line.stretches[2], 0.03 - CEMA["flexure_factor"]
+    expected = stretch.length * 9.80665 * more * (CEMA["temperature_factor"] * stretch.belt_mass + stretch.bulk_mass)
+    for symbol in ("Tyc", "Tym", "Tyr", "Tx"):
+        (before,), (after,) = ([force for force in each.balance.along if force.key == symbol] for each in (plain, own))
+        changed = np.flatnonzero(np.abs(after.newtons - before.newtons) > 1e-9)
+        assert set(changed.tolist()) <= {2}
+        expected -= after.total - before.total
+    assert expected == pytest.approx(0.0, abs=1e-6)
+    with pytest.raises(InputError, match=r"sections\[2\]\.flexure_factor: got 0\.03, Ky of CEMA, without its other"):
+        with_sections(conveyor.load(SPECS / "overland.yaml"), _2={"flexure_factor": 0.03})
 
 
 def test_secondary_resistances_that_are_given_itemised_stay_so():

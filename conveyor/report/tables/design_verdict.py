@@ -138,7 +138,7 @@ def _classical_power(a: CalculatedConveyor, power: Unit) -> GoverningRow:
     shown = [(name, change) for name, change in changes if abs(change) > _SMALL_CHANGE * abs(here)]
     said = [f"{name}: {'-' if change < 0.0 else '+'}{power.said(abs(change), 3)}" for name, change in shown]
     where = f"against the expected: {'; '.join(said)}" if said else "as expected"
-    return GoverningRow(f"classical motor power, f = {classical.friction_factor:g}", power.said(there, 3), where)
+    return GoverningRow(f"classical motor power, f = {classical.friction_factor:.4g}", power.said(there, 3), where)
 
 
 def _friction_text(result: CalculatedConveyor) -> str:

@@ -66,7 +66,12 @@ def identity_table(conveyor: Conveyor, system: System) -> Table:
 def _method_text(conveyor: Conveyor) -> str:
     """Method of the resistances, with the friction factor of those that have one."""
     calculation = conveyor.calculation
-    f = f", f = {calculation.friction_factor:g}" if calculation.method in FACTOR_METHODS else ""
+    if calculation.method not in FACTOR_METHODS:
+        return METHOD_NAMES[calculation.method]
+    own = (f for one in conveyor.route.sections for f in (one.friction_factor, one.return_friction_factor))
+    others = (calculation.return_friction_factor, calculation.empty_friction_factor, *own)
+    differs = any(f not in {None, calculation.friction_factor} for f in others)
+    f = f", f = {calculation.friction_factor:g}{', with others by section, strand or load' if differs else ''}"
     return f"{METHOD_NAMES[calculation.method]}{f}"
 
 
