@@ -4,7 +4,7 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 OUT ?= out
 
-.PHONY: report test lint types floors docs check bench clean
+.PHONY: report test lint types floors docs check bench release tag clean
 
 $(VENV)/.run: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -48,6 +48,24 @@ check: test lint types floors docs
 
 bench: $(VENV)/.test
 	$(BIN)/python benchmarks/speed.py
+
+$(VENV)/.release: $(VENV)/.run
+	$(BIN)/python -m pip install --quiet -e ".[release]"
+	@touch $@
+
+# Distributions in dist/, and whether they are what a stranger can install: contents, licences, a fresh environment.
+release: $(VENV)/.release
+	rm -rf dist
+	$(BIN)/python -m build --outdir dist
+	$(BIN)/twine check --strict dist/*
+	$(BIN)/python -m tests.distribution dist
+
+# A tag publishes (.github/workflows/release.yml): only of a clean tree whose changelog has the version's date.
+tag: release
+	@git diff --quiet HEAD || { echo "the tree has changes: commit them first"; exit 1; }
+	@version=$$($(BIN)/conveyor --version | cut -d' ' -f2); \
+	grep -q "^## $$version (20" CHANGELOG.md || { echo "CHANGELOG.md: ## $$version has no date"; exit 1; }; \
+	git tag -a "v$$version" -m "conveyor $$version" && echo "now: git push origin v$$version"
 
 clean:
 	rm -rf $(OUT) dist .pytest_cache .mypy_cache .ruff_cache

@@ -147,9 +147,11 @@ def fingerprint(conveyor: Conveyor, *, without: Collection[str] = ()) -> str:
     """Return the SHA-256 of a conveyor's data, compounds and defaults included, for reports.
 
     Two specs that differ in comments, order or layout have the same fingerprint; any changed value or unit
-    changes it, but not what `report` holds, which no figure depends on, nor what fields `without` do.
+    changes it, but not what `report` holds, which no figure depends on, nor the version of the format, nor what fields
+    `without` do.
     """
-    data = {key: value for key, value in conveyor.as_data().items() if key not in {"report", *without}}
+    left_out = {"conveyor", "report", *without}
+    data = {key: value for key, value in conveyor.as_data().items() if key not in left_out}
     canonical = json.dumps(data, sort_keys=True, separators=(",", ":"), allow_nan=False)
     return hashlib.sha256(canonical.encode()).hexdigest()
 

@@ -105,7 +105,7 @@ page is written by `python tests/test_validation_page.py`, and a test holds it t
 *Deviation* is relative; of lengths over the roll's radius, in units of it. *Allowed* follows from the source: half a
 unit of its last printed digit, its own error, or the difference between the two problems. Rolling resistance of
 running conveyors stands apart, under *Measured conveyors*: no openly licensed measurement with its rubber's spectrum
-was found, so those are compared in bands. What the models leave out is in the [README](../README.md#what-it-assumes).
+was found, so those are compared in bands. What the models leave out: [assumptions.md](assumptions.md#assumptions).
 
 ## `conveyor validate`
 """

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Final, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
+from pydantic_core import PydanticCustomError
 
 from conveyor.laws.resistance import FRICTION_FACTOR, Site
 from conveyor.models.base import Model, Name, Number, Problem, raise_problems
@@ -98,9 +99,22 @@ class Calculation(Model):
         return self
 
 
+FORMAT_VERSION: Final = 1
+"""Version of the specs' format; a field that goes or changes its meaning makes a new one."""
+
+
+def _read_version(given: int) -> int:
+    if given > FORMAT_VERSION:
+        message = f"got {given}, this version of conveyor reads {FORMAT_VERSION}; the spec is of a newer one: update it"
+        raise PydanticCustomError("conflict", "{message}", {"message": message})
+    return given
+
+
 class ConveyorParts(Model):
     """What a conveyor is made of, where it stands and how it is calculated."""
 
+    format_version: Annotated[int, AfterValidator(_read_version), Field(alias="conveyor", ge=1, strict=True)] = 1
+    """Version of the format that the spec is written in."""
     name: Name
     """What the conveyor is called in reports."""
     site: Site = "plant"
