@@ -33,7 +33,7 @@ _SCENARIO_COLUMNS: Final = (
     "scenario", "highest_tension", "at", "in", "lowest_tension", "lowest_at", "lowest_in", "comes_to_rest", "way",
 )  # fmt: skip
 _DESIGN_COLUMNS: Final = (
-    "rank", "belt_width", "speed", "trough", "belt", "rolls", "carry_sets", "return_sets", "drives", "motors",
+    "rank", "belt_width", "trough", "speed", "belt", "rolls", "carry_sets", "return_sets", "drives", "motors",
     "motor_power", "cost_a_year",
 )  # fmt: skip
 
@@ -331,7 +331,7 @@ def _year_table(figures: Iterable[Figure], system: System) -> Grid:
 
 def _print_uncertainty(screen: Console, contents: Contents) -> None:
     power, band = display_unit("power", contents.system, large=True), contents["power_band"]
-    ends = [band.columns[band.index(key)].get for key in ("motor_power_low", "motor_power_high")]
+    ends = [column.get for column in band.only("motor_power_low", "motor_power_high").columns]
     said = " to ".join(power.said(end(band.rows[0])) for end in ends)
     exact = [
         f"; {row[0]}: {' to '.join(power.said(end(row)) for end in ends)}" for row in band.rows[_FIRST_ORDER_ROWS:]
@@ -468,11 +468,12 @@ def show_sizing(contents: Contents) -> None:
     screen = terminal_console()
     screen.print(report_grid(every.only(*_DESIGN_COLUMNS), contents.system, title, large=True))
     for rank, row in enumerate(every.rows, start=1):
-        top, bottom, safety, why = (
-            display_unit(column.kind, contents.system).said(column.get(row))
+        said = {
+            column.key: display_unit(column.kind, contents.system).said(column.get(row))
             for column in every.only("top_cover", "bottom_cover", "belt_safety", "why").columns
-        )
-        screen.print(plain_text(f"{rank}: {why}; top cover {top}, bottom cover {bottom}, belt safety {safety}"))
+        }
+        words = "{why}; top cover {top_cover}, bottom cover {bottom_cover}, belt safety {belt_safety}"
+        screen.print(plain_text(f"{rank}: {words.format(**said)}"))
     screen.print(plain_text("\nbasis and limitations", style="bold"))
     for line in merge_notes(contents.lines("assumption")):
         screen.print(plain_text(wrap_line(line, screen.width, first="  - ", further="    ")))

@@ -37,13 +37,13 @@ def build_page(
     known = fit_tables.document_fields(fitted, document)
     said = [(name, known.get(name, Html("&nbsp;"))) for name in fit_tables.DOCUMENT_FIELDS]
     compound = fitted.compound
-    drawn = [
+    *others, errors, curve = [
         captioned_drawing(figure_svg(made, f"fit-{name}", caption), caption)
         for name, caption, made in fit_figures(fitted)
     ]
     parts = (
-        PagePart("verdict", "Verdict", _verdict_sheet(fitted, criteria)),
-        PagePart("figures", "Figures", join_html(drawn)),
+        PagePart("verdict", "Verdict", _verdict_sheet(fitted, criteria, (curve, errors))),
+        PagePart("figures", "Figures", join_html(others)),
         PagePart("tables", "Shifts and files", join_html(_figure_tables(fitted))),
         PagePart("read", "What was read and done", element("div", bullet_list(fitted.understood), class_="note")),
         PagePart("unknown", "Not known", bullet_list(compound.missing)),
@@ -55,8 +55,8 @@ def build_page(
     )  # fmt: skip
 
 
-def _verdict_sheet(fitted: FittedCompound, criteria: Sequence[Criterion]) -> Html:
-    """First sheet: verdict, facts, criteria and signature lines."""
+def _verdict_sheet(fitted: FittedCompound, criteria: Sequence[Criterion], drawn: Sequence[Html]) -> Html:
+    """First sheet: verdict, facts, criteria, the curves that are signed for, and signature lines."""
     count = {word: sum(one.verdict == word for one in criteria) for word in ("pass", "FAIL", "not checked")}
     counted = join_html(part for word, n in count.items() if n for part in (f"{n} ", mark(word), Html("&ensp;")))
     word = "pass" if is_accepted(tuple(criteria)) else "FAIL"
@@ -64,7 +64,7 @@ def _verdict_sheet(fitted: FittedCompound, criteria: Sequence[Criterion]) -> Htm
     shown = table_html(fit_tables.criteria_table(criteria), "Every criterion, and what it requires")
     names = ("measured by, date", "approved by, date")
     signed = element("div", *(element("div", name) for name in names), class_="signed keep")
-    return element("div", line, fact_list(fit_tables.fit_facts(fitted)), shown, signed, class_="sheet")
+    return element("div", line, fact_list(fit_tables.fit_facts(fitted)), shown, *drawn, signed, class_="sheet")
 
 
 def _figure_tables(fitted: FittedCompound) -> list[Html]:

@@ -106,24 +106,40 @@ def _page_table(shown: Table, caption: str, system: System) -> Html:
 
 def _page_drawing(drawing: Drawing) -> Html:
     made = drawing.draw()
-    return captioned_drawing(
-        made if isinstance(made, Html) else figure_svg(made, drawing.name, drawing.caption), drawing.caption
-    )
+    if isinstance(made, Html):  # an animation: paper has the envelope of it beside
+        return captioned_drawing(made, drawing.caption, printed=False)
+    return captioned_drawing(figure_svg(made, drawing.name, drawing.caption), drawing.caption)
+
+
+def _check_counts(contents: Contents) -> tuple[Html, int]:
+    """Number of checks by verdict, and of those that fail."""
+    checks = contents["checks"].rows
+    count = {word: sum(check.verdict == word for check in checks) for word in ("pass", "FAIL", "not checked")}
+    counted = (part for word, n in count.items() if n for part in (f"{n} ", verdict_mark(word), Html("&ensp;")))
+    return join_html(["Checks: ", *counted]), count["FAIL"]
+
+
+def _verdict(contents: Contents) -> Html:
+    """Verdict in a sentence, key figures, and what to do about what fails."""
+    counted, failing = _check_counts(contents)
+    many = "one check fails" if failing == 1 else f"{failing} checks fail"
+    says = f"Not adequate: {many}." if failing else "Adequate: every check that was made passes."
+    content = [element("p", says, class_=f"stands {'fail' if failing else 'pass'}"), element("p", counted)]
+    if figures := contents.figures_for("tile"):
+        content.append(key_figure_tiles(figures, contents.system))
+    return join_html([*content, _warning_lists(contents) if contents.lines("warning") else Html("")])
 
 
 def _key_figures(contents: Contents) -> Html:
     """Verdict, governing figures and key figures."""
-    checks, warned = contents["checks"].rows, len(contents.lines("warning"))
-    count = {word: sum(check.verdict == word for check in checks) for word in ("pass", "FAIL", "not checked")}
-    counted = join_html(
-        part for word, n in count.items() if n for part in (f"{n} ", verdict_mark(word), Html("&ensp;"))
-    )
+    counted, failing = _check_counts(contents)
+    warned = len(contents.lines("warning"))
     link, governs = element("a", f"{warned} warnings", href="#warnings"), contents["governing_figures"]
     content = [
-        element("p", governs.note, class_=f"stands {'fail' if count['FAIL'] else 'pass'}"),
-        element("p", "Checks: ", counted, " ", link),
+        element("p", governs.note, class_=f"stands {'fail' if failing else 'pass'}"),
+        element("p", counted, " ", link),
         table_html(governs, governs.heading, contents.system),
-        key_figure_tiles(contents.figures_for("tile"), contents.system),
+        key_figure_tiles(contents.figures_for("tile"), contents.system, ", as given"),
     ]
     if "defaults" in contents:
         content.append(element("p", contents["defaults"].note))
@@ -139,6 +155,7 @@ def _warning_lists(contents: Contents) -> Html:
 
 _PART_CONTENT: Final[dict[str, Callable[[Contents], Html]]] = {
     "key-figures": _key_figures,
+    "verdict": _verdict,
     "method": lambda contents: bullet_list(contents.lines("method")),
     "warnings": _warning_lists,
     "assumptions": lambda contents: bullet_list(contents.lines("assumption")),

@@ -372,15 +372,15 @@ def fact_list(pairs: Iterable[tuple[str, object]], kind: str = "facts") -> Html:
     return element("dl", *named, class_=kind)
 
 
-def key_figure_tiles(shown: Iterable[Figure], system: System = "SI") -> Html:
-    """Return key figures as large tiles."""
+def key_figure_tiles(shown: Iterable[Figure], system: System = "SI", of: str = "") -> Html:
+    """Return key figures as large tiles; `of` stands behind their names."""
     pairs = []
     for figure in shown:
         written = display_unit(figure.kind, system, large=True)
         value, _, sign = written.said(figure.value, 3).partition(" ")
         pairs.append(
             (
-                f"{figure.called(system)}, as given",
+                f"{figure.called(system)}{of}",
                 join_html([value, " ", element("small", sign)]) if sign else value,
             )
         )

@@ -50,8 +50,8 @@ _MOST_CHECKS: Final = 28
 _ROW_HEIGHT: Final = 15.0  # [pt]
 _GAP_HEIGHT: Final = 7.0  # [pt]
 _LINE_CHARACTERS: Final = 118
-_WHERE_CHARACTERS: Final = 105  # of a line beside a governing figure
 """Characters of the verdict on one line."""
+_WHERE_CHARACTERS: Final = 105  # of a line beside a governing figure
 
 
 def write_summary(page: SheetWriter, places: Mapping[str, tuple[Worksheet, TablePlace]]) -> None:

@@ -219,10 +219,11 @@ def _shorten_value(key: str, value: str, name: str) -> str:
     return value
 
 
-def captioned_drawing(drawing: Html, caption: str) -> Html:
+def captioned_drawing(drawing: Html, caption: str, *, printed: bool = True) -> Html:
     """Return a drawing with its caption; it scrolls by itself on a narrow screen."""
     return element(
         "figure",
         element("div", drawing, class_="scroll drawing", tabindex="0", role="group", aria_label=caption),
         element("figcaption", caption),
+        class_=None if printed else "unprinted",
     )

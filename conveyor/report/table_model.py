@@ -279,12 +279,9 @@ class Table:
         return replace(self, columns=tuple(c for c in self.columns if c.page is not None and c.page in views))
 
     def only(self, *keys: str) -> Table:
-        """The table with these columns."""
-        return replace(self, columns=tuple(column for column in self.columns if column.key in keys))
-
-    def index(self, key: str) -> int:
-        """Index of a column, from 0."""
-        return [column.key for column in self.columns].index(key)
+        """The table with these columns alone, in this order, wherever the page shows them."""
+        known = {column.key: replace(column, page="") for column in self.columns}
+        return replace(self, columns=tuple(known[key] for key in keys if key in known))
 
     def name(self, column: Column, system: System) -> str:
         """Name of a column with its unit."""

@@ -174,7 +174,7 @@ def test_a_long_word_does_not_make_the_letters_of_its_table_small():
     sizes = {}
     (sheet,) = sheets(page_elements.table_html(Table("t", "", "", columns, range(2)), "Wide"))
     sheet.extract_text(visitor_text=lambda text, _cm, _tm, _font, size: sizes.setdefault(text.strip(), size))
-    assert sizes["beside"] == pytest.approx(6.8, abs=0.01)
+    assert sizes["beside"] == pytest.approx(8.0, abs=0.01)
 
 
 def test_a_short_table_of_long_texts_goes_on_on_the_next_page():

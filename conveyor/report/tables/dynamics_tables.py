@@ -50,14 +50,14 @@ if TYPE_CHECKING:  # 0.1 s that a report without starts and stops does not pay
     from conveyor.dynamics.simulation import CalculatedDynamics
 
 PARTS: Final = (
-    ("dynamics", "Starting and stopping"),
+    ("verdict", "Verdict"),
     ("checks", "Checks"),
-    ("warnings", "Warnings"),
+    ("dynamics", "Starting and stopping"),
     ("through-time", "Through time"),
     ("assumptions", "Assumptions"),
     ("provenance", "Provenance"),
 )
-"""Parts of the page; the first and fourth are also parts of a conveyor's page."""
+"""Parts of the page; the third and fourth are also parts of a conveyor's page."""
 _SAMPLES = 200  # rows of histories of a scenario
 _SCENARIO = Column("scenario", "text", "0", json="scenario")
 
@@ -100,7 +100,7 @@ def scenario_table(dynamics: CalculatedDynamics) -> Table:
 
     columns = (
         Column("scenario", "text", "name", json="scenario"),
-        Column("followed for", "time", lambda r: float(r.times[-1]), json="duration_s"),
+        Column("followed for", "time", lambda r: float(r.times[-1]), None, json="duration_s"),
         Column("highest tension", "force", "highest", json="highest_tension_N"),
         Column("at", "time", lambda r: peak(r, high=True)[0], json="highest_at_s"),
         Column("in", "text", lambda r: peak(r, high=True)[1], json="highest_in"),
@@ -109,7 +109,7 @@ def scenario_table(dynamics: CalculatedDynamics) -> Table:
         Column("in", "text", lambda r: peak(r, high=False)[1], json="lowest_in", key="lowest_in"),
         Column("highest speed", "speed", lambda r: r.top_speed[0], json="highest_speed_m_per_s"),
         Column("stops after", "time", lambda r: r.rests_at if r.stops else None, json="rest_s"),
-        Column("way", "length", "way", json="way_m"),
+        Column("way", "length", "way", None, json="way_m"),
         Column("error of the peaks", "share", "error", json="error"),
         Column("energy missing", "error", "missing_energy", None, json="energy_error"),
         Column("cells", "count", "middles.size", None, json="cells"),
@@ -162,18 +162,18 @@ def scenario_drives(dynamics: CalculatedDynamics) -> Table:
         Column("drive", "text", lambda row: row[1].setup.drives[row[2]].name, json="drive"),
         Column("highest torque over rated", "ratio", torque(np.max), json="torque_max"),
         Column("lowest torque over rated", "ratio", torque(np.min), json="torque_min"),
-        Column("highest force on the belt", "force", drive("force", np.max), json="force_max_N"),
-        Column("lowest force on the belt", "force", drive("force", np.min), json="force_min_N"),
+        Column("highest force on the belt", "force", drive("force", np.max), None, json="force_max_N"),
+        Column("lowest force on the belt", "force", drive("force", np.min), None, json="force_min_N"),
         Column("highest power at the rim", "power", power, json="power_kW"),
         Column("slip", "length", lambda row: float(row[1].record.slipped[row[2]]), json="slip_m"),
         Column("heat of slip", "heat", lambda row: float(row[1].record.heat[row[2]]), json="slip_heat_MJ"),
         Column("brake", "force", held(np.max, lambda setup: setup.brakes), json="brake_N"),
         Column("backstop", "force", held(lambda force: max(0.0, -np.min(force)), lambda setup: setup.backstops),
                json="backstop_N"),
-        Column("take-up, setting", "force", "1.setup.setting", json="take_up_setting_N"),
+        Column("take-up, setting", "force", "1.setup.setting", None, json="take_up_setting_N"),
         Column("take-up, lowest", "force", take_up(pull, np.min), json="take_up_min_N"),
         Column("take-up, highest", "force", take_up(pull, np.max), json="take_up_max_N"),
-        Column("carriage, out", "length", take_up(attrgetter("travel"), np.max), json="carriage_out_m"),
+        Column("carriage, out", "length", take_up(attrgetter("travel"), np.max), None, json="carriage_out_m"),
         Column("carriage, in", "length", take_up(attrgetter("travel"), np.min), json="carriage_in_m"),
     )  # fmt: skip
     caption = "Drives and take-up; brake and backstop as they act at the belt, the carriage against its begin"

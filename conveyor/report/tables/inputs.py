@@ -22,8 +22,11 @@ def _entered_text(value: Any) -> Any:
 
 
 def input_rows(conveyor: Conveyor) -> tuple[InputRow, ...]:
-    """Rows of all fields with a value: field, text as entered, SI value, unit, origin; compounds, items by name."""
-    return tuple(_value_rows((), conveyor, "spec"))
+    """Rows of all fields with a value: field, text as entered, SI value, unit, origin; compounds, items by name.
+
+    The version of the file's format is none: nothing follows from it.
+    """
+    return tuple(row for row in _value_rows((), conveyor, "spec") if row[0] != "conveyor")
 
 
 def _value_rows(place: tuple[str | int, ...], value: Any, origin: Origin, entry: Any = None) -> Iterator[InputRow]:

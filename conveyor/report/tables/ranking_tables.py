@@ -186,8 +186,8 @@ def ranking_table(comparison: CalculatedComparison) -> Table:
         Column("difference, low", "share", "band.0", sparse=True),
         Column("difference, high", "share", "band.1", sparse=True),
         Column("power against base", "text", "verdict", sparse=True),
-        Column("peak motor power", "power", "peak", sparse=True),
-        Column("at temperature", "temperature", "temperature", sparse=True),
+        Column("peak motor power", "power", "peak", None, sparse=True),
+        Column("at temperature", "temperature", "temperature", None, sparse=True),
         *_year_columns(comparison, rows),
         Column("not compared", "text", "why", sparse=True),
     )  # fmt: skip

@@ -10,12 +10,23 @@ import numpy as np
 from conveyor.checks import run_checks
 from conveyor.line.covers import compounds_by_strand
 from conveyor.remarks.assumptions import analysis_assumptions, failed_fits
+from conveyor.report.analysis_plots import cross_section, route_profile
 from conveyor.report.json_keys import SCHEMA_VERSION
 from conveyor.report.matplotlib_settings import own_settings
 from conveyor.report.plots import add_legend, curve_colour, finish_figure, group_thousands, set_title, stacked_axes
-from conveyor.report.table_model import Column, Contents, Drawing, PagePlacement, Table, remark_table
+from conveyor.report.table_model import (
+    Column,
+    Contents,
+    Drawing,
+    Figure,
+    PagePlacement,
+    Table,
+    figure_table,
+    remark_table,
+)
 from conveyor.report.tables.check_tables import check_table
 from conveyor.report.tables.document_tables import provenance_table, report_head
+from conveyor.report.tables.loop_tables import section_boundaries
 from conveyor.sizing.design_search import CalculatedSizing
 from conveyor.sizing.sensitivity import VariedChoice, vary_choices
 from conveyor.sizing.sized_design import SizedDesign
@@ -26,9 +37,10 @@ from conveyor.units.presentation import MONEY, display_unit
 from conveyor.units.sentences import percent
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    from matplotlib.figure import Figure as Picture
 
 PARTS: Final = (
+    ("verdict", "The best design"),
     ("designs", "Designs"),
     ("costs", "Costs"),
     ("around", "Around the best design"),
@@ -48,15 +60,19 @@ _CANDIDATES: Final = (
 def sizing_contents(sizing: CalculatedSizing, system: System, *, vary: bool = True) -> Contents:
     """Contents of the sizing report in a unit system; with `vary` also variations of the best design."""
     sweeps = vary_choices(sizing.task, sizing.best) if vary else ()
-    best = sizing.best
+    best, line = sizing.best, sizing.best.found.line
     parts = (
-        design_table(sizing), cost_table(sizing), *([sweep_table(sizing, sweeps)] if sweeps else []),
-        spacing_table(sizing),
+        best_design_table(sizing), design_table(sizing), cost_table(sizing),
+        *([sweep_table(sizing, sweeps)] if sweeps else []), spacing_table(sizing),
         check_table(run_checks(best.found), system), _sizing_remarks(sizing),
         provenance_table(fingerprint(best.conveyor)),
     )  # fmt: skip
-    about = report_head(best.conveyor, "Sizing", system, (("candidates", f"{sizing.candidates}"),))
-    drawn = [Drawing("shares", "What a year costs, by part, of every design.",
+    about = report_head(best.conveyor, "Sizing", system, (("candidates", f"{sizing.candidates:,}"),))
+    drawn = [Drawing("sets", "Sets of the best design with belt and bulk, to scale.",
+                     partial(cross_section, best.conveyor, line, system=system), "verdict"),
+             Drawing("profile", "Profile of the route.",
+                     partial(route_profile, best.conveyor, line, section_boundaries(line), system=system), "verdict"),
+             Drawing("shares", "What a year costs, by part, of every design.",
                      partial(cost_shares, sizing, system=system), "costs"),
              Drawing("spacing", "Distances of the idler sets of the best design along its profile.",
                      partial(spacing_diagram, sizing, system=system), "spacing")]  # fmt: skip
@@ -70,6 +86,27 @@ def _money_kind(sizing: CalculatedSizing) -> str:
     return f"{MONEY}{sizing.duty.prices.currency}"
 
 
+def best_design_table(sizing: CalculatedSizing) -> Table:
+    """Figures of the best design; the largest stand as tiles on page one."""
+    best, money = sizing.best, _money_kind(sizing)
+    choice, chosen, found = best.choice, best.chosen, best.found
+    rows = (
+        Figure("belt width", "size", choice.trough.width.belt, "tile"),
+        Figure("belt speed", "speed", choice.speed, "tile"),
+        Figure("belt", "text", _belt_name(best), "tile"),
+        Figure("roll diameter", "size", choice.roll.diameter, "tile"),
+        Figure("carry sets every", "spacing", _widest_spacing(best), "tile"),
+        Figure("return sets every", "spacing", choice.back, "tile"),
+        Figure("motors", "power", sum(chosen.motors), "tile"),
+        Figure("motor power", "power", found.balance.power.motor, "tile"),
+        Figure("belt safety", "ratio", best.safety, "tile"),
+        Figure("take-up", "force", found.balance.settled.setting, "tile"),
+        Figure("energy a year", money, float(best.costs.yearly["energy"]), "tile"),
+        Figure("cost a year", money, best.year, "tile"),
+    )
+    return figure_table("best_design", "", "The best design", rows)
+
+
 def design_table(sizing: CalculatedSizing) -> Table:
     """Designs, the lowest yearly cost first."""
     money, saved = _money_kind(sizing), sizing.best.year
@@ -77,25 +114,25 @@ def design_table(sizing: CalculatedSizing) -> Table:
     columns = (
         Column("rank", "count", "0", json="rank"),
         Column("belt width", "size", "1.choice.trough.width.belt", json="width_mm"),
-        Column("trough", "angle", "1.choice.trough.angle", json="trough_deg"),
+        Column("trough", "angle", "1.choice.trough.angle", None, json="trough_deg"),
         Column("speed", "speed", "1.choice.speed", json="speed_m_per_s"),
-        Column("filling", "share", "1.choice.filling", json="filling"),
+        Column("filling", "share", "1.choice.filling", None, json="filling"),
         Column("belt", "text", lambda row: _belt_name(row[1]), json="belt"),
-        Column("top cover", "size", "1.chosen.top", json="top_cover_mm"),
-        Column("bottom cover", "size", "1.chosen.bottom", json="bottom_cover_mm"),
-        Column("compound", "text", "1.conveyor.carry_compound.name", json="compound"),
+        Column("top cover", "size", "1.chosen.top", None, json="top_cover_mm"),
+        Column("bottom cover", "size", "1.chosen.bottom", None, json="bottom_cover_mm"),
+        Column("compound", "text", "1.conveyor.carry_compound.name", None, json="compound"),
         Column("rolls", "size", "1.choice.roll.diameter", json="roll_diameter_mm"),
-        Column("CEMA class", "text", "1.choice.roll.cema_class", json="cema_class", sparse=True),
+        Column("CEMA class", "text", "1.choice.roll.cema_class", None, json="cema_class", sparse=True),
         Column("carry sets", "spacing", lambda row: _widest_spacing(row[1]), json="carry_spacing_m"),
-        Column("return sets", "spacing", "1.choice.back", json="return_spacing_m"),
-        Column("drives", "text", "1.choice.drives", json="drives"),
+        Column("return sets", "spacing", "1.choice.back", None, json="return_spacing_m"),
+        Column("drives", "text", "1.choice.drives", None, json="drives"),
         Column("motors", "power", lambda row: sum(row[1].chosen.motors), json="motors_kW"),
         Column("motor power", "power", "1.found.balance.power.motor", json="motor_power_kW"),
-        Column("belt safety", "ratio", "1.safety", json="belt_safety"),
-        Column("take-up", "force", "1.found.balance.settled.setting", json="take_up_N"),
-        Column("L10 of a roll set", "duration", "1.roll_life", json="roll_life_h"),
-        Column("capital", money, "1.costs.whole_capital", json="capital"),
-        Column("energy a year", money, "1.costs.yearly.energy", json="energy_per_year"),
+        Column("belt safety", "ratio", "1.safety", None, json="belt_safety"),
+        Column("take-up", "force", "1.found.balance.settled.setting", None, json="take_up_N"),
+        Column("L10 of a roll set", "duration", "1.roll_life", None, json="roll_life_h"),
+        Column("capital", money, "1.costs.whole_capital", None, json="capital"),
+        Column("energy a year", money, "1.costs.yearly.energy", None, json="energy_per_year"),
         Column("cost a year", money, "1.year", json="cost_per_year"),
         Column("over the best", "share", lambda row: row[1].year / saved - 1.0, json="over_the_best"),
         Column("why", "text", lambda row: _cost_reason(sizing, row[0] - 1), json="why"),
@@ -246,7 +283,7 @@ def idler_cost(design: SizedDesign) -> float:
 
 
 @own_settings()
-def cost_shares(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
+def cost_shares(sizing: CalculatedSizing, *, system: System = "SI") -> Picture:
     """Yearly cost by part, one bar per design."""
     money = display_unit(f"{MONEY}{sizing.duty.prices.currency}", system, large=True)
     figure, (axis,) = stacked_axes(1, _HEIGHT + 0.22 * len(sizing.designs))
@@ -262,7 +299,7 @@ def cost_shares(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
 
 
 @own_settings()
-def cost_lines(sizing: CalculatedSizing, varied: tuple[VariedChoice, ...], *, system: System = "SI") -> Figure:
+def cost_lines(sizing: CalculatedSizing, varied: tuple[VariedChoice, ...], *, system: System = "SI") -> Picture:
     """Yearly cost of energy, idlers, belt and the rest, one choice varied around the best design."""
     money = display_unit(f"{MONEY}{sizing.duty.prices.currency}", system, large=True)
     figure, axes = stacked_axes(len(varied), _PANEL_HEIGHT * len(varied))
@@ -289,7 +326,7 @@ def cost_lines(sizing: CalculatedSizing, varied: tuple[VariedChoice, ...], *, sy
 
 
 @own_settings()
-def spacing_diagram(sizing: CalculatedSizing, *, system: System = "SI") -> Figure:
+def spacing_diagram(sizing: CalculatedSizing, *, system: System = "SI") -> Picture:
     """Idler spacing of the best design along its profile, and the widest that sag and bearings allow."""
     figure, (profile, axis) = stacked_axes(2, _HEIGHT + _PANEL_HEIGHT)
     large, apart = display_unit("length", system, large=True), display_unit("spacing", system)
