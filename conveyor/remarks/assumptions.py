@@ -48,9 +48,9 @@ def analysis_assumptions(conveyor: Conveyor) -> tuple[str, ...]:
 
 def failed_fits(compounds: Iterable[RubberCompound]) -> Iterator[str]:
     """Compounds whose fit does not meet its criteria, with those, in words."""
-    for compound in dict.fromkeys(compounds):
-        if compound.fit is not None and compound.fit.failed:
-            yield f'the fit of "{compound.name}" fails, do not design by it: {"; ".join(compound.fit.failed)}'
+    failed = ((one.name, one.fit.failed) for one in compounds if one.fit is not None and one.fit.failed)
+    for name, criteria in dict.fromkeys(failed):
+        yield f'the fit of "{name}" fails, do not design by it: {"; ".join(criteria)}'
 
 
 def _horizontal_assumptions(conveyor: Conveyor) -> Iterator[str]:
