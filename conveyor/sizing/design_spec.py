@@ -8,6 +8,7 @@ from typing import Any, Final
 from conveyor.laws.preliminary_sizing import PULLEY_MASS
 from conveyor.line.usual_parts import SHAFT_DIAMETER_RATIO
 from conveyor.models import Conveyor
+from conveyor.models.base import given_data
 from conveyor.sizing.design_choice import DesignChoice, RollSize, SelectedParts
 from conveyor.sizing.sizing_task import SizingTask
 from conveyor.units import from_si
@@ -43,7 +44,7 @@ def design_spec(task: SizingTask, choice: DesignChoice, chosen: SelectedParts, n
     """
     duty, carcass, written = task.duty, chosen.carcass, partial(_field_text, task)
     drive_diameter, bend_diameter = task.drive_diameter(carcass), task.bend_diameter(carcass)
-    route = duty.sized_route.as_data()
+    route = given_data(duty.sized_route)
     for section, spacing in zip(route["sections"], choice.graduated, strict=bool(choice.graduated)):
         section["carry_spacing"] = written(spacing, "m")
     route["pulleys"] = [
@@ -59,7 +60,7 @@ def design_spec(task: SizingTask, choice: DesignChoice, chosen: SelectedParts, n
     covers = duty.covers
     return Conveyor.from_data({
         "name": name,
-        "site": duty.site,
+        **task.kept_fields,
         "belt": {
             "width": written(choice.trough.width.belt, "mm"),
             "speed": written(choice.speed, "m/s"),
@@ -80,13 +81,8 @@ def design_spec(task: SizingTask, choice: DesignChoice, chosen: SelectedParts, n
             },
         },
         "idlers": _idler_fields(task, choice),
-        "material": duty.material.as_data(),
         "route": route,
         "drive": _drive_fields(task, choice, chosen),
-        "ambient": duty.ambient.as_data(),
-        "operation": duty.operation.as_data(),
-        "calculation": duty.calculation.as_data(),
-        "report": duty.report.as_data(),
     })  # fmt: skip
 
 

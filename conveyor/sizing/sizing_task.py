@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Final, NoReturn
+from typing import Any, Final, NoReturn
 
 from conveyor.errors import NoSolutionError, RangeError
 from conveyor.files import libraries
@@ -30,6 +30,7 @@ from conveyor.laws.take_up import (
 )
 from conveyor.line.usual_parts import usual_lump_factor
 from conveyor.models import Conveyor
+from conveyor.models.base import given_data
 from conveyor.models.sizing import (
     CarcassRow,
     DriveLayout,
@@ -48,11 +49,19 @@ from conveyor.units.sentences import percent
 _OVERLAND_LENGTH: Final = 1000.0  # [m], length from which spacings are those of overland belts; general knowledge
 
 
+_KEPT_FIELDS: Final = ("site", "material", "ambient", "operation", "calculation", "report")
+
+
 @dataclass(frozen=True, eq=False)
 class SizingTask:
     """A duty in SI."""
 
     duty: SizingDuty
+
+    @cached_property
+    def kept_fields(self) -> Mapping[str, Any]:
+        """Fields that the spec of a design has as the duty gives them."""
+        return {name: value for name, value in given_data(self.duty).items() if name in _KEPT_FIELDS}
 
     @property
     def rules(self) -> SiteRules:

@@ -28,6 +28,7 @@ from conveyor.sizing.screen import Candidates, first_calibration, screen_candida
 from conveyor.sizing.sensitivity import vary_choices
 from conveyor.sizing.sizing_task import SizingTask
 from conveyor.sizing.spacing import graduated_spacings, section_spacings
+from conveyor.spec import dump_given, fingerprint
 from conveyor.studies.loads import every_load
 from conveyor.studies.study_file import read_duty
 from conveyor.units import quantity, si, text
@@ -205,6 +206,25 @@ def test_the_command_writes_specs_that_run(tmp_path):
         assert found.conveyor.name == "Small"
     again = run("size", "duty.yaml", "-n", "2", "-o", "best.yaml", cwd=tmp_path)
     assert (again.returncode, "--force" in again.stderr) == (2, True)
+
+
+def test_a_written_design_is_as_short_as_one_by_hand_and_the_same_conveyor(tmp_path, sized):
+    written = dump_given(sized.best.conveyor)
+    assert len(written.splitlines()) <= 100
+    assert written.count("compound: standard-cover") == 2
+    assert not re.search("^(cases|scenarios|site|report):", written, re.MULTILINE)
+    path = tmp_path / "design.yaml"
+    path.write_text(written)
+    assert fingerprint(conveyor.load(path)) == fingerprint(sized.best.conveyor)
+
+
+def test_a_compound_that_is_not_on_the_shelf_is_written_out(sized):
+    line = sized.best.conveyor
+    cover = line.belt.top_cover
+    own = cover.replace(compound=cover.compound.replace(density="1200 kg/m^3"))
+    written = dump_given(line.replace(belt=line.belt.replace(top_cover=own)))
+    assert written.count("compound: standard-cover") == 1
+    assert "density: 1200 kg/m^3" in written
 
 
 def test_the_command_tells_programs_and_writes_reports(tmp_path):
