@@ -49,6 +49,7 @@ DriveLayout = Literal["head", "head, two pulleys", "head and tail", "head, two p
 DesignWidth = Annotated[Length, Bounds(gt="100 mm", le="5 m")]
 DesignSpeed = Annotated[Speed, Bounds(gt="0 m/s", le="20 m/s")]
 TroughAngle = Annotated[Angle, Bounds(ge="0 deg", le="60 deg")]
+RollDiameter = Annotated[Thickness, Bounds(ge="20 mm", le="1 m")]
 SetSpacing = Annotated[Distance, Bounds(gt="0.2 m", le="20 m")]
 
 
@@ -77,12 +78,14 @@ class WidthRow(Model):
     """Rolls of a set of two."""
     three: DesignWidth
     """Rolls of a set of three."""
+    rolls: tuple[RollDiameter, ...] = ()
+    """Usual diameters of its rolls; all of the series without."""
 
 
 class RollRow(Model):
     """Rolls of a diameter."""
 
-    diameter: Annotated[Thickness, Bounds(ge="20 mm", le="1 m")]
+    diameter: RollDiameter
     """Outside."""
     wall: Annotated[Thickness, Bounds(gt="0 mm", le="50 mm")]
     """Of the tube."""
@@ -150,8 +153,11 @@ class SiteRules(Model):
     """Of sets of three rolls; all of the library without."""
     carcasses: Annotated[tuple[Carcasses, ...], Field(min_length=1)] = ("EP", "steel cord")
     """Kinds of belt."""
+    roll_diameters: tuple[RollDiameter, ...] = ()
+    """Diameters of rolls to choose from; without it the usual ones of the width, in the US those of the class."""
     carry_spacings: tuple[SetSpacing, ...] = ()
-    """Distances of carry sets to choose from; without it those in use, from 1 km on overland ones."""
+    """Distances of carry sets to choose from; without it those in use, from 1 km on overland ones; in the US, below
+    1 km, at most the normal ones of CEMA for width and density."""
     return_spacings: tuple[SetSpacing, ...] = ()
     """The same of return sets."""
     graduated: bool = True
@@ -243,12 +249,16 @@ class SizingDuty(Model):
             yield Problem(("calculation", "method"), told)
         if si(self.material.flow) == 0.0:
             yield Problem(("material", "flow"), "got 0: an empty belt has no duty; give what is conveyed")
-        rows = size_series(self.series).widths
-        listed = ", ".join(text(row.belt) for row in rows)
-        for i, width in enumerate(self.rules.widths):
-            if not any(same_width(si(width), si(row.belt)) for row in rows):
-                place = ("rules", "widths", i)
-                yield Problem(place, f"got {text(width)}, the series has {listed} (rules.series {self.series})")
+        sizes = size_series(self.series)
+        for name, asked, series in (
+            ("widths", self.rules.widths, [row.belt for row in sizes.widths]),
+            ("roll_diameters", self.rules.roll_diameters, [row.diameter for row in sizes.rolls]),
+        ):
+            listed = ", ".join(dict.fromkeys(map(text, series)))
+            for i, size in enumerate(asked):
+                if not any(same_width(si(size), si(one)) for one in series):
+                    place = ("rules", name, i)
+                    yield Problem(place, f"got {text(size)}, the series has {listed} (rules.series {self.series})")
         yield from self._price_problems()
 
     @staticmethod

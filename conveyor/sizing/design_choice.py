@@ -6,12 +6,13 @@ import math
 from dataclasses import dataclass
 from typing import Final
 
+from conveyor.errors import RangeError
 from conveyor.laws.belt_strength import CLASSIC_SAFETY, least_cover
-from conveyor.laws.idler_sets import CemaClass
+from conveyor.laws.idler_sets import CemaClass, rated_set_load
 from conveyor.laws.preliminary_sizing import carcass_mass, roll_shell_mass
 from conveyor.laws.tension import least_pulley_diameter, usual_stiffness
-from conveyor.models.sizing import DriveLayout
-from conveyor.units import from_si
+from conveyor.models.sizing import CarcassRow, DriveLayout
+from conveyor.units import from_si, si
 
 _V_ANGLE: Final = math.radians(10.0)
 
@@ -25,6 +26,12 @@ class CarcassClass:
     thickness: float
     listed_mass: float | None = None
     rating: float | None = None
+
+    @classmethod
+    def of(cls, kind: str, row: CarcassRow) -> CarcassClass:
+        """Class of a row of a series."""
+        mass, rating = (None if given is None else si(given) for given in (row.mass, row.rating))
+        return cls(kind, si(row.strength), si(row.thickness), mass, rating)
 
     @property
     def steel_cord(self) -> bool:
@@ -86,16 +93,29 @@ class RollSize:
         """Rotating mass of a roll of a length [kg]."""
         return roll_shell_mass(self.diameter, wall=self.wall, length=length) + self.ends
 
+    def set_rating(self, width: float, angle: float, rolls: int) -> float:
+        """Rating of a set of its class [N]; infinite without a class, 0 where the class has no such set."""
+        if self.cema_class is None:
+            return math.inf
+        try:
+            return rated_set_load(self.cema_class, belt_width=width, trough_angle=angle, rolls=rolls)
+        except RangeError:
+            return 0.0
+
 
 @dataclass(frozen=True)
 class WidthSize:
-    """A belt width and its roll lengths for sets of one, two and three [m]; `vee`: return sets are Vs of two."""
+    """A belt width and its roll lengths for sets of one, two and three [m]; `vee`: return sets are Vs of two.
+
+    `diameters`: usual ones of its rolls [m], any without.
+    """
 
     belt: float
     one: float
     two: float
     three: float
     vee: bool
+    diameters: tuple[float, ...] = ()
 
     @property
     def return_rolls(self) -> tuple[int, float, float]:

@@ -6,18 +6,19 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from operator import itemgetter
 from typing import Any, Final, NoReturn
 
-from conveyor.errors import NoSolutionError, RangeError
+from conveyor.errors import NoSolutionError
 from conveyor.files import libraries
 from conveyor.laws.belt_strength import CEMA_PULLEYS, PULLEY_DIAMETERS, next_pulley_diameter, pulley_group_diameter
 from conveyor.laws.energy import MOTOR_SERIES, NEMA_MOTORS, next_motor
-from conveyor.laws.idler_sets import CemaClass, rated_set_load
 from conveyor.laws.loading import cross_section, filled_width, usable_width
 from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
 from conveyor.laws.preliminary_sizing import (
     PULLEY_MASS,
     least_width_for_lumps,
+    normal_spacings,
     recommended_speed,
     standard_edge_distance,
     wear_addition,
@@ -32,7 +33,6 @@ from conveyor.line.usual_parts import usual_lump_factor
 from conveyor.models import Conveyor
 from conveyor.models.base import given_data
 from conveyor.models.sizing import (
-    CarcassRow,
     DriveLayout,
     SiteRules,
     Sizes,
@@ -252,7 +252,8 @@ class SizingTask:
         shapes = []
         for row in self.sizes.widths:
             belt, vee = si(row.belt), si(row.belt) >= si(self.sizes.vee_from)
-            width = WidthSize(belt, si(row.one), si(row.two), si(row.three), vee)
+            usual = tuple(map(si, rules.roll_diameters or row.rolls))
+            width = WidthSize(belt, si(row.one), si(row.two), si(row.three), vee, usual)
             if not within_limit(least, belt):
                 continue
             if asked and not any(same_width(belt, one) for one in asked):
@@ -324,15 +325,23 @@ class SizingTask:
                 f"the bulk leaves {edge} of either edge of the belt free, CEMA asks for {asked}: allow wider or faster "
                 "belts (rules.widths, rules.speeds, rules.fastest)"
             )
-        slowest_belt = min(v for trough, v in pairs if self.filling(trough, v) is not None)
-        largest = max(roll.diameter for roll in self.rolls)
-        if not any(self.turns_slowly(roll, slowest_belt) for roll in self.rolls):
-            turns = format_figure(slowest_belt / (math.pi * largest), "rotation", system)
+        rolling = [
+            (v / (math.pi * roll.diameter), roll, v)
+            for trough, v in pairs
+            if self.filling(trough, v) is not None
+            for roll in self.rolls
+            if self._usual(roll, trough)
+        ]
+        turns, roll, slowest_belt = min(rolling, key=itemgetter(0))
+        if not self.turns_slowly(roll, slowest_belt):
+            at, size, turn = (
+                format_figure(value, kind, system)
+                for value, kind in ((slowest_belt, "speed"), (roll.diameter, "thickness"), (turns, "rotation"))
+            )
             raise NoSolutionError(
-                f"at {format_figure(slowest_belt, 'speed', system)}, the slowest belt that takes the flow, the "
-                f"largest rolls "
-                f"turn at {turns}, {text(rules.roll_rotation)} are allowed (rules.roll_rotation): allow slower or "
-                "wider belts (rules.speeds, rules.widths)"
+                f"at {at} the rolls of {size}, those that turn most slowly, turn at {turn}, "
+                f"{text(rules.roll_rotation)} are allowed (rules.roll_rotation): allow slower or wider belts or larger "
+                "rolls (rules.speeds, rules.widths, rules.roll_diameters)"
             )
         raise NoSolutionError(
             "no class of rolls of the series has sets for the widths and troughs that take the flow: allow others "
@@ -383,19 +392,34 @@ class SizingTask:
 
     def set_ratings(self, roll: RollSize, trough: TroughSize) -> tuple[float, float]:
         """Ratings of carry and return sets of a roll's class [N]; infinite without a class, 0 if it has no such set."""
-        if roll.cema_class is None:
-            return math.inf, math.inf
         count, _, vee = trough.width.return_rolls
-        carry, back = (
-            _class_set_load(roll.cema_class, trough.width.belt, angle, rolls)
-            for rolls, angle in ((3, trough.angle), (count, vee))
-        )
-        return carry, back
+        belt = trough.width.belt
+        return roll.set_rating(belt, trough.angle, 3), roll.set_rating(belt, vee, count)
 
     @cached_property
     def lump_factor(self) -> float:
         """Lump factor on the bulk's load for set ratings [-]; 1 outside the printed table."""
         return usual_lump_factor(self.lump, si(self.duty.material.heaviest)) or 1.0
+
+    def suits(self, roll: RollSize, trough: TroughSize, speed: float) -> bool:
+        """True if rolls are usual for a width, have sets for a trough, and turn slowly enough."""
+        return (
+            self._usual(roll, trough) and self.turns_slowly(roll, speed) and min(self.set_ratings(roll, trough)) > 0.0
+        )
+
+    @staticmethod
+    def _usual(roll: RollSize, trough: TroughSize) -> bool:
+        """True if rolls are of a diameter asked for, or usual for the width."""
+        usual = trough.width.diameters
+        return not usual or any(same_width(roll.diameter, one) for one in usual)
+
+    def widest_spacings(self, trough: TroughSize) -> tuple[float, float]:
+        """Widest carry and return spacings for a width and the bulk [m]; infinite where the duty gives its own."""
+        rules = self.rules
+        carry = back = math.inf
+        if self.duty.series == "US" and self.length < _OVERLAND_LENGTH:
+            carry, back = normal_spacings(trough.width.belt, density=self.density)
+        return math.inf if rules.carry_spacings else carry, math.inf if rules.return_spacings else back
 
     def turns_slowly(self, roll: RollSize, speed: float) -> bool:
         """True if a roll keeps the limit of rotation."""
@@ -405,7 +429,7 @@ class SizingTask:
     def carcasses(self) -> Mapping[str, tuple[CarcassClass, ...]]:
         """Carcass classes of each kind, the weakest first."""
         rows = {"EP": self.sizes.textile, "steel cord": self.sizes.steel_cord}
-        return {kind: tuple(_carcass_class(kind, row) for row in rows[kind]) for kind in self.rules.carcasses}
+        return {kind: tuple(CarcassClass.of(kind, row) for row in rows[kind]) for kind in self.rules.carcasses}
 
     def wear(self, speed: float) -> float:
         """Wear addition of the cover at a belt speed [m]."""
@@ -454,19 +478,6 @@ class SizingTask:
         """Mass of head, take-up and tail pulley together [kg]."""
         bend = self.bend_diameter(carcass)
         return math.fsum(PULLEY_MASS * size**2 * width for size in (self.drive_diameter(carcass), bend, bend))
-
-
-def _carcass_class(kind: str, row: CarcassRow) -> CarcassClass:
-    mass, rating = (None if given is None else si(given) for given in (row.mass, row.rating))
-    return CarcassClass(kind, si(row.strength), si(row.thickness), mass, rating)
-
-
-def _class_set_load(cema_class: CemaClass, width: float, angle: float, rolls: int) -> float:
-    """Rating of a set of a class [N]; 0 where the class has no such set."""
-    try:
-        return rated_set_load(cema_class, belt_width=width, trough_angle=angle, rolls=rolls)
-    except RangeError:
-        return 0.0
 
 
 def _round_up_to_step(thickness: float, step: float) -> float:

@@ -208,6 +208,32 @@ def test_the_command_writes_specs_that_run(tmp_path):
     assert (again.returncode, "--force" in again.stderr) == (2, True)
 
 
+def test_rolls_are_of_the_usual_diameters_of_the_width_or_of_those_asked_for(small):
+    def diameters(flow, **rules):
+        changed = small.rules.replace(least_filling="1 %", **rules)
+        duty = small.replace(rules=changed, material=small.material.replace(flow=flow))
+        return {(on.trough.width.belt, round(on.roll.diameter * 1e3)) for on in Candidates.of(SizingTask(duty)).running}
+
+    usual = diameters("150 t/h")
+    assert {size for width, size in usual if width > 0.7} == {108, 133}
+    assert {size for width, size in usual if width < 0.7} == {89, 108, 133}
+    assert {size for _, size in diameters("150 t/h", roll_diameters=["178 mm"])} == {178}
+
+
+def test_sets_of_the_us_stand_no_farther_apart_than_cema_suggests():
+    duty = read_duty(DUTIES / "in_plant_us.yaml")
+    every = Candidates.of(SizingTask(duty))
+    carry, back = (np.array(series)[every.numbers[:, 1 + k]] for k, series in enumerate(every.task.spacings))
+    inches = every.runs(lambda on: on.trough.width.belt) / 0.0254
+    widest = {round(w): round(carry[np.isclose(inches, w)].max() / 0.3048, 6) for w in set(inches.round())}
+    column = {24: 4.0, 30: 4.0, 36: 4.0, 42: 3.5, 48: 3.5, 54: 3.5, 60: 3.0, 72: 3.0, 84: 2.5, 96: 2.5}  # of 100 lb/ft³
+    assert widest == {width: column[width] for width in widest}
+    assert 36 in widest
+    assert back.max() == pytest.approx(10.0 * 0.3048)
+    own = duty.replace(rules=duty.rules.replace(carry_spacings=["5.5 ft"]))
+    assert len(Candidates.of(SizingTask(own)))
+
+
 def test_a_written_design_is_as_short_as_one_by_hand_and_the_same_conveyor(tmp_path, sized):
     written = dump_given(sized.best.conveyor)
     assert len(written.splitlines()) <= 100
@@ -276,7 +302,7 @@ def test_what_is_wrong_is_refused_with_its_place(tmp_path, old, new, message):
         (
             {},
             {"roll_rotation": "10 rpm"},
-            r"at 2.5 m/s, the slowest belt .* turn at 218 rpm, 10 rpm are allowed \(rules\.roll_rotation\)",
+            r"at 2.5 m/s the rolls of 133 mm.* turn at 359 rpm, 10 rpm are allowed \(rules\.roll_rotation\)",
         ),
         (
             {},
