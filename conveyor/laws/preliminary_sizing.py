@@ -45,6 +45,7 @@ NORMAL_SPACINGS: Final = (
     (84, 3.5, 3.5, 3.0, 2.5, 2.5, 2.0, 8.0),
     (96, 3.5, 3.5, 3.0, 2.5, 2.0, 2.0, 8.0),
 )
+LOADING_SPACING_SHARE: Final = 0.5  # [-], sets at a loading point over the others; CEMA, general knowledge
 EDGE_SHARE: Final = 0.055  # [-], CEMA: standard edge distance 0.055 B + 0.9 in
 EDGE_LEAST: Final = 0.9 * 0.0254  # [m], CEMA
 # DIN 22101, sum of points up to -> addition to the least cover [m]; general knowledge, middle of each range

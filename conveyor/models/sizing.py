@@ -160,6 +160,8 @@ class SiteRules(Model):
     1 km, at most the normal ones of CEMA for width and density."""
     return_spacings: tuple[SetSpacing, ...] = ()
     """The same of return sets."""
+    loading_spacing: SetSpacing | None = None
+    """Distance of the sets at the loading points of the route, at most that of the carry sets; half of it without."""
     graduated: bool = True
     """Whether the distance of carry sets may differ from section to section."""
     carry_sag: Annotated[Fraction, Bounds(gt="0 %", le="5 %")] = quantity("1 %")

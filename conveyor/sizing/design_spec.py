@@ -47,6 +47,10 @@ def design_spec(task: SizingTask, choice: DesignChoice, chosen: SelectedParts, n
     route = given_data(duty.sized_route)
     for section, spacing in zip(route["sections"], choice.graduated, strict=bool(choice.graduated)):
         section["carry_spacing"] = written(spacing, "m")
+    for point in [*([route["feeding"]] if "feeding" in route else []), *route.get("further_feeding", [])]:
+        at = next((i for i, section in enumerate(route["sections"]) if section["name"] == point.get("section")), 0)
+        spacing = choice.graduated[at] if choice.graduated else choice.carry
+        point.setdefault("idler_spacing", written(task.loading_spacing(spacing), "m"))
     route["pulleys"] = [
         _pulley_fields(task, name, place, size, choice.trough.width.belt)
         for name, place, size in (

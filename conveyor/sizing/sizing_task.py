@@ -16,6 +16,7 @@ from conveyor.laws.energy import MOTOR_SERIES, NEMA_MOTORS, next_motor
 from conveyor.laws.loading import cross_section, filled_width, usable_width
 from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
 from conveyor.laws.preliminary_sizing import (
+    LOADING_SPACING_SHARE,
     PULLEY_MASS,
     least_width_for_lumps,
     normal_spacings,
@@ -227,6 +228,11 @@ class SizingTask:
             widest = read_si(libraries.library_entries("spacing")[f"{strand}{wide}"].fields["to"], "length")
             pairs.append(tuple(map(si, asked)) or tuple(a for a in map(si, series) if within_limit(a, widest)))
         return pairs[0], pairs[1]
+
+    def loading_spacing(self, carry: float) -> float:
+        """Spacing of the sets where bulk lands [m]: that of the rules, else half that of the carry sets there."""
+        asked = self.rules.loading_spacing
+        return LOADING_SPACING_SHARE * carry if asked is None else min(si(asked), carry)
 
     @property
     def _fitted(self) -> Iterator[float]:

@@ -23,6 +23,8 @@ from conveyor.laws.roll_life import rating_life_hours
 from conveyor.models.prices import Prices
 from conveyor.models.sizing import SizingDuty
 from conveyor.sizing import size_conveyor
+from conveyor.sizing.design_choice import SelectedParts
+from conveyor.sizing.design_spec import design_spec
 from conveyor.sizing.part_sizing import size_parts
 from conveyor.sizing.screen import Candidates, first_calibration, screen_candidates
 from conveyor.sizing.sensitivity import vary_choices
@@ -218,6 +220,20 @@ def test_rolls_are_of_the_usual_diameters_of_the_width_or_of_those_asked_for(sma
     assert {size for width, size in usual if width > 0.7} == {108, 133}
     assert {size for width, size in usual if width < 0.7} == {89, 108, 133}
     assert {size for _, size in diameters("150 t/h", roll_diameters=["178 mm"])} == {178}
+
+
+@pytest.mark.parametrize(("rule", "given", "expected"), [({}, {}, 0.6), ({"loading_spacing": "500 mm"}, {}, 0.5),
+                                                         ({}, {"idler_spacing": "400 mm"}, 0.4)])  # fmt: skip
+def test_sets_stand_closer_where_the_bulk_lands(small, rule, given, expected):
+    feeding = {"skirt_length": "1 m", "skirt_width": "450 mm", **given}
+    route = small.route.as_data() | {"feeding": feeding}
+    duty = small.replace(route=route, rules=small.rules.replace(carry_spacings=["1.2 m"], **rule))
+    task = SizingTask(duty)
+    choice = Candidates.of(task)[0]
+    carcass = task.carcasses["EP"][3]
+    spec = design_spec(task, choice, SelectedParts(carcass, 5e-3, 2e-3, (45e3,), 0.0), "fed")
+    assert si(spec.route.feeding.idler_spacing) == pytest.approx(expected)
+    assert si(spec.idlers.carry.spacing) == pytest.approx(1.2)
 
 
 def test_sets_of_the_us_stand_no_farther_apart_than_cema_suggests():
