@@ -14,6 +14,7 @@ from conveyor.laws.idler_sets import CemaClass
 from conveyor.laws.preliminary_sizing import Severity
 from conveyor.laws.resistance import Site
 from conveyor.models.base import Model, Name, Number, Problem, raise_problems
+from conveyor.models.calculation_methods import Method
 from conveyor.models.compound import CompoundReference
 from conveyor.models.material import BulkMaterial
 from conveyor.models.operation import EarthTemperature, Operation
@@ -194,6 +195,8 @@ class SiteRules(Model):
     """Force of a start over the steady one."""
     take_up_travel: Annotated[Distance, Bounds(gt="0 m", le="500 m")] = quantity("30 m")
     """Longest travel of the take-up, which keeps textile belts to short conveyors."""
+    basis: Method = "viscoelastic"
+    """Method by which the motors have to suffice, beside the friction to design for of the rolling contact."""
     motor_reserve: Annotated[Number, Field(ge=1, le=3)] = 1.1
     """Rated power of motors over the highest needed, with the friction to design for."""
 
@@ -245,10 +248,7 @@ class SizingDuty(Model):
             yield Problem(("lift",), "is not less than length, which is along the belt; correct one of the two")
         if self.route is not None:
             yield from self._sized_problems(self.route)
-        method = self.calculation.method
-        if method != "viscoelastic":
-            told = f'got "{method}": a duty is sized by the rolling contact; give the method to the sized spec'
-            yield Problem(("calculation", "method"), told)
+        yield from self._method_problems()
         if si(self.material.flow) == 0.0:
             yield Problem(("material", "flow"), "got 0: an empty belt has no duty; give what is conveyed")
         sizes = size_series(self.series)
@@ -279,6 +279,14 @@ class SizingDuty(Model):
         yield from (
             Problem(place, "is what the sizing is to find; remove it") for place, value in given.items() if value
         )
+
+    def _method_problems(self) -> Iterator[Problem]:
+        method = self.calculation.method
+        if method != "viscoelastic":
+            told = f'got "{method}": a duty is sized by the rolling contact; give the method to the sized spec'
+            yield Problem(("calculation", "method"), told)
+        if self.rules.basis == "cema classic" and self.calculation.cema is None:
+            yield Problem(("rules", "basis"), "cema classic needs Ky and Ai from the book: give calculation.cema")
 
     def _price_problems(self) -> Iterator[Problem]:
         price = self.operation.price

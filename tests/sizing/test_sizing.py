@@ -18,7 +18,7 @@ from conveyor import shelf
 from conveyor.checks import run_checks
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.belt_strength import RATED_SAFETY
-from conveyor.laws.energy import NEMA_MOTORS
+from conveyor.laws.energy import MOTOR_SERIES, NEMA_MOTORS
 from conveyor.laws.roll_life import rating_life_hours
 from conveyor.models.prices import Prices
 from conveyor.models.sizing import SizingDuty
@@ -36,6 +36,7 @@ from conveyor.studies.study_file import read_duty
 from conveyor.units import quantity, si, text
 from tests.command_line import run
 
+GRAVITY = 9.80665
 DUTIES = Path(__file__).parent.parent.parent / "examples" / "duties"
 DUTY = """\
 name: Small
@@ -234,6 +235,30 @@ def test_sets_stand_closer_where_the_bulk_lands(small, rule, given, expected):
     spec = design_spec(task, choice, SelectedParts(carcass, 5e-3, 2e-3, (45e3,), 0.0), "fed")
     assert si(spec.route.feeding.idler_spacing) == pytest.approx(expected)
     assert si(spec.idlers.carry.spacing) == pytest.approx(1.2)
+
+
+def test_motors_suffice_by_the_method_of_the_contract_too(small, sized):
+    duty = small.replace(
+        calculation={"strain": "off", "friction_factor": 0.05}, rules=small.rules.replace(basis="din 22101")
+    )
+    best = size_conveyor(duty, best=1).best
+    line, choice = best.found.line, best.choice
+    forces = best.found.balance.forces
+    # by hand after DIN 22101; C is 1.58 at 150 m and 1.45 at 200 m; 1 %: cosine of the return, interpolation of C
+    belt, bulk = line.stretches[0].belt_mass, 400.0 / 3.6 / choice.speed
+    rolls = 3.0 * choice.roll.mass(0.315) / choice.carry + choice.roll.mass(0.95) / choice.back
+    main = 0.05 * GRAVITY * (180.0 * (rolls + belt) + (belt + bulk) * (60.0 + math.sqrt(120.0**2 - 12.0**2)))
+    power = best.found.balance.classical.total * choice.speed / 0.94
+    by_hand = (1.502 * main + forces.special + bulk * GRAVITY * 12.0) * choice.speed / 0.94
+    assert power == pytest.approx(by_hand, rel=0.01)
+    rated = best.chosen.motors[0]
+    assert rated == next(each for each in MOTOR_SERIES if each >= 1.1 * power)
+    assert rated > sized.best.chosen.motors[0]
+
+
+def test_motors_by_cema_need_its_factors(small):
+    with pytest.raises(InputError, match=r"rules\.basis.*cema classic needs Ky and Ai"):
+        small.replace(rules=small.rules.replace(basis="cema classic"))
 
 
 def test_sets_of_the_us_stand_no_farther_apart_than_cema_suggests():
