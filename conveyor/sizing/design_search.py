@@ -49,6 +49,9 @@ GRADUATED_DESIGNS: Final = 3
 """Designs tried with graduated carry spacings, at least."""
 
 
+_LEAST_DESIGNS: Final = 3  # looked for even if fewer are wanted, so that the best does not depend on how many are
+
+
 _SCREENINGS: Final = 2  # calibrations of the estimate by calculated candidates
 
 
@@ -142,13 +145,14 @@ def size_conveyor(duty: SizingDuty, *, best: int = 3, progress: ProgressCallback
     search = _Search(task, choices, first_calibration(len(duty.covers)))
     search.begin()
     final: list[SizedDesign] = []
+    count = max(best, _LEAST_DESIGNS)
     for _ in range(_SCREENINGS):
         new = search.draw(CANDIDATES_AT_ONCE)
         search.calculate(new, progress)
     ranked, alike = list(search.designs), 0
     for _ in range(_DRAWS):
-        final = _rank_designs([*final, *_final_designs(search, ranked, best - len(final))])
-        if len(final) >= best:
+        final = _rank_designs([*final, *_final_designs(search, ranked, count - len(final))])
+        if len(final) >= count:
             break
         new = search.draw(CANDIDATES_AT_ONCE + len(list(search.designs))) or search.nearest(CANDIDATES_AT_ONCE)
         nearest = search.nearest_over
