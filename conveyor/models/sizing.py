@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from typing import Annotated, Any, Final, Literal, Self
 
@@ -22,6 +22,7 @@ from conveyor.models.parts import Ambient, Calculation
 from conveyor.models.prices import Prices
 from conveyor.models.report import Report
 from conveyor.models.route import Route
+from conveyor.models.sizing_lists import ListedSeries
 from conveyor.models.validation_messages import Location
 from conveyor.units import (
     Angle,
@@ -35,6 +36,7 @@ from conveyor.units import (
     LineForce,
     Mass,
     Power,
+    Quantity,
     Rotation,
     Speed,
     Thickness,
@@ -230,6 +232,8 @@ class SizingDuty(Model):
     covers: Annotated[tuple[CompoundReference, ...], Field(min_length=1, max_length=10)]
     """Compounds of the bottom cover to choose from; the first one is that of the top cover, too."""
     rules: SiteRules = SiteRules()
+    listed: ListedSeries = ListedSeries()
+    """Makers' items that designs are built of, instead of the package's series."""
     prices: Prices = Field(default_factory=lambda: Prices.from_data({}))
     calculation: Calculation = Calculation()
     report: Report = Report()
@@ -251,16 +255,7 @@ class SizingDuty(Model):
         yield from self._method_problems()
         if si(self.material.flow) == 0.0:
             yield Problem(("material", "flow"), "got 0: an empty belt has no duty; give what is conveyed")
-        sizes = size_series(self.series)
-        for name, asked, series in (
-            ("widths", self.rules.widths, [row.belt for row in sizes.widths]),
-            ("roll_diameters", self.rules.roll_diameters, [row.diameter for row in sizes.rolls]),
-        ):
-            listed = ", ".join(dict.fromkeys(map(text, series)))
-            for i, size in enumerate(asked):
-                if not any(same_width(si(size), si(one)) for one in series):
-                    place = ("rules", name, i)
-                    yield Problem(place, f"got {text(size)}, the series has {listed} (rules.series {self.series})")
+        yield from self._series_problems()
         yield from self._price_problems()
 
     @staticmethod
@@ -279,6 +274,27 @@ class SizingDuty(Model):
         yield from (
             Problem(place, "is what the sizing is to find; remove it") for place, value in given.items() if value
         )
+
+    def _series_problems(self) -> Iterator[Problem]:
+        """Refuse rules that the series or the lists have no parts for."""
+        sizes, rules = size_series(self.series), self.rules
+        yield from self._size_problems("widths", rules.widths, (row.belt for row in sizes.widths))
+        if not self.listed.rolls:
+            diameters = (row.diameter for row in sizes.rolls)
+            yield from self._size_problems("roll_diameters", rules.roll_diameters, diameters)
+        kinds = {"steel cord" if one.fields["carcass"]["kind"] == "steel cord" else "EP" for one in self.listed.belts}
+        if kinds and not kinds & set(rules.carcasses):
+            told = f"none is of rules.carcasses, {' and '.join(rules.carcasses)}: list others or allow them"
+            yield Problem(("listed", "belts"), told)
+
+    def _size_problems(self, rule: str, asked: Iterable[Quantity], series: Iterable[Quantity]) -> Iterator[Problem]:
+        """Refuse sizes of a rule that the series has not."""
+        there = list(series)
+        listed = ", ".join(dict.fromkeys(map(text, there)))
+        for i, size in enumerate(asked):
+            if not any(same_width(si(size), si(one)) for one in there):
+                told = f"got {text(size)}, the series has {listed} (rules.series {self.series})"
+                yield Problem(("rules", rule, i), told)
 
     def _method_problems(self) -> Iterator[Problem]:
         method = self.calculation.method

@@ -22,6 +22,7 @@ from conveyor.line.stretches import STRANDS
 from conveyor.models.sizing import SizingDuty
 from conveyor.pipeline import ProgressCallback
 from conveyor.sizing.design_choice import DesignChoice, SelectedParts
+from conveyor.sizing.duty_refusal import refuse_duty
 from conveyor.sizing.part_sizing import LIMIT_MESSAGES, calculate_specs, candidate_specs, foresee_parts, size_parts
 from conveyor.sizing.screen import (
     Candidates,
@@ -138,7 +139,7 @@ def size_conveyor(duty: SizingDuty, *, best: int = 3, progress: ProgressCallback
     task = SizingTask(duty)
     every = Candidates.of(task)
     if not len(every):
-        task.refuse()
+        refuse_duty(task)
     choices = every.within_travel()
     if not len(choices):
         raise _stretch_refusal(task)

@@ -6,10 +6,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from operator import itemgetter
-from typing import Any, Final, NoReturn
+from typing import Any, Final
 
-from conveyor.errors import NoSolutionError
 from conveyor.files import libraries
 from conveyor.laws.belt_strength import CEMA_PULLEYS, PULLEY_DIAMETERS, next_pulley_diameter, pulley_group_diameter
 from conveyor.laws.energy import MOTOR_SERIES, NEMA_MOTORS, next_motor
@@ -33,6 +31,7 @@ from conveyor.laws.take_up import (
 from conveyor.line.usual_parts import usual_lump_factor
 from conveyor.models import Conveyor
 from conveyor.models.base import given_data
+from conveyor.models.maker_lists import ListedItem
 from conveyor.models.sizing import (
     DriveLayout,
     SiteRules,
@@ -43,9 +42,8 @@ from conveyor.models.sizing import (
     within_limit,
 )
 from conveyor.sizing.design_choice import CarcassClass, DesignChoice, RollSize, TroughSize, WidthSize
-from conveyor.units import Quantity, read_si, si, text
-from conveyor.units.presentation import format_figure
-from conveyor.units.sentences import percent
+from conveyor.sizing.listed_sizes import listed_carcasses, listed_rolls, motor_power
+from conveyor.units import Quantity, read_si, si
 
 _OVERLAND_LENGTH: Final = 1000.0  # [m], length from which spacings are those of overland belts; general knowledge
 
@@ -153,7 +151,9 @@ class SizingTask:
 
     @property
     def _motors(self) -> tuple[float, ...]:
-        """Rated motor powers of the series [W]."""
+        """Rated motor powers of the series, or of the lists [W]."""
+        if self.duty.listed.motors:
+            return tuple(sorted({motor_power(item) for item in self.duty.listed.motors}))
         return NEMA_MOTORS if self.duty.series == "US" else MOTOR_SERIES
 
     @property
@@ -171,6 +171,11 @@ class SizingTask:
         """Total power of the fewest, smallest equal motors of a pulley, with the reserve of the rules [W]."""
         count = self.motor_count(power * self.rules.motor_reserve)
         return count * next_motor(power / count, reserve=self.rules.motor_reserve, series=self._motors)
+
+    def listed_motor(self, rated: float) -> ListedItem | None:
+        """Item of a list for the equal motors of a pulley of a rated power [W]; None without lists."""
+        one = rated / self.motor_count(rated)
+        return next((item for item in self.duty.listed.motors if same_width(motor_power(item), one)), None)
 
     def motor_count(self, rated: float) -> int:
         """Number of equal motors of a pulley for a rated power [W]."""
@@ -200,8 +205,8 @@ class SizingTask:
 
     @property
     def kinds(self) -> tuple[str, ...]:
-        """Kinds of carcass to choose from."""
-        return self.rules.carcasses
+        """Kinds of carcass to choose from, of lists those that they have."""
+        return tuple(kind for kind in self.rules.carcasses if self.carcasses[kind])
 
     @property
     def cold(self) -> bool:
@@ -244,7 +249,7 @@ class SizingTask:
             yield si(point.skirt_width)
 
     @property
-    def _trough_angles(self) -> Sequence[Quantity]:
+    def trough_angles(self) -> Sequence[Quantity]:
         """Trough angles to choose from."""
         return self.rules.trough_angles or self.sizes.trough_angles
 
@@ -258,13 +263,13 @@ class SizingTask:
         shapes = []
         for row in self.sizes.widths:
             belt, vee = si(row.belt), si(row.belt) >= si(self.sizes.vee_from)
-            usual = tuple(map(si, rules.roll_diameters or row.rolls))
+            usual = tuple(map(si, rules.roll_diameters or (() if self.duty.listed.rolls else row.rolls)))
             width = WidthSize(belt, si(row.one), si(row.two), si(row.three), vee, usual)
             if not within_limit(least, belt):
                 continue
             if asked and not any(same_width(belt, one) for one in asked):
                 continue
-            for angle in map(si, self._trough_angles):
+            for angle in map(si, self.trough_angles):
                 section = cross_section(
                     usable_width(width.belt),
                     middle_roll_length=width.three,
@@ -276,94 +281,16 @@ class SizingTask:
                     shapes.append(TroughSize(width, angle, area))
         return tuple(shapes)
 
-    def refuse(self) -> NoReturn:
-        """Raise the error of a duty that no belt, speed and rolls satisfy, naming the rule that fails.
-
-        Raises
-        ------
-        NoSolutionError
-            No belt is wide enough for the lumps or fast and full enough for the flow; or speeds are too fast, belts too
-            wide, free edges too narrow, rolls too fast.
-        """
-        duty, rules, system = self.duty, self.rules, self.duty.report.units
-        lumps = least_width_for_lumps(self.lump, surcharge_angle=duty.material.surcharge, share=duty.lumps)
-        widest = max(map(si, rules.widths or [row.belt for row in self.sizes.widths]))
-        if not within_limit(lumps, widest):
-            asked, had = (format_figure(width, "thickness", system) for width in (lumps, widest))
-            raise NoSolutionError(
-                f"lump: {text(duty.lump)} asks for a belt of {asked}, the widest has {had} (rules.widths)"
-            )
-        surcharge = duty.material.surcharge_angle
-        if self.steepest >= si(surcharge) and not any(map(si, self._trough_angles)):
-            raise NoSolutionError(
-                f"route: on a slope of {format_figure(self.steepest, 'angle', system)} no heap of {text(surcharge)} "
-                f"stands, "
-                "and flat sets hold nothing else: allow troughs (rules.trough_angles)"
-            )
-        pairs = [(trough, v) for trough in self.troughs for v in self.speeds if self.allows(trough, v)]
-        if not pairs:
-            slowest = format_figure(min(self.speeds), "speed", system)
-            raise NoSolutionError(
-                f"every speed, from {slowest}, is faster than the rules or CEMA allow for every width and abrasiveness "
-                f'"{duty.abrasiveness}": allow slower ones or a faster belt (rules.speeds, rules.fastest, rules.widths)'
-            )
-        most = max(trough.area * v for trough, v in pairs) * self.density * si(rules.filling)
-        if self.flow > most:
-            raise NoSolutionError(
-                f"material.flow: {text(duty.material.flow)} is more than the widest and fastest belt takes, "
-                f"{format_figure(most, 'mass flow', system)} (rules.widths, rules.fastest, rules.speeds, rules.filling)"
-            )
-        pairs = [pair for pair in pairs if self._filled(*pair) <= si(rules.filling)]
-        if not any(self._full_enough(*pair) for pair in pairs):
-            fullest = max(self._filled(*pair) for pair in pairs)
-            raise NoSolutionError(
-                f"material.flow: {text(duty.material.flow)} fills no belt that may be chosen to more than "
-                f"{percent(fullest)}, rules.least_filling asks for {text(rules.least_filling)}: allow narrower or "
-                "slower belts (rules.widths, rules.speeds), or a lower filling"
-            )
-        pairs = [pair for pair in pairs if self._full_enough(*pair)]
-        if all(self.filling(*pair) is None for pair in pairs):
-            edges = [(self._edge(*pair), standard_edge_distance(pair[0].width.belt)) for pair in pairs]
-            edge, asked = (
-                format_figure(each, "thickness", system) for each in max(edges, key=lambda of: of[0] / of[1])
-            )
-            raise NoSolutionError(
-                f"the bulk leaves {edge} of either edge of the belt free, CEMA asks for {asked}: allow wider or faster "
-                "belts (rules.widths, rules.speeds, rules.fastest)"
-            )
-        rolling = [
-            (v / (math.pi * roll.diameter), roll, v)
-            for trough, v in pairs
-            if self.filling(trough, v) is not None
-            for roll in self.rolls
-            if self._usual(roll, trough)
-        ]
-        turns, roll, slowest_belt = min(rolling, key=itemgetter(0))
-        if not self.turns_slowly(roll, slowest_belt):
-            at, size, turn = (
-                format_figure(value, kind, system)
-                for value, kind in ((slowest_belt, "speed"), (roll.diameter, "thickness"), (turns, "rotation"))
-            )
-            raise NoSolutionError(
-                f"at {at} the rolls of {size}, those that turn most slowly, turn at {turn}, "
-                f"{text(rules.roll_rotation)} are allowed (rules.roll_rotation): allow slower or wider belts or larger "
-                "rolls (rules.speeds, rules.widths, rules.roll_diameters)"
-            )
-        raise NoSolutionError(
-            "no class of rolls of the series has sets for the widths and troughs that take the flow: allow others "
-            "(rules.widths, rules.trough_angles, rules.series)"
-        )
-
-    def _filled(self, trough: TroughSize, speed: float) -> float:
+    def filled(self, trough: TroughSize, speed: float) -> float:
         """Share of the cross-section under bulk [-]."""
         return self.flow / (self.density * speed) / trough.area
 
-    def _full_enough(self, trough: TroughSize, speed: float) -> bool:
+    def full_enough(self, trough: TroughSize, speed: float) -> bool:
         """True if filled to the least filling of the rules; the narrowest belt is exempt."""
         narrowest = trough.width.belt == self.troughs[0].width.belt
-        return narrowest or self._filled(trough, speed) >= si(self.rules.least_filling)
+        return narrowest or self.filled(trough, speed) >= si(self.rules.least_filling)
 
-    def _edge(self, trough: TroughSize, speed: float) -> float:
+    def edge(self, trough: TroughSize, speed: float) -> float:
         """Free edge of the belt on either side [m]."""
         under = filled_width(
             self.flow / (self.density * speed),
@@ -383,14 +310,16 @@ class SizingTask:
         """Filling of the cross-section [-]; None where it breaks the rules of speed, filling or edges."""
         if not self.allows(trough, speed):
             return None
-        filling = self._filled(trough, speed)
-        if filling > si(self.rules.filling) or not self._full_enough(trough, speed):
+        filling = self.filled(trough, speed)
+        if filling > si(self.rules.filling) or not self.full_enough(trough, speed):
             return None
-        return filling if self._edge(trough, speed) >= standard_edge_distance(trough.width.belt) else None
+        return filling if self.edge(trough, speed) >= standard_edge_distance(trough.width.belt) else None
 
     @cached_property
     def rolls(self) -> tuple[RollSize, ...]:
-        """Roll sizes of the library."""
+        """Roll sizes of the library, or of the lists."""
+        if self.duty.listed.rolls:
+            return listed_rolls(self.duty.listed.rolls)
         return tuple(
             RollSize(si(row.diameter), si(row.wall), si(row.ends), si(row.dynamic_rating), row.cema_class)
             for row in self.sizes.rolls
@@ -409,14 +338,14 @@ class SizingTask:
 
     def suits(self, roll: RollSize, trough: TroughSize, speed: float) -> bool:
         """True if rolls are usual for a width, have sets for a trough, and turn slowly enough."""
-        return (
-            self._usual(roll, trough) and self.turns_slowly(roll, speed) and min(self.set_ratings(roll, trough)) > 0.0
-        )
+        return self.usual(roll, trough) and self.turns_slowly(roll, speed) and min(self.set_ratings(roll, trough)) > 0.0
 
     @staticmethod
-    def _usual(roll: RollSize, trough: TroughSize) -> bool:
-        """True if rolls are of a diameter asked for, or usual for the width."""
+    def usual(roll: RollSize, trough: TroughSize) -> bool:
+        """True if rolls are of a diameter asked for, or usual for the width, and of the lengths of its sets."""
         usual = trough.width.diameters
+        if not roll.has(trough.width.three, trough.width.return_rolls[1]):
+            return False
         return not usual or any(same_width(roll.diameter, one) for one in usual)
 
     def widest_spacings(self, trough: TroughSize) -> tuple[float, float]:
@@ -434,6 +363,8 @@ class SizingTask:
     @cached_property
     def carcasses(self) -> Mapping[str, tuple[CarcassClass, ...]]:
         """Carcass classes of each kind, the weakest first."""
+        if self.duty.listed.belts:
+            return {kind: listed_carcasses(self.duty.listed.belts, kind) for kind in self.rules.carcasses}
         rows = {"EP": self.sizes.textile, "steel cord": self.sizes.steel_cord}
         return {kind: tuple(CarcassClass.of(kind, row) for row in rows[kind]) for kind in self.rules.carcasses}
 
@@ -451,7 +382,7 @@ class SizingTask:
     def covers(self, choice: DesignChoice, carcass: CarcassClass) -> tuple[float, float]:
         """Top and bottom cover of a candidate with a class of belt [m]."""
         top, bottom = self.worn_covers(carcass, self.wear(choice.speed))
-        return top, bottom + choice.thicker
+        return top, bottom if carcass.own_covers else bottom + choice.thicker
 
     @property
     def cover_step(self) -> float:
@@ -459,7 +390,9 @@ class SizingTask:
         return si(self.sizes.cover_step)
 
     def worn_covers(self, carcass: CarcassClass, addition: float) -> tuple[float, float]:
-        """Top and bottom cover with a wear addition, on steps of the series; at most 3 to 1 [m]."""
+        """Top and bottom cover with a wear addition, on steps of the series; at most 3 to 1; or its own [m]."""
+        if carcass.own_covers is not None:
+            return carcass.own_covers
         step, least = self.cover_step, carcass.least_cover
         top = _round_up_to_step(least + addition, step)
         return top, _round_up_to_step(max(least, top / 3.0), step)
