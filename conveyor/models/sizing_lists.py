@@ -52,7 +52,7 @@ class ListedSeries(Model):
         problems = []
         for kind in SIZED_KINDS:
             for i, item in enumerate(getattr(self, kind)):
-                missing = _missing(item)
+                missing = _missing_field(item)
                 if item.kind != kind:
                     problems.append(Problem((kind, i), f'got "{item.name}", which is of {item.kind}'))
                 elif missing:
@@ -84,7 +84,7 @@ def _find_items(
             problems.append(Problem((kind, i), str(error)))
 
 
-def _missing(item: ListedItem) -> str:
+def _missing_field(item: ListedItem) -> str:
     """Field that sizing needs and an item has not; empty if none."""
     fields = item.fields
     if item.kind == "rolls":

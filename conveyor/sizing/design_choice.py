@@ -11,8 +11,8 @@ from conveyor.laws.belt_strength import CLASSIC_SAFETY, least_cover
 from conveyor.laws.idler_sets import CemaClass, rated_set_load
 from conveyor.laws.preliminary_sizing import carcass_mass, roll_shell_mass
 from conveyor.laws.tension import least_pulley_diameter, usual_stiffness
-from conveyor.models.sizing import CarcassRow, DriveLayout, same_width
-from conveyor.units import from_si, si
+from conveyor.models.sizing import DriveLayout, same_width
+from conveyor.units import from_si
 
 _V_ANGLE: Final = math.radians(10.0)
 
@@ -32,12 +32,6 @@ class CarcassClass:
     listed: str = ""
     own_stiffness: float | None = None
     own_covers: tuple[float, float] | None = None
-
-    @classmethod
-    def of(cls, kind: str, row: CarcassRow) -> CarcassClass:
-        """Class of a row of a series."""
-        mass, rating = (None if given is None else si(given) for given in (row.mass, row.rating))
-        return cls(kind, si(row.strength), si(row.thickness), mass, rating)
 
     @property
     def steel_cord(self) -> bool:

@@ -10,7 +10,7 @@ from conveyor.errors import NoSolutionError
 from conveyor.laws.preliminary_sizing import least_width_for_lumps, standard_edge_distance
 from conveyor.models.sizing import within_limit
 from conveyor.sizing.sizing_task import SizingTask
-from conveyor.units import si, text
+from conveyor.units import text
 from conveyor.units.presentation import format_figure
 from conveyor.units.sentences import percent
 
@@ -26,14 +26,14 @@ def refuse_duty(task: SizingTask) -> NoReturn:
     """
     duty, rules, system = task.duty, task.rules, task.duty.report.units
     lumps = least_width_for_lumps(task.lump, surcharge_angle=duty.material.surcharge, share=duty.lumps)
-    widest = max(map(si, rules.widths or [row.belt for row in task.sizes.widths]))
+    widest = task.widest_belt
     if not within_limit(lumps, widest):
         asked, had = (format_figure(width, "thickness", system) for width in (lumps, widest))
         raise NoSolutionError(
             f"lump: {text(duty.lump)} asks for a belt of {asked}, the widest has {had} (rules.widths)"
         )
     surcharge = duty.material.surcharge_angle
-    if task.steepest >= si(surcharge) and not any(map(si, task.trough_angles)):
+    if not task.heaps:
         raise NoSolutionError(
             f"route: on a slope of {format_figure(task.steepest, 'angle', system)} no heap of {text(surcharge)} "
             f"stands, "
@@ -46,13 +46,13 @@ def refuse_duty(task: SizingTask) -> NoReturn:
             f"every speed, from {slowest}, is faster than the rules or CEMA allow for every width and abrasiveness "
             f'"{duty.abrasiveness}": allow slower ones or a faster belt (rules.speeds, rules.fastest, rules.widths)'
         )
-    most = max(trough.area * v for trough, v in pairs) * task.density * si(rules.filling)
+    most = max(trough.area * v for trough, v in pairs) * task.density * task.fullest
     if task.flow > most:
         raise NoSolutionError(
             f"material.flow: {text(duty.material.flow)} is more than the widest and fastest belt takes, "
             f"{format_figure(most, 'mass flow', system)} (rules.widths, rules.fastest, rules.speeds, rules.filling)"
         )
-    pairs = [pair for pair in pairs if task.filled(*pair) <= si(rules.filling)]
+    pairs = [pair for pair in pairs if task.filled(*pair) <= task.fullest]
     if not any(task.full_enough(*pair) for pair in pairs):
         fullest = max(task.filled(*pair) for pair in pairs)
         raise NoSolutionError(

@@ -33,6 +33,7 @@ from conveyor.models import Conveyor
 from conveyor.models.base import given_data
 from conveyor.models.maker_lists import ListedItem
 from conveyor.models.sizing import (
+    CarcassRow,
     DriveLayout,
     SiteRules,
     Sizes,
@@ -253,6 +254,21 @@ class SizingTask:
         """Trough angles to choose from."""
         return self.rules.trough_angles or self.sizes.trough_angles
 
+    @property
+    def heaps(self) -> bool:
+        """True if a heap stands on the steepest section, or troughs hold the bulk."""
+        return self.steepest < si(self.duty.material.surcharge_angle) or any(map(si, self.trough_angles))
+
+    @property
+    def widest_belt(self) -> float:
+        """Width of the widest belt to choose from [m]."""
+        return max(map(si, self.rules.widths or [row.belt for row in self.sizes.widths]))
+
+    @property
+    def fullest(self) -> float:
+        """Most filling of the cross-section [-]."""
+        return si(self.rules.filling)
+
     @cached_property
     def troughs(self) -> tuple[TroughSize, ...]:
         """Belt widths that take the lumps, with every trough angle."""
@@ -311,7 +327,7 @@ class SizingTask:
         if not self.allows(trough, speed):
             return None
         filling = self.filled(trough, speed)
-        if filling > si(self.rules.filling) or not self.full_enough(trough, speed):
+        if filling > self.fullest or not self.full_enough(trough, speed):
             return None
         return filling if self.edge(trough, speed) >= standard_edge_distance(trough.width.belt) else None
 
@@ -366,7 +382,7 @@ class SizingTask:
         if self.duty.listed.belts:
             return {kind: listed_carcasses(self.duty.listed.belts, kind) for kind in self.rules.carcasses}
         rows = {"EP": self.sizes.textile, "steel cord": self.sizes.steel_cord}
-        return {kind: tuple(CarcassClass.of(kind, row) for row in rows[kind]) for kind in self.rules.carcasses}
+        return {kind: tuple(_carcass_class(kind, row) for row in rows[kind]) for kind in self.rules.carcasses}
 
     def wear(self, speed: float) -> float:
         """Wear addition of the cover at a belt speed [m]."""
@@ -417,6 +433,11 @@ class SizingTask:
         """Mass of head, take-up and tail pulley together [kg]."""
         bend = self.bend_diameter(carcass)
         return math.fsum(PULLEY_MASS * size**2 * width for size in (self.drive_diameter(carcass), bend, bend))
+
+
+def _carcass_class(kind: str, row: CarcassRow) -> CarcassClass:
+    mass, rating = (None if given is None else si(given) for given in (row.mass, row.rating))
+    return CarcassClass(kind, si(row.strength), si(row.thickness), mass, rating)
 
 
 def _round_up_to_step(thickness: float, step: float) -> float:
