@@ -6,7 +6,7 @@ import hashlib
 import json
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, Final
 
@@ -17,7 +17,7 @@ from conveyor.arguments.argument_types import check_arguments
 from conveyor.errors import InputError
 from conveyor.files.document import error_lines, read_document, yaml_text
 from conveyor.models import Conveyor
-from conveyor.models.base import Model, field_path, real_errors, validate_model
+from conveyor.models.base import Model, field_path, given_data, real_errors, validate_model
 from conveyor.models.maker_lists import MakerLists
 from conveyor.models.model_file import read_model
 from conveyor.models.validation_messages import Location, error_message
@@ -141,6 +141,25 @@ def _field_place(path: Path, location: Location) -> str:
 def dump(conveyor: Conveyor) -> str:
     """Return a spec (YAML) that `load` reads back to an equal conveyor, compounds written out."""
     return yaml_text(conveyor.as_data(), width=110)
+
+
+def dump_given(conveyor: Conveyor, *, shelves: Iterable[str | Path] = ()) -> str:
+    """Return a spec as a designer writes it: without defaults, covers of compounds on the shelf by name.
+
+    Parameters
+    ----------
+    conveyor : Conveyor
+        To be written.
+    shelves : iterable of path
+        Folders of compounds beside the usual ones.
+    """
+    data = given_data(conveyor)
+    for cover in (data["belt"]["top_cover"], data["belt"]["bottom_cover"]):
+        name = cover["compound"]["name"]
+        with suppress(InputError):
+            if given_data(shelf.compound(name, extra=shelves)) == cover["compound"]:
+                cover["compound"] = name
+    return yaml_text(data, width=110)
 
 
 def fingerprint(conveyor: Conveyor, *, without: Collection[str] = ()) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -49,6 +50,7 @@ def size(
     Belt width, speed, trough, belt class, covers, rolls, distances of the sets, drives and their places, take-up. Every
     design shown is calculated exactly and passes its checks; a closed estimate chooses which are worth it.
     """
+    shelves = session.shelf or ()
     asked = [(path, path.suffix.lower()) for path in output or ()]
     to = session.outputs(duty)
     for path, ending in asked:
@@ -59,7 +61,7 @@ def size(
     from conveyor.report.tables.sizing_tables import sizing_contents, sizing_json
     from conveyor.studies.study_file import read_duty
 
-    read = read_duty(duty, shelves=session.shelf or ())
+    read = read_duty(duty, shelves=shelves)
     with session.progress("designs") as told:
         designs = sizing.size_conveyor(read, best=best, progress=told)
     pictured = (
@@ -67,7 +69,7 @@ def size(
     )
     contents = sizing_contents(designs, session.system(read), vary=pictured)
     for path, ending in asked:
-        _write_output(designs, contents, path, ending, to)
+        _write_output(designs, contents, path, ending, to, shelves)
     to.write(contents)
     from conveyor.cli.terminal import show_sizing
 
@@ -79,14 +81,16 @@ def _ranked_paths(path: Path, best: int) -> list[Path]:
     return [path] if best == 1 else [path.with_stem(f"{path.stem}-{rank}") for rank in range(1, best + 1)]
 
 
-def _write_output(sizing: CalculatedSizing, contents: Contents, path: Path, ending: str, to: Outputs) -> None:
+def _write_output(
+    sizing: CalculatedSizing, contents: Contents, path: Path, ending: str, to: Outputs, shelves: Iterable[str | Path]
+) -> None:
     """Add the specs, report or figure of an output path, by its ending."""
-    from conveyor.spec import dump
+    from conveyor.spec import dump_given
 
     if ending in SPEC:
         names = _ranked_paths(path, len(sizing.designs) if len(sizing.designs) > 1 else 1)
         made = {
-            name: f"# Rank {rank} of conveyor size.\n{dump(design.conveyor)}".encode()
+            name: f"# Rank {rank} of conveyor size.\n{dump_given(design.conveyor, shelves=shelves)}".encode()
             for rank, (name, design) in enumerate(zip(names, sizing.designs, strict=True), start=1)
         }
         to.add("specs", path, made)

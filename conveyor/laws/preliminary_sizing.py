@@ -26,6 +26,26 @@ RECOMMENDED_SPEEDS: Final = {
     "high": ((0.5, 350), (0.95, 500), (math.inf, 600)),
 }
 FOOT_PER_MINUTE: Final = 0.3048 / 60.0  # [m/s]
+FOOT: Final = 0.3048  # [m]
+INCH: Final = 0.0254  # [m]
+POUND_PER_CUBIC_FOOT: Final = 16.01846  # [kg/m³]
+# CEMA, suggested normal spacing of belt idlers: densities of the columns [lb/ft³]; belt widths up to [in], carry
+# spacings of the columns, return spacing [ft]
+SPACING_DENSITIES: Final = (30, 50, 75, 100, 150, 200)
+NORMAL_SPACINGS: Final = (
+    (18, 5.5, 5.0, 5.0, 5.0, 4.5, 4.5, 10.0),
+    (24, 5.0, 4.5, 4.5, 4.0, 4.0, 4.0, 10.0),
+    (30, 5.0, 4.5, 4.5, 4.0, 4.0, 4.0, 10.0),
+    (36, 5.0, 4.5, 4.0, 4.0, 3.5, 3.5, 10.0),
+    (42, 4.5, 4.5, 4.0, 3.5, 3.0, 3.0, 10.0),
+    (48, 4.5, 4.0, 4.0, 3.5, 3.0, 3.0, 10.0),
+    (54, 4.5, 4.0, 3.5, 3.5, 3.0, 3.0, 10.0),
+    (60, 4.0, 4.0, 3.5, 3.0, 3.0, 3.0, 10.0),
+    (72, 4.0, 3.5, 3.5, 3.0, 2.5, 2.5, 8.0),
+    (84, 3.5, 3.5, 3.0, 2.5, 2.5, 2.0, 8.0),
+    (96, 3.5, 3.5, 3.0, 2.5, 2.0, 2.0, 8.0),
+)
+LOADING_SPACING_SHARE: Final = 0.5  # [-], sets at a loading point over the others; CEMA, general knowledge
 EDGE_SHARE: Final = 0.055  # [-], CEMA: standard edge distance 0.055 B + 0.9 in
 EDGE_LEAST: Final = 0.9 * 0.0254  # [m], CEMA
 # DIN 22101, sum of points up to -> addition to the least cover [m]; general knowledge, middle of each range
@@ -150,6 +170,44 @@ def standard_edge_distance(belt_width: float) -> float:
     """
     require_positive(belt_width=belt_width)
     return EDGE_SHARE * belt_width + EDGE_LEAST
+
+
+def normal_spacings(belt_width: float, *, density: float) -> tuple[float, float]:
+    """Normal spacings of carry and return sets (CEMA, as commonly reproduced).
+
+    Parameters
+    ----------
+    belt_width : float
+        B [m], positive.
+    density : float
+        Of the bulk [kg/m³], positive.
+
+    Returns
+    -------
+    tuple of float
+        Of carry and return sets [m].
+
+    Raises
+    ------
+    InputError
+        An argument is not positive.
+
+    Notes
+    -----
+    Table "Suggested normal spacing of belt idlers". A width counts to the next wider row, a density to the nearest
+    column (derived). Sag, load rating and bearing life may ask for less.
+
+    Examples
+    --------
+    36 in and 100 lb/ft³: 4 ft and 10 ft.
+
+    >>> [round(a, 4) for a in normal_spacings(0.9144, density=1602.0)]
+    [1.2192, 3.048]
+    """
+    require_positive(belt_width=belt_width, density=density)
+    columns = [abs(density / POUND_PER_CUBIC_FOOT - column) for column in SPACING_DENSITIES]
+    row = next((row for widest, *row in NORMAL_SPACINGS if belt_width / INCH <= widest + 1e-6), NORMAL_SPACINGS[-1][1:])
+    return FOOT * row[columns.index(min(columns))], FOOT * row[-1]
 
 
 def wear_addition(

@@ -291,6 +291,11 @@ class Model(BaseModel):
         return type(self).model_validate, (given,)
 
 
+def given_data(model: BaseModel) -> dict[str, Any]:
+    """Plain data given to a model, without defaults."""
+    return model.model_dump(mode="json", by_alias=True, exclude_none=True, exclude_unset=True)
+
+
 def value_digest(*values: object) -> bytes:
     """Digest of values of fields, quantities as entered."""
     return blake2b(marshal.dumps(_plain_value(values), _MARSHAL_FORMAT), digest_size=16).digest()

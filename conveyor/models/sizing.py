@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from typing import Annotated, Any, Final, Literal, Self
 
@@ -14,6 +14,7 @@ from conveyor.laws.idler_sets import CemaClass
 from conveyor.laws.preliminary_sizing import Severity
 from conveyor.laws.resistance import Site
 from conveyor.models.base import Model, Name, Number, Problem, raise_problems
+from conveyor.models.calculation_methods import Method
 from conveyor.models.compound import CompoundReference
 from conveyor.models.material import BulkMaterial
 from conveyor.models.operation import EarthTemperature, Operation
@@ -21,6 +22,7 @@ from conveyor.models.parts import Ambient, Calculation
 from conveyor.models.prices import Prices
 from conveyor.models.report import Report
 from conveyor.models.route import Route
+from conveyor.models.sizing_lists import ListedSeries
 from conveyor.models.validation_messages import Location
 from conveyor.units import (
     Angle,
@@ -34,6 +36,7 @@ from conveyor.units import (
     LineForce,
     Mass,
     Power,
+    Quantity,
     Rotation,
     Speed,
     Thickness,
@@ -49,6 +52,7 @@ DriveLayout = Literal["head", "head, two pulleys", "head and tail", "head, two p
 DesignWidth = Annotated[Length, Bounds(gt="100 mm", le="5 m")]
 DesignSpeed = Annotated[Speed, Bounds(gt="0 m/s", le="20 m/s")]
 TroughAngle = Annotated[Angle, Bounds(ge="0 deg", le="60 deg")]
+RollDiameter = Annotated[Thickness, Bounds(ge="20 mm", le="1 m")]
 SetSpacing = Annotated[Distance, Bounds(gt="0.2 m", le="20 m")]
 
 
@@ -77,12 +81,14 @@ class WidthRow(Model):
     """Rolls of a set of two."""
     three: DesignWidth
     """Rolls of a set of three."""
+    rolls: tuple[RollDiameter, ...] = ()
+    """Usual diameters of its rolls; all of the series without."""
 
 
 class RollRow(Model):
     """Rolls of a diameter."""
 
-    diameter: Annotated[Thickness, Bounds(ge="20 mm", le="1 m")]
+    diameter: RollDiameter
     """Outside."""
     wall: Annotated[Thickness, Bounds(gt="0 mm", le="50 mm")]
     """Of the tube."""
@@ -150,10 +156,15 @@ class SiteRules(Model):
     """Of sets of three rolls; all of the library without."""
     carcasses: Annotated[tuple[Carcasses, ...], Field(min_length=1)] = ("EP", "steel cord")
     """Kinds of belt."""
+    roll_diameters: tuple[RollDiameter, ...] = ()
+    """Diameters of rolls to choose from; without it the usual ones of the width, in the US those of the class."""
     carry_spacings: tuple[SetSpacing, ...] = ()
-    """Distances of carry sets to choose from; without it those in use, from 1 km on overland ones."""
+    """Distances of carry sets to choose from; without it those in use, from 1 km on overland ones; in the US, below
+    1 km, at most the normal ones of CEMA for width and density."""
     return_spacings: tuple[SetSpacing, ...] = ()
     """The same of return sets."""
+    loading_spacing: SetSpacing | None = None
+    """Distance of the sets at the loading points of the route, at most that of the carry sets; half of it without."""
     graduated: bool = True
     """Whether the distance of carry sets may differ from section to section."""
     carry_sag: Annotated[Fraction, Bounds(gt="0 %", le="5 %")] = quantity("1 %")
@@ -186,6 +197,8 @@ class SiteRules(Model):
     """Force of a start over the steady one."""
     take_up_travel: Annotated[Distance, Bounds(gt="0 m", le="500 m")] = quantity("30 m")
     """Longest travel of the take-up, which keeps textile belts to short conveyors."""
+    basis: Method = "viscoelastic"
+    """Method by which the motors have to suffice, beside the friction to design for of the rolling contact."""
     motor_reserve: Annotated[Number, Field(ge=1, le=3)] = 1.1
     """Rated power of motors over the highest needed, with the friction to design for."""
 
@@ -219,6 +232,8 @@ class SizingDuty(Model):
     covers: Annotated[tuple[CompoundReference, ...], Field(min_length=1, max_length=10)]
     """Compounds of the bottom cover to choose from; the first one is that of the top cover, too."""
     rules: SiteRules = SiteRules()
+    listed: ListedSeries = ListedSeries()
+    """Makers' items that designs are built of, instead of the package's series."""
     prices: Prices = Field(default_factory=lambda: Prices.from_data({}))
     calculation: Calculation = Calculation()
     report: Report = Report()
@@ -237,18 +252,10 @@ class SizingDuty(Model):
             yield Problem(("lift",), "is not less than length, which is along the belt; correct one of the two")
         if self.route is not None:
             yield from self._sized_problems(self.route)
-        method = self.calculation.method
-        if method != "viscoelastic":
-            told = f'got "{method}": a duty is sized by the rolling contact; give the method to the sized spec'
-            yield Problem(("calculation", "method"), told)
+        yield from self._method_problems()
         if si(self.material.flow) == 0.0:
             yield Problem(("material", "flow"), "got 0: an empty belt has no duty; give what is conveyed")
-        rows = size_series(self.series).widths
-        listed = ", ".join(text(row.belt) for row in rows)
-        for i, width in enumerate(self.rules.widths):
-            if not any(same_width(si(width), si(row.belt)) for row in rows):
-                place = ("rules", "widths", i)
-                yield Problem(place, f"got {text(width)}, the series has {listed} (rules.series {self.series})")
+        yield from self._series_problems()
         yield from self._price_problems()
 
     @staticmethod
@@ -267,6 +274,35 @@ class SizingDuty(Model):
         yield from (
             Problem(place, "is what the sizing is to find; remove it") for place, value in given.items() if value
         )
+
+    def _series_problems(self) -> Iterator[Problem]:
+        """Refuse rules that the series or the lists have no parts for."""
+        sizes, rules = size_series(self.series), self.rules
+        yield from self._size_problems("widths", rules.widths, (row.belt for row in sizes.widths))
+        if not self.listed.rolls:
+            diameters = (row.diameter for row in sizes.rolls)
+            yield from self._size_problems("roll_diameters", rules.roll_diameters, diameters)
+        kinds = {"steel cord" if one.fields["carcass"]["kind"] == "steel cord" else "EP" for one in self.listed.belts}
+        if kinds and not kinds & set(rules.carcasses):
+            told = f"none is of rules.carcasses, {' and '.join(rules.carcasses)}: list others or allow them"
+            yield Problem(("listed", "belts"), told)
+
+    def _size_problems(self, rule: str, asked: Iterable[Quantity], series: Iterable[Quantity]) -> Iterator[Problem]:
+        """Refuse sizes of a rule that the series has not."""
+        there = list(series)
+        listed = ", ".join(dict.fromkeys(map(text, there)))
+        for i, size in enumerate(asked):
+            if not any(same_width(si(size), si(one)) for one in there):
+                told = f"got {text(size)}, the series has {listed} (rules.series {self.series})"
+                yield Problem(("rules", rule, i), told)
+
+    def _method_problems(self) -> Iterator[Problem]:
+        method = self.calculation.method
+        if method != "viscoelastic":
+            told = f'got "{method}": a duty is sized by the rolling contact; give the method to the sized spec'
+            yield Problem(("calculation", "method"), told)
+        if self.rules.basis == "cema classic" and self.calculation.cema is None:
+            yield Problem(("rules", "basis"), "cema classic needs Ky and Ai from the book: give calculation.cema")
 
     def _price_problems(self) -> Iterator[Problem]:
         price = self.operation.price

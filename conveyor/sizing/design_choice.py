@@ -6,11 +6,12 @@ import math
 from dataclasses import dataclass
 from typing import Final
 
+from conveyor.errors import RangeError
 from conveyor.laws.belt_strength import CLASSIC_SAFETY, least_cover
-from conveyor.laws.idler_sets import CemaClass
+from conveyor.laws.idler_sets import CemaClass, rated_set_load
 from conveyor.laws.preliminary_sizing import carcass_mass, roll_shell_mass
 from conveyor.laws.tension import least_pulley_diameter, usual_stiffness
-from conveyor.models.sizing import DriveLayout
+from conveyor.models.sizing import DriveLayout, same_width
 from conveyor.units import from_si
 
 _V_ANGLE: Final = math.radians(10.0)
@@ -18,13 +19,19 @@ _V_ANGLE: Final = math.radians(10.0)
 
 @dataclass(frozen=True)
 class CarcassClass:
-    """A carcass class: kind, strength [N/m], thickness [m]; if listed mass [kg/m²] and rated tension [N/m]."""
+    """A carcass class: kind, strength [N/m], thickness [m]; if listed mass [kg/m²] and rated tension [N/m].
+
+    Of a maker's list its name there, its stiffness [N/m], and its covers [m] where it is sold with them.
+    """
 
     kind: str
     strength: float
     thickness: float
     listed_mass: float | None = None
     rating: float | None = None
+    listed: str = ""
+    own_stiffness: float | None = None
+    own_covers: tuple[float, float] | None = None
 
     @property
     def steel_cord(self) -> bool:
@@ -48,6 +55,8 @@ class CarcassClass:
     @property
     def stiffness(self) -> float:
         """Usual tensile stiffness per width [N/m]."""
+        if self.own_stiffness is not None:
+            return self.own_stiffness
         strength = self.strength if self.rating is None else None
         usual = usual_stiffness(strength, rating=self.rating, carcass=self.kind)
         if usual is None:
@@ -56,7 +65,9 @@ class CarcassClass:
 
     @property
     def name(self) -> str:
-        """Trade name, such as ST1000."""
+        """Trade name, such as ST1000, or that of a maker's list."""
+        if self.listed:
+            return self.listed
         if self.rating is not None:
             return f"{from_si(self.rating, 'line force', 'PIW').magnitude:.0f} PIW"
         return f"{'ST' if self.steel_cord else 'EP'}{self.strength / 1e3:.0f}"
@@ -74,28 +85,56 @@ class CarcassClass:
 
 @dataclass(frozen=True)
 class RollSize:
-    """Rolls of one diameter [m]: wall [m], mass of the ends [kg], bearing rating C [N], CEMA class of their sets."""
+    """Rolls of one diameter [m]: wall [m], mass of the ends [kg], bearing rating C [N], CEMA class of their sets.
+
+    `pieces`: lengths [m], masses [kg] and names of a maker's list; without them rolls of any length.
+    """
 
     diameter: float
     wall: float
     ends: float
     rating: float
     cema_class: CemaClass | None = None
+    pieces: tuple[tuple[float, float, str], ...] = ()
+
+    def piece(self, length: float) -> tuple[float, str] | None:
+        """Mass [kg] and name of a listed roll of a length; None if there is none."""
+        return next(((mass, name) for long, mass, name in self.pieces if same_width(long, length)), None)
+
+    def has(self, *lengths: float) -> bool:
+        """True if there are rolls of all lengths."""
+        return not self.pieces or all(self.piece(length) is not None for length in lengths)
 
     def mass(self, length: float) -> float:
         """Rotating mass of a roll of a length [kg]."""
+        listed = self.piece(length)
+        if listed is not None:
+            return listed[0]
         return roll_shell_mass(self.diameter, wall=self.wall, length=length) + self.ends
+
+    def set_rating(self, width: float, angle: float, rolls: int) -> float:
+        """Rating of a set of its class [N]; infinite without a class, 0 where the class has no such set."""
+        if self.cema_class is None:
+            return math.inf
+        try:
+            return rated_set_load(self.cema_class, belt_width=width, trough_angle=angle, rolls=rolls)
+        except RangeError:
+            return 0.0
 
 
 @dataclass(frozen=True)
 class WidthSize:
-    """A belt width and its roll lengths for sets of one, two and three [m]; `vee`: return sets are Vs of two."""
+    """A belt width and its roll lengths for sets of one, two and three [m]; `vee`: return sets are Vs of two.
+
+    `diameters`: usual ones of its rolls [m], any without.
+    """
 
     belt: float
     one: float
     two: float
     three: float
     vee: bool
+    diameters: tuple[float, ...] = ()
 
     @property
     def return_rolls(self) -> tuple[int, float, float]:

@@ -22,6 +22,7 @@ from conveyor.line.stretches import STRANDS
 from conveyor.models.sizing import SizingDuty
 from conveyor.pipeline import ProgressCallback
 from conveyor.sizing.design_choice import DesignChoice, SelectedParts
+from conveyor.sizing.duty_refusal import refuse_duty
 from conveyor.sizing.part_sizing import LIMIT_MESSAGES, calculate_specs, candidate_specs, foresee_parts, size_parts
 from conveyor.sizing.screen import (
     Candidates,
@@ -47,6 +48,9 @@ MOST_ALIKE: Final = 2
 
 GRADUATED_DESIGNS: Final = 3
 """Designs tried with graduated carry spacings, at least."""
+
+
+_LEAST_DESIGNS: Final = 3  # looked for even if fewer are wanted, so that the best does not depend on how many are
 
 
 _SCREENINGS: Final = 2  # calibrations of the estimate by calculated candidates
@@ -135,20 +139,21 @@ def size_conveyor(duty: SizingDuty, *, best: int = 3, progress: ProgressCallback
     task = SizingTask(duty)
     every = Candidates.of(task)
     if not len(every):
-        task.refuse()
+        refuse_duty(task)
     choices = every.within_travel()
     if not len(choices):
         raise _stretch_refusal(task)
     search = _Search(task, choices, first_calibration(len(duty.covers)))
     search.begin()
     final: list[SizedDesign] = []
+    count = max(best, _LEAST_DESIGNS)
     for _ in range(_SCREENINGS):
         new = search.draw(CANDIDATES_AT_ONCE)
         search.calculate(new, progress)
     ranked, alike = list(search.designs), 0
     for _ in range(_DRAWS):
-        final = _rank_designs([*final, *_final_designs(search, ranked, best - len(final))])
-        if len(final) >= best:
+        final = _rank_designs([*final, *_final_designs(search, ranked, count - len(final))])
+        if len(final) >= count:
             break
         new = search.draw(CANDIDATES_AT_ONCE + len(list(search.designs))) or search.nearest(CANDIDATES_AT_ONCE)
         nearest = search.nearest_over

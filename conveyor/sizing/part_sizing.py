@@ -281,11 +281,11 @@ def _take_up_travel(now: CarcassClass, loads: Sequence[CalculatedConveyor]) -> C
 
 
 def _required_power(task: SizingTask, loads: Sequence[CalculatedConveyor]) -> float:
-    """Power required of each drive [W]: its share at both ends of the friction band, and that for breakaway.
+    """Power required of each drive [W]: its share at both ends of the friction band, by the basis, and for breakaway.
 
     Breakaway may use the rated power itself, so that its reserve is taken off.
     """
-    running = max(check.calculated or 0.0 for one in loads for check in motor_power(one))
+    running = max(power for one in loads for power in (*_drive_powers(one), *_powers_by_basis(task, one)))
     starts = [(one, one.motions.design_start) for one in loads]
     stuck = max(
         (start.breakaway * one.line.speed / (one.line.efficiency * len(one.line.drives))
@@ -329,6 +329,14 @@ def foresee_parts(task: SizingTask, design: SizedDesign) -> SelectedParts:
 def _drive_powers(one: CalculatedConveyor) -> list[float]:
     """Highest power of every drive with the friction at both ends of its band [W]."""
     return [check.calculated or 0.0 for check in motor_power(one)]
+
+
+def _powers_by_basis(task: SizingTask, one: CalculatedConveyor) -> Iterator[float]:
+    """Power of every drive by the classical method of the rules [W]; none by the rolling contact."""
+    balance, basis = one.balance, task.rules.basis
+    estimate = balance.cema if basis == "cema classic" else balance.classical
+    if basis != "viscoelastic" and estimate is not None:
+        yield from (abs(balance.frame.motor(drive.share * estimate.total)) for drive in one.line.drives)
 
 
 def _design_or_shortfall(

@@ -37,6 +37,7 @@ _SKIRTS: Final = 2.0 * 0.7 * 9.81 / 0.625**2  # [m/s²]: both zones of the usual
 _SET_LIFE_SHARE: Final = 0.5  # bearing life of a set over that of its most loaded bearing
 _FLEXURE_PASSES: Final = 3  # flexure is a tenth of the friction, its tension settles to a per cent of it
 _START_MEAN_SHARE: Final = 0.375  # mean round the loop of a start's extra force, over it; 1/4 of the mass returns
+_ROUNDING: Final = 1e-9  # [m], of units
 _ROUNDS: Final = 4  # of belt class, mass and tensions
 
 
@@ -109,13 +110,14 @@ class Candidates:
             for trough, speed in itertools.product(task.troughs, task.speeds)
             if (filling := task.filling(trough, speed)) is not None
             for roll in task.rolls
-            if task.turns_slowly(roll, speed) and min(task.set_ratings(roll, trough)) > 0.0
+            if task.suits(roll, trough, speed)
         )
         carry, back = task.spacings
         series = (running, carry, back, task.duty.covers, task.kinds, task.rules.drives)
         numbers = np.indices([len(one) for one in series]).reshape(len(series), -1).T
-        apart = np.array(carry)[numbers[:, 1]] <= np.array(back)[numbers[:, 2]]
-        return cls(task, running, numbers[apart])
+        apart = np.array([np.array(carry)[numbers[:, 1]], np.array(back)[numbers[:, 2]]])
+        widest = np.array([task.widest_spacings(on.trough) for on in running]).reshape(-1, 2)[numbers[:, 0]].T
+        return cls(task, running, numbers[(apart[0] <= apart[1]) & np.all(apart <= widest + _ROUNDING, axis=0)])
 
     def __len__(self) -> int:
         return len(self.numbers)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
 
+from conveyor.models.sizing import within_limit
 from conveyor.sizing.design_choice import DesignChoice, RollSize, TroughSize
 from conveyor.sizing.part_sizing import size_parts
 from conveyor.sizing.sized_design import Shortfall, SizedDesign
@@ -80,7 +81,10 @@ def vary_choices(task: SizingTask, design: SizedDesign) -> tuple[VariedChoice, .
 
 def _choice_axes(task: SizingTask, base: DesignChoice, bottom: float) -> Iterator[tuple[str, str, float, list[_Point]]]:
     """Name, kind, present value and points of each varied choice; None at points that a rule forbids."""
-    carry, back = task.spacings
+    carry, back = (
+        [a for a in series if within_limit(a, widest)]
+        for series, widest in zip(task.spacings, task.widest_spacings(base.trough), strict=True)
+    )
     yield (
         "distance of carry sets",
         "spacing",
@@ -93,7 +97,7 @@ def _choice_axes(task: SizingTask, base: DesignChoice, bottom: float) -> Iterato
         base.back,
         [(a, replace(base, back=a)) for a in back if a >= base.carry],
     )
-    rolls = [one for one in _suitable_rolls(task, base, base.trough) if task.turns_slowly(one, base.speed)]
+    rolls = _suitable_rolls(task, base, base.trough, base.speed)
     yield (
         "roll diameter", "size", base.roll.diameter, [(roll.diameter, replace(base, roll=roll)) for roll in rolls]
     )  # fmt: skip
@@ -114,15 +118,14 @@ def _choice_at_speed(task: SizingTask, base: DesignChoice, speed: float) -> Desi
     fits = [(one, filling) for one in alike if (filling := task.filling(one, speed)) is not None]
     rolls = [
         roll
-        for roll in (_suitable_rolls(task, base, fits[0][0]) if fits else ())
-        if task.turns_slowly(roll, speed) and roll.diameter >= base.roll.diameter
+        for roll in (_suitable_rolls(task, base, fits[0][0], speed) if fits else ())
+        if roll.diameter >= base.roll.diameter
     ]
     if not rolls:
         return None
     return replace(base, trough=fits[0][0], filling=fits[0][1], speed=speed, roll=rolls[0])
 
 
-def _suitable_rolls(task: SizingTask, base: DesignChoice, trough: TroughSize) -> list[RollSize]:
-    """Rolls of the design's class with sets for the trough."""
-    alike = [one for one in task.rolls if one.cema_class == base.roll.cema_class]
-    return [one for one in alike if min(task.set_ratings(one, trough)) > 0.0]
+def _suitable_rolls(task: SizingTask, base: DesignChoice, trough: TroughSize, speed: float) -> list[RollSize]:
+    """Rolls of the design's class that suit a trough at a speed."""
+    return [one for one in task.rolls if one.cema_class == base.roll.cema_class and task.suits(one, trough, speed)]

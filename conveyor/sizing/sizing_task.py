@@ -6,18 +6,18 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Final, NoReturn
+from typing import Any, Final
 
-from conveyor.errors import NoSolutionError, RangeError
 from conveyor.files import libraries
 from conveyor.laws.belt_strength import CEMA_PULLEYS, PULLEY_DIAMETERS, next_pulley_diameter, pulley_group_diameter
 from conveyor.laws.energy import MOTOR_SERIES, NEMA_MOTORS, next_motor
-from conveyor.laws.idler_sets import CemaClass, rated_set_load
 from conveyor.laws.loading import cross_section, filled_width, usable_width
 from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
 from conveyor.laws.preliminary_sizing import (
+    LOADING_SPACING_SHARE,
     PULLEY_MASS,
     least_width_for_lumps,
+    normal_spacings,
     recommended_speed,
     standard_edge_distance,
     wear_addition,
@@ -30,6 +30,8 @@ from conveyor.laws.take_up import (
 )
 from conveyor.line.usual_parts import usual_lump_factor
 from conveyor.models import Conveyor
+from conveyor.models.base import given_data
+from conveyor.models.maker_lists import ListedItem
 from conveyor.models.sizing import (
     CarcassRow,
     DriveLayout,
@@ -41,11 +43,13 @@ from conveyor.models.sizing import (
     within_limit,
 )
 from conveyor.sizing.design_choice import CarcassClass, DesignChoice, RollSize, TroughSize, WidthSize
-from conveyor.units import Quantity, read_si, si, text
-from conveyor.units.presentation import format_figure
-from conveyor.units.sentences import percent
+from conveyor.sizing.listed_sizes import listed_carcasses, listed_rolls, motor_power
+from conveyor.units import Quantity, read_si, si
 
 _OVERLAND_LENGTH: Final = 1000.0  # [m], length from which spacings are those of overland belts; general knowledge
+
+
+_KEPT_FIELDS: Final = ("site", "material", "ambient", "operation", "calculation", "report")
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,6 +57,11 @@ class SizingTask:
     """A duty in SI."""
 
     duty: SizingDuty
+
+    @cached_property
+    def kept_fields(self) -> Mapping[str, Any]:
+        """Fields that the spec of a design has as the duty gives them."""
+        return {name: value for name, value in given_data(self.duty).items() if name in _KEPT_FIELDS}
 
     @property
     def rules(self) -> SiteRules:
@@ -143,7 +152,9 @@ class SizingTask:
 
     @property
     def _motors(self) -> tuple[float, ...]:
-        """Rated motor powers of the series [W]."""
+        """Rated motor powers of the series, or of the lists [W]."""
+        if self.duty.listed.motors:
+            return tuple(sorted({motor_power(item) for item in self.duty.listed.motors}))
         return NEMA_MOTORS if self.duty.series == "US" else MOTOR_SERIES
 
     @property
@@ -161,6 +172,11 @@ class SizingTask:
         """Total power of the fewest, smallest equal motors of a pulley, with the reserve of the rules [W]."""
         count = self.motor_count(power * self.rules.motor_reserve)
         return count * next_motor(power / count, reserve=self.rules.motor_reserve, series=self._motors)
+
+    def listed_motor(self, rated: float) -> ListedItem | None:
+        """Item of a list for the equal motors of a pulley of a rated power [W]; None without lists."""
+        one = rated / self.motor_count(rated)
+        return next((item for item in self.duty.listed.motors if same_width(motor_power(item), one)), None)
 
     def motor_count(self, rated: float) -> int:
         """Number of equal motors of a pulley for a rated power [W]."""
@@ -190,8 +206,8 @@ class SizingTask:
 
     @property
     def kinds(self) -> tuple[str, ...]:
-        """Kinds of carcass to choose from."""
-        return self.rules.carcasses
+        """Kinds of carcass to choose from, of lists those that they have."""
+        return tuple(kind for kind in self.rules.carcasses if self.carcasses[kind])
 
     @property
     def cold(self) -> bool:
@@ -219,6 +235,11 @@ class SizingTask:
             pairs.append(tuple(map(si, asked)) or tuple(a for a in map(si, series) if within_limit(a, widest)))
         return pairs[0], pairs[1]
 
+    def loading_spacing(self, carry: float) -> float:
+        """Spacing of the sets where bulk lands [m]: that of the rules, else half that of the carry sets there."""
+        asked = self.rules.loading_spacing
+        return LOADING_SPACING_SHARE * carry if asked is None else min(si(asked), carry)
+
     @property
     def _fitted(self) -> Iterator[float]:
         """Widths of skirts, cleaners and ploughs that the duty gives [m]."""
@@ -229,9 +250,24 @@ class SizingTask:
             yield si(point.skirt_width)
 
     @property
-    def _trough_angles(self) -> Sequence[Quantity]:
+    def trough_angles(self) -> Sequence[Quantity]:
         """Trough angles to choose from."""
         return self.rules.trough_angles or self.sizes.trough_angles
+
+    @property
+    def heaps(self) -> bool:
+        """True if a heap stands on the steepest section, or troughs hold the bulk."""
+        return self.steepest < si(self.duty.material.surcharge_angle) or any(map(si, self.trough_angles))
+
+    @property
+    def widest_belt(self) -> float:
+        """Width of the widest belt to choose from [m]."""
+        return max(map(si, self.rules.widths or [row.belt for row in self.sizes.widths]))
+
+    @property
+    def fullest(self) -> float:
+        """Most filling of the cross-section [-]."""
+        return si(self.rules.filling)
 
     @cached_property
     def troughs(self) -> tuple[TroughSize, ...]:
@@ -243,12 +279,13 @@ class SizingTask:
         shapes = []
         for row in self.sizes.widths:
             belt, vee = si(row.belt), si(row.belt) >= si(self.sizes.vee_from)
-            width = WidthSize(belt, si(row.one), si(row.two), si(row.three), vee)
+            usual = tuple(map(si, rules.roll_diameters or (() if self.duty.listed.rolls else row.rolls)))
+            width = WidthSize(belt, si(row.one), si(row.two), si(row.three), vee, usual)
             if not within_limit(least, belt):
                 continue
             if asked and not any(same_width(belt, one) for one in asked):
                 continue
-            for angle in map(si, self._trough_angles):
+            for angle in map(si, self.trough_angles):
                 section = cross_section(
                     usable_width(width.belt),
                     middle_roll_length=width.three,
@@ -260,86 +297,16 @@ class SizingTask:
                     shapes.append(TroughSize(width, angle, area))
         return tuple(shapes)
 
-    def refuse(self) -> NoReturn:
-        """Raise the error of a duty that no belt, speed and rolls satisfy, naming the rule that fails.
-
-        Raises
-        ------
-        NoSolutionError
-            No belt is wide enough for the lumps or fast and full enough for the flow; or speeds are too fast, belts too
-            wide, free edges too narrow, rolls too fast.
-        """
-        duty, rules, system = self.duty, self.rules, self.duty.report.units
-        lumps = least_width_for_lumps(self.lump, surcharge_angle=duty.material.surcharge, share=duty.lumps)
-        widest = max(map(si, rules.widths or [row.belt for row in self.sizes.widths]))
-        if not within_limit(lumps, widest):
-            asked, had = (format_figure(width, "thickness", system) for width in (lumps, widest))
-            raise NoSolutionError(
-                f"lump: {text(duty.lump)} asks for a belt of {asked}, the widest has {had} (rules.widths)"
-            )
-        surcharge = duty.material.surcharge_angle
-        if self.steepest >= si(surcharge) and not any(map(si, self._trough_angles)):
-            raise NoSolutionError(
-                f"route: on a slope of {format_figure(self.steepest, 'angle', system)} no heap of {text(surcharge)} "
-                f"stands, "
-                "and flat sets hold nothing else: allow troughs (rules.trough_angles)"
-            )
-        pairs = [(trough, v) for trough in self.troughs for v in self.speeds if self.allows(trough, v)]
-        if not pairs:
-            slowest = format_figure(min(self.speeds), "speed", system)
-            raise NoSolutionError(
-                f"every speed, from {slowest}, is faster than the rules or CEMA allow for every width and abrasiveness "
-                f'"{duty.abrasiveness}": allow slower ones or a faster belt (rules.speeds, rules.fastest, rules.widths)'
-            )
-        most = max(trough.area * v for trough, v in pairs) * self.density * si(rules.filling)
-        if self.flow > most:
-            raise NoSolutionError(
-                f"material.flow: {text(duty.material.flow)} is more than the widest and fastest belt takes, "
-                f"{format_figure(most, 'mass flow', system)} (rules.widths, rules.fastest, rules.speeds, rules.filling)"
-            )
-        pairs = [pair for pair in pairs if self._filled(*pair) <= si(rules.filling)]
-        if not any(self._full_enough(*pair) for pair in pairs):
-            fullest = max(self._filled(*pair) for pair in pairs)
-            raise NoSolutionError(
-                f"material.flow: {text(duty.material.flow)} fills no belt that may be chosen to more than "
-                f"{percent(fullest)}, rules.least_filling asks for {text(rules.least_filling)}: allow narrower or "
-                "slower belts (rules.widths, rules.speeds), or a lower filling"
-            )
-        pairs = [pair for pair in pairs if self._full_enough(*pair)]
-        if all(self.filling(*pair) is None for pair in pairs):
-            edges = [(self._edge(*pair), standard_edge_distance(pair[0].width.belt)) for pair in pairs]
-            edge, asked = (
-                format_figure(each, "thickness", system) for each in max(edges, key=lambda of: of[0] / of[1])
-            )
-            raise NoSolutionError(
-                f"the bulk leaves {edge} of either edge of the belt free, CEMA asks for {asked}: allow wider or faster "
-                "belts (rules.widths, rules.speeds, rules.fastest)"
-            )
-        slowest_belt = min(v for trough, v in pairs if self.filling(trough, v) is not None)
-        largest = max(roll.diameter for roll in self.rolls)
-        if not any(self.turns_slowly(roll, slowest_belt) for roll in self.rolls):
-            turns = format_figure(slowest_belt / (math.pi * largest), "rotation", system)
-            raise NoSolutionError(
-                f"at {format_figure(slowest_belt, 'speed', system)}, the slowest belt that takes the flow, the "
-                f"largest rolls "
-                f"turn at {turns}, {text(rules.roll_rotation)} are allowed (rules.roll_rotation): allow slower or "
-                "wider belts (rules.speeds, rules.widths)"
-            )
-        raise NoSolutionError(
-            "no class of rolls of the series has sets for the widths and troughs that take the flow: allow others "
-            "(rules.widths, rules.trough_angles, rules.series)"
-        )
-
-    def _filled(self, trough: TroughSize, speed: float) -> float:
+    def filled(self, trough: TroughSize, speed: float) -> float:
         """Share of the cross-section under bulk [-]."""
         return self.flow / (self.density * speed) / trough.area
 
-    def _full_enough(self, trough: TroughSize, speed: float) -> bool:
+    def full_enough(self, trough: TroughSize, speed: float) -> bool:
         """True if filled to the least filling of the rules; the narrowest belt is exempt."""
         narrowest = trough.width.belt == self.troughs[0].width.belt
-        return narrowest or self._filled(trough, speed) >= si(self.rules.least_filling)
+        return narrowest or self.filled(trough, speed) >= si(self.rules.least_filling)
 
-    def _edge(self, trough: TroughSize, speed: float) -> float:
+    def edge(self, trough: TroughSize, speed: float) -> float:
         """Free edge of the belt on either side [m]."""
         under = filled_width(
             self.flow / (self.density * speed),
@@ -359,14 +326,16 @@ class SizingTask:
         """Filling of the cross-section [-]; None where it breaks the rules of speed, filling or edges."""
         if not self.allows(trough, speed):
             return None
-        filling = self._filled(trough, speed)
-        if filling > si(self.rules.filling) or not self._full_enough(trough, speed):
+        filling = self.filled(trough, speed)
+        if filling > self.fullest or not self.full_enough(trough, speed):
             return None
-        return filling if self._edge(trough, speed) >= standard_edge_distance(trough.width.belt) else None
+        return filling if self.edge(trough, speed) >= standard_edge_distance(trough.width.belt) else None
 
     @cached_property
     def rolls(self) -> tuple[RollSize, ...]:
-        """Roll sizes of the library."""
+        """Roll sizes of the library, or of the lists."""
+        if self.duty.listed.rolls:
+            return listed_rolls(self.duty.listed.rolls)
         return tuple(
             RollSize(si(row.diameter), si(row.wall), si(row.ends), si(row.dynamic_rating), row.cema_class)
             for row in self.sizes.rolls
@@ -374,19 +343,34 @@ class SizingTask:
 
     def set_ratings(self, roll: RollSize, trough: TroughSize) -> tuple[float, float]:
         """Ratings of carry and return sets of a roll's class [N]; infinite without a class, 0 if it has no such set."""
-        if roll.cema_class is None:
-            return math.inf, math.inf
         count, _, vee = trough.width.return_rolls
-        carry, back = (
-            _class_set_load(roll.cema_class, trough.width.belt, angle, rolls)
-            for rolls, angle in ((3, trough.angle), (count, vee))
-        )
-        return carry, back
+        belt = trough.width.belt
+        return roll.set_rating(belt, trough.angle, 3), roll.set_rating(belt, vee, count)
 
     @cached_property
     def lump_factor(self) -> float:
         """Lump factor on the bulk's load for set ratings [-]; 1 outside the printed table."""
         return usual_lump_factor(self.lump, si(self.duty.material.heaviest)) or 1.0
+
+    def suits(self, roll: RollSize, trough: TroughSize, speed: float) -> bool:
+        """True if rolls are usual for a width, have sets for a trough, and turn slowly enough."""
+        return self.usual(roll, trough) and self.turns_slowly(roll, speed) and min(self.set_ratings(roll, trough)) > 0.0
+
+    @staticmethod
+    def usual(roll: RollSize, trough: TroughSize) -> bool:
+        """True if rolls are of a diameter asked for, or usual for the width, and of the lengths of its sets."""
+        usual = trough.width.diameters
+        if not roll.has(trough.width.three, trough.width.return_rolls[1]):
+            return False
+        return not usual or any(same_width(roll.diameter, one) for one in usual)
+
+    def widest_spacings(self, trough: TroughSize) -> tuple[float, float]:
+        """Widest carry and return spacings for a width and the bulk [m]; infinite where the duty gives its own."""
+        rules = self.rules
+        carry = back = math.inf
+        if self.duty.series == "US" and self.length < _OVERLAND_LENGTH:
+            carry, back = normal_spacings(trough.width.belt, density=self.density)
+        return math.inf if rules.carry_spacings else carry, math.inf if rules.return_spacings else back
 
     def turns_slowly(self, roll: RollSize, speed: float) -> bool:
         """True if a roll keeps the limit of rotation."""
@@ -395,6 +379,8 @@ class SizingTask:
     @cached_property
     def carcasses(self) -> Mapping[str, tuple[CarcassClass, ...]]:
         """Carcass classes of each kind, the weakest first."""
+        if self.duty.listed.belts:
+            return {kind: listed_carcasses(self.duty.listed.belts, kind) for kind in self.rules.carcasses}
         rows = {"EP": self.sizes.textile, "steel cord": self.sizes.steel_cord}
         return {kind: tuple(_carcass_class(kind, row) for row in rows[kind]) for kind in self.rules.carcasses}
 
@@ -412,7 +398,7 @@ class SizingTask:
     def covers(self, choice: DesignChoice, carcass: CarcassClass) -> tuple[float, float]:
         """Top and bottom cover of a candidate with a class of belt [m]."""
         top, bottom = self.worn_covers(carcass, self.wear(choice.speed))
-        return top, bottom + choice.thicker
+        return top, bottom if carcass.own_covers else bottom + choice.thicker
 
     @property
     def cover_step(self) -> float:
@@ -420,7 +406,9 @@ class SizingTask:
         return si(self.sizes.cover_step)
 
     def worn_covers(self, carcass: CarcassClass, addition: float) -> tuple[float, float]:
-        """Top and bottom cover with a wear addition, on steps of the series; at most 3 to 1 [m]."""
+        """Top and bottom cover with a wear addition, on steps of the series; at most 3 to 1; or its own [m]."""
+        if carcass.own_covers is not None:
+            return carcass.own_covers
         step, least = self.cover_step, carcass.least_cover
         top = _round_up_to_step(least + addition, step)
         return top, _round_up_to_step(max(least, top / 3.0), step)
@@ -450,14 +438,6 @@ class SizingTask:
 def _carcass_class(kind: str, row: CarcassRow) -> CarcassClass:
     mass, rating = (None if given is None else si(given) for given in (row.mass, row.rating))
     return CarcassClass(kind, si(row.strength), si(row.thickness), mass, rating)
-
-
-def _class_set_load(cema_class: CemaClass, width: float, angle: float, rolls: int) -> float:
-    """Rating of a set of a class [N]; 0 where the class has no such set."""
-    try:
-        return rated_set_load(cema_class, belt_width=width, trough_angle=angle, rolls=rolls)
-    except RangeError:
-        return 0.0
 
 
 def _round_up_to_step(thickness: float, step: float) -> float:

@@ -121,7 +121,8 @@ def graduated_spacings(task: SizingTask, design: SizedDesign) -> Iterator[tuple[
 
 def _allowed_spacings(task: SizingTask, design: SizedDesign, one: SectionSpacing, let_down: float) -> tuple[float, ...]:
     """Spacings of the series allowed in a section; the present one is allowed at its own tensions."""
-    widest = min(one.sag - let_down / one.tension_per_spacing, one.bearings, design.choice.back)
+    usual, _ = task.widest_spacings(design.choice.trough)
+    widest = min(one.sag - let_down / one.tension_per_spacing, one.bearings, design.choice.back, usual)
     borne = tuple(a for a in task.spacings[0] if a <= widest or (a == one.built and let_down == 0.0))
     return borne or (min(task.spacings[0]),)
 

@@ -14,6 +14,7 @@ from conveyor.errors import InputError
 from conveyor.forms.cell_values import CellValue, to_cells
 from conveyor.forms.form_fields import FieldGroup, FieldTable, FormField, Part, Path
 from conveyor.forms.sheet_plan import SheetPlan, plan_model, plan_reference, referenced_models
+from conveyor.models.base import given_data
 
 Cells: TypeAlias = dict[Path, tuple[CellValue, str | None]]
 
@@ -47,11 +48,6 @@ def fill_sheets(model: BaseModel, shelves: Iterable[str | FilePath] = ()) -> lis
     filler = _SheetFiller(plan, tuple(shelves))
     own = filler.fill(plan, given_data(model))
     return [own, *filler.written.values()]
-
-
-def given_data(model: BaseModel) -> dict[str, Any]:
-    """Plain data given to a model, without defaults."""
-    return model.model_dump(mode="json", by_alias=True, exclude_none=True, exclude_unset=True)
 
 
 @dataclass(frozen=True)

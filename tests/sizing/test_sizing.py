@@ -18,21 +18,25 @@ from conveyor import shelf
 from conveyor.checks import run_checks
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.belt_strength import RATED_SAFETY
-from conveyor.laws.energy import NEMA_MOTORS
+from conveyor.laws.energy import MOTOR_SERIES, NEMA_MOTORS
 from conveyor.laws.roll_life import rating_life_hours
 from conveyor.models.prices import Prices
 from conveyor.models.sizing import SizingDuty
 from conveyor.sizing import size_conveyor
+from conveyor.sizing.design_choice import SelectedParts
+from conveyor.sizing.design_spec import design_spec
 from conveyor.sizing.part_sizing import size_parts
 from conveyor.sizing.screen import Candidates, first_calibration, screen_candidates
 from conveyor.sizing.sensitivity import vary_choices
 from conveyor.sizing.sizing_task import SizingTask
 from conveyor.sizing.spacing import graduated_spacings, section_spacings
+from conveyor.spec import dump_given, fingerprint
 from conveyor.studies.loads import every_load
 from conveyor.studies.study_file import read_duty
 from conveyor.units import quantity, si, text
 from tests.command_line import run
 
+GRAVITY = 9.80665
 DUTIES = Path(__file__).parent.parent.parent / "examples" / "duties"
 DUTY = """\
 name: Small
@@ -207,6 +211,89 @@ def test_the_command_writes_specs_that_run(tmp_path):
     assert (again.returncode, "--force" in again.stderr) == (2, True)
 
 
+def test_rolls_are_of_the_usual_diameters_of_the_width_or_of_those_asked_for(small):
+    def diameters(flow, **rules):
+        changed = small.rules.replace(least_filling="1 %", **rules)
+        duty = small.replace(rules=changed, material=small.material.replace(flow=flow))
+        return {(on.trough.width.belt, round(on.roll.diameter * 1e3)) for on in Candidates.of(SizingTask(duty)).running}
+
+    usual = diameters("150 t/h")
+    assert {size for width, size in usual if width > 0.7} == {108, 133}
+    assert {size for width, size in usual if width < 0.7} == {89, 108, 133}
+    assert {size for _, size in diameters("150 t/h", roll_diameters=["178 mm"])} == {178}
+
+
+@pytest.mark.parametrize(("rule", "given", "expected"), [({}, {}, 0.6), ({"loading_spacing": "500 mm"}, {}, 0.5),
+                                                         ({}, {"idler_spacing": "400 mm"}, 0.4)])  # fmt: skip
+def test_sets_stand_closer_where_the_bulk_lands(small, rule, given, expected):
+    feeding = {"skirt_length": "1 m", "skirt_width": "450 mm", **given}
+    route = small.route.as_data() | {"feeding": feeding}
+    duty = small.replace(route=route, rules=small.rules.replace(carry_spacings=["1.2 m"], **rule))
+    task = SizingTask(duty)
+    choice = Candidates.of(task)[0]
+    carcass = task.carcasses["EP"][3]
+    spec = design_spec(task, choice, SelectedParts(carcass, 5e-3, 2e-3, (45e3,), 0.0), "fed")
+    assert si(spec.route.feeding.idler_spacing) == pytest.approx(expected)
+    assert si(spec.idlers.carry.spacing) == pytest.approx(1.2)
+
+
+def test_motors_suffice_by_the_method_of_the_contract_too(small, sized):
+    duty = small.replace(
+        calculation={"strain": "off", "friction_factor": 0.05}, rules=small.rules.replace(basis="din 22101")
+    )
+    best = size_conveyor(duty, best=1).best
+    line, choice = best.found.line, best.choice
+    forces = best.found.balance.forces
+    # by hand after DIN 22101; C is 1.58 at 150 m and 1.45 at 200 m; 1 %: cosine of the return, interpolation of C
+    belt, bulk = line.stretches[0].belt_mass, 400.0 / 3.6 / choice.speed
+    rolls = 3.0 * choice.roll.mass(0.315) / choice.carry + choice.roll.mass(0.95) / choice.back
+    main = 0.05 * GRAVITY * (180.0 * (rolls + belt) + (belt + bulk) * (60.0 + math.sqrt(120.0**2 - 12.0**2)))
+    power = best.found.balance.classical.total * choice.speed / 0.94
+    by_hand = (1.502 * main + forces.special + bulk * GRAVITY * 12.0) * choice.speed / 0.94
+    assert power == pytest.approx(by_hand, rel=0.01)
+    rated = best.chosen.motors[0]
+    assert rated == next(each for each in MOTOR_SERIES if each >= 1.1 * power)
+    assert rated > sized.best.chosen.motors[0]
+
+
+def test_motors_by_cema_need_its_factors(small):
+    with pytest.raises(InputError, match=r"rules\.basis.*cema classic needs Ky and Ai"):
+        small.replace(rules=small.rules.replace(basis="cema classic"))
+
+
+def test_sets_of_the_us_stand_no_farther_apart_than_cema_suggests():
+    duty = read_duty(DUTIES / "in_plant_us.yaml")
+    every = Candidates.of(SizingTask(duty))
+    carry, back = (np.array(series)[every.numbers[:, 1 + k]] for k, series in enumerate(every.task.spacings))
+    inches = every.runs(lambda on: on.trough.width.belt) / 0.0254
+    widest = {round(w): round(carry[np.isclose(inches, w)].max() / 0.3048, 6) for w in set(inches.round())}
+    column = {24: 4.0, 30: 4.0, 36: 4.0, 42: 3.5, 48: 3.5, 54: 3.5, 60: 3.0, 72: 3.0, 84: 2.5, 96: 2.5}  # of 100 lb/ft³
+    assert widest == {width: column[width] for width in widest}
+    assert 36 in widest
+    assert back.max() == pytest.approx(10.0 * 0.3048)
+    own = duty.replace(rules=duty.rules.replace(carry_spacings=["5.5 ft"]))
+    assert len(Candidates.of(SizingTask(own)))
+
+
+def test_a_written_design_is_as_short_as_one_by_hand_and_the_same_conveyor(tmp_path, sized):
+    written = dump_given(sized.best.conveyor)
+    assert len(written.splitlines()) <= 100
+    assert written.count("compound: standard-cover") == 2
+    assert not re.search("^(cases|scenarios|site|report):", written, re.MULTILINE)
+    path = tmp_path / "design.yaml"
+    path.write_text(written)
+    assert fingerprint(conveyor.load(path)) == fingerprint(sized.best.conveyor)
+
+
+def test_a_compound_that_is_not_on_the_shelf_is_written_out(sized):
+    line = sized.best.conveyor
+    cover = line.belt.top_cover
+    own = cover.replace(compound=cover.compound.replace(density="1200 kg/m^3"))
+    written = dump_given(line.replace(belt=line.belt.replace(top_cover=own)))
+    assert written.count("compound: standard-cover") == 1
+    assert "density: 1200 kg/m^3" in written
+
+
 def test_the_command_tells_programs_and_writes_reports(tmp_path):
     (tmp_path / "duty.yaml").write_text(DUTY, encoding="utf-8")
     done = run("size", "duty.yaml", "-n", "1", "--json", "-o", "a.xlsx", "-o", "a.html", "-o", "a.svg", cwd=tmp_path)
@@ -256,7 +343,7 @@ def test_what_is_wrong_is_refused_with_its_place(tmp_path, old, new, message):
         (
             {},
             {"roll_rotation": "10 rpm"},
-            r"at 2.5 m/s, the slowest belt .* turn at 218 rpm, 10 rpm are allowed \(rules\.roll_rotation\)",
+            r"at 2.5 m/s the rolls of 133 mm.* turn at 359 rpm, 10 rpm are allowed \(rules\.roll_rotation\)",
         ),
         (
             {},

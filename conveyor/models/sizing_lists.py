@@ -1,0 +1,101 @@
+"""Items of makers' lists that a sized design is built of, instead of the series of the package."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, Final, Literal, Self, TypeAlias
+
+from pydantic import Field, ValidationInfo, WithJsonSchema, model_validator
+
+from conveyor.errors import InputError
+from conveyor.laws.tension import usual_stiffness
+from conveyor.models.base import Model, Problem, raise_problems
+from conveyor.models.library_items import find_item
+from conveyor.models.maker_lists import ListedItem, MakerKind, MakerLists
+from conveyor.units import read_si
+
+SizedKind: TypeAlias = Literal["rolls", "belts", "motors"]
+SIZED_KINDS: Final[tuple[SizedKind, ...]] = ("rolls", "belts", "motors")
+"""Kinds of makers' lists that sizing chooses from."""
+_BEARING_FIELDS: Final = ("dynamic_rating", "distance")
+ALL: Final = "all"
+_SCHEMA: Final = {"anyOf": [{"const": ALL}, {"type": "array", "items": {"type": "string"}}],
+                  "description": "Names of items, or `all`."}  # fmt: skip
+Items: TypeAlias = Annotated[tuple[ListedItem, ...], Field(max_length=1000), WithJsonSchema(_SCHEMA)]
+
+
+class ListedSeries(Model):
+    """Makers' items to choose from, by name or `all`; the package's series for kinds without."""
+
+    rolls: Items = ()
+    """Rolls: for each width and diameter those of the lengths that its sets need."""
+    belts: Items = ()
+    """Belts; one listed with its covers has those."""
+    motors: Items = ()
+    """Motors, of one of which the power is."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _named(cls, data: Any, info: ValidationInfo) -> Any:
+        if not isinstance(data, Mapping):
+            return data
+        problems, found = list[Problem](), dict(data)
+        for kind in SIZED_KINDS:
+            asked = data.get(kind)
+            if asked == ALL or isinstance(asked, list | tuple):
+                found[kind] = tuple(_find_items(kind, asked, info, problems))
+        raise_problems(cls.__name__, problems)
+        return found
+
+    @model_validator(mode="after")
+    def _usable(self) -> Self:
+        problems = []
+        for kind in SIZED_KINDS:
+            for i, item in enumerate(getattr(self, kind)):
+                missing = _missing_field(item)
+                if item.kind != kind:
+                    problems.append(Problem((kind, i), f'got "{item.name}", which is of {item.kind}'))
+                elif missing:
+                    told = f'"{item.name}" has no {missing}, which sizing needs; add it to the list'
+                    problems.append(Problem((kind, i), told))
+        raise_problems(type(self).__name__, problems)
+        return self
+
+
+def _find_items(
+    kind: MakerKind, asked: str | list[Any] | tuple[Any, ...], info: ValidationInfo, problems: list[Problem]
+) -> Iterator[Any]:
+    """All items of a kind, or those of names; those that are written out as they are."""
+    if isinstance(asked, str):
+        lists: MakerLists = (info.context or {}).get("lists") or MakerLists()
+        try:
+            found = lists.every(kind)
+            told = f"got {ALL}, but makers' lists have no {kind}; conveyor library add LIST.xlsx reads them"
+        except InputError as error:
+            found, told = [], str(error)
+        if not found:
+            problems.append(Problem((kind,), told))
+        yield from found
+        return
+    for i, name in enumerate(asked):
+        try:
+            yield find_item((kind,), name, info) if isinstance(name, str) else name
+        except InputError as error:
+            problems.append(Problem((kind, i), str(error)))
+
+
+def _missing_field(item: ListedItem) -> str:
+    """Field that sizing needs and an item has not; empty if none."""
+    fields = item.fields
+    if item.kind == "rolls":
+        return next((f"bearing.{name}" for name in _BEARING_FIELDS if name not in fields.get("bearing", {})), "")
+    if item.kind == "belts":
+        carcass = fields.get("carcass", {})
+        if not {"strength", "rating"} & set(carcass):
+            return "carcass.strength"
+        strength, rating = (
+            read_si(carcass[name], "line force") if name in carcass else None for name in ("strength", "rating")
+        )
+        if "stiffness" not in carcass and usual_stiffness(strength, rating=rating, carcass=carcass["kind"]) is None:
+            return "carcass.stiffness"
+    return ""

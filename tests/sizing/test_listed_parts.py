@@ -1,0 +1,166 @@
+"""Designs of makers' items: built of them only, checked as any other, refused where none fits."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import conveyor
+from conveyor.errors import InputError, NoSolutionError
+from conveyor.models.belt import RUBBER_DENSITY
+from conveyor.models.maker_lists import ListedItem
+from conveyor.models.sizing import SizingDuty
+from conveyor.sizing import size_conveyor
+from conveyor.sizing.listed_sizes import listed_carcasses, listed_rolls
+from conveyor.spec import dump_given, fingerprint
+from conveyor.studies.loads import every_load
+from conveyor.studies.study_file import read_duty
+from conveyor.units import si
+
+LIST = """\
+rolls:
+  R108-315: {source: "list A", fields: {diameter: 108 mm, length: 315 mm, rotating_mass: 3.9 kg, drag: 1.6 N,
+             bearing: {dynamic_rating: 13.5 kN, distance: 275 mm}}}
+  R133-315: {source: "list A", fields: {diameter: 133 mm, length: 315 mm, rotating_mass: 5.4 kg,
+             bearing: {dynamic_rating: 14.8 kN, distance: 275 mm}}}
+  R133-950: {source: "list A", fields: {diameter: 133 mm, length: 950 mm, rotating_mass: 13 kg,
+             bearing: {dynamic_rating: 14.8 kN, distance: 910 mm}}}
+  bare: {source: "list A", fields: {diameter: 159 mm, length: 315 mm, rotating_mass: 7 kg}}
+belts:
+  stock: {source: "list B", fields: {carcass: {kind: EP, strength: 630 N/mm, thickness: 4.4 mm},
+          top_cover: {thickness: 8 mm}, bottom_cover: {thickness: 3 mm}, thickness: 15.4 mm, mass: 19 kg/m^2}}
+  to order: {source: "list B", fields: {carcass: {kind: EP, strength: 630 N/mm, thickness: 4.3 mm, mass: 5.5 kg/m^2,
+             stiffness: 6000 N/mm}, mass: 20 kg/m^2}}
+  woven: {source: "list B", fields: {carcass: {kind: solid woven, strength: 800 N/mm, thickness: 6 mm}}}
+motors:
+  M110: {source: "list C", fields: {installed_power: 110 kW, motor_speed: 1485 rpm, inertia: 1.9 kg*m^2}}
+  M132: {source: "list C", fields: {installed_power: 132 kW, inertia: 2.7 kg*m^2}}
+"""
+DUTY = """\
+name: Listed
+material: {name: stone, density: 1600 kg/m^3, flow: 800 t/h, surcharge_angle: 20 deg}
+lump: 100 mm
+route:
+  sections:
+    - {name: feed, length: 12 m}
+    - {name: incline, length: 190 m, lift: 25 m}
+ambient: {temperature: 20 degC}
+operation: {hours_per_year: 4200 h, price: 0.12 EUR/kWh}
+covers: [standard-cover]
+calculation: {strain: "off"}
+"""
+
+
+def duty(folder: Path, listed: str) -> SizingDuty:
+    """Duty of a folder with the lists."""
+    (folder / "conveyor-library").mkdir(exist_ok=True)
+    (folder / "conveyor-library" / "parts.yaml").write_text(LIST, encoding="utf-8")
+    path = folder / "duty.yaml"
+    path.write_text(f"{DUTY}listed: {listed}\n", encoding="utf-8")
+    return read_duty(path)
+
+
+@pytest.fixture(scope="module")
+def best(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("listed")
+    return size_conveyor(
+        duty(folder, "{rolls: [R108-315, R133-315, r133-950], belts: [stock, to order], motors: all}"), best=1
+    ).best
+
+
+def test_a_design_is_built_of_the_listed_items_only(best):
+    line = best.conveyor
+    carry, back = line.idlers.carry.roll, line.idlers.return_.roll
+    assert (carry.listed.name, back.listed.name) == ("R133-315", "R133-950")  # 108 mm has no roll for the return
+    assert line.belt.listed.name in {"stock", "to order"}
+    assert line.drive.listed[0].name in {"M110", "M132"}
+    assert si(carry.rotating_mass) == pytest.approx(5.4)
+    assert not [check for check in every_load(line).governing if check.failed]
+
+
+def test_a_listed_motor_turns_its_pulley_at_the_speed_of_the_belt(tmp_path):
+    only = size_conveyor(duty(tmp_path, "{motors: [M110]}"), best=1).best.conveyor
+    head = next(pulley for pulley in only.route.pulleys if pulley.position == "head")
+    rim = 3.14159265 * si(head.diameter) * (1485.0 / 60.0) / only.drive.gear_ratio
+    assert rim == pytest.approx(si(only.belt.speed), rel=1e-5)  # four decimals of the ratio
+    without_speed = size_conveyor(duty(tmp_path, "{motors: [M132]}"), best=1).best.conveyor
+    assert without_speed.drive.inertia is None
+
+
+def test_a_written_design_needs_no_list(tmp_path, best):
+    path = tmp_path / "design.yaml"
+    path.write_text(dump_given(best.conveyor), encoding="utf-8")
+    assert fingerprint(conveyor.load(path)) == fingerprint(best.conveyor)
+
+
+def test_a_belt_listed_with_its_covers_has_those_and_another_those_of_its_wear(tmp_path):
+    stock = size_conveyor(duty(tmp_path, "{belts: [stock]}"), best=1).best
+    assert (stock.chosen.top, stock.chosen.bottom) == pytest.approx((8e-3, 3e-3))
+    assert stock.chosen.carcass.mass == pytest.approx(19.0 - RUBBER_DENSITY * 11e-3)
+    assert stock.found.line.belt.width == pytest.approx(0.8)
+    made = size_conveyor(duty(tmp_path, "{belts: [to order]}"), best=1).best
+    belt = made.conveyor.belt
+    assert belt.mass is None
+    assert made.found.line.stretches[0].belt_mass == pytest.approx(
+        0.8 * (5.5 + RUBBER_DENSITY * (made.chosen.top + made.chosen.bottom))
+    )
+    assert made.chosen.carcass.stiffness == pytest.approx(6e6)
+
+
+def test_rolls_of_a_bearing_take_the_next_better_where_a_length_has_none():
+    def roll(name: str, length: int, rating: float) -> ListedItem:
+        fields = {"diameter": "133 mm", "length": f"{length} mm", "rotating_mass": "5 kg",
+                  "bearing": {"dynamic_rating": f"{rating} kN", "distance": "1 m"}}  # fmt: skip
+        return ListedItem(kind="rolls", name=name, source="list", fields=fields)
+
+    made = listed_rolls([roll("a", 315, 14.0), roll("b", 315, 22.0), roll("c", 950, 20.0)])
+    assert [(of.rating, [name for _, _, name in of.pieces]) for of in made] == [
+        (pytest.approx(14e3), ["a", "c"]),
+        (pytest.approx(20e3), ["b", "c"]),
+        (pytest.approx(22e3), ["b", "c"]),
+    ]
+    assert made[0].has(0.315, 0.95)
+    assert not made[0].has(0.38)
+
+
+def test_a_belt_listed_by_its_rating_breaks_at_ten_times_it():
+    fields = {"carcass": {"kind": "EP", "rating": "400 PIW", "thickness": "4 mm"}}
+    (one,) = listed_carcasses([ListedItem(kind="belts", name="P", source="list", fields=fields)], "EP")
+    assert one.strength == pytest.approx(4000.0 * 175.12684, rel=1e-6)  # N/m of a lbf/in
+    assert (one.name, one.safety) == ("P", pytest.approx(10.0))
+    assert not listed_carcasses([ListedItem(kind="belts", name="P", source="list", fields=fields)], "steel cord")
+
+
+@pytest.mark.parametrize(
+    ("listed", "told"),
+    [
+        ("{rolls: [R9]}", r'listed\.rolls\[0\]: "R9" is not in the library of rolls'),
+        ("{rolls: all}", r'listed\.rolls\[3\]: "bare" has no bearing\.dynamic_rating, which sizing needs'),
+        ("{belts: [woven]}", r'listed\.belts\[0\]: "woven" has no carcass\.stiffness'),
+        ("{gearboxes: all}", r'unknown key "gearboxes"; keys allowed: rolls, belts, motors'),
+        (
+            "{belts: [stock]}\nrules: {carcasses: [steel cord]}",
+            r"listed\.belts: none is of rules\.carcasses, steel cord",
+        ),
+    ],
+)
+def test_items_that_cannot_be_chosen_are_refused_at_their_place(tmp_path, listed, told):
+    with pytest.raises(InputError, match=told):
+        duty(tmp_path, listed)
+
+
+def test_lists_that_do_not_exist_are_named(tmp_path, monkeypatch):
+    (tmp_path / "none").mkdir()
+    monkeypatch.setenv("CONVEYOR_LIBRARY", str(tmp_path / "none"))
+    path = tmp_path / "duty.yaml"
+    path.write_text(f"{DUTY}listed: {{motors: all}}\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r"listed\.motors: got all, but makers' lists have no motors"):
+        read_duty(path)
+
+
+def test_where_no_item_fits_the_refusal_says_which_list(tmp_path):
+    with pytest.raises(
+        NoSolutionError, match=r"no rolls .* diameters and lengths .* list further ones \(listed\.rolls\)"
+    ):
+        size_conveyor(duty(tmp_path, "{rolls: [R108-315]}"))

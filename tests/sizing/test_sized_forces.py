@@ -1,0 +1,77 @@
+"""Tensions, torques and powers that parts are sized by, against statics by hand."""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from conveyor import shelf
+from conveyor.models.sizing import SizingDuty
+from conveyor.sizing import part_sizing
+from conveyor.sizing.screen import Candidates, first_calibration, screen_candidates
+from conveyor.sizing.sizing_task import SizingTask
+
+
+@pytest.fixture
+def task():
+    return SizingTask(
+        SizingDuty.from_data({
+            "name": "rising",
+            "material": {
+                "name": "coal", "density": "850 kg/m^3", "flow": "400 t/h", "surcharge_angle": "20 deg"
+            },
+            "lump": "100 mm",
+            "length": "300 m",
+            "lift": "40 m",
+            "ambient": {"temperature": "20 degC"},
+            "operation": {"hours_per_year": "4000 h", "price": "0.12 EUR/kWh"},
+            "covers": [shelf.compound("standard-cover")],
+            "rules": {"drives": ["head"], "carcasses": ["EP"], "carry_sag": "5 %", "return_sag": "5 %",
+                      "take_up_travel": "100 m"},
+        })
+    )  # fmt: skip
+
+
+def test_the_estimated_belt_bears_what_grip_and_force_ask(task):
+    """Eytelwein at the head of a rising belt: T1 = F (1 + 1.3/(e^(0.35 × 210°) - 1)); 5 % of sag asks for less."""
+    every = Candidates.of(task)
+    found = screen_candidates(task, every, first_calibration(1))
+    pull = found.design_force * (1.0 + 1.3 / math.expm1(0.35 * math.radians(210.0)))
+    width = every.runs(lambda on: on.trough.width.belt)
+    strongest = task.carcasses["EP"][-1]
+    assert found.uses["belt strength"] == pytest.approx(8.0 * pull / width / strongest.strength, rel=1e-9)
+    assert np.all(found.design_force > 0.0)
+
+
+def held(force: float, *, rolls_back: bool = True) -> SimpleNamespace:
+    """A load whose belt is held by a force [N]."""
+    return SimpleNamespace(motions=SimpleNamespace(rolls_back=rolls_back, brake_to_hold=force))
+
+
+@pytest.mark.parametrize(("force", "torque"), [(10e3, 3.15e3), (20e3, 6.3e3), (19e3, 6.3e3)])
+def test_a_backstop_holds_over_the_radius_of_its_pulley(force, torque):
+    """1.3 × 10 kN × 0.48/2 m ... 3.12 kN m for a pulley of 0.48 m: the next of R10 is 3.15 kN m."""
+    carcass = SimpleNamespace(least_pulley=0.48)
+    sized = SimpleNamespace(drive_diameter=lambda of: of.least_pulley)
+    assert part_sizing._backstop_torque(sized, carcass, [held(force), held(9e9, rolls_back=False)]) == pytest.approx(
+        torque
+    )
+    assert part_sizing._backstop_torque(sized, carcass, [held(force, rolls_back=False)]) == 0.0
+
+
+def test_motors_break_the_belt_away_with_their_rated_power(monkeypatch):
+    """50 kN × 2.5 m/s / 0.94 by two drives is 66.49 kW each, for which the reserve of 1.1 need not be added again."""
+    monkeypatch.setattr(part_sizing, "_drive_powers", lambda _: [20e3, 20e3])
+    monkeypatch.setattr(part_sizing, "_powers_by_basis", lambda *_: ())
+
+    def load(force: float) -> SimpleNamespace:
+        start = SimpleNamespace(force=force, breakaway=50e3)
+        line = SimpleNamespace(speed=2.5, efficiency=0.94, drives=(1, 2))
+        return SimpleNamespace(motions=SimpleNamespace(design_start=start), line=line)
+
+    rules = SimpleNamespace(rules=SimpleNamespace(motor_reserve=1.1))
+    assert part_sizing._required_power(rules, [load(40e3)]) == pytest.approx(66.489e3 / 1.1, rel=1e-5)
+    assert part_sizing._required_power(rules, [load(60e3)]) == pytest.approx(20e3)  # the start itself breaks it away
