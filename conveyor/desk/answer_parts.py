@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, Final, NamedTuple
@@ -20,8 +21,9 @@ from conveyor.report.line_drawings import (
 from conveyor.report.merged_notes import NOTE_HEADINGS, sort_notes
 from conveyor.report.page_elements import bullet_list, figure_list, table_html
 from conveyor.report.set_outline import set_outlines
+from conveyor.report.svg import figure_svg
 from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Column, Figure, Table
-from conveyor.report.tables.analysis_contents import TABLES, AnalysisTables
+from conveyor.report.tables.analysis_contents import TABLES, AnalysisTables, analysis_drawings
 from conveyor.text.markup import Html, element, join_html
 from conveyor.units import System
 from conveyor.units.presentation import display_unit
@@ -32,6 +34,8 @@ _NEAREST: Final = 6
 """Checks that pass and are shown without unfolding: those with the least margin."""
 _ROWS_SHOWN: Final = 500
 """Rows of a table by name that a page is given."""
+_FIGURE: Final = "figure "
+"""Before the name of a figure among those of tables."""
 _ALIKE: Final = 5e-5
 """Relative difference below which two figures are written as alike [-]; reports have four digits."""
 _NOT_COMPARED: Final = {"contact_error_estimate", "contact_energy_error"}
@@ -289,9 +293,22 @@ def _changed_checks(first: NamedAssessment, second: NamedAssessment, system: Sys
 
 
 def table_names(assessment: Assessment) -> list[tuple[str, str]]:
-    """Names of the tables that have rows, and their headings."""
+    """Names of the tables that have rows and of the report's figures, and their headings."""
     tables = AnalysisTables(assessment)
-    return [(key, tables[key].heading or key.replace("_", " ")) for key in tables]
+    figures = [(f"{_FIGURE}{one.name}", f"figure: {one.name}") for one in analysis_drawings(assessment)]
+    return [*((key, tables[key].heading or key.replace("_", " ")) for key in tables), *figures]
+
+
+def named_figure(assessment: Assessment, key: str) -> Html | None:
+    """One figure of the report by its name, as an image: the page allows no styles inside itself; None without it."""
+    drawing = next((one for one in analysis_drawings(assessment) if key == f"{_FIGURE}{one.name}"), None)
+    if drawing is None:
+        return None
+    drawn = figure_svg(drawing.draw(), drawing.name, drawing.caption)
+    if "xmlns=" not in drawn[: drawn.index(">")]:
+        drawn = Html(drawn.replace("<svg", '<svg xmlns="http://www.w3.org/2000/svg"', 1))
+    source = f"data:image/svg+xml;base64,{base64.b64encode(drawn.encode()).decode()}"
+    return element("figure", element("img", src=source, alt=drawing.caption), element("figcaption", drawing.caption))
 
 
 def named_table(assessment: Assessment, key: str, *, most: int | None = None) -> Html | None:

@@ -22,7 +22,14 @@ from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route
 
 from conveyor.assessment import Assessment
-from conveyor.desk.answer_parts import NamedAssessment, answer_parts, named_table, own_load_parts, table_names
+from conveyor.desk.answer_parts import (
+    NamedAssessment,
+    answer_parts,
+    named_figure,
+    named_table,
+    own_load_parts,
+    table_names,
+)
 from conveyor.desk.design_sliders import Slider, choose_sliders, conveyor_kind, field_slider
 from conveyor.desk.design_variant import TextChanges, command_line, field_errors
 from conveyor.desk.further_studies import offered_studies, study_part
@@ -230,7 +237,7 @@ class Desk:
         return [slider for slider in made if slider is not None]
 
     async def _table(self, request: Request) -> Response:
-        """Names of the tables of a variant, or one of them."""
+        """Names of the tables and figures of a variant, or one of them."""
         asked = await _request_data(request)
         name, changes, units = _text_value(asked, "file"), _variant_changes(asked, "changes") or {}, _units_value(asked)
         key = asked.get("key")
@@ -239,10 +246,10 @@ class Desk:
             of = self.workbench.with_flooded_belt(self._assess(name, changes, units, stop))
             if not isinstance(key, str) or not key:
                 return {"tables": table_names(of)}
-            table = named_table(of, key)
-            if table is None:
-                raise InputError(f"{key}: no table of this conveyor")
-            return {"table": table}
+            shown = named_figure(of, key) or named_table(of, key)
+            if shown is None:
+                raise InputError(f"{key}: no table or figure of this conveyor")
+            return {"table": shown}
 
         return JSONResponse(await self._calculate(request, made))
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import base64
 import json
+import re
 import shutil
 import socket
 import subprocess
@@ -348,6 +350,20 @@ def test_tables_by_name(client):
     assert ["pulleys", "Pulleys"] in names
     assert "<table" in ask(client, "/table", file="overland.yaml", changes={}, key="pulleys").json()["table"]
     assert ask(client, "/table", file="overland.yaml", changes={}, key="nope").status_code == 422
+
+
+def test_figures_by_name_are_images_of_the_units_asked_for(client):
+    names = ask(client, "/table", file="overland.yaml", changes={}).json()["tables"]
+    assert {"figure tensions", "figure profile", "figure pressure"} <= {key for key, _ in names}
+    for units, force in (("SI", "kN"), ("US", "lbf")):
+        got = ask(client, "/table", file="overland.yaml", changes={}, units=units, key="figure tensions").json()[
+            "table"
+        ]
+        source = re.search(r'<img src="data:image/svg\+xml;base64,([^"]+)" alt="Tension round the loop', got["table"])
+        drawn = base64.b64decode(source[1]).decode()
+        assert drawn.startswith("<svg")
+        assert force in drawn
+    assert ask(client, "/table", file="overland.yaml", changes={}, key="figure nope").status_code == 422
 
 
 def test_two_pages_at_once_have_each_its_own_answer(desk):
