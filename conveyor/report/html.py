@@ -119,7 +119,7 @@ def _check_counts(contents: Contents) -> tuple[Html, int]:
     return join_html(["Checks: ", *counted]), count["FAIL"]
 
 
-def _verdict(contents: Contents) -> Html:
+def _verdict_part(contents: Contents) -> Html:
     """Verdict in a sentence, key figures, and what to do about what fails."""
     counted, failing = _check_counts(contents)
     many = "one check fails" if failing == 1 else f"{failing} checks fail"
@@ -155,7 +155,7 @@ def _warning_lists(contents: Contents) -> Html:
 
 _PART_CONTENT: Final[dict[str, Callable[[Contents], Html]]] = {
     "key-figures": _key_figures,
-    "verdict": _verdict,
+    "verdict": _verdict_part,
     "method": lambda contents: bullet_list(contents.lines("method")),
     "warnings": _warning_lists,
     "assumptions": lambda contents: bullet_list(contents.lines("assumption")),

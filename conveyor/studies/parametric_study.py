@@ -284,10 +284,11 @@ class ResultStore:
             self._file.execute(f"CREATE TABLE IF NOT EXISTS answers {_COLUMNS}")
 
     def _take_out_damaged(self) -> int:
-        """Rewrite the table without damaged answers and return their number."""
+        """Rewrite the table without damaged answers, or where keys lost their order, and return the answers' number."""
         query = "SELECT key, answer, checksum FROM answers"
         damaged = sum(not _is_whole(*row) for row in self._file.execute(query))
-        if damaged:
+        (order,) = self._file.execute("PRAGMA integrity_check(1)").fetchone()
+        if damaged or order != b"ok":
             with self._file:
                 self._file.execute("BEGIN IMMEDIATE")
                 self._file.execute(f"CREATE TABLE whole {_COLUMNS}")
@@ -304,13 +305,14 @@ class ResultStore:
             yield
         except (sqlite3.DatabaseError, UnicodeDecodeError) as error:  # SQLite quotes what is damaged
             # of a statement of ours SQLite says ERROR where the file's own schema is another
-            if isinstance(error, sqlite3.OperationalError) and error.sqlite_errorcode != sqlite3.SQLITE_ERROR:
+            no_passing = {sqlite3.SQLITE_ERROR, sqlite3.SQLITE_READONLY}
+            if isinstance(error, sqlite3.OperationalError) and error.sqlite_errorcode not in no_passing:
                 other = "another run of the study writes to it" if "locked" in str(error) else "make room"
                 raise ConveyorError(
                     f"{self._path}: cannot be written ({error}; {other}); what is done is kept: run it again to go on"
                 ) from None
             raise InputError(
-                f"{self._path}: holds something else than answers of a study, or is damaged ({error}); remove it"
+                f"{self._path}: holds something else than answers of a study, or is damaged or read-only ({error}); remove it"
             ) from None
 
     def among(self, keys: Sequence[bytes]) -> set[bytes]:
@@ -324,8 +326,7 @@ class ResultStore:
         with self._told():
             row = self._file.execute(query, (key,)).fetchone()
         if row is None or not _is_whole(key, *row):
-            said = "an answer does not match its checksum; remove the file and run the study again"
-            raise ConveyorError(f"{self._path}: {said}")
+            raise ConveyorError(f"{self._path}: was damaged while the study ran; remove it and run the study again")
         answer: Answer = json.loads(row[0])
         return answer
 
