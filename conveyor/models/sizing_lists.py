@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, Final, Literal, Self, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, Self, TypeAlias
 
 from pydantic import Field, ValidationInfo, WithJsonSchema, model_validator
 
@@ -11,7 +11,7 @@ from conveyor.errors import InputError
 from conveyor.laws.tension import usual_stiffness
 from conveyor.models.base import Model, Problem, raise_problems
 from conveyor.models.library_items import find_item
-from conveyor.models.maker_lists import ListedItem, MakerKind, MakerLists
+from conveyor.models.maker_lists import Listed, ListedItem, MakerKind, MakerLists
 from conveyor.units import read_si
 
 SizedKind: TypeAlias = Literal["rolls", "belts", "motors"]
@@ -21,7 +21,10 @@ _BEARING_FIELDS: Final = ("dynamic_rating", "distance")
 ALL: Final = "all"
 _SCHEMA: Final = {"anyOf": [{"const": ALL}, {"type": "array", "items": {"type": "string"}}],
                   "description": "Names of items, or `all`."}  # fmt: skip
-Items: TypeAlias = Annotated[tuple[ListedItem, ...], Field(max_length=1000), WithJsonSchema(_SCHEMA)]
+if TYPE_CHECKING:
+    Items: TypeAlias = tuple[ListedItem, ...]
+else:  # names as written; a model that was read has the items
+    Items = Annotated[tuple[Listed, ...], Field(max_length=1000), WithJsonSchema(_SCHEMA)]
 
 
 class ListedSeries(Model):

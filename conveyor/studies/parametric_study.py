@@ -312,7 +312,8 @@ class ResultStore:
                     f"{self._path}: cannot be written ({error}; {other}); what is done is kept: run it again to go on"
                 ) from None
             raise InputError(
-                f"{self._path}: holds something else than answers of a study, or is damaged or read-only ({error}); remove it"
+                f"{self._path}: holds something else than answers of a study, or is damaged or read-only ({error}); "
+                "remove it"
             ) from None
 
     def among(self, keys: Sequence[bytes]) -> set[bytes]:
