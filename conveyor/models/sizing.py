@@ -279,10 +279,13 @@ class SizingDuty(Model):
         """Refuse rules that the series or the lists have no parts for."""
         sizes, rules = size_series(self.series), self.rules
         yield from self._size_problems("widths", rules.widths, (row.belt for row in sizes.widths))
-        if not self.listed.rolls:
+        if not self.listed.items("rolls"):
             diameters = (row.diameter for row in sizes.rolls)
             yield from self._size_problems("roll_diameters", rules.roll_diameters, diameters)
-        kinds = {"steel cord" if one.fields["carcass"]["kind"] == "steel cord" else "EP" for one in self.listed.belts}
+        kinds = {
+            "steel cord" if one.fields["carcass"]["kind"] == "steel cord" else "EP"
+            for one in self.listed.items("belts")
+        }
         if kinds and not kinds & set(rules.carcasses):
             told = f"none is of rules.carcasses, {' and '.join(rules.carcasses)}: list others or allow them"
             yield Problem(("listed", "belts"), told)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Annotated, Any, Final, Literal, Self, TypeAlias
+from typing import Annotated, Any, Final, Literal, Self, TypeAlias
 
 from pydantic import Field, ValidationInfo, WithJsonSchema, model_validator
 
@@ -21,21 +21,18 @@ _BEARING_FIELDS: Final = ("dynamic_rating", "distance")
 ALL: Final = "all"
 _SCHEMA: Final = {"anyOf": [{"const": ALL}, {"type": "array", "items": {"type": "string"}}],
                   "description": "Names of items, or `all`."}  # fmt: skip
-if TYPE_CHECKING:
-    Items: TypeAlias = tuple[ListedItem, ...]
-else:  # names as written; a model that was read has the items
-    Items = Annotated[tuple[Listed, ...], Field(max_length=1000), WithJsonSchema(_SCHEMA)]
+Items: TypeAlias = Annotated[tuple[Listed, ...], Field(max_length=1000), WithJsonSchema(_SCHEMA)]
 
 
 class ListedSeries(Model):
     """Makers' items to choose from, by name or `all`; the package's series for kinds without."""
 
     rolls: Items = ()
-    """Rolls: for each width and diameter those of the lengths that its sets need."""
+    """Rolls, by name or `all`: for each width and diameter those of the lengths that its sets need."""
     belts: Items = ()
-    """Belts; one listed with its covers has those."""
+    """Belts, likewise; one listed with its covers has those."""
     motors: Items = ()
-    """Motors, of one of which the power is."""
+    """Motors, likewise."""
 
     @model_validator(mode="before")
     @classmethod
@@ -54,7 +51,7 @@ class ListedSeries(Model):
     def _usable(self) -> Self:
         problems = []
         for kind in SIZED_KINDS:
-            for i, item in enumerate(getattr(self, kind)):
+            for i, item in enumerate(self.items(kind)):
                 missing = _missing_field(item)
                 if item.kind != kind:
                     problems.append(Problem((kind, i), f'got "{item.name}", which is of {item.kind}'))
@@ -63,6 +60,10 @@ class ListedSeries(Model):
                     problems.append(Problem((kind, i), told))
         raise_problems(type(self).__name__, problems)
         return self
+
+    def items(self, kind: SizedKind) -> tuple[ListedItem, ...]:
+        """Items of a kind; names are items once they are read."""
+        return tuple(item for item in getattr(self, kind) if isinstance(item, ListedItem))
 
 
 def _find_items(

@@ -92,7 +92,7 @@ def _field_text(task: SizingTask, value: float, unit: str, digits: int = 6) -> s
 def _belt_fields(task: SizingTask, carcass: CarcassClass) -> dict[str, Any]:
     """Spec fields of a carcass, or of the belt of a maker's list."""
     if carcass.listed:
-        return {"listed": listed_belt(named_item(task.duty.listed.belts, carcass.listed), carcass)}
+        return {"listed": listed_belt(named_item(task.duty.listed.items("belts"), carcass.listed), carcass)}
     strength = (
         {"strength": _field_text(task, carcass.strength, "N/mm")}
         if carcass.rating is None
@@ -169,7 +169,7 @@ def _motor_fields(task: SizingTask, rated: float, turning: float) -> dict[str, A
 def _roll_fields(task: SizingTask, roll: RollSize, length: float) -> dict[str, Any]:
     listed = roll.piece(length)
     if listed is not None:
-        return {"listed": named_item(task.duty.listed.rolls, listed[1])}
+        return {"listed": named_item(task.duty.listed.items("rolls"), listed[1])}
     return {
         "diameter": _field_text(task, roll.diameter, "mm"),
         "length": _field_text(task, length, "mm"),

@@ -153,8 +153,8 @@ class SizingTask:
     @property
     def _motors(self) -> tuple[float, ...]:
         """Rated motor powers of the series, or of the lists [W]."""
-        if self.duty.listed.motors:
-            return tuple(sorted({motor_power(item) for item in self.duty.listed.motors}))
+        if self.duty.listed.items("motors"):
+            return tuple(sorted({motor_power(item) for item in self.duty.listed.items("motors")}))
         return NEMA_MOTORS if self.duty.series == "US" else MOTOR_SERIES
 
     @property
@@ -176,7 +176,7 @@ class SizingTask:
     def listed_motor(self, rated: float) -> ListedItem | None:
         """Item of a list for the equal motors of a pulley of a rated power [W]; None without lists."""
         one = rated / self.motor_count(rated)
-        return next((item for item in self.duty.listed.motors if same_width(motor_power(item), one)), None)
+        return next((item for item in self.duty.listed.items("motors") if same_width(motor_power(item), one)), None)
 
     def motor_count(self, rated: float) -> int:
         """Number of equal motors of a pulley for a rated power [W]."""
@@ -279,7 +279,7 @@ class SizingTask:
         shapes = []
         for row in self.sizes.widths:
             belt, vee = si(row.belt), si(row.belt) >= si(self.sizes.vee_from)
-            usual = tuple(map(si, rules.roll_diameters or (() if self.duty.listed.rolls else row.rolls)))
+            usual = tuple(map(si, rules.roll_diameters or (() if self.duty.listed.items("rolls") else row.rolls)))
             width = WidthSize(belt, si(row.one), si(row.two), si(row.three), vee, usual)
             if not within_limit(least, belt):
                 continue
@@ -334,8 +334,8 @@ class SizingTask:
     @cached_property
     def rolls(self) -> tuple[RollSize, ...]:
         """Roll sizes of the library, or of the lists."""
-        if self.duty.listed.rolls:
-            return listed_rolls(self.duty.listed.rolls)
+        if self.duty.listed.items("rolls"):
+            return listed_rolls(self.duty.listed.items("rolls"))
         return tuple(
             RollSize(si(row.diameter), si(row.wall), si(row.ends), si(row.dynamic_rating), row.cema_class)
             for row in self.sizes.rolls
@@ -379,8 +379,8 @@ class SizingTask:
     @cached_property
     def carcasses(self) -> Mapping[str, tuple[CarcassClass, ...]]:
         """Carcass classes of each kind, the weakest first."""
-        if self.duty.listed.belts:
-            return {kind: listed_carcasses(self.duty.listed.belts, kind) for kind in self.rules.carcasses}
+        if self.duty.listed.items("belts"):
+            return {kind: listed_carcasses(self.duty.listed.items("belts"), kind) for kind in self.rules.carcasses}
         rows = {"EP": self.sizes.textile, "steel cord": self.sizes.steel_cord}
         return {kind: tuple(_carcass_class(kind, row) for row in rows[kind]) for kind in self.rules.carcasses}
 

@@ -261,6 +261,19 @@ def test_motors_by_cema_need_its_factors(small):
         small.replace(rules=small.rules.replace(basis="cema classic"))
 
 
+def test_covers_are_those_of_wear_whatever_energy_is_worth(small):
+    """A thicker bottom cover would brake a descending belt for nothing; the points of wear decide alone."""
+    down = {"sections": [{"name": "slope", "length": "180 m", "lift": "-25 m"}]}
+    for price in ("0 EUR/kWh", "0.3 EUR/kWh"):
+        operation = small.operation.replace(feed_in_price=price)
+        best = size_conveyor(small.replace(route=down, operation=operation), best=1).best
+        task, carcass = SizingTask(small.replace(route=down)), best.chosen.carcass
+        worn = task.worn_covers(carcass, task.wear(best.choice.speed))
+        assert (best.chosen.top, best.chosen.bottom) == pytest.approx(worn)
+        assert best.choice.thicker == 0.0
+        assert best.chosen.bottom == pytest.approx(max(carcass.least_cover, best.chosen.top / 3.0), abs=0.5e-3)
+
+
 def test_sets_of_the_us_stand_no_farther_apart_than_cema_suggests():
     duty = read_duty(DUTIES / "in_plant_us.yaml")
     every = Candidates.of(SizingTask(duty))
