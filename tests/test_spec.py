@@ -371,7 +371,7 @@ def test_from_data_names_places_of_its_source(tmp_path: Path) -> None:
 def test_schema_is_json_and_names_every_field() -> None:
     schema = json.loads(json.dumps(spec.schema(), allow_nan=False))
     assert schema["$schema"].endswith("2020-12/schema")
-    assert set(schema["properties"]) == set(Conveyor.model_fields)
+    assert set(schema["properties"]) == {info.alias or name for name, info in Conveyor.model_fields.items()}
     assert "return" in schema["$defs"]["Idlers"]["properties"]
     assert schema["$defs"]["IdlerSet"]["properties"]["sag"]["default"] == "1 %"
     compound = schema["$defs"]["Cover"]["properties"]["compound"]["anyOf"]

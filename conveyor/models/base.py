@@ -5,9 +5,8 @@ from __future__ import annotations
 import ast
 import inspect
 import marshal
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
-from functools import cache, cached_property
+from collections.abc import Callable, Iterable, Mapping
+from functools import cache, cached_property, partial
 from hashlib import blake2b
 from itertools import pairwise
 from textwrap import dedent
@@ -152,6 +151,9 @@ class _SchemaWriter(GenerateJsonSchema):
         return spec_value(dft) if is_quantity(dft) else super().encode_default(dft)
 
 
+T = TypeVar("T")
+
+
 class Model(BaseModel):
     """Base of all models; input refused in any way of making one raises `SpecError`."""
 
@@ -165,8 +167,7 @@ class Model(BaseModel):
     )
 
     def __init__(self, /, **fields: Any) -> None:
-        with self._refusals():
-            super().__init__(**fields)
+        self._validated(partial(super().__init__, **fields))
 
     # Pydantic validates nested models without calling `__init__`: their errors keep their locations.
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
@@ -193,8 +194,7 @@ class Model(BaseModel):
         SpecError
             The data are refused; every refusal on its own line.
         """
-        with cls._refusals():
-            return super().model_validate(obj, **options)
+        return cls._validated(partial(super().model_validate, obj, **options))
 
     @classmethod
     def model_validate_json(cls, json_data: str | bytes | bytearray, **options: Any) -> Self:
@@ -205,8 +205,7 @@ class Model(BaseModel):
         SpecError
             The data are refused; every refusal on its own line.
         """
-        with cls._refusals():
-            return super().model_validate_json(json_data, **options)
+        return cls._validated(partial(super().model_validate_json, json_data, **options))
 
     @classmethod
     def model_validate_strings(cls, obj: Any, **options: Any) -> Self:
@@ -217,17 +216,16 @@ class Model(BaseModel):
         SpecError
             The data are refused; every refusal on its own line.
         """
-        with cls._refusals():
-            return super().model_validate_strings(obj, **options)
+        return cls._validated(partial(super().model_validate_strings, obj, **options))
 
     @classmethod
-    @contextmanager
-    def _refusals(cls) -> Iterator[None]:
-        """Turn pydantic's validation errors into errors of this package."""
+    def _validated(cls, validate: Callable[[], T]) -> T:
+        """Result of a validation; its errors as those of this package, without pydantic's, which are not unpickled."""
         try:
-            yield
+            return validate()
         except ValidationError as error:
-            raise cls.refusal(error) from None
+            refused = cls.refusal(error)
+        raise refused
 
     def replace(self, **changes: Any) -> Self:
         """Return a copy with changed fields, checked like new input.

@@ -81,9 +81,11 @@ class Conveyor(ConveyorParts):
                 "Conveyor", [problem for check in new.values() for problem in check(made)], made.report.units
             )
         except ValidationError as error:
-            raise self.refusal(error) from None
-        passed.update(dict.fromkeys(new))
-        return made
+            refused = self.refusal(error)
+        else:
+            passed.update(dict.fromkeys(new))
+            return made
+        raise refused
 
     def _case_names(self) -> Iterator[Problem]:
         """Refuse load cases that share a name."""
