@@ -282,6 +282,9 @@ class SizingDuty(Model):
         if not self.listed.items("rolls"):
             diameters = (row.diameter for row in sizes.rolls)
             yield from self._size_problems("roll_diameters", rules.roll_diameters, diameters)
+        if rules.loading_spacing is not None and (self.route is None or self.route.feeding is None):
+            told = "given, but the route has no loading point; give route.feeding with its skirts, or remove it"
+            yield Problem(("rules", "loading_spacing"), told)
         kinds = {
             "steel cord" if one.fields["carcass"]["kind"] == "steel cord" else "EP"
             for one in self.listed.items("belts")

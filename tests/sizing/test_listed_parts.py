@@ -164,3 +164,9 @@ def test_where_no_item_fits_the_refusal_says_which_list(tmp_path):
         NoSolutionError, match=r"no rolls .* diameters and lengths .* list further ones \(listed\.rolls\)"
     ):
         size_conveyor(duty(tmp_path, "{rolls: [R108-315]}"))
+
+
+def test_the_example_is_built_of_its_store():
+    best = size_conveyor(read_duty(Path(__file__).parents[2] / "examples" / "listed" / "in_plant.yaml"), best=1).best
+    assert best.conveyor.idlers.carry.roll.listed.source == "example, no maker's"
+    assert best.conveyor.drive.listed[0].name in {"M90", "M110"}

@@ -261,6 +261,11 @@ def test_motors_by_cema_need_its_factors(small):
         small.replace(rules=small.rules.replace(basis="cema classic"))
 
 
+def test_a_spacing_where_nothing_is_loaded_is_refused(small):
+    with pytest.raises(InputError, match=r"rules\.loading_spacing.*the route has no loading point"):
+        small.replace(rules=small.rules.replace(loading_spacing="500 mm"))
+
+
 def test_covers_are_those_of_wear_whatever_energy_is_worth(small):
     """A thicker bottom cover would brake a descending belt for nothing; the points of wear decide alone."""
     down = {"sections": [{"name": "slope", "length": "180 m", "lift": "-25 m"}]}
