@@ -68,7 +68,7 @@ class DesignField:
 
 
 def form_rows(conveyor: Conveyor, data: Mapping[str, Any]) -> tuple[DesignField, ...]:
-    """Every field of a spec, in the order of the models; lists with the entries that they have.
+    """Every field of a spec but the version of its format, in the order of the models; lists with their entries.
 
     Parameters
     ----------
@@ -86,7 +86,9 @@ def form_rows(conveyor: Conveyor, data: Mapping[str, Any]) -> tuple[DesignField,
     """
     known = _values_by_path(conveyor, data)
     rows = []
-    for pattern, field in format_fields(Conveyor).items():
+    fields = format_fields(Conveyor)
+    del fields["conveyor"]
+    for pattern, field in fields.items():
         for path in _expand_path(conveyor, pattern):
             value, origin = known.get(path, (None, ""))
             choices = tuple(map(str, field.choices)) if field.kind == "choice" else _library_names(conveyor, path)

@@ -51,7 +51,8 @@ def test_the_form_has_every_field_of_the_models_once():
     rows = form_of(OVERLAND)
     paths = [row.path for row in rows]
     assert len(paths) == len(set(paths))
-    assert {pattern for pattern in format_fields(Conveyor) if "[]" not in pattern} <= set(paths)
+    expected = {pattern for pattern in format_fields(Conveyor) if "[]" not in pattern}
+    assert expected - set(paths) == {"conveyor"}  # the version of the format is no choice of a designer
     assert all(row.doc or row.kind == "choice" for row in rows if not row.path.startswith("uncertainty"))
 
 
