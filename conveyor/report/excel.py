@@ -6,6 +6,7 @@ import gc
 import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from datetime import UTC, datetime
 from functools import partial
 from io import BytesIO
 from pathlib import Path
@@ -14,6 +15,7 @@ from zipfile import ZIP_DEFLATED, ZipFile
 
 from openpyxl import Workbook
 from openpyxl.worksheet.worksheet import Worksheet
+from openpyxl.writer.excel import ExcelWriter
 
 from conveyor.errors import InputError
 from conveyor.files import output_marks
@@ -129,8 +131,10 @@ def workbook_files(contents: Contents, path: Path) -> dict[Path, bytes]:
     live: dict[tuple[str, str], float | str] = {}
     with _pause_collector():
         book, content = build_workbook(contents, path.stem, live), BytesIO()
-        with name_write_errors(path):
-            book.save(content)  # by way of temporary files
+        book.properties.modified = datetime.now(UTC).replace(tzinfo=None)
+        # as `book.save`, which goes by way of temporary files and leaves the archive open where one cannot be written
+        with name_write_errors(path), ZipFile(content, "w", ZIP_DEFLATED) as archive:
+            ExcelWriter(book, archive).save()
     long = [part for part in contents.tables if len(part.rows) > MOST_ROWS]
     beside = {path.with_name(long_table_file(path.stem, part)): csv_bytes(part.frame(contents.system)) for part in long}
     values = {(book.sheetnames.index(sheet) + 1, cell): value for (sheet, cell), value in live.items()}
