@@ -3,7 +3,7 @@
 Run it as ``python examples/07_laboratory.py [FOLDER]``: it writes isotherms, stress relaxation and a temperature sweep
 of one rubber as three instruments export them. The rubber is constructed, as the shelf's standard cover is, but of one
 glass transition, at -50 degC; 1 % noise on E' and E(t), 2 % on E''; so the truth is known. examples/laboratory holds
-what it writes; a test holds the one against the other, and docs/rubber.md goes on from there.
+what it writes; a test holds the one against the other, and docs/laboratory.md goes on from there.
 """
 
 from __future__ import annotations

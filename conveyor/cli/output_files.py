@@ -138,19 +138,19 @@ class Outputs:
         """Make the page of a report as HTML or PDF files."""
         from conveyor.report import html
 
-        self.page(html.build_page(contents), paths)
+        self.page(partial(html.build_page, contents), paths)
 
-    def page(self, page: Html, paths: Iterable[Path]) -> None:
-        """Make a page as HTML or PDF, by file ending."""
+    def page(self, build: Callable[..., Html], paths: Iterable[Path]) -> None:
+        """Make a page as HTML or PDF, by file ending, from its builder with `on_paper`."""
         for path in paths:
             if path.suffix.lower() == ".pdf":
                 from conveyor.report import pdf
 
                 with atomic_write.name_write_errors(path):
-                    made = pdf.page_pdf(page)
+                    made = pdf.page_pdf(build(on_paper=True))
                 self.add("PDF", path, {path: made})
             else:
-                self.add("page", path, {path: page.encode()})
+                self.add("page", path, {path: build().encode()})
 
     def tabled(self, contents: Contents, folder: Path, *, parquet: bool) -> None:
         """Make a file for each table of a report."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Annotated, Final
@@ -262,7 +263,7 @@ def _verdict_lines(
     for path in books:
         to.report(fit_tables.fit_contents(rubber, criteria, said), path)
     if paged:
-        to.page(fit_page.build_page(rubber, criteria, said), paged)
+        to.page(partial(fit_page.build_page, rubber, criteria, said), paged)
     return ["verdict", *(f"  {one.verdict:>11}  {one.line}" for one in criteria)]
 
 

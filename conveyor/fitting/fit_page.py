@@ -14,11 +14,17 @@ from conveyor.models.report import Paper
 from conveyor.report.page_elements import PagePart, bullet_list, fact_list, page_html, table_html
 from conveyor.report.page_elements import verdict_mark as mark
 from conveyor.report.svg import captioned_drawing, figure_svg
+from conveyor.report.table_model import PagePlacement
 from conveyor.text.markup import Html, element, join_html
 
 
 def build_page(
-    fitted: FittedCompound, criteria: Sequence[Criterion], document: Mapping[str, str], *, paper: Paper = "A4"
+    fitted: FittedCompound,
+    criteria: Sequence[Criterion],
+    document: Mapping[str, str],
+    *,
+    paper: Paper = "A4",
+    on_paper: bool = False,
 ) -> Html:
     """Return the page of a fit.
 
@@ -33,12 +39,14 @@ def build_page(
         given nor stated by the files.
     paper : {"A4", "Letter"}
         To print on.
+    on_paper : bool
+        True for figures drawn for paper, not for a screen.
     """
     known = fit_tables.document_fields(fitted, document)
     said = [(name, known.get(name, Html("&nbsp;"))) for name in fit_tables.DOCUMENT_FIELDS]
     compound = fitted.compound
     *others, errors, curve = [
-        captioned_drawing(figure_svg(made, f"fit-{name}", caption), caption)
+        captioned_drawing(figure_svg(made, f"fit-{name}", caption, on_paper=on_paper), caption)
         for name, caption, made in fit_figures(fitted)
     ]
     parts = (
@@ -61,7 +69,8 @@ def _verdict_sheet(fitted: FittedCompound, criteria: Sequence[Criterion], drawn:
     counted = join_html(part for word, n in count.items() if n for part in (f"{n} ", mark(word), Html("&ensp;")))
     word = "pass" if is_accepted(tuple(criteria)) else "FAIL"
     line = element("p", element("strong", "Master curve: "), mark(word), Html("&ensp; Criteria: "), counted)
-    shown = table_html(fit_tables.criteria_table(criteria), "Every criterion, and what it requires")
+    caption = "Every criterion, and what it requires"
+    shown = table_html(fit_tables.criteria_table(criteria).on_page(PagePlacement("verdict", caption)), caption)
     names = ("measured by, date", "approved by, date")
     signed = element("div", *(element("div", name) for name in names), class_="signed keep")
     return element("div", line, fact_list(fit_tables.fit_facts(fitted)), shown, *drawn, signed, class_="sheet")

@@ -65,7 +65,8 @@ def criteria_table(criteria: Sequence[Criterion]) -> Table:
         Column("calculated", "text", "calculated"),
         Column("required", "text", "required"),
         Column("verdict", "verdict", "verdict"),
-        Column("what it says", "text", "why"),
+        Column("what it says", "text", "why", page=None),
+        Column("remark", "text", lambda row: None if row.verdict == "pass" else row.why, sheet=False, sparse=True),
     )
     return Table("criteria", "Verdict", "Criteria", columns, tuple(criteria))
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 _HEIGHT: Final = 6.6  # of two plots on each other [in]
 _POINTS: Final = 200
 _LABEL_SPACING: Final = 0.13  # of a plot's height, between labels next to it
+_MARK_WIDTH: Final = 9.0  # of a mark before its label [pt]
 _LEGEND_ENTRIES: Final = 6  # isotherms in a legend; of more every few are named
 
 
@@ -79,9 +80,11 @@ def _plot_marks(
 def _label_marks(axis: Axes) -> None:
     """Write the labels of marks right of the data."""
     for k, (mark, label) in enumerate(zip(*axis.get_legend_handles_labels(), strict=True)):
-        for words, shade, x in (("●", mark.get_color(), 1.02), (label, "0.1", 1.05)):  # type: ignore[attr-defined]
-            where = (x, 1.0 - _LABEL_SPACING * k)
-            axis.annotate(words, where, xycoords="axes fraction", va="top", fontsize=8, color=shade)
+        for words, shade, x in (("●", mark.get_color(), 0.0), (label, "0.1", _MARK_WIDTH)):  # type: ignore[attr-defined]
+            axis.annotate(
+                words, (1.02, 1.0 - _LABEL_SPACING * k), (x, 0.0), xycoords="axes fraction",
+                textcoords="offset points", va="top", fontsize=8, color=shade,
+            )  # fmt: skip
         mark.set_label("_")  # named; a page gives other colours to what has a label
 
 

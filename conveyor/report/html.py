@@ -58,14 +58,14 @@ def write_page(contents: Contents, path: Path) -> Path:
     return path
 
 
-def build_page(contents: Contents) -> Html:
-    """Build the page of a report."""
+def build_page(contents: Contents, *, on_paper: bool = False) -> Html:
+    """Build the page of a report, for a screen or with its figures drawn for paper."""
     about = contents.document
     made = f"conveyor {package_version('conveyor')}, {date.today().isoformat()}"
     if about.fingerprint:
         made += f", spec SHA-256 {about.fingerprint[:16]}"
     document = fact_list(about.said.items(), "facts document") if about.said else Html("")
-    parts = [part for named in contents.page if (part := _page_part(contents, *named)).content]
+    parts = [part for named in contents.page if (part := _page_part(contents, *named, on_paper=on_paper)).content]
     kind, top = f"{about.kind}, {date.today().isoformat()}", join_html([document, _page_top(contents)])
     return page_html(about.title, kind, top, parts, made, paper=about.paper)
 
@@ -79,15 +79,15 @@ def _page_top(contents: Contents) -> Html:
     return join_html([fact_list(said), *(element("p", line) for line in contents.lines("note of the spec"))])
 
 
-def _page_part(contents: Contents, name: str, heading: str) -> PagePart:
+def _page_part(contents: Contents, name: str, heading: str, *, on_paper: bool) -> PagePart:
     """Part of the page: its own content, drawings, tables with their notes."""
     content = [_PART_CONTENT[name](contents)] if name in _PART_CONTENT else []
-    content += [_page_drawing(drawing) for drawing in contents.drawings if drawing.above == name]
+    content += _page_drawings(contents, name, on_paper=on_paper)
     for shown in contents.parts:
         places = [place for place in shown.places if place.part == name]
         for place in places:
             if place == shown.places[0] and shown.key != name:
-                content += [_page_drawing(drawing) for drawing in contents.drawings if drawing.above == shown.key]
+                content += _page_drawings(contents, shown.key, on_paper=on_paper)
             made = _page_table(shown.on_page(place), place.caption, contents.system)
             content.append(made if place.printed else fold_away(place.caption, made))
         if any(place.printed for place in places) and shown.note and shown.key != "defaults":
@@ -104,11 +104,16 @@ def _page_table(shown: Table, caption: str, system: System) -> Html:
     return figure_list(shown, caption, system) if shown.figures else table_html(shown, caption, system)
 
 
-def _page_drawing(drawing: Drawing) -> Html:
+def _page_drawings(contents: Contents, above: str, *, on_paper: bool) -> list[Html]:
+    """Drawings above a table or part."""
+    return [_page_drawing(one, on_paper=on_paper) for one in contents.drawings if one.above == above]
+
+
+def _page_drawing(drawing: Drawing, *, on_paper: bool) -> Html:
     made = drawing.draw()
     if isinstance(made, Html):  # an animation: paper has the envelope of it beside
         return captioned_drawing(made, drawing.caption, printed=False)
-    return captioned_drawing(figure_svg(made, drawing.name, drawing.caption), drawing.caption)
+    return captioned_drawing(figure_svg(made, drawing.name, drawing.caption, on_paper=on_paper), drawing.caption)
 
 
 def _check_counts(contents: Contents) -> tuple[Html, int]:

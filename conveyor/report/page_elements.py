@@ -164,9 +164,7 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
   .scroll { overflow: visible; }
   table { font-size: 6.9pt; line-height: 1.12; }
   th, td { padding: .07rem .35rem; }
-  figure { display: inline-block; width: 49%; vertical-align: top; }
-  figure:only-of-type { display: block; width: auto; }
-  figure:only-of-type svg { max-width: 108mm; max-height: 200mm; }
+  figure svg { max-width: 158mm; max-height: 200mm; }
   .wide table { font-size: 6.5pt; }
   .wide th, .wide td { padding: .07rem .2rem; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }

@@ -31,10 +31,15 @@ _PAPER: Final = re.compile(r"@page { size: (\w+); }")
 _DRAWING: Final = re.compile(r"<svg\b.*?</svg>", re.DOTALL)
 _SVG_NAMESPACE: Final = "http://www.w3.org/2000/svg"
 _PAGE_WIDTH: Final = 521.0  # between the margins of A4 [pt]
-_SIZE, _SMALL = 8.0, 8.0  # letters of tables, and of those of many columns [pt]
+_SIZE = 8.0  # letters of tables [pt]
 _SHORT: Final = 13  # characters up to which a text ("> 100 %") stays on one line
 _LONGEST: Final = 40  # characters of a word beyond which a column is not made wider for it
 _LETTER, _GAP = 0.62, 1.8  # width of a letter over its size; letters that the room between columns takes
+_NAME: Final = 24  # letters of a name of a row that stand on one line
+_BOLD: Final = 1.13  # width of a letter of a heading over that of text
+_HEAD_LINES: Final = 3  # of a heading above a narrow column
+_SHARES: Final = 20  # steps of the width that parts of a table are filled to
+_ROOM: Final = _PAGE_WIDTH / (_SIZE * _LETTER)  # of a line [letters]
 _VOID_TAGS: Final = frozenset({"meta", "br"})
 _SCREEN_TAGS: Final = frozenset({"head", "nav", "details", "button", "footer"})
 _INKS: Final = {"pass": "good", "fail": "bad", "open": "open"}
@@ -114,7 +119,7 @@ def write_pdf(contents: Contents, path: Path) -> Path:
         raise InputError(f'{path}: a PDF\'s name ends in .pdf, got "{path.suffix}"')
     require_typst()
     check_writable(path)
-    save_files({path: page_pdf(build_page(contents))})
+    save_files({path: page_pdf(build_page(contents, on_paper=True))})
     return path
 
 
@@ -233,20 +238,25 @@ class _TypstWriter:
         return self.flow(element) + ("\n#pagebreak(weak: true)\n" if "sheet" in element.classes else "")
 
     def table(self, element: _Element, kinds: frozenset[str]) -> str:
-        """A table with its caption; its header repeats on every page."""
+        """A table with its caption, in parts where it is too wide; its header repeats on every page."""
         caption, head, *parts = element.elements
         (heads,) = head.elements
-        rows = [(row, part.tag == "tfoot") for part in parts for row in part.elements]
-        size, columns = _column_layout([heads, *(row for row, _ in rows)], wide="wide" in kinds)
+        rows = [(row.elements, part.tag == "tfoot") for part in parts for row in part.elements]
         name = f"{'hide' if 'further' in caption.classes else 'muted-text'}[{self.flow(caption)}]"
-        cells = [f"table.header({self.cells(heads)})", *(self.cells(row, strong=foot) for row, foot in rows)]
-        given = ",\n".join([str("keep" in kinds).lower(), f"{size:.2f}pt", columns, name, *cells])
-        return f"\n#captioned({given})\n"
+        keep, made = str("keep" in kinds).lower(), []
+        for shown in _split_columns([heads.elements, *(row for row, _ in rows)]):
+            lines = [([row[j] for j in shown], foot) for row, foot in ((heads.elements, False), *rows)]
+            size, columns = _column_layout([line for line, _ in lines])
+            top, *below = (self.cells(line, strong=foot) for line, foot in lines)
+            given = ",\n".join([keep, f"{size:.2f}pt", columns, name, f"table.header({top})", *below])
+            made.append(f"\n#captioned({given})\n")
+            name = "none"
+        return "".join(made)
 
-    def cells(self, row: _Element, *, strong: bool = False) -> str:
+    def cells(self, row: Sequence[_Element], *, strong: bool = False) -> str:
         """Cells of a row; numbers aligned right."""
         made = []
-        for cell in row.elements:
+        for cell in row:
             how = ["align: right"] * bool(cell.classes & {"n", "v"})
             how += ["fill: open-pale"] * ("asked" in cell.classes)
             words = f"#strong[{self.flow(cell)}]" if strong else self.flow(cell)
@@ -261,27 +271,69 @@ class _TypstWriter:
         return f"({_typst_string(svg)}, [{self.flow(element.first('figcaption'))}])"
 
 
-def _column_layout(rows: Sequence[_Element], *, wide: bool) -> tuple[float, str]:
+@dataclass(frozen=True)
+class _ColumnNeed:
+    """Letters that a column needs: on one line, on few lines, and at least; with the gap to the next."""
+
+    whole: float
+    wanted: float
+    least: float
+
+    @classmethod
+    def of(cls, head: _Element, below: Sequence[_Element]) -> _ColumnNeed:
+        """Need of a column: at least its longest word, short text or number, and a line of the names of rows."""
+        longest, heading = max((len(cell.text) for cell in below), default=0), _BOLD * len(head.text)
+        kept = [len(cell.text) for cell in below if cell.classes & {"n", "name"} or len(cell.text) <= _SHORT]
+        words = [min(len(word), _LONGEST) for cell in below for word in cell.text.split()]
+        names = [min(longest, _NAME)] if any(cell.tag == "th" for cell in below) else []
+        least = max([*kept, *words, *names, *(_BOLD * len(word) for word in head.text.split())], default=0)
+        needs = max(longest, heading), max(longest, heading / _HEAD_LINES, least), least
+        return cls(*(need + _GAP for need in needs))
+
+
+def _column_needs(rows: Sequence[Sequence[_Element]]) -> list[_ColumnNeed]:
+    return [_ColumnNeed.of(head, below) for head, *below in zip(*rows, strict=True)]
+
+
+def _split_columns(rows: Sequence[Sequence[_Element]]) -> list[list[int]]:
+    """Columns of a table in as few parts as fit the page, alike in width, each with the columns that name the rows."""
+    named = sum(cell.tag == "th" for cell in rows[-1]) if len(rows) > 1 else 0
+    least = [need.least for need in _column_needs(rows)]
+    names, rest = list(range(named)), range(named, len(least))
+    room = _ROOM - sum(least[:named])
+    if sum(least[named:]) <= room or room < max(least[named:], default=0.0):
+        return [list(range(len(least)))]
+
+    def packed(most: float) -> list[list[int]]:
+        """Columns filled up one after another."""
+        parts, filled = [list(names)], 0.0
+        for j in rest:
+            if filled + least[j] > most and filled:
+                parts.append(list(names))
+                filled = 0.0
+            parts[-1].append(j)
+            filled += least[j]
+        return parts
+
+    fewest = len(packed(room))
+    shares = (room * k / _SHARES for k in range(1, _SHARES + 1))
+    return next(parts for share in shares if len(parts := packed(share)) <= fewest)
+
+
+def _column_layout(rows: Sequence[Sequence[_Element]]) -> tuple[float, str]:
     """Letter size [pt] and column widths of a table: as wide as the text where all fit.
 
-    Else each is as wide as its longest word, name, number or short text, and the rest is shared in proportion to the
-    remaining text; letters shrink where even these do not fit.
+    Else the room beyond the least need is shared in proportion to the remaining text; letters shrink where even the
+    least does not fit.
     """
-    size = _SMALL if wide else _SIZE
-    room = _PAGE_WIDTH / (size * _LETTER)
-    whole, least = [], []
-    for cells in zip(*(row.elements for row in rows), strict=True):
-        head, *below = cells
-        whole.append(max(len(cell.text) for cell in cells) + _GAP)
-        kept = [len(cell.text) for cell in below if cell.classes & {"n", "name"} or len(cell.text) <= _SHORT]
-        words = [min(len(word), _LONGEST) for cell in (head, *below) for word in cell.text.split()]
-        least.append(max([*kept, *words], default=0) + _GAP)
-    if sum(whole) <= room:
-        return size, str(max(1, len(whole)))
-    more = sum(whole) - sum(least)
-    spare = max(0.0, room - sum(least)) / more if more else 0.0
-    widths = (few + spare * (most - few) for most, few in zip(whole, least, strict=True))
-    return size * min(1.0, room / sum(least)), f"({', '.join(f'{width:.1f}fr' for width in widths)})"
+    needs = _column_needs(rows)
+    if sum(need.whole for need in needs) <= _ROOM:
+        return _SIZE, str(max(1, len(needs)))
+    least = sum(need.least for need in needs)
+    more = sum(need.wanted for need in needs) - least
+    spare = min(1.0, max(0.0, _ROOM - least) / more) if more else 0.0
+    widths = (need.least + spare * (need.wanted - need.least) for need in needs)
+    return _SIZE * min(1.0, _ROOM / least), f"({', '.join(f'{width:.1f}fr' for width in widths)})"
 
 
 def _is_printed(part: _Element | str) -> bool:

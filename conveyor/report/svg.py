@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from io import BytesIO
+from textwrap import wrap
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree as ET
 
@@ -24,8 +25,17 @@ _FONT = re.compile(r"font-family:[^;\"]*;?\s*|(font: [^;']*?\d+px )[^;\"]*")
 _NUMBER = re.compile(r"-?\d+\.\d{2,}")
 _COMMAND = re.compile(r"\s*([A-Za-z])\s*")
 _WIDTH = 6.9
-"""Width of every figure [in]: its 9 pt letters stay legible on A4 and on a phone."""
-_LETTERS, _HANDLE = 90, 8  # that stand side by side above a figure; as wide as a line in a legend
+"""Width of a figure on a screen [in]: its letters stay legible on a phone."""
+_PAPER_WIDTH = 4.0
+"""Width of a figure on paper [in]: its letters are of 8 pt in half the width of A4, 3.55 in."""
+_PAPER_HEIGHT_POWER = 0.8  # of its width over the figure's own: narrow figures are less flat
+_PAPER_ROW = 1.5  # least height of a row of axes on paper [in]
+_PAPER_TICKS = 4  # spaces between the numbers of a linear axis on paper
+_FONT_SIZE = 9.0  # [pt]
+_LEAST_LINE = 12  # letters of a line of an axis's label
+_LETTERS, _HANDLE = 14.0, 6  # an inch, that stand side by side above a figure; as wide as a line in a legend
+_LEGEND_LEFT = 0.01  # of a figure's width
+_LEGEND_LINE = 0.17  # [in]
 _PAD = 0.06  # [in] about the labels
 _MOST_HEIGHT = 4.6
 """Maximum height of a figure of up to two rows [in]; of more in proportion."""
@@ -38,7 +48,7 @@ _SIMPLIFY_THRESHOLD = 0.5
 """Deviation below which a point of a line is left out [px]."""
 
 
-def figure_svg(figure: Figure, name: str, label: str) -> Html:
+def figure_svg(figure: Figure, name: str, label: str, *, on_paper: bool = False) -> Html:
     """Draw a figure as an SVG element.
 
     Parameters
@@ -49,35 +59,66 @@ def figure_svg(figure: Figure, name: str, label: str) -> Html:
         Prefix of its identifiers, unique in the page.
     label : str
         Text alternative.
+    on_paper : bool
+        True for half the width of a printed page, where its letters are then of 8 pt.
     """
     with drawing_settings(letters="none"):
-        restyle_figure(figure)
+        restyle_figure(figure, on_paper=on_paper)
         drawn = _svg_bytes(figure)
     return Html(_clean_svg(escape_controls(drawn.decode()), name, label))
 
 
-def restyle_figure(figure: Figure) -> None:
-    """Set the page's width, remove the title (the caption is one), and give curves different dashes."""
-    from matplotlib.ticker import NullLocator
+def restyle_figure(figure: Figure, *, on_paper: bool = False) -> None:
+    """Set the width of screen or paper, remove the title (the caption is one), and give curves different dashes."""
+    from matplotlib.ticker import AutoLocator, MaxNLocator, NullLocator
 
-    rows, _ = _axes_grid(figure)
-    height = min(_MOST_HEIGHT * max(1.0, rows / 2.0), figure.get_figheight() * min(1.0, _WIDTH / figure.get_figwidth()))
-    figure.set_size_inches(_WIDTH, height)
+    rows, columns = _axes_grid(figure)
+    width = _PAPER_WIDTH if on_paper else _WIDTH
+    flattened = min(1.0, width / figure.get_figwidth()) ** (_PAPER_HEIGHT_POWER if on_paper else 1.0)
+    height = max(figure.get_figheight() * flattened, _PAPER_ROW * rows if on_paper else 0.0)
+    figure.set_size_inches(width, min(_MOST_HEIGHT * max(1.0, rows / 2.0), height))
+    lines = []
     for axis in figure.axes:
         axis.set_title("", pad=None)
-        axis.tick_params(labelsize=9)
+        axis.tick_params(labelsize=_FONT_SIZE)
         axis.set_axisbelow(True)
         for words in (axis.xaxis.label, axis.yaxis.label):
-            words.set_fontsize(9)
+            words.set_fontsize(_FONT_SIZE)
         _distinguish_curves(axis)
+        lines.append(_set_legend(axis, figure, int(_LETTERS * width), alone=columns == 1))
         for scale in (axis.xaxis, axis.yaxis):
             if scale.get_scale() == "log":
                 scale.set_major_formatter(_power_of_ten)
                 scale.set_minor_locator(NullLocator())
         legend = axis.get_legend()
+        if on_paper and isinstance(axis.xaxis.get_major_locator(), AutoLocator):
+            axis.xaxis.set_major_locator(MaxNLocator(nbins=_PAPER_TICKS, steps=[1, 2, 2.5, 5, 10]))
+        for text in axis.texts if on_paper else ():
+            text.set_fontsize(max(_FONT_SIZE, text.get_fontsize()))
         for text in (*axis.texts, *(legend.get_texts() if legend is not None else ())):
             text.set_parse_math(False)  # a user's "$" is a dollar
+    if on_paper:  # the legend takes no height from the curves
+        figure.set_figheight(figure.get_figheight() + _LEGEND_LINE * max(0, max(lines) - 1))
     _fit_margins(figure)
+    if on_paper and _wrap_labels(figure):
+        _fit_margins(figure)
+
+
+def _wrap_labels(figure: Figure) -> bool:
+    """Break labels that are longer than their axis into lines; returns whether there were any."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    renderer, found = FigureCanvasAgg(figure).get_renderer(), False  # type: ignore[no-untyped-call]
+    for axis in figure.axes:
+        inner = axis.get_window_extent(renderer)
+        for label, room, side in (
+            (axis.xaxis.label, inner.width, "width"), (axis.yaxis.label, inner.height, "height"),
+        ):  # fmt: skip
+            text, needed = label.get_text(), getattr(label.get_window_extent(renderer), side)
+            if text and needed > room:
+                label.set_text("\n".join(wrap(text, max(_LEAST_LINE, int(len(text) * room / needed)))))
+                found = True
+    return found
 
 
 def _fit_margins(figure: Figure) -> None:
@@ -88,25 +129,26 @@ def _fit_margins(figure: Figure) -> None:
     figure.set_layout_engine("none")
     renderer = FigureCanvasAgg(figure).get_renderer()  # type: ignore[no-untyped-call]
     width, height = figure.bbox.size
-    needed = []
-    for axis in figure.axes:
+    rows, columns = _axes_grid(figure)
+    needed, between = [], [0.0]
+    for place, axis in enumerate(figure.axes):
         inner, outer = axis.get_window_extent(renderer), axis.get_tightbbox(renderer)
         if outer is not None:
             needed.append((inner.x0 - outer.x0, outer.x1 - inner.x1, inner.y0 - outer.y0, outer.y1 - inner.y1))
-    left, right, below, above = (max(sides) + _PAD * figure.dpi for sides in zip(*needed, strict=True))
-    gaps = [
-        (ends := first + last) / max(1.0, (whole - count * ends) / count)
-        for whole, first, last, count in zip(
-            (height, width), (below, left), (above, right), _axes_grid(figure), strict=True
-        )
-    ]
+            if place >= columns:  # what stands above the first row does not part the others
+                between.append(outer.y1 - inner.y1)
+    pad = _PAD * figure.dpi
+    left, right, below, above = (max(sides) + pad for sides in zip(*needed, strict=True))
+    gap_y, gap_x = below + max(between) + pad, left + right
+    plot_y = (height - above - below - (rows - 1) * gap_y) / rows
+    plot_x = (width - columns * gap_x) / columns
     figure.subplots_adjust(
         left=left / width,
         right=1.0 - right / width,
         bottom=below / height,
         top=1.0 - above / height,
-        hspace=gaps[0],
-        wspace=gaps[1],
+        hspace=gap_y / max(1.0, plot_y),
+        wspace=gap_x / max(1.0, plot_x),
     )
 
 
@@ -126,7 +168,7 @@ def _power_of_ten(value: float, _: object = None) -> str:
 
 
 def _distinguish_curves(axis: Axes) -> None:
-    handles, labels = axis.get_legend_handles_labels()
+    _, labels = axis.get_legend_handles_labels()
     lines = [line for line in axis.lines if line.get_label() in labels and line.get_linestyle() != "None"]
     curves = [line for line in lines if line.get_linestyle() == "-" and line.get_linewidth() < 2.5]
     for k, line in enumerate(curves):
@@ -137,13 +179,26 @@ def _distinguish_curves(axis: Axes) -> None:
     for line in lines:
         if line.get_linestyle() == ":":
             line.set_color(_GUIDE)
-    if handles and axis.get_legend() is not None:
-        once = dict(zip(labels, handles, strict=True))
-        axis.legend(
-            once.values(), once.keys(), fontsize=9, frameon=False, loc="lower left",
-            ncols=max(1, min(3, _LETTERS // (max(map(len, once)) + _HANDLE))),
-            bbox_to_anchor=(0.0, 1.01), borderaxespad=0.0,
-        )  # fmt: skip
+
+
+def _set_legend(axis: Axes, figure: Figure, letters: int, *, alone: bool) -> int:
+    """Set the legend above the curves, as wide as so many letters of the axis or, alone in a row, of the figure.
+
+    Returns the number of its lines.
+    """
+    from matplotlib.transforms import blended_transform_factory
+
+    handles, labels = axis.get_legend_handles_labels()
+    if not handles or axis.get_legend() is None:
+        return 0
+    once = dict(zip(labels, handles, strict=True))
+    columns = max(1, min(3, letters // (max(map(len, once)) + _HANDLE)))
+    axis.legend(
+        once.values(), once.keys(), fontsize=_FONT_SIZE, frameon=False, loc="lower left", ncols=columns,
+        columnspacing=1.0, bbox_to_anchor=(_LEGEND_LEFT if alone else 0.0, 1.01), borderaxespad=0.0,
+        bbox_transform=blended_transform_factory(figure.transFigure, axis.transAxes) if alone else None,
+    )  # fmt: skip
+    return math.ceil(len(once) / columns)
 
 
 def _svg_bytes(figure: Figure) -> bytes:

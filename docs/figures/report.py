@@ -1,4 +1,7 @@
-"""Draw the pictures of docs/gallery.md: `python docs/figures/report.py`; needs chromium, soffice and pdftoppm."""
+"""Draw the pictures of docs/gallery.md and the first sheet of a fit: `python docs/figures/report.py`.
+
+Needs chromium, soffice and pdftoppm.
+"""
 
 from __future__ import annotations
 
@@ -56,6 +59,12 @@ def main() -> None:
         sheets = folder / "sheets.pdf"
         run("conveyor", "power", SPECS / "overland_10km.yaml", "-o", book, "--html", page, "--pdf", sheets)
         run("conveyor", "compare", SPECS / "overland.yaml", *covers, "--temperature=-20:40:20", "-o", compared)
+        laboratory = [SPECS.parent / "laboratory" / name for name in ("isotherms.csv", "relaxation.txt", "ramp.csv")]
+        stated = ("--document", "number=2026-17", "--document", "by=A. Tester")
+        fit = folder / "acme-7.pdf"
+        run("conveyor", "fit", *laboratory, "--at", "20 degC", "--name", "acme-7", *stated,
+            "--spec", SPECS / "overland.yaml", "--pdf", fit)  # fmt: skip
+        of_pdf(fit, "fit")
         of_workbook(book, "workbook")
         of_pdf(sheets, "pdf")
         of_workbook(compared, "comparison")

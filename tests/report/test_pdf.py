@@ -121,19 +121,36 @@ def test_words_of_a_wide_table_are_whole():
         )
     )
     text = made.pages[0].extract_text().split()
-    assert text.count(words) == 12 + 3 * 6
+    assert text.count(words) >= 12 + 3 * 6  # the first head stands above every part
     assert sum(f"{words}{k}" in text for k in range(1, 12, 2)) == 6
 
 
-def test_a_table_wider_than_its_paper_has_smaller_letters():
-    columns = tuple(Column(f"head{k}", "force", lambda _, k=k: 1e6 * k) for k in range(40))
-    shown = page_elements.table_html(Table("t", "", "", columns, range(2)), "Wide")
-    made = read(
-        pdf.page_pdf(
-            page_elements.page_html("Ore 1", "r", Html(""), [page_elements.PagePart("x", "Wide", shown)], "foot")
-        )
+def test_a_table_wider_than_its_paper_is_parted_and_names_its_rows_in_every_part():
+    columns = (
+        Column("row", "text", "name{}".format),
+        *(Column(f"head{k}", "force", lambda _, k=k: 1e6 * k) for k in range(40)),
     )
-    assert {f"head{k}" for k in range(40)} <= set(made.pages[0].extract_text().split())
+    shown = page_elements.table_html(Table("t", "", "", columns, range(2)), "Wide")
+    made = page_elements.page_html("Ore 1", "r", Html(""), [page_elements.PagePart("x", "Wide", shown)], "foot")
+    text = read(pdf.page_pdf(made)).pages[0].extract_text().split()
+    assert {f"head{k}" for k in range(40)} <= set(text)
+    assert text.count("name0") == text.count("name1") == text.count("row") > 1
+    assert text.count("head7") == 1
+
+
+@pytest.mark.parametrize("name", ["overland_10km", "in_plant_us", "transfer"])
+def test_no_letter_on_paper_is_smaller_than_eight_points(name):
+    line = conveyor.load(EXAMPLES / "specs" / f"{name}.yaml")
+    source = pdf.typst_source(html.build_page(conveyor.analyse(line).contents(studies(line)), on_paper=True))
+    sizes = [float(size) for size in re.findall(r"#captioned\(\w+,\n([\d.]+)pt,", source)]
+    assert len(sizes) > 10
+    assert min(sizes) == pytest.approx(8.0)
+    half = 0.5 * (595.28 - 2 * 13 * 72 / 25.4 - 8.0)  # a column between margins and gutter of page.typ [pt]
+    drawn = re.findall(r'<svg[^>]*viewBox=\\"0 0 ([\d.]+) [\d.]+\\"(.*?)</svg>', source)
+    found = ((float(width), float(size)) for width, text in drawn for size in re.findall(r"font-size: ([\d.]+)", text))
+    letters = [half / width * size for width, size in found]
+    assert len(letters) > 50
+    assert min(letters) > 7.95  # 9 pt on 4 in, to the rounding of that
 
 
 @pytest.mark.parametrize("words", [HOSTILE, '#panic("x") [a] *b* _c_ `d` $e$ <f> @g \\ // /* "', "Ωμ °C ≥ δ ✓ – é ß ж"])

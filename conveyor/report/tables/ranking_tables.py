@@ -278,7 +278,7 @@ def what_if_table(comparison: CalculatedComparison) -> Table:
 def cost_table(ranked: Table) -> Table:
     """Energy, cost and saving of a year; no rows where the ranking has none of them."""
     heading = "Energy, cost and saving of a year"
-    columns = ranked.only("compound", "speed", *COSTS).columns
+    columns = tuple(column for column in ranked.columns if column.key in {"compound", "speed", *COSTS})
     rows = ranked.rows if len(columns) > 2 else ()
     return Table("costs", "Ranking", heading, columns, rows, "ranking")
 

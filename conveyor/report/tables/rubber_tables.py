@@ -135,7 +135,7 @@ def rubber_table(a: CalculatedConveyor) -> Table:
         Column("warming left out", "warming", lambda _: warming, json="warming_K"),
     )  # fmt: skip
     heading = "Rubber excitation band, working strain and level"
-    return Table("rubber", "Rubber", heading, columns, rows, "rubber")
+    return Table("rubber", "Rubber", heading, columns, rows, "rubber", named=2)
 
 
 def cover_warming(a: CalculatedConveyor) -> float:

@@ -203,9 +203,9 @@ def sweep_table(sizing: CalculatedSizing, sweeps: tuple[VariedChoice, ...]) -> T
         Column("speed", "speed", "1.speed", json="speed_m_per_s"),
         Column("motor power", "power", "2.found.balance.power.motor", json="motor_power_kW"),
         Column("belt", "text", lambda row: row[2] and _belt_name(row[2]), json="belt"),
-        Column("energy a year", money, "2.costs.yearly.energy", json="energy_per_year"),
-        Column("idlers a year", money, lambda row: row[2] and idler_cost(row[2]), json="idlers_per_year"),
-        Column("belt a year", money, "2.costs.yearly.belt", json="belt_per_year"),
+        Column("energy a year", money, "2.costs.yearly.energy", json="energy_per_year", page=None),
+        Column("idlers a year", money, lambda row: row[2] and idler_cost(row[2]), json="idlers_per_year", page=None),
+        Column("belt a year", money, "2.costs.yearly.belt", json="belt_per_year", page=None),
         Column("cost a year", money, "2.year", json="cost_per_year"),
         Column("no design because", "text", "3", json="why"),
     )
@@ -320,7 +320,7 @@ def cost_lines(sizing: CalculatedSizing, varied: tuple[VariedChoice, ...], *, sy
         axis.axvline(float(kind(sweep.at)), color="0.6", linestyle="--", linewidth=1.0)
         axis.set(xlabel=kind.beside(sweep.name), ylabel=money.beside("a year"), ylim=(0.0, None))
         group_thousands(axis.yaxis)
-    add_legend(axes[-1])
+    add_legend(axes[0])
     set_title(figure, f"{sizing.duty.name}: around the best design")
     return figure
 
@@ -328,7 +328,7 @@ def cost_lines(sizing: CalculatedSizing, varied: tuple[VariedChoice, ...], *, sy
 @own_settings()
 def spacing_diagram(sizing: CalculatedSizing, *, system: System = "SI") -> Picture:
     """Idler spacing of the best design along its profile, and the widest that sag and bearings allow."""
-    figure, (profile, axis) = stacked_axes(2, _HEIGHT + _PANEL_HEIGHT)
+    figure, (axis, profile) = stacked_axes(2, _HEIGHT + _PANEL_HEIGHT)
     large, apart = display_unit("length", system, large=True), display_unit("spacing", system)
     ends = np.vstack([(0.0, 0.0), np.cumsum(sizing.task.sections, axis=0)])
     along = large(ends[:, 0])
@@ -347,10 +347,8 @@ def spacing_diagram(sizing: CalculatedSizing, *, system: System = "SI") -> Pictu
                 label=label,
             )  # fmt: skip
     most = max(*sizing.task.spacings[0], *sizing.task.spacings[1])
-    axis.set(
-        xlabel=large.beside("along the belt from the tail"), ylabel=apart.beside("distance of sets"),
-        ylim=(0.0, float(apart(_OVER_SERIES * most))),
-    )  # fmt: skip
+    axis.set(ylabel=apart.beside("distance of sets"), ylim=(0.0, float(apart(_OVER_SERIES * most))))
+    profile.set(xlabel=large.beside("along the belt from the tail"))
     for each in (profile, axis):
         group_thousands(each.xaxis)
     add_legend(axis)

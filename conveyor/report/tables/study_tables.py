@@ -12,7 +12,16 @@ from conveyor.laws.power import JOULE_PER_KWH
 from conveyor.report import analysis_plots
 from conveyor.report.page_elements import notebook_html
 from conveyor.report.plots import PowerAxis
-from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Column, Drawing, Figure, Table, figure_table
+from conveyor.report.table_model import (
+    FIGURE_NAME,
+    ROW_KIND,
+    Column,
+    Drawing,
+    Figure,
+    PagePlacement,
+    Table,
+    figure_table,
+)
 from conveyor.text.markup import Html
 from conveyor.units import System
 from conveyor.units.presentation import MONEY
@@ -35,8 +44,9 @@ _FLOODED = (
 _STATES, _CASES, _DUTY, _UNCERTAINTY = "load-states", "load-cases", "duty", "uncertainty"
 _TENSIONS = (
     "tight_side_tension", "slack_side_tension", "largest_tension", "smallest_tension", "take_up_tension_asked_for",
-    "largest_roll_load", "governed_by", "at_roll",
+    "governed_by",
 )  # fmt: skip
+_ROLL_LOADS = ("largest_roll_load", "at_roll")
 _CONDITIONS = (
     Column("temperature", "temperature", "temperature"),
     Column("belt speed", "speed", "speed", key="speed"),
@@ -105,17 +115,21 @@ def refused_states(study: CalculatedStates) -> Table:
 def design_case_table(study: CalculatedCases) -> Table:
     """Load cases without their tensions, for reports."""
     every = case_table(study)
-    kept = tuple(column.key for column in every.columns if column.key not in _TENSIONS)
-    return replace(every.only(*kept), page=_CASES)
+    kept = tuple(column for column in every.columns if column.key not in {*_TENSIONS, *_ROLL_LOADS})
+    return replace(every, columns=kept, page=_CASES)
 
 
 def case_tensions(study: CalculatedCases) -> Table:
     """Tensions and roll loads of the load cases."""
-    order = ("case", "temperature", "speed", "covered", *_TENSIONS)
-    tensions = case_table(study).only(*order)
-    columns = tuple(sorted(tensions.columns, key=lambda column: order.index(column.key)))
     heading = "Tensions and roll loads of the cases"
-    return replace(tensions, key="case_tensions", heading=heading, columns=columns, page=_CASES)
+    whole = case_table(study).only("case", "temperature", "speed", "covered", *_TENSIONS, *_ROLL_LOADS)
+    views = {"covered": None, **dict.fromkeys(_TENSIONS, "tensions"), **dict.fromkeys(_ROLL_LOADS, "rolls")}
+    columns = tuple(replace(column, page=views.get(column.key, "")) for column in whole.columns)
+    page = (
+        PagePlacement(_CASES, "Tensions of the cases", "tensions"),
+        PagePlacement(_CASES, "Highest roll load of the cases", "rolls"),
+    )
+    return replace(whole, key="case_tensions", heading=heading, columns=columns, page=page)
 
 
 def _loading_text(result: CaseResult) -> str:
@@ -126,8 +140,8 @@ def case_table(study: CalculatedCases) -> Table:
     """Load cases, one row per case, speed and temperature."""
     columns = (
         Column("case", "text", "case.name"),
-        Column("loading", "text", _loading_text, page=None),
         *_CONDITIONS,
+        Column("loading", "text", _loading_text, page=None),
         Column("covered", "verdict", lambda row: "yes" if row.covered else "NO"),
         Column("mass flow", "mass flow", "found.line.flow"),
         Column("indentation", "force", "found.balance.forces.indentation"),
@@ -156,8 +170,8 @@ def case_table(study: CalculatedCases) -> Table:
         "covered: NO where the rubber data do not cover the excitation band: not for design, and left out of tables of "
         "all cases."
     )
-    covered = all(row.covered for row in study.results)
-    return Table("load_cases", "Load cases", "Load cases", columns, study.results, note="" if covered else note)
+    shown = "" if all(row.covered for row in study.results) else note
+    return Table("load_cases", "Load cases", "Load cases", columns, study.results, note=shown, named=3)
 
 
 def governing_cases(study: CalculatedCases, governing: Sequence[GoverningLoad]) -> Table:
