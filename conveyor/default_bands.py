@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Final, TypeAlias
 
 import numpy as np
@@ -25,6 +26,7 @@ from conveyor.laws.resistance import (
     ROLL_ON_BELT_FRICTION,
     SERVICE_DRAG,
     Default,
+    Site,
 )
 from conveyor.laws.resistance.cema import (
     CLEANER_PER_INCH,
@@ -44,6 +46,7 @@ from conveyor.units.sentences import Message, escape_braces, message
 Shares: TypeAlias = NDArray[np.float64] | float
 """Share of a force that depends on a default [-]: of every stretch, shape (2n,), or at one place."""
 Share: TypeAlias = Callable[[CalculatedConveyor, Force], Shares]
+Band: TypeAlias = Callable[[CalculatedConveyor], tuple[float, float]]
 
 
 @dataclass(frozen=True)
@@ -58,8 +61,10 @@ class DefaultBand:
         90 % band of the dependent forces over those computed [-].
     give : str
         Fields that replace it.
+    forces : tuple of str
+        Keys of the forces that may depend on it.
     share : callable
-        Share of a force of a conveyor that depends on this default; 0 if it is not in use.
+        Share of such a force of a conveyor that depends on this default; 0 if it is not in use.
     band : callable, optional
         Band of a conveyor, if it is not the same for all; replaces `low` and `high`.
     """
@@ -69,62 +74,61 @@ class DefaultBand:
     low: float
     high: float
     give: str
+    forces: tuple[str, ...]
     share: Share
-    band: Callable[[CalculatedConveyor], tuple[float, float]] | None = None
+    band: Band | None = None
 
     def ends(self, result: CalculatedConveyor) -> tuple[float, float]:
         """Both ends of the band on a conveyor [-]."""
         return (self.low, self.high) if self.band is None else self.band(result)
 
 
-def proportional_default(key: str, what: str, of: Default, give: str, share: Share) -> DefaultBand:
-    """A default whose forces are proportional to a figure with a range."""
-    return DefaultBand(key, what, of.low / of.value, of.high / of.value, give, share)
+def _relative_band(of: Default) -> tuple[float, float]:
+    """Band of forces proportional to a figure with a range [-]."""
+    return of.low / of.value, of.high / of.value
 
 
-def share_along_belt(key: str, share: Callable[[CalculatedConveyor], Shares]) -> Share:
-    """Share of a force along the belt that depends on a default, by stretch if they differ."""
-    return lambda result, force: share(result) if force.key == key else 0.0
+def _usual_part_share(_result: CalculatedConveyor, force: Force) -> float:
+    """All of a force from a usual part that stands in for a missing one."""
+    return float(force.assumed)
 
 
-def usual_parts_share(*keys: str) -> Share:
-    """Share of forces from usual parts assumed for missing ones: all or nothing."""
-    return lambda _found, force: float(force.assumed and force.key in keys)
-
-
-def _roll_drag_share(result: CalculatedConveyor) -> Shares:
+def _roll_drag_share(result: CalculatedConveyor, _force: Force) -> Shares:
     pairs = zip(result.line.stretches, result.line.roll_drags, strict=True)
     return np.array([assumed_drag_share(result.conveyor, stretch.idlers, drags) for stretch, drags in pairs])
 
 
-def _flexure_share(result: CalculatedConveyor) -> Shares:
+def _flexure_share(result: CalculatedConveyor, _force: Force) -> Shares:
     calculation = result.conveyor.calculation
     return float(calculation.flexure is None and calculation.flexure_share is None)
 
 
-def _misalignment_share(result: CalculatedConveyor) -> Shares:
+def _misalignment_share(result: CalculatedConveyor, _force: Force) -> Shares:
     """Stretches whose sets have no misalignment of their own."""
     return np.array([float(stretch.idlers.misalignment is None) for stretch in result.line.stretches])
 
 
 def _misalignment_band(result: CalculatedConveyor) -> tuple[float, float]:
     """Band from the best to the worst alignment of such a site."""
-    of_site = MISALIGNMENT[result.conveyor.site]
+    return _site_band(result.conveyor.site)
+
+
+@cache
+def _site_band(site: Site) -> tuple[float, float]:
+    of_site = MISALIGNMENT[site]
     low, middle, high = map(misalignment_friction, (of_site.low, of_site.value, of_site.high))
     return low / middle, high / middle
 
 
-def _untested_share(result: CalculatedConveyor, force: Force) -> Shares:
+def _untested_share(result: CalculatedConveyor, _force: Force) -> NDArray[np.float64]:
     """Indentation of the strands whose rubber has no rolling-resistance tests."""
-    if force.key != "indentation":
-        return 0.0
     covers = result.contacts.covers
     return np.array([float(covers[stretch.strand].level is None) for stretch in result.line.stretches])
 
 
 def _tested_share(result: CalculatedConveyor, force: Force) -> Shares:
     """Indentation of the strands whose rubber has tests."""
-    return 0.0 if force.key != "indentation" else 1.0 - np.asarray(_untested_share(result, force))
+    return 1.0 - _untested_share(result, force)
 
 
 def _tests_band(result: CalculatedConveyor) -> tuple[float, float]:
@@ -133,10 +137,10 @@ def _tests_band(result: CalculatedConveyor) -> tuple[float, float]:
     return min(lows), max(highs)
 
 
-def _bending_share(result: CalculatedConveyor, force: Force) -> Shares:
+def _bending_share(result: CalculatedConveyor, _force: Force) -> Shares:
     """Indentation under a flexible belt whose carcass has no bending loss."""
     given = result.conveyor.belt.carcass.bending_loss > 0.0
-    return float(force.key == "indentation" and isinstance(result.contacts, BeltContacts) and not given)
+    return float(isinstance(result.contacts, BeltContacts) and not given)
 
 
 def _bending_band(result: CalculatedConveyor) -> tuple[float, float]:
@@ -167,10 +171,8 @@ def _pulleys_band(result: CalculatedConveyor) -> tuple[float, float]:
     return 0.5, max(2.0, cema_pulley_friction(_CEMA_PULLEYS) / usual)
 
 
-def _illustrative_share(result: CalculatedConveyor, force: Force) -> Shares:
+def _illustrative_share(result: CalculatedConveyor, _force: Force) -> Shares:
     """Indentation of the strands whose compound is illustrative, representing a kind of cover."""
-    if force.key != "indentation":
-        return 0.0
     compounds = compounds_by_strand(result.conveyor)
     kinds = {strand: float(compound.kind == "illustrative") for strand, compound in compounds.items()}
     return np.array([kinds[stretch.strand] for stretch in result.line.stretches])
@@ -183,35 +185,35 @@ _PULLEYS: Final = ("wrap", "pulley_bearings")
 _CEMA_PULLEYS: Final = ("slack", "slack", "other", "other")
 """Tail, take-up and its two bends; CEMA leaves out the driven head."""
 
+_INDENTATION: Final = ("indentation",)
+
 DEFAULTS: Final = (
-    proportional_default("roll_drag", "drag of the rolls in service", SERVICE_DRAG, "idlers.*.roll.drag or drag_law",
-           share_along_belt("idler_rotation", _roll_drag_share)),
-    proportional_default("flexure", "flexure of belt and bulk over load and sag", FLEXURE_COEFFICIENT,
-           "calculation.flexure or flexure_share", share_along_belt("flexure", _flexure_share)),
-    proportional_default("tilt", "friction of tilted rolls on the belt", ROLL_ON_BELT_FRICTION,
-    "idlers.*.tilt_angle: 0 deg",
-           share_along_belt("tilt", lambda _found: 1.0)),
+    DefaultBand("roll_drag", "drag of the rolls in service", *_relative_band(SERVICE_DRAG),
+                "idlers.*.roll.drag or drag_law", ("idler_rotation",), _roll_drag_share),
+    DefaultBand("flexure", "flexure of belt and bulk over load and sag", *_relative_band(FLEXURE_COEFFICIENT),
+                "calculation.flexure or flexure_share", ("flexure",), _flexure_share),
+    DefaultBand("tilt", "friction of tilted rolls on the belt", *_relative_band(ROLL_ON_BELT_FRICTION),
+                "idlers.*.tilt_angle: 0 deg", ("tilt",), lambda _found, _force: 1.0),
     DefaultBand("misalignment", "alignment of the idlers", 1.0, 1.0, "idlers.*.misalignment",
-            share_along_belt("misalignment", _misalignment_share), _misalignment_band),
+                ("misalignment",), _misalignment_share, _misalignment_band),
     DefaultBand("feeding", "acceleration of the bulk from rest", 0.5, 1.0, "route.feeding",
-    usual_parts_share("acceleration")),
+                ("acceleration",), _usual_part_share),
     DefaultBand("skirts", "usual skirts and their seals", 0.5, 2.0, "route.feeding",
-            usual_parts_share("loading_skirts", "skirts", "skirt_seals")),
-    DefaultBand("cleaners", "usual cleaners", 1.0, 1.0, "route.cleaners", usual_parts_share("cleaner"), _cleaners_band),
-    proportional_default("cleaner_pressure", "pressure of the cleaners", CLEANER_PRESSURE,
-    "route.cleaners[].pressure", _cleaner_pressure_share),
+                ("loading_skirts", "skirts", "skirt_seals"), _usual_part_share),
+    DefaultBand("cleaners", "usual cleaners", 1.0, 1.0, "route.cleaners",
+                ("cleaner",), _usual_part_share, _cleaners_band),
+    DefaultBand("cleaner_pressure", "pressure of the cleaners", *_relative_band(CLEANER_PRESSURE),
+                "route.cleaners[].pressure", ("cleaner",), _cleaner_pressure_share),
     DefaultBand("level", "test factor of the indentation, no rolling-resistance tests", 1.0, UNTESTED_FACTOR,
-    "a compound with tests",
-            _untested_share),
+                "a compound with tests", _INDENTATION, _untested_share),
     DefaultBand("tested_level", "level of the indentation, tests and spectrum", 1.0, 1.0, "tests of the belt itself",
-            _tested_share, _tests_band),
+                _INDENTATION, _tested_share, _tests_band),
     DefaultBand("bending_loss", "loss of the carcass that bends, 0", 1.0, 1.0, "belt.carcass.bending_loss",
-    _bending_share,
-            _bending_band),
-    DefaultBand("pulleys", "usual head and tail pulleys", 1.0, 1.0, "route.pulleys", usual_parts_share(*_PULLEYS),
-            _pulleys_band),
+                _INDENTATION, _bending_share, _bending_band),
+    DefaultBand("pulleys", "usual head and tail pulleys", 1.0, 1.0, "route.pulleys",
+                _PULLEYS, _usual_part_share, _pulleys_band),
     DefaultBand("cover", "make of the covers, others of their kind", *COVERS_OF_A_KIND, "compounds measured and tested",
-            _illustrative_share),
+                _INDENTATION, _illustrative_share),
 )  # fmt: skip
 """Every default with a band; one more line is one more default.
 
@@ -355,9 +357,12 @@ def _force_changes(
     """
     if result.line.method != "viscoelastic":
         return
-    every = result.balance.every
+    by_key: dict[str, list[Force]] = {}
+    for force in result.balance.every:
+        by_key.setdefault(force.key, []).append(force)
     for assumed in DEFAULTS:
-        depending = math.fsum(_shared_force(force, assumed.share(result, force)) for force in every)
+        forces = (force for key in assumed.forces for force in by_key.get(key, ()))
+        depending = math.fsum(_shared_force(force, assumed.share(result, force)) for force in forces)
         if depending:
             low, high = assumed.ends(result)
             yield assumed, (low, high), ((low - 1.0) * depending, (high - 1.0) * depending)
