@@ -85,6 +85,16 @@ def test_the_case_as_given_is_the_analysis(name):
         assert figure == pytest.approx(value, rel=ROUNDING)
 
 
+def test_the_take_up_of_cases_travels_for_the_own_load_too():
+    """Its carriage goes on from the empty belt to the loaded one, and with that one's start and stop."""
+    line = spec("overland")
+    own, cases = calculate(line).take_up.travel, analyse_cases(line, [LoadCase(name="e", loading="empty")]).take_up
+    assert own is not None
+    assert cases.travel is not None
+    assert cases.travel.load > 0.0
+    assert cases.travel.load + cases.travel.motion == pytest.approx(own.motion, rel=1e-6)
+
+
 @pytest.mark.parametrize("loading", STANDARD_LOADINGS)
 def test_every_case_is_the_analysis_of_a_conveyor_loaded_so(line, found, loading):
     bears = {"full": {-1, 0, 1}, "empty": set(), "inclines only": {1}, "declines only": {-1}}[loading]
