@@ -254,6 +254,8 @@ def test_motors_suffice_by_the_method_of_the_contract_too(small, sized):
     rated = best.chosen.motors[0]
     assert rated == next(each for each in MOTOR_SERIES if each >= 1.1 * power)
     assert rated > sized.best.chosen.motors[0]
+    unasked = size_conveyor(duty.replace(rules=small.rules), best=1).best  # the same factor, but not as the basis
+    assert unasked.chosen.motors == sized.best.chosen.motors
 
 
 def test_motors_by_cema_need_its_factors(small):
