@@ -12,7 +12,7 @@ import math
 from dataclasses import dataclass
 from typing import Final
 
-from conveyor.arguments.limits import require, require_positive
+from conveyor.arguments.limits import require, require_not_negative, require_positive
 from conveyor.laws.loading import NO_WING, Wing, wing_pieces
 
 EDGE_OVER_RATED: Final = 1.3
@@ -147,3 +147,69 @@ def transition_length(
         return 0.0
     room = (limit_per_width - tension_per_width) * math.copysign(1.0, stretch)
     return math.sqrt(stiffness_per_width * abs(stretch) / room) if room > 0.0 else math.inf
+
+
+CEMA_TRANSITIONS: Final = {
+    "full trough": {
+        20: ((1.8, 4.0), (1.6, 3.2), (1.2, 2.8)),
+        35: ((3.2, 6.8), (2.4, 5.2), (1.8, 3.6)),
+        45: ((4.0, 8.0), (3.2, 6.4), (2.4, 4.4)),
+    },
+    "half trough": {
+        20: ((0.9, 2.0), (0.8, 1.6), (0.6, 1.0)),
+        35: ((1.6, 3.4), (1.2, 2.6), (0.9, 1.8)),
+        45: ((2.0, 4.0), (1.6, 3.2), (1.2, 2.2)),
+    },
+}
+"""CEMA's least transition over the belt's width [-], by depth and angle of the trough [deg]: above 90 %, from 60 to
+90 % and below 60 % of the rated tension, of fabric and of steel-cord belts. Full trough: CEMA 7, table 7.29 (read on
+scribd.com/document/408694938); half trough: CEMA 5 (as reproduced on scribd.com/document/519435550)."""
+_HALF_TROUGH: Final = 0.5
+_SAME_ANGLE: Final = 0.5  # of the tables' [deg]
+_CEMA_SHARES: Final = (0.9, 0.6)  # of the rated tension, between the rows of the table
+
+
+def cema_transition_length(
+    belt_width: float, *, trough_angle: float, utilisation: float, carcass: str, pulley_height: float
+) -> float | None:
+    """Least transition that CEMA recommends.
+
+    Parameters
+    ----------
+    belt_width : float
+        B [m], positive.
+    trough_angle : float
+        Of the outer rolls of the first full set [rad].
+    utilisation : float
+        Tension in the transition over the belt's rated one [-], at least 0.
+    carcass : str
+        Its material; all but "steel cord" count as fabric.
+    pulley_height : float
+        Top of the pulley over the middle roll, over the depth of the trough [-], from 0 to 1; the half trough's table
+        from 0.5 on, on the safe side beyond.
+
+    Returns
+    -------
+    float or None
+        L [m]; None at an angle that the tables do not have (20, 35 and 45 deg).
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Examples
+    --------
+    >>> full = {"trough_angle": math.radians(35), "carcass": "EP", "pulley_height": 0.0}
+    >>> round(cema_transition_length(1.0, utilisation=0.4, **full), 3)
+    1.8
+    """
+    require_positive(belt_width=belt_width)
+    require_not_negative(utilisation=utilisation)
+    require(0.0 <= pulley_height <= 1.0, "pulley_height", pulley_height, ">= 0 and <= 1")
+    table = CEMA_TRANSITIONS["half trough" if pulley_height >= _HALF_TROUGH else "full trough"]
+    angle = next((one for one in table if abs(math.degrees(trough_angle) - one) < _SAME_ANGLE), None)
+    if angle is None:
+        return None
+    row = sum(utilisation <= share for share in _CEMA_SHARES)
+    return table[angle][row][carcass == "steel cord"] * belt_width

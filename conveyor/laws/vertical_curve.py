@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Final
 
 from conveyor.arguments.limits import (
     require,
@@ -123,6 +124,41 @@ def lift_off_radius(
     require_slope(inclination=inclination)
     held = belt_mass * gravity * math.cos(inclination) - uplift
     return tension / held if held > 0.0 else math.inf
+
+
+CEMA_LIFT_OFF: Final = 1.11
+"""Of CEMA's least radius of a concave curve, r = 1.11 T/w_belt [-]: it covers slopes up to 25.7 deg, whose cosine is
+1/1.11 (CEMA, Belt Conveyors for Bulk Materials, vertical curves; as commonly reproduced)."""
+
+
+def cema_lift_off_radius(tension: float, *, belt_mass: float, gravity: float) -> float:
+    """Least radius of a concave curve by CEMA, r = 1.11 T/(m'_belt g).
+
+    Parameters
+    ----------
+    tension : float
+        T in the curve [N], at least 0.
+    belt_mass : float
+        m'_belt [kg/m], positive.
+    gravity : float
+        g [m/s²], positive.
+
+    Returns
+    -------
+    float
+        r [m].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Examples
+    --------
+    >>> round(cema_lift_off_radius(60e3, belt_mass=20.0, gravity=9.81), 1)
+    339.4
+    """
+    return CEMA_LIFT_OFF * lift_off_radius(tension, belt_mass=belt_mass, inclination=0.0, gravity=gravity)
 
 
 def overstress_radius(

@@ -21,10 +21,16 @@ from conveyor.laws.belt_strength import (
     standard_pulley_diameter,
 )
 from conveyor.laws.tension import PULLEY_FACTOR, least_pulley_diameter
-from conveyor.laws.transition import EDGE_OVER_RATED, transition_length, transition_stretch
+from conveyor.laws.transition import (
+    EDGE_OVER_RATED,
+    cema_transition_length,
+    transition_length,
+    transition_stretch,
+)
 from conveyor.laws.vertical_curve import (
     TroughSection,
     buckling_radius,
+    cema_lift_off_radius,
     lift_off_radius,
     overstress_radius,
     trough_section,
@@ -83,6 +89,8 @@ class CurveCheck:
         Least radii at which no strip of the belt is overstressed or slack; infinite where no radius helps.
     most, least : float or None
         Highest and lowest tension of a strip that occur on it [N/m].
+    cema_lift_off : float or None
+        Least radius against lift-off that CEMA recommends; concave curves only.
     """
 
     section: str
@@ -96,6 +104,7 @@ class CurveCheck:
     buckling: float | None
     most: float | None = None
     least: float | None = None
+    cema_lift_off: float | None = None
 
 
 @dataclass(frozen=True)
@@ -116,6 +125,8 @@ class TransitionCheck:
         Highest and lowest tension of a strip that occur over the given length [N/m].
     missing : str
         Missing data, in words.
+    cema : float or None
+        Least length that CEMA recommends at the highest tension; None too at an angle that its tables do not have.
     """
 
     zone: TransitionZone
@@ -127,6 +138,7 @@ class TransitionCheck:
     most: float | None = None
     least: float | None = None
     missing: str = ""
+    cema: float | None = None
 
 
 @dataclass(frozen=True)
@@ -284,15 +296,11 @@ def _curve_checks(balance: Balance, states: Sequence[MotionState]) -> Iterator[C
             continue
         tensions = [float(end[i]) for state in states for end in (state.starts, state.ends)]
         lowest, highest = min(tensions), max(tensions)
-        lift = None
+        lift = by_cema = None
         if section.curve == "concave":
-            lift = lift_off_radius(
-                max(0.0, highest),
-                belt_mass=stretch.belt_mass,
-                inclination=section.steepest,
-                gravity=line.gravity,
-                uplift=line.uplift,
-            )
+            pull, weight = max(0.0, highest), {"belt_mass": stretch.belt_mass, "gravity": line.gravity}
+            lift = lift_off_radius(pull, inclination=section.steepest, uplift=line.uplift, **weight)
+            by_cema = cema_lift_off_radius(pull, **weight)
         strips = _strip_limits(line, stretch, section, lowest, highest)
         yield CurveCheck(
             stretch.section,
@@ -303,6 +311,7 @@ def _curve_checks(balance: Balance, states: Sequence[MotionState]) -> Iterator[C
             highest,
             lift,
             *strips,
+            by_cema,
         )
 
 
@@ -365,9 +374,14 @@ def _transition_check(line: Line, zone: TransitionZone, states: Sequence[MotionS
         stretch, tensions = line.loop.stretches[half], [float(state.starts[half]) for state in states]
     lowest, highest = min(tensions) / width, max(tensions) / width
     rated, stiffness = allowed_tension(line), line.belt.tensile_stiffness
-    if rated is None or stiffness is None:
-        missing = "belt.carcass.strength and rating not given" if rated is None else "belt.carcass.stiffness not given"
-        return TransitionCheck(zone, lowest, highest, missing=missing)
+    if rated is None:
+        return TransitionCheck(zone, lowest, highest, missing="belt.carcass.strength and rating not given")
+    by_cema = cema_transition_length(
+        width, trough_angle=stretch.trough_angle, utilisation=max(0.0, highest) / rated,
+        carcass=line.belt.carcass, pulley_height=zone.pulley_height,
+    )  # fmt: skip
+    if stiffness is None:
+        return TransitionCheck(zone, lowest, highest, missing="belt.carcass.stiffness not given", cema=by_cema)
     zone_length = transition_stretch(
         width,
         middle_roll_length=stretch.idlers.middle_belt(width),
@@ -393,4 +407,5 @@ def _transition_check(line: Line, zone: TransitionZone, states: Sequence[MotionS
         least(max(0.0, lowest), zone_length.least, 0.0),
         most,
         lower,
+        cema=by_cema,
     )

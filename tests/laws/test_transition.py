@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from conveyor.errors import InputError
-from conveyor.laws.transition import transition_length, transition_stretch
+from conveyor.laws.transition import cema_transition_length, transition_length, transition_stretch
 
 WIDTH, MIDDLE, ANGLE = 1.2, 0.4, math.radians(35.0)
 
@@ -78,3 +78,48 @@ def test_refusals():
         transition_stretch(WIDTH, middle_roll_length=2.0, trough_angle=ANGLE, pulley_height=0.0)
     with pytest.raises(InputError, match="tension_per_width"):
         transition_length(-1.0, stretch=0.01, stiffness_per_width=36e6, limit_per_width=0.0)
+
+
+@pytest.mark.parametrize(
+    ("angle", "utilisation", "steel", "height", "widths"),
+    [
+        (35.0, 0.4, False, 0.0, 1.8), (35.0, 0.75, False, 0.0, 2.4), (35.0, 0.95, False, 0.0, 3.2),
+        (20.0, 0.6, True, 0.0, 2.8), (45.0, 1.2, True, 0.0, 8.0), (45.0, 0.9, False, 0.49, 3.2),
+        (35.0, 0.61, True, 0.5, 2.6), (20.0, 0.0, False, 1.0, 0.6),
+    ],
+)  # fmt: skip
+def test_transitions_by_cema_are_those_of_its_tables(angle, utilisation, steel, height, widths):
+    found = cema_transition_length(
+        WIDTH,
+        trough_angle=math.radians(angle),
+        utilisation=utilisation,
+        carcass="steel cord" if steel else "EP",
+        pulley_height=height,
+    )
+    assert found == pytest.approx(widths * WIDTH, rel=1e-12)
+
+
+def test_cemas_tables_are_longer_for_more_tension_steeper_troughs_and_steel():
+    def length(angle, utilisation, steel, height):
+        return cema_transition_length(
+            1.0,
+            trough_angle=math.radians(angle),
+            utilisation=utilisation,
+            carcass="steel cord" if steel else "EP",
+            pulley_height=height,
+        )
+
+    for height in (0.0, 0.5):
+        for steel in (False, True):
+            every = [[length(angle, use, steel, height) for use in (0.5, 0.8, 1.0)] for angle in (20.0, 35.0, 45.0)]
+            assert (np.diff(every, axis=0) > 0.0).all()
+            assert (np.diff(every, axis=1) > 0.0).all()
+    assert length(35.0, 0.5, True, 0.0) > length(35.0, 0.5, False, 0.0) > length(35.0, 0.5, False, 0.5)
+    assert length(30.0, 0.5, False, 0.0) is None
+
+
+@pytest.mark.parametrize(("name", "value"), [("belt_width", 0.0), ("utilisation", -0.1), ("pulley_height", 1.1)])
+def test_transitions_by_cema_refuse_what_is_no_transition(name, value):
+    given = {"belt_width": 1.0, "trough_angle": 0.6, "utilisation": 0.5, "carcass": "EP", "pulley_height": 0.0}
+    with pytest.raises(InputError, match=name):
+        cema_transition_length(**given | {name: value})

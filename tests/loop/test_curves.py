@@ -106,6 +106,7 @@ def test_least_radii_are_those_of_the_laws():
     carry, back = curves["dip", "carry"], curves["dip", "return"]
     # level chord, 60 m on 900 m: an end slopes by a thirtieth
     assert carry.lift_off == pytest.approx(carry.highest / (20.0 * 9.81 * math.cos(30.0 / 900.0)), rel=1e-14)
+    assert carry.cema_lift_off == pytest.approx(1.11 * carry.highest / (20.0 * 9.81), rel=1e-14)
     # flat return belt: no strip is longer than another
     assert (back.overstress, back.buckling) == (0.0, 0.0)
     wing, sine = (1.0 - 0.38) / 2.0, math.sin(math.radians(35.0))

@@ -189,6 +189,8 @@ def test_transitions_bear_the_tensions_of_every_state():
         assert (zone.lowest, zone.highest) == pytest.approx((min(tensions), max(tensions)), rel=1e-12)
         assert zone.most == pytest.approx(zone.highest + stiffness * strips.largest / length**2, rel=1e-12)
         assert zone.least == pytest.approx(zone.lowest + stiffness * strips.least / length**2, rel=1e-12)
+        assert zone.cema == pytest.approx({"head": 3.6, "tail": 1.8}[end])  # steel cord, 35 deg, 1 m, below 60 %
+        assert zone.highest < 0.6 * allowed / 1.3
         # at its least length the strip bears just what it may
         assert zone.highest + stiffness * strips.largest / zone.stretched**2 == pytest.approx(allowed, rel=1e-12)
         assert zone.lowest + stiffness * strips.least / zone.slackened**2 == pytest.approx(0.0, abs=1e-6)

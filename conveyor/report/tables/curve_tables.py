@@ -46,6 +46,7 @@ def vertical_curves(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
         Column("lowest tension", "force", "lowest"),
         Column("highest tension", "force", "highest"),
         Column("minimum against lift-off", "length", "lift_off"),
+        Column("against lift-off by CEMA", "length", "cema_lift_off", sparse=True),
         Column("minimum against overstress", "length", "overstress"),
         Column("minimum against slack strips", "length", "buckling"),
         Column("highest in a strip", "strength", "most"),
@@ -53,9 +54,11 @@ def vertical_curves(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
     )
     every = [load.found.belt_duty.curves for load in loads]
     rows = _worst_of_cases(
-        every, lowest=min, highest=max, lift_off=max, overstress=max, buckling=max, most=max, least=min
-    )
-    notes = [_USUAL_STIFFNESS] if rows and a.line.belt.stiffness is None else []
+        every, lowest=min, highest=max, lift_off=max, overstress=max, buckling=max, most=max, least=min,
+        cema_lift_off=max,
+    )  # fmt: skip
+    notes = ["By CEMA: 1.11 T over the belt's weight, not checked."] if any(row.cema_lift_off for row in rows) else []
+    notes += [_USUAL_STIFFNESS] if rows and a.line.belt.stiffness is None else []
     if rows and a.line.wind_speed is not None:
         notes.append("Against lift-off: with the wind of ambient.wind_speed under the empty belt.")
     heading = "Vertical curves, all cases"
@@ -138,6 +141,7 @@ def transition_table(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
         Column("length", "spacing", "zone.length"),
         Column("minimum against overstress", "spacing", "stretched"),
         Column("minimum against slack strips", "spacing", "slackened"),
+        Column("minimum by CEMA", "spacing", "cema", sparse=True),
         Column("lowest tension per width", "strength", "lowest"),
         Column("highest tension per width", "strength", "highest"),
         Column("highest in a strip", "strength", "most"),
@@ -153,7 +157,9 @@ def transition_table(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
         note += f" {_USUAL_STIFFNESS}"
     note += "".join(f" Not known: {missing}." for missing in {row.missing for row in a.belt_duty.transitions} - {""})
     every = [load.found.belt_duty.transitions for load in loads]
-    rows = _worst_of_cases(every, lowest=min, highest=max, stretched=max, slackened=max, most=max, least=min)
+    rows = _worst_of_cases(every, lowest=min, highest=max, stretched=max, slackened=max, most=max, least=min, cema=max)
+    if any(row.cema is not None for row in rows):
+        note += " By CEMA: its table over trough and share of the rated tension, not checked."
     return Table("transitions", "Curves", heading, columns, rows, "belt", note)
 
 
