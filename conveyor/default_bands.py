@@ -206,8 +206,8 @@ DEFAULTS: Final = (
                 "route.cleaners[].pressure", ("cleaner",), _cleaner_pressure_share),
     DefaultBand("level", "test factor of the indentation, no rolling-resistance tests", 1.0, UNTESTED_FACTOR,
                 "a compound with tests", _INDENTATION, _untested_share),
-    DefaultBand("tested_level", "level of the indentation, tests and spectrum", 1.0, 1.0, "tests of the belt itself",
-                _INDENTATION, _tested_share, _tests_band),
+    DefaultBand("tested_level", "test factor of the indentation, tests and spectrum", 1.0, 1.0,
+                "tests of the belt itself", _INDENTATION, _tested_share, _tests_band),
     DefaultBand("bending_loss", "loss of the carcass that bends, 0", 1.0, 1.0, "belt.carcass.bending_loss",
                 _INDENTATION, _bending_share, _bending_band),
     DefaultBand("pulleys", "usual head and tail pulleys", 1.0, 1.0, "route.pulleys",
@@ -381,8 +381,8 @@ def _untested_rubbers(result: CalculatedConveyor) -> Iterator[Message]:
     for (tested, spectrum), compounds in names.items():
         several = ", ".join(escape_braces(f'"{name}"') for name in compounds)
         yield message(
-            f"the level of {several} is tested at {' to '.join('{}' for _ in tested)}, not at {{}}: "
-            f"{'its' if len(compounds) == 1 else 'their'} {spectrum} spectrum carries it there",
+            f"{several} {'is' if len(compounds) == 1 else 'are'} tested at {' to '.join('{}' for _ in tested)}, not at "
+            f"{{}}: the {spectrum} spectrum extrapolates the test factor",
             *((kelvin, "temperature") for kelvin in (*tested, result.temperature)),
         )
 

@@ -456,6 +456,6 @@ def _vary_test_factor(conveyor: Conveyor, name: str, bands: Mapping[Strand, floa
     )
     low, high = (math.expm1(sign * max(bands.values())) for sign in (-1.0, 1.0))
     return _Variation(
-        f'level of "{name}"', f"{100.0 * low:+.0f} %", "as tested", f"{100.0 * high:+.0f} %", ends,
-        drawn=DrawnInput(f'level of "{name}"', level=bands),
+        f'test factor of "{name}"', f"{100.0 * low:+.0f} %", "as tested", f"{100.0 * high:+.0f} %", ends,
+        drawn=DrawnInput(f'test factor of "{name}"', level=bands),
     )  # fmt: skip

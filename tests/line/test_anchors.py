@@ -126,7 +126,7 @@ def test_the_level_is_shown_wherever_its_result_is(line):
 def test_the_level_is_in_the_uncertainty(line):
     found = analyse_ranges(line, Uncertainty(rubber=True), rtol=1e-4)
     effects = {effect.name: effect for effect in found.effects}
-    carry = effects['level of "low-rolling-resistance-cover"']
+    carry = effects['test factor of "low-rolling-resistance-cover"']
     middle = calculate(line)
     half = middle.contacts.test_factor_band("carry")
     along = {force.key: force for force in middle.balance.along}["indentation"].by_strand()["carry"]

@@ -88,7 +88,7 @@ def test_beyond_the_tested_temperatures_the_headline_says_so(line):
     (said,) = told(-25.0)
     name = line.carry_compound.name
     assert said == (
-        f'the level of "{name}" is tested at 20 °C, not at -25 °C: its constructed spectrum carries it there'
+        f'"{name}" is tested at 20 °C, not at -25 °C: the constructed spectrum extrapolates the test factor'
     )
     analysis = conveyor.analyse(line.replace(ambient=line.ambient.replace(temperature="-25 degC")))
     printed = analysis.contents(system="SI")

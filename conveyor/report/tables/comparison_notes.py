@@ -147,7 +147,7 @@ def _level_notes(comparison: CalculatedComparison) -> Iterator[str]:
     tests = comparison.conveyor.calculation.anchor == "tests"
     if tests and not any(compound.tests for compound in comparison.compounds):
         yield (
-            "no rolling-resistance tests given: with the level of tests every indentation, and so every difference and "
+            "no rolling-resistance tests given: with their test factor every indentation, and so every difference and "
             f"saving, may be up to {UNTESTED_FACTOR:g} times as much; which compound needs less does not depend on it"
         )
 

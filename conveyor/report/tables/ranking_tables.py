@@ -361,7 +361,7 @@ def _why_not_compared(
     if not base:
         return "the base's data do not reach"
     if comparison.test_basis_differs(name):
-        return "one level tested, one not"
+        return "only one of the two is tested"
     return None
 
 

@@ -134,7 +134,7 @@ def rubber_table(a: CalculatedConveyor) -> Table:
         Column("test factor to", "factor", lambda row: _test_factor_end(contacts, row[0], 1.0), json="level_to"),
         Column("warming left out", "warming", lambda _: warming, json="warming_K"),
     )  # fmt: skip
-    heading = "Rubber excitation band, working strain and level"
+    heading = "Rubber excitation band, working strain and test factor"
     return Table("rubber", "Rubber", heading, columns, rows, "rubber", named=2)
 
 

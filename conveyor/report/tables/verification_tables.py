@@ -60,7 +60,7 @@ def basis_lines(sheet: CalculatedVerification) -> Iterator[str]:
         yield f'Compound "{compound.name}" ({compound.kind}): {_strain_text(compound, softened=sheet.softened)}.'
     yield (
         "Figures follow from the compound's small-sample dynamic moduli. Those of a compound that holds tests of "
-        "rolling resistance stand at their level; others are not scaled, and published tests of belts lie above them."
+        "rolling resistance have their test factor; others have none, and published tests of belts lie above them."
     )
     if sheet.conveyor is not None:
         yield (
