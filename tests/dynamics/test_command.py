@@ -286,6 +286,9 @@ def test_a_delay_is_found_that_keeps_every_criterion():
     found = size_scenario(conveyor, Scenario.from_data(start), "delay", between=(0.0, 10.0))
     assert 0.0 <= found.value <= 10.0
     assert found.setup.starters[1].delay == pytest.approx(found.value, abs=1e-12)
+    # eight trials, three times, each time between the neighbours of the best; at an end there is one neighbour
+    spacing = found.error * found.value
+    assert any(spacing == pytest.approx(10.0 * sides / 7.0**3, rel=1e-9) for sides in (1.0, 2.0, 4.0))
     with pytest.raises(InputError, match="one drive only"):
         size_scenario(from_data(data()), Scenario.from_data(start), "delay")
 
