@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from typing import Final
 
@@ -24,6 +25,7 @@ from conveyor.laws.resistance import (
     cema_skirts,
     roll_line_mass,
     section_main_resistance,
+    slider_bed_resistance,
     slope_resistance,
 )
 from conveyor.laws.resistance.cema import Place
@@ -42,7 +44,9 @@ _BOOK: Final = "CEMA classic"
 
 
 def unit_main_force(stretch: Stretch, gravity: float) -> float:
-    """Main resistance of a stretch for f = 1 [N]."""
+    """Main resistance of a stretch for f = 1 [N]; none on a plate, whose friction is a resistance of its own."""
+    if stretch.bed is not None:
+        return 0.0
     return section_main_resistance(
         friction_factor=1.0,
         length=stretch.length,
@@ -78,7 +82,7 @@ def cema_section_tension(stretch: Stretch, factors: CemaFactors) -> CemaTension:
         idler_friction=factors.idler_friction,
         spacing=stretch.spacing,
     )
-    return cema_effective_tension(
+    made = cema_effective_tension(
         stretch.length,
         lift=stretch.rise,
         belt_mass=stretch.belt_mass,
@@ -87,6 +91,25 @@ def cema_section_tension(stretch: Stretch, factors: CemaFactors) -> CemaTension:
         flexure_factor=factors.flexure_of(stretch.section),
         temperature_factor=factors.temperature,
     )
+    return made if stretch.bed is None else replace(made, idlers=0.0, belt_carry=0.0, bulk=0.0)
+
+
+def bed_forces(line: Line) -> Iterator[Force]:
+    """Friction of the belt on plates, by every method a resistance of its own [N]; none without plates."""
+    if any(stretch.bed is not None for stretch in line.stretches):
+        newtons = np.array([bed_friction(stretch, line.gravity) for stretch in line.stretches])
+        law = "friction of belt on plate x weight of belt and bulk, Coulomb"
+        yield Force("slider_bed", "slider bed", "special", newtons, law, short="slider bed")
+
+
+def bed_friction(stretch: Stretch, gravity: float) -> float:
+    """Friction of the belt on the plate of a stretch [N]."""
+    if stretch.bed is None:
+        return 0.0
+    return slider_bed_resistance(
+        stretch.line_mass, friction=stretch.bed.friction, length=stretch.length, inclination=stretch.inclination,
+        gravity=gravity,
+    )  # fmt: skip
 
 
 def cema_forces_along(line: Line, factors: CemaFactors) -> tuple[Force, ...]:
@@ -111,6 +134,7 @@ def cema_forces_along(line: Line, factors: CemaFactors) -> tuple[Force, ...]:
         force("Tyc", "flexure of the belt, carry", np.array([part.belt_carry for part in carry]), none),
         force("Tyr", "flexure of the belt, return", none, np.array([part.belt_return for part in back])),
         force("Tym", "flexure of the bulk", np.array([part.bulk for part in carry]), none),
+        *bed_forces(line),
     )
 
 

@@ -21,6 +21,7 @@ from conveyor.errors import NoSolutionError
 from conveyor.force_sums import Force
 from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
 from conveyor.laws.resistance import (
+    BED_FRICTION,
     CLEANER_PRESSURE,
     FLEXURE_COEFFICIENT,
     ROLL_ON_BELT_FRICTION,
@@ -113,6 +114,30 @@ def _misalignment_band(result: CalculatedConveyor) -> tuple[float, float]:
     return _site_band(result.conveyor.site)
 
 
+def _assumed_beds(result: CalculatedConveyor) -> list[tuple[Default, float]]:
+    """Friction of every plate that has none of its own, and the weight on it [N]."""
+    pairs = zip(result.conveyor.route.sections, result.line.stretches, strict=False)
+    return [
+        (BED_FRICTION[section.bed.surface, section.bed.underside], stretch.line_mass * stretch.length)
+        for section, stretch in pairs
+        if section.bed is not None and section.bed.friction is None
+    ]
+
+
+def _bed_share(result: CalculatedConveyor, _force: Force) -> Shares:
+    """Stretches on plates without a friction of their own."""
+    given = [section.bed is None or section.bed.friction is not None for section in result.conveyor.route.sections]
+    return np.array([*(not one for one in given), *(False for _ in given)], dtype=np.float64)
+
+
+def _bed_band(result: CalculatedConveyor) -> tuple[float, float]:
+    """Band from the lowest to the highest of makers' figures over those taken, weighted by load."""
+    low, middle, high = (
+        math.fsum(getattr(of, end) * load for of, load in _assumed_beds(result)) for end in ("low", "value", "high")
+    )
+    return low / middle, high / middle
+
+
 @cache
 def _site_band(site: Site) -> tuple[float, float]:
     of_site = MISALIGNMENT[site]
@@ -196,6 +221,8 @@ DEFAULTS: Final = (
                 "idlers.*.tilt_angle: 0 deg", ("tilt",), lambda _found, _force: 1.0),
     DefaultBand("misalignment", "alignment of the idlers", 1.0, 1.0, "idlers.*.misalignment",
                 ("misalignment",), _misalignment_share, _misalignment_band),
+    DefaultBand("bed_friction", "friction of belt on plates", 1.0, 1.0, "route.sections[].bed.friction",
+                ("slider_bed",), _bed_share, _bed_band),
     DefaultBand("feeding", "acceleration of the bulk from rest", 0.5, 1.0, "route.feeding",
                 ("acceleration",), _usual_part_share),
     DefaultBand("skirts", "usual skirts and their seals", 0.5, 2.0, "route.feeding",

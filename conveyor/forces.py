@@ -15,7 +15,13 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from conveyor.classical_forces import cema_forces_along, cema_point_forces, factor_main_force, unit_main_force
+from conveyor.classical_forces import (
+    bed_forces,
+    cema_forces_along,
+    cema_point_forces,
+    factor_main_force,
+    unit_main_force,
+)
 from conveyor.force_sums import Force, ForceSums
 from conveyor.laws.resistance import (
     ROLL_ON_BELT_FRICTION,
@@ -134,8 +140,9 @@ def forces_along_belt(
     if line.method == "cema classic" and line.cema is not None:
         return (*cema_forces_along(line, line.cema), *_guidance_forces(fixed), lift)
     tilt = Force("tilt", "idler tilt", "special", fixed.tilt, "ISO 5048, F_e")
+    beside = (tilt, *bed_forces(line), *_guidance_forces(fixed), lift)
     if line.method != "viscoelastic":
-        return (factor_main_force(line, fixed.unit_main), tilt, *_guidance_forces(fixed), lift)
+        return (factor_main_force(line, fixed.unit_main), *beside)
     factors = calibration or Calibration()
     indentation = factors.indentation * indentation
     rotation = factors.idler_rotation * roll_drag * line.rotation
@@ -167,9 +174,7 @@ def forces_along_belt(
             _MISALIGNMENT_SOURCE,
             short="misalignment",
         ),
-        tilt,
-        *_guidance_forces(fixed),
-        lift,
+        *beside,
     )
 
 

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable
 from typing import Final
 
 from conveyor.calculated_conveyor import CalculatedConveyor
+from conveyor.checks.bed_checks import bed_speed
 from conveyor.checks.belt_checks import (
     belt_breakage,
     belt_rating,
@@ -78,6 +79,6 @@ CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     wind_lift, horizontal_edges, belt_drift, belt_transitions, impact_load, skirtboards, belt_cleaning, belt_scales,
     pulley_shaft,
     pulley_bearings, lagging_pressure, starting_force, comes_to_rest, holding_brake, drive_parts, coasting_time,
-    bulk_slip,
+    bulk_slip, bed_speed,
     cover_penetration, roll_life, set_rating, roll_axle, belt_flap, rubber_coverage,
 )  # fmt: skip

@@ -152,21 +152,29 @@ class Contacts:
         """Upper end of the excited band [Hz]."""
         return max((f for one in self.curves_of(strand) if (f := one.fastest_excited) is not None), default=None)
 
+    def rolls_on(self, strand: str) -> bool:
+        """True if a strand runs on rolls anywhere, not on plates alone."""
+        return any(kind.strand == strand for kind in self.line.kinds)
+
     def losing_load(self, strand: Strand) -> float:
-        """Mean line load of a strand's rolls, weighted by energy loss [N/m]."""
+        """Mean line load of a strand's rolls, weighted by energy loss [N/m]; 0 without rolls."""
         kinds = [kind for kind in self.line.kinds if kind.strand == strand]
+        if not kinds:
+            return 0.0
         loads = np.concatenate([kind.line_loads for kind in kinds])
         return loss_weighted_load(loads, np.concatenate([kind.weights * kind.sets for kind in kinds]))
 
     def test_factor(self, strand: Strand) -> float:
         """Test factor on a strand's indentation at its mean line load [-]; 1 without tests."""
         level = self.covers[strand].level
-        return 1.0 if level is None else float(level.factor(self.losing_load(strand)))
+        return 1.0 if level is None or not self.rolls_on(strand) else float(level.factor(self.losing_load(strand)))
 
     def test_factor_band(self, strand: Strand) -> float:
         """Half-width of the 90 % band of the logarithm of the test factor [-]; 0 without tests."""
         level = self.covers[strand].level
-        return 0.0 if level is None else level.anchor.band(self.losing_load(strand), level.temperature)
+        if level is None or not self.rolls_on(strand):
+            return 0.0
+        return level.anchor.band(self.losing_load(strand), level.temperature)
 
     def test_factor_range(self, strand: Strand, *, own: bool = False) -> tuple[float, float]:
         """90 % range of the factor on a strand's indentation [-]; 1 and 1 without tests.
@@ -186,7 +194,7 @@ class Contacts:
             A replica's contact has no answer.
         """
         level = self.covers[strand].level
-        if level is None:
+        if level is None or not self.rolls_on(strand):
             return 1.0, 1.0
         half = level.anchor.own_half_width if own else self.test_factor_band(strand)
         if level.anchor.tested_at(level.temperature):
@@ -199,13 +207,13 @@ class Contacts:
         return math.exp(-low), math.exp(high)
 
     def deepest(self, strand: Strand) -> float:
-        """Largest penetration of a strand's rolls over the thickness of their cover [-]."""
+        """Largest penetration of a strand's rolls over the thickness of their cover [-]; 0 without rolls."""
         highest: dict[IndentationCurve, float] = {}
         for kind, curve in zip(self.line.kinds, self.curves, strict=True):
             if kind.strand == strand:
                 highest[curve] = max(kind.highest, highest.get(curve, 0.0))
         depths = [float(curve.penetration(load)) for curve, load in highest.items()]
-        return max(depths) / self.covers[strand].thickness
+        return max(depths, default=0.0) / self.covers[strand].thickness
 
     @property
     def error(self) -> float:

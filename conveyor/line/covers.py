@@ -144,7 +144,7 @@ class CoverLoading:
 
     def worked(self) -> SofteningCover | None:
         """Contact that determines the working strain; None without strain dependence."""
-        factors = self.compound.amplitude_factors() if self.line.softened else None
+        factors = self.compound.amplitude_factors() if self.line.softened and self.kinds else None
         if factors is None:
             return None
         contact = roll_contact(self.line, max(self.kinds, key=lambda kind: kind.highest), self.cover)
@@ -154,6 +154,8 @@ class CoverLoading:
     @property
     def line_load(self) -> float:
         """Mean line load weighted by energy loss [N/m]."""
+        if not self.kinds:
+            return 0.0
         loads = np.concatenate([kind.line_loads for kind in self.kinds])
         return loss_weighted_load(loads, np.concatenate([kind.weights * kind.sets for kind in self.kinds]))
 
@@ -169,7 +171,7 @@ TERM_MERGE_SHARE: Final = 0.02
 
 def resolved_time_range(work: CoverLoading, rtol: float) -> tuple[float, float] | None:
     """Range of relaxation times that a strand's rolls resolve [s]; None unless on a rigid carcass."""
-    if work.line.support != "confined" or work.cover.poisson != 0.5:
+    if work.line.support != "confined" or work.cover.poisson != 0.5 or not work.kinds:
         return None
     lightest = min(work.kinds, key=lambda kind: kind.lowest * kind.radius)
     return resolved_relaxation_times(

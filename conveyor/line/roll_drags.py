@@ -59,7 +59,7 @@ def roll_drags_many(asked: Sequence[tuple[Conveyor, OneStrand]]) -> list[StrandD
     for k, (conveyor, strand) in enumerate(asked):
         loads = np.array(strand.distinct_sets[0])
         try:
-            for places, law in _drag_laws(conveyor, strand.strand):
+            for places, law in _drag_laws(conveyor, strand.strand) if loads.size else ():
                 if isinstance(law, _ServiceRoll):
                     served.setdefault((law.diameter, law.length), []).append((k, places, law))
                 else:
@@ -81,7 +81,7 @@ def roll_drags_many(asked: Sequence[tuple[Conveyor, OneStrand]]) -> list[StrandD
 def _drags_of_stretches(strand: OneStrand, sets: Array) -> StrandDrags:
     """Drags of every stretch from those of its distinct sets."""
     rows = [tuple(row) for row in sets.tolist()]
-    return tuple(rows[i] for i in strand.distinct_sets[1])
+    return tuple(() if i is None else rows[i] for i in strand.distinct_sets[1])
 
 
 def _drag_laws(conveyor: Conveyor, strand: Strand) -> Iterator[tuple[list[int], DragLaw | _ServiceRoll]]:
@@ -168,7 +168,7 @@ def assumed_drag_share(conveyor: Conveyor, idlers: IdlerSet, drags: Sequence[flo
         return 0.0
     rolls = [idlers.roll_at(place) for place in range(idlers.rolls)]
     without = [roll.drag is None and roll.drag_law is None for roll in rolls]
-    assumed = math.fsum(drag for drag, one in zip(drags, without, strict=True) if one)
+    assumed = math.fsum(drag for drag, one in zip(drags, without, strict=True) if one) if drags else 0.0
     return assumed / math.fsum(drags) if assumed > 0.0 else 0.0
 
 

@@ -85,11 +85,11 @@ class OneStrand:
         return self.stretches[0].span_flexure is not None
 
     @cached_property
-    def distinct_sets(self) -> tuple[list[tuple[float, ...]], list[int]]:
-        """Distinct loads of the rolls of one set [N], and the index of every stretch's among them."""
+    def distinct_sets(self) -> tuple[list[tuple[float, ...]], list[int | None]]:
+        """Distinct loads of the rolls of one set [N], and the index of every stretch's among them; None without."""
         borne = [tuple(load.force for load in s.loads) for s in self.stretches]
-        numbers = {each: i for i, each in enumerate(dict.fromkeys(borne))}
-        return list(numbers), [numbers[each] for each in borne]
+        numbers = {each: i for i, each in enumerate(dict.fromkeys(filter(None, borne)))}
+        return list(numbers), [numbers.get(each) for each in borne]
 
     @cached_property
     def kinds(self) -> tuple[RollKind, ...]:

@@ -10,15 +10,20 @@ from typing import Literal
 from conveyor.errors import MessageQuantity, NoSolutionError
 from conveyor.laws.loading import RollLoad, bulk_line_mass, roll_angles
 from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
+from conveyor.laws.resistance import BED_FRICTION
 from conveyor.laws.tension import sag_tension
 from conveyor.line.curve_sets import CurveSets, HorizontalCurve, sets_on_curve
 from conveyor.line.flexure_law import FlexureLaw
+from conveyor.line.optional_quantities import si_or_none
 from conveyor.line.set_loads import SetLoads
 from conveyor.models import Conveyor, IdlerSet, Section
+from conveyor.models.slider_beds import SliderBed
 from conveyor.units import si
 
 Strand = Literal["carry", "return"]
 STRANDS: tuple[Strand, Strand] = ("carry", "return")
+TENSION_ON_PLATE = 1.0
+"""Least tension of a belt on a plate, which does not sag: above 0 so that ratios to it are finite [N]."""
 CurveValues = Mapping[tuple[str, Strand], float]
 """Values by section and strand on curves."""
 
@@ -35,11 +40,28 @@ class CurveLoads:
 
 
 @dataclass(frozen=True)
+class PlateBed:
+    """Plate on which the carry strand slides: name of the pair, friction [-], allowed belt speed [m/s] or None."""
+
+    name: str
+    friction: float
+    allowed_speed: float | None
+    source: str
+
+    @classmethod
+    def of(cls, bed: SliderBed) -> PlateBed:
+        """Plate of a section, SI."""
+        pair = f"{bed.underside} on {bed.surface}"
+        source = "given" if bed.friction is not None else BED_FRICTION[bed.surface, bed.underside].source
+        return cls(pair, bed.friction_of_belt, si_or_none(bed.allowed_speed), source)
+
+
+@dataclass(frozen=True)
 class RouteSection:
     """A section of the route: length and rise in running direction of the carry strand [m], its curves.
 
     `radius` is positive on a convex curve, negative on a concave one, infinite on the straight [m]; `spacing` is the
-    section's own of each strand's sets [m], or None.
+    section's own of each strand's sets [m], or None; `bed` is the plate of the carry strand, or None.
     """
 
     name: str
@@ -50,6 +72,7 @@ class RouteSection:
     curve: str | None
     radius: float
     horizontal: HorizontalCurve | None
+    bed: PlateBed | None = None
 
     @property
     def curved(self) -> bool:
@@ -80,6 +103,7 @@ def _route_section(section: Section) -> RouteSection:
         curve=section.curve,
         radius=section.signed_radius,
         horizontal=HorizontalCurve.of(section),
+        bed=None if section.bed is None else PlateBed.of(section.bed),
     )
 
 
@@ -117,6 +141,8 @@ class Stretch:
         Flexure of belt and bulk over one span [N]; None where it is a share of the main resistance.
     turn : CurveSets or None
         Sets on a horizontal curve.
+    bed : PlateBed or None
+        Plate that carries the belt instead of sets, which then are none: no rolls, no sag.
     """
 
     section: str
@@ -138,6 +164,7 @@ class Stretch:
     misalignment: tuple[float, ...]
     span_flexure: float | None = None
     turn: CurveSets | None = None
+    bed: PlateBed | None = None
 
     @property
     def inclination(self) -> float:
@@ -146,8 +173,8 @@ class Stretch:
 
     @property
     def sets(self) -> float:
-        """Number of idler sets, a broken number allowed."""
-        return self.length / self.spacing
+        """Number of idler sets, a broken number allowed; none on a plate."""
+        return 0.0 if self.bed is not None else self.length / self.spacing
 
     @property
     def line_mass(self) -> float:
@@ -233,6 +260,8 @@ class _StretchBuilder:
         length = section.length
         rise = section.rise if self.carrying else -section.rise
         inclination = math.asin(rise / length)
+        if self.carrying and section.bed is not None:
+            return self._on_bed(section, section.bed, flow)
         loads = self.set_loads.of(
             spacing=spacing,
             inclination=inclination,
@@ -265,6 +294,15 @@ class _StretchBuilder:
             span_flexure=self._span(flow, spacing, inclination, least),
             turn=turned,
         )
+
+    def _on_bed(self, section: RouteSection, bed: PlateBed, flow: float) -> Stretch:
+        """Stretch of a section on a plate in the shape of the trough, without sets."""
+        return Stretch(
+            section=section.name, strand=self.strand, length=section.length, rise=section.rise, spacing=self.spacing,
+            idlers=self.idlers, trough_angle=self.trough, tilt_angle=0.0, roll_length=self.roll_length, radii=(),
+            belt_mass=self.belt_mass, bulk_mass=flow, loads=(), least_tension=TENSION_ON_PLATE, set_mass=0.0,
+            rim_mass=0.0, misalignment=(), span_flexure=None if self.flexure is None else 0.0, bed=bed,
+        )  # fmt: skip
 
     def _turn(self, section: RouteSection, spacing: float, inclination: float, flow: float) -> CurveSets | None:
         """Sets of a section on a horizontal curve; None on the straight."""

@@ -124,6 +124,7 @@ def cema_estimate(line: Line, unit_main: float) -> CemaEstimate | None:
         ("Tbc", "cleaners", at.get("Tbc", 0.0)),
         ("Tpl", "ploughs", at.get("Tpl", 0.0)),
         ("Tac", "other accessories", at.get("Tac", 0.0)),
+        *((("", "slider bed", along["slider_bed"]),) if "slider_bed" in along else ()),
     )
     lifted = (("Tm", "lift of the bulk", math.fsum([*lift, at.get("tripper_lift", 0.0)])),)
     sums = [math.fsum(item[2] for item in group) for group in (main, secondary, special, lifted)]

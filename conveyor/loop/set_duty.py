@@ -78,7 +78,7 @@ def set_duty(balance: Balance) -> tuple[SetDuty, ...]:
     return tuple(
         _stretch_duty(balance, stretch, float(start), float(end))
         for stretch, start, end in zip(line.loop.stretches, steady.starts, steady.ends, strict=True)
-        if stretch.idlers.judged
+        if stretch.idlers.judged and stretch.bed is None
     )
 
 

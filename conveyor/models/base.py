@@ -12,7 +12,7 @@ from itertools import pairwise
 from textwrap import dedent
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Self, TypeVar
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Strict, StringConstraints, ValidationError
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, Strict, StringConstraints, ValidationError
 from pydantic.json_schema import GenerateJsonSchema, JsonSchemaValue
 from pydantic_core import InitErrorDetails, PydanticCustomError
 from pydantic_core.core_schema import ModelSchema
@@ -43,6 +43,7 @@ def _check_magnitude(value: float) -> float:
 
 Number = Annotated[float, Strict(), AfterValidator(_check_magnitude)]
 Count = Annotated[int, Strict()]
+Friction = Annotated[Number, Field(gt=0, le=2)]
 Switch = Annotated[bool, Strict()]
 Name = Annotated[str, StringConstraints(min_length=1, max_length=100, pattern=r"^\S(.*\S)?$")]
 

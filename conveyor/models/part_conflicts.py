@@ -342,6 +342,36 @@ def _flexure_factor_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
             yield Problem(("route", "sections", i, "flexure_factor"), message)
 
 
+def _bed_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Refuse sets, scales, and a yielding carcass on a plate."""
+    route = conveyor.route
+    plates = {section.name for section in route.sections if section.bed is not None}
+    if not plates:
+        return
+    if conveyor.calculation.support == "belt":
+        first = next(i for i, section in enumerate(route.sections) if section.bed is not None)
+        message = 'given with calculation.support "belt", a carcass that gives way between rolls; take "confined"'
+        yield Problem(("route", "sections", first, "bed"), message)
+    for i, scale in enumerate(route.belt_scales):
+        if scale.section in plates:
+            message = f'got "{scale.section}", a plate (bed): a belt scale weighs on idler sets; name another section'
+            yield Problem(("route", "belt_scales", i, "section"), message)
+    points: list[tuple[Location, Feeding | None]] = [(("feeding",), route.feeding)]
+    points += [(("further_feeding", i), point) for i, point in enumerate(route.further_feeding)]
+    for location, point in points:
+        if point is None or (point.section or route.sections[0].name) not in plates:
+            continue
+        of_sets = {
+            "idler_spacing": point.idler_spacing,
+            "idler_stiffness": point.idler_stiffness,
+            "idler_rating": point.idler_rating,
+        }
+        for name, given in of_sets.items():
+            if given is not None:
+                message = "given, but the bulk lands over a plate (bed), not over idler sets; remove it"
+                yield Problem(("route", *location, name), message)
+
+
 CONFLICTS: Final[Mapping[Callable[[ConveyorParts], Iterator[Problem]], tuple[str, ...]]] = {
     _roll_length_problems: ("belt", "idlers"),
     _fill_problems: ("belt", "idlers", "material"),
@@ -360,5 +390,6 @@ CONFLICTS: Final[Mapping[Callable[[ConveyorParts], Iterator[Problem]], tuple[str
     _bulk_flexure_problems: ("calculation", "idlers"),
     _belt_support_problems: ("belt", "calculation"),
     _curve_problems: ("idlers", "route"),
+    _bed_problems: ("calculation", "route"),
 }
 """Checks between the parts, and the parts that each check reads."""

@@ -12,12 +12,13 @@ from pydantic import Field, model_validator
 
 from conveyor.laws.resistance import BULK_ON_BELT_FRICTION, BULK_ON_SKIRT_FRICTION, CLEANER_FRICTION, CLEANER_PRESSURE
 from conveyor.laws.transfer import CLEANER_EFFICIENCY
-from conveyor.models.base import Model, Name, Number, Problem, Switch, raise_problems
+from conveyor.models.base import Friction, Model, Name, Problem, Switch, raise_problems
 from conveyor.models.belt_scale import BeltScale
 from conveyor.models.calculation_methods import FlexureFactor, FrictionFactor
 from conveyor.models.idlers import Spacing
 from conveyor.models.loop_parts import Pulley, TakeUp, Transition
 from conveyor.models.ploughs import Plough
+from conveyor.models.slider_beds import SliderBed
 from conveyor.models.validation_messages import Location
 from conveyor.units import (
     Angle,
@@ -39,9 +40,6 @@ from conveyor.units import (
     si,
     text,
 )
-
-Friction = Annotated[Number, Field(gt=0, le=2)]
-
 
 Banking = Annotated[Angle, Bounds(ge="0 deg", le="20 deg")]
 
@@ -98,10 +96,12 @@ class Section(Model):
     """f of the return strand here; that of calculation without it."""
     flexure_factor: FlexureFactor | None = None
     """Ky of CEMA here, by the book's table for its slope, length and load; that of calculation.cema without it."""
+    bed: SliderBed | None = None
+    """Plate that carries the belt here instead of carry sets."""
 
     @model_validator(mode="after")
     def _one_slope(self) -> Self:
-        problems = [*self._curve_problems(), *self._horizontal_problems()]
+        problems = [*self._curve_problems(), *self._horizontal_problems(), *self._bed_problems()]
         if self.lift is not None and self.slope is not None:
             problems.append(
                 Problem(
@@ -160,6 +160,18 @@ class Section(Model):
                 if (given := getattr(self, name)) is not None:
                     message = f"got {text(given)} on the straight; give horizontal_curve and its radius, or remove it"
                     yield Problem((name,), message)
+
+    def _bed_problems(self) -> Iterator[Problem]:
+        """Refuse carry sets, their factors and curves where a plate carries the belt."""
+        if self.bed is None:
+            return
+        for name in ("curve_radius", "horizontal_radius"):
+            if getattr(self, name) is not None:
+                message = "given with bed, a straight plate; give the curve a section of its own with carry sets"
+                yield Problem((name,), message)
+        for name in ("carry_spacing", "friction_factor", "flexure_factor"):
+            if getattr(self, name) is not None:
+                yield Problem((name,), "given, but a plate (bed) carries the belt here, no carry sets; remove one")
 
     @property
     def signed_radius(self) -> float:

@@ -31,6 +31,7 @@ from conveyor.models.library_items import without_entry_fields
 from conveyor.models.plausibility import implausible_inputs
 from conveyor.models.rolls import BearingDrag
 from conveyor.remarks.assumptions import failed_fits, library_models, rolls_by_field
+from conveyor.remarks.bed_warnings import bed_warnings
 from conveyor.units import quantity, same_value, text
 from conveyor.units.presentation import format_figure
 from conveyor.units.sentences import Message, escape_braces, message, percent
@@ -127,6 +128,8 @@ def _test_factor_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     contacts, calculation = result.contacts, result.conveyor.calculation
     for strand, compound in compounds_by_strand(result.conveyor).items():
         level, name = contacts.covers[strand].level, escape_braces(compound.name)
+        if not contacts.rolls_on(strand):
+            continue
         if level is not None:
             low, high = contacts.test_factor_range(strand)
             beyond = "" if level.anchor.tested_at(level.temperature) else ", held beyond the tested temperatures"
@@ -307,6 +310,7 @@ def roll_warnings(result: CalculatedConveyor) -> tuple[Message, ...]:
         *(_alignment_warnings(conveyor) if itemised else ()),
         *_cover_warnings(conveyor),
         *_set_warnings(result),
+        *bed_warnings(conveyor),
         *_other_warnings(conveyor),
     )
 
@@ -340,7 +344,7 @@ def _drag_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     air = conveyor.air_temperature
     in_service = conveyor.calculation.roll_drag == "in service"
     for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
-        for name, roll in rolls_by_field(idlers):
+        for name, roll in rolls_by_field(idlers) if result.contacts.rolls_on(strand) else ():
             law, field = roll.drag_law, f"idlers.{strand}.{name}"
             if isinstance(law, BearingDrag):
                 yield from _bearing_warnings(field, law, air)
@@ -370,7 +374,7 @@ def _drags_of_roll(result: CalculatedConveyor, strand: str, idlers: IdlerSet, ro
     """Drags of one roll in all sets of a strand [N]."""
     places = [place for place in range(idlers.rolls) if idlers.roll_at(place) is roll]
     pairs = zip(result.line.stretches, result.line.roll_drags, strict=True)
-    return [drags[place] for stretch, drags in pairs if stretch.strand == strand for place in places]
+    return [drags[place] for stretch, drags in pairs if stretch.strand == strand and drags for place in places]
 
 
 def _bearing_warnings(field: str, law: BearingDrag, air: float) -> Iterator[Message]:
@@ -450,14 +454,14 @@ def _set_warnings(result: CalculatedConveyor) -> Iterator[Message]:
     widest, idlers_of = widest_spacings(), result.conveyor.idlers
     for strand, idlers in (("carry", idlers_of.carry), ("return", idlers_of.return_)):
         stretches = [stretch for stretch in result.line.stretches if stretch.strand == strand]
-        if stretches[0].tilt_angle > 0.0 or any(s.turn is not None and s.turn.guided for s in stretches):
+        if any(s.tilt_angle > 0.0 for s in stretches) or any(s.turn is not None and s.turn.guided for s in stretches):
             friction = ROLL_ON_BELT_FRICTION.value
             yield message(
                 f"idlers.{strand}: friction of belt on tilted or skewed rolls {friction:g} assumed (general knowledge)"
             )
         if idlers.offset.magnitude > 0.0:
             yield message(f"idlers.{strand}.offset: the loads of the rolls are those of a set in one plane")
-        spacing = max(stretch.spacing for stretch in stretches)
+        spacing = max((stretch.spacing for stretch in stretches if stretch.bed is None), default=0.0)
         if spacing > widest[strand]:
             yield message(
                 f"idlers.{strand}: sets {{}} apart, the widest in use on overland conveyors are {{}}",

@@ -128,7 +128,7 @@ def pressure_under_rolls(contacts: Contacts, *, system: System = "SI") -> Figure
     """
     figure, (axis,) = stacked_axes(1, 3.6)
     stress, way, line = (display_unit(kind, system, large=True) for kind in ("pressure", "thickness", "line force"))
-    strands: tuple[Strand, ...] = ("carry", "return")
+    strands = tuple(filter(contacts.rolls_on, STRANDS))
     for k, strand in enumerate(strands):
         roll = governing_roll(contacts, strand)
         contact, load = roll.curve.contact, roll.load.peak_line_load

@@ -11,3 +11,4 @@ from conveyor.laws.resistance.rim_drag import *
 from conveyor.laws.resistance.roll_bearing import *
 from conveyor.laws.resistance.secondary import *
 from conveyor.laws.resistance.service_drag import *
+from conveyor.laws.resistance.slider_bed import *

@@ -15,6 +15,7 @@ from conveyor.line.stretches import STRANDS
 from conveyor.report import analysis_plots
 from conveyor.report.table_model import Contents, Drawing, Table
 from conveyor.report.tables import (
+    bed_tables,
     belt_tables,
     check_tables,
     curve_tables,
@@ -147,6 +148,7 @@ TABLES: Final[dict[str, Maker]] = {
     "resistances": _own_table(resistance_tables.resistance_table),
     "classical": lambda made: resistance_tables.classical_table(made.own, made.assessment.by_contact),
     "cema": _own_table(resistance_tables.cema_table),
+    "slider_beds": _own_table(bed_tables.slider_bed_table),
     "breakdown": _own_table(resistance_tables.breakdown_table),
     "distinct_rolls": lambda made: idler_tables.distinct_rolls(made.own, made["rolls"]),
     "idler_sets": _load_table(idler_tables.idler_sets),

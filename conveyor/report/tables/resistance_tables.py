@@ -25,7 +25,7 @@ def section_table(a: CalculatedConveyor) -> Table:
         Column("length", "length", "stretch.length", "layout", json="length_m"),
         Column("lift", "length", "stretch.rise", "layout", json="lift_m"),
         Column("inclination", "angle", "stretch.inclination", page=None),
-        Column("idler spacing", "spacing", "stretch.spacing", "layout"),
+        Column("idler spacing", "spacing", lambda r: r.stretch.spacing if r.stretch.bed is None else None, "layout"),
         Column("belt mass", "line mass", "stretch.belt_mass", "layout"),
         Column("bulk mass", "line mass", "stretch.bulk_mass", "layout"),
         *(
@@ -34,7 +34,7 @@ def section_table(a: CalculatedConveyor) -> Table:
             for force in a.balance.along
         ),
         Column("total", "force", "total", "forces", json="total_N", total=True),
-        Column("equivalent f", "friction", lambda r: r.main / r.unit_main, "layout"),
+        Column("equivalent f", "friction", lambda r: r.main / r.unit_main if r.unit_main else None, "layout"),
         Column("idler set L10 life", "duration", _set_life_seconds, "layout", sparse=True),
     )  # fmt: skip
     page = (
@@ -51,7 +51,7 @@ def _force_getter(key: str) -> Callable[[StretchResult], float]:
 
 def _set_life_seconds(r: StretchResult) -> float | None:
     """L10 life of the bearings of a set [s]; None where one is not given."""
-    life = idler_set_life(r.stretch, r.rolls[0].curve.contact.speed)
+    life = idler_set_life(r.stretch, r.rolls[0].curve.contact.speed) if r.rolls else None
     return life.hours * _HOUR if life is not None and life.whole else None
 
 
