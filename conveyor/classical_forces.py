@@ -33,6 +33,7 @@ from conveyor.line.bend_pulleys import BendPulley
 from conveyor.line.cema_factors import CemaFactors
 from conveyor.line.line import Line
 from conveyor.line.stretches import Stretch
+from conveyor.line.transfer_parts import LoadingPoint
 from conveyor.models.calculation_methods import METHOD_NAMES
 
 Array = NDArray[np.float64]
@@ -112,6 +113,35 @@ def bed_friction(stretch: Stretch, gravity: float) -> float:
     )  # fmt: skip
 
 
+def hopper_forces(line: Line) -> Iterator[Force]:
+    """Pull-out force under every hopper in flow, and what the load costs on sets or plate, by every method [N]."""
+    for point in line.loading:
+        if point.hopper is None or point.flow == 0.0:
+            continue
+        here = partial(Force, kind="special", spot=point.spot, place=point.place, bulk=point.comes_with)
+        pull, support = hopper_pull(line, point, point.hopper.flow_load)
+        yield here(key="hopper_pull", name=f"pull-out under the hopper{point.name}", newtons=pull,
+                   source="load in flow x friction of the shear, Arnold, McLean and Roberts")  # fmt: skip
+        yield here(key="hopper_load", name=f"sets or plate under the hopper{point.name}", newtons=support,
+                   source="load in flow x f, or x friction of the plate")  # fmt: skip
+
+
+def hopper_pull(line: Line, point: LoadingPoint, load: float) -> tuple[float, float]:
+    """Pull-out force at a vertical load on the belt under a hopper, and the resistance below it [N]."""
+    if point.hopper is None:
+        return 0.0, 0.0
+    bed = line.stretches[point.section].bed
+    friction = float(line.friction_factors[point.section]) if bed is None else bed.friction
+    return point.hopper.shear_friction * load, friction * load
+
+
+def initial_pull(line: Line, point: LoadingPoint) -> float:
+    """Addition to the resistance when a feeder starts after its hopper was filled [N]; 0 without a hopper or bulk."""
+    if point.hopper is None or point.flow == 0.0:
+        return 0.0
+    return math.fsum(hopper_pull(line, point, point.hopper.initial_load - point.hopper.flow_load))
+
+
 def cema_forces_along(line: Line, factors: CemaFactors) -> tuple[Force, ...]:
     """L Kt (Kx + Ky Wb + 0.015 Wb) + L Ky Wm: idlers and flexure of carry strand, flexure of return strand [N].
 
@@ -139,7 +169,8 @@ def cema_forces_along(line: Line, factors: CemaFactors) -> tuple[Force, ...]:
 
 
 def cema_point_forces(line: Line, factors: CemaFactors) -> Iterator[Force]:
-    """Tp, Tam, Tsb, Tbc, Tpl, Tac and the lift over trippers where they stand [N]."""
+    """Tp, Tam, Tsb, Tbc, Tpl, Tac, the lift over trippers and the pull of hoppers where they stand [N]."""
+    yield from hopper_forces(line)
     for point in line.loading:
         here = partial(Force, place=point.place, assumed=point.assumed)
         if point.lift is not None and point.flow > 0.0:

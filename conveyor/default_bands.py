@@ -138,6 +138,15 @@ def _bed_band(result: CalculatedConveyor) -> tuple[float, float]:
     return low / middle, high / middle
 
 
+def _hopper_share(result: CalculatedConveyor, force: Force) -> Shares:
+    """All of the pull of a hopper without a friction of its own."""
+    points = zip(result.line.loading, result.conveyor.route.feeding_points, strict=False)
+    return float(any(
+        point.spot == force.spot and given.hopper is not None and given.hopper.shear_friction is None
+        for point, given in points
+    ))  # fmt: skip
+
+
 @cache
 def _site_band(site: Site) -> tuple[float, float]:
     of_site = MISALIGNMENT[site]
@@ -223,6 +232,8 @@ DEFAULTS: Final = (
                 ("misalignment",), _misalignment_share, _misalignment_band),
     DefaultBand("bed_friction", "friction of belt on plates", 1.0, 1.0, "route.sections[].bed.friction",
                 ("slider_bed",), _bed_share, _bed_band),
+    DefaultBand("hopper_shear", "shear of the bulk under hoppers", 0.8, 1.0, "route.feeding.hopper.shear_friction",
+                ("hopper_pull",), _hopper_share),
     DefaultBand("feeding", "acceleration of the bulk from rest", 0.5, 1.0, "route.feeding",
                 ("acceleration",), _usual_part_share),
     DefaultBand("skirts", "usual skirts and their seals", 0.5, 2.0, "route.feeding",

@@ -20,6 +20,7 @@ from conveyor.classical_forces import (
     cema_forces_along,
     cema_point_forces,
     factor_main_force,
+    hopper_forces,
     unit_main_force,
 )
 from conveyor.force_sums import Force, ForceSums
@@ -226,7 +227,7 @@ def point_forces(line: Line) -> tuple[Force, ...]:
     if line.method == "cema classic" and line.cema is not None:
         return tuple(cema_point_forces(line, line.cema))
     loaded = [force for point in line.loading for force in _loading_forces(line, point)]
-    return (*loaded, *_cleaner_forces(line), *_plough_forces(line))
+    return (*loaded, *hopper_forces(line), *_cleaner_forces(line), *_plough_forces(line))
 
 
 def length_coefficient_force(line: Line, spot: LoopPosition, along: Iterable[Force]) -> Force:

@@ -30,6 +30,7 @@ from conveyor.checks.drive_checks import (
     motor_power,
     starting_force,
 )
+from conveyor.checks.feeder_checks import belt_feeder
 from conveyor.checks.idler_checks import belt_flap, roll_axle, roll_life, set_rating
 from conveyor.checks.pulley_checks import (
     belt_transitions,
@@ -64,7 +65,9 @@ CONTACT_CRITERIA: Final = (cover_penetration, rubber_coverage)
 """Criteria that need the contacts of all rolls; the others need forces and tensions only."""
 
 
-_CALCULATED_LOADS_ONLY: Final = frozenset({"belt_flap", "load_sharing", "penetration", "rubber_coverage"})
+_CALCULATED_LOADS_ONLY: Final = frozenset(
+    {"belt_flap", "feeder_grip", "load_sharing", "penetration", "rubber_coverage"}
+)
 """Keys of criteria checked under the calculated loads only."""
 
 
@@ -77,7 +80,7 @@ CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     belt_rating,
     belt_breakage, splice_strength, cover_thickness, belt_temperature, pulley_diameter, curve_radius,
     wind_lift, horizontal_edges, belt_drift, belt_transitions, impact_load, skirtboards, belt_cleaning, belt_scales,
-    pulley_shaft,
+    belt_feeder, pulley_shaft,
     pulley_bearings, lagging_pressure, starting_force, comes_to_rest, holding_brake, drive_parts, coasting_time,
     bulk_slip, bed_speed,
     cover_penetration, roll_life, set_rating, roll_axle, belt_flap, rubber_coverage,

@@ -10,6 +10,7 @@ from conveyor.laws.resistance import (
     acceleration_length,
 )
 from conveyor.line import usual_parts
+from conveyor.line.hopper_outlets import HopperOutlet
 from conveyor.line.loop_positions import LoopPosition, LoopPositions
 from conveyor.line.optional_quantities import si_or_default, si_or_none
 from conveyor.models import Conveyor, Feeding
@@ -24,6 +25,7 @@ class LoadingPoint:
     bulk, the one before for a tripper, which lifts the bulk by `lift` [m] before the drives at `before`. `skirtboards`
     is their length, `seal_drag` the drag of their seals [m, N/m]; the bulk falls `drop_height` on sets `idler_spacing`
     apart, lumps of `lump_mass` on springs [m, kg, N/m]; `idler_rating` is the rated load of a set [N]; None not given.
+    `hopper` is the outlet over the belt, None where the bulk falls.
     `assumed`: a usual part instead of the spec's, here and in `Scraper` and `BendPulley`.
     """
 
@@ -48,6 +50,7 @@ class LoadingPoint:
     idler_stiffness: float | None
     idler_spacing: float | None
     idler_rating: float | None
+    hopper: HopperOutlet | None = None
     assumed: bool = False
 
     def acceleration_length(self, belt_speed: float, gravity: float) -> float:
@@ -140,6 +143,7 @@ def _loading_point(conveyor: Conveyor, point: Feeding, places: LoopPositions, *,
         idler_stiffness=si_or_none(point.idler_stiffness),
         idler_spacing=si_or_none(point.idler_spacing),
         idler_rating=si_or_none(point.idler_rating),
+        hopper=None if point.hopper is None else HopperOutlet.of(point.hopper, conveyor),
         assumed=assumed,
     )
 

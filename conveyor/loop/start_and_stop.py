@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 
+from conveyor.classical_forces import initial_pull
 from conveyor.errors import NoSolutionError
 from conveyor.laws.motion import Stop, brake_force, bulk_slip_limits, constant_force_stop, run_up_time
 from conveyor.laws.resistance.resistance_defaults import ROLL_DRAG_STANDSTILL_FACTOR
@@ -196,6 +197,7 @@ def _conveyor_start(balance: Balance, mass: float, rotating: float, friction: fl
     line, steady = balance.line, balance.settled.resistance(friction)
     drag = balance.forces.parts.get("idler_rotation", float(line.rotation.sum()))
     stuck = friction * (ROLL_DRAG_STANDSTILL_FACTOR - 1.0) * drag
+    stuck += friction * math.fsum(initial_pull(line, point) for point in line.loading)
     if steady <= 0.0:
         factor = line.start_over_steady
         braking = (factor - 1.0) * steady / mass

@@ -18,6 +18,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.classical_forces import initial_pull
 from conveyor.errors import NoSolutionError
 from conveyor.laws.motion import bulk_slip_limits
 from conveyor.laws.resistance.resistance_defaults import ROLL_DRAG_STANDSTILL_FACTOR
@@ -151,14 +152,17 @@ class CriterionLoadings(SectionLoadings):
 
     @cached_property
     def _sticking(self) -> tuple[float, Array]:
-        """Addition to the drag of the rolls after standstill [N], at the friction to design for; as in `at_rest`."""
+        """Addition to rolls and hoppers after standstill [N], at the friction to design for; as in `at_rest`."""
         drags = []
         for one in (self.empty, self.full):
             drag = next((force.newtons for force in one.along if force.key == "idler_rotation"), one.line.rotation)
             drags.append(np.broadcast_to(drag, 2 * self.count))
         bare, laden = drags
         share = self.line.design_friction * (ROLL_DRAG_STANDSTILL_FACTOR - 1.0)
-        return share * float(bare.sum()), share * (laden - bare)[: self.count]
+        more = share * (laden - bare)[: self.count]
+        for point in self.full.line.loading:
+            more[point.comes_with] += self.line.design_friction * initial_pull(self.full.line, point)
+        return share * float(bare.sum()), more
 
     @cached_property
     def _slip_limits(self) -> tuple[Array, Array, Loading]:

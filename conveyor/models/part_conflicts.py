@@ -23,6 +23,8 @@ from conveyor.units.presentation import format_figure
 
 OVERFILL_LIMIT: Final = 1.5
 """Largest calculated bulk over the cross-section that the belt holds [-]; more where edge to edge holds more."""
+FASTEST_FEEDER: Final = 2.0
+"""Belt speed above which a hopper over the belt is refused [m/s], four times that of feeders: general knowledge."""
 _FLOW_ROUNDING: Final = 1e-9
 """Relative rounding of a flow derived from a cross-section [-]."""
 
@@ -228,6 +230,28 @@ def _feeding_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
             )
 
 
+def _hopper_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Refuse a belt too fast to pull bulk out of a hopper, and outlets wider than the skirts."""
+    route, speed = conveyor.route, conveyor.belt.speed
+    points: list[tuple[Location, Feeding | None]] = [(("feeding",), route.feeding)]
+    points += [(("further_feeding", i), point) for i, point in enumerate(route.further_feeding)]
+    for location, point in points:
+        if point is None or point.hopper is None:
+            continue
+        if si(speed) > FASTEST_FEEDER:
+            message = (
+                f"given, but the belt runs at {text(speed)} (belt.speed): a feeder runs at 0.5 m/s or less, above "
+                f"{FASTEST_FEEDER:g} m/s the bulk under the hopper does not follow it; feed by a feeder of its own"
+            )
+            yield Problem(("route", *location, "hopper"), message)
+        if si(point.hopper.outlet_width) > si(point.skirt_width):
+            message = (
+                f"got {text(point.hopper.outlet_width)}, wider than the skirts (skirt_width {text(point.skirt_width)}):"
+                " skirts widen from the outlet on; correct one of the two"
+            )
+            yield Problem(("route", *location, "hopper", "outlet_width"), message)
+
+
 def _discharge_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Require the diameter of the discharge pulley."""
     route = conveyor.route
@@ -382,6 +406,7 @@ CONFLICTS: Final[Mapping[Callable[[ConveyorParts], Iterator[Problem]], tuple[str
     _cover_problems: ("belt", "idlers", "route"),
     _temperature_problems: ("ambient", "belt", "route"),
     _feeding_problems: ("belt", "route"),
+    _hopper_problems: ("belt", "route"),
     _discharge_problems: ("calculation", "route"),
     _drive_section_problems: ("drive", "route"),
     _inertia_problems: ("drive", "route"),

@@ -15,6 +15,7 @@ from conveyor.laws.transfer import CLEANER_EFFICIENCY
 from conveyor.models.base import Friction, Model, Name, Problem, Switch, raise_problems
 from conveyor.models.belt_scale import BeltScale
 from conveyor.models.calculation_methods import FlexureFactor, FrictionFactor
+from conveyor.models.hoppers import Hopper
 from conveyor.models.idlers import Spacing
 from conveyor.models.loop_parts import Pulley, TakeUp, Transition
 from conveyor.models.ploughs import Plough
@@ -222,6 +223,8 @@ class Feeding(Model):
     """Distance of the sets where the bulk lands; that of carry sets without it."""
     idler_rating: Annotated[Force, Bounds(gt="0 N", le="10 MN")] | None = None
     """Load that a set there bears, by its maker."""
+    hopper: Hopper | None = None
+    """Hopper from which the belt pulls the bulk here, as a feeder."""
 
     @model_validator(mode="after")
     def _lands(self) -> Self:
@@ -235,7 +238,17 @@ class Feeding(Model):
             for name, value in needs.items()
             if value is not None and self.drop_height is None
         ])  # fmt: skip
+        if self.hopper is not None:
+            raise_problems("Feeding", list(self._feeder_problems()))
         return self
+
+    def _feeder_problems(self) -> Iterator[Problem]:
+        """Refuse what bulk that is pulled out of a hopper does not do."""
+        if si(self.speed) > 0.0:
+            yield Problem(("speed",), f"got {text(self.speed)}: the belt pulls the bulk out of the hopper from rest")
+        for name in ("tripper_lift", "drop_height"):
+            if getattr(self, name) is not None:
+                yield Problem((name,), "given with hopper, whose bulk rests on the belt; remove one of the two")
 
 
 class Discharge(Model):

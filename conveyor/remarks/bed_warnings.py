@@ -20,6 +20,6 @@ def bed_warnings(conveyor: Conveyor) -> Iterator[Message]:
         )
     if beds:
         yield message(
-            "route.sections[].bed: the belt wears by sliding, which belt.wear leaves out, and more force is needed to "
-            "break it away from the plate than friction says, neither is calculated"
+            "route.sections[].bed: neither the wear of the sliding belt (belt.wear is that of loading) nor the higher "
+            "friction of a belt at rest on the plate is calculated"
         )

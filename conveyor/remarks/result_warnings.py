@@ -32,6 +32,7 @@ from conveyor.models.plausibility import implausible_inputs
 from conveyor.models.rolls import BearingDrag
 from conveyor.remarks.assumptions import failed_fits, library_models, rolls_by_field
 from conveyor.remarks.bed_warnings import bed_warnings
+from conveyor.remarks.hopper_warnings import hopper_warnings
 from conveyor.units import quantity, same_value, text
 from conveyor.units.presentation import format_figure
 from conveyor.units.sentences import Message, escape_braces, message, percent
@@ -311,6 +312,7 @@ def roll_warnings(result: CalculatedConveyor) -> tuple[Message, ...]:
         *_cover_warnings(conveyor),
         *_set_warnings(result),
         *bed_warnings(conveyor),
+        *hopper_warnings(conveyor),
         *_other_warnings(conveyor),
     )
 

@@ -1,0 +1,28 @@
+"""Warnings on hoppers from which the belt pulls the bulk."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from conveyor.models import Conveyor
+from conveyor.units.sentences import Message, message
+
+
+def hopper_warnings(conveyor: Conveyor) -> Iterator[Message]:
+    """Assumptions behind the loads of hoppers."""
+    hoppers = [point.hopper for point in conveyor.route.feeding_points if point.hopper is not None]
+    if any(hopper.flow_factor is None for hopper in hoppers):
+        yield message(
+            "route.feeding.hopper.flow_factor not given: by the field of stress of a slot hopper in mass flow; funnel "
+            "flow leaves more on the belt"
+        )
+    if any(hopper.initial_factor is None for hopper in hoppers):
+        yield message(
+            "route.feeding.hopper.initial_factor not given: the bulk as high as the hopper; what stands in a bin above "
+            "it is left out"
+        )
+    if any(hopper.shear_friction is None for hopper in hoppers):
+        yield message(
+            "route.feeding.hopper.shear_friction not given: the sine of internal_friction (0.8 to 1 times that, "
+            "general knowledge)"
+        )

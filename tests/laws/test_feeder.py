@@ -1,0 +1,69 @@
+"""Loads of belt feeders: a printed calculation, the balance of the wedge, the column of bulk, limits."""
+
+import math
+
+import pytest
+from scipy.integrate import quad
+
+from conveyor.errors import ConveyorError
+from conveyor.laws.feeder import flow_load_factor, gate_flow, hopper_load, initial_load_factor
+
+DEG = math.pi / 180.0
+PRINTED = {"density": 900.0, "outlet_length": 2.05, "outlet_width": 0.35, "gravity": 9.81}
+"""Helix delta-T, feeder load calculation, lump coal, 2020: D 3.5 m, α 40°, δ 55°, φ 15°, 0.05 m/s."""
+
+
+def test_printed_calculation_after_filling():
+    """q_i 5.36, Q_i 11.89 kN, F_i 9.74 kN, 0.49 kW."""
+    factor = initial_load_factor(3.5, outlet_width=0.35, half_angle=40.0 * DEG)
+    load = hopper_load(factor, **PRINTED)
+    assert factor == pytest.approx(5.36, abs=0.005)
+    assert load == pytest.approx(11.89e3, abs=5.0)
+    assert math.sin(55.0 * DEG) * load == pytest.approx(9.74e3, abs=5.0)
+    assert math.sin(55.0 * DEG) * load * 0.05 == pytest.approx(0.49e3, abs=5.0)
+
+
+def test_printed_calculation_in_flow_lacks_the_divisor():
+    """Q_f 2.12 kN is that of the same field of stress without the divisor 4 tan α of the balance."""
+    factor = flow_load_factor(40.0 * DEG, internal_friction=55.0 * DEG, wall_friction=15.0 * DEG)
+    assert 4.0 * math.tan(40.0 * DEG) * hopper_load(factor, **PRINTED) == pytest.approx(2.12e3, abs=5.0)
+
+
+def test_after_filling_is_the_column_over_the_outlet():
+    width, height, slope = 0.6, 3.0, 20.0 * DEG
+    top = width + 2.0 * height * math.tan(slope)
+    factor = initial_load_factor(top, outlet_width=width, half_angle=slope)
+    load = hopper_load(factor, density=850.0, outlet_length=4.0, outlet_width=width, gravity=9.81)
+    assert load == pytest.approx(850.0 * 9.81 * width * 4.0 * height, rel=1e-12)
+
+
+def test_in_flow_the_wedge_below_the_outlet_is_in_balance():
+    """Tractions of both walls, from the printed field of stress and linear from the apex, less the wedge's weight."""
+    slope, wall = 40.0 * DEG, 15.0 * DEG
+    field = 2.12e3 / hopper_load(1.0, **PRINTED)
+    at_outlet = (field + 1.0) / (2.0 * (math.tan(slope) + math.tan(wall)))  # wall pressure over ρ g B
+    side = 0.5 / math.sin(slope)  # length of a wall over B
+    upward = math.sin(slope) + math.tan(wall) * math.cos(slope)
+    held = 2.0 * quad(lambda s: at_outlet * s / side * upward, 0.0, side)[0]
+    expected = held - 0.25 / math.tan(slope)
+    found = flow_load_factor(slope, internal_friction=55.0 * DEG, wall_friction=wall)
+    assert found == pytest.approx(expected, abs=0.005 / 2.12)
+
+
+def test_flow_leaves_less_than_filling():
+    walls = (10.0, 15.0, 20.0)
+    loads = [flow_load_factor(0.35, internal_friction=50.0 * DEG, wall_friction=wall * DEG) for wall in walls]
+    assert all(0.0 < load < initial_load_factor(3.0, outlet_width=0.6, half_angle=0.35) for load in loads)
+
+
+def test_gate():
+    assert gate_flow(0.3, density=1000.0, gate_width=0.6, gate_height=0.25) == pytest.approx(45.0, rel=1e-12)
+
+
+def test_refusals():
+    with pytest.raises(ConveyorError, match="top_width"):
+        initial_load_factor(0.3, outlet_width=0.35, half_angle=0.3)
+    with pytest.raises(ConveyorError, match="wall_friction"):
+        flow_load_factor(0.3, internal_friction=0.5, wall_friction=0.6)
+    with pytest.raises(ConveyorError, match="no field of stress"):
+        flow_load_factor(58.0 * DEG, internal_friction=40.0 * DEG, wall_friction=35.0 * DEG)

@@ -1,0 +1,118 @@
+"""Belts that pull bulk out of hoppers: forces by hand, start after filling, every method, refusals."""
+
+import math
+from pathlib import Path
+
+import pytest
+
+import conveyor
+from conveyor.errors import InputError
+from conveyor.units import si
+from tests.command_line import run
+
+SPEC = Path("examples/specs/feeder.yaml")
+
+
+@pytest.fixture(scope="module")
+def feeder():
+    return conveyor.load(SPEC)
+
+
+def with_hopper(spec, **changes):
+    feeding = spec.route.feeding
+    return spec.replace(route=spec.route.replace(feeding=feeding.replace(hopper=feeding.hopper.replace(**changes))))
+
+
+def forces(result):
+    return {each.key: each.total for each in result.balance.every}
+
+
+def checks(result):
+    return {each.key: each for each in result.checks}
+
+
+def test_forces_by_hand(feeder):
+    """Given load factors: 4 m x (0.6 m)² of coal, sine of 50 deg, plate 0.3."""
+    found = forces(conveyor.analyse(with_hopper(feeder, flow_factor=0.5, initial_factor=2.0)))
+    load = 0.5 * 850.0 * si(feeder.calculation.gravity) * 4.0 * 0.6**2
+    assert found["hopper_pull"] == pytest.approx(math.sin(math.radians(50.0)) * load, rel=1e-12)
+    assert found["hopper_load"] == pytest.approx(0.3 * load, rel=1e-12)
+
+
+def test_start_after_filling_breaks_the_initial_load_away(feeder):
+    """Two initial factors differ by their load times shear and plate, at the friction to design for."""
+    low, high = (conveyor.analyse(with_hopper(feeder, flow_factor=0.5, initial_factor=factor)) for factor in (2.0, 3.0))
+    load = 850.0 * si(feeder.calculation.gravity) * 4.0 * 0.6**2
+    more = (math.sin(math.radians(50.0)) + 0.3) * load
+    friction = low.line.design_friction
+    assert high.line.design_friction == pytest.approx(friction, rel=1e-12)
+    parted = checks(high)["breakaway"].required - checks(low)["breakaway"].required
+    assert parted == pytest.approx(friction * more, rel=1e-9)
+    assert forces(high) == pytest.approx(forces(low), rel=1e-12)
+    assert checks(high)["feeder_grip"].required > checks(low)["feeder_grip"].required
+
+
+def test_an_empty_belt_has_no_hopper(feeder):
+    found = conveyor.analyse(feeder.replace(material=feeder.material.replace(flow="0 t/h")))
+    assert not {"hopper_pull", "hopper_load"} & set(forces(found))
+    assert "feeder_grip" not in checks(found)
+
+
+def test_the_same_pull_by_every_method(feeder):
+    by_contact = forces(conveyor.analyse(feeder))
+    cema = {"flexure_factor": 0.02, "idler_friction": "6.7 N"}
+    for method in ("din 22101", "cema classic"):
+        given = feeder.replace(calculation=feeder.calculation.replace(method=method, cema=cema))
+        assert forces(conveyor.analyse(given))["hopper_pull"] == pytest.approx(by_contact["hopper_pull"], rel=1e-12)
+
+
+def test_on_sets_the_load_costs_f(feeder):
+    section = feeder.route.sections[0].replace(bed=None)
+    on_sets = feeder.replace(route=feeder.route.replace(sections=[section]))
+    plate, sets = (forces(conveyor.analyse(one))["hopper_load"] for one in (feeder, on_sets))
+    assert sets / plate == pytest.approx(0.02 / 0.3, rel=1e-9)
+
+
+def test_weight_density_loads_and_density_fills(feeder):
+    heavy = feeder.replace(material=feeder.material.replace(weight_density="1020 kg/m^3"))
+    one, other = conveyor.analyse(feeder), conveyor.analyse(heavy)
+    assert forces(other)["hopper_pull"] / forces(one)["hopper_pull"] == pytest.approx(1.2, rel=1e-12)
+    assert checks(other)["feeder_flow"].required == pytest.approx(checks(one)["feeder_flow"].required, rel=1e-12)
+
+
+def test_gate_and_speed_are_checked(feeder):
+    assert checks(conveyor.analyse(with_hopper(feeder, gate_height="200 mm")))["feeder_flow"].failed
+    fast = feeder.replace(belt=feeder.belt.replace(speed="0.8 m/s"))
+    assert checks(conveyor.analyse(fast))["feeder_speed"].failed
+
+
+@pytest.mark.parametrize(
+    ("changes", "match"),
+    [
+        ({"top_width": "0.5 m"}, "top_width"),
+        ({"wall_friction": "55 deg"}, "wall_friction"),
+        ({"half_angle": "59 deg", "wall_friction": "45 deg"}, "half_angle"),
+        ({"outlet_width": "900 mm"}, "wider than the skirts"),
+    ],
+)
+def test_what_a_hopper_cannot_be(feeder, changes, match):
+    with pytest.raises((InputError, ValueError), match=match):
+        with_hopper(feeder, **changes)
+
+
+def test_a_fast_belt_and_a_fall_are_refused(feeder):
+    with pytest.raises(InputError, match="the bulk under the hopper does not follow"):
+        feeder.replace(belt=feeder.belt.replace(speed="5 m/s"))
+    with pytest.raises((InputError, ValueError), match="drop_height: given with hopper"):
+        feeder.route.feeding.replace(drop_height="1 m")
+    with pytest.raises((InputError, ValueError), match="from rest"):
+        feeder.route.feeding.replace(speed="0.1 m/s")
+
+
+@pytest.mark.parametrize("units", ["SI", "US"])
+def test_report(units, tmp_path):
+    done = run(
+        "power", SPEC, "--set", f"report.units={units}", "-o", tmp_path / "a.xlsx", "--html", tmp_path / "a.html"
+    )
+    assert "belt speed under a hopper" in done.stdout
+    assert "Hoppers over the belt" in (tmp_path / "a.html").read_text(encoding="utf-8")
