@@ -14,7 +14,6 @@ from conveyor.laws.resistance import BED_FRICTION
 from conveyor.laws.tension import sag_tension
 from conveyor.line.curve_sets import CurveSets, HorizontalCurve, sets_on_curve
 from conveyor.line.flexure_law import FlexureLaw
-from conveyor.line.optional_quantities import si_or_none
 from conveyor.line.set_loads import SetLoads
 from conveyor.models import Conveyor, IdlerSet, Section
 from conveyor.models.slider_beds import SliderBed
@@ -52,8 +51,9 @@ class PlateBed:
     def of(cls, bed: SliderBed) -> PlateBed:
         """Plate of a section, SI."""
         pair = f"{bed.underside} on {bed.surface}"
+        allowed = None if bed.allowed_speed is None else si(bed.allowed_speed)
         source = "given" if bed.friction is not None else BED_FRICTION[bed.surface, bed.underside].source
-        return cls(pair, bed.friction_of_belt, si_or_none(bed.allowed_speed), source)
+        return cls(pair, bed.friction_of_belt, allowed, source)
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from conveyor.units.sentences import Message, message
 
 
 def hopper_warnings(conveyor: Conveyor) -> Iterator[Message]:
-    """Assumptions behind the loads of hoppers."""
+    """Warnings on load factors and friction that a hopper does not have of its own."""
     hoppers = [point.hopper for point in conveyor.route.feeding_points if point.hopper is not None]
     if any(hopper.flow_factor is None for hopper in hoppers):
         yield message(
