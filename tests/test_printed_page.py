@@ -20,33 +20,31 @@ DIGITS = 2
 HEAD = """\
 # Printed and measured conveyors
 
-What is printed or was measured of {count} conveyors, and what `conveyor` computes for them with the defaults of their
-site; nothing in the specs or the defaults is fitted to a case. `conveyor validate` prints the same. The specs are in
-`conveyor/_reference/practice`; each says what of it is printed and what is assumed. This page is written by `python
-tests/test_printed_page.py`, and a test holds it to the figures.
+{count} conveyors as printed or measured, beside what `conveyor` computes with the defaults of their site. Nothing in
+specs or defaults is fitted to a case. `conveyor validate` prints the same. Each spec in `conveyor/_reference/practice`
+says what of it is printed and what is assumed. `python tests/test_printed_page.py` writes this page; a test holds it.
 
-Three figures are computed: *expected*, what energy and cost should be reckoned with; *design* and *least*, the ends
-of the band of nine tenths that site, defaults and rubber leave open. A printed design has the allowances of its
-method, so that it should lie near *design*; a measured conveyor has none, and should lie near *expected*. *Classical*
-is ISO 5048 / DIN 22101 with the f of the source, 0.020 where it has none.
+| figure | meaning | compare with |
+|---|---|---|
+| *expected* | for energy and cost | measured conveyors: no allowances |
+| *least*, *design* | ends of the band of nine tenths | *design* with printed designs: allowances of their method |
+| *classical* | ISO 5048 / DIN 22101 with the source's f, else 0.020 | |
 
 """
 TAIL = """
 ## Why they differ
 
 * **Printed designs.** The expected resistance is a quarter below print, the upper end of the band an eighth above it: a
-  designer's f of 0.020 to 0.023 is an expected one of 0.012 to 0.018 with its allowance. DTII(A)'s f of 0.023 is for
-  dusty, wet plants; Dunlop's method has its losses of the end (C) from a table of 1.5 and more.
-* **Short and empty belts** (BC-01, TR-120H, the belt of 38 m): half of what is printed are pulleys by CEMA's count
-  (150 to 200 lbf each), cleaners at 5 lbf an inch and idlers at 7 to 10 N a set. ISO 5048's sums for the same parts
-  are a tenth to a third of that. Both are in the band; which is right depends on bearings and seals that no drawing
-  shows.
-* **Overland conveyors.** The covers of the shelf stand for their kind. The best measured conveyors (Henderson,
-  Channar) ran on rubber below the low-resistance cover of the published test, and what else we assume of them
-  (spacing, rolls) is open: they lie below the band.
-* **What was looked at and not added.** Losses of gears and motors at part load: the printed empties above are those
-  of the belt, so they explain none of it (a motor loses typically 4 points of efficiency at 25 % load, Western Area
-  Power Administration 2003; enter `drive.efficiency` for the load you ask about).
+  designer's f of 0.020 to 0.023 is an expected 0.012 to 0.018 with allowance. DTII(A)'s 0.023 is for dusty, wet plants;
+  Dunlop takes the losses of the end (C) from a table, 1.5 and more.
+* **Short and empty belts** (BC-01, TR-120H, the belt of 38 m). Half of the printed force is for pulleys by CEMA's count
+  (150 to 200 lbf each), cleaners at 5 lbf an inch and idlers at 7 to 10 N a set; ISO 5048 has a tenth to a third of
+  that. Both are in the band. Bearings and seals, which no drawing shows, decide.
+* **Overland conveyors.** The shelf's covers stand for their kind. The best measured conveyors (Henderson, Channar) lie
+  below the band: their rubber was better than the low-resistance cover of the published test, and spacing and rolls
+  are not known.
+* **Not added.** Part-load losses of gears and motors: the printed empties are those of the belt. (A motor loses
+  typically 4 points of efficiency at 25 % load, Western Area Power Administration 2003; enter `drive.efficiency`.)
 """
 
 

@@ -21,11 +21,11 @@ ROOT = Path(__file__).parent.parent
 PAGE = ROOT / "docs" / "validation.md"
 
 SOURCES = {
-    "Bessel-Galerkin prototype": "a prototype written apart from this package, compared with a brute-force solver in "
-    "real space; `conveyor/_reference/contact_cases.json` says how",
-    "two-strip derivation": "a derivation of its own for contacts of two strips, confirmed by a grid solver to 1e-5",
-    "Hunter (1961)": "S. C. Hunter, The rolling contact of a rigid cylinder with a viscoelastic half space, J. Appl. "
-    "Mech. (1961), closed form; rolls far apart, shallow contact",
+    "Bessel-Galerkin prototype": "a separate prototype, itself compared with a brute-force solver in real space "
+    "(`conveyor/_reference/contact_cases.json`)",
+    "two-strip derivation": "a separate derivation for contacts of two strips, confirmed by a grid solver to 1e-5",
+    "Hunter (1961)": "S. C. Hunter, The rolling contact of a rigid cylinder with a viscoelastic half space, J. "
+    "Appl. Mech. (1961), closed form; rolls far apart, shallow contact",
     "CONTACT program": "two viscoelastic cylinders of the CONTACT program's documentation, 600 N/mm, "
     "equivalent R 50 mm, G∞ 1143, G0 571.5 N/mm², ν 0.4; printed digits",
     "ISO 5048 worked example": "itemised example after ISO 5048: coal, 2300 t/h, 4.8 m/s, 143 m level, belt 1.2 m; "
@@ -37,11 +37,11 @@ SOURCES = {
     "NEMA MG 10, table 2-3": "the example of the EASA handbook, 122/50; printed digits",
     "ISO 5293:2004": "the standard's formula of the transition length, which strips of straight way come to at full "
     "trough",
-    "Grimmer, Kessler (1987), by eytelwein 0.1.9": "K.-J. Grimmer, F. Kessler, Spezielle Betrachtungen zur Gurtführung "
-    "bei Gurtförderern mit Horizontalkurven: their worked belt as the tests of the open library eytelwein keep it, to "
-    "ten and more digits; the paper itself was not read",
-    "course of a flat belt, set by set": "a belt that turns at every set by what banking and guiding friction push, no "
-    "settled course assumed; allowed at the end is the way over which it turns back to the straight, over the length",
+    "Grimmer, Kessler (1987), by eytelwein 0.1.9": "K.-J. Grimmer, F. Kessler, Spezielle Betrachtungen zur "
+    "Gurtführung bei Gurtförderern mit Horizontalkurven: their worked belt from the tests of the open library "
+    "eytelwein, ten and more digits; the paper was not read",
+    "course of a flat belt, set by set": "a belt turned at every set by banking and guiding friction; allowed is "
+    "the way over which it turns back to the straight, over the length",
     "polygon of five rolls": "area by the shoelace formula, force on the drifted belt by the heights of its edges",
     "catenary between the sets": "the chain's own curve; allowed is its next term beyond the parabola, 4/3 of the sag "
     "squared",
@@ -52,60 +52,58 @@ SOURCES = {
     "transitions); pulley at full and half depth",
     "ISO 5048, cross-section": "example of the public repository ScottMcCormack/conveyance: trough of 45 deg, slope of "
     "20 deg, 1.03 m of belt under the bulk; printed digits",
-    "Helix delta-T reports": "printed by that program for Curragh North C3, pipe conveyor PC01, BC-01: sag tension and "
-    "take-up (and of two on 4 strands) to every digit, power at the belt to those of the tension",
+    "Helix delta-T reports": "printed for Curragh North C3, pipe conveyor PC01, BC-01: sag tension and take-up (two "
+    "on 4 strands) to every digit, power at the belt to those of the tension",
     "Conveyor C-1.1 report": "a public calculation report (studylib 25593897): belt of 1250 N/mm, 1200 mm; "
     "its tensions printed to three digits",
     "ckit.co.za, trajectories": "its table of edge distances on discharge pulleys; printed digits",
-    "Sandvik (1999), load of idlers": "Selection and load rating of the idlers for belt conveyors (12/99): 1300 t/h at "
-    "2.2 m/s, 45 deg, slope of 30 deg; printed digits, of the middle roll those of its share",
+    "Sandvik (1999), load of idlers": "Selection and load rating of the idlers for belt conveyors (12/99): 1300 t/h "
+    "at 2.2 m/s, 45 deg, slope of 30 deg; printed digits, of the middle roll those of its share",
     "Rulmeca, impact rollers": "its rule for fine bulk, t/h times the root of the fall over 8 in kgf, as commonly "
     "reproduced; one printed digit",
     "J*(ω) E*(ω) = 1": "the exact inverse of a relaxation spectrum, 21 terms over 20 decades",
     "Song et al. (2012)": "J. China Coal Society 37 (2012) S1, 217: 600 t/h at 2.5 m/s, EA 104 MN; printed digits",
     "Nordell and Ciozda (1984), measured": "Bulk Solids Handling 4 (1984) 93, stop of a loaded belt of 2.5 km, its "
     "front timed at two places; lengths and wave speeds theirs, 1.5 % for a cell and their chart",
-    "Harrison (1983, 1985), measured": "Beltcon 2 and 3: start of an empty belt of 5.1 km with 20 t in its take-up and "
-    "three wound-rotor motors; read from charts. Our drive is led: the motors, on which the slow period depends, are "
-    "not printed",
-    "Lodewijks (1996), finite elements": "PhD thesis, Delft, table 8.7: loaded 1 km, starts of 30 s; how his "
-    "resistances rise with speed is not at hand, half of them is taken to, 15 % allowed. These four after the open "
-    "repository daniel-gonzalezm/beltloop, whose author read the papers",
+    "Harrison (1983, 1985), measured": "Beltcon 2 and 3: start of an empty belt of 5.1 km, 20 t in its take-up, "
+    "three wound-rotor motors; read from charts. The motors, which set the slow period, are not printed; our drive "
+    "is led",
+    "Lodewijks (1996), finite elements": "PhD thesis, Delft, table 8.7: loaded 1 km, starts of 30 s; half of the "
+    "rise of his resistances with speed is assumed, 15 % allowed. These four after the open repository "
+    "daniel-gonzalezm/beltloop, whose author read the papers",
 }
 FILES = {
-    "test_belt_cases": "a belt of two covers and a carcass that bends and stretches: six contacts of a separate "
-    "implementation, and three methods on one belt",
-    "test_belt_waves": "waves in a rod: c m' v, reflections, periods, damping ratio, second order, a weight on a "
-    "spring; closed forms",
-    "test_boundary_elements": "the paper's own route (boundary elements in real space on a graded mesh) against the "
-    "spectral solver and closed forms; errors fall with the order of its elements",
-    "test_closed_forms": "the oracles themselves: Hunter, Hertz, Winkler foundation, Jonkers' form; printed figures, "
+    "test_belt_cases": "a belt of two covers and a carcass: six contacts of a separate implementation, three "
+    "methods on one belt",
+    "test_belt_waves": "waves in a rod against closed forms: c m' v, reflections, periods, damping ratio, second "
+    "order, a weight on a spring",
+    "test_boundary_elements": "boundary elements in real space, the paper's route, against the spectral solver and "
+    "closed forms; order of errors",
+    "test_closed_forms": "the closed forms themselves: Hunter, Hertz, Winkler foundation, Jonkers; printed figures, "
     "40-digit arithmetic, quadrature, limits",
     "test_contact_program": "the CONTACT program's cylinders through the solver, printed digits",
     "test_hunter_1961": "Hunter's half-plane over modulus ratios and memories; differences fall as theory says",
-    "test_iso_5048": "ISO 5048 and its neighbours (DIN 22101's coefficient C, VDI 2341's shares), every printed digit",
-    "test_measured_conveyors": "friction measured on conveyors or printed by another program, with the package's "
-    "covers and defaults",
+    "test_iso_5048": "ISO 5048, DIN 22101's C, VDI 2341's shares, every printed digit",
+    "test_measured_conveyors": "friction measured or printed, with the package's covers and defaults",
     "test_menga_2019": "the paper's limits and claims with our numbers, and its errata",
     "test_reference_cases": "42 contacts computed elsewhere at two tolerances; the estimated errors hold",
-    "test_rulmeca_cema": "the classic form of CEMA against two printed sheets of Rulmeca's program, item by item",
+    "test_rulmeca_cema": "CEMA's classic form against two printed sheets of Rulmeca's program, item by item",
     "test_split_contacts": "contacts of two strips against a derivation and the grid over the range of Fig. 4",
-    "test_start_stop_limits": "starts and stops against the package's own steady tensions, quasi-static start and "
-    "rigid coasting; energy and momentum",
+    "test_start_stop_limits": "starts and stops against our steady tensions, quasi-static start and rigid coasting; "
+    "energy and momentum",
     "test_winkler_trends": "thin bonded layers: Winkler, the incompressible thin film, powers of the load",
 }
 HEAD = """\
 # Validation
 
-What the package was compared with: source, quantity, expected, got, deviation, allowed. The first part is what
-`conveyor validate` computes on your machine in some seconds; the second what the test suite holds beside it. This
-page is written by `python tests/test_validation_page.py`, and a test holds it to the figures. The rows of
-[paper.md](paper.md) are a third part: 24 claims of the paper, each with numbers.
+What the package was compared with. First what `conveyor validate` computes on your machine in some seconds, then
+measured conveyors, then what the test suite adds. Beside these stand the 24 claims of [paper.md](paper.md).
+`python tests/test_validation_page.py` writes this page; a test holds its figures.
 
-*Deviation* is relative; of lengths over the roll's radius, in units of it. *Allowed* follows from the source: half a
-unit of its last printed digit, its own error, or the difference between the two problems. Rolling resistance of
-running conveyors stands apart, under *Measured conveyors*: no openly licensed measurement with its rubber's spectrum
-was found, so those are compared in bands. What the models leave out: [assumptions.md](assumptions.md#assumptions).
+*Deviation* is relative; of lengths over the roll's radius, in units of it. *Allowed* is half a unit of the source's
+last digit, its own error, or the difference between the two problems. Measured conveyors are compared in bands, for no
+openly licensed measurement with its rubber's spectrum was found. What the models leave out:
+[assumptions.md](assumptions.md#assumptions).
 
 ## `conveyor validate`
 """
@@ -140,9 +138,9 @@ def written() -> str:
     lines += [
         "## Measured conveyors",
         "",
-        "Covers of the shelf, defaults as they stand; the specs are `tests/validation/conveyors/*.yaml` and say what "
-        "is not printed and assumed. Henderson PC2 (f 0.0075 measured) and Channar (0.0085 to 0.011) are not "
-        "calculated: their rolls, spacings and covers are not printed; a report warns where f is below 0.0075.",
+        "With covers of the shelf and unchanged defaults; the specs, `tests/validation/conveyors/*.yaml`, say what is "
+        "assumed. Henderson PC2 (f 0.0075 measured) and Channar (0.0085 to 0.011) are not calculated, because rolls, "
+        "spacings and covers are not printed; a report warns where f is below 0.0075.",
         "",
         "| quantity | measured or printed | ours | ratio | band | |",
         "|---|---|---|---|---|---|",
@@ -159,10 +157,9 @@ def written() -> str:
     ]
     lines += [
         "",
-        "Beside these, `tests/laws` holds every law to its closed form, limit or printed figure, `tests/properties` "
-        "draws random contacts and holds them to invariances and to the first law, and `tests/line` holds whole "
-        "conveyors to conservation: forces add up to the effective tension, the loop of tensions closes, splitting a "
-        "section changes nothing.",
+        "`tests/laws` holds every law to its closed form, limit or printed figure, `tests/properties` random contacts "
+        "to invariances and the first law, `tests/line` whole conveyors to conservation: forces add up to the "
+        "effective tension, the loop of tensions closes, splitting a section changes nothing.",
         "",
     ]
     return "\n".join(lines)
