@@ -24,6 +24,7 @@ from conveyor.laws.waves import (
 from conveyor.line.belt_body import BeltBody
 from conveyor.line.drive_scenarios import ScenarioUnit, StarterUnit
 from conveyor.line.drive_units import DriveUnit
+from conveyor.units.sentences import Message
 
 Array = NDArray[np.float64]
 
@@ -224,7 +225,7 @@ class ScenarioSize:
         Relative distance to the next smaller value tried [-]; None if the smallest tried passes.
     most : float or None
         The largest value tried that passes; None if every larger one does.
-    governs, why : str
+    governs, why : Message
         Check that fails at the next smaller value; for a delay the one with the least margin.
     setup : ScenarioSetup
         The scenario at this size.
@@ -236,8 +237,8 @@ class ScenarioSize:
     value: float
     error: float | None
     most: float | None
-    governs: str
-    why: str
+    governs: Message
+    why: Message
     setup: ScenarioSetup
 
 

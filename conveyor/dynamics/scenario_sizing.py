@@ -16,7 +16,7 @@ from conveyor.dynamics.simulation import ERROR, CalculatedDynamics, prepare_setu
 from conveyor.errors import InputError, MessageQuantity, NoSolutionError
 from conveyor.laws.take_up import take_up_mass
 from conveyor.models import Conveyor, Scenario, TakeUp
-from conveyor.units.sentences import Message, reraise_in_units
+from conveyor.units.sentences import Message, message, reraise_in_units
 
 SizingTarget: TypeAlias = Literal["ramp", "brake", "delay", "take-up"]
 
@@ -75,8 +75,8 @@ def size_scenario(
     error = None if below is None else least / below - 1.0
     first = fails[0] if fails else None
     sized = ScenarioSize(
-        scenario.name, _LABELS[sought], kind, least, error, most, "" if first is None else first.subject.text(),
-        "" if first is None or first.why is None else first.why.text(), _name_with_size(made(least), sought, least),
+        scenario.name, _LABELS[sought], kind, least, error, most, message("") if first is None else first.subject,
+        message("") if first is None or first.why is None else first.why, _name_with_size(made(least), sought, least),
     )  # fmt: skip
     return _take_up_size(conveyor, scenario, sized) if sought == "take-up" else sized
 
@@ -233,7 +233,7 @@ def _best_delay(setup: ScenarioSetup, made: Callable[[float], ScenarioSetup], lo
     governs = min(margins, key=lambda check: check.margin or 0.0)
     return ScenarioSize(
         setup.scene.name, _LABELS["delay"], "time", value, step / value if value else None, None,
-        governs.subject.text(), f"lowest peak: {one.highest / 1e3:.1f} kN",
+        governs.subject, message("lowest peak: {}", (one.highest, "force")),
         _name_with_size(made(value), "delay", value),
     )  # fmt: skip
 

@@ -13,7 +13,7 @@ from openpyxl import load_workbook
 from conveyor.dynamics import scenario_sizing
 from conveyor.dynamics import simulation as following
 from conveyor.dynamics.scenario_sizing import size_scenario
-from conveyor.dynamics.simulation import simulate_scenarios, standard_scenarios
+from conveyor.dynamics.simulation import simulate_batch, simulate_scenarios, standard_scenarios
 from conveyor.errors import ConveyorError, InputError, NoSolutionError
 from conveyor.models import Scenario
 from conveyor.report.tables.dynamics_tables import dynamics_contents, dynamics_json
@@ -219,7 +219,7 @@ def test_the_shortest_ramp_keeps_every_criterion():
     assert 4.0 <= found.value < 40.0
     assert found.setup.starters[0].time == pytest.approx(found.value, rel=1e-12)
     assert 0.0 < found.error < 0.05
-    assert found.governs
+    assert found.governs.text()
     with pytest.raises(InputError, match="a ramp needs inverters"):
         size_scenario(conveyor, Scenario.from_data(start | {"starter": {"kind": "direct"}}), "ramp")
     with pytest.raises(NoSolutionError, match="nothing from 1 to 2"):
@@ -251,7 +251,7 @@ def test_the_least_brake_stops_a_downhill_belt_in_the_time_of_its_scenario():
     mass = setup.loop.mass.sum() + setup.rims.sum() + sum(lump.mass for lump in setup.loop.lumps)
     hold = -setup.loop.steady.balance.settled.force
     assert found.value == pytest.approx(hold + mass * 4.0 / 20.0, rel=0.1)
-    assert found.governs == "stopping"
+    assert found.governs.text() == "stopping"
     assert found.setup.brakes == pytest.approx([found.value], rel=1e-12)
     with pytest.raises(InputError, match="no brake grips in it"):
         size_scenario(conveyor, Scenario.from_data(STOP), "brake")
@@ -266,7 +266,7 @@ def test_the_take_up_is_as_heavy_as_a_fast_start_needs():
     found = size_scenario(conveyor, Scenario.from_data(start), "take-up")
     assert found.kind == "mass"
     assert found.setup.setting == pytest.approx(found.value * 9.80665 / 2.0, rel=1e-3)
-    assert found.governs.startswith(("grip of", "sag", "belt is taut"))
+    assert found.governs.text().startswith(("grip of", "sag", "belt is taut"))
     assert 0.0 < found.error < 0.05
 
 
@@ -288,6 +288,11 @@ def test_a_delay_is_found_that_keeps_every_criterion():
     assert found.setup.starters[1].delay == pytest.approx(found.value, abs=1e-12)
     # eight trials, three times, each time between the neighbours of the best; at an end there is one neighbour
     spacing = found.error * found.value
+    shown, unit = found.why.text("SI").removeprefix("lowest peak: ").split()
+    (again,) = simulate_batch([found.setup], float(found.setup.loop.travel[-1]) / 100)
+    # trials have 25, 50 and 100 cells here
+    assert (float(shown.replace(",", "")), unit) == (pytest.approx(again.highest / 1e3, rel=0.03), "kN")
+    assert found.why.text("US").endswith(" lbf")
     assert any(spacing == pytest.approx(10.0 * sides / 7.0**3, rel=1e-9) for sides in (1.0, 2.0, 4.0))
     with pytest.raises(InputError, match="one drive only"):
         size_scenario(from_data(data()), Scenario.from_data(start), "delay")
