@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from operator import attrgetter
@@ -65,8 +65,9 @@ _SCENARIO = Column("scenario", "text", "0", json="scenario")
 def dynamics_contents(dynamics: CalculatedDynamics, system: System) -> Contents:
     """Contents of the report on starts and stops in a unit system."""
     every = _every_check(dynamics)
+    makers = SCENARIO_TABLES | {"scenario_sizes": partial(size_table, system=system)}
     parts = (
-        *(make(dynamics) for make in SCENARIO_TABLES.values()), check_table(governing_by_subject(every), system),
+        *(make(dynamics) for make in makers.values()), check_table(governing_by_subject(every), system),
         _dynamics_remarks(dynamics, every, system),
         provenance_table(fingerprint(dynamics.conveyor)),
     )  # fmt: skip
@@ -119,7 +120,7 @@ def scenario_table(dynamics: CalculatedDynamics) -> Table:
     return Table("scenarios", "Scenarios", caption, columns, dynamics.followed, "dynamics")
 
 
-def size_table(dynamics: CalculatedDynamics) -> Table:
+def size_table(dynamics: CalculatedDynamics, system: System = "SI") -> Table:
     """Sizes that keep every criterion: value, error, governing check."""
     columns = (
         Column("sought", FIGURE_NAME, "label", json="sought"),
@@ -127,8 +128,8 @@ def size_table(dynamics: CalculatedDynamics) -> Table:
         Column("found", ROW_KIND, "value.value", json="value"),
         Column("to", "share", "value.error", json="error"),
         Column("serves up to", ROW_KIND, "value.most", json="most"),
-        Column("governing check", "text", "value.governs", json="governs"),
-        Column("what fails with less", "text", "value.why", json="fails_with_less"),
+        Column("governing check", "text", lambda row: row.value.governs.text(system), json="governs"),
+        Column("what fails with less", "text", lambda row: row.value.why.text(system), json="fails_with_less"),
     )
     rows = [Figure(size.label, size.kind, size) for size in dynamics.sized]
     caption = "What was sought so that every criterion is kept, and which one decides"
@@ -270,7 +271,7 @@ def history_table(dynamics: CalculatedDynamics) -> Table:
     return Table("histories", "Histories", "Drives and take-up over time", columns, rows, named=2)
 
 
-SCENARIO_TABLES: Final = {
+SCENARIO_TABLES: Final[Mapping[str, Callable[[CalculatedDynamics], Table]]] = {
     "scenarios": scenario_table,
     "scenario_sizes": size_table,
     "scenario_drives": scenario_drives,
