@@ -40,7 +40,7 @@ class Pipe(Model):
     diameter: Annotated[Length, Bounds(gt="50 mm", le="2 m")]
     """Of the pipe inside the belt; what the belt is wider than its circumference overlaps."""
     forming_load: Annotated[Force, Bounds(ge="0 N", le="20 kN")]
-    """What the belt, which would open, presses on each roll of a panel: of its maker or measured; there is no default."""
+    """What the belt, which would open, presses on each roll of a panel: measured, or of its maker; no default."""
     filling: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity("75 %")
     """Most bulk in the pipe, over its cross-section."""
     lump: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity("33 %")
@@ -208,7 +208,8 @@ class IdlerSet(Model):
         """Require the pipe of six rolls, and refuse fields of troughs beside it."""
         if (self.pipe is None) == (self.rolls == 6):
             missing = "missing: 6 rolls are a panel around a pipe" if self.pipe is None else "given"
-            yield Problem(("pipe",), f"{missing} with rolls: {self.rolls}; a pipe has rolls: 6 and pipe, a trough neither")
+            message = f"{missing} with rolls: {self.rolls}; a pipe has rolls: 6 and pipe, a trough neither"
+            yield Problem(("pipe",), message)
         if self.pipe is None:
             return
         for name in ("load_shares", "belt_shares"):

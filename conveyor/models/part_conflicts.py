@@ -181,7 +181,7 @@ def _scale_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
 def _cover_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Refuse a cover as thick as the radius of a roll that runs on it."""
     belt, idlers = conveyor.belt, conveyor.idlers
-    bottom_on_both = conveyor.route.turned_over
+    bottom_on_both = conveyor.bottom_cover_on_both
     under: dict[str, tuple[Cover | TopCover, list[IdlerSet]]] = {
         "bottom_cover": (belt.bottom_cover, [idlers.carry] + [idlers.return_] * bottom_on_both),
         "top_cover": (belt.top_cover, [] if bottom_on_both else [idlers.return_]),
@@ -343,7 +343,8 @@ def _pipe_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     for i, section in enumerate(conveyor.route.sections):
         for name in ("curve", "horizontal_curve"):
             if getattr(section, name) is not None:
-                yield Problem(("route", "sections", i, name), f"{why} is calculated on straight sections only; remove it")
+                message = f"{why} is calculated on straight sections only; remove it"
+                yield Problem(("route", "sections", i, name), message)
     for name in ("head_transition", "tail_transition"):
         if getattr(conveyor.route, name) is not None:
             yield Problem(("route", name), f"{why} has no readable law of its forming length; remove it")

@@ -11,11 +11,15 @@ from typing import Final
 from conveyor.arguments.limits import require, require_angle, require_not_negative, require_positive
 from conveyor.laws.loading.roll_loading import RollLoad
 
-__all__ = ["PIPE_ROLLS", "pipe_area", "pipe_lower_share", "pipe_roll_loads"]
+__all__ = ["PIPE_ROLLS", "pipe_area", "pipe_roll_loads"]
 
 PIPE_ROLLS: Final = ("upper left", "lower left", "bottom", "lower right", "upper right", "top")
 """Places of the rolls of a panel: 60 deg apart, one below."""
 _APART: Final = math.pi / 3.0  # angle between neighbours [rad]
+_BELT_BELOW: Final = 1.0 / 6.0
+"""Share of the ring's weight that stands on the bottom roll [-]."""
+_BULK_BELOW: Final = 4.0 / math.pi * (_APART / 4.0 + math.sin(_APART) ** 2 / (4.0 * _APART))
+"""The same of bulk in vertical columns 2 R cos θ of a full pipe, (4/π) ∫ cos²θ (1 - 3 θ/π) dθ up to 60 deg [-]."""
 
 
 def pipe_area(diameter: float, *, filling: float = 1.0) -> float:
@@ -46,36 +50,6 @@ def pipe_area(diameter: float, *, filling: float = 1.0) -> float:
     require_positive(diameter=diameter)
     require(0.0 <= filling <= 1.0, "filling", filling, ">= 0 and <= 1")
     return filling * math.pi * diameter**2 / 4.0
-
-
-def pipe_lower_share(*, thin: bool) -> float:
-    """Share of a weight that stands on the bottom roll, by the lever between neighbouring rolls (derived).
-
-    Parameters
-    ----------
-    thin : bool
-        True for the ring of the belt, even along its arc; False for bulk in vertical columns in a full pipe.
-
-    Returns
-    -------
-    float
-        Share of the bottom roll [-]; the rest stands evenly on both lower ones.
-
-    Notes
-    -----
-    A weight at the angle θ from below stands on the bottom roll by 1 - θ/60 deg, beyond 60 deg on the lower roll
-    alone: 1/6 of the ring, and of columns 2 R cos θ the integral (4/π) ∫ cos² θ (1 - 3θ/π) dθ up to 60 deg. Less
-    filling moves columns toward the middle, which the share of a full pipe leaves out.
-
-    Examples
-    --------
-    >>> [round(pipe_lower_share(thin=thin), 4) for thin in (True, False)]
-    [0.1667, 0.5613]
-    """
-    if thin:
-        return 1.0 / 6.0
-    # ∫ cos² (1 - θ/c) dθ from 0 to c = c/4 + sin²(c)/(4 c)
-    return 4.0 / math.pi * (_APART / 4.0 + math.sin(_APART) ** 2 / (4.0 * _APART))
 
 
 def pipe_roll_loads(
@@ -120,7 +94,9 @@ def pipe_roll_loads(
 
     Notes
     -----
-    Without friction a roll pushes toward the middle of the pipe. A weight v on a lower roll, 60 deg from below, needs
+    A weight at θ from below stands on the bottom roll by 1 - θ/60 deg, the rest on the lower one beside it, beyond
+    60 deg all of it. Less filling moves bulk to the middle, which is left out. Without friction a roll pushes toward
+    the middle of the pipe. A weight v on a lower roll, 60 deg from below, needs
     v/cos 60 deg = 2 v; the two push inward on each other through the ring. The forming load is the same on
     all rolls, so that it holds itself. Each roll bears over a sixth of the pipe's circumference, evenly.
 
@@ -139,9 +115,7 @@ def pipe_roll_loads(
     >>> [round(load.force) for load in loads]
     [100, 554, 470, 554, 100, 100]
     """
-    require_not_negative(
-        bulk_line_mass=bulk_line_mass, belt_line_mass=belt_line_mass, forming_load=forming_load
-    )
+    require_not_negative(bulk_line_mass=bulk_line_mass, belt_line_mass=belt_line_mass, forming_load=forming_load)
     require_positive(spacing=spacing, diameter=diameter, roll_length=roll_length, gravity=gravity)
     require_angle(-math.pi / 2.0, inclination=inclination)
     pull = gravity * math.cos(inclination) * spacing
@@ -152,12 +126,11 @@ def pipe_roll_loads(
             return share * mass * pull
         return (1.0 - share) * mass * pull if name.startswith("lower") else 0.0  # half of the rest, over cos 60 deg
 
-    bulk, belt = pipe_lower_share(thin=False), pipe_lower_share(thin=True)
     return tuple(
         RollLoad(
             name=name,
-            bulk_force=borne(name, bulk_line_mass, bulk),
-            belt_force=borne(name, belt_line_mass, belt) + forming_load,
+            bulk_force=borne(name, bulk_line_mass, _BULK_BELOW),
+            belt_force=borne(name, belt_line_mass, _BELT_BELOW) + forming_load,
             length=length,
             shape="uniform",
         )
