@@ -39,7 +39,7 @@ class Pipe(Model):
 
     diameter: Annotated[Length, Bounds(gt="50 mm", le="2 m")]
     """Of the pipe inside the belt; what the belt is wider than its circumference overlaps."""
-    forming_load: Annotated[Force, Bounds(ge="0 N", le="20 kN")]
+    forming_load: Annotated[Force, Bounds(ge="1 N", le="20 kN")]
     """What the belt, which would open, presses on each roll of a panel: measured, or of its maker; no default."""
     filling: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity("75 %")
     """Most bulk in the pipe, over its cross-section."""

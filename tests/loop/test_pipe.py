@@ -62,7 +62,7 @@ def test_it_is_filled_up_to_three_quarters(spec):
     assert check.calculated == pytest.approx(1000e3 / 3600 / 5.2 / 850.0)
     assert check.verdict == "pass"
     assert pipe_area(0.38) == pytest.approx(spec.flooded_section)
-    over = with_fields(spec, {"material.flow": "1200 t/h"})
+    over = with_fields(spec, {"material.flow": "1500 t/h"})
     assert next(belt_filling(calculate(over))).verdict == "FAIL"
     with pytest.raises(InputError, match="the whole pipe"):
         with_fields(spec, {"material.flow": "2000 t/h"})
@@ -70,18 +70,13 @@ def test_it_is_filled_up_to_three_quarters(spec):
 
 @pytest.mark.parametrize(("lump", "verdict"), [("120 mm", "pass"), ("130 mm", "FAIL")])
 def test_lumps_are_a_third_of_it(spec, lump, verdict):
-    wear = {"lump": lump, "abrasiveness": "slight", "loading": "easy"}
-    try:
-        lumpy = with_fields(spec, {"belt.wear": wear})
-    except InputError as error:
-        pytest.fail(str(error))
-    (check,) = pipe_lumps(calculate(lumpy))
+    (check,) = pipe_lumps(calculate(with_fields(spec, {"belt.wear": {"lump": lump, "loading": "low"}})))
     assert check.verdict == verdict
 
 
 def test_a_stiffer_belt_costs_power_and_both_strands_run_on_the_bottom_cover(spec):
     stiff = with_fields(spec, {f"idlers.{s}.pipe.forming_load": "120 N" for s in ("carry", "return")})
-    assert calculate(stiff).balance.power > calculate(spec).balance.power
+    assert calculate(stiff).balance.power.belt > calculate(spec).balance.power.belt
     assert spec.return_cover_thickness == spec.belt.bottom_cover.thickness
 
 
@@ -93,7 +88,7 @@ def test_a_stiffer_belt_costs_power_and_both_strands_run_on_the_bottom_cover(spe
         ({"idlers.carry.rolls": 3}, "pipe", "neither"),
         ({"idlers.carry.pipe.diameter": "480 mm"}, "diameter", "does not close"),
         ({"idlers.return.pipe.diameter": "300 mm"}, "diameter", "the same pipe"),
-        ({"route.sections.0.horizontal_curve": "left", "route.sections.0.horizontal_radius": "500 m"},
+        ({"route.sections.0.horizontal_curve": "left", "route.sections.0.horizontal_radius": "5000 m"},
          "horizontal_curve", "straight sections only"),
         ({"route.head_transition": {"length": "20 m"}}, "head_transition", "forming length"),
         ({"idlers.carry.cema_class": "C"}, "cema_class", "no set of 6"),
