@@ -207,8 +207,9 @@ class IdlerSet(Model):
     def _pipe_problems(self) -> Iterator[Problem]:
         """Require the pipe of six rolls, and refuse fields of troughs beside it."""
         if (self.pipe is None) == (self.rolls == 6):
-            missing = "missing: 6 rolls are a panel around a pipe" if self.pipe is None else "given"
-            message = f"{missing} with rolls: {self.rolls}; a pipe has rolls: 6 and pipe, a trough neither"
+            message = "missing: rolls: 6 are a panel around a pipe; give it, or take fewer rolls"
+            if self.pipe is not None:
+                message = f"given with rolls: {self.rolls}, but a pipe has rolls: 6; remove pipe or change rolls"
             yield Problem(("pipe",), message)
         if self.pipe is None:
             return

@@ -85,7 +85,7 @@ def test_a_stiffer_belt_costs_power_and_both_strands_run_on_the_bottom_cover(spe
     [
         ({"idlers.carry.trough_angle": "35 deg"}, "trough_angle", "has no trough"),
         ({"idlers.carry.share_rule": "cross-section"}, "share_rule", "troughs"),
-        ({"idlers.carry.rolls": 3}, "pipe", "neither"),
+        ({"idlers.carry.rolls": 3}, "pipe", "a pipe has rolls: 6"),
         ({"idlers.carry.pipe.diameter": "480 mm"}, "diameter", "does not close"),
         ({"idlers.return.pipe.diameter": "300 mm"}, "diameter", "the same pipe"),
         ({"route.sections.0.horizontal_curve": "left", "route.sections.0.horizontal_radius": "5000 m"},
@@ -101,7 +101,7 @@ def test_what_is_no_pipe_is_refused_by_field(spec, changes, field, why):
 
 
 def test_six_rolls_without_a_pipe_are_refused(spec):
-    with pytest.raises(InputError, match="6 rolls are a panel"):
+    with pytest.raises(InputError, match="panel around a pipe"):
         with_fields(spec, {"idlers.carry.pipe": None})
 
 
