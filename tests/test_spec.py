@@ -70,8 +70,8 @@ POSITIONS = [
     ("  width: 1200 mm\n", "", '2:1 belt.width: missing; expected a length such as "1200 mm"'),
     ("width:", "widht:", '3:3 belt.widht: unknown key "widht"; did you mean "width"?; keys allowed: width, speed,'),
     ("spacing: 1.5 m", "spacing: 1,5 m", '11:14 idlers.carry.spacing: got "1,5 m": a comma is ambiguous;'),
-    ("rolls: 3", "rolls: 6", "10:12 idlers.carry.rolls: got 6, allowed: 1, 2, 3, 4 or 5"),
-    ("rolls: 3", 'rolls: "3"', '10:12 idlers.carry.rolls: got "3", allowed: 1, 2, 3, 4 or 5'),
+    ("rolls: 3", "rolls: 7", "10:12 idlers.carry.rolls: got 7, allowed: 1, 2, 3, 4, 5 or 6"),
+    ("rolls: 3", 'rolls: "3"', '10:12 idlers.carry.rolls: got "3", allowed: 1, 2, 3, 4, 5 or 6'),
     ("length: 500 m", "length: 500", '21:27 route.sections[0].length: got 500 without a unit; give the unit, e.g. '
      '"500 m"'),
     ("length: 500 m", "length: 0 ft", "21:27 route.sections[0].length: got 0 ft, allowed: > 0 ft and <= 328084 ft"),

@@ -20,6 +20,8 @@ def belt_filling(result: CalculatedConveyor) -> Iterator[Check]:
     ]
     if loaded:
         stretch, bulk, most = first_maximum(loaded, lambda one: -one[2] / one[1])
+        pipe = result.conveyor.idlers.carry.pipe
+        source = "ISO 5048" if pipe is None else "idlers.carry.pipe.filling"
         section = f'section "{escape_braces(stretch.section)}"'
         why = message(f"the bulk takes {{}}, {section} holds nothing on its slope", (bulk, "area"))
         if most > 0.0:
@@ -33,9 +35,20 @@ def belt_filling(result: CalculatedConveyor) -> Iterator[Check]:
                 (line.flow * most / bulk, "mass flow"), (line.speed * bulk / most, "speed"),
             )  # fmt: skip
         yield check_against_limit(
-            "filling", "filling of the belt", bulk, "at most", most, "area", source="ISO 5048",
+            "filling", "filling of the belt", bulk, "at most", most, "area", source=source,
             wording=message(f"{{}}, {percent(bulk / holds_on(0.0))} of the level cross-section", (bulk, "area")),
             where=stretch.section, why=why,
+        )  # fmt: skip
+
+
+def pipe_lumps(result: CalculatedConveyor) -> Iterator[Check]:
+    """The largest lump passes the pipe; none without its size."""
+    pipe, lump = result.conveyor.idlers.carry.pipe, result.line.lump
+    if pipe is not None and lump is not None:
+        yield check_against_limit(
+            "pipe_lumps", "largest lump in the pipe", lump, "at most", pipe.largest_lump, "thickness",
+            source="idlers.carry.pipe.lump",
+            why="lumps of {calculated} jam in the pipe, {required} is allowed: crush finer, or a wider pipe",
         )  # fmt: skip
 
 

@@ -90,7 +90,7 @@ def cover_series(conveyor: Conveyor, series: Callable[[RubberCompound], PronySer
     """
     behind = series(conveyor.return_compound)
     own = conveyor.belt.top_cover.compound
-    turned = conveyor.route.turned_over and own is not None and conveyor.calculation.support == "belt"
+    turned = conveyor.bottom_cover_on_both and own is not None and conveyor.calculation.support == "belt"
     return {
         "carry": series(conveyor.carry_compound),
         "return": behind,
@@ -102,7 +102,7 @@ def covers_by_strand(conveyor: Conveyor, rubber: Mapping[CoverName, PronySeries]
     """Cover under each strand, of given rubber."""
     bottom = (si(conveyor.belt.bottom_cover.thickness), rubber["carry"])
     top = (si(conveyor.belt.top_cover.thickness), rubber["top"])
-    pairs = {"carry": (bottom, top), "return": (bottom, top) if conveyor.route.turned_over else (top, bottom)}
+    pairs = {"carry": (bottom, top), "return": (bottom, top) if conveyor.bottom_cover_on_both else (top, bottom)}
     compounds = compounds_by_strand(conveyor)
     return {
         strand: CoverState(thickness, rubber[strand], compounds[strand].poisson_ratio, other)

@@ -6,6 +6,7 @@ from conveyor.laws.loading import (
     BulkSpread,
     Heap,
     RollLoad,
+    pipe_roll_loads,
     roll_loads,
     shares_by_area,
     spread_bulk,
@@ -60,6 +61,17 @@ class SetLoads:
         """
         key = (spacing, inclination, belt_mass, bulk_mass, flow_mass)
         known = self._found.get(key)
+        if known is None and (pipe := self.idlers.pipe) is not None:
+            known = self._found[key] = pipe_roll_loads(
+                bulk_line_mass=bulk_mass,
+                belt_line_mass=belt_mass,
+                spacing=spacing,
+                diameter=si(pipe.diameter),
+                roll_length=self._roll_length,
+                forming_load=si(pipe.forming_load),
+                inclination=inclination,
+                gravity=self._gravity,
+            )
         if known is None:
             known = self._found[key] = roll_loads(
                 bulk_line_mass=bulk_mass,
@@ -102,7 +114,7 @@ class SetLoads:
 
     def spread(self, flow_mass: float) -> BulkSpread:
         """Width of the belt under the bulk of a mass per length and the slope of its heap [m, rad]."""
-        if flow_mass == 0.0:
+        if flow_mass == 0.0 or self.idlers.pipe is not None:
             return BulkSpread(0.0, self._surcharge)
         return spread_bulk(
             flow_mass / self._density,

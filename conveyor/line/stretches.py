@@ -221,6 +221,8 @@ def misalignment_angle(conveyor: Conveyor, idlers: IdlerSet) -> float:
 def _misalignment_frictions(conveyor: Conveyor, idlers: IdlerSet) -> tuple[float, ...]:
     """Drag of each roll of a set by misalignment over its load [-]: a wing roll turns by cos λ of the set's angle."""
     angle = misalignment_angle(conveyor, idlers)
+    if idlers.pipe is not None:  # a panel out of square turns its side rolls by part of that: all of it, the safe side
+        return (misalignment_friction(angle),) * idlers.rolls
     slopes = roll_angles(idlers.rolls, trough_angle=si(idlers.trough_angle), inner_angle=idlers.inner_wing.angle)
     turned = {slope: misalignment_friction(angle * math.cos(slope)) for slope in map(abs, slopes)}
     return tuple(turned[abs(slope)] for slope in slopes)

@@ -34,11 +34,36 @@ Spacing = Annotated[Distance, Bounds(gt="0 m", le="20 m")]
 Share = Annotated[Fraction, Bounds(ge="0 %", le="100 %")]
 
 
+class Pipe(Model):
+    """The belt as a closed pipe in panels of six rolls, one of them below."""
+
+    diameter: Annotated[Length, Bounds(gt="50 mm", le="2 m")]
+    """Of the pipe inside the belt; what the belt is wider than its circumference overlaps."""
+    forming_load: Annotated[Force, Bounds(ge="1 N", le="20 kN")]
+    """What the belt, which would open, presses on each roll of a panel: measured, or of its maker; no default."""
+    filling: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity("75 %")
+    """Most bulk in the pipe, over its cross-section."""
+    lump: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity("33 %")
+    """Largest lump (belt.wear.lump) over the diameter."""
+
+    @property
+    def radius(self) -> float:
+        """Inner radius [m]."""
+        return 0.5 * si(self.diameter)
+
+    @property
+    def largest_lump(self) -> float:
+        """Largest lump that passes [m]."""
+        return si(self.lump) * si(self.diameter)
+
+
 class IdlerSet(Model):
     """The rolls of one station, repeated at a spacing."""
 
-    rolls: Literal[1, 2, 3, 4, 5]
-    """Rolls side by side."""
+    rolls: Literal[1, 2, 3, 4, 5, 6]
+    """Rolls side by side; 6 are a panel around a pipe."""
+    pipe: Pipe | None = None
+    """The pipe in six rolls; needed there, refused elsewhere."""
     spacing: Spacing
     """Distance of the sets along the belt."""
     trough_angle: Annotated[Angle, Bounds(ge="0 deg", le="60 deg")] = quantity("0 deg")
@@ -143,6 +168,7 @@ class IdlerSet(Model):
         for name, shares in (("load_shares", self.load_shares), ("belt_shares", self.belt_shares)):
             problems += self._share_problems(name, shares)
         problems += self._rule_problems()
+        problems += self._pipe_problems()
         if self.rating is not None and self.cema_class is not None:
             message = f"got {text(self.rating)} beside cema_class {self.cema_class}; give one of the two"
             problems.append(Problem(("rating",), message))
@@ -177,6 +203,25 @@ class IdlerSet(Model):
                 )
             )
         return problems
+
+    def _pipe_problems(self) -> Iterator[Problem]:
+        """Require the pipe of six rolls, and refuse fields of troughs beside it."""
+        if (self.pipe is None) == (self.rolls == 6):
+            message = "missing: rolls: 6 are a panel around a pipe; give it, or take fewer rolls"
+            if self.pipe is not None:
+                message = f"given with rolls: {self.rolls}, but a pipe has rolls: 6; remove pipe or change rolls"
+            yield Problem(("pipe",), message)
+        if self.pipe is None:
+            return
+        for name in ("load_shares", "belt_shares"):
+            if getattr(self, name) is not None:
+                yield Problem((name,), "given beside pipe, whose loads are statics of the ring; remove it")
+        for name in ("trough_angle", "tilt_angle"):
+            angle: Quantity = getattr(self, name)
+            if si(angle) != 0.0:
+                yield Problem((name,), f"got {text(angle)} beside pipe, which has no trough; remove it")
+        if self.share_rule != "VDI 2341":
+            yield Problem(("share_rule",), f'got "{self.share_rule}" beside pipe, a rule of troughs; remove it')
 
     def _inner_problems(self) -> Iterator[Problem]:
         """Require inner wings no steeper than the outer ones on four and five rolls, and refuse them on others."""

@@ -8,7 +8,7 @@ from typing import Final
 
 from conveyor.errors import InputError, MessageQuantity, RangeError
 from conveyor.laws.idler_sets import rated_set_load
-from conveyor.laws.loading import CrossSection, bulk_line_mass, cross_section, usable_width
+from conveyor.laws.loading import CrossSection, bulk_line_mass, cross_section, pipe_area, usable_width
 from conveyor.laws.resistance import SHORTEST_FOR_FACTOR
 from conveyor.laws.tension import usual_stiffness
 from conveyor.models.base import Problem
@@ -39,6 +39,8 @@ def _roll_length_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     for strand, idlers in _idler_sets(conveyor):
         each = si(idlers.roll.length)
         location = ("idlers", strand, "roll", "length")
+        if idlers.pipe is not None:
+            continue
         if idlers.rolls * each < si(width):
             yield Problem(
                 location,
@@ -61,11 +63,17 @@ def _in_roll_unit(length: float, idlers: IdlerSet) -> str:
 
 def largest_section(conveyor: ConveyorParts) -> CrossSection:
     """Largest bulk cross-section on a horizontal belt (ISO 5048)."""
+    pipe = conveyor.idlers.carry.pipe
+    if pipe is not None:
+        return CrossSection(0.0, pipe_area(si(pipe.diameter), filling=si(pipe.filling)))
     return _bulk_section(conveyor, usable_width(si(conveyor.belt.width)))
 
 
 def flooded_section(conveyor: ConveyorParts) -> CrossSection:
     """Bulk cross-section heaped from edge to edge of a horizontal belt."""
+    pipe = conveyor.idlers.carry.pipe
+    if pipe is not None:
+        return CrossSection(0.0, pipe_area(si(pipe.diameter)))
     return _bulk_section(conveyor, si(conveyor.belt.width))
 
 
@@ -88,7 +96,7 @@ def _fill_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
         return
     needed = bulk_line_mass(si(material.flow), belt_speed=si(belt.speed)) / si(material.density)
     area, flooded = largest_section(conveyor).area, flooded_section(conveyor).area
-    calculated = max(OVERFILL_LIMIT * area, flooded)
+    calculated = max(OVERFILL_LIMIT * area, flooded) if conveyor.idlers.carry.pipe is None else flooded
     if needed <= calculated * (1.0 + _FLOW_ROUNDING):
         return
     system = unit_system(belt.width)
@@ -101,7 +109,8 @@ def _fill_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     metric = ""
     if system == "US" and text(material.flow).endswith(" tph"):
         metric = "; tph are metric tonnes per hour, short tons per hour are stph"
-    why = "heaped from edge to edge" if calculated == flooded else f"{100.0 * OVERFILL_LIMIT:g} % of that"
+    brim = "heaped from edge to edge" if conveyor.idlers.carry.pipe is None else "the whole pipe"
+    why = brim if calculated == flooded else f"{100.0 * OVERFILL_LIMIT:g} % of that"
     yield Problem(
         ("material", "flow"),
         InputError(
@@ -174,7 +183,7 @@ def _scale_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
 def _cover_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Refuse a cover as thick as the radius of a roll that runs on it."""
     belt, idlers = conveyor.belt, conveyor.idlers
-    bottom_on_both = conveyor.route.turned_over
+    bottom_on_both = conveyor.bottom_cover_on_both
     under: dict[str, tuple[Cover | TopCover, list[IdlerSet]]] = {
         "bottom_cover": (belt.bottom_cover, [idlers.carry] + [idlers.return_] * bottom_on_both),
         "top_cover": (belt.top_cover, [] if bottom_on_both else [idlers.return_]),
@@ -295,7 +304,7 @@ def _inertia_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
 def _bulk_flexure_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Refuse bulk flexure with four or five rolls."""
     flexure, rolls = conveyor.calculation.flexure, conveyor.idlers.carry.rolls
-    if flexure is not None and flexure.bulk is not None and rolls in {4, 5}:
+    if flexure is not None and flexure.bulk is not None and rolls in {4, 5, 6}:
         yield Problem(
             ("calculation", "flexure", "bulk"),
             f"given, but the wings of {rolls} rolls (idlers.carry.rolls) have no law; remove it, or take 2 or 3 rolls",
@@ -331,12 +340,38 @@ def _curve_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
         return
     where = f'section "{curved}" is a horizontal curve'
     for strand, idlers in _idler_sets(conveyor):
-        if idlers.rolls > 1 and si(idlers.trough_angle) == 0.0:
+        if idlers.rolls > 1 and si(idlers.trough_angle) == 0.0 and idlers.pipe is None:
             message = (
                 f"got {text(idlers.trough_angle)}, but {where}, in which nothing holds a flat belt on several rolls: "
                 "take a trough, or rolls: 1"
             )
             yield Problem(("idlers", strand, "trough_angle"), message)
+
+
+def _pipe_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Refuse a pipe that the belt cannot close, one on the return strand alone, and what has no law on pipes."""
+    carry, back = conveyor.idlers.carry.pipe, conveyor.idlers.return_.pipe
+    if back is not None and (carry is None or si(carry.diameter) != si(back.diameter)):
+        beside = "the carry strand is none" if carry is None else f"the carry strand's is {text(carry.diameter)}"
+        message = f"got {text(back.diameter)}, but {beside}: both strands are the same pipe, or the return is flat"
+        yield Problem(("idlers", "return", "pipe", "diameter"), message)
+    if carry is None:
+        return
+    if math.pi * si(carry.diameter) >= si(conveyor.belt.width):
+        message = (
+            f"got {text(carry.diameter)}, whose circumference the belt (belt.width {text(conveyor.belt.width)}) does "
+            "not close: take a smaller pipe or a wider belt"
+        )
+        yield Problem(("idlers", "carry", "pipe", "diameter"), message)
+    why = "given, but a pipe (idlers.carry.pipe)"
+    for i, section in enumerate(conveyor.route.sections):
+        for name in ("curve", "horizontal_curve"):
+            if getattr(section, name) is not None:
+                message = f"{why} is calculated on straight sections only; remove it"
+                yield Problem(("route", "sections", i, name), message)
+    for name in ("head_transition", "tail_transition"):
+        if getattr(conveyor.route, name) is not None:
+            yield Problem(("route", name), f"{why} has no law of its forming length here; remove it")
 
 
 def _length_coefficient_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
@@ -416,5 +451,6 @@ CONFLICTS: Final[Mapping[Callable[[ConveyorParts], Iterator[Problem]], tuple[str
     _belt_support_problems: ("belt", "calculation"),
     _curve_problems: ("idlers", "route"),
     _bed_problems: ("calculation", "route"),
+    _pipe_problems: ("belt", "idlers", "route"),
 }
 """Checks between the parts, and the parts that each check reads."""

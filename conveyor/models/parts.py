@@ -164,13 +164,18 @@ class ConveyorParts(Model):
         return self.belt.bottom_cover.compound
 
     @property
+    def bottom_cover_on_both(self) -> bool:
+        """True if the rolls of both strands run on the bottom cover: a belt turned over, or a pipe on both strands."""
+        return self.route.turned_over or self.idlers.return_.pipe is not None
+
+    @property
     def return_compound(self) -> RubberCompound:
         """Compound under the return rolls: the top cover's, unless turned over or not stated."""
         top = self.belt.top_cover.compound
-        return self.carry_compound if self.route.turned_over or top is None else top
+        return self.carry_compound if self.bottom_cover_on_both or top is None else top
 
     @property
     def return_cover_thickness(self) -> Quantity:
         """Thickness of the cover that the return rolls run on."""
         belt = self.belt
-        return belt.bottom_cover.thickness if self.route.turned_over else belt.top_cover.thickness
+        return belt.bottom_cover.thickness if self.bottom_cover_on_both else belt.top_cover.thickness

@@ -153,6 +153,12 @@ def roll_assumptions(conveyor: Conveyor) -> tuple[str, ...]:
 def _share_assumption(conveyor: Conveyor) -> str:
     sets = (conveyor.idlers.carry, conveyor.idlers.return_)
     rule = "VDI 2341"
+    if conveyor.idlers.carry.pipe is not None:
+        return (
+            "Loads of the six rolls by statics of the ring without friction: weights on the three lower ones by the "
+            "lever between them, the given forming load on all (idlers.carry.pipe.forming_load), each evenly over a "
+            "sixth of the circumference; forming length, flexure of the pipe and curves are left out."
+        )
     if conveyor.idlers.carry.load_shares is not None:
         rule = "the spec (idlers.carry.load_shares)"
     elif conveyor.idlers.carry.share_rule == "cross-section":

@@ -82,7 +82,7 @@ def _rubber_warnings(conveyor: Conveyor) -> Iterator[Message]:
         name = escape_braces(compound.name)
         if compound.kind == "illustrative":
             yield message(f'compound "{name}" is illustrative, not measured: for comparison, not for design')
-        if strand == "return" and conveyor.belt.top_cover.compound is None and not conveyor.route.turned_over:
+        if strand == "return" and conveyor.belt.top_cover.compound is None and not conveyor.bottom_cover_on_both:
             yield message(f'top_cover.compound is not given: the return rolls run on the bottom cover\'s, "{name}"')
         if compound.missing and compound.kind == "measured":
             yield message(f'compound "{name}": unknown: {escape_braces("; ".join(compound.missing))}')

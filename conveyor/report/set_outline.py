@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import brentq
 
 from conveyor.laws.loading import Wing, spread_bulk, wing_pieces
 from conveyor.line.line import Line
@@ -47,6 +48,8 @@ def set_outlines(line: Line, surcharge: float) -> tuple[SetOutline, ...]:
 
 
 def _set_outline(line: Line, stretch: Stretch, surcharge: float) -> SetOutline:
+    if stretch.idlers.pipe is not None:
+        return _pipe_outline(line, stretch, stretch.idlers.pipe.radius)
     width = line.belt.width
     middle, angle, inner = stretch.idlers.middle_belt(width), stretch.trough_angle, stretch.idlers.inner_wing
     trough = partial(wing_pieces, middle_roll_length=middle, trough_angle=angle, inner_wing=inner)
@@ -67,6 +70,27 @@ def _set_outline(line: Line, stretch: Stretch, surcharge: float) -> SetOutline:
         _symmetric_belt(0.5 * middle, half),
         bulk,
     )
+
+
+def _pipe_outline(line: Line, stretch: Stretch, radius: float) -> SetOutline:
+    """Outline of a pipe of an inner radius [m] with its level bulk between six rolls."""
+    thickness = line.belt.thickness
+    turn = np.linspace(0.0, 2.0 * math.pi, 2 * _HEAP_POINTS)
+    bulk = None
+    if stretch.bulk_mass > 0.0:
+        share = min(stretch.bulk_mass / line.density / (math.pi * radius**2), 1.0)
+        half = brentq(lambda a: a - math.sin(a) * math.cos(a) - math.pi * share, 0.0, math.pi)
+        arc = np.linspace(-half, half, 2 * _HEAP_POINTS)
+        bulk = radius * np.sin(arc), -radius * np.cos(arc)
+    rolls, long = [], 0.5 * stretch.roll_length
+    for place, roll in enumerate(stretch.radii):
+        angle, near = math.pi / 3.0 * (place - 2), radius + thickness
+        out, along = np.array([math.sin(angle), -math.cos(angle)]), np.array([math.cos(angle), math.sin(angle)])
+        far = near + 2.0 * roll
+        corners = np.array([near * out - long * along, near * out + long * along, far * out + long * along,
+                            far * out - long * along])  # fmt: skip
+        rolls.append((corners[:, 0], corners[:, 1]))
+    return SetOutline(stretch.strand, tuple(rolls), (radius * np.sin(turn), -radius * np.cos(turn)), bulk)
 
 
 def _symmetric_belt(flat: float, half: Sequence[Wing]) -> Outline:

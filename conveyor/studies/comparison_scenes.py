@@ -195,8 +195,8 @@ def affected_strands(conveyor: Conveyor, cover: CoverChoice) -> frozenset[Strand
     if cover == "both":
         return frozenset(("carry", "return"))
     if cover == "bottom":
-        return frozenset(("carry", "return") if conveyor.route.turned_over else ("carry",))
-    return frozenset(() if conveyor.route.turned_over else ("return",))
+        return frozenset(("carry", "return") if conveyor.bottom_cover_on_both else ("carry",))
+    return frozenset(() if conveyor.bottom_cover_on_both else ("return",))
 
 
 _Bands: TypeAlias = tuple[tuple[float, float], ...]

@@ -118,8 +118,8 @@ def test_pickle_copy_hash(conveyor_data: dict[str, Any]) -> None:
 @pytest.mark.parametrize(
     ("field", "value", "message"),
     [
-        ("rolls", "3", "allowed: 1, 2, 3, 4 or 5"),
-        ("rolls", 6, "allowed: 1, 2, 3, 4 or 5"),
+        ("rolls", "3", "allowed: 1, 2, 3, 4, 5 or 6"),
+        ("rolls", 7, "allowed: 1, 2, 3, 4, 5 or 6"),
         ("spacing", 1.5, 'give the unit, e.g. "1.5 m"'),
         ("trough_angle", "35 degC", r'got "35 degC" \(a temperature\), expected an angle'),
         ("trough_angle", "75 deg", "got 75 deg, allowed: >= 0 deg and <= 60 deg"),

@@ -38,6 +38,8 @@ def identity_table(conveyor: Conveyor, system: System) -> Table:
     def idlers(of: Any) -> str:
         inner = "" if of.inner_trough_angle is None else f"{shown(of.inner_trough_angle, 'angle')} and "
         lying = f" at {inner}{shown(of.trough_angle, 'angle')}" if of.rolls > 1 else ""
+        if of.pipe is not None:
+            lying = f" around a pipe of {shown(of.pipe.diameter, 'thickness')}"
         return f"{of.rolls} x {shown(of.roll.diameter, 'thickness')}{lying}, every {shown(of.spacing, 'length')}"
 
     known = ("breaking", carcass.strength, "belt strength"), ("rated", carcass.rating, "belt rating")

@@ -65,7 +65,10 @@ _SCENARIO = Column("scenario", "text", "0", json="scenario")
 def dynamics_contents(dynamics: CalculatedDynamics, system: System) -> Contents:
     """Contents of the report on starts and stops in a unit system."""
     every = _every_check(dynamics)
-    makers = SCENARIO_TABLES | {"scenario_sizes": partial(size_table, system=system)}
+    makers: dict[str, Callable[[CalculatedDynamics], Table]] = {
+        **SCENARIO_TABLES,
+        "scenario_sizes": partial(size_table, system=system),
+    }
     parts = (
         *(make(dynamics) for make in makers.values()), check_table(governing_by_subject(every), system),
         _dynamics_remarks(dynamics, every, system),
