@@ -319,6 +319,15 @@ def test_drag_brakes_a_drive_without_power_whose_belt_slips():
     assert np.diff(rims) == pytest.approx(-drag / rim * found.step, rel=1e-9)
 
 
+def test_the_drag_of_a_drive_is_assumed_where_its_belt_slips_alone():
+    quiet = followed(line(drive=DATA["drive"] | MASSES, route=TAUT), START, step=0.1)
+    for found, slips in ((slipping_late(0.1), True), (quiet, False)):
+        given = found.setup.given.steady
+        assert (float(found.record.slipped.max()) > 0.0) is slips
+        told = CalculatedDynamics(given.conveyor, given, (found,)).assumptions
+        assert any("whose belt slips" in one for one in told) is slips
+
+
 def test_a_belt_that_runs_away_has_the_friction_of_full_speed():
     """The parabola through three speeds up to that says nothing beyond: it may even turn and push."""
     setup = ridden(line(drive=DATA["drive"] | MASSES), START)

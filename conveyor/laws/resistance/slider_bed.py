@@ -28,7 +28,7 @@ BED_FRICTION: Final[Mapping[tuple[BedSurface, Underside], Default]] = {
     **{("aluminium", underside): friction for underside, friction in _ON_METAL.items()},
     ("UHMW-PE", "rubber cover"): Default(0.284, 0.284, 0.557, f"{_LINING}; up to that of steel where it is not"),
 }
-"""Friction of belt on plate [-] by surface and underside, as makers print it; of hardwood none was readable."""
+"""Friction of belt on plate [-] by surface and underside, as makers print it; of hardwood it is asked for."""
 
 
 def slider_bed_resistance(
