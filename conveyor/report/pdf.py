@@ -33,9 +33,10 @@ _SVG_NAMESPACE: Final = "http://www.w3.org/2000/svg"
 _PAGE_WIDTH: Final = 521.0  # between the margins of A4 [pt]
 _SIZE = 8.0  # letters of tables [pt]
 _SHORT: Final = 13  # characters up to which a text ("> 100 %") stays on one line
-_LONGEST: Final = 40  # characters of a word beyond which a column is not made wider for it
+_LONGEST: Final = 22  # characters of a word beyond which a column is not made wider for it
 _LETTER, _GAP = 0.62, 1.8  # width of a letter over its size; letters that the room between columns takes
-_NAME: Final = 24  # letters of a name of a row that stand on one line
+_WANTED: Final = 40  # letters beyond which a longer text makes a column no wider
+_NAME: Final = 20  # letters of a name of a row that stand on one line
 _BOLD: Final = 1.13  # width of a letter of a heading over that of text
 _HEAD_LINES: Final = 3  # of a heading above a narrow column
 _SHARES: Final = 20  # steps of the width that parts of a table are filled to
@@ -287,7 +288,8 @@ class _ColumnNeed:
         words = [min(len(word), _LONGEST) for cell in below for word in cell.text.split()]
         names = [min(longest, _NAME)] if any(cell.tag == "th" for cell in below) else []
         least = max([*kept, *words, *names, *(_BOLD * len(word) for word in head.text.split())], default=0)
-        needs = max(longest, heading), max(longest, heading / _HEAD_LINES, least), least
+        wanted = max(min(longest, _WANTED), heading / _HEAD_LINES, least)
+        needs = max(longest, heading), wanted, least
         return cls(*(need + _GAP for need in needs))
 
 
