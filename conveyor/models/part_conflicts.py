@@ -439,7 +439,7 @@ CONFLICTS: Final[Mapping[Callable[[ConveyorParts], Iterator[Problem]], tuple[str
     _idler_class_problems: ("belt", "idlers"),
     _wear_problems: ("belt", "route"),
     _cover_problems: ("belt", "idlers", "route"),
-    _temperature_problems: ("ambient", "belt", "route"),
+    _temperature_problems: ("ambient", "belt", "idlers", "route"),
     _feeding_problems: ("belt", "route"),
     _hopper_problems: ("belt", "route"),
     _discharge_problems: ("calculation", "route"),
