@@ -10,7 +10,7 @@ from mkdocs.structure.files import File, Files
 
 PAGES = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "materials/README.md")
 LINKED = ("docs/figures/*.*g", "examples/06_tutorial.*", "examples/duties/*.yaml", "examples/listed/*.yaml",
-          "examples/specs/curved.yaml", "conveyor/_library/*.yaml", "conveyor/laws/preliminary_sizing.py",
+          "examples/specs/*.yaml", "conveyor/_library/*.yaml", "conveyor/laws/preliminary_sizing.py",
           "conveyor/pipeline.py", "tests/test_architecture.py", "tests/test_names.py")  # fmt: skip
 MODULES = ("spec", "units", "shelf", "contact", "indentation", "rubber", "uncertainty")
 INTERFACE = ("conveyor", *(f"conveyor.{name}" for name in MODULES))
