@@ -46,16 +46,20 @@ class PulleyDuty:
     ----------
     pulley : BendPulley
         The pulley.
-    belt_width, belt_speed : float
-        Width [m] and speed [m/s] of the belt.
-    loads : tuple of PulleyLoad
-        Load in each state of motion.
+    line : Line
+        The conveyor.
+    tensions : tuple of (str, float, float)
+        Name of each state of motion, tension before and behind the pulley [N].
     """
 
     pulley: BendPulley
-    belt_width: float
-    belt_speed: float
-    loads: tuple[PulleyLoad, ...]
+    line: Line
+    tensions: tuple[tuple[str, float, float], ...]
+
+    @cached_property
+    def loads(self) -> tuple[PulleyLoad, ...]:
+        """Load in each state of motion."""
+        return tuple(_load_in_state(self.line, self.pulley, *one) for one in self.tensions)
 
     @cached_property
     def steady(self) -> PulleyLoad:
@@ -75,13 +79,13 @@ class PulleyDuty:
     @property
     def rotation(self) -> float:
         """Rotation [1/s]."""
-        return self.belt_speed / (math.pi * self.pulley.diameter)
+        return self.line.speed / (math.pi * self.pulley.diameter)
 
     @cached_property
     def pressure(self) -> float:
         """Largest pressure of the belt on the lagging [Pa]."""
-        tight = max(max(load.arriving, load.leaving, 0.0) for load in self.loads)
-        return lagging_pressure(tight, pulley_diameter=self.pulley.diameter, belt_width=self.belt_width)
+        tight = max(max(arriving, leaving, 0.0) for _, arriving, leaving in self.tensions)
+        return lagging_pressure(tight, pulley_diameter=self.pulley.diameter, belt_width=self.line.belt.width)
 
     def _moment(self, load: PulleyLoad) -> float | None:
         bearings, hubs = self.pulley.bearing_centres, self.pulley.hub_centres
@@ -92,7 +96,8 @@ class PulleyDuty:
     @cached_property
     def moment(self) -> float | None:
         """Largest bending moment of the shaft at the hub [N m]; None without its distances."""
-        return self._moment(self.largest)
+        shaft = self.pulley.bearing_centres, self.pulley.hub_centres
+        return None if None in shaft else self._moment(self.largest)
 
     @cached_property
     def slope(self) -> float | None:
@@ -140,8 +145,8 @@ class PulleyDuty:
     @cached_property
     def bearing_hours(self) -> float | None:
         """L10 of each bearing in steady running [h]; None without its rating, or without load."""
-        rating, load = self.pulley.bearing_rating, 0.5 * self.steady.resultant
-        if rating is None or load == 0.0:
+        rating = self.pulley.bearing_rating
+        if rating is None or (load := 0.5 * self.steady.resultant) == 0.0:
             return None
         return rating_life_hours(load, dynamic_rating=rating, rotation=self.rotation, exponent=ROLLER_EXPONENT)
 
@@ -153,15 +158,9 @@ class PulleyDuty:
 
 def pulley_duty(balance: Balance, states: Sequence[MotionState]) -> tuple[PulleyDuty, ...]:
     """Loads of every pulley of the spec in every state; none of assumed ones."""
-    line = balance.line
     return tuple(
-        PulleyDuty(
-            pulley,
-            line.belt.width,
-            line.speed,
-            tuple(_load_in_state(line, pulley, state.name, *pulley_tensions(balance, i, state)) for state in states),
-        )
-        for i, pulley in enumerate(line.pulleys)
+        PulleyDuty(pulley, balance.line, tuple((state.name, *pulley_tensions(balance, i, state)) for state in states))
+        for i, pulley in enumerate(balance.line.pulleys)
         if not pulley.assumed
     )
 

@@ -287,12 +287,8 @@ def test_curves_show_the_tension_of_their_strips():
 def test_of_states_that_load_a_shaft_alike_the_first_is_named():
     """Rounding in other units does not choose between them."""
     (duty,) = duties(with_pulleys(HEAD | SHAFT)).values()
-    one = duty.loads[0]
-    states = (
-        replace(one, state="steady"),
-        replace(one, state="start", resultant=one.resultant * (1.0 + 1e-14)),
-    )
-    alike = replace(duty, loads=states)
+    _, arriving, leaving = duty.tensions[0]
+    alike = replace(duty, tensions=(("steady", arriving, leaving), ("start", arriving * (1.0 + 1e-14), leaving)))
     assert (alike.largest.state, alike.safety[1]) == ("steady", "steady")
 
 
