@@ -7,6 +7,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
 from conveyor.laws.pulley import (
     hub_moment,
     lagging_pressure,
@@ -58,8 +60,21 @@ class PulleyDuty:
 
     @cached_property
     def loads(self) -> tuple[PulleyLoad, ...]:
-        """Load in each state of motion."""
-        return tuple(_load_in_state(self.line, self.pulley, *one) for one in self.tensions)
+        """Load in each state of motion; a slack belt adds nothing to the pulley's weight."""
+        pulley, gravity = self.pulley, self.line.gravity
+        ends = np.array([sides for _, *sides in self.tensions])
+        tight, slack = np.maximum(ends.max(axis=1), 0.0), np.maximum(ends.min(axis=1), 0.0)
+        pulls = pulley_load(
+            tight_tension=tight, slack_tension=slack, pulley_mass=0.0, gravity=gravity, wrap_angle=pulley.wrap_angle
+        )
+        return tuple(
+            PulleyLoad(
+                state, arriving, leaving,
+                pulley_resultant(pull, weight=pulley.mass * gravity, pull_angle=pulley.pull_angle),
+                0.5 * abs(arriving - leaving) * pulley.diameter,
+            )
+            for (state, arriving, leaving), pull in zip(self.tensions, pulls.tolist(), strict=True)
+        )  # fmt: skip
 
     @cached_property
     def steady(self) -> PulleyLoad:
@@ -163,19 +178,6 @@ def pulley_duty(balance: Balance, states: Sequence[MotionState]) -> tuple[Pulley
         for i, pulley in enumerate(balance.line.pulleys)
         if not pulley.assumed
     )
-
-
-def _load_in_state(line: Line, pulley: BendPulley, state: str, arriving: float, leaving: float) -> PulleyLoad:
-    """Load of a pulley in a state; slack belt adds nothing to its weight."""
-    pull = pulley_load(
-        tight_tension=max(arriving, leaving, 0.0),
-        slack_tension=max(min(arriving, leaving), 0.0),
-        pulley_mass=0.0,
-        gravity=line.gravity,
-        wrap_angle=pulley.wrap_angle,
-    )
-    whole = pulley_resultant(float(pull), weight=pulley.mass * line.gravity, pull_angle=pulley.pull_angle)
-    return PulleyLoad(state, arriving, leaving, whole, 0.5 * abs(arriving - leaving) * pulley.diameter)
 
 
 def pulley_tensions(balance: Balance, i: int, state: MotionState) -> tuple[float, float]:
