@@ -31,6 +31,7 @@ from conveyor.laws.resistance import (
 from conveyor.laws.resistance.cema import Place
 from conveyor.line.bend_pulleys import BendPulley
 from conveyor.line.cema_factors import CemaFactors
+from conveyor.line.hopper_outlets import HopperOutlet
 from conveyor.line.line import Line
 from conveyor.line.stretches import Stretch
 from conveyor.line.transfer_parts import LoadingPoint
@@ -98,12 +99,12 @@ def cema_section_tension(stretch: Stretch, factors: CemaFactors) -> CemaTension:
 def bed_forces(line: Line) -> Iterator[Force]:
     """Friction of the belt on plates, by every method a resistance of its own [N]; none without plates."""
     if any(stretch.bed is not None for stretch in line.stretches):
-        newtons = np.array([bed_friction(stretch, line.gravity) for stretch in line.stretches])
+        newtons = np.array([_bed_friction(stretch, line.gravity) for stretch in line.stretches])
         law = "friction of belt on plate x weight of belt and bulk, Coulomb"
         yield Force("slider_bed", "slider bed", "special", newtons, law, short="slider bed")
 
 
-def bed_friction(stretch: Stretch, gravity: float) -> float:
+def _bed_friction(stretch: Stretch, gravity: float) -> float:
     """Friction of the belt on the plate of a stretch [N]."""
     if stretch.bed is None:
         return 0.0
@@ -116,30 +117,28 @@ def bed_friction(stretch: Stretch, gravity: float) -> float:
 def hopper_forces(line: Line) -> Iterator[Force]:
     """Pull-out force under every hopper in flow, and what the load costs on sets or plate, by every method [N]."""
     for point in line.loading:
-        if point.hopper is None or point.flow == 0.0:
+        if (hopper := point.loaded_hopper) is None:
             continue
         here = partial(Force, kind="special", spot=point.spot, place=point.place, bulk=point.comes_with)
-        pull, support = hopper_pull(line, point, point.hopper.flow_load)
+        pull, support = hopper_pull(line, point.section, hopper, hopper.flow_load)
         yield here(key="hopper_pull", name=f"pull-out under the hopper{point.name}", newtons=pull,
                    source="load in flow x friction of the shear, Arnold, McLean and Roberts")  # fmt: skip
         yield here(key="hopper_load", name=f"sets or plate under the hopper{point.name}", newtons=support,
                    source="load in flow x f, or x friction of the plate")  # fmt: skip
 
 
-def hopper_pull(line: Line, point: LoadingPoint, load: float) -> tuple[float, float]:
-    """Pull-out force at a vertical load on the belt under a hopper, and the resistance below it [N]."""
-    if point.hopper is None:
-        return 0.0, 0.0
-    bed = line.stretches[point.section].bed
-    friction = float(line.friction_factors[point.section]) if bed is None else bed.friction
-    return point.hopper.shear_friction * load, friction * load
+def hopper_pull(line: Line, section: int, hopper: HopperOutlet, load: float) -> tuple[float, float]:
+    """Pull-out force at a vertical load on the belt under a hopper over a section, and the resistance below it [N]."""
+    bed = line.stretches[section].bed
+    friction = float(line.friction_factors[section]) if bed is None else bed.friction
+    return hopper.shear_friction * load, friction * load
 
 
 def initial_pull(line: Line, point: LoadingPoint) -> float:
     """Addition to the resistance when a feeder starts after its hopper was filled [N]; 0 without a hopper or bulk."""
-    if point.hopper is None or point.flow == 0.0:
+    if (hopper := point.loaded_hopper) is None:
         return 0.0
-    return math.fsum(hopper_pull(line, point, point.hopper.initial_load - point.hopper.flow_load))
+    return math.fsum(hopper_pull(line, point.section, hopper, hopper.initial_load - hopper.flow_load))
 
 
 def cema_forces_along(line: Line, factors: CemaFactors) -> tuple[Force, ...]:

@@ -18,7 +18,7 @@ from conveyor.units.sentences import escape_braces
 def belt_feeder(result: CalculatedConveyor) -> Iterator[Check]:
     """The gate passes the flow, the belt is slow enough to pull it out and does not slip after the hopper is filled."""
     line = result.line
-    loaded = [(point, point.hopper) for point in line.loading if point.hopper is not None and point.flow > 0.0]
+    loaded = [(point, hopper) for point in line.loading if (hopper := point.loaded_hopper) is not None]
     for point, hopper in loaded:
         name = escape_braces(point.name)
         yield check_against_limit(

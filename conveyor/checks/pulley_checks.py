@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Final
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks.check import Check, check_against_limit
 from conveyor.laws.pulley import HUB_SLOPE, SHAFT_SAFETY
+from conveyor.laws.transition import HALF_TROUGH
 from conveyor.loop.belt_duty import TransitionCheck
 from conveyor.units.sentences import Message, escape_braces, message, percent
-
-_HALF_TROUGH: Final = 0.5
 
 
 def pulley_diameter(result: CalculatedConveyor) -> Iterator[Check]:
@@ -58,7 +56,7 @@ def _transition_check(of: TransitionCheck, least: float | None, fine: str, bad: 
         return Check(key, subject, length, None, "length", message("{}", (length, "length")), asked, "FAIL", why)
     why = message(
         f"{of.zone.end} transition: {bad} over {{}}; at least {{}} are needed (ISO 5293 taken on to every strip)"
-        + ("; or raise the pulley towards half trough" if of.zone.pulley_height < _HALF_TROUGH else ""),
+        + ("; or raise the pulley towards half trough" if of.zone.pulley_height < HALF_TROUGH else ""),
         (length, "length"),
         (least, "length"),
     )

@@ -14,10 +14,10 @@ from conveyor.arguments.limits import require, require_not_negative, require_pos
 from conveyor.errors import RangeError
 from conveyor.laws.resistance import Default
 
-# Belt speed of a feeder [m/s]
 FEEDER_SPEED: Final = Default(
     0.5, 0.5, 0.7, "flat feeders with a shear gate run at 0.5 to 0.7 m/s at most (makers)", True
 )
+"""Belt speed of a feeder, at most [m/s]."""
 
 
 def initial_load_factor(top_width: float, *, outlet_width: float, half_angle: float) -> float:

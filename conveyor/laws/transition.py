@@ -17,6 +17,8 @@ from conveyor.laws.loading import NO_WING, Wing, wing_pieces
 
 EDGE_OVER_RATED: Final = 1.3
 """Tension of the edges over the belt's rated one, at most [-]; ISO 5293."""
+HALF_TROUGH: Final = 0.5
+"""Top of the pulley over the middle roll, over the depth of the trough [-]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,8 +165,7 @@ CEMA_TRANSITIONS: Final = {
 }
 """CEMA's least transition over the belt's width [-], by depth and angle of the trough [deg]: above 90 %, from 60 to
 90 % and below 60 % of the rated tension, of fabric and of steel-cord belts. Full trough: CEMA 7, table 7.29 (read on
-scribd.com/document/408694938); half trough: CEMA 5 (as reproduced on scribd.com/document/519435550)."""
-_HALF_TROUGH: Final = 0.5
+scribd.com/document/408694938); half trough: as reproduced without an edition (scribd.com/document/519435550)."""
 _SAME_ANGLE: Final = 0.5  # of the tables' [deg]
 _CEMA_SHARES: Final = (0.9, 0.6)  # of the rated tension, between the rows of the table
 
@@ -207,7 +208,7 @@ def cema_transition_length(
     require_positive(belt_width=belt_width)
     require_not_negative(utilisation=utilisation)
     require(0.0 <= pulley_height <= 1.0, "pulley_height", pulley_height, ">= 0 and <= 1")
-    table = CEMA_TRANSITIONS["half trough" if pulley_height >= _HALF_TROUGH else "full trough"]
+    table = CEMA_TRANSITIONS["half trough" if pulley_height >= HALF_TROUGH else "full trough"]
     angle = next((one for one in table if abs(math.degrees(trough_angle) - one) < _SAME_ANGLE), None)
     if angle is None:
         return None

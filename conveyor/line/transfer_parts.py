@@ -53,6 +53,11 @@ class LoadingPoint:
     hopper: HopperOutlet | None = None
     assumed: bool = False
 
+    @property
+    def loaded_hopper(self) -> HopperOutlet | None:
+        """Hopper with bulk in it."""
+        return self.hopper if self.flow > 0.0 else None
+
     def acceleration_length(self, belt_speed: float, gravity: float) -> float:
         """Length in which the bulk reaches the belt's speed [m]."""
         return acceleration_length(

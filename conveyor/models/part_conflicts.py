@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Final
 
 from conveyor.errors import InputError, MessageQuantity, RangeError
+from conveyor.laws.feeder import FEEDER_SPEED
 from conveyor.laws.idler_sets import rated_set_load
 from conveyor.laws.loading import CrossSection, bulk_line_mass, cross_section, pipe_area, usable_width
 from conveyor.laws.resistance import SHORTEST_FOR_FACTOR
@@ -16,7 +17,7 @@ from conveyor.models.belt import Cover, TopCover
 from conveyor.models.drive import DrivePulley
 from conveyor.models.idlers import IdlerSet, overlap_problems
 from conveyor.models.parts import ConveyorParts
-from conveyor.models.route import Feeding
+from conveyor.models.route import Feeding, Route
 from conveyor.models.validation_messages import Location
 from conveyor.units import Quantity, from_si, si, text, unit_system
 from conveyor.units.presentation import format_figure
@@ -214,11 +215,16 @@ def _temperature_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
             yield Problem(("ambient", field), why)
 
 
+def _located_feeding(route: Route) -> dict[Location, Feeding]:
+    """Loading points by their place in the route."""
+    points: dict[Location, Feeding] = {} if route.feeding is None else {("feeding",): route.feeding}
+    return points | {("further_feeding", i): point for i, point in enumerate(route.further_feeding)}
+
+
 def _feeding_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Refuse feeding faster than the belt, and skirts, cleaners or ploughs wider than it."""
     belt, route = conveyor.belt, conveyor.route
-    points: dict[Location, Feeding] = {} if route.feeding is None else {("feeding",): route.feeding}
-    points |= {("further_feeding", i): point for i, point in enumerate(route.further_feeding)}
+    points = _located_feeding(route)
     for location, point in points.items():
         if si(point.speed) > si(belt.speed):
             yield Problem(
@@ -242,15 +248,14 @@ def _feeding_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
 def _hopper_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Refuse a belt too fast to pull bulk out of a hopper, and outlets wider than the skirts."""
     route, speed = conveyor.route, conveyor.belt.speed
-    points: list[tuple[Location, Feeding | None]] = [(("feeding",), route.feeding)]
-    points += [(("further_feeding", i), point) for i, point in enumerate(route.further_feeding)]
-    for location, point in points:
-        if point is None or point.hopper is None:
+    for location, point in _located_feeding(route).items():
+        if point.hopper is None:
             continue
         if si(speed) > FASTEST_FEEDER:
             message = (
-                f"given, but the belt runs at {text(speed)} (belt.speed): a feeder runs at 0.5 m/s or less, above "
-                f"{FASTEST_FEEDER:g} m/s the bulk under the hopper does not follow it; feed by a feeder of its own"
+                f"given, but the belt runs at {text(speed)} (belt.speed): a feeder runs at "
+                f"{FEEDER_SPEED.value:g} m/s or less, above {FASTEST_FEEDER:g} m/s the bulk under the hopper does not "
+                "follow it; feed by a feeder of its own"
             )
             yield Problem(("route", *location, "hopper"), message)
         if si(point.hopper.outlet_width) > si(point.skirt_width):
@@ -415,10 +420,8 @@ def _bed_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
         if scale.section in plates:
             message = f'got "{scale.section}", a plate (bed): a belt scale weighs on idler sets; name another section'
             yield Problem(("route", "belt_scales", i, "section"), message)
-    points: list[tuple[Location, Feeding | None]] = [(("feeding",), route.feeding)]
-    points += [(("further_feeding", i), point) for i, point in enumerate(route.further_feeding)]
-    for location, point in points:
-        if point is None or (point.section or route.sections[0].name) not in plates:
+    for location, point in _located_feeding(route).items():
+        if (point.section or route.sections[0].name) not in plates:
             continue
         of_sets = {
             "idler_spacing": point.idler_spacing,

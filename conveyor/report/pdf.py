@@ -241,13 +241,14 @@ class _TypstWriter:
     def table(self, element: _Element, kinds: frozenset[str]) -> str:
         """A table with its caption, in parts where it is too wide; its header repeats on every page."""
         caption, head, *parts = element.elements
-        (heads,) = head.elements
-        rows = [(row.elements, part.tag == "tfoot") for part in parts for row in part.elements]
+        rows = [(row.elements, part.tag == "tfoot") for part in (head, *parts) for row in part.elements]
         name = f"{'hide' if 'further' in caption.classes else 'muted-text'}[{self.flow(caption)}]"
         keep, made = str("keep" in kinds).lower(), []
-        for shown in _split_columns([heads.elements, *(row for row, _ in rows)]):
-            lines = [([row[j] for j in shown], foot) for row, foot in ((heads.elements, False), *rows)]
-            size, columns = _column_layout([line for line, _ in lines])
+        needs = [_ColumnNeed.of(top, below) for top, *below in zip(*(row for row, _ in rows), strict=True)]
+        named = sum(cell.tag == "th" for cell in rows[-1][0]) if len(rows) > 1 else 0
+        for shown in _split_columns([need.least for need in needs], named):
+            lines = [([row[j] for j in shown], foot) for row, foot in rows]
+            size, columns = _column_layout([needs[j] for j in shown])
             top, *below = (self.cells(line, strong=foot) for line, foot in lines)
             given = ",\n".join([keep, f"{size:.2f}pt", columns, name, f"table.header({top})", *below])
             made.append(f"\n#captioned({given})\n")
@@ -293,14 +294,8 @@ class _ColumnNeed:
         return cls(*(need + _GAP for need in needs))
 
 
-def _column_needs(rows: Sequence[Sequence[_Element]]) -> list[_ColumnNeed]:
-    return [_ColumnNeed.of(head, below) for head, *below in zip(*rows, strict=True)]
-
-
-def _split_columns(rows: Sequence[Sequence[_Element]]) -> list[list[int]]:
-    """Columns of a table in as few parts as fit the page, alike in width, each with the columns that name the rows."""
-    named = sum(cell.tag == "th" for cell in rows[-1]) if len(rows) > 1 else 0
-    least = [need.least for need in _column_needs(rows)]
+def _split_columns(least: Sequence[float], named: int) -> list[list[int]]:
+    """Columns of a table in as few parts as fit the page, alike in width, each with the first ones, that name rows."""
     names, rest = list(range(named)), range(named, len(least))
     room = _ROOM - sum(least[:named])
     if sum(least[named:]) <= room or room < max(least[named:], default=0.0):
@@ -322,13 +317,12 @@ def _split_columns(rows: Sequence[Sequence[_Element]]) -> list[list[int]]:
     return next(parts for share in shares if len(parts := packed(share)) <= fewest)
 
 
-def _column_layout(rows: Sequence[Sequence[_Element]]) -> tuple[float, str]:
+def _column_layout(needs: Sequence[_ColumnNeed]) -> tuple[float, str]:
     """Letter size [pt] and column widths of a table: as wide as the text where all fit.
 
     Else the room beyond the least need is shared in proportion to the remaining text; letters shrink where even the
     least does not fit.
     """
-    needs = _column_needs(rows)
     if sum(need.whole for need in needs) <= _ROOM:
         return _SIZE, str(max(1, len(needs)))
     least = sum(need.least for need in needs)

@@ -16,6 +16,7 @@ from conveyor.units.sentences import SUPERSCRIPTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.backends.backend_agg import RendererAgg
     from matplotlib.figure import Figure
 
 _SVG_NAMESPACE = "{http://www.w3.org/2000/svg}"
@@ -106,9 +107,7 @@ def restyle_figure(figure: Figure, *, on_paper: bool = False) -> None:
 
 def _wrap_labels(figure: Figure) -> bool:
     """Break labels that are longer than their axis into lines; returns whether there were any."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-
-    renderer, found = FigureCanvasAgg(figure).get_renderer(), False  # type: ignore[no-untyped-call]
+    renderer, found = _figure_renderer(figure), False
     for axis in figure.axes:
         inner = axis.get_window_extent(renderer)
         for label, room, side in (
@@ -121,13 +120,18 @@ def _wrap_labels(figure: Figure) -> bool:
     return found
 
 
-def _fit_margins(figure: Figure) -> None:
-    """Set margins that hold the labels; matplotlib's own layouts measure them several times."""
+def _figure_renderer(figure: Figure) -> RendererAgg:
+    """Renderer that measures letters."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
+    return FigureCanvasAgg(figure).get_renderer()  # type: ignore[no-any-return, no-untyped-call]
+
+
+def _fit_margins(figure: Figure) -> None:
+    """Set margins that hold the labels; matplotlib's own layouts measure them several times."""
     figure.set_layout_engine("tight")  # what "none" then leaves behind allows margins to be set
     figure.set_layout_engine("none")
-    renderer = FigureCanvasAgg(figure).get_renderer()  # type: ignore[no-untyped-call]
+    renderer = _figure_renderer(figure)
     width, height = figure.bbox.size
     rows, columns = _axes_grid(figure)
     needed, between = [], [0.0]

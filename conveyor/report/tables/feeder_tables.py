@@ -47,5 +47,5 @@ def _state_rows(
     return [
         (name, state, hopper, factor, load, *forces, sum(forces) * a.line.speed)
         for state, factor, load in states
-        for forces in [hopper_pull(a.line, point, load)]
+        for forces in [hopper_pull(a.line, point.section, hopper, load)]
     ]
