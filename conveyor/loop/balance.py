@@ -241,8 +241,17 @@ class OpenLoop(NamedTuple):
         return cls(frame.standing_on(behind=kept.behind), along, unit_main, kept.tension)
 
 
-def close_loops(asked: Sequence[OpenLoop]) -> list[Balance | NoSolutionError]:
-    """Close many loops, those of one plan in one batch; no result depends on the others."""
+def close_at_one_setting(loops: Sequence[Balance], behind: bool, serving: Sequence[int]) -> list[Balance]:
+    """Close loops at the least setting of the take-up that suits those at the places `serving`, for each plan its own."""
+    asked = [OpenLoop(one.frame.standing_on(behind=behind), one.along, one.unit_main) for one in loops]
+    return raise_first_error(close_loops(asked, [i in set(serving) for i in range(len(asked))]))
+
+
+def close_loops(asked: Sequence[OpenLoop], serving: Sequence[bool] = ()) -> list[Balance | NoSolutionError]:
+    """Close many loops, those of one plan in one batch; no result depends on the others.
+
+    With `serving`, those of one plan get one setting, the least that suits the loops marked; all of them if none is.
+    """
     alike: dict[tuple[object, ...], list[int]] = {}
     given = [one.frame.line.take_up.tension if one.setting is None else one.setting for one in asked]
     for i, (one, setting) in enumerate(zip(asked, given, strict=True)):
@@ -253,7 +262,10 @@ def close_loops(asked: Sequence[OpenLoop]) -> list[Balance | NoSolutionError]:
         further = [_length_coefficient_forces(one) for one in these]
         loops = LoopBatch([one.frame for one in these], [one.along for one in these], further)
         held = [setting for i in rows if (setting := given[i]) is not None]
-        closed, refused = solve_equilibria(loops, np.array(held) if held else None)
+        marked = np.array([serving[i] for i in rows]) if serving else None
+        if marked is not None and not marked.any():
+            marked = ~marked
+        closed, refused = solve_equilibria(loops, np.array(held) if held else None, serving=marked)
         for row, (i, one) in enumerate(zip(rows, these, strict=True)):
             if row in refused:
                 found[i] = refused[row]

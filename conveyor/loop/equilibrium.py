@@ -241,7 +241,7 @@ class BatchEquilibrium:
     flexure : ndarray, shape (b, 2n)
         Flexure by load and sag at the tensions of steady running, in loop order [N].
     given : bool
-        True if the settings were given.
+        True if the settings were given, or one for all.
     """
 
     loops: LoopBatch
@@ -277,9 +277,9 @@ class BatchEquilibrium:
 
 @np.errstate(over="ignore", invalid="ignore")  # of a row that grows until it is refused
 def solve_equilibria(
-    loops: LoopBatch, given: Array | None = None
+    loops: LoopBatch, given: Array | None = None, *, serving: NDArray[np.bool_] | None = None
 ) -> tuple[BatchEquilibrium, dict[int, NoSolutionError]]:
-    """Solve the equilibrium of loops under the forces along their belts, each independently.
+    """Solve the equilibrium of loops under the forces along their belts, each independently or at one setting.
 
     Wraps and bearings of pulleys and the flexure by load and sag depend on the tensions of steady running.
 
@@ -289,6 +289,8 @@ def solve_equilibria(
         Loops of one plan under their forces.
     given : ndarray, shape (b,), optional
         Settings of the take-ups [N]; by default the least that serves every state.
+    serving : ndarray of bool, shape (b,), optional
+        Loops that one setting of all take-ups must serve; not with `given`.
 
     Returns
     -------
@@ -313,8 +315,12 @@ def solve_equilibria(
         drive = now.resistance[:, 0]
         asked = np.where(now.occurs[..., None], now.moving.asked(bent.sagging(kinds.friction)), -np.inf)
         needed = asked.max(axis=(1, 2))
-        setting = needed if given is None else given
-        going &= ~(np.abs(drive - before) <= _LOOP_TOLERANCE * np.maximum(np.abs(drive), whole))
+        if serving is not None:
+            setting = np.full(b, needed[serving].max())
+        else:
+            setting = needed if given is None else given
+        moves = ~(np.abs(drive - before) <= _LOOP_TOLERANCE * np.maximum(np.abs(drive), whole))
+        going &= moves if serving is None else moves.any()
         wraps, bearings = _pulley_forces(bent, now.moving, setting, refused)
         if refused:
             going[list(refused)] = False
@@ -326,8 +332,8 @@ def solve_equilibria(
         last = step
     else:
         refused |= {row: _divergence_error() for row in np.flatnonzero(going).tolist()}
-    single = np.stack([wraps, bearings], axis=-1)
-    return BatchEquilibrium(bent, now, asked, setting, needed, bends, single, flexure, given is not None), refused
+    single, held = np.stack([wraps, bearings], axis=-1), given is not None or serving is not None
+    return BatchEquilibrium(bent, now, asked, setting, needed, bends, single, flexure, held), refused
 
 
 def _divergence_error() -> NoSolutionError:

@@ -19,7 +19,7 @@ from conveyor.laws.take_up import (
 from conveyor.line.belt_body import BeltBody
 from conveyor.line.line import Line
 from conveyor.line.take_up_unit import TakeUpUnit
-from conveyor.loop.balance import Balance, with_take_up_at
+from conveyor.loop.balance import Balance, close_at_one_setting, with_take_up_at
 from conveyor.loop.tensions import MotionState
 from conveyor.loop.ties import first_maximum
 
@@ -100,12 +100,14 @@ def at_common_setting(loops: Sequence[Balance], asking: Sequence[bool] = ()) -> 
     kept = loops[0].settled.take_up
     served = [i for i, asks in enumerate(asking) if asks] or range(len(loops))
     kept = kept._replace(tension=max(loops[i].settled.needed for i in served))
-    for _ in range(_MAX_SETTING_STEPS):
-        closed = with_take_up_at(loops, kept)
-        asked = max(closed[i].settled.needed for i in served)
-        if math.isclose(kept.tension, asked, rel_tol=_SETTING_TOLERANCE):
+    closed = list(loops)
+    if not all(one.is_closed_at(kept) for one in loops):
+        closed = close_at_one_setting(loops, kept.behind, served)
+    for _ in range(_MAX_SETTING_STEPS):  # more than once only for loops of several plans
+        kept = kept._replace(tension=max(closed[i].settled.needed for i in served))
+        closed = with_take_up_at(closed, kept)
+        if math.isclose(kept.tension, max(closed[i].settled.needed for i in served), rel_tol=_SETTING_TOLERANCE):
             return closed
-        kept = kept._replace(tension=asked)
     raise NoSolutionError(
         "no take-up tension suits every load: each increase raises what another load needs; check pulley diameters"
     )

@@ -12,7 +12,7 @@ import itertools
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Final
 
 import numpy as np
@@ -74,8 +74,8 @@ class CriterionLoadings(SectionLoadings):
         """All loadings of a short route, the standard ones first; on a long one those by signs."""
         standard = np.array(self.standard)
         if self.count <= EXHAUSTIVE_SECTIONS:
-            every = np.array(list(itertools.product([True, False], repeat=self.count)))
-            return _distinct_rows(np.concatenate([standard, every]))
+            first, every = _distinct_rows(standard), _all_loadings(self.count)
+            return np.concatenate([first, every[~(every[:, None] == first).all(axis=-1).any(axis=-1)]])
         of_drives = np.array(list(self.worst().values()))
         return _distinct_rows(np.concatenate([standard, of_drives, self._corners(), np.array(list(self._by_signs()))]))
 
@@ -347,6 +347,12 @@ def _state_names(state: str, here: NDArray[np.bool_], steady: Array) -> Iterator
 def _where_present(there: NDArray[np.bool_], values: Array) -> Array:
     """Values where the mask is true, else -inf."""
     return np.where(there, values, -np.inf)
+
+
+@cache
+def _all_loadings(count: int) -> LoadingRows:
+    """All loadings of a number of sections, from full to empty."""
+    return np.array(list(itertools.product([True, False], repeat=count)))
 
 
 def _distinct_rows(flags: LoadingRows) -> LoadingRows:
