@@ -14,7 +14,7 @@ from conveyor.files.libraries import ROLL_DIAMETERS, library_entries
 from conveyor.models import Conveyor
 from conveyor.starter.format_reference import format_fields
 
-ConveyorKind: TypeAlias = Literal["overland", "in-plant", "downhill"]
+ConveyorKind: TypeAlias = Literal["overland", "in-plant", "downhill", "pipe", "feeder"]
 
 SLIDERS: Final = 6
 """Sliders of a page."""
@@ -30,6 +30,7 @@ _OVERLAND: Final = 1000.0
 """Length from which a conveyor counts as overland [m]."""
 
 _COVERS: Final = "belt.bottom_cover.thickness"
+_HOPPER: Final = "route.feeding.hopper."
 _FIRST: Final[Mapping[ConveyorKind, tuple[str, ...]]] = {
     "overland": ("belt.speed", "idlers.carry.spacing", _COVERS, "ambient.belt_temperature", "ambient.temperature",
                  "material.flow", "idlers.carry.roll.diameter"),
@@ -37,6 +38,10 @@ _FIRST: Final[Mapping[ConveyorKind, tuple[str, ...]]] = {
                  "ambient.temperature", _COVERS, "drive.start_factor"),
     "downhill": ("belt.speed", "material.flow", "idlers.carry.spacing", "ambient.belt_temperature",
                  "ambient.temperature", "drive.start_factor", "idlers.carry.roll.diameter"),
+    "pipe": ("belt.speed", "material.flow", "idlers.carry.spacing", "idlers.carry.pipe.forming_load",
+             "ambient.belt_temperature", "ambient.temperature", _COVERS),
+    "feeder": ("belt.speed", "material.flow", _HOPPER + "gate_height", _HOPPER + "outlet_length",
+               _HOPPER + "outlet_width", _HOPPER + "top_width", "drive.start_factor"),
 }  # fmt: skip
 """Fields in order; those that a spec does not give are passed over."""
 _FURTHER: Final = ("idlers.return.spacing", "drive.wrap_angle", "drive.friction", "drive.efficiency", _COVERS)
@@ -85,7 +90,11 @@ class Slider:
 
 
 def conveyor_kind(conveyor: Conveyor) -> ConveyorKind:
-    """Kind of a conveyor by its route: downhill if it falls, overland from a kilometre on, else in-plant."""
+    """Kind of a conveyor: by its hopper or pipe, else downhill where it falls, overland from a kilometre on."""
+    if conveyor.route.feeding is not None and conveyor.route.feeding.hopper is not None:
+        return "feeder"
+    if conveyor.idlers.carry.pipe is not None:
+        return "pipe"
     if conveyor.route.rise < 0.0:
         return "downhill"
     return "overland" if conveyor.route.length >= _OVERLAND else "in-plant"

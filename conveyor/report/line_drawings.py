@@ -254,14 +254,16 @@ def set_chart(outlines: Sequence[SetOutline], unit: Unit, width: float) -> Html:
     width : float
         Width of the belt [m].
     """
-    reach = max(float(np.max(np.abs(x))) for one in outlines for x, _ in (*one.rolls, one.belt))
-    scale, middle = 0.5 * (_SET_WIDTH - 2.0 * _SET_MARGIN) / reach, 0.5 * _SET_WIDTH
-    body, top = [], _SET_MARGIN
-    for one in outlines:
-        shapes = [*one.rolls, one.belt, *(() if one.bulk is None else (one.bulk,))]
-        low, high = (float(end(y for _, of in shapes for y in of)) for end in (min, max))
+    drawn = [(*one.rolls, one.belt, *(() if one.bulk is None else (one.bulk,))) for one in outlines]
+    reach = max(float(np.max(np.abs(x))) for shapes in drawn for x, _ in shapes)
+    ends = [[float(end(y for _, of in shapes for y in of)) for end in (min, max)] for shapes in drawn]
+    count = len(drawn) if sum(high - low for low, high in ends) > 2.0 * reach else 1  # pipes: beside each other
+    share = _SET_WIDTH / count
+    scale, middle, top, bottom = 0.5 * (share - 2.0 * _SET_MARGIN) / reach, 0.5 * share, _SET_MARGIN, 0.0
+    body = []
+    for one, (low, high) in zip(outlines, ends, strict=True):
 
-        def places(outline: Outline, high: float = high, top: float = top) -> str:
+        def places(outline: Outline, high: float = high, top: float = top, middle: float = middle) -> str:
             pairs = zip(
                 (middle + scale * outline[0]).tolist(), (top + scale * (high - outline[1])).tolist(), strict=True
             )
@@ -270,9 +272,11 @@ def set_chart(outlines: Sequence[SetOutline], unit: Unit, width: float) -> Html:
         body += [element("polygon", points=places(roll), class_="roll") for roll in one.rolls]
         body += [] if one.bulk is None else [element("polygon", points=places(one.bulk), class_="bulk")]
         body.append(element("polyline", points=places(one.belt), class_="l belt s0", fill="none"))
-        top += scale * (high - low) + 2.0 * _SET_MARGIN
+        bottom = max(bottom, top + scale * (high - low) + _SET_MARGIN)
+        middle, top = (middle + share, top) if count > 1 else (middle, bottom + _SET_MARGIN)
     label = f"Carry and return set with belt and bulk, to scale; belt {unit.said(width, 4)}"
-    svg = element("svg", *body, viewBox=f"0 0 {_SET_WIDTH:g} {top:.1f}", role="img", aria_label=label, class_="chart")
+    box = f"0 0 {_SET_WIDTH:g} {bottom:.1f}"
+    svg = element("svg", *body, viewBox=box, role="img", aria_label=label, class_="chart")
     return element(
         "figure",
         element("figcaption", f"belt {unit.said(width, 4)}: carry and return set, to scale"),

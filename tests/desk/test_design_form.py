@@ -86,6 +86,16 @@ def test_sliders_move_given_fields_about_their_value(spec):
 def test_kinds_of_conveyors():
     kinds = {spec.stem: conveyor_kind(conveyor.load(spec)) for spec in SPECS}
     assert (kinds["overland"], kinds["downhill"], kinds["in_plant_us"]) == ("overland", "downhill", "in-plant")
+    assert (kinds["pipe"], kinds["feeder"], kinds["slider"]) == ("pipe", "feeder", "in-plant")
+
+
+def test_a_feeder_is_moved_by_its_hopper_and_a_pipe_by_its_forming_load():
+    feeder, pipe = (
+        {slider.path for slider in choose_sliders(conveyor.load(spec), form_of(spec))}
+        for spec in (Path("examples/specs/feeder.yaml"), Path("examples/specs/pipe.yaml"))
+    )
+    assert {"route.feeding.hopper.gate_height", "route.feeding.hopper.outlet_length"} < feeder
+    assert "idlers.carry.pipe.forming_load" in pipe
 
 
 def test_a_series_gives_the_steps_of_its_slider():

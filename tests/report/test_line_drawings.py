@@ -160,3 +160,15 @@ def test_sets_are_drawn_to_one_scale():
     mass = max(stretch.bulk_mass for stretch in own.line.stretches)
     assert area == pytest.approx(mass / own.line.density, rel=2e-3)  # a parabola by 40 chords: 1/40², and pixels
     assert len([one for one in polygons if one.attrib["class"] == "roll"]) == 5
+
+
+def test_pipes_are_drawn_beside_each_other_to_one_scale():
+    own = calculate(load(SPECS / "pipe.yaml"))
+    outlines = set_outlines(own.line, own.conveyor.material.surcharge)
+    drawn = parsed(set_chart(outlines, display_unit("size"), own.line.belt.width))
+    _, _, wide, high = map(float, next(drawn.iter("svg")).attrib["viewBox"].split())
+    assert high < 0.6 * wide
+    belts = [points(line) for line in drawn.iter("polyline")]
+    (left, right) = ([end(x for x, _ in belt) for end in (min, max)] for belt in belts)
+    assert left[1] < right[0]
+    assert left[1] - left[0] == pytest.approx(right[1] - right[0], abs=2.0 * PIXEL)
