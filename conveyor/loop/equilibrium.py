@@ -315,10 +315,9 @@ def solve_equilibria(
         drive = now.resistance[:, 0]
         asked = np.where(now.occurs[..., None], now.moving.asked(bent.sagging(kinds.friction)), -np.inf)
         needed = asked.max(axis=(1, 2))
+        setting = needed if given is None else given
         if serving is not None:
             setting = np.full(b, needed[serving].max())
-        else:
-            setting = needed if given is None else given
         moves = ~(np.abs(drive - before) <= _LOOP_TOLERANCE * np.maximum(np.abs(drive), whole))
         going &= moves if serving is None else moves.any()
         wraps, bearings = _pulley_forces(bent, now.moving, setting, refused)
