@@ -13,8 +13,6 @@ from typing import Any
 from openpyxl.cell.cell import Cell, MergedCell
 from openpyxl.styles import Alignment, Border, Font, PatternFill, Protection, Side
 from openpyxl.utils import get_column_letter
-from openpyxl.worksheet.header_footer import HeaderFooterItem, _HeaderFooterPart
-from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.report.table_model import FIGURE_NAME, ROW_KIND, Table
@@ -63,7 +61,6 @@ CELL_CHARACTERS = 32_767
 _NARROWEST, _WIDEST = 10, 60
 _LETTERS_PER_DIGIT = 1.1  # characters of text on the width of one digit
 _BOLD_WIDTH = 1.1  # of the width of plain text
-_PAGE_ROWS = {"landscape": 45, "portrait": 75}  # that a page still shows legibly
 _ROW_HEIGHT_LIMIT = 409.0
 """Height of a row at most [pt] (Excel specifications and limits)."""
 
@@ -277,20 +274,3 @@ def write_totals(sheet: Worksheet, row: int, shown: Table, system: System, first
             written = display_unit(column.kind, system)
             write_value(cell, written.shown(value), BOLD, written.pattern)
         cell.border = TOTAL
-
-
-def set_up_print(sheet: Worksheet, name: str, last: int, *, paper: str = "A4", portrait: bool = False) -> None:
-    """Set up printing: fit to the paper's width, to one page where legible, with the project's name as header."""
-    sheet.page_setup.orientation = "portrait" if portrait else "landscape"
-    sheet.page_setup.paperSize = sheet.PAPERSIZE_LETTER if paper == "Letter" else sheet.PAPERSIZE_A4
-    sheet.page_setup.fitToWidth = sheet.page_setup.fitToWidth or 1
-    if sheet.page_setup.fitToHeight is None:
-        sheet.page_setup.fitToHeight = int(last <= _PAGE_ROWS[sheet.page_setup.orientation])  # 0: as many as it takes
-    sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
-    margins = sheet.page_margins
-    margins.left = margins.right = 0.5
-    margins.top, margins.bottom = 0.9, 0.75
-    left = _HeaderFooterPart(text=cell_text(name).replace("&", "&&"))
-    sheet.oddHeader = HeaderFooterItem(left=left, right=_HeaderFooterPart(text="&A"))
-    sheet.oddFooter = HeaderFooterItem(right=_HeaderFooterPart(text="&P / &N"))
-    sheet.sheet_view.showGridLines = False

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Literal
 
 from openpyxl.chart import BarChart, LineChart, Reference, ScatterChart, Series
 from openpyxl.chart.axis import ChartLines
@@ -30,6 +30,7 @@ _RED = "B3261E"
 _STREAM = ("centre", "lower_edge", "upper_edge", "lower_edge_after_booth")
 _HIGHEST_AREA = 13.0  # highest area of a chart that is drawn to scale [cm]
 _MOST_STEPS = 6.0  # of the longer axis of a chart that is drawn to scale, at most
+_LETTERS = 11  # [pt], as in cells
 # room for axis labels, legend and frame of a chart that is drawn to scale [cm]
 _AXIS_ROOM, _LEGEND_ROOM, _FRAME_ROOM = 2.4, 6.4, 3.2
 _SYMBOLS = ("triangle", "circle", "square")
@@ -39,7 +40,7 @@ _LINE_WIDTH = 22_000  # width of a series' line [EMU]: 1.7 pt
 
 def _chart_title(words: str, *, size: int) -> Title:
     title = Title(overlay=False)
-    look = CharacterProperties(sz=100 * size, b=size > 10, solidFill="404040")
+    look = CharacterProperties(sz=100 * size, b=size > _LETTERS, solidFill="404040")
     run = RegularTextRun(t=cell_text(words), rPr=look)
     title.tx = Text(rich=RichText(p=[Paragraph(pPr=ParagraphProperties(defRPr=look), r=[run])]))
     return title
@@ -52,7 +53,19 @@ def _column_header(sheet: Worksheet, header: int, column: int) -> str:
 
 def axis_title(words: str) -> Title:
     """Title of an axis."""
-    return _chart_title(words, size=10)
+    return _chart_title(words, size=_LETTERS)
+
+
+def _label_letters() -> RichText:
+    """Letters of an axis or a legend, as large as those of cells."""
+    look = ParagraphProperties(defRPr=CharacterProperties(sz=100 * _LETTERS))
+    return RichText(p=[Paragraph(pPr=look, endParaRPr=CharacterProperties())])
+
+
+def _place_legend(chart: Any, position: Literal["r", "b"]) -> None:
+    """Place the legend of a chart."""
+    chart.legend = Legend(legendPos=position)
+    chart.legend.txPr = _label_letters()
 
 
 def _style_chart(chart: Any, title: str, x: str, y: str) -> None:
@@ -60,6 +73,8 @@ def _style_chart(chart: Any, title: str, x: str, y: str) -> None:
     for axis, words in ((chart.x_axis, x), (chart.y_axis, y)):
         axis.title = axis_title(words) if words else None
         axis.delete = False  # recent Excel hides axes otherwise
+        axis.txPr = _label_letters()
+    _place_legend(chart, "r")
     chart.y_axis.majorGridlines.spPr = GraphicalProperties(ln=LineProperties(solidFill=_GRID))
     chart.width, chart.height = _WIDTH, _HEIGHT
 
@@ -210,7 +225,7 @@ def trajectory_chart(sheet: Worksheet, place: TablePlace, outline: TablePlace, s
         axis.majorUnit = step  # type: ignore[union-attr]
         axis.number_format, axis.tickLblPos = "General", "low"
     width, height = scale * wide + _AXIS_ROOM + _LEGEND_ROOM, scale * high + _FRAME_ROOM
-    chart.legend = Legend(legendPos="r")
+    _place_legend(chart, "r")
     resize_chart(chart, width, height)
     inside = (_AXIS_ROOM - 0.6) / width, 1.2 / height, scale * wide / width, scale * high / height
     x, y, w, h = inside
@@ -256,7 +271,7 @@ def _scatter_chart(title: str, x: str, y: str) -> ScatterChart:
     chart.style, chart.scatterStyle = 2, "lineMarker"
     _style_chart(chart, title, x, y)
     chart.x_axis.majorGridlines = None
-    chart.legend = Legend(legendPos="b")
+    _place_legend(chart, "b")
     return chart
 
 

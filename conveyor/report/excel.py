@@ -21,7 +21,8 @@ from conveyor.errors import InputError
 from conveyor.files import output_marks
 from conveyor.files.atomic_write import check_writable, name_write_errors, save_files
 from conveyor.report import sheets, summary_sheet
-from conveyor.report.cells import cell_text, set_up_print
+from conveyor.report.cells import cell_text
+from conveyor.report.sheet_paper import set_up_print
 from conveyor.report.sheet_writer import MOST_ROWS, SheetWriter, TablePlace, long_table_file
 from conveyor.report.table_files import csv_bytes
 from conveyor.report.table_model import CHECKS_AND_NOTES, Contents
@@ -85,16 +86,6 @@ _OPTIONAL_SHEETS: Final = (
     "Uncertainty",
 )
 """Sheets that are left out where they have no table."""
-_PORTRAIT: Final = (
-    "Given",
-    "Resistances",
-    "Tension diagram",
-    "Transfer",
-    "Load cases",
-    "Rubber",
-    CHECKS_AND_NOTES,
-    "About",
-)
 
 
 def write_workbook(contents: Contents, path: Path) -> Path:
@@ -171,11 +162,10 @@ def build_workbook(
         if title in contents.sheets or title not in _OPTIONAL_SHEETS:
             page = SheetWriter(book.create_sheet(title), contents, stem, placed, {} if live is None else live)
             fills.get(title, sheets.stacked_sheet)(page)
-            last = page.print_only()
-            set_up_print(page.sheet, header, last, paper=about.paper, portrait=title in _PORTRAIT)
+            set_up_print(page.sheet, header, paper=about.paper, starts=page.print_only())
     if front:  # its charts refer to tables of the other sheets
         summary_sheet.write_summary(SheetWriter(book[SUMMARY_SHEET], contents, stem), placed)
-        set_up_print(book[SUMMARY_SHEET], header, book[SUMMARY_SHEET].max_row, paper=about.paper, portrait=True)
+        set_up_print(book[SUMMARY_SHEET], header, paper=about.paper)
     return book
 
 

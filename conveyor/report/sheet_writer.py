@@ -15,6 +15,7 @@ from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.report.cells import GREY, HEADING, line_count, mark_input, write_table, write_totals, write_value
+from conveyor.report.sheet_paper import CHART_ROWS, TEXT_WIDTH, columns_of_text, columns_width
 from conveyor.report.table_model import Contents, Figure, Table
 
 MOST_ROWS: Final = 10_000
@@ -23,14 +24,8 @@ SHOWN_ROWS: Final = 100
 """Rows shown of a table that is too long."""
 _FILTERED_ROWS: Final = 20
 """Rows beyond which a table has filter buttons."""
-CHART_ROWS: Final = 20
-"""Rows that a chart takes."""
 _CHART_SPAN: Final = 7
 """Columns that a chart takes on paper."""
-_LEAST_WIDTH: Final = 90.0
-"""Minimum width of the print area and of notes [characters]: captions are longer than narrow tables."""
-_MOST_WIDTH: Final = 270.0
-"""Maximum width of one sheet of paper [characters]: letters of 5 pt."""
 _GUTTER: Final = 3.0  # between tables side by side [characters]
 _NAME_CHARACTERS: Final = 56  # characters of a name on one line
 
@@ -176,7 +171,7 @@ class SheetWriter:
         column: int = 1,
         *,
         widest: int = _NAME_CHARACTERS,
-        least: float = _LEAST_WIDTH,
+        least: float = TEXT_WIDTH,
     ) -> dict[str, TablePlace]:
         """Write the existing tables under one another, each with its note; return their places.
 
@@ -225,19 +220,20 @@ class SheetWriter:
         cell = self.sheet.cell(row, place.first_column)
         write_value(cell, note, GREY)
         columns = self._columns_of_width(least, range(place.first_column, self._last_printed(key, place) + 1))
-        rows = line_count(note, self._width(columns))
+        columns = columns_of_text(self.sheet, columns)
+        rows = line_count(note, columns_width(self.sheet, columns))
         self.sheet.merge_cells(None, row, columns[0], row + rows - 1, columns[-1])
         cell.alignment = Alignment(wrap_text=True, vertical="top")
         return rows
 
-    def print_only(self) -> int:
-        """Set the print area, or hide a sheet with nothing to print; return the last printed row."""
+    def print_only(self) -> tuple[int, ...]:
+        """Set the print area, or hide a sheet with nothing to print; return the first columns of its tables."""
         here = {key: place for key, (sheet, place) in self.placed.items() if sheet is self.sheet}
         corners = [coordinate_to_tuple(chart.anchor) for chart in vars(self.sheet)["_charts"]]
         printed = {key: place for key, place in here.items() if self.contents[key].printed}
         if here and not printed and not corners:
             self.sheet.sheet_state = "hidden"
-            return self.sheet.max_row
+            return (1,)
         if len(printed) == 1 and not self.sheet.print_title_rows:  # a long table has its head on every page
             (place,) = printed.values()
             self.sheet.print_title_rows = f"{place.header - 1}:{place.header}"
@@ -247,19 +243,13 @@ class SheetWriter:
         columns += [column + _CHART_SPAN for _, column in corners]
         columns += [cells.max_col for cells in self.sheet.merged_cells.ranges if cells.min_row <= last]
         if len(printed) < len(here) or columns:
-            span = self._columns_of_width(_LEAST_WIDTH, range(1, max([*columns, 1]) + 1))
+            span = self._columns_of_width(TEXT_WIDTH, range(1, max([*columns, 1]) + 1))
             self.sheet.print_area = f"A1:{get_column_letter(span[-1])}{max(1, last)}"
-            if self._width(span) > _MOST_WIDTH:
-                self.sheet.page_setup.fitToWidth, self.sheet.print_title_cols = 2, "A:A"
-        return last
-
-    def _width(self, columns: Iterable[int]) -> float:
-        """Width of columns [characters]."""
-        return sum(self.sheet.column_dimensions[get_column_letter(column)].width for column in columns)
+        return tuple(sorted({place.first_column for place in printed.values()}))
 
     def _columns_of_width(self, width: float, columns: range) -> range:
         """Columns extended to the right until they have a width [characters]."""
-        while self._width(columns) < width:
+        while columns_width(self.sheet, columns) < width:
             columns = range(columns.start, columns.stop + 1)
         return columns
 

@@ -15,7 +15,8 @@ from conveyor.files.output_marks import package_version
 from conveyor.report import charts
 from conveyor.report.cells import GREY, HEADING, TITLE, VERDICT_STYLES, line_count, write_value
 from conveyor.report.merged_notes import NOTE_HEADINGS, sort_notes
-from conveyor.report.sheet_writer import CHART_ROWS, SheetWriter, define_name
+from conveyor.report.sheet_paper import CHART_ROWS, columns_of_text, columns_width
+from conveyor.report.sheet_writer import SheetWriter, define_name
 from conveyor.report.table_model import FAILS
 from conveyor.units.presentation import display_unit
 
@@ -190,7 +191,6 @@ def ranking_sheet(page: SheetWriter) -> None:
         if lines:
             row = write_paragraphs(sheet, row, heading.capitalize(), lines, columns=8)
     page.rest(row)
-    sheet.page_setup.fitToHeight = 1
 
 
 def power_sheet(page: SheetWriter) -> None:
@@ -230,9 +230,9 @@ def coverage_sheet(page: SheetWriter) -> None:
 
 def compounds_sheet(page: SheetWriter) -> None:
     """Compounds, remarks, provenance."""
-    row = page.place("compounds", 1, widest=44).last + 3
+    row = page.place("compounds", 1, widest=24).last + 3
     row = write_paragraphs(page.sheet, row, "Remarks", page.contents.lines("warning"), columns=6)
-    page.place("provenance", row, widest=70)
+    page.place("provenance", row, widest=34)
     page.sheet.freeze_panes = "B1"
 
 
@@ -252,8 +252,6 @@ def _write_across(sheet: Worksheet, row: int, column: int, line: str, *, columns
     cell = sheet.cell(row, column)
     write_value(cell, line)
     cell.alignment = Alignment(wrap_text=True, vertical="top", indent=1)
-    last = column + columns - 1
-    sheet.merged_cells.add(f"{cell.coordinate}:{get_column_letter(last)}{row}")
-    letters = [get_column_letter(j) for j in range(column, last + 1)]
-    width = sum(sheet.column_dimensions[x].width if x in sheet.column_dimensions else 8.0 for x in letters)
-    sheet.row_dimensions[row].height = 15.0 * line_count(line, width)
+    over = columns_of_text(sheet, range(column, column + columns))
+    sheet.merged_cells.add(f"{cell.coordinate}:{get_column_letter(over[-1])}{row}")
+    sheet.row_dimensions[row].height = 15.0 * line_count(line, columns_width(sheet, over))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Mapping
 from datetime import date
@@ -10,6 +9,7 @@ from typing import Any, Final
 
 from openpyxl.styles import Alignment, Border, Font, PatternFill, Side
 from openpyxl.worksheet.hyperlink import Hyperlink
+from openpyxl.worksheet.pagebreak import Break
 from openpyxl.worksheet.worksheet import Worksheet
 
 from conveyor.files.output_marks import package_version
@@ -28,6 +28,7 @@ from conveyor.report.cells import (
     line_count,
     write_value,
 )
+from conveyor.report.sheet_paper import columns_width, page_room, rows_height
 from conveyor.report.sheet_writer import SheetWriter, TablePlace
 from conveyor.report.table_model import CHECKS_AND_NOTES, Figure, ReportHead
 from conveyor.units.presentation import DIGITS, Unit, display_unit, label_for_people
@@ -35,9 +36,9 @@ from conveyor.units.presentation import DIGITS, Unit, display_unit, label_for_pe
 _COLUMNS: Final = "ABCDEFG"
 _LARGE_COLUMNS: Final = "ABDEFG"
 """Columns of the large figures."""
-_WIDTHS: Final = {"A": 31, "B": 18, "C": 2, "D": 33, "E": 17, "F": 25, "G": 17}
+_WIDTHS: Final = {"A": 29, "B": 17, "C": 2, "D": 33, "E": 13, "F": 25, "G": 13}
 _CHART_ROWS: Final = 14
-_CHART_WIDTHS, _CHART_HEIGHT = (11.0, 20.4), 6.4  # [cm]
+_CHART_WIDTHS, _CHART_HEIGHT = (9.0, 15.4), 6.4  # [cm]
 _RULE: Final = Border(bottom=Side(style="thin", color=ACCENT))
 _HAIR: Final = Border(bottom=Side(style="hair", color="A6A6A6"))
 _SIGNATURES: Final = ("engineer", "reviewer", "approval")
@@ -45,13 +46,8 @@ _ADEQUATE = CellStyle(Font(name="Calibri", size=12, bold=True, color="1E6B34"), 
 _INADEQUATE = CellStyle(
     Font(name="Calibri", size=12, bold=True, color="9B1C1C"), PatternFill("solid", fgColor="FDEBEB")
 )
-_MOST_CHECKS: Final = 28
-"""Rows of checks that fit on the first page."""
 _ROW_HEIGHT: Final = 15.0  # [pt]
 _GAP_HEIGHT: Final = 7.0  # [pt]
-_LINE_CHARACTERS: Final = 118
-"""Characters of the verdict on one line."""
-_WHERE_CHARACTERS: Final = 105  # of a line beside a governing figure
 
 
 def write_summary(page: SheetWriter, places: Mapping[str, tuple[Worksheet, TablePlace]]) -> None:
@@ -64,11 +60,13 @@ def write_summary(page: SheetWriter, places: Mapping[str, tuple[Worksheet, Table
     row = _identity_rows(page, row)
     row = _key_figures(page, row)
     row = _summary_charts(page, row, places)
+    first = row
     row = _check_rows(page, row)
     hidden = [each.title for each in sheet.parent or () if each.sheet_state == "hidden"]
     if hidden:
         write_value(sheet.cell(row, 1), f"Hidden data sheets (right-click a tab, Unhide): {', '.join(hidden)}", GREY)
-    sheet.page_setup.fitToHeight = 1
+    if rows_height(sheet, range(1, row + 1)) > page_room(page.contents.document.paper, portrait=True)[1]:
+        sheet.row_breaks.append(Break(id=first - 1))
     sheet.print_options.horizontalCentered = True
 
 
@@ -109,7 +107,8 @@ def _write_across(sheet: Worksheet, row: int, words: str) -> None:
     write_value(sheet.cell(row, 1), words)
     sheet.merge_cells(start_row=row, start_column=1, end_row=row, end_column=len(_COLUMNS))
     sheet.cell(row, 1).alignment = Alignment(wrap_text=True, vertical="center", indent=1)
-    sheet.row_dimensions[row].height = (_ROW_HEIGHT + 1.5) * (1 + len(words) // _LINE_CHARACTERS)
+    lines = line_count(words, columns_width(sheet, range(1, len(_COLUMNS) + 1)))
+    sheet.row_dimensions[row].height = (_ROW_HEIGHT + 1.5) * lines
 
 
 def _verdict_row(page: SheetWriter, row: int) -> int:
@@ -133,7 +132,7 @@ def _governing_rows(page: SheetWriter, row: int) -> int:
             sheet.cell(i, j).border = _HAIR
             sheet.cell(i, j).alignment = Alignment(horizontal="left", vertical="top", wrap_text=j == 4)
         sheet.merge_cells(start_row=i, start_column=4, end_row=i, end_column=len(_COLUMNS))
-        sheet.row_dimensions[i].height = _ROW_HEIGHT * (1 + len(line.where) // _WHERE_CHARACTERS)
+        sheet.row_dimensions[i].height = _ROW_HEIGHT * line_count(line.where, columns_width(sheet, range(4, 8)))
     return _blank_row(sheet, row + 1 + len(part.rows))
 
 
@@ -205,16 +204,8 @@ def _summary_charts(page: SheetWriter, row: int, places: Mapping[str, tuple[Work
     return _blank_row(page.sheet, row + (_CHART_ROWS if made else 0))
 
 
-def _check_margin(check: Any) -> float:
-    """Margin of a check; infinite where it has none."""
-    return math.inf if check.margin is None else check.margin
-
-
 def _check_rows(page: SheetWriter, row: int) -> int:
-    """Write the governing checks and all failures, with links to the rest; return the next row.
-
-    If there is no room for all, those that pass by the widest margin are left out.
-    """
+    """Write the governing checks and all failures, with links to the rest; return the next row."""
     sheet, checks, system = page.sheet, page.contents["checks"].rows, page.contents.system
     count = Counter(check.verdict for check in checks)
     counted = ", ".join(f"{count[word]} {word}" for word in ("pass", "FAIL", "not checked") if count[word])
@@ -222,10 +213,7 @@ def _check_rows(page: SheetWriter, row: int) -> int:
     header_row(sheet, row + 1, 1, ("check", "", "", "calculated, required", "margin", "case", "verdict"))
     sheet.cell(row + 1, 5).alignment = Alignment(horizontal="right", vertical="center")
     written = display_unit("margin", system)
-    leading = [check for check in checks if check.leads or check.verdict == "FAIL"]
-    safe = sorted((check for check in leading if check.verdict == "pass"), key=_check_margin)
-    left = safe[len(safe) - max(0, len(leading) - _MOST_CHECKS) :]
-    shown = [check for check in leading if check not in left]
+    shown = [check for check in checks if check.leads or check.verdict == "FAIL"]
     i = row + 1
     for i, check in enumerate(shown, start=row + 2):
         text = f"{check.found}, {check.asked}"
@@ -245,8 +233,7 @@ def _check_rows(page: SheetWriter, row: int) -> int:
         _style_check_row(sheet, i, VERDICT_STYLES[check.verdict])
     if len(shown) < len(checks):
         i += 1
-        which = "the least margins" if left else "of every criterion the least margin"
-        words = f"{which}; all {len(checks)} checks: see {CHECKS_AND_NOTES}"
+        words = f"of every criterion the least margin; all {len(checks)} checks: see {CHECKS_AND_NOTES}"
         write_value(sheet.cell(i, 1), words, GREY)
     kinds = ("warning", "assumption")
     said = ", ".join(f"{len(page.contents.lines(kind))} {kind}s" for kind in kinds)

@@ -22,7 +22,8 @@ from conveyor.forms.cell_values import EMPTY, NO, YES, to_cells
 from conveyor.forms.form_fields import FieldGroup, FormField, in_system
 from conveyor.forms.form_reader import KEY, NAME_KEY, NUMBER, PARENT, UNIT, UNIT_OF, VALUE
 from conveyor.forms.sheet_plan import LISTS, FieldColumn, Form, FormRow, ListSheet, key_label
-from conveyor.report.cells import ACCENT, BOLD, GREY, HEADING, LINK, PALE, TITLE, set_up_print, write_value
+from conveyor.report.cells import ACCENT, BOLD, GREY, HEADING, LINK, PALE, TITLE, write_value
+from conveyor.report.sheet_paper import set_up_print
 from conveyor.starter.filled_cells import FilledSheets
 from conveyor.units import System
 
@@ -156,7 +157,6 @@ _RARE_SHEETS: Final = frozenset({
     "Scenarios", "Events", "Starter fill 2",
 })  # fmt: skip
 """Rare lists: their sheets are hidden while empty."""
-_PAGE_COLUMNS: Final = 16  # columns of a list on one printed page
 
 
 def _has_values(sheets: FilledSheets, part: tuple[str, ...]) -> bool:
@@ -183,9 +183,7 @@ class TemplateBook:
                     self._table(drawn, sheets)
         self._how_to(self.book.worksheets[0], every)
         for sheet in self.book.worksheets:
-            set_up_print(sheet, self.title, sheet.max_row, portrait=sheet.print_area != "")
-            if not sheet.print_area:
-                sheet.page_setup.fitToWidth = -(-sheet.max_column // _PAGE_COLUMNS)
+            set_up_print(sheet, self.title)
         self.rules.draw(self.book)
         return self.book
 

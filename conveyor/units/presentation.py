@@ -90,7 +90,7 @@ class Unit:
         if not isinstance(value, float) or not math.isfinite(value):
             return value
         scaled = (value - self.zero) * (1.0 / self.size) if self.size < 1.0 else (value - self.zero) / self.size
-        if self.zero != 0.0:
+        if self.zero != 0.0 or math.isfinite(self.most):
             return round(scaled, _DECIMALS) + 0.0  # a difference of like figures; no -0
         return scaled if self.exact else float(f"{scaled:.{_SIGNIFICANT}g}")
 
