@@ -138,7 +138,7 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
 @page { margin: 10mm 11mm 12mm; @bottom-right { content: counter(page) " / " counter(pages);
   font: 8pt sans-serif; } }
 @media print {
-  html { font-size: 8pt; line-height: 1.22; }
+  html { font-size: 9pt; line-height: 1.2; }
   h1 { font-size: 16pt; }
   h2 { font-size: 11pt; margin: .9rem 0 .3rem; padding-top: .2rem; }
   h3 { margin: .6rem 0 .2rem; }
@@ -162,11 +162,12 @@ footer { margin-top: 2.5rem; padding-top: .6rem; border-top: 1px solid var(--lin
   thead { display: table-header-group; }
   tfoot { display: table-row-group; }
   .scroll { overflow: visible; }
-  table { font-size: 6.9pt; line-height: 1.12; }
+  table { font-size: 8pt; line-height: 1.12; }
   th, td { padding: .07rem .35rem; }
-  figure svg { max-width: 158mm; max-height: 200mm; }
-  .wide table { font-size: 6.5pt; }
-  .wide th, .wide td { padding: .07rem .2rem; }
+  figure svg { max-width: 181mm; max-height: 210mm; }
+  .wide table { font-size: 8pt; }
+  .wide th, .wide td { padding: .07rem .05rem; }
+  footer { font-size: .9rem; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 }
 """
