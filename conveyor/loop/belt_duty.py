@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 from conveyor.laws.belt_strength import (
     CEMA_PULLEYS,
-    CLASSIC_SAFETY,
     DUTY_SAFETY,
     PULLEY_DIAMETERS,
     RATED_START,
@@ -29,23 +28,21 @@ from conveyor.laws.transition import (
 )
 from conveyor.laws.vertical_curve import (
     TroughSection,
-    buckling_radius,
     cema_lift_off_radius,
     lift_off_radius,
-    overstress_radius,
     trough_section,
 )
 from conveyor.line.bend_pulleys import BendPulley, TransitionZone
 from conveyor.line.line import Line
 from conveyor.line.stretches import RouteSection, Strand, Stretch
 from conveyor.loop.balance import Balance
+from conveyor.loop.belt_limits import StripLimits, allowed_tension, classic_safety, strip_limits
+from conveyor.loop.pipe_curve_duty import pipe_curve_checks
 from conveyor.loop.pulley_duty import pulley_tensions
 from conveyor.loop.tensions import MotionState
 
 SNUB_WRAP = math.radians(30.0)
 """Wrap below which a pulley is of group C, DIN 22101 [rad]; general knowledge."""
-LEAST_EDGE_TENSION = 4.5e3
-"""Least tension per width of a strip slackened by a curve [N/m]; general knowledge."""
 
 
 @dataclass(frozen=True)
@@ -163,7 +160,7 @@ class BeltDuty:
     drive_diameter : float or None
         Least diameter of the drive pulleys [m].
     curves : tuple of CurveCheck
-        Every vertical curve on both strands.
+        Every vertical curve of a trough or flat belt on both strands.
     transitions : tuple of TransitionCheck
         Transitions of the spec.
     """
@@ -207,7 +204,7 @@ def belt_duty(balance: Balance, states: Sequence[MotionState] = ()) -> BeltDuty:
         largest=largest,
         safety_steady=safety(steady),
         safety=safety(largest),
-        safety_needed=_classic_safety(balance.line),
+        safety_needed=classic_safety(balance.line),
         per_width_steady=steady / belt.width,
         per_width=largest / belt.width,
         rating=belt.rating,
@@ -224,6 +221,7 @@ def _splice_strengths(balance: Balance, endurance: float) -> dict[str, float]:
     belt, steady = balance.line.belt, balance.settled.running
     zones = [_transition_check(balance.line, zone, steady).most for zone in balance.line.transitions]
     curves = [curve.most for curve in _curve_checks(balance, steady)]
+    curves += [curve.most for curve in pipe_curve_checks(balance.line, steady)]
     strips = [most for most in (*zones, *curves) if most is not None]
     loads = {
         "steady": _largest_running(balance) / belt.width,
@@ -245,10 +243,6 @@ def _splice_strengths(balance: Balance, endurance: float) -> dict[str, float]:
 def _largest_running(balance: Balance) -> float:
     """Largest tension at constant speed, whatever the friction [N]."""
     return max(state.largest for state in balance.settled.running)
-
-
-def _classic_safety(line: Line) -> float:
-    return CLASSIC_SAFETY["steel cord" if line.belt.steel_cord else "textile"]
 
 
 def _drive_diameter(line: Line) -> float | None:
@@ -292,7 +286,7 @@ def _curve_checks(balance: Balance, states: Sequence[MotionState]) -> Iterator[C
     sections = {section.name: section for section in line.sections if section.curve is not None}
     for i, stretch in enumerate(line.loop.stretches):
         section = sections.get(stretch.section)
-        if section is None or section.curve is None:
+        if section is None or section.curve is None or stretch.idlers.pipe is not None:
             continue
         tensions = [float(end[i]) for state in states for end in (state.starts, state.ends)]
         lowest, highest = min(tensions), max(tensions)
@@ -301,7 +295,7 @@ def _curve_checks(balance: Balance, states: Sequence[MotionState]) -> Iterator[C
             pull, weight = max(0.0, highest), {"belt_mass": stretch.belt_mass, "gravity": line.gravity}
             lift = lift_off_radius(pull, inclination=section.steepest, uplift=line.uplift, **weight)
             by_cema = cema_lift_off_radius(pull, **weight)
-        strips = _strip_limits(line, stretch, section, lowest, highest)
+        strips = _vertical_strips(line, stretch, section, lowest, highest)
         yield CurveCheck(
             stretch.section,
             stretch.strand,
@@ -315,44 +309,16 @@ def _curve_checks(balance: Balance, states: Sequence[MotionState]) -> Iterator[C
         )
 
 
-def _strip_limits(
-    line: Line, stretch: Stretch, section: RouteSection, lowest: float, highest: float
-) -> tuple[float | None, float | None, float | None, float | None]:
-    """Least radii against overstress and slack, and highest and lowest strip tension of a vertical curve.
-
-    None where stiffness or strength are unknown.
-    """
-    width, allowed, stiffness = line.belt.width, allowed_tension(line), line.belt.tensile_stiffness
-    if allowed is None or stiffness is None:
-        return None, None, None, None
+def _vertical_strips(line: Line, stretch: Stretch, section: RouteSection, lowest: float, highest: float) -> StripLimits:
+    """Least radii against overstress and slack, and highest and lowest strip tension of a vertical curve."""
+    width = line.belt.width
     trough = trough_of_stretch(stretch, width)
     stretched, slackened = trough.edge_above, trough.middle_below
     if section.curve == "concave":
         stretched, slackened = slackened, stretched
-    over = slack = math.inf
-    if highest / width < allowed:
-        over = overstress_radius(
-            max(0.0, highest / width),
-            distance=stretched,
-            stiffness_per_width=stiffness,
-            allowed_per_width=allowed,
-        )
-    if lowest / width > LEAST_EDGE_TENSION:
-        slack = buckling_radius(
-            lowest / width,
-            distance=slackened,
-            stiffness_per_width=stiffness,
-            least_per_width=LEAST_EDGE_TENSION,
-        )
-    turned = stiffness / abs(section.radius)
-    most, least = highest / width + turned * stretched, lowest / width - turned * slackened
-    return over, slack, most, least
-
-
-def allowed_tension(line: Line) -> float | None:
-    """Rated tension per width [N/m]; None without strength and rating."""
-    belt = line.belt
-    return belt.rating if belt.strength is None else belt.strength / _classic_safety(line)
+    return strip_limits(
+        line, lowest / width, highest / width, radius=abs(section.radius), stretched=stretched, slackened=slackened
+    )
 
 
 def trough_of_stretch(stretch: Stretch, width: float) -> TroughSection:

@@ -143,11 +143,9 @@ class CriterionLoadings(SectionLoadings):
         line = self.line
         if self.count > SINGLE_CHANGE_SECTIONS:
             return ()
-        curved = {section.name for section in line.sections if section.curve is not None}
+        curved = {section.name for section in line.sections if section.curved}
         return tuple(
-            k
-            for k, one in enumerate(line.loop.stretches)
-            if one.section in curved or one.turn is not None or raised_height(one) > 0.0
+            k for k, one in enumerate(line.loop.stretches) if one.section in curved or raised_height(one) > 0.0
         )
 
     @cached_property

@@ -370,9 +370,9 @@ def _pipe_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
         yield Problem(("idlers", "carry", "pipe", "diameter"), message)
     why = "given, but a pipe (idlers.carry.pipe)"
     for i, section in enumerate(conveyor.route.sections):
-        for name in ("curve", "horizontal_curve"):
+        for name in ("carry_banking", "carry_skew", *(() if back is None else ("return_banking", "return_skew"))):
             if getattr(section, name) is not None:
-                message = f"{why} is calculated on straight sections only; remove it"
+                message = f"{why} is held by its rolls all round, which bank and steer nothing; remove it"
                 yield Problem(("route", "sections", i, name), message)
     for name in ("head_transition", "tail_transition"):
         if getattr(conveyor.route, name) is not None:

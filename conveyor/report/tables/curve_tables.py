@@ -91,6 +91,35 @@ def horizontal_curves(loads: Sequence[Load]) -> Table:
     return Table("horizontal_curves", "Curves", heading, columns, _curves_of_cases(loads), "belt", note)
 
 
+def pipe_curves(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
+    """Radius of every curve of a pipe and strand, the minimum radii and the force on a panel of all cases."""
+    columns = (
+        Column("section", "text", "section"),
+        Column("strand", "text", "strand"),
+        Column("curve", "text", "kind"),
+        Column("radius", "length", "radius"),
+        Column("angle", "angle", "angle"),
+        Column("lowest tension", "force", "lowest"),
+        Column("highest tension", "force", "highest"),
+        Column("largest pull on a panel", "force", "push"),
+        Column("minimum by rule of thumb", "length", "by_rule"),
+        Column("minimum against overstress", "length", "overstress"),
+        Column("minimum against slack strips", "length", "buckling"),
+        Column("highest in a strip", "strength", "most"),
+        Column("lowest in a strip", "strength", "least"),
+    )
+    every = [load.found.pipe_curves for load in loads]
+    rows = _worst_of_cases(every, lowest=min, highest=max, push=max, overstress=max, buckling=max, most=max, least=min)
+    note = (
+        "Rule of thumb: conveyorbeltguide.com/pipe-belts.html. Strips: plane sections of a round pipe, the carcass at "
+        "its distance from the middle. Vertical and horizontal in one section: the radius of both together. Twist of "
+        "the pipe and of its overlap in the curve is not calculated."
+    )
+    if rows and a.line.belt.stiffness is None:
+        note += f" {_USUAL_STIFFNESS}"
+    return Table("pipe_curves", "Curves", "Curves of the pipe, all cases", columns, rows, "belt", note)
+
+
 def curve_edges(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
     """Edge tensions of horizontal curves; no rows where stiffness or strength are not known."""
     columns = (
