@@ -146,7 +146,7 @@ def _lift_off_radius(scenario: ScenarioResult) -> Iterator[Check]:
         if peak.section not in sections:
             continue
         stretch, section = stretches[f"{peak.section}, {peak.strand}"], sections[peak.section]
-        if stretch.idlers.pipe is not None:
+        if stretch.closed:
             continue
         radius = abs(section.radius)
         least = lift_off_radius(max(peak.highest, 0.0), belt_mass=stretch.belt_mass, inclination=section.steepest,

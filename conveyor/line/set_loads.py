@@ -125,7 +125,7 @@ class SetLoads:
 
     def spread(self, flow_mass: float) -> BulkSpread:
         """Width of the belt under the bulk of a mass per length and the slope of its heap [m, rad]."""
-        if flow_mass == 0.0 or self.idlers.pipe is not None:
+        if flow_mass == 0.0 or self.idlers.shape.closed:
             return BulkSpread(0.0, self._surcharge)
         return spread_bulk(
             flow_mass / self._density,

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from conveyor.errors import MessageQuantity, NoSolutionError
-from conveyor.laws.loading import RollLoad, bulk_line_mass, roll_angles
+from conveyor.laws.loading import RollLoad, bulk_line_mass
 from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
 from conveyor.laws.resistance import BED_FRICTION
 from conveyor.laws.tension import sag_tension
@@ -187,6 +187,11 @@ class Stretch:
         return math.asin(self.rise / self.length)
 
     @property
+    def closed(self) -> bool:
+        """True if rolls hold the belt from all sides, as a pipe."""
+        return self.idlers.shape.closed
+
+    @property
     def sets(self) -> float:
         """Number of idler sets, a broken number allowed; none on a plate."""
         return 0.0 if self.bed is not None else self.length / self.spacing
@@ -234,13 +239,11 @@ def misalignment_angle(conveyor: Conveyor, idlers: IdlerSet) -> float:
 
 
 def _misalignment_frictions(conveyor: Conveyor, idlers: IdlerSet) -> tuple[float, ...]:
-    """Drag of each roll of a set by misalignment over its load [-]: a wing roll turns by cos λ of the set's angle."""
+    """Drag of each roll of a set by misalignment over its load [-]."""
     angle = misalignment_angle(conveyor, idlers)
-    if idlers.pipe is not None:  # a panel out of square turns its side rolls by part of that: all of it, the safe side
-        return (misalignment_friction(angle),) * idlers.rolls
-    slopes = roll_angles(idlers.rolls, trough_angle=si(idlers.trough_angle), inner_angle=idlers.inner_wing.angle)
-    turned = {slope: misalignment_friction(angle * math.cos(slope)) for slope in map(abs, slopes)}
-    return tuple(turned[abs(slope)] for slope in slopes)
+    turns = idlers.shape.roll_turns()
+    frictions = {turn: misalignment_friction(angle * turn) for turn in turns}
+    return tuple(frictions[turn] for turn in turns)
 
 
 class _StretchBuilder:
@@ -324,7 +327,7 @@ class _StretchBuilder:
 
     def _turn(self, section: RouteSection, spacing: float, inclination: float, flow: float) -> CurveSets | None:
         """Sets of a section on a horizontal curve; None on the straight and around a pipe, which keeps its place."""
-        if section.horizontal is None or self.idlers.pipe is not None:
+        if section.horizontal is None or self.idlers.shape.closed:
             return None
         weights = self.set_loads.of(
             spacing=spacing, inclination=inclination, belt_mass=self.belt_mass, bulk_mass=flow, flow_mass=flow

@@ -286,7 +286,7 @@ def _curve_checks(balance: Balance, states: Sequence[MotionState]) -> Iterator[C
     sections = {section.name: section for section in line.sections if section.curve is not None}
     for i, stretch in enumerate(line.loop.stretches):
         section = sections.get(stretch.section)
-        if section is None or section.curve is None or stretch.idlers.pipe is not None:
+        if section is None or section.curve is None or stretch.closed:
             continue
         tensions = [float(end[i]) for state in states for end in (state.starts, state.ends)]
         lowest, highest = min(tensions), max(tensions)

@@ -128,7 +128,7 @@ def pull_per_width(line: Line, steady: MotionState, places: Array) -> Array:
 def _curve_tensions(line: Line, steady: MotionState) -> Iterator[tuple[Stretch, float, float]]:
     radii = {section.name: section.radius for section in line.sections if section.curve is not None}
     for stretch, tension in zip(line.loop.stretches, _mean_tensions(steady), strict=True):
-        if stretch.section in radii and stretch.idlers.pipe is None:
+        if stretch.section in radii and not stretch.closed:
             yield stretch, radii[stretch.section], tension
 
 
@@ -166,7 +166,7 @@ def pipe_pulls(line: Line, steady: MotionState) -> dict[tuple[str, Strand], tupl
     """Forces of the tension on one panel of every curve of a pipe, down and to the right [N]; negative: up, left."""
     curved, pulls = {section.name: section for section in line.sections if section.curved}, {}
     for stretch, tension in zip(line.loop.stretches, _mean_tensions(steady), strict=True):
-        if stretch.idlers.pipe is not None and stretch.section in curved:
+        if stretch.closed and stretch.section in curved:
             section = curved[stretch.section]
             pulls[stretch.section, stretch.strand] = (
                 force_on_set(line, stretch, tension, section.radius),

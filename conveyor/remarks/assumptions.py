@@ -57,7 +57,7 @@ def _horizontal_assumptions(conveyor: Conveyor) -> Iterator[str]:
     """Assumptions on drift in horizontal curves."""
     sets = (conveyor.idlers.carry, conveyor.idlers.return_)
     straight = all(section.horizontal_curve is None for section in conveyor.route.sections)
-    if straight or all(each.pipe is not None for each in sets):
+    if straight or all(each.shape.closed for each in sets):
         return
     slip, friction = math.degrees(FULL_SLIP_TILT.value), ROLL_ON_BELT_FRICTION.value
     yield (
@@ -155,7 +155,7 @@ def roll_assumptions(conveyor: Conveyor) -> tuple[str, ...]:
 def _share_assumption(conveyor: Conveyor) -> str:
     sets = (conveyor.idlers.carry, conveyor.idlers.return_)
     rule = "VDI 2341"
-    if conveyor.idlers.carry.pipe is not None:
+    if conveyor.idlers.carry.shape.closed:
         return (
             "Loads of the six rolls by statics of the ring without friction: weights on the three lower ones by the "
             "lever between them, the given forming load on all (idlers.carry.pipe.forming_load), each evenly over a "
