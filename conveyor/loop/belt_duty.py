@@ -24,7 +24,6 @@ from conveyor.laws.transition import (
     EDGE_OVER_RATED,
     cema_transition_length,
     transition_length,
-    transition_stretch,
 )
 from conveyor.laws.vertical_curve import (
     TroughSection,
@@ -124,6 +123,8 @@ class TransitionCheck:
         Missing data, in words.
     cema : float or None
         Least length that CEMA recommends at the highest tension; None too at an angle that its tables do not have.
+    by_rule : float or None
+        Least length of a pipe by rule of thumb; None of a trough.
     """
 
     zone: TransitionZone
@@ -136,6 +137,7 @@ class TransitionCheck:
     least: float | None = None
     missing: str = ""
     cema: float | None = None
+    by_rule: float | None = None
 
 
 @dataclass(frozen=True)
@@ -332,29 +334,28 @@ def trough_of_stretch(stretch: Stretch, width: float) -> TroughSection:
 
 
 def _transition_check(line: Line, zone: TransitionZone, states: Sequence[MotionState]) -> TransitionCheck:
-    """Check a transition of the carry strand for the tensions there in every state."""
+    """Check a transition for the tensions there in every state."""
     width, half = line.belt.width, line.count
-    if zone.end == "head":
-        stretch, tensions = line.loop.stretches[-1], [float(state.ends[-1]) for state in states]
-    else:
-        stretch, tensions = line.loop.stretches[half], [float(state.starts[half]) for state in states]
+    starts, at = {
+        ("head", "carry"): (False, -1), ("tail", "carry"): (True, half),
+        ("head", "return"): (True, 0), ("tail", "return"): (False, half - 1),
+    }[zone.end, zone.strand]  # fmt: skip
+    tensions = [float((state.starts if starts else state.ends)[at]) for state in states]
+    stretch = line.loop.stretches[at]
+    shape = stretch.idlers.shape
     lowest, highest = min(tensions) / width, max(tensions) / width
     rated, stiffness = allowed_tension(line), line.belt.tensile_stiffness
     if rated is None:
         return TransitionCheck(zone, lowest, highest, missing="belt.carcass.strength and rating not given")
-    by_cema = cema_transition_length(
+    by_rule, by_cema = shape.forming_length, None if shape.closed else cema_transition_length(
         width, trough_angle=stretch.trough_angle, utilisation=max(0.0, highest) / rated,
         carcass=line.belt.carcass, pulley_height=zone.pulley_height,
     )  # fmt: skip
     if stiffness is None:
-        return TransitionCheck(zone, lowest, highest, missing="belt.carcass.stiffness not given", cema=by_cema)
-    zone_length = transition_stretch(
-        width,
-        middle_roll_length=stretch.idlers.middle_belt(width),
-        trough_angle=stretch.trough_angle,
-        pulley_height=zone.pulley_height,
-        inner_wing=stretch.idlers.inner_wing,
-    )
+        return TransitionCheck(
+            zone, lowest, highest, missing="belt.carcass.stiffness not given", cema=by_cema, by_rule=by_rule
+        )
+    zone_length = shape.transition_stretch(width, zone.pulley_height)
     allowed = EDGE_OVER_RATED * rated
 
     def least(tension: float, stretch: float, limit: float) -> float:
@@ -374,4 +375,5 @@ def _transition_check(line: Line, zone: TransitionZone, states: Sequence[MotionS
         most,
         lower,
         cema=by_cema,
+        by_rule=by_rule,
     )

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar, Final, Protocol
 
 from conveyor.laws.loading import CrossSection, Wing, cross_section, pipe_area, roll_angles, usable_width
+from conveyor.laws.pipe_geometry import forming_length, pipe_transition_stretch
+from conveyor.laws.transition import TransitionStretch, transition_stretch
 from conveyor.models.base import Model
 from conveyor.units import Bounds, Force, Fraction, Length, quantity, si
 
@@ -48,6 +50,15 @@ class BeltShape(Protocol):
 
     def roll_turns(self) -> tuple[float, ...]:
         """Angle of each roll to square over that of its set's axis [-], left to right."""
+        ...
+
+    def transition_stretch(self, width: float, pulley_height: float) -> TransitionStretch:
+        """Stretch of the strips on the way to a pulley of a height over the depth of the shape [-]."""
+        ...
+
+    @property
+    def forming_length(self) -> float | None:
+        """Least way to the pulley by rule of thumb [m]; None without one."""
         ...
 
 
@@ -108,6 +119,21 @@ class Trough:
         slopes = roll_angles(self.rolls, trough_angle=self.angle, inner_angle=self.inner_wing.angle)
         return tuple(math.cos(slope) for slope in slopes)
 
+    def transition_stretch(self, width: float, pulley_height: float) -> TransitionStretch:
+        """Stretch of straight strips to the wings."""
+        return transition_stretch(
+            width,
+            middle_roll_length=self.middle_belt(width),
+            trough_angle=self.angle,
+            pulley_height=pulley_height,
+            inner_wing=self.inner_wing,
+        )
+
+    @property
+    def forming_length(self) -> float | None:
+        """None: CEMA's table has the belt's use and carcass too, see `cema_transition_length`."""
+        return None
+
 
 class Pipe(Model):
     """The belt as a closed pipe in panels of six rolls, one of them below."""
@@ -150,3 +176,12 @@ class Pipe(Model):
     def roll_turns(self) -> tuple[float, ...]:
         """A panel out of square turns its side rolls by part of that: all of it, the safe side."""
         return (1.0,) * 6
+
+    def transition_stretch(self, width: float, pulley_height: float) -> TransitionStretch:
+        """Stretch of straight strips to the circle."""
+        return pipe_transition_stretch(width, diameter=si(self.diameter), pulley_height=pulley_height)
+
+    @property
+    def forming_length(self) -> float | None:
+        """From the flat belt to the pipe [m]."""
+        return forming_length(si(self.diameter))

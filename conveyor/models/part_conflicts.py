@@ -10,6 +10,7 @@ from conveyor.errors import InputError, MessageQuantity, RangeError
 from conveyor.laws.feeder import FEEDER_SPEED
 from conveyor.laws.idler_sets import rated_set_load
 from conveyor.laws.loading import bulk_line_mass
+from conveyor.laws.pipe_geometry import FURTHEST_LAP
 from conveyor.laws.resistance import SHORTEST_FOR_FACTOR
 from conveyor.laws.tension import usual_stiffness
 from conveyor.models.base import Problem
@@ -325,7 +326,7 @@ def _curve_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _pipe_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """Refuse a pipe that the belt cannot close, one on the return strand alone, and what has no law on pipes."""
+    """Refuse a pipe that the belt cannot close or laps twice, one on the return strand alone, and banking of pipes."""
     carry, back = conveyor.idlers.carry.pipe, conveyor.idlers.return_.pipe
     if back is not None and (carry is None or si(carry.diameter) != si(back.diameter)):
         beside = "the carry strand is none" if carry is None else f"the carry strand's is {text(carry.diameter)}"
@@ -339,15 +340,18 @@ def _pipe_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
             "not close: take a smaller pipe or a wider belt"
         )
         yield Problem(("idlers", "carry", "pipe", "diameter"), message)
+    if si(conveyor.belt.width) >= FURTHEST_LAP * math.pi * si(carry.diameter):
+        message = (
+            f"got {text(carry.diameter)}, round which the belt (belt.width {text(conveyor.belt.width)}) laps more than "
+            "twice: take a larger pipe or a narrower belt"
+        )
+        yield Problem(("idlers", "carry", "pipe", "diameter"), message)
     why = "given, but a pipe (idlers.carry.pipe)"
     for i, section in enumerate(conveyor.route.sections):
         for name in ("carry_banking", "carry_skew", *(() if back is None else ("return_banking", "return_skew"))):
             if getattr(section, name) is not None:
                 message = f"{why} is held by its rolls all round, which bank and steer nothing; remove it"
                 yield Problem(("route", "sections", i, name), message)
-    for name in ("head_transition", "tail_transition"):
-        if getattr(conveyor.route, name) is not None:
-            yield Problem(("route", name), f"{why} has no law of its forming length here; remove it")
 
 
 def _length_coefficient_problems(conveyor: ConveyorParts) -> Iterator[Problem]:

@@ -94,7 +94,7 @@ def test_a_stiffer_belt_costs_power_and_both_strands_run_on_the_bottom_cover(spe
           "route.sections.0.carry_banking": "3 deg"}, "carry_banking", "held by its rolls"),
         ({"route.sections.0.horizontal_curve": "left", "route.sections.0.horizontal_radius": "5000 m",
           "route.sections.0.return_skew": "1 deg"}, "return_skew", "held by its rolls"),
-        ({"route.head_transition": {"length": "20 m"}}, "head_transition", "forming length"),
+        ({"idlers.carry.pipe.diameter": "230 mm", "idlers.return.pipe.diameter": "230 mm"}, "diameter", "laps more"),
         ({"idlers.carry.cema_class": "C"}, "cema_class", "no set of 6"),
     ],
 )  # fmt: skip
