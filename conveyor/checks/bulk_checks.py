@@ -29,7 +29,7 @@ def belt_filling(result: CalculatedConveyor) -> Iterator[Check]:
             why = message(
                 f"the bulk takes {{}}, {percent(bulk / most)} of the {{}} that {section} holds on its slope"
                 f"{f', and spills beyond {{}}, {shape.brim}' if spills else ''}: reduce "
-                "material.flow to {}, raise belt.speed to {}, or take a wider belt",
+                f"material.flow to {{}}, raise belt.speed to {{}}, or take {shape.larger}",
                 (bulk, "area"), (most, "area"), *spills,
                 (line.flow * most / bulk, "mass flow"), (line.speed * bulk / most, "speed"),
             )  # fmt: skip

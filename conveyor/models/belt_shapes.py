@@ -30,11 +30,14 @@ class BeltShape(Protocol):
         Where the largest cross-section is from.
     brim : str
         How bulk lies that fills it to the brim.
+    larger : str
+        What holds more.
     """
 
     closed: ClassVar[bool]
     filling_source: ClassVar[str]
     brim: ClassVar[str]
+    larger: ClassVar[str]
 
     def largest_section(self, width: float, surcharge: float) -> CrossSection:
         """Largest bulk cross-section of a level belt of a width [m] at a surcharge angle [rad]."""
@@ -84,6 +87,7 @@ class Trough:
     closed: ClassVar[bool] = False
     filling_source: ClassVar[str] = "ISO 5048"
     brim: ClassVar[str] = "heaped from edge to edge"
+    larger: ClassVar[str] = "a wider belt"
 
     def middle_belt(self, width: float) -> float:
         """Width of belt on the middle roll [m]: all of it on one roll, 0 without a middle roll."""
@@ -150,6 +154,7 @@ class Pipe(Model):
     closed: ClassVar[bool] = True
     filling_source: ClassVar[str] = "idlers.carry.pipe.filling"
     brim: ClassVar[str] = "filling the whole pipe"
+    larger: ClassVar[str] = "a larger pipe"
 
     @property
     def radius(self) -> float:

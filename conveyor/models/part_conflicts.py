@@ -91,7 +91,7 @@ def _fill_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
             f"belt holds {{}} and is calculated up to {{}}, {why}: reduce material.flow to "
             f"{_safe_limit(most, down=True)} or less, raise belt.speed to {_safe_limit(least, down=False)} or more, "
             f"or take "
-            f"a wider belt{metric}",
+            f"{shape.larger}{metric}",
             *sections_of,
         ),
     )

@@ -160,7 +160,7 @@ def _share_assumption(conveyor: Conveyor) -> str:
             "Loads of the six rolls by statics of the ring without friction: weights on the three lower ones by the "
             "lever between them, the given forming load on all (idlers.carry.pipe.forming_load), each evenly over a "
             "sixth of the circumference; tension in curves on the belt's weight and on the two rolls inside the bend; "
-            "forming length, flexure and twist of the pipe are left out."
+            "the resistance of forming, flexure and twist of the pipe are left out."
         )
     if conveyor.idlers.carry.load_shares is not None:
         rule = "the spec (idlers.carry.load_shares)"
