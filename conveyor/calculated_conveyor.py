@@ -20,6 +20,7 @@ from conveyor.loop.belt_duty import BeltDuty, belt_duty
 from conveyor.loop.drive_duty import DriveDuty, drive_duty
 from conveyor.loop.horizontal_curve_duty import HorizontalCurveCheck, horizontal_curve_checks
 from conveyor.loop.loop_layout import TakeUpSetting
+from conveyor.loop.pipe_curve_duty import PipeCurveCheck, pipe_curve_checks
 from conveyor.loop.pulley_duty import PulleyDuty, pulley_duty
 from conveyor.loop.set_duty import SetDuty, set_duty
 from conveyor.loop.start_and_stop import StartAndStop, motion_states, start_and_stop
@@ -196,6 +197,11 @@ class CalculatedConveyor:
     def horizontal(self) -> tuple[HorizontalCurveCheck, ...]:
         """Horizontal curves on both strands: drift in every state, radii, tensions of the edges."""
         return horizontal_curve_checks(self.balance, self.motion_states)
+
+    @cached_property
+    def pipe_curves(self) -> tuple[PipeCurveCheck, ...]:
+        """Curves of a pipe on both strands: tensions, radii, force on a panel."""
+        return pipe_curve_checks(self.line, self.motion_states)
 
     @cached_property
     def pulley_duty(self) -> tuple[PulleyDuty, ...]:

@@ -20,8 +20,7 @@ def belt_filling(result: CalculatedConveyor) -> Iterator[Check]:
     ]
     if loaded:
         stretch, bulk, most = first_maximum(loaded, lambda one: -one[2] / one[1])
-        pipe = result.conveyor.idlers.carry.pipe
-        source = "ISO 5048" if pipe is None else "idlers.carry.pipe.filling"
+        shape = result.conveyor.idlers.carry.shape
         section = f'section "{escape_braces(stretch.section)}"'
         why = message(f"the bulk takes {{}}, {section} holds nothing on its slope", (bulk, "area"))
         if most > 0.0:
@@ -29,13 +28,13 @@ def belt_filling(result: CalculatedConveyor) -> Iterator[Check]:
             spills = [flooded] if bulk > flooded[0] else []
             why = message(
                 f"the bulk takes {{}}, {percent(bulk / most)} of the {{}} that {section} holds on its slope"
-                f"{', and spills beyond {}, heaped from edge to edge' if spills else ''}: reduce "
-                "material.flow to {}, raise belt.speed to {}, or take a wider belt",
+                f"{f', and spills beyond {{}}, {shape.brim}' if spills else ''}: reduce "
+                f"material.flow to {{}}, raise belt.speed to {{}}, or take {shape.larger}",
                 (bulk, "area"), (most, "area"), *spills,
                 (line.flow * most / bulk, "mass flow"), (line.speed * bulk / most, "speed"),
             )  # fmt: skip
         yield check_against_limit(
-            "filling", "filling of the belt", bulk, "at most", most, "area", source=source,
+            "filling", "filling of the belt", bulk, "at most", most, "area", source=shape.filling_source,
             wording=message(f"{{}}, {percent(bulk / holds_on(0.0))} of the level cross-section", (bulk, "area")),
             where=stretch.section, why=why,
         )  # fmt: skip

@@ -5,14 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Final
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.checks.check import Check, check_against_limit
+from conveyor.laws.pipe_geometry import PIPE_RADIUS
 from conveyor.laws.wind import AIR_DENSITY, WIND_LIFT, lifting_speed
 from conveyor.line.stretches import STRANDS
 from conveyor.loop.belt_duty import CurveCheck
 from conveyor.loop.horizontal_curve_duty import DriftState, HorizontalCurveCheck
+from conveyor.loop.pipe_curve_duty import PipeCurveCheck
 from conveyor.units.sentences import Message, escape_braces, message
+
+_PIPE_RULE: Final = f"{PIPE_RADIUS['textile']:g} D textile, {PIPE_RADIUS['steel cord']:g} D steel cord, rule of thumb"
 
 
 def curve_radius(result: CalculatedConveyor) -> Iterator[Check]:
@@ -27,7 +32,9 @@ def curve_radius(result: CalculatedConveyor) -> Iterator[Check]:
                 yield _curve_radius_check(curve, least, fine, bad)
 
 
-def _curve_radius_check(curve: CurveCheck | HorizontalCurveCheck, least: float, fine: str, bad: str) -> Check:
+def _curve_radius_check(
+    curve: CurveCheck | HorizontalCurveCheck | PipeCurveCheck, least: float, fine: str, bad: str
+) -> Check:
     section = escape_braces(curve.section)
     words = f'section "{section}", {curve.strand}: {bad} on the {curve.kind} curve of {{}}; '
     helps = math.isfinite(least)
@@ -67,6 +74,24 @@ def wind_lift(result: CalculatedConveyor) -> Iterator[Check]:
             source=f"lift coefficient {WIND_LIFT.value:g}, general knowledge",
             why=f"{strand}: a gust of {{calculated}} lifts the empty belt, {{required}} does not (lift coefficient "
             f"{WIND_LIFT.value:g}, general knowledge): hoods, hold-down rolls or a heavier belt",
+        )  # fmt: skip
+
+
+def pipe_curves(result: CalculatedConveyor) -> Iterator[Check]:
+    """In every curve of a pipe the radius is that of the rule of thumb, no strip is overstressed or slack."""
+    for curve in result.pipe_curves:
+        for least, fine, bad in (
+            (curve.overstress, "no strip overstressed", "a strip of the belt is overstressed"),
+            (curve.buckling, "no strip slack", "a strip of the belt goes slack"),
+        ):
+            if least is not None:
+                yield _curve_radius_check(curve, least, fine, bad)
+        section = escape_braces(curve.section)
+        yield check_against_limit(
+            "pipe_radius", f"{curve.kind} curve of the pipe, {section}, {curve.strand}", curve.radius, "at least",
+            curve.by_rule, "length", source=_PIPE_RULE,
+            why=f'section "{section}", {curve.strand}: a radius of {{calculated}}, makers bend such pipes to '
+            f"{{required}} or more ({_PIPE_RULE}): a wider curve, a smaller pipe, or ask the belt's maker",
         )  # fmt: skip
 
 

@@ -41,22 +41,26 @@ def belt_transitions(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def _transition_check(of: TransitionCheck, least: float | None, fine: str, bad: str) -> Check:
-    key, subject = "transition_length", message(f"{of.zone.end} transition: {fine}")
+    key, subject = "transition_length", message(f"{of.zone.name} transition: {fine}")
     length, missing = of.zone.length, of.missing or "least lengths in its table"
     if length is None or least is None:
         words = message("length not given") if length is None else message("{}", (length, "length"))
         return Check(key, subject, length, None, "length", words, message(missing), "not checked")
     if math.isinf(least):
         why = message(
-            f"{of.zone.end} transition: {bad} whatever its length, at a belt tension of {{}} to {{}} per width",
+            f"{of.zone.name} transition: {bad} whatever its length, at a belt tension of {{}} to {{}} per width",
             (of.lowest, "belt rating"),
             (of.highest, "belt rating"),
         )
         asked = message("no length helps")
         return Check(key, subject, length, None, "length", message("{}", (length, "length")), asked, "FAIL", why)
     why = message(
-        f"{of.zone.end} transition: {bad} over {{}}; at least {{}} are needed (ISO 5293 taken on to every strip)"
-        + ("; or raise the pulley towards half trough" if of.zone.pulley_height < HALF_TROUGH else ""),
+        f"{of.zone.name} transition: {bad} over {{}}; at least {{}} are needed (ISO 5293 taken on to every strip)"
+        + (
+            f"; or raise the pulley towards half {'trough' if of.by_rule is None else 'the pipe'}"
+            if of.zone.pulley_height < HALF_TROUGH
+            else ""
+        ),
         (length, "length"),
         (least, "length"),
     )

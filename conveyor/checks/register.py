@@ -21,7 +21,7 @@ from conveyor.checks.belt_checks import (
 from conveyor.checks.bulk_checks import belt_cleaning, belt_filling, bulk_slip, impact_load, pipe_lumps, skirtboards
 from conveyor.checks.check import Check
 from conveyor.checks.contact_checks import cover_penetration, rubber_coverage
-from conveyor.checks.curve_checks import belt_drift, curve_radius, horizontal_edges, wind_lift
+from conveyor.checks.curve_checks import belt_drift, curve_radius, horizontal_edges, pipe_curves, wind_lift
 from conveyor.checks.drive_checks import (
     coasting_time,
     comes_to_rest,
@@ -71,7 +71,7 @@ _CALCULATED_LOADS_ONLY: Final = frozenset(
 """Keys of criteria checked under the calculated loads only."""
 
 
-_SECTION_CRITERIA: Final = frozenset({"curve_radius", "belt_drift", "set_rating"})
+_SECTION_CRITERIA: Final = frozenset({"curve_radius", "pipe_radius", "belt_drift", "set_rating"})
 """Keys of criteria of single sections, on long routes checked under the calculated loads only."""
 
 
@@ -79,8 +79,8 @@ CRITERIA: Final[tuple[Callable[[CalculatedConveyor], Iterable[Check]], ...]] = (
     belt_filling, motor_power, take_up_tension, take_up_travel, drive_grip, belt_sag, slack_belt, belt_safety,
     belt_rating,
     belt_breakage, splice_strength, cover_thickness, belt_temperature, pulley_diameter, curve_radius,
-    wind_lift, horizontal_edges, belt_drift, belt_transitions, pipe_lumps, impact_load, skirtboards, belt_cleaning,
-    belt_scales, belt_feeder, pulley_shaft,
+    wind_lift, horizontal_edges, belt_drift, pipe_curves, belt_transitions, pipe_lumps, impact_load, skirtboards,
+    belt_cleaning, belt_scales, belt_feeder, pulley_shaft,
     pulley_bearings, lagging_pressure, starting_force, comes_to_rest, holding_brake, drive_parts, coasting_time,
     bulk_slip, bed_speed,
     cover_penetration, roll_life, set_rating, roll_axle, belt_flap, rubber_coverage,

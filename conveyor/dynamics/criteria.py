@@ -146,6 +146,8 @@ def _lift_off_radius(scenario: ScenarioResult) -> Iterator[Check]:
         if peak.section not in sections:
             continue
         stretch, section = stretches[f"{peak.section}, {peak.strand}"], sections[peak.section]
+        if stretch.closed:
+            continue
         radius = abs(section.radius)
         least = lift_off_radius(max(peak.highest, 0.0), belt_mass=stretch.belt_mass, inclination=section.steepest,
                                 gravity=scenario.line.gravity, uplift=scenario.line.uplift)  # fmt: skip

@@ -10,6 +10,7 @@ from conveyor.laws.pulley import Keyway, Steel
 from conveyor.line import usual_parts
 from conveyor.line.loop_positions import LoopPosition, LoopPositions
 from conveyor.line.optional_quantities import si_or_default, si_or_none
+from conveyor.line.stretches import Strand
 from conveyor.models import Conveyor, Pulley
 from conveyor.units import si
 
@@ -50,11 +51,17 @@ class BendPulley:
 
 @dataclass(frozen=True)
 class TransitionZone:
-    """Transition between trough and pulley: length [m], None not given; pulley height over trough depth [-]."""
+    """Transition between trough or pipe and pulley: length [m], None not given; pulley height over its depth [-]."""
 
     end: str
     length: float | None
     pulley_height: float
+    strand: Strand = "carry"
+
+    @property
+    def name(self) -> str:
+        """End, and the strand if it is the return one."""
+        return self.end if self.strand == "carry" else f"{self.end}, return"
 
 
 def bend_pulleys(conveyor: Conveyor, places: LoopPositions) -> tuple[BendPulley, ...]:
@@ -106,10 +113,12 @@ def _bend_pulley(conveyor: Conveyor, pulley: Pulley, places: LoopPositions, *, d
 
 
 def transition_zones(conveyor: Conveyor) -> tuple[TransitionZone, ...]:
-    """Transitions at tail and head that the spec gives."""
+    """Transitions at tail and head that the spec gives; a pipe on the return strand opens and closes there too."""
     given = {"tail": conveyor.route.tail_transition, "head": conveyor.route.head_transition}
+    strands: tuple[Strand, ...] = ("carry", "return") if conveyor.idlers.return_.shape.closed else ("carry",)
     return tuple(
-        TransitionZone(end, si_or_none(zone.length), si_or_default(zone.pulley_height, 0.0))
+        TransitionZone(end, si_or_none(zone.length), si_or_default(zone.pulley_height, 0.0), strand)
+        for strand in strands
         for end, zone in given.items()
         if zone is not None
     )

@@ -44,7 +44,14 @@ class SetLoads:
         self._known_shares: dict[float, tuple[float, ...]] = {}
 
     def of(
-        self, *, spacing: float, inclination: float, belt_mass: float, bulk_mass: float, flow_mass: float
+        self,
+        *,
+        spacing: float,
+        inclination: float,
+        belt_mass: float,
+        bulk_mass: float,
+        flow_mass: float,
+        pull: tuple[float, float] = (0.0, 0.0),
     ) -> tuple[RollLoad, ...]:
         """Load of each roll of one set.
 
@@ -58,8 +65,10 @@ class SetLoads:
             Masses as they press on the rolls [kg/m].
         flow_mass : float
             Bulk on the belt [kg/m], which decides the cross-section.
+        pull : tuple of float
+            Forces of the tension on a panel around a pipe, down and to the right [N].
         """
-        key = (spacing, inclination, belt_mass, bulk_mass, flow_mass)
+        key = (spacing, inclination, belt_mass, bulk_mass, flow_mass, *pull)
         known = self._found.get(key)
         if known is None and (pipe := self.idlers.pipe) is not None:
             known = self._found[key] = pipe_roll_loads(
@@ -71,6 +80,8 @@ class SetLoads:
                 forming_load=si(pipe.forming_load),
                 inclination=inclination,
                 gravity=self._gravity,
+                curve_down=pull[0],
+                curve_right=pull[1],
             )
         if known is None:
             known = self._found[key] = roll_loads(
@@ -114,7 +125,7 @@ class SetLoads:
 
     def spread(self, flow_mass: float) -> BulkSpread:
         """Width of the belt under the bulk of a mass per length and the slope of its heap [m, rad]."""
-        if flow_mass == 0.0 or self.idlers.pipe is not None:
+        if flow_mass == 0.0 or self.idlers.shape.closed:
             return BulkSpread(0.0, self._surcharge)
         return spread_bulk(
             flow_mass / self._density,

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from conveyor.errors import MessageQuantity, NoSolutionError
-from conveyor.laws.loading import RollLoad, bulk_line_mass, roll_angles
+from conveyor.laws.loading import RollLoad, bulk_line_mass
 from conveyor.laws.misalignment import MISALIGNMENT, misalignment_friction
 from conveyor.laws.resistance import BED_FRICTION
 from conveyor.laws.tension import sag_tension
@@ -29,13 +29,15 @@ CurveValues = Mapping[tuple[str, Strand], float]
 
 @dataclass(frozen=True)
 class CurveLoads:
-    """Effect of tension on curves: mass pressing on the rolls [kg/m], inward drift of the belt [m].
+    """Effect of tension on curves: mass pressing on the rolls [kg/m], inward drift of the belt [m], pull on a pipe [N].
 
-    A negative mass lifts, a negative drift is outward.
+    A negative mass lifts, a negative drift is outward. `pulls` are forces on one panel around a pipe, down and to the
+    right in running direction of the carry strand, of which pressing and drift have none.
     """
 
     pressing: CurveValues = field(default_factory=dict)
     drift: CurveValues = field(default_factory=dict)
+    pulls: Mapping[tuple[str, Strand], tuple[float, float]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -78,6 +80,19 @@ class RouteSection:
     def curved(self) -> bool:
         """True on a vertical or horizontal curve."""
         return self.curve is not None or self.horizontal is not None
+
+    @property
+    def rightward_radius(self) -> float:
+        """Radius of the horizontal curve, positive to the right, negative to the left; infinite on the straight [m]."""
+        if self.horizontal is None:
+            return math.inf
+        return math.copysign(self.horizontal.radius, 1.0 if self.horizontal.side == "right" else -1.0)
+
+    @property
+    def bend_radius(self) -> float:
+        """Radius of vertical and horizontal curve together, 1/r² = 1/r_v² + 1/r_h² [m]; infinite on the straight."""
+        bent = math.hypot(1.0 / self.radius, 1.0 / self.rightward_radius)
+        return 1.0 / bent if bent > 0.0 else math.inf
 
     @property
     def steepest(self) -> float:
@@ -140,7 +155,7 @@ class Stretch:
     span_flexure : float or None
         Flexure of belt and bulk over one span [N]; None where it is a share of the main resistance.
     turn : CurveSets or None
-        Sets on a horizontal curve.
+        Sets on a horizontal curve, without a pipe.
     bed : PlateBed or None
         Plate that carries the belt instead of sets, which then are none: no rolls, no sag.
     """
@@ -170,6 +185,11 @@ class Stretch:
     def inclination(self) -> float:
         """Slope angle δ [rad]."""
         return math.asin(self.rise / self.length)
+
+    @property
+    def closed(self) -> bool:
+        """True if rolls hold the belt from all sides, as a pipe."""
+        return self.idlers.shape.closed
 
     @property
     def sets(self) -> float:
@@ -219,13 +239,11 @@ def misalignment_angle(conveyor: Conveyor, idlers: IdlerSet) -> float:
 
 
 def _misalignment_frictions(conveyor: Conveyor, idlers: IdlerSet) -> tuple[float, ...]:
-    """Drag of each roll of a set by misalignment over its load [-]: a wing roll turns by cos λ of the set's angle."""
+    """Drag of each roll of a set by misalignment over its load [-]."""
     angle = misalignment_angle(conveyor, idlers)
-    if idlers.pipe is not None:  # a panel out of square turns its side rolls by part of that: all of it, the safe side
-        return (misalignment_friction(angle),) * idlers.rolls
-    slopes = roll_angles(idlers.rolls, trough_angle=si(idlers.trough_angle), inner_angle=idlers.inner_wing.angle)
-    turned = {slope: misalignment_friction(angle * math.cos(slope)) for slope in map(abs, slopes)}
-    return tuple(turned[abs(slope)] for slope in slopes)
+    turns = idlers.shape.roll_turns()
+    frictions = {turn: misalignment_friction(angle * turn) for turn in turns}
+    return tuple(frictions[turn] for turn in turns)
 
 
 class _StretchBuilder:
@@ -270,6 +288,7 @@ class _StretchBuilder:
             belt_mass=belt_on_rolls,
             bulk_mass=bulk_on_rolls,
             flow_mass=flow,
+            pull=self.acting.pulls.get((section.name, self.strand), (0.0, 0.0)),
         )
         turned = self._turn(section, spacing, inclination, flow)
         if turned is not None and (section.name, self.strand) in self.acting.drift:
@@ -307,8 +326,8 @@ class _StretchBuilder:
         )  # fmt: skip
 
     def _turn(self, section: RouteSection, spacing: float, inclination: float, flow: float) -> CurveSets | None:
-        """Sets of a section on a horizontal curve; None on the straight."""
-        if section.horizontal is None:
+        """Sets of a section on a horizontal curve; None on the straight and around a pipe, which keeps its place."""
+        if section.horizontal is None or self.idlers.shape.closed:
             return None
         weights = self.set_loads.of(
             spacing=spacing, inclination=inclination, belt_mass=self.belt_mass, bulk_mass=flow, flow_mass=flow

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 from conveyor.laws.belt_strength import (
     CEMA_PULLEYS,
-    CLASSIC_SAFETY,
     DUTY_SAFETY,
     PULLEY_DIAMETERS,
     RATED_START,
@@ -25,27 +24,24 @@ from conveyor.laws.transition import (
     EDGE_OVER_RATED,
     cema_transition_length,
     transition_length,
-    transition_stretch,
 )
 from conveyor.laws.vertical_curve import (
     TroughSection,
-    buckling_radius,
     cema_lift_off_radius,
     lift_off_radius,
-    overstress_radius,
     trough_section,
 )
 from conveyor.line.bend_pulleys import BendPulley, TransitionZone
 from conveyor.line.line import Line
 from conveyor.line.stretches import RouteSection, Strand, Stretch
 from conveyor.loop.balance import Balance
+from conveyor.loop.belt_limits import StripLimits, allowed_tension, classic_safety, strip_limits
+from conveyor.loop.pipe_curve_duty import pipe_curve_checks
 from conveyor.loop.pulley_duty import pulley_tensions
 from conveyor.loop.tensions import MotionState
 
 SNUB_WRAP = math.radians(30.0)
 """Wrap below which a pulley is of group C, DIN 22101 [rad]; general knowledge."""
-LEAST_EDGE_TENSION = 4.5e3
-"""Least tension per width of a strip slackened by a curve [N/m]; general knowledge."""
 
 
 @dataclass(frozen=True)
@@ -127,6 +123,8 @@ class TransitionCheck:
         Missing data, in words.
     cema : float or None
         Least length that CEMA recommends at the highest tension; None too at an angle that its tables do not have.
+    by_rule : float or None
+        Least length of a pipe by rule of thumb; None of a trough.
     """
 
     zone: TransitionZone
@@ -139,6 +137,7 @@ class TransitionCheck:
     least: float | None = None
     missing: str = ""
     cema: float | None = None
+    by_rule: float | None = None
 
 
 @dataclass(frozen=True)
@@ -163,7 +162,7 @@ class BeltDuty:
     drive_diameter : float or None
         Least diameter of the drive pulleys [m].
     curves : tuple of CurveCheck
-        Every vertical curve on both strands.
+        Every vertical curve of a trough or flat belt on both strands.
     transitions : tuple of TransitionCheck
         Transitions of the spec.
     """
@@ -207,7 +206,7 @@ def belt_duty(balance: Balance, states: Sequence[MotionState] = ()) -> BeltDuty:
         largest=largest,
         safety_steady=safety(steady),
         safety=safety(largest),
-        safety_needed=_classic_safety(balance.line),
+        safety_needed=classic_safety(balance.line),
         per_width_steady=steady / belt.width,
         per_width=largest / belt.width,
         rating=belt.rating,
@@ -224,6 +223,7 @@ def _splice_strengths(balance: Balance, endurance: float) -> dict[str, float]:
     belt, steady = balance.line.belt, balance.settled.running
     zones = [_transition_check(balance.line, zone, steady).most for zone in balance.line.transitions]
     curves = [curve.most for curve in _curve_checks(balance, steady)]
+    curves += [curve.most for curve in pipe_curve_checks(balance.line, steady)]
     strips = [most for most in (*zones, *curves) if most is not None]
     loads = {
         "steady": _largest_running(balance) / belt.width,
@@ -245,10 +245,6 @@ def _splice_strengths(balance: Balance, endurance: float) -> dict[str, float]:
 def _largest_running(balance: Balance) -> float:
     """Largest tension at constant speed, whatever the friction [N]."""
     return max(state.largest for state in balance.settled.running)
-
-
-def _classic_safety(line: Line) -> float:
-    return CLASSIC_SAFETY["steel cord" if line.belt.steel_cord else "textile"]
 
 
 def _drive_diameter(line: Line) -> float | None:
@@ -292,7 +288,7 @@ def _curve_checks(balance: Balance, states: Sequence[MotionState]) -> Iterator[C
     sections = {section.name: section for section in line.sections if section.curve is not None}
     for i, stretch in enumerate(line.loop.stretches):
         section = sections.get(stretch.section)
-        if section is None or section.curve is None:
+        if section is None or section.curve is None or stretch.closed:
             continue
         tensions = [float(end[i]) for state in states for end in (state.starts, state.ends)]
         lowest, highest = min(tensions), max(tensions)
@@ -301,7 +297,7 @@ def _curve_checks(balance: Balance, states: Sequence[MotionState]) -> Iterator[C
             pull, weight = max(0.0, highest), {"belt_mass": stretch.belt_mass, "gravity": line.gravity}
             lift = lift_off_radius(pull, inclination=section.steepest, uplift=line.uplift, **weight)
             by_cema = cema_lift_off_radius(pull, **weight)
-        strips = _strip_limits(line, stretch, section, lowest, highest)
+        strips = _vertical_strips(line, stretch, section, lowest, highest)
         yield CurveCheck(
             stretch.section,
             stretch.strand,
@@ -315,44 +311,16 @@ def _curve_checks(balance: Balance, states: Sequence[MotionState]) -> Iterator[C
         )
 
 
-def _strip_limits(
-    line: Line, stretch: Stretch, section: RouteSection, lowest: float, highest: float
-) -> tuple[float | None, float | None, float | None, float | None]:
-    """Least radii against overstress and slack, and highest and lowest strip tension of a vertical curve.
-
-    None where stiffness or strength are unknown.
-    """
-    width, allowed, stiffness = line.belt.width, allowed_tension(line), line.belt.tensile_stiffness
-    if allowed is None or stiffness is None:
-        return None, None, None, None
+def _vertical_strips(line: Line, stretch: Stretch, section: RouteSection, lowest: float, highest: float) -> StripLimits:
+    """Least radii against overstress and slack, and highest and lowest strip tension of a vertical curve."""
+    width = line.belt.width
     trough = trough_of_stretch(stretch, width)
     stretched, slackened = trough.edge_above, trough.middle_below
     if section.curve == "concave":
         stretched, slackened = slackened, stretched
-    over = slack = math.inf
-    if highest / width < allowed:
-        over = overstress_radius(
-            max(0.0, highest / width),
-            distance=stretched,
-            stiffness_per_width=stiffness,
-            allowed_per_width=allowed,
-        )
-    if lowest / width > LEAST_EDGE_TENSION:
-        slack = buckling_radius(
-            lowest / width,
-            distance=slackened,
-            stiffness_per_width=stiffness,
-            least_per_width=LEAST_EDGE_TENSION,
-        )
-    turned = stiffness / abs(section.radius)
-    most, least = highest / width + turned * stretched, lowest / width - turned * slackened
-    return over, slack, most, least
-
-
-def allowed_tension(line: Line) -> float | None:
-    """Rated tension per width [N/m]; None without strength and rating."""
-    belt = line.belt
-    return belt.rating if belt.strength is None else belt.strength / _classic_safety(line)
+    return strip_limits(
+        line, lowest / width, highest / width, radius=abs(section.radius), stretched=stretched, slackened=slackened
+    )
 
 
 def trough_of_stretch(stretch: Stretch, width: float) -> TroughSection:
@@ -366,29 +334,28 @@ def trough_of_stretch(stretch: Stretch, width: float) -> TroughSection:
 
 
 def _transition_check(line: Line, zone: TransitionZone, states: Sequence[MotionState]) -> TransitionCheck:
-    """Check a transition of the carry strand for the tensions there in every state."""
+    """Check a transition for the tensions there in every state."""
     width, half = line.belt.width, line.count
-    if zone.end == "head":
-        stretch, tensions = line.loop.stretches[-1], [float(state.ends[-1]) for state in states]
-    else:
-        stretch, tensions = line.loop.stretches[half], [float(state.starts[half]) for state in states]
+    starts, at = {
+        ("head", "carry"): (False, -1), ("tail", "carry"): (True, half),
+        ("head", "return"): (True, 0), ("tail", "return"): (False, half - 1),
+    }[zone.end, zone.strand]  # fmt: skip
+    tensions = [float((state.starts if starts else state.ends)[at]) for state in states]
+    stretch = line.loop.stretches[at]
+    shape = stretch.idlers.shape
     lowest, highest = min(tensions) / width, max(tensions) / width
     rated, stiffness = allowed_tension(line), line.belt.tensile_stiffness
     if rated is None:
         return TransitionCheck(zone, lowest, highest, missing="belt.carcass.strength and rating not given")
-    by_cema = cema_transition_length(
+    by_rule, by_cema = shape.forming_length, None if shape.closed else cema_transition_length(
         width, trough_angle=stretch.trough_angle, utilisation=max(0.0, highest) / rated,
         carcass=line.belt.carcass, pulley_height=zone.pulley_height,
     )  # fmt: skip
     if stiffness is None:
-        return TransitionCheck(zone, lowest, highest, missing="belt.carcass.stiffness not given", cema=by_cema)
-    zone_length = transition_stretch(
-        width,
-        middle_roll_length=stretch.idlers.middle_belt(width),
-        trough_angle=stretch.trough_angle,
-        pulley_height=zone.pulley_height,
-        inner_wing=stretch.idlers.inner_wing,
-    )
+        return TransitionCheck(
+            zone, lowest, highest, missing="belt.carcass.stiffness not given", cema=by_cema, by_rule=by_rule
+        )
+    zone_length = shape.transition_stretch(width, zone.pulley_height)
     allowed = EDGE_OVER_RATED * rated
 
     def least(tension: float, stretch: float, limit: float) -> float:
@@ -408,4 +375,5 @@ def _transition_check(line: Line, zone: TransitionZone, states: Sequence[MotionS
         most,
         lower,
         cema=by_cema,
+        by_rule=by_rule,
     )

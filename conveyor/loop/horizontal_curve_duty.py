@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from conveyor.laws.horizontal_curve import half_span
-from conveyor.laws.vertical_curve import buckling_radius, overstress_radius
 from conveyor.line.curve_sets import CurveSets
 from conveyor.line.line import Line
 from conveyor.line.stretches import Strand, Stretch
 from conveyor.loop.balance import Balance
-from conveyor.loop.belt_duty import LEAST_EDGE_TENSION, allowed_tension, trough_of_stretch
+from conveyor.loop.belt_duty import trough_of_stretch
+from conveyor.loop.belt_limits import StripLimits, strip_limits
 from conveyor.loop.tension_coupling import downward_push, inward_pull
 from conveyor.loop.tensions import MotionState
 
@@ -169,29 +169,17 @@ def _radius_at_pull(radius: float, pull: float, held: float) -> float:
     return math.inf if held <= 0.0 else radius * max(0.0, pull) / held
 
 
-def _edge_limits(
-    line: Line, stretch: Stretch, turn: CurveSets, lowest: float, highest: float
-) -> tuple[float | None, float | None, float | None, float | None]:
+def _edge_limits(line: Line, stretch: Stretch, turn: CurveSets, lowest: float, highest: float) -> StripLimits:
     """Least radii for outer and inner edge, and their tensions, with the strain of a vertical curve."""
-    width, allowed, stiffness = line.belt.width, allowed_tension(line), line.belt.tensile_stiffness
-    if allowed is None or stiffness is None:
-        return None, None, None, None
+    width, stiffness = line.belt.width, line.belt.tensile_stiffness or 0.0
     across = half_span(
         width,
         middle_roll_length=stretch.idlers.middle_belt(width),
         trough_angle=stretch.trough_angle,
         inner_wing=stretch.idlers.inner_wing,
     )
-    above = trough_of_stretch(stretch, width).edge_above
-    tight, loose = (tension / width + stiffness * above / turn.vertical for tension in (highest, lowest))
-    over = slack = math.inf
-    if tight < allowed:
-        over = overstress_radius(
-            max(0.0, tight), distance=across, stiffness_per_width=stiffness, allowed_per_width=allowed
-        )
-    if loose > LEAST_EDGE_TENSION:
-        slack = buckling_radius(
-            loose, distance=across, stiffness_per_width=stiffness, least_per_width=LEAST_EDGE_TENSION
-        )
-    turned = stiffness * across / turn.radius
-    return over, slack, tight + turned, loose - turned
+    upright = stiffness * trough_of_stretch(stretch, width).edge_above / turn.vertical
+    return strip_limits(
+        line, lowest / width + upright, highest / width + upright, radius=turn.radius, stretched=across,
+        slackened=across,
+    )  # fmt: skip

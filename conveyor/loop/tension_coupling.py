@@ -127,31 +127,52 @@ def pull_per_width(line: Line, steady: MotionState, places: Array) -> Array:
 
 def _curve_tensions(line: Line, steady: MotionState) -> Iterator[tuple[Stretch, float, float]]:
     radii = {section.name: section.radius for section in line.sections if section.curve is not None}
-    means = (0.5 * (steady.starts + steady.ends)).tolist()
-    for stretch, tension in zip(line.loop.stretches, means, strict=True):
-        if stretch.section in radii:
+    for stretch, tension in zip(line.loop.stretches, _mean_tensions(steady), strict=True):
+        if stretch.section in radii and not stretch.closed:
             yield stretch, radii[stretch.section], tension
+
+
+def _mean_tensions(steady: MotionState) -> list[float]:
+    """Mean tension of every stretch in loop order [N]."""
+    means: list[float] = (0.5 * (steady.starts + steady.ends)).tolist()
+    return means
 
 
 def inward_pull(line: Line, stretch: Stretch, tension: float) -> float:
     """Inward pull of the tension on one set of a horizontal curve [N]; 0 on the straight."""
-    return 0.0 if stretch.turn is None else _force_on_set(line, stretch, tension, stretch.turn.radius)
+    return 0.0 if stretch.turn is None else force_on_set(line, stretch, tension, stretch.turn.radius)
 
 
 def downward_push(line: Line, stretch: Stretch, tension: float) -> float:
     """Downward push of the tension on one set of a horizontal curve that is vertical too [N]; negative: lift."""
-    return 0.0 if stretch.turn is None else _force_on_set(line, stretch, tension, stretch.turn.vertical)
+    return 0.0 if stretch.turn is None else force_on_set(line, stretch, tension, stretch.turn.vertical)
 
 
-def _force_on_set(line: Line, stretch: Stretch, tension: float, radius: float) -> float:
-    """Force of the tension on one set of a curve [N]; a slack belt counts as one without tension."""
+def force_on_set(line: Line, stretch: Stretch, tension: float, radius: float) -> float:
+    """Force of the tension [N] on one set of a curve of a radius [m], signed as that, in N.
+
+    A slack belt counts as one without tension.
+    """
     pull = effective_tension(max(0.0, tension), line_mass=stretch.line_mass, belt_speed=line.speed)
     return math.copysign(curve_set_force(abs(pull), radius=radius, spacing=stretch.spacing), pull * radius)
 
 
 def loads_on_curves(line: Line, steady: MotionState) -> CurveLoads:
     """Loads of the steady tensions on curves."""
-    return CurveLoads(pressing_masses(line, steady), belt_drifts(line, steady))
+    return CurveLoads(pressing_masses(line, steady), belt_drifts(line, steady), pipe_pulls(line, steady))
+
+
+def pipe_pulls(line: Line, steady: MotionState) -> dict[tuple[str, Strand], tuple[float, float]]:
+    """Forces of the tension on one panel of every curve of a pipe, down and to the right [N]; negative: up, left."""
+    curved, pulls = {section.name: section for section in line.sections if section.curved}, {}
+    for stretch, tension in zip(line.loop.stretches, _mean_tensions(steady), strict=True):
+        if stretch.closed and stretch.section in curved:
+            section = curved[stretch.section]
+            pulls[stretch.section, stretch.strand] = (
+                force_on_set(line, stretch, tension, section.radius),
+                force_on_set(line, stretch, tension, section.rightward_radius),
+            )
+    return pulls
 
 
 def belt_drifts(line: Line, steady: MotionState) -> dict[tuple[str, Strand], float]:
@@ -201,7 +222,7 @@ def pressing_masses(line: Line, steady: MotionState) -> dict[tuple[str, Strand],
     pressing = {}
     for stretch, radius, tension in _curve_tensions(line, steady):
         pressing[stretch.section, stretch.strand] = curve_belt_mass(
-            _force_on_set(line, stretch, tension, radius),
+            force_on_set(line, stretch, tension, radius),
             spacing=stretch.spacing,
             inclination=stretch.inclination,
             gravity=line.gravity,

@@ -143,11 +143,9 @@ class CriterionLoadings(SectionLoadings):
         line = self.line
         if self.count > SINGLE_CHANGE_SECTIONS:
             return ()
-        curved = {section.name for section in line.sections if section.curve is not None}
+        curved = {section.name for section in line.sections if section.curved}
         return tuple(
-            k
-            for k, one in enumerate(line.loop.stretches)
-            if one.section in curved or one.turn is not None or raised_height(one) > 0.0
+            k for k, one in enumerate(line.loop.stretches) if one.section in curved or raised_height(one) > 0.0
         )
 
     @cached_property
@@ -318,8 +316,12 @@ class CriterionLoadings(SectionLoadings):
                     yield f"stretch {k}, {words}", _where_present(on, high)
                     yield f"least of stretch {k}, {words}", _where_present(on, -low)
         if self.line.transitions:
-            tail, head = tensions[:, self.stretch_at[self.count]], tensions[:, self.stretch_at[-1] + 1]
-            for end, there in (("tail", tail), ("head", head)):
+            transition_at = {
+                "tail": self.stretch_at[self.count], "head": self.stretch_at[-1] + 1,
+                "tail, return": self.stretch_at[self.count - 1] + 1, "head, return": self.stretch_at[0],
+            }  # fmt: skip
+            for end in (zone.name for zone in self.line.transitions):
+                there = tensions[:, transition_at[end]]
                 yield f"transition, {end}", there
                 yield f"least of transition, {end}", -there
 

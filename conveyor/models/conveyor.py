@@ -9,7 +9,7 @@ from pydantic import Field, ValidationError, model_validator
 
 from conveyor.models.base import Model, Problem, raise_problems
 from conveyor.models.cases import LoadCase, duplicate_case_names
-from conveyor.models.part_conflicts import CONFLICTS, flooded_section, largest_section
+from conveyor.models.part_conflicts import CONFLICTS
 from conveyor.models.parts import ConveyorParts
 from conveyor.models.report import Report
 from conveyor.models.reversal import reversal_problems
@@ -111,12 +111,13 @@ class Conveyor(ConveyorParts):
     def section_on_slope(self, inclination: float) -> float:
         """Largest bulk cross-section [m²] at an inclination [rad] (ISO 5048)."""
         angle = si(self.material.surcharge_angle)
-        return largest_section(self).on_slope(inclination, surcharge_angle=angle)
+        largest = self.idlers.carry.shape.largest_section(self.belt_width, self.material.surcharge)
+        return largest.on_slope(inclination, surcharge_angle=angle)
 
     @property
     def flooded_section(self) -> float:
-        """Bulk cross-section heaped from edge to edge of a horizontal belt [m²]."""
-        return flooded_section(self).area
+        """Bulk cross-section of a level belt heaped from edge to edge, or of a full pipe [m²]."""
+        return self.idlers.carry.shape.flooded_section(self.belt_width, self.material.surcharge).area
 
 
 CHECKS: Final[Mapping[Callable[[Any], Iterator[Problem]], tuple[str, ...]]] = {

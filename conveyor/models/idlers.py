@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import cached_property
 from typing import Annotated, Final, Literal, Self
 
 from pydantic import Field, model_validator
@@ -11,6 +12,7 @@ from pydantic import Field, model_validator
 from conveyor.laws.idler_sets import CemaClass
 from conveyor.laws.loading import NO_WING, Wing
 from conveyor.models.base import Model, Number, Problem, raise_problems
+from conveyor.models.belt_shapes import BeltShape, Pipe, Trough
 from conveyor.models.rolls import Roll
 from conveyor.units import (
     Angle,
@@ -32,29 +34,6 @@ SHARE_SUM_TOLERANCE: Final = 1e-9
 
 Spacing = Annotated[Distance, Bounds(gt="0 m", le="20 m")]
 Share = Annotated[Fraction, Bounds(ge="0 %", le="100 %")]
-
-
-class Pipe(Model):
-    """The belt as a closed pipe in panels of six rolls, one of them below."""
-
-    diameter: Annotated[Length, Bounds(gt="50 mm", le="2 m")]
-    """Of the pipe inside the belt; what the belt is wider than its circumference overlaps."""
-    forming_load: Annotated[Force, Bounds(ge="1 N", le="20 kN")]
-    """What the belt, which would open, presses on each roll of a panel: measured, or of its maker; no default."""
-    filling: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity("75 %")
-    """Most bulk in the pipe, over its cross-section."""
-    lump: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] = quantity("33 %")
-    """Largest lump (belt.wear.lump) over the diameter."""
-
-    @property
-    def radius(self) -> float:
-        """Inner radius [m]."""
-        return 0.5 * si(self.diameter)
-
-    @property
-    def largest_lump(self) -> float:
-        """Largest lump that passes [m]."""
-        return si(self.lump) * si(self.diameter)
 
 
 class IdlerSet(Model):
@@ -151,11 +130,18 @@ class IdlerSet(Model):
         angle = self.inner_trough_angle
         return Wing(si(self.roll.length), 0.0 if angle is None else si(angle))
 
+    @cached_property
+    def shape(self) -> BeltShape:
+        """Shape in which the sets hold the belt: the pipe, else a trough."""
+        return self._trough if self.pipe is None else self.pipe
+
+    @cached_property
+    def _trough(self) -> Trough:
+        return Trough(self.rolls, si(self.roll.length), si(self.trough_angle), self.inner_wing)
+
     def middle_belt(self, width: float) -> float:
         """Width of belt on the middle roll [m]: all of it on one roll, 0 without a middle roll."""
-        if self.rolls == 1:
-            return width
-        return min(si(self.roll.length), width) if self.rolls in {3, 5} else 0.0
+        return self._trough.middle_belt(width)
 
     def roll_at(self, place: int) -> Roll:
         """Roll at a position of the set, left to right."""

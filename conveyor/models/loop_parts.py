@@ -105,12 +105,12 @@ class Pulley(LibraryItem):
 
 
 class Transition(Model):
-    """Where the belt changes between the trough and a flat pulley."""
+    """Where the belt changes between trough or pipe and a flat pulley; of a pipe on both strands alike."""
 
     length: Annotated[Distance, Bounds(gt="0 m", le="200 m")] | None = None
-    """From the pulley's axis to the first set of full trough; what is needed is shown without it."""
+    """From the pulley's axis to the first set of full trough, or of the pipe; what is needed is shown without it."""
     pulley_height: Annotated[Fraction, Bounds(ge="0 %", le="100 %")] | None = None
-    """Top of the pulley over the middle roll, over the depth of the trough: 50 % half trough; full trough without."""
+    """Top of the pulley over the middle roll, over depth of trough or pipe: 50 % half trough; full trough without."""
 
 
 class TakeUp(Model):

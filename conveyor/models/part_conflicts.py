@@ -9,11 +9,13 @@ from typing import Final
 from conveyor.errors import InputError, MessageQuantity, RangeError
 from conveyor.laws.feeder import FEEDER_SPEED
 from conveyor.laws.idler_sets import rated_set_load
-from conveyor.laws.loading import CrossSection, bulk_line_mass, cross_section, pipe_area, usable_width
+from conveyor.laws.loading import bulk_line_mass
+from conveyor.laws.pipe_geometry import FURTHEST_LAP
 from conveyor.laws.resistance import SHORTEST_FOR_FACTOR
 from conveyor.laws.tension import usual_stiffness
 from conveyor.models.base import Problem
 from conveyor.models.belt import Cover, TopCover
+from conveyor.models.belt_shapes import OVERFILL_LIMIT
 from conveyor.models.drive import DrivePulley
 from conveyor.models.idlers import IdlerSet, overlap_problems
 from conveyor.models.parts import ConveyorParts
@@ -22,8 +24,6 @@ from conveyor.models.validation_messages import Location
 from conveyor.units import Quantity, from_si, si, text, unit_system
 from conveyor.units.presentation import format_figure
 
-OVERFILL_LIMIT: Final = 1.5
-"""Largest calculated bulk over the cross-section that the belt holds [-]; more where edge to edge holds more."""
 FASTEST_FEEDER: Final = 2.0
 """Belt speed above which a hopper over the belt is refused [m/s], four times that of feeders: general knowledge."""
 _FLOW_ROUNDING: Final = 1e-9
@@ -40,7 +40,7 @@ def _roll_length_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     for strand, idlers in _idler_sets(conveyor):
         each = si(idlers.roll.length)
         location = ("idlers", strand, "roll", "length")
-        if idlers.pipe is not None:
+        if idlers.shape.closed:
             continue
         if idlers.rolls * each < si(width):
             yield Problem(
@@ -62,42 +62,15 @@ def _in_roll_unit(length: float, idlers: IdlerSet) -> str:
     return text(from_si(float(f"{length:.6g}"), "length", unit))
 
 
-def largest_section(conveyor: ConveyorParts) -> CrossSection:
-    """Largest bulk cross-section on a horizontal belt (ISO 5048)."""
-    pipe = conveyor.idlers.carry.pipe
-    if pipe is not None:
-        return CrossSection(0.0, pipe_area(si(pipe.diameter), filling=si(pipe.filling)))
-    return _bulk_section(conveyor, usable_width(si(conveyor.belt.width)))
-
-
-def flooded_section(conveyor: ConveyorParts) -> CrossSection:
-    """Bulk cross-section heaped from edge to edge of a horizontal belt."""
-    pipe = conveyor.idlers.carry.pipe
-    if pipe is not None:
-        return CrossSection(0.0, pipe_area(si(pipe.diameter)))
-    return _bulk_section(conveyor, si(conveyor.belt.width))
-
-
-def _bulk_section(conveyor: ConveyorParts, across: float) -> CrossSection:
-    """Bulk cross-section on a width of the belt [m]."""
-    carry = conveyor.idlers.carry
-    return cross_section(
-        across,
-        middle_roll_length=carry.middle_belt(across),
-        trough_angle=si(carry.trough_angle),
-        surcharge_angle=conveyor.material.surcharge,
-        inner_wing=carry.inner_wing,
-    )
-
-
 def _fill_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Refuse a flow beyond the calculated range; up to it an overfull trough (ISO 5048) only fails its check."""
     belt, material = conveyor.belt, conveyor.material
     if si(material.flow) == 0.0:
         return
     needed = bulk_line_mass(si(material.flow), belt_speed=si(belt.speed)) / si(material.density)
-    area, flooded = largest_section(conveyor).area, flooded_section(conveyor).area
-    calculated = max(OVERFILL_LIMIT * area, flooded) if conveyor.idlers.carry.pipe is None else flooded
+    shape, of_belt = conveyor.idlers.carry.shape, (conveyor.belt_width, material.surcharge)
+    area, flooded = shape.largest_section(*of_belt).area, shape.flooded_section(*of_belt).area
+    calculated = shape.most_calculated(*of_belt)
     if needed <= calculated * (1.0 + _FLOW_ROUNDING):
         return
     system = unit_system(belt.width)
@@ -110,8 +83,7 @@ def _fill_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     metric = ""
     if system == "US" and text(material.flow).endswith(" tph"):
         metric = "; tph are metric tonnes per hour, short tons per hour are stph"
-    brim = "heaped from edge to edge" if conveyor.idlers.carry.pipe is None else "the whole pipe"
-    why = brim if calculated == flooded else f"{100.0 * OVERFILL_LIMIT:g} % of that"
+    why = shape.brim if calculated == flooded else f"{100.0 * OVERFILL_LIMIT:g} % of that"
     yield Problem(
         ("material", "flow"),
         InputError(
@@ -119,7 +91,7 @@ def _fill_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
             f"belt holds {{}} and is calculated up to {{}}, {why}: reduce material.flow to "
             f"{_safe_limit(most, down=True)} or less, raise belt.speed to {_safe_limit(least, down=False)} or more, "
             f"or take "
-            f"a wider belt{metric}",
+            f"{shape.larger}{metric}",
             *sections_of,
         ),
     )
@@ -345,7 +317,7 @@ def _curve_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
         return
     where = f'section "{curved}" is a horizontal curve'
     for strand, idlers in _idler_sets(conveyor):
-        if idlers.rolls > 1 and si(idlers.trough_angle) == 0.0 and idlers.pipe is None:
+        if idlers.rolls > 1 and si(idlers.trough_angle) == 0.0 and not idlers.shape.closed:
             message = (
                 f"got {text(idlers.trough_angle)}, but {where}, in which nothing holds a flat belt on several rolls: "
                 "take a trough, or rolls: 1"
@@ -354,7 +326,7 @@ def _curve_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _pipe_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """Refuse a pipe that the belt cannot close, one on the return strand alone, and what has no law on pipes."""
+    """Refuse a pipe that the belt cannot close or laps twice, one on the return strand alone, and banking of pipes."""
     carry, back = conveyor.idlers.carry.pipe, conveyor.idlers.return_.pipe
     if back is not None and (carry is None or si(carry.diameter) != si(back.diameter)):
         beside = "the carry strand is none" if carry is None else f"the carry strand's is {text(carry.diameter)}"
@@ -368,15 +340,18 @@ def _pipe_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
             "not close: take a smaller pipe or a wider belt"
         )
         yield Problem(("idlers", "carry", "pipe", "diameter"), message)
+    if si(conveyor.belt.width) >= FURTHEST_LAP * math.pi * si(carry.diameter):
+        message = (
+            f"got {text(carry.diameter)}, round which the belt (belt.width {text(conveyor.belt.width)}) laps more than "
+            "twice: take a larger pipe or a narrower belt"
+        )
+        yield Problem(("idlers", "carry", "pipe", "diameter"), message)
     why = "given, but a pipe (idlers.carry.pipe)"
     for i, section in enumerate(conveyor.route.sections):
-        for name in ("curve", "horizontal_curve"):
+        for name in ("carry_banking", "carry_skew", *(() if back is None else ("return_banking", "return_skew"))):
             if getattr(section, name) is not None:
-                message = f"{why} is calculated on straight sections only; remove it"
+                message = f"{why} is held by its rolls all round, which bank and steer nothing; remove it"
                 yield Problem(("route", "sections", i, name), message)
-    for name in ("head_transition", "tail_transition"):
-        if getattr(conveyor.route, name) is not None:
-            yield Problem(("route", name), f"{why} has no law of its forming length here; remove it")
 
 
 def _length_coefficient_problems(conveyor: ConveyorParts) -> Iterator[Problem]:

@@ -166,7 +166,7 @@ class ConveyorParts(Model):
     @property
     def bottom_cover_on_both(self) -> bool:
         """True if the rolls of both strands run on the bottom cover: a belt turned over, or a pipe on both strands."""
-        return self.route.turned_over or self.idlers.return_.pipe is not None
+        return self.route.turned_over or self.idlers.return_.shape.closed
 
     @property
     def return_compound(self) -> RubberCompound:

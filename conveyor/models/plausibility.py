@@ -91,7 +91,7 @@ def _check_sets(conveyor: Conveyor) -> Iterator[Message]:
     width, speed = si(conveyor.belt.width), si(conveyor.belt.speed)
     for strand, idlers in (("carry", conveyor.idlers.carry), ("return", conveyor.idlers.return_)):
         side_by_side = idlers.rolls * si(idlers.roll.length)
-        if idlers.pipe is None and side_by_side > WIDEST_SET * width:
+        if not idlers.shape.closed and side_by_side > WIDEST_SET * width:
             yield message(
                 f"idlers.{strand}: {idlers.rolls} x {text(idlers.roll.length)} side by side are {{}} times as wide as "
                 "the belt, listed sets at most 1.25 times (ISO 1537, DIN 22107): rolls of a wider belt?",

@@ -55,7 +55,9 @@ def failed_fits(compounds: Iterable[RubberCompound]) -> Iterator[str]:
 
 def _horizontal_assumptions(conveyor: Conveyor) -> Iterator[str]:
     """Assumptions on drift in horizontal curves."""
-    if all(section.horizontal_curve is None for section in conveyor.route.sections):
+    sets = (conveyor.idlers.carry, conveyor.idlers.return_)
+    straight = all(section.horizontal_curve is None for section in conveyor.route.sections)
+    if straight or all(each.shape.closed for each in sets):
         return
     slip, friction = math.degrees(FULL_SLIP_TILT.value), ROLL_ON_BELT_FRICTION.value
     yield (
@@ -66,7 +68,7 @@ def _horizontal_assumptions(conveyor: Conveyor) -> Iterator[str]:
         f"reached at {slip:.0f} deg (general knowledge), of which 70 to 100 % is counted on. The way "
         "into the banking at the ends of a curve, and edge rolls, are left out."
     )
-    if 1 in {conveyor.idlers.carry.rolls, conveyor.idlers.return_.rolls}:
+    if any(each.rolls == 1 for each in sets):
         yield (
             "A flat set in a horizontal curve holds the course of its belt by banking and guiding friction, not its "
             "place (derived): the belt comes in along the middle and drifts all along; its drift is that at the end."
@@ -153,11 +155,12 @@ def roll_assumptions(conveyor: Conveyor) -> tuple[str, ...]:
 def _share_assumption(conveyor: Conveyor) -> str:
     sets = (conveyor.idlers.carry, conveyor.idlers.return_)
     rule = "VDI 2341"
-    if conveyor.idlers.carry.pipe is not None:
+    if conveyor.idlers.carry.shape.closed:
         return (
             "Loads of the six rolls by statics of the ring without friction: weights on the three lower ones by the "
             "lever between them, the given forming load on all (idlers.carry.pipe.forming_load), each evenly over a "
-            "sixth of the circumference; forming length, flexure of the pipe and curves are left out."
+            "sixth of the circumference; tension in curves on the belt's weight and on the two rolls inside the bend; "
+            "the resistance of forming, flexure and twist of the pipe are left out."
         )
     if conveyor.idlers.carry.load_shares is not None:
         rule = "the spec (idlers.carry.load_shares)"

@@ -1,8 +1,8 @@
-"""Flooded belt: bulk heaped from edge to edge over the whole route, with its forces, tensions and set loads.
+"""Flooded belt: bulk from edge to edge or a full pipe over the whole route, with its forces, tensions, set loads.
 
-A feeder that does not stop fills the belt to its edges: the load for which structures are designed and from which
-drives may have to start (general knowledge). The conveyor is not designed by it: nothing is checked, the figures are
-listed with the installed ones.
+A feeder that does not stop fills the belt to its edges, a pipe whole: the load for which structures are designed and
+from which drives may have to start (general knowledge). The conveyor is not designed by it: nothing is checked, the
+figures are listed with the installed ones.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _RTOL = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class FloodedBelt:
-    """A conveyor flooded from edge to edge on every section that bears bulk.
+    """A conveyor flooded to the brim on every section that bears bulk.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ def _set_load(stretch: Stretch) -> float:
 
 
 def flooded_belt(own: CalculatedConveyor, kept: ReuseCache | None = None) -> FloodedBelt | None:
-    """Calculate a conveyor heaped from edge to edge with bulk at its heaviest; None if it carries no bulk.
+    """Calculate a conveyor full to the brim with bulk at its heaviest; None if it carries no bulk.
 
     Parameters
     ----------

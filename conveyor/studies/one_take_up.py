@@ -183,7 +183,7 @@ def _criterion_ranks(load: Load, checks: Iterable[Check]) -> Iterator[tuple[tupl
         figures[f"load of the {duty.pulley.name} pulley"] = duty.largest.resultant
     for zone in load.found.belt_duty.transitions:
         for what, least in (("stretched", zone.stretched), ("slackened", zone.slackened)):
-            figures[f"length of the {zone.zone.end} transition, strips {what}"] = least or 0.0
+            figures[f"length of the {zone.zone.name} transition, strips {what}"] = least or 0.0
     if load.found.line.take_up.travel is not None or load.found.take_up.travel is not None:
         lengths = load.found.line.loop.length
         means = [state.mean(lengths) for state in load.found.motion_states]

@@ -11,7 +11,8 @@ from conveyor.checks import run_checks
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.line.strands import Strands
 from conveyor.line.stretches import CurveLoads, masses_on_rolls
-from conveyor.loop.belt_duty import LEAST_EDGE_TENSION, belt_duty
+from conveyor.loop.belt_duty import belt_duty
+from conveyor.loop.belt_limits import LEAST_EDGE_TENSION
 from conveyor.loop.tension_coupling import next_convergence, pressing_masses
 from conveyor.pipeline import calculate
 from conveyor.remarks.result_warnings import analysis_warnings

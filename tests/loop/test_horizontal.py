@@ -11,7 +11,7 @@ from conveyor.checks.curve_checks import belt_drift, horizontal_edges, wind_lift
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.line.strands import Strands
 from conveyor.line.stretches import CurveLoads
-from conveyor.loop.belt_duty import LEAST_EDGE_TENSION
+from conveyor.loop.belt_limits import LEAST_EDGE_TENSION
 from conveyor.loop.tension_coupling import belt_drifts, pressing_masses
 from conveyor.pipeline import calculate
 from conveyor.report.analysis_plots import cross_section as across

@@ -13,6 +13,8 @@ from conveyor.errors import InputError
 from conveyor.laws.loading import PIPE_ROLLS, pipe_area, pipe_roll_loads
 from conveyor.models.fields import with_fields
 from conveyor.pipeline import calculate
+from conveyor.report.tables.study_tables import flooded_belt as flooded_table
+from conveyor.studies.flooding import flooded_belt
 from tests.command_line import ROOT, run
 
 SPEC = ROOT / "examples" / "specs" / "pipe.yaml"
@@ -64,7 +66,7 @@ def test_it_is_filled_up_to_three_quarters(spec):
     assert pipe_area(0.38) == pytest.approx(spec.flooded_section)
     over = with_fields(spec, {"material.flow": "1500 t/h"})
     assert next(belt_filling(calculate(over))).verdict == "FAIL"
-    with pytest.raises(InputError, match="the whole pipe"):
+    with pytest.raises(InputError, match="filling the whole pipe"):
         with_fields(spec, {"material.flow": "2000 t/h"})
 
 
@@ -88,9 +90,11 @@ def test_a_stiffer_belt_costs_power_and_both_strands_run_on_the_bottom_cover(spe
         ({"idlers.carry.rolls": 3}, "pipe", "a pipe has rolls: 6"),
         ({"idlers.carry.pipe.diameter": "480 mm"}, "diameter", "does not close"),
         ({"idlers.return.pipe.diameter": "300 mm"}, "diameter", "the same pipe"),
-        ({"route.sections.0.horizontal_curve": "left", "route.sections.0.horizontal_radius": "5000 m"},
-         "horizontal_curve", "straight sections only"),
-        ({"route.head_transition": {"length": "20 m"}}, "head_transition", "forming length"),
+        ({"route.sections.0.horizontal_curve": "left", "route.sections.0.horizontal_radius": "5000 m",
+          "route.sections.0.carry_banking": "3 deg"}, "carry_banking", "held by its rolls"),
+        ({"route.sections.0.horizontal_curve": "left", "route.sections.0.horizontal_radius": "5000 m",
+          "route.sections.0.return_skew": "1 deg"}, "return_skew", "held by its rolls"),
+        ({"idlers.carry.pipe.diameter": "230 mm", "idlers.return.pipe.diameter": "230 mm"}, "diameter", "laps more"),
         ({"idlers.carry.cema_class": "C"}, "cema_class", "no set of 6"),
     ],
 )  # fmt: skip
@@ -111,3 +115,22 @@ def test_the_command_reports_it(tmp_path):
     assert "FAIL" not in out
     assert "idlers.carry.pipe.filling" in out
     assert "around a pipe of 380 mm" in (tmp_path / "pipe.html").read_text(encoding="utf-8")
+
+
+def test_a_flooded_pipe_is_full_and_no_more(spec):
+    flooded = flooded_belt(calculate(spec))
+    assert flooded.section == pytest.approx(math.pi * 0.38**2 / 4.0, rel=1e-12)
+    assert flooded.found.line.flow == pytest.approx(flooded.section * 850.0 * 5.2, rel=1e-9)
+    note = flooded_table(flooded).note
+    assert "filling the whole pipe" in note
+    assert "edge to edge" not in note
+
+
+def test_one_place_knows_the_shape(spec):
+    pipe, trough = spec.idlers.carry.shape, conveyor.load(SPEC.with_name("overland.yaml")).idlers.carry.shape
+    assert pipe.closed
+    assert not trough.closed
+    assert pipe.largest_section(1.46, 0.3).on_slope(0.4, surcharge_angle=0.3) == pytest.approx(
+        0.75 * pipe.most_calculated(1.46, 0.3)
+    )
+    assert trough.most_calculated(1.4, 0.3) >= 1.5 * trough.largest_section(1.4, 0.3).area

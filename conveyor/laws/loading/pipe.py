@@ -8,7 +8,13 @@ from __future__ import annotations
 import math
 from typing import Final
 
-from conveyor.arguments.limits import require, require_angle, require_not_negative, require_positive
+from conveyor.arguments.limits import (
+    require,
+    require_angle,
+    require_finite,
+    require_not_negative,
+    require_positive,
+)
 from conveyor.laws.loading.roll_loading import RollLoad
 
 __all__ = ["PIPE_ROLLS", "pipe_area", "pipe_roll_loads"]
@@ -62,8 +68,10 @@ def pipe_roll_loads(
     forming_load: float,
     inclination: float,
     gravity: float,
+    curve_down: float = 0.0,
+    curve_right: float = 0.0,
 ) -> tuple[RollLoad, ...]:
-    """Load of each of the six rolls of a panel from weights and the belt's forming load (statics, derived).
+    """Load of each of the six rolls of a panel: weights, forming load, tension in curves (statics, derived).
 
     Parameters
     ----------
@@ -81,11 +89,15 @@ def pipe_roll_loads(
         δ [rad], between -pi/2 and pi/2.
     gravity : float
         g [m/s²], positive.
+    curve_down, curve_right : float
+        Forces of the belt's tension on one panel of a vertical and a horizontal curve [N], negative upward and to the
+        left, see `curve_set_force`.
 
     Returns
     -------
     tuple of RollLoad
-        By `PIPE_ROLLS`. The parts of the forces across the slope add up to (m'_bulk + m'_belt) g cos δ a.
+        By `PIPE_ROLLS`. The parts of the forces across the slope add up to (m'_bulk + m'_belt) g cos δ a + F_down,
+        those to the right to F_right.
 
     Raises
     ------
@@ -99,6 +111,11 @@ def pipe_roll_loads(
     the middle of the pipe. A weight v on a lower roll, 60 deg from below, needs
     v/cos 60 deg = 2 v; the two push inward on each other through the ring. The forming load is the same on
     all rolls, so that it holds itself. Each roll bears over a sixth of the pipe's circumference, evenly.
+
+    Tension spread evenly round the pipe pulls strip by strip in the plane of the curve, as weight does. Down and up
+    it adds to the belt's weight; if the sum lifts, it lies on the three upper rolls in the same way, the bulk stays on
+    the lower ones. To a side it lies on the two rolls there, F/(2 cos 30 deg) on each. No pull relieves a roll of its
+    forming load: the safe side.
 
     Examples
     --------
@@ -118,21 +135,33 @@ def pipe_roll_loads(
     require_not_negative(bulk_line_mass=bulk_line_mass, belt_line_mass=belt_line_mass, forming_load=forming_load)
     require_positive(spacing=spacing, diameter=diameter, roll_length=roll_length, gravity=gravity)
     require_angle(-math.pi / 2.0, inclination=inclination)
+    require_finite(curve_down=curve_down, curve_right=curve_right)
     pull = gravity * math.cos(inclination) * spacing
     length = min(roll_length, math.pi * diameter / 6.0)
-
-    def borne(name: str, mass: float, share: float) -> float:
-        if name == "bottom":
-            return share * mass * pull
-        return (1.0 - share) * mass * pull if name.startswith("lower") else 0.0  # half of the rest, over cos 60 deg
-
+    bulk = _loads_about(bulk_line_mass * pull, _BULK_BELOW)
+    belt = _loads_about(belt_line_mass * pull + curve_down, _BELT_BELOW)
+    side = abs(curve_right) / (2.0 * math.cos(0.5 * _APART))
+    inside = "right" if curve_right > 0.0 else "left"
     return tuple(
         RollLoad(
             name=name,
-            bulk_force=borne(name, bulk_line_mass, _BULK_BELOW),
-            belt_force=borne(name, belt_line_mass, _BELT_BELOW) + forming_load,
+            bulk_force=bulk[name],
+            belt_force=belt[name] + (side if name.endswith(inside) else 0.0) + forming_load,
             length=length,
             shape="uniform",
         )
         for name in PIPE_ROLLS
     )
+
+
+def _loads_about(force: float, share: float) -> dict[str, float]:
+    """Loads of a force down, or up if negative, by its share on the middle one of three rolls [N]."""
+    middle, beside = ("bottom", "lower") if force >= 0.0 else ("top", "upper")
+    size = abs(force)
+
+    def borne(name: str) -> float:
+        if name == middle:
+            return share * size
+        return (1.0 - share) * size if name.startswith(beside) else 0.0  # half of the rest, over cos 60 deg
+
+    return {name: borne(name) for name in PIPE_ROLLS}

@@ -170,6 +170,7 @@ TABLES: Final[dict[str, Maker]] = {
     "pulley_states": _load_table(belt_tables.pulley_states),
     "vertical_curves": _load_table(curve_tables.vertical_curves),
     "horizontal_curves": lambda made: curve_tables.horizontal_curves(made.assessment.loads),
+    "pipe_curves": _load_table(curve_tables.pipe_curves),
     "curve_edges": _load_table(curve_tables.curve_edges),
     "drift_states": _load_table(curve_tables.drift_states),
     "transitions": _load_table(curve_tables.transition_table),
@@ -237,13 +238,14 @@ def analysis_drawings(assessment: Assessment) -> Iterator[Drawing]:
         "section_ends",
     )
     yield from transfer_tables.discharge_drawing(a, system)
-    if a.horizontal:
+    if any(section.horizontal is not None for section in a.line.sections):
         yield Drawing(
             "plan",
             "Plan of the route from the tail, horizontal curves in red; lengths across and along at one scale.",
             lambda: analysis_plots.plan_view(a.line, system=system),
             "sections",
         )
+    if a.horizontal:
         yield Drawing(
             "drift",
             "Drift of the belt in every horizontal curve, all states of motion of all cases; grey: room on the rolls.",

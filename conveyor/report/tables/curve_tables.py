@@ -91,6 +91,35 @@ def horizontal_curves(loads: Sequence[Load]) -> Table:
     return Table("horizontal_curves", "Curves", heading, columns, _curves_of_cases(loads), "belt", note)
 
 
+def pipe_curves(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
+    """Radius of every curve of a pipe and strand, the minimum radii and the force on a panel of all cases."""
+    columns = (
+        Column("section", "text", "section"),
+        Column("strand", "text", "strand"),
+        Column("curve", "text", "kind"),
+        Column("radius", "length", "radius"),
+        Column("angle", "angle", "angle"),
+        Column("lowest tension", "force", "lowest"),
+        Column("highest tension", "force", "highest"),
+        Column("largest pull on a panel", "force", "push"),
+        Column("minimum by rule of thumb", "length", "by_rule"),
+        Column("minimum against overstress", "length", "overstress"),
+        Column("minimum against slack strips", "length", "buckling"),
+        Column("highest in a strip", "strength", "most"),
+        Column("lowest in a strip", "strength", "least"),
+    )
+    every = [load.found.pipe_curves for load in loads]
+    rows = _worst_of_cases(every, lowest=min, highest=max, push=max, overstress=max, buckling=max, most=max, least=min)
+    note = (
+        "Rule of thumb: conveyorbeltguide.com/pipe-belts.html. Strips: plane sections of a round pipe, the carcass at "
+        "its distance from the middle. Vertical and horizontal in one section: the radius of both together. Twist of "
+        "the pipe and of its overlap in the curve is not calculated."
+    )
+    if rows and a.line.belt.stiffness is None:
+        note += f" {_USUAL_STIFFNESS}"
+    return Table("pipe_curves", "Curves", "Curves of the pipe, all cases", columns, rows, "belt", note)
+
+
 def curve_edges(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
     """Edge tensions of horizontal curves; no rows where stiffness or strength are not known."""
     columns = (
@@ -136,22 +165,24 @@ def drift_states(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
 def transition_table(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
     """Transition lengths, their minimum lengths and strip tensions over all cases."""
     columns = (
-        Column("end", "text", "zone.end"),
+        Column("end", "text", "zone.name"),
         Column("pulley over depth of trough", "share", "zone.pulley_height"),
         Column("length", "spacing", "zone.length"),
         Column("minimum against overstress", "spacing", "stretched"),
         Column("minimum against slack strips", "spacing", "slackened"),
         Column("minimum by CEMA", "spacing", "cema", sparse=True),
+        Column("minimum by rule of thumb", "spacing", "by_rule", sparse=True),
         Column("lowest tension per width", "strength", "lowest"),
         Column("highest tension per width", "strength", "highest"),
         Column("highest in a strip", "strength", "most"),
         Column("allowed in a strip", "strength", "allowed"),
         Column("lowest in a strip", "strength", "least"),
     )
-    heading = "Transitions between trough and pulley, all cases"
+    heading = "Transitions between the sets and the pulley, all cases"
     note = (
         "Strips of straight way, ISO 5293 taken on to every strip and a raised pulley; at most 130 % of the rated "
-        "tension (or strength over the classic safety), none slack. Carry strand, every state of motion."
+        "tension (or strength over the classic safety), none slack. Carry strand, of a pipe both, every state of "
+        "motion."
     )
     if a.line.transitions and a.line.belt.stiffness is None:
         note += f" {_USUAL_STIFFNESS}"
@@ -160,6 +191,8 @@ def transition_table(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
     rows = _worst_of_cases(every, lowest=min, highest=max, stretched=max, slackened=max, most=max, least=min, cema=max)
     if any(row.cema is not None for row in rows):
         note += " By CEMA: its table over trough and share of the rated tension, not checked."
+    if any(row.by_rule is not None for row in rows):
+        note += " Of a pipe: 55 D, conveyorbeltguide.com/pipe-belts.html, rule of thumb, not checked."
     return Table("transitions", "Curves", heading, columns, rows, "belt", note)
 
 

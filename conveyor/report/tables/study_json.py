@@ -110,7 +110,7 @@ STUDY_KEYS: Final[dict[str, JsonKey]] = {
     ),
     "flooded": JsonKey(
         _flooded_row,
-        ROW_SCHEMA | {"type": ["object", "null"]} | describe_value("bulk from edge to edge of the belt"),
+        ROW_SCHEMA | {"type": ["object", "null"]} | describe_value("the belt full to the brim"),
         optional=True,
     ),
     "load_cases": JsonObject(

@@ -37,9 +37,8 @@ if TYPE_CHECKING:
     from conveyor.studies.states import CalculatedStates
 
 _FLOODED = (
-    "Bulk at its heaviest, heaped from edge to edge of the belt at its surcharge angle, on the whole route, at the "
-    "take-up's setting: load on structure, belt and drives if the feeder does not stop (general knowledge). Nothing is "
-    "checked by it; the mass is without sets and frame."
+    "Bulk at its heaviest, {}, on the whole route, at the take-up's setting: load on structure, belt and drives if the "
+    "feeder does not stop (general knowledge). Nothing is checked by it; the mass is without sets and frame."
 )
 _STATES, _CASES, _DUTY, _UNCERTAINTY = "load-states", "load-cases", "duty", "uncertainty"
 _TENSIONS = (
@@ -304,13 +303,13 @@ def power_bands(study: CalculatedRanges) -> Table:
 
 
 def flooded_belt(study: FloodedBelt) -> Table:
-    """Loads of a belt with bulk from edge to edge on drives, belt and structure."""
+    """Loads of a belt full to the brim on drives, belt and structure."""
     found, heading = study.found, "Flooded belt"
     rows: list[Figure] = [
         Figure("cross-section of the bulk", "area", study.section),
         Figure("cross-section over what the belt holds", "share", study.section / study.held),
     ]
-    note = f"No answer: {study.reason}." if found is None else _FLOODED
+    note = f"No answer: {study.reason}." if found is None else _FLOODED.format(found.conveyor.idlers.carry.shape.brim)
     if found is not None:
         balance, duty = found.balance, found.belt_duty
         powers = [drive.power for drive in found.line.drives]
