@@ -93,7 +93,7 @@ def conveyor_kind(conveyor: Conveyor) -> ConveyorKind:
     """Kind of a conveyor: by its hopper or pipe, else downhill where it falls, overland from a kilometre on."""
     if conveyor.route.feeding is not None and conveyor.route.feeding.hopper is not None:
         return "feeder"
-    if conveyor.idlers.carry.pipe is not None:
+    if conveyor.idlers.carry.shape.closed:
         return "pipe"
     if conveyor.route.rise < 0.0:
         return "downhill"
