@@ -65,6 +65,12 @@ def test_a_plate_has_no_rolls_and_no_sag(slider):
     assert all(on_plate.forces[key] == 0.0 for key in ("indentation", "idler_rotation", "flexure", "misalignment"))
     assert result.stretches[1].forces["indentation"] > 0.0
     assert all(duty.stretch.bed is None for duty in result.set_duty)
+    assert result.line.stretches[0].least_tension == 0.0
+    subjects = {str(check.subject) for check in result.checks if check.key == "sag"}
+    assert subjects == {"minimum tension (sag), carry", "minimum tension (sag), return"}
+    assert {str(check.subject) for check in conveyor.analyse(all_on_plates(slider)).checks if check.key == "sag"} == {
+        "minimum tension (sag), return"
+    }
 
 
 def test_sections_on_sets_are_those_of_the_belt_without_a_plate(slider):
