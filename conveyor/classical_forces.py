@@ -7,7 +7,7 @@ commonly reproduced; skirts, cleaners, ploughs and pulleys by its figures.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from typing import Final
@@ -114,13 +114,15 @@ def _bed_friction(stretch: Stretch, gravity: float) -> float:
     )  # fmt: skip
 
 
-def hopper_forces(line: Line) -> Iterator[Force]:
-    """Pull-out force under every hopper in flow, and what the load costs on sets or plate, by every method [N]."""
+def hopper_forces(
+    line: Line, load: Callable[[HopperOutlet], float] = lambda hopper: hopper.flow_load
+) -> Iterator[Force]:
+    """Pull-out force under every hopper, and what its load costs on sets or plate, by every method [N]; in flow."""
     for point in line.loading:
         if (hopper := point.loaded_hopper) is None:
             continue
         here = partial(Force, kind="special", spot=point.spot, place=point.place, bulk=point.comes_with)
-        pull, support = hopper_pull(line, point.section, hopper, hopper.flow_load)
+        pull, support = hopper_pull(line, point.section, hopper, load(hopper))
         yield here(key="hopper_pull", name=f"pull-out under the hopper{point.name}", newtons=pull,
                    source="load in flow x friction of the shear, Arnold, McLean and Roberts")  # fmt: skip
         yield here(key="hopper_load", name=f"sets or plate under the hopper{point.name}", newtons=support,

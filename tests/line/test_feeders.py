@@ -6,6 +6,8 @@ from pathlib import Path
 import pytest
 
 import conveyor
+import conveyor.models
+from conveyor.dynamics.simulation import simulate_scenarios
 from conveyor.errors import InputError
 from conveyor.units import si
 from tests.command_line import run
@@ -50,6 +52,73 @@ def test_start_after_filling_breaks_the_initial_load_away(feeder):
     assert parted == pytest.approx(friction * more, rel=1e-9)
     assert forces(high) == pytest.approx(forces(low), rel=1e-12)
     assert checks(high)["feeder_grip"].required > checks(low)["feeder_grip"].required
+
+
+def test_a_filled_hopper_takes_half_its_pull_off_the_slack_side_of_a_screw_take_up(feeder):
+    """Hopper at the tail, drive at the head: a loop of fixed length gains on the carry strand what the return loses."""
+    found = conveyor.analyse(with_hopper(feeder, flow_factor=0.5, initial_factor=2.0)).hopper_states
+    filled, flow, run_out = found.values()
+    load = 850.0 * si(feeder.calculation.gravity) * 4.0 * 0.6**2
+    pull = flow.balance.line.design_friction * (math.sin(math.radians(50.0)) + 0.3) * load
+    bends = [sum(one.balance.settled.bends) for one in (filled, flow, run_out)]
+    near = 2.0 * (max(bends) - min(bends))  # pulleys feel the tension
+    assert filled.motion.force - flow.motion.force == pytest.approx(1.5 * pull, abs=near)
+    assert flow.motion.force - run_out.motion.force == pytest.approx(0.5 * pull, abs=near)
+    (before,), (after,) = flow.motion.drives, filled.motion.drives
+    assert after.slack - before.slack == pytest.approx(-0.75 * pull, abs=near)
+    assert after.tight - before.tight == pytest.approx(0.75 * pull, abs=near)
+    assert near < 0.01 * pull
+
+
+def test_a_weight_keeps_the_slack_side(feeder):
+    take_up = {"kind": "gravity", "position": "head", "tension": "60 kN"}
+    found = conveyor.analyse(feeder.replace(route=feeder.route.replace(take_up=take_up))).hopper_states
+    slack = [state.motion.drives[0].slack for state in found.values()]
+    assert slack == pytest.approx([slack[0]] * 3, rel=1e-9)
+
+
+def test_the_slack_side_needed_under_the_filled_hopper(feeder):
+    """e^(μ α) - 1 of the drive; what the message asks for passes, a little less fails."""
+    loose = feeder.replace(
+        route=feeder.route.replace(take_up={"kind": "screw", "position": "tail", "tension": "60 kN"})
+    )
+    result = conveyor.analyse(loose)
+    grip = checks(result)["feeder_grip"]
+    filled = result.hopper_states["filled, after standing"].motion
+    assert grip.failed
+    assert grip.required == pytest.approx(filled.force / math.expm1(0.35 * math.radians(210.0)), rel=1e-12)
+    needed = 60e3 + grip.required - grip.calculated
+    for tension, fails in ((1.02 * needed, False), (0.96 * needed, True)):
+        taut = {"kind": "screw", "position": "tail", "tension": f"{tension:.6g} N"}
+        assert (
+            checks(conveyor.analyse(feeder.replace(route=feeder.route.replace(take_up=taut))))["feeder_grip"].failed
+            is fails
+        )
+    safety = checks(result)["feeder_safety"]
+    assert safety.calculated == pytest.approx(800e3 * 1.2 / filled.largest, rel=1e-12)
+
+
+def test_a_start_that_stalls_says_what_torque_it_needs(feeder):
+    """5.5 kW give 16.9 kN at the belt, the filled hopper holds some 90 kN."""
+    weak = conveyor.analyse(feeder.replace(drive=feeder.drive.replace(installed_power="5.5 kW")))
+    start = checks(weak)["breakaway"]
+    rated = 5.5e3 * 0.92 / 0.3
+    assert start.failed
+    assert f"{start.required / rated:.2f} times the rated torque breaks it away" in str(start.why)
+    times = {name: state.start_time for name, state in weak.hopper_states.items()}
+    assert times["filled, after standing"] is None
+    assert times["flow"] is not None
+
+
+def test_a_start_through_time_breaks_the_initial_load_away(feeder):
+    """Motors too weak for the filled hopper, strong enough for the flow: only the start from rest stalls."""
+    weak = feeder.replace(drive=feeder.drive.replace(installed_power="5.5 kW"))  # 1.6 x 16.9 kN at the belt
+    start = {"name": "s", "begins": "at rest", "loading": "full", "events": [{"do": "start"}], "duration": "4 s"}
+    scenario = conveyor.models.Scenario.from_data(start)
+    stalled = simulate_scenarios(weak, [scenario], step=0.02).followed[0]
+    light = simulate_scenarios(with_hopper(weak, initial_factor=0.5), [scenario], step=0.02).followed[0]
+    assert abs(stalled.belt_speed[-1]) < 0.01 * 0.3  # the belt before the drive gives way, then all stands
+    assert light.belt_speed[-1] > 0.9 * 0.3
 
 
 def test_an_empty_belt_has_no_hopper(feeder):

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.classical_forces import hopper_pull
+from conveyor.laws.belt_strength import belt_safety
 from conveyor.laws.feeder import FEEDER_SPEED
 from conveyor.line.hopper_outlets import HopperOutlet
 from conveyor.line.transfer_parts import LoadingPoint
+from conveyor.loop.hopper_states import HopperState
 from conveyor.report.table_model import Column, Table
 from conveyor.report.tables.transfer_tables import SHEET
 
@@ -34,6 +36,33 @@ def hopper_table(a: CalculatedConveyor) -> Table:
         f"Feeders run at {FEEDER_SPEED.value:g} m/s or less (general knowledge)."
     )
     return Table("hoppers", SHEET, "Hoppers over the belt", columns, tuple(rows), "transfer", note)
+
+
+def hopper_state_table(a: CalculatedConveyor) -> Table:
+    """Drive force, tensions, safety and start of a belt feeder in each state of its hoppers."""
+    belt, rows = a.line.belt, list(a.hopper_states.values())
+
+    def safety(state: HopperState) -> float | None:
+        largest = state.motion.largest
+        if belt.strength is None or largest <= 0.0:
+            return None
+        return belt_safety(largest, nominal_strength=belt.strength, belt_width=belt.width)
+
+    columns = (
+        Column("state", "text", "name"),
+        Column("drive force", "force", "motion.force"),
+        Column("motor power", "power", lambda state: state.balance.frame.motor(state.motion.force)),
+        Column("largest tension", "force", "motion.largest"),
+        Column("slack side", "force", lambda state: min(side.slack for side in state.motion.drives)),
+        Column("safety of the belt", "safety", safety),
+        Column("time to full speed, at most", "time", "start_time"),
+    )
+    note = (
+        "All hoppers at once, the take-up at its setting, with the friction to design for. After standing the belt "
+        "breaks the initial load away; in the run-out the hoppers are empty and the belt is full. Time to full speed "
+        "by the drive force at rest, as if the load stayed; none where the start stalls."
+    )
+    return Table("hopper_states", SHEET, "Belt feeder by state of the hoppers", columns, tuple(rows), "transfer", note)
 
 
 def _state_rows(
