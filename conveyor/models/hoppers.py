@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Annotated, Self
 
@@ -10,7 +11,7 @@ from pydantic import Field, model_validator
 from conveyor.errors import ConveyorError
 from conveyor.laws.feeder import flow_load_factor
 from conveyor.models.base import Model, Number, Problem, raise_problems
-from conveyor.units import Angle, Bounds, Distance, Length, si, text
+from conveyor.units import Angle, Bounds, Distance, Length, from_si, si, text
 
 Factor = Annotated[Number, Field(gt=0, le=100)]
 
@@ -43,12 +44,26 @@ class Hopper(Model):
     @model_validator(mode="after")
     def _holds_bulk(self) -> Self:
         raise_problems("Hopper", list(self._problems()))
+        raise_problems("Hopper", list(self._load_problems()))
         return self
+
+    @property
+    def height(self) -> float:
+        """Height of the hopper over its outlet [m]."""
+        return (si(self.top_width) - si(self.outlet_width)) / (2.0 * math.tan(si(self.half_angle)))
 
     def _problems(self) -> Iterator[Problem]:
         if si(self.top_width) <= si(self.outlet_width):
             message = f"got {text(self.top_width)}, not wider than the outlet (outlet_width {text(self.outlet_width)})"
             yield Problem(("top_width",), message)
+        elif si(self.gate_height) > self.height:
+            unit = text(self.gate_height).split()[1]
+            height = text(from_si(float(f"{self.height:.4g}"), "length", unit))
+            message = (
+                f"got {text(self.gate_height)}, higher than the hopper, {height} by top_width, outlet_width and "
+                "half_angle: correct one of the four"
+            )
+            yield Problem(("gate_height",), message)
         if si(self.wall_friction) >= si(self.internal_friction):
             message = (
                 f"got {text(self.wall_friction)}, not below internal_friction {text(self.internal_friction)}: the bulk "
@@ -64,3 +79,17 @@ class Hopper(Model):
                 )
             except ConveyorError as error:
                 yield Problem(("half_angle",), str(error))
+
+    def _load_problems(self) -> Iterator[Problem]:
+        """Refuse a load after filling below that in flow."""
+        initial = self.initial_factor or self.height / si(self.outlet_width)
+        flow = self.flow_factor or flow_load_factor(
+            si(self.half_angle), internal_friction=si(self.internal_friction), wall_friction=si(self.wall_friction)
+        )
+        if initial < flow:
+            name, its = ("top_width", "of its height") if self.initial_factor is None else ("initial_factor", "given")
+            message = (
+                f"the load factor after filling, {initial:.3g} {its}, is below the {flow:.3g} of flow: bulk at rest "
+                "bears on the belt with no less; take a higher hopper, or give both factors"
+            )
+            yield Problem((name,), message)

@@ -162,6 +162,12 @@ def test_gate_and_speed_are_checked(feeder):
         ({"wall_friction": "55 deg"}, "wall_friction"),
         ({"half_angle": "59 deg", "wall_friction": "45 deg"}, "half_angle"),
         ({"outlet_width": "900 mm"}, "wider than the skirts"),
+        ({"top_width": "600 mm"}, "top_width: got 600 mm, not wider than the outlet"),
+        ({"top_width": "610 mm"}, "gate_height: got 250 mm, higher than the hopper, 13.74 mm"),
+        ({"half_angle": "60 deg", "top_width": "1400 mm", "flow_factor": 0.2}, "got 250 mm, higher than the hopper"),
+        ({"outlet_length": "9 m"}, "outlet_length: got 9 m, longer than the 8 m of belt to the head"),
+        ({"flow_factor": 0.5, "initial_factor": 0.4}, "initial_factor: the load factor after filling, 0.4 given"),
+        ({"flow_factor": 6.0}, "top_width: the load factor after filling, 5.49 of its height, is below the 6 of flow"),
     ],
 )
 def test_what_a_hopper_cannot_be(feeder, changes, match):
@@ -176,6 +182,59 @@ def test_a_fast_belt_and_a_fall_are_refused(feeder):
         feeder.route.feeding.replace(drop_height="1 m")
     with pytest.raises((InputError, ValueError), match="from rest"):
         feeder.route.feeding.replace(speed="0.1 m/s")
+
+
+def test_what_a_belt_under_a_hopper_cannot_be(feeder):
+    feeding, (section,) = feeder.route.feeding, feeder.route.sections
+    share = {"share": "50 %"}
+    with pytest.raises(InputError, match="skirt_width: got 1300 mm, wider than the belt"):
+        feeder.replace(route=feeder.route.replace(feeding=feeding.replace(skirt_width="1300 mm")))
+    pipe = conveyor.load("examples/specs/pipe.yaml")
+    with pytest.raises(InputError, match=r"hopper: given, but the belt closes to a pipe"):
+        feeder.replace(idlers=pipe.idlers, material=feeder.material.replace(flow="60 t/h"))
+    twice = {"feeding": feeding.replace(**share), "further_feeding": [feeding.replace(**share)]}
+    with pytest.raises(InputError, match="stands where another hopper does"):
+        feeder.replace(route=feeder.route.replace(**twice))
+    curved = section.replace(bed=None, curve="convex", curve_radius="100 m")
+    with pytest.raises(InputError, match='given on the curve of section "feeder"'):
+        feeder.replace(route=feeder.route.replace(sections=[curved]))
+    head = section.replace(name="head", length="2 m")
+    at_head = feeder.route.replace(sections=[head.replace(name="tail"), head], feeding=feeding.replace(section="head"))
+    with pytest.raises(InputError, match="longer than the 2 m of belt to the head"):
+        feeder.replace(route=at_head)
+    short = feeding.replace(section="head", hopper=feeding.hopper.replace(outlet_length="1 m"))
+    behind = feeder.replace(route=at_head.replace(feeding=short))
+    with pytest.raises(InputError, match="the gate of a hopper stands at one end of its outlet"):
+        behind.replace(cases=[{"name": "back", "reversed": True}])
+
+
+def test_two_hoppers_add_up_and_the_first_has_room_to_the_second(feeder):
+    """Each as alone, with the same load: their pulls are not shared by the flow."""
+    feeding, (section,) = feeder.route.feeding.replace(share="50 %"), feeder.route.sections
+    sections = [section, section.replace(name="second")]
+    second = feeding.replace(section="second")
+    both = feeder.replace(
+        route=feeder.route.replace(sections=sections, feeding=feeding, further_feeding=[second]),
+        material=feeder.material.replace(flow="120 t/h"),
+    )
+    pulls = [each.total for each in conveyor.analyse(both).balance.every if each.key == "hopper_pull"]
+    alone = forces(conveyor.analyse(feeder))["hopper_pull"]
+    assert pulls == pytest.approx([alone, alone], rel=1e-12)
+    with pytest.raises(InputError, match="longer than the 3 m of belt to the next hopper"):
+        both.replace(route=both.route.replace(sections=[section.replace(length="3 m"), sections[1]]))
+
+
+def test_the_same_feeder_in_us_units(feeder):
+    feet = {
+        "outlet_length": f"{4 / 0.3048!r} ft",
+        "outlet_width": f"{600 / 25.4!r} in",
+        "top_width": f"{3 / 0.3048!r} ft",
+    }
+    us = with_hopper(feeder, **feet, gate_height=f"{250 / 25.4!r} in")
+    one, other = conveyor.analyse(feeder), conveyor.analyse(us)
+    assert forces(other)["hopper_pull"] == pytest.approx(forces(one)["hopper_pull"], rel=1e-12)
+    assert checks(other)["feeder_flow"].required == pytest.approx(checks(one)["feeder_flow"].required, rel=1e-12)
+    assert checks(other)["feeder_grip"].required == pytest.approx(checks(one)["feeder_grip"].required, rel=1e-9)
 
 
 @pytest.mark.parametrize("units", ["SI", "US"])
