@@ -156,8 +156,10 @@ def hopper_load(
     return load_factor * density * gravity * outlet_length * outlet_width**2
 
 
-def gate_flow(belt_speed: float, *, density: float, gate_width: float, gate_height: float) -> float:
-    """Mass flow under a gate that fills its opening, ρ b h v: the bulk moves with the belt.
+def gate_flow(
+    belt_speed: float, *, density: float, gate_width: float, gate_height: float, efficiency: float = 1.0
+) -> float:
+    """Mass flow under a gate that fills its opening, η ρ b h v (Roberts: volumetric efficiency of a belt feeder).
 
     Parameters
     ----------
@@ -167,11 +169,13 @@ def gate_flow(belt_speed: float, *, density: float, gate_width: float, gate_heig
         ρ of the bulk as it fills [kg/m³], above 0.
     gate_width, gate_height : float
         b across the belt and h over it [m], above 0.
+    efficiency : float
+        η, mean speed of the bulk under the gate over that of the belt [-], above 0, at most 1.
 
     Returns
     -------
     float
-        Mass flow [kg/s]; less by the slip of the upper layers, which is left out.
+        Mass flow [kg/s].
 
     Raises
     ------
@@ -184,4 +188,5 @@ def gate_flow(belt_speed: float, *, density: float, gate_width: float, gate_heig
     100.0
     """
     require_positive(belt_speed=belt_speed, density=density, gate_width=gate_width, gate_height=gate_height)
-    return density * gate_width * gate_height * belt_speed
+    require(0.0 < efficiency <= 1.0, "efficiency", efficiency, "> 0 and <= 1")
+    return efficiency * density * gate_width * gate_height * belt_speed

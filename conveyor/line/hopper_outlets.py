@@ -24,7 +24,7 @@ class HopperOutlet:
     shear_friction : float
         Pull-out force over that load [-].
     rated_flow : float
-        Mass flow of the full opening of the gate at belt speed [kg/s].
+        Mass flow under the gate at belt speed [kg/s].
     """
 
     initial_factor: float
@@ -59,5 +59,6 @@ class HopperOutlet:
             density=si(conveyor.material.density),
             gate_width=width,
             gate_height=si(hopper.gate_height),
+            efficiency=1.0 if hopper.gate_efficiency is None else si(hopper.gate_efficiency),
         )
         return cls(initial, flow, after_filling, flowing, hopper.shear_friction or math.sin(inside), rated)

@@ -8,8 +8,9 @@ from typing import Annotated, Any, Final, Self
 from pydantic import Field, ValidationError, model_validator
 
 from conveyor.models.base import Model, Problem, raise_problems
+from conveyor.models.bulk_sections import flooded_section, largest_section, skirted_areas
 from conveyor.models.cases import LoadCase, duplicate_case_names
-from conveyor.models.part_conflicts import CONFLICTS, flooded_section, largest_section
+from conveyor.models.part_conflicts import CONFLICTS
 from conveyor.models.parts import ConveyorParts
 from conveyor.models.report import Report
 from conveyor.models.reversal import reversal_problems
@@ -114,9 +115,14 @@ class Conveyor(ConveyorParts):
         return largest_section(self).on_slope(inclination, surcharge_angle=angle)
 
     @property
+    def skirted_areas(self) -> dict[str, float]:
+        """Bulk cross-sections of sections wholly between skirts of known height [m²], by name."""
+        return skirted_areas(self)
+
+    @property
     def flooded_section(self) -> float:
-        """Bulk cross-section heaped from edge to edge of a horizontal belt [m²]."""
-        return flooded_section(self).area
+        """Bulk cross-section heaped from edge to edge of a horizontal belt, or more between skirts [m²]."""
+        return max([flooded_section(self).area, *self.skirted_areas.values()])
 
 
 CHECKS: Final[Mapping[Callable[[Any], Iterator[Problem]], tuple[str, ...]]] = {

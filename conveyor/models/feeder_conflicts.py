@@ -33,7 +33,7 @@ def hopper_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     """
     route, speed = conveyor.route, conveyor.belt.speed
     hoppers = [(at, point, point.hopper) for at, point in located_feeding(route).items() if point.hopper is not None]
-    begins = [_distance_of_section(route, point.section) for _, point, _ in hoppers]
+    begins = [distance_of_section(route, point.section) for _, point, _ in hoppers]
     for (location, point, hopper), begin in zip(hoppers, begins, strict=True):
         place = ("route", *location, "hopper")
         if si(speed) > FASTEST_FEEDER:
@@ -63,7 +63,7 @@ def hopper_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
             yield Problem(("route", *hoppers[i][0], "section"), message)
 
 
-def _distance_of_section(route: Route, name: str | None) -> float:
+def distance_of_section(route: Route, name: str | None) -> float:
     """Distance of a section's tail end from the tail [m]; of the first without a name."""
     before = 0.0
     for section in route.sections:

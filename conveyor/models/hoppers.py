@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 from conveyor.errors import ConveyorError
 from conveyor.laws.feeder import flow_load_factor
 from conveyor.models.base import Model, Number, Problem, raise_problems
-from conveyor.units import Angle, Bounds, Distance, Length, from_si, si, text
+from conveyor.units import Angle, Bounds, Distance, Fraction, Length, from_si, si, text
 
 Factor = Annotated[Number, Field(gt=0, le=100)]
 
@@ -25,6 +25,8 @@ class Hopper(Model):
     """Width of the outlet across the belt; the gate is as wide."""
     gate_height: Annotated[Length, Bounds(gt="0 m", le="3 m")]
     """Opening of the gate over the belt."""
+    gate_efficiency: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] | None = None
+    """Flow over that of the full opening at belt speed, less where upper layers slip; 100 % without it."""
     top_width: Annotated[Length, Bounds(gt="0 m", le="50 m")]
     """Width of the hopper at its top."""
     half_angle: Annotated[Angle, Bounds(ge="3 deg", le="60 deg")]

@@ -8,11 +8,12 @@ from typing import Final
 
 from conveyor.errors import InputError, MessageQuantity, RangeError
 from conveyor.laws.idler_sets import rated_set_load
-from conveyor.laws.loading import CrossSection, bulk_line_mass, cross_section, pipe_area, usable_width
+from conveyor.laws.loading import bulk_line_mass
 from conveyor.laws.resistance import SHORTEST_FOR_FACTOR
 from conveyor.laws.tension import usual_stiffness
 from conveyor.models.base import Problem
 from conveyor.models.belt import Cover, TopCover
+from conveyor.models.bulk_sections import flooded_section, largest_section, skirted_areas
 from conveyor.models.drive import DrivePulley
 from conveyor.models.feeder_conflicts import hopper_problems, located_feeding
 from conveyor.models.idlers import IdlerSet, overlap_problems
@@ -59,40 +60,16 @@ def _in_roll_unit(length: float, idlers: IdlerSet) -> str:
     return text(from_si(float(f"{length:.6g}"), "length", unit))
 
 
-def largest_section(conveyor: ConveyorParts) -> CrossSection:
-    """Largest bulk cross-section on a horizontal belt (ISO 5048)."""
-    pipe = conveyor.idlers.carry.pipe
-    if pipe is not None:
-        return CrossSection(0.0, pipe_area(si(pipe.diameter), filling=si(pipe.filling)))
-    return _bulk_section(conveyor, usable_width(si(conveyor.belt.width)))
-
-
-def flooded_section(conveyor: ConveyorParts) -> CrossSection:
-    """Bulk cross-section heaped from edge to edge of a horizontal belt."""
-    pipe = conveyor.idlers.carry.pipe
-    if pipe is not None:
-        return CrossSection(0.0, pipe_area(si(pipe.diameter)))
-    return _bulk_section(conveyor, si(conveyor.belt.width))
-
-
-def _bulk_section(conveyor: ConveyorParts, across: float) -> CrossSection:
-    """Bulk cross-section on a width of the belt [m]."""
-    carry = conveyor.idlers.carry
-    return cross_section(
-        across,
-        middle_roll_length=carry.middle_belt(across),
-        trough_angle=si(carry.trough_angle),
-        surcharge_angle=conveyor.material.surcharge,
-        inner_wing=carry.inner_wing,
-    )
-
-
 def _fill_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Refuse a flow beyond the calculated range; up to it an overfull trough (ISO 5048) only fails its check."""
     belt, material = conveyor.belt, conveyor.material
     if si(material.flow) == 0.0:
         return
     needed = bulk_line_mass(si(material.flow), belt_speed=si(belt.speed)) / si(material.density)
+    skirted = skirted_areas(conveyor)
+    between = [skirted.get(section.name, 0.0) for section in conveyor.route.sections if section.loaded]
+    if between and needed <= OVERFILL_LIMIT * min(between):
+        return
     area, flooded = largest_section(conveyor).area, flooded_section(conveyor).area
     calculated = max(OVERFILL_LIMIT * area, flooded) if conveyor.idlers.carry.pipe is None else flooded
     if needed <= calculated * (1.0 + _FLOW_ROUNDING):
@@ -422,7 +399,7 @@ def _bed_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 CONFLICTS: Final[Mapping[Callable[[ConveyorParts], Iterator[Problem]], tuple[str, ...]]] = {
     _roll_length_problems: ("belt", "idlers"),
-    _fill_problems: ("belt", "idlers", "material"),
+    _fill_problems: ("belt", "idlers", "material", "route"),
     _spacing_problems: ("idlers", "route"),
     _scale_problems: ("idlers", "route"),
     _idler_class_problems: ("belt", "idlers"),

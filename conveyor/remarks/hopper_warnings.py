@@ -21,6 +21,11 @@ def hopper_warnings(conveyor: Conveyor) -> Iterator[Message]:
             "route.feeding.hopper.initial_factor not given: the bulk as high as the hopper; what stands in a bin above "
             "it is left out"
         )
+    if any(hopper.gate_efficiency is None for hopper in hoppers):
+        yield message(
+            "route.feeding.hopper.gate_efficiency not given: the bulk moves with the belt under the gate; upper layers "
+            "that slip take 0 to 25 % of that flow (general knowledge)"
+        )
     if any(hopper.shear_friction is None for hopper in hoppers):
         yield message(
             "route.feeding.hopper.shear_friction not given: the sine of internal_friction (0.8 to 1 times that, "

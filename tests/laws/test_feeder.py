@@ -58,6 +58,10 @@ def test_flow_leaves_less_than_filling():
 
 def test_gate():
     assert gate_flow(0.3, density=1000.0, gate_width=0.6, gate_height=0.25) == pytest.approx(45.0, rel=1e-12)
+    slipping = gate_flow(0.3, density=1000.0, gate_width=0.6, gate_height=0.25, efficiency=0.8)
+    assert slipping == pytest.approx(36.0, rel=1e-12)
+    with pytest.raises(ConveyorError, match="efficiency"):
+        gate_flow(0.3, density=1000.0, gate_width=0.6, gate_height=0.25, efficiency=1.2)
 
 
 def test_refusals():

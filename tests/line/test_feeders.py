@@ -237,6 +237,43 @@ def test_the_same_feeder_in_us_units(feeder):
     assert checks(other)["feeder_grip"].required == pytest.approx(checks(one)["feeder_grip"].required, rel=1e-9)
 
 
+def skirted(spec, **of_feeding):
+    """The feeder of twice the flow, between skirts from the rear of the hopper to the head."""
+    between = {"skirt_length": "4 m", "skirt_width": "600 mm"} | of_feeding
+    feeding = spec.route.feeding.replace(**between, hopper=spec.route.feeding.hopper.replace(gate_height="500 mm"))
+    route = spec.route.replace(feeding=feeding)
+    return spec.replace(route=route, material=spec.material.replace(flow="240 t/h"))
+
+
+def test_bulk_between_skirts_is_held_by_them(feeder):
+    """Middle roll and flat belt: 600 mm x 500 mm over a trough whose wings 600 - 465 mm of belt reach into."""
+    result = conveyor.analyse(skirted(feeder, skirt_height="500 mm"))
+    filling = checks(result)["filling"]
+    wing = 0.5 * (0.6 - 0.465)
+    trough = (0.465 + wing * math.cos(math.radians(20.0))) * wing * math.sin(math.radians(20.0))
+    assert filling.calculated == pytest.approx(240e3 / 3600.0 / 0.3 / 850.0, rel=1e-12)
+    assert filling.required == pytest.approx(0.6 * 0.5 + trough, rel=1e-9)
+    assert filling.verdict == "pass"
+    assert "between the skirts" in str(filling)
+
+
+def test_without_height_or_length_of_skirts_the_open_section_holds(feeder):
+    with pytest.raises(InputError, match=r"material\.flow: got 240 t/h"):
+        skirted(feeder)
+    with pytest.raises(InputError, match=r"material\.flow: got 240 t/h"):
+        skirted(feeder, skirt_height="500 mm", skirt_length="3.9 m")
+    with pytest.raises(InputError, match=r"material\.flow: got 240 t/h"):  # 1.5 times what they hold
+        skirted(feeder, skirt_height="250 mm")
+    assert checks(conveyor.analyse(skirted(feeder, skirt_height="400 mm")))["filling"].failed
+
+
+def test_slip_under_the_gate_takes_flow(feeder):
+    slipping = conveyor.analyse(with_hopper(feeder, gate_efficiency="80 %"))
+    full = checks(conveyor.analyse(feeder))["feeder_flow"].required
+    assert checks(slipping)["feeder_flow"].required == pytest.approx(0.8 * full, rel=1e-12)
+    assert checks(slipping)["feeder_flow"].failed
+
+
 @pytest.mark.parametrize("units", ["SI", "US"])
 def test_report(units, tmp_path):
     done = run(

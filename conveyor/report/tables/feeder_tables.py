@@ -33,6 +33,8 @@ def hopper_table(a: CalculatedConveyor) -> Table:
     note = (
         "After filling: the bulk as high as the hopper over its outlet, Arnold, McLean and Roberts; the belt breaks it "
         "away once. In flow: the field of stress in mass flow; both for slots. A bin above the hopper is left out. "
+        "For a uniform draw-down the capacity must grow along the outlet in running direction (Roberts): a slot that "
+        "widens, a gate that rises; a parallel one empties from its rear end. "
         f"Feeders run at {FEEDER_SPEED.value:g} m/s or less (general knowledge)."
     )
     return Table("hoppers", SHEET, "Hoppers over the belt", columns, tuple(rows), "transfer", note)
