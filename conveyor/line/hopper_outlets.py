@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from conveyor.laws.feeder import flow_load_factor, gate_flow, hopper_load, initial_load_factor
+from conveyor.laws.feeder import gate_flow, hopper_load
 from conveyor.models import Conveyor
 from conveyor.models.hoppers import Hopper
 from conveyor.units import si
@@ -37,13 +37,8 @@ class HopperOutlet:
     @classmethod
     def of(cls, hopper: Hopper, conveyor: Conveyor) -> HopperOutlet:
         """Outlet of a hopper over a conveyor's belt."""
-        width, slope, inside = si(hopper.outlet_width), si(hopper.half_angle), si(hopper.internal_friction)
-        initial = hopper.initial_factor or initial_load_factor(
-            si(hopper.top_width), outlet_width=width, half_angle=slope
-        )
-        flow = hopper.flow_factor or flow_load_factor(
-            slope, internal_friction=inside, wall_friction=si(hopper.wall_friction)
-        )
+        width, inside = si(hopper.outlet_width), si(hopper.internal_friction)
+        initial, flow = hopper.load_factors
         after_filling, flowing = (
             hopper_load(
                 factor,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from conveyor.laws.feeder import BIN_PRESSURE_RATIO
 from conveyor.models import Conveyor
 from conveyor.units.sentences import Message, message
 
@@ -16,10 +17,16 @@ def hopper_warnings(conveyor: Conveyor) -> Iterator[Message]:
             "route.feeding.hopper.flow_factor not given: by the field of stress of a slot hopper in mass flow; funnel "
             "flow leaves more on the belt"
         )
-    if any(hopper.initial_factor is None for hopper in hoppers):
+    if any(hopper.initial_factor is None and hopper.bin_height is None for hopper in hoppers):
         yield message(
-            "route.feeding.hopper.initial_factor not given: the bulk as high as the hopper; what stands in a bin above "
-            "it is left out"
+            "route.feeding.hopper.initial_factor and bin_height not given: the bulk as high as the hopper, no bin "
+            "above it"
+        )
+    if any(hopper.bin_height is not None and hopper.bin_pressure_ratio is None for hopper in hoppers):
+        ratio = BIN_PRESSURE_RATIO
+        yield message(
+            f"route.feeding.hopper.bin_pressure_ratio not given: {ratio.value:g} ({ratio.low:g} to {ratio.high:g}, "
+            "general knowledge); less is more load after filling"
         )
     if any(hopper.gate_efficiency is None for hopper in hoppers):
         yield message(

@@ -3,10 +3,10 @@
 import math
 
 import pytest
-from scipy.integrate import quad
+from scipy.integrate import quad, solve_ivp
 
 from conveyor.errors import ConveyorError
-from conveyor.laws.feeder import flow_load_factor, gate_flow, hopper_load, initial_load_factor
+from conveyor.laws.feeder import bin_surcharge_height, flow_load_factor, gate_flow, hopper_load, initial_load_factor
 
 DEG = math.pi / 180.0
 PRINTED = {"density": 900.0, "outlet_length": 2.05, "outlet_width": 0.35, "gravity": 9.81}
@@ -35,6 +35,26 @@ def test_after_filling_is_the_column_over_the_outlet():
     factor = initial_load_factor(top, outlet_width=width, half_angle=slope)
     load = hopper_load(factor, density=850.0, outlet_length=4.0, outlet_width=width, gravity=9.81)
     assert load == pytest.approx(850.0 * 9.81 * width * 4.0 * height, rel=1e-12)
+
+
+def test_a_bin_presses_like_its_slices_in_balance():
+    """dp/dz = ρ g - K tan φ p/R from the top down, integrated; shallow: the whole column, deep: R/(K tan φ)."""
+    radius, ratio, wall = 1.5, 0.4, 20.0 * DEG
+    bin_walls = {"hydraulic_radius": radius, "wall_friction": wall, "pressure_ratio": ratio}
+    drag = ratio * math.tan(wall) / radius
+    integrated = solve_ivp(lambda _, p: 1.0 - drag * p, (0.0, 6.0), [0.0], rtol=1e-10, atol=1e-12).y[0, -1]
+    assert bin_surcharge_height(6.0, **bin_walls) == pytest.approx(integrated, rel=1e-8)
+    assert bin_surcharge_height(1e-6, **bin_walls) == pytest.approx(1e-6, rel=1e-6)
+    assert bin_surcharge_height(1e4, **bin_walls) == pytest.approx(1.0 / drag, rel=1e-12)
+    assert bin_surcharge_height(0.0, **bin_walls) == 0.0
+    with pytest.raises(ConveyorError, match="bin_height"):
+        bin_surcharge_height(-1.0, **bin_walls)
+
+
+def test_the_bin_stands_on_the_column_over_the_outlet():
+    hopper = {"outlet_width": 0.6, "half_angle": 20.0 * DEG}
+    more = initial_load_factor(3.0, surcharge_height=2.4, **hopper) - initial_load_factor(3.0, **hopper)
+    assert more == pytest.approx(4.0, rel=1e-12)
 
 
 def test_in_flow_the_wedge_below_the_outlet_is_in_balance():

@@ -167,7 +167,7 @@ def test_gate_and_speed_are_checked(feeder):
         ({"half_angle": "60 deg", "top_width": "1400 mm", "flow_factor": 0.2}, "got 250 mm, higher than the hopper"),
         ({"outlet_length": "9 m"}, "outlet_length: got 9 m, longer than the 8 m of belt to the head"),
         ({"flow_factor": 0.5, "initial_factor": 0.4}, "initial_factor: the load factor after filling, 0.4 given"),
-        ({"flow_factor": 6.0}, "top_width: the load factor after filling, 5.49 of its height, is below the 6 of flow"),
+        ({"flow_factor": 6.0}, "top_width: the load factor after filling, 5.49 of its shape, is below the 6 of flow"),
     ],
 )
 def test_what_a_hopper_cannot_be(feeder, changes, match):
@@ -206,6 +206,22 @@ def test_what_a_belt_under_a_hopper_cannot_be(feeder):
     behind = feeder.replace(route=at_head.replace(feeding=short))
     with pytest.raises(InputError, match="the gate of a hopper stands at one end of its outlet"):
         behind.replace(cases=[{"name": "back", "reversed": True}])
+
+
+def test_a_bin_adds_to_the_start_and_nothing_to_flow(feeder):
+    """3 m wide, 6 m of coal on 20 deg walls: h_s of Janssen over the outlet, sheared and carried."""
+    drag = 0.4 * math.tan(math.radians(20.0)) / 1.5
+    column = (1.0 - math.exp(-6.0 * drag)) / drag
+    one, other = conveyor.analyse(feeder), conveyor.analyse(with_hopper(feeder, bin_height="6 m"))
+    assert forces(other) == pytest.approx(forces(one), rel=1e-12)
+    load = 850.0 * si(feeder.calculation.gravity) * 4.0 * 0.6 * column
+    more = one.line.design_friction * (math.sin(math.radians(50.0)) + 0.3) * load
+    assert checks(other)["breakaway"].required - checks(one)["breakaway"].required == pytest.approx(more, rel=1e-9)
+    assert any("bin_pressure_ratio not given" in line for line in map(str, other.warnings))
+    with pytest.raises((InputError, ValueError), match="bin_pressure_ratio: given without bin_height"):
+        with_hopper(feeder, bin_pressure_ratio=0.5)
+    with pytest.raises((InputError, ValueError), match="bin_height: given with initial_factor"):
+        with_hopper(feeder, bin_height="6 m", initial_factor=9.0)
 
 
 def test_two_hoppers_add_up_and_the_first_has_room_to_the_second(feeder):

@@ -31,8 +31,9 @@ def hopper_table(a: CalculatedConveyor) -> Table:
         Column("flow of the full gate", "mass flow", "2.rated_flow"),
     )
     note = (
-        "After filling: the bulk as high as the hopper over its outlet, Arnold, McLean and Roberts; the belt breaks it "
-        "away once. In flow: the field of stress in mass flow; both for slots. A bin above the hopper is left out. "
+        "After filling: the bulk as high as the hopper over its outlet, Arnold, McLean and Roberts, and the pressure "
+        "of a bin above it, Janssen; the belt breaks it away once. In flow: the field of stress in mass flow; both for "
+        "slots. "
         "For a uniform draw-down the capacity must grow along the outlet in running direction (Roberts): a slot that "
         "widens, a gate that rises; a parallel one empties from its rear end. "
         f"Feeders run at {FEEDER_SPEED.value:g} m/s or less (general knowledge)."
