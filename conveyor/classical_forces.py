@@ -122,25 +122,30 @@ def hopper_forces(
         if (hopper := point.loaded_hopper) is None:
             continue
         here = partial(Force, kind="special", spot=point.spot, place=point.place, bulk=point.comes_with)
-        pull, support = hopper_pull(line, point.section, hopper, load(hopper))
+        pull, support, skirts = hopper_pull(line, point.section, hopper, load(hopper))
         yield here(key="hopper_pull", name=f"pull-out under the hopper{point.name}", newtons=pull,
                    source="load in flow x friction of the shear, Arnold, McLean and Roberts")  # fmt: skip
         yield here(key="hopper_load", name=f"sets or plate under the hopper{point.name}", newtons=support,
                    source="load in flow x f, or x friction of the plate")  # fmt: skip
+        if hopper.skirts is not None:
+            yield here(key="hopper_skirts", name=f"skirts under the hopper{point.name}", newtons=skirts,
+                       source="friction x side pressure of load in flow and bulk, Roberts")  # fmt: skip
 
 
-def hopper_pull(line: Line, section: int, hopper: HopperOutlet, load: float) -> tuple[float, float]:
-    """Pull-out force at a vertical load on the belt under a hopper over a section, and the resistance below it [N]."""
+def hopper_pull(line: Line, section: int, hopper: HopperOutlet, load: float) -> tuple[float, float, float]:
+    """Pull-out force at a vertical load under a hopper over a section, resistance below it, friction of skirts [N]."""
     bed = line.stretches[section].bed
     friction = float(line.friction_factors[section]) if bed is None else bed.friction
-    return hopper.shear_friction * load, friction * load
+    skirts = 0.0 if hopper.skirts is None else hopper.skirts.resistance(load)
+    return hopper.shear_friction * load, friction * load, skirts
 
 
 def initial_pull(line: Line, point: LoadingPoint) -> float:
     """Addition to the resistance when a feeder starts after its hopper was filled [N]; 0 without a hopper or bulk."""
     if (hopper := point.loaded_hopper) is None:
         return 0.0
-    return math.fsum(hopper_pull(line, point.section, hopper, hopper.initial_load - hopper.flow_load))
+    filled, flow = (hopper_pull(line, point.section, hopper, load) for load in (hopper.initial_load, hopper.flow_load))
+    return math.fsum(filled) - math.fsum(flow)
 
 
 def cema_forces_along(line: Line, factors: CemaFactors) -> tuple[Force, ...]:

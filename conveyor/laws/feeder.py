@@ -245,3 +245,60 @@ def gate_flow(
     require_positive(belt_speed=belt_speed, density=density, gate_width=gate_width, gate_height=gate_height)
     require(0.0 < efficiency <= 1.0, "efficiency", efficiency, "> 0 and <= 1")
     return efficiency * density * gate_width * gate_height * belt_speed
+
+
+def hopper_skirt_resistance(
+    load: float,
+    *,
+    pressure_ratio: float,
+    friction: float,
+    density: float,
+    outlet_length: float,
+    outlet_width: float,
+    gate_height: float,
+    gravity: float,
+) -> float:
+    """Friction of the bulk on both skirts under a hopper, F = μ K (2 Q + ρ g B L y) y/B (form of Roberts; derived).
+
+    Parameters
+    ----------
+    load : float
+        Q on the outlet [N], at least 0.
+    pressure_ratio : float
+        K, side pressure over vertical pressure of the moving bulk [-], above 0.
+    friction : float
+        μ of bulk on skirts [-], at least 0.
+    density : float
+        ρ [kg/m³], above 0.
+    outlet_length, outlet_width, gate_height : float
+        L along the belt, B across it, y over it [m], above 0.
+    gravity : float
+        g [m/s²], above 0.
+
+    Returns
+    -------
+    float
+        F [N].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    The vertical pressure grows from Q/(B L) at the outlet by ρ g to the belt; K times it presses on both skirts.
+
+    Examples
+    --------
+    >>> outlet = {"outlet_length": 4.0, "outlet_width": 0.6, "gate_height": 0.25}
+    >>> round(
+    ...     hopper_skirt_resistance(3000.0, pressure_ratio=0.4, friction=0.5, density=850.0, gravity=9.81, **outlet), 1
+    ... )
+    916.9
+    """
+    require_not_negative(load=load, friction=friction)
+    require_positive(pressure_ratio=pressure_ratio, density=density, outlet_length=outlet_length)
+    require_positive(outlet_width=outlet_width, gate_height=gate_height, gravity=gravity)
+    between = density * gravity * outlet_width * outlet_length * gate_height
+    return friction * pressure_ratio * (2.0 * load + between) * gate_height / outlet_width

@@ -5,10 +5,27 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from conveyor.laws.feeder import gate_flow, hopper_load
+from conveyor.laws.feeder import gate_flow, hopper_load, hopper_skirt_resistance
 from conveyor.models import Conveyor
 from conveyor.models.hoppers import Hopper
 from conveyor.units import si
+
+
+@dataclass(frozen=True)
+class HopperSkirts:
+    """Skirts between a hopper's outlet and the belt, as `hopper_skirt_resistance` takes them, SI."""
+
+    pressure_ratio: float
+    friction: float
+    density: float
+    outlet_length: float
+    outlet_width: float
+    gate_height: float
+    gravity: float
+
+    def resistance(self, load: float) -> float:
+        """Friction of the bulk on both at a load on the outlet [N]."""
+        return hopper_skirt_resistance(load, **vars(self))
 
 
 @dataclass(frozen=True)
@@ -25,6 +42,8 @@ class HopperOutlet:
         Pull-out force over that load [-].
     rated_flow : float
         Mass flow under the gate at belt speed [kg/s].
+    skirts : HopperSkirts or None
+        Skirts between outlet and belt; None where their friction is not asked.
     """
 
     initial_factor: float
@@ -33,10 +52,11 @@ class HopperOutlet:
     flow_load: float
     shear_friction: float
     rated_flow: float
+    skirts: HopperSkirts | None = None
 
     @classmethod
-    def of(cls, hopper: Hopper, conveyor: Conveyor) -> HopperOutlet:
-        """Outlet of a hopper over a conveyor's belt."""
+    def of(cls, hopper: Hopper, conveyor: Conveyor, *, skirt_friction: float) -> HopperOutlet:
+        """Outlet of a hopper over a conveyor's belt, between skirts of a friction [-]."""
         width, inside = si(hopper.outlet_width), si(hopper.internal_friction)
         initial, flow = hopper.load_factors
         after_filling, flowing = (
@@ -56,4 +76,15 @@ class HopperOutlet:
             gate_height=si(hopper.gate_height),
             efficiency=1.0 if hopper.gate_efficiency is None else si(hopper.gate_efficiency),
         )
-        return cls(initial, flow, after_filling, flowing, hopper.shear_friction or math.sin(inside), rated)
+        skirts = None
+        if hopper.skirt_pressure_ratio is not None:
+            skirts = HopperSkirts(
+                hopper.skirt_pressure_ratio,
+                skirt_friction,
+                si(conveyor.material.heaviest),
+                si(hopper.outlet_length),
+                width,
+                si(hopper.gate_height),
+                si(conveyor.calculation.gravity),
+            )
+        return cls(initial, flow, after_filling, flowing, hopper.shear_friction or math.sin(inside), rated, skirts)

@@ -44,6 +44,9 @@ class Hopper(Model):
     initial_factor: Factor | None = None
     """Load after filling over density, gravity, length and square of the width of the outlet; of the hopper's height
     and the bin without it."""
+    skirt_pressure_ratio: Annotated[Number, Field(ge=0.2, le=1)] | None = None
+    """Side over vertical pressure of the bulk that moves between outlet and belt; its friction on the skirts there, of
+    feeding.skirt_friction, is not asked without it."""
     flow_factor: Factor | None = None
     """The same in flow; by the field of stress in mass flow without it, needed in funnel flow."""
 

@@ -33,6 +33,11 @@ def hopper_warnings(conveyor: Conveyor) -> Iterator[Message]:
             "route.feeding.hopper.gate_efficiency not given: the bulk moves with the belt under the gate; upper layers "
             "that slip take 0 to 25 % of that flow (general knowledge)"
         )
+    if any(hopper.skirt_pressure_ratio is None for hopper in hoppers):
+        yield message(
+            "route.feeding.hopper.skirt_pressure_ratio not given: the bulk's friction on skirts between outlet and "
+            "belt is left out (0.4 to 1, general knowledge)"
+        )
     if any(hopper.shear_friction is None for hopper in hoppers):
         yield message(
             "route.feeding.hopper.shear_friction not given: the sine of internal_friction (0.8 to 1 times that, "

@@ -6,7 +6,15 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 
 from conveyor.errors import ConveyorError
-from conveyor.laws.feeder import bin_surcharge_height, flow_load_factor, gate_flow, hopper_load, initial_load_factor
+from conveyor.laws.feeder import (
+    bin_surcharge_height,
+    flow_load_factor,
+    gate_flow,
+    hopper_load,
+    hopper_skirt_resistance,
+    initial_load_factor,
+)
+from conveyor.laws.resistance import skirt_resistance
 
 DEG = math.pi / 180.0
 PRINTED = {"density": 900.0, "outlet_length": 2.05, "outlet_width": 0.35, "gravity": 9.81}
@@ -74,6 +82,31 @@ def test_flow_leaves_less_than_filling():
     walls = (10.0, 15.0, 20.0)
     loads = [flow_load_factor(0.35, internal_friction=50.0 * DEG, wall_friction=wall * DEG) for wall in walls]
     assert all(0.0 < load < initial_load_factor(3.0, outlet_width=0.6, half_angle=0.35) for load in loads)
+
+
+def test_skirts_under_the_hopper_feel_load_and_bulk():
+    """μ K of the vertical pressure, integrated from the outlet down to the belt, on both sides."""
+    load, density, length, width, height = 3000.0, 850.0, 4.0, 0.6, 0.25
+    side = quad(lambda z: 0.4 * (load / (width * length) + density * 9.81 * z), 0.0, height)[0]
+    found = hopper_skirt_resistance(
+        load, pressure_ratio=0.4, friction=0.5, density=density, outlet_length=length, outlet_width=width,
+        gate_height=height, gravity=9.81,
+    )  # fmt: skip
+    assert found == pytest.approx(2.0 * 0.5 * length * side, rel=1e-12)
+
+
+def test_skirts_without_a_hopper_are_those_of_iso_5048_at_a_pressure_ratio_of_one():
+    """μ2 Q² ρ g l/(v² b²), Q the volume flow, against μ K ρ g l y² at the depth of the flow y = Q/(v b)."""
+    flow, speed, width, length = 0.04, 0.3, 0.6, 2.5
+    iso = skirt_resistance(
+        volume_flow=flow, bulk_density=850.0, length=length, bulk_speed=speed, skirt_distance=width,
+        skirt_friction=0.7, gravity=9.81,
+    )  # fmt: skip
+    ours = hopper_skirt_resistance(
+        0.0, pressure_ratio=1.0, friction=0.7, density=850.0, outlet_length=length, outlet_width=width,
+        gate_height=flow / (speed * width), gravity=9.81,
+    )  # fmt: skip
+    assert ours == pytest.approx(iso, rel=1e-12)
 
 
 def test_gate():

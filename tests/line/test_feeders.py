@@ -224,6 +224,29 @@ def test_a_bin_adds_to_the_start_and_nothing_to_flow(feeder):
         with_hopper(feeder, bin_height="6 m", initial_factor=9.0)
 
 
+def test_skirts_under_the_hopper(feeder):
+    """2 μ K y/B of the load and the weight of the bulk between, in flow; the start shears what filling adds."""
+    given = {"flow_factor": 0.5, "initial_factor": 2.0}
+    bare, between = (with_hopper(feeder, **given, **more) for more in ({}, {"skirt_pressure_ratio": 0.4}))
+    one, other = conveyor.analyse(bare), conveyor.analyse(between)
+    unit, gravity = 0.4 * feeder.route.feeding.skirt_friction * 0.25 / 0.6, si(feeder.calculation.gravity)
+    load, weight = 850.0 * gravity * 4.0 * 0.6**2, 850.0 * gravity * 4.0 * 0.6 * 0.25
+    assert forces(other)["hopper_skirts"] == pytest.approx(unit * (2.0 * 0.5 * load + weight), rel=1e-12)
+    assert "hopper_skirts" not in forces(one)
+
+    def added(result):
+        design = result.motions.design_start.breakaway - result.balance.settled.design_force
+        return design / result.line.design_friction
+
+    assert added(other) - added(one) == pytest.approx(unit * 2.0 * 1.5 * load, rel=1e-9)
+    cema = {"flexure_factor": 0.02, "idler_friction": "6.7 N"}
+    by_cema = conveyor.analyse(between.replace(calculation=feeder.calculation.replace(cema=cema))).balance.cema
+    items = {item[1]: item[2] for item in by_cema.items}
+    assert items["hoppers"] == pytest.approx(
+        sum(forces(other)[key] for key in ("hopper_pull", "hopper_load", "hopper_skirts")), rel=1e-12
+    )
+
+
 def test_two_hoppers_add_up_and_the_first_has_room_to_the_second(feeder):
     """Each as alone, with the same load: their pulls are not shared by the flow."""
     feeding, (section,) = feeder.route.feeding.replace(share="50 %"), feeder.route.sections

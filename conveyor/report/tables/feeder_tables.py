@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 from conveyor.calculated_conveyor import CalculatedConveyor
 from conveyor.classical_forces import hopper_pull
 from conveyor.laws.belt_strength import belt_safety
@@ -12,11 +14,14 @@ from conveyor.loop.hopper_states import HopperState
 from conveyor.report.table_model import Column, Table
 from conveyor.report.tables.transfer_tables import SHEET
 
+_StateRow: TypeAlias = tuple[str, str, HopperOutlet, float, float, float, float, float, float]
+"""Hopper, state, outlet, load factor, load, its three forces, power."""
+
 
 def hopper_table(a: CalculatedConveyor) -> Table:
     """Loads, pull-out forces and power of every hopper after filling and in flow, a row a state."""
     line = a.line
-    rows: list[tuple[str, str, HopperOutlet, float, float, float, float, float]] = []
+    rows: list[_StateRow] = []
     for point in line.loading:
         if point.hopper is not None:
             rows += _state_rows(a, point, point.hopper)
@@ -27,7 +32,8 @@ def hopper_table(a: CalculatedConveyor) -> Table:
         Column("vertical load", "force", "4"),
         Column("pull-out force", "force", "5"),
         Column("sets or plate under it", "force", "6"),
-        Column("power at belt speed", "power", "7"),
+        Column("skirts under it", "force", "7"),
+        Column("power at belt speed", "power", "8"),
         Column("flow of the full gate", "mass flow", "2.rated_flow"),
     )
     note = (
@@ -68,9 +74,7 @@ def hopper_state_table(a: CalculatedConveyor) -> Table:
     return Table("hopper_states", SHEET, "Belt feeder by state of the hoppers", columns, tuple(rows), "transfer", note)
 
 
-def _state_rows(
-    a: CalculatedConveyor, point: LoadingPoint, hopper: HopperOutlet
-) -> list[tuple[str, str, HopperOutlet, float, float, float, float, float]]:
+def _state_rows(a: CalculatedConveyor, point: LoadingPoint, hopper: HopperOutlet) -> list[_StateRow]:
     name = point.name.removeprefix(", ") or point.place
     states = (
         ("initial, after filling", hopper.initial_factor, hopper.initial_load),
