@@ -32,7 +32,7 @@ def hopper_table(a: CalculatedConveyor) -> Table:
         Column("vertical load", "force", "4"),
         Column("pull-out force", "force", "5"),
         Column("sets or plate under it", "force", "6"),
-        Column("skirts under it", "force", "7"),
+        Column("skirts under it", "force", lambda row: None if row[2].skirts is None else row[7]),
         Column("power at belt speed", "power", "8"),
         Column("flow of the full gate", "mass flow", "2.rated_flow"),
     )
