@@ -18,6 +18,7 @@ from conveyor.loop.annual_energy import AnnualEnergy, annual_energy
 from conveyor.loop.balance import Balance
 from conveyor.loop.belt_duty import BeltDuty, belt_duty
 from conveyor.loop.drive_duty import DriveDuty, drive_duty
+from conveyor.loop.hopper_states import HopperState, hopper_states
 from conveyor.loop.horizontal_curve_duty import HorizontalCurveCheck, horizontal_curve_checks
 from conveyor.loop.loop_layout import TakeUpSetting
 from conveyor.loop.pipe_curve_duty import PipeCurveCheck, pipe_curve_checks
@@ -217,6 +218,11 @@ class CalculatedConveyor:
     def set_duty(self) -> tuple[SetDuty, ...]:
         """Load, axles, life and flap of the idler sets whose limits the spec gives."""
         return set_duty(self.balance)
+
+    @cached_property
+    def hopper_states(self) -> dict[str, HopperState]:
+        """States of the hoppers over a belt feeder by name; none without a hopper that has bulk in it."""
+        return hopper_states(self.balance, self.motions)
 
     @cached_property
     def loading_point_duty(self) -> tuple[LoadingPointDuty, ...]:

@@ -7,7 +7,7 @@ commonly reproduced; skirts, cleaners, ploughs and pulleys by its figures.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from typing import Final
@@ -114,31 +114,38 @@ def _bed_friction(stretch: Stretch, gravity: float) -> float:
     )  # fmt: skip
 
 
-def hopper_forces(line: Line) -> Iterator[Force]:
-    """Pull-out force under every hopper in flow, and what the load costs on sets or plate, by every method [N]."""
+def hopper_forces(
+    line: Line, load: Callable[[HopperOutlet], float] = lambda hopper: hopper.flow_load
+) -> Iterator[Force]:
+    """Pull-out force under every hopper, and what its load costs on sets or plate, by every method [N]; in flow."""
     for point in line.loading:
         if (hopper := point.loaded_hopper) is None:
             continue
         here = partial(Force, kind="special", spot=point.spot, place=point.place, bulk=point.comes_with)
-        pull, support = hopper_pull(line, point.section, hopper, hopper.flow_load)
+        pull, support, skirts = hopper_pull(line, point.section, hopper, load(hopper))
         yield here(key="hopper_pull", name=f"pull-out under the hopper{point.name}", newtons=pull,
                    source="load in flow x friction of the shear, Arnold, McLean and Roberts")  # fmt: skip
         yield here(key="hopper_load", name=f"sets or plate under the hopper{point.name}", newtons=support,
                    source="load in flow x f, or x friction of the plate")  # fmt: skip
+        if hopper.skirts is not None:
+            yield here(key="hopper_skirts", name=f"skirts under the hopper{point.name}", newtons=skirts,
+                       source="friction x side pressure of load in flow and bulk, Roberts")  # fmt: skip
 
 
-def hopper_pull(line: Line, section: int, hopper: HopperOutlet, load: float) -> tuple[float, float]:
-    """Pull-out force at a vertical load on the belt under a hopper over a section, and the resistance below it [N]."""
+def hopper_pull(line: Line, section: int, hopper: HopperOutlet, load: float) -> tuple[float, float, float]:
+    """Pull-out force at a vertical load under a hopper over a section, resistance below it, friction of skirts [N]."""
     bed = line.stretches[section].bed
     friction = float(line.friction_factors[section]) if bed is None else bed.friction
-    return hopper.shear_friction * load, friction * load
+    skirts = 0.0 if hopper.skirts is None else hopper.skirts.resistance(load)
+    return hopper.shear_friction * load, friction * load, skirts
 
 
 def initial_pull(line: Line, point: LoadingPoint) -> float:
     """Addition to the resistance when a feeder starts after its hopper was filled [N]; 0 without a hopper or bulk."""
     if (hopper := point.loaded_hopper) is None:
         return 0.0
-    return math.fsum(hopper_pull(line, point.section, hopper, hopper.initial_load - hopper.flow_load))
+    filled, flow = (hopper_pull(line, point.section, hopper, load) for load in (hopper.initial_load, hopper.flow_load))
+    return math.fsum(filled) - math.fsum(flow)
 
 
 def cema_forces_along(line: Line, factors: CemaFactors) -> tuple[Force, ...]:

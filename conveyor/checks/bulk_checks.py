@@ -12,20 +12,24 @@ from conveyor.units.sentences import escape_braces, message, percent
 
 def belt_filling(result: CalculatedConveyor) -> Iterator[Check]:
     """Every section holds its bulk on its slope."""
-    line, holds_on = result.line, result.conveyor.section_on_slope
+    line, holds_on, skirted = result.line, result.conveyor.section_on_slope, result.conveyor.skirted_areas
     loaded = [
-        (stretch, stretch.bulk_mass / line.density, holds_on(stretch.inclination))
+        (stretch, stretch.bulk_mass / line.density, skirted.get(stretch.section) or holds_on(stretch.inclination))
         for stretch in line.stretches[: line.count]
         if stretch.bulk_mass > 0.0
     ]
     if loaded:
         stretch, bulk, most = first_maximum(loaded, lambda one: -one[2] / one[1])
         shape = result.conveyor.idlers.carry.shape
+        level, held = skirted.get(stretch.section) or holds_on(0.0), "level cross-section"
+        source = shape.filling_source
+        if stretch.section in skirted:
+            held, source = "cross-section between the skirts", "route.feeding.skirt_height"
         section = f'section "{escape_braces(stretch.section)}"'
         why = message(f"the bulk takes {{}}, {section} holds nothing on its slope", (bulk, "area"))
         if most > 0.0:
             flooded = (result.conveyor.flooded_section, "area")
-            spills = [flooded] if bulk > flooded[0] else []
+            spills = [flooded] if bulk > flooded[0] and stretch.section not in skirted else []
             why = message(
                 f"the bulk takes {{}}, {percent(bulk / most)} of the {{}} that {section} holds on its slope"
                 f"{f', and spills beyond {{}}, {shape.brim}' if spills else ''}: reduce "
@@ -34,8 +38,8 @@ def belt_filling(result: CalculatedConveyor) -> Iterator[Check]:
                 (line.flow * most / bulk, "mass flow"), (line.speed * bulk / most, "speed"),
             )  # fmt: skip
         yield check_against_limit(
-            "filling", "filling of the belt", bulk, "at most", most, "area", source=shape.filling_source,
-            wording=message(f"{{}}, {percent(bulk / holds_on(0.0))} of the level cross-section", (bulk, "area")),
+            "filling", "filling of the belt", bulk, "at most", most, "area", source=source,
+            wording=message(f"{{}}, {percent(bulk / level)} of the {held}", (bulk, "area")),
             where=stretch.section, why=why,
         )  # fmt: skip
 

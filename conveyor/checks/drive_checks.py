@@ -13,6 +13,7 @@ from conveyor.laws.motion import Stop
 from conveyor.line.line import Line
 from conveyor.loop.drive_duty import coasting_flywheel
 from conveyor.loop.equilibrium import DESIGN, LEAST
+from conveyor.loop.run_up import rated_force
 from conveyor.units.sentences import Message, escape_braces, message
 
 _AT_MOST: Final[Relation] = "at most"
@@ -66,10 +67,12 @@ def starting_force(result: CalculatedConveyor) -> Iterator[Check]:
             "starting_force", "starting force, motors", given, relation, limit, "force", why=why, where=where
         )
     given = start.standstill if result.start_of_motors is None else result.start_of_motors
+    rated = rated_force(result.line)
+    torque = "" if rated is None else f"; {start.breakaway / rated:.2f} times the rated torque breaks it away"
     yield check_against_limit(
         "breakaway", "starting force after standstill", given, "at least", start.breakaway, "force", where=where,
         why="the starting force of {calculated} does not overcome the resistance after standstill, up to {required}: "
-        "raise drive.start_factor or the motors' torque",
+        f"raise drive.start_factor or the motors' torque{torque}",
     )  # fmt: skip
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 
 import numpy as np
@@ -85,17 +86,16 @@ def drive_grip(result: CalculatedConveyor) -> Iterator[Check]:
 
 
 def belt_sag(result: CalculatedConveyor) -> Iterator[Check]:
-    """Between no two idler sets the belt sags more than allowed while it runs steadily."""
+    """Between no two idler sets the belt sags more than allowed while it runs steadily; plates let nothing sag."""
     settled, shape = result.balance.settled, result.line.loop
     running = settled.running
-    lowest = [np.minimum(state.starts, state.ends) for state in running]
-    over = [(tension / shape.least).tolist() for tension in lowest]
+    lowest, least = [np.minimum(state.starts, state.ends).tolist() for state in running], shape.least.tolist()
     for strand in STRANDS:
-        places = [
-            (k, i) for k in range(len(running)) for i, stretch in enumerate(shape.stretches) if stretch.strand == strand
-        ]
-        k, i = min(places, key=lambda at: over[at[0]][at[1]])
-        tension, needed, section = float(lowest[k][i]), float(shape.least[i]), shape.stretches[i].section
+        on_sets = [i for i, one in enumerate(shape.stretches) if one.strand == strand and one.bed is None]
+        if not on_sets:
+            continue
+        k, i = min(itertools.product(range(len(running)), on_sets), key=lambda at: lowest[at[0]][at[1]] / least[at[1]])
+        tension, needed, section = lowest[k][i], least[i], shape.stretches[i].section
         yield check_against_limit(
             "sag", f"minimum tension (sag), {strand}", tension, "at least", needed, "force",
             holds=tension_suffices(tension, needed), where=f"{section}, {running[k].name}",

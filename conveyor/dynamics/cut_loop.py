@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from conveyor.calculated_conveyor import CalculatedConveyor
+from conveyor.classical_forces import initial_pull
 from conveyor.errors import NoSolutionError
 from conveyor.laws.resistance.resistance_defaults import ROLL_DRAG_STANDSTILL_FACTOR
 from conveyor.laws.waves import PULLEY_INERTIA, SLACK_SAG, sag_factor, wave_speed
@@ -29,7 +30,7 @@ _WITH_SPEED = frozenset({"acceleration", "loading_skirts"})
 
 @dataclass(frozen=True)
 class _Lump:
-    """Lumped item: distance [m] and order, mass [kg], friction f0, f2 [N, N s²/m²], weight [N]."""
+    """Lumped item: distance [m] and order, mass [kg], friction f0, f2 [N, N s²/m²], weight, more at rest [N]."""
 
     at: float
     stand: BoundaryOrder
@@ -37,6 +38,7 @@ class _Lump:
     friction: float = 0.0
     square: float = 0.0
     weight: float = 0.0
+    stuck: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,13 +159,15 @@ class CutLoop:
             ]),
         )  # fmt: skip
 
-    def cells(self, step: float) -> Cells:
+    def cells(self, step: float, *, filled: bool = True) -> Cells:
         """Cut into cells that a wave crosses in a step or little longer, with drives at cell ends.
 
         Parameters
         ----------
         step : float
             [s].
+        filled : bool
+            True if hoppers hold their bulk as after filling until the belt breaks it away; else it flows.
 
         Raises
         ------
@@ -198,17 +202,18 @@ class CutLoop:
         rubbing = {0, at.size - 1}
         for lump in self.lumps:
             k = int(np.argmin(np.abs(at - lump.at)))
-            part = np.array([lump.mass, lump.weight, lump.friction, 0.0, lump.square, 0.0])
+            stuck = lump.stuck if filled else 0.0
+            part = np.array([lump.mass, lump.weight, lump.friction, 0.0, lump.square, stuck])
             lying[:, k] += part
             for d in np.flatnonzero(nodes == k).tolist():
                 if (lump.at, lump.stand) <= (float(self.drives[d]), self.line.drives[d].spot.stand):
                     before[:, d] += part
-            if lump.friction or lump.square:
+            if lump.friction or lump.square or stuck:
                 rubbing.add(k)
-        mass, weight, friction, stuck = lying[0], lying[1], lying[2:5], lying[5]
+        mass, weight, friction, sticking = lying[0], lying[1], lying[2:5], lying[5]
         before[5] += before[2]
         lumps = np.array(sorted(rubbing.difference(nodes.tolist())), dtype=int)
-        return Cells(at, mass, self.stiffness / np.diff(at), weight, friction, stuck, nodes, before, lumps, sag)
+        return Cells(at, mass, self.stiffness / np.diff(at), weight, friction, sticking, nodes, before, lumps, sag)
 
 
 @dataclass(frozen=True, eq=False)
@@ -275,7 +280,7 @@ def _friction_parabola(speed: float, slower: Sequence[Array], full: Array, line:
 
 
 def _point_lumps(result: CalculatedConveyor, distance: Callable[[LoopPosition], float]) -> Iterator[_Lump]:
-    """Local forces, and the pulleys without a drive."""
+    """Local forces, what a filled hopper holds more at rest, and the pulleys without a drive."""
     speed = result.line.speed
     for force in result.balance.singles:
         if force.spot is None:
@@ -287,6 +292,8 @@ def _point_lumps(result: CalculatedConveyor, distance: Callable[[LoopPosition], 
             yield _Lump(at, stand, square=force.total / speed**2)
         else:
             yield _Lump(at, stand, friction=force.total)
+    for point in result.line.loading:
+        yield _Lump(distance(point.spot), point.spot.stand, stuck=initial_pull(result.line, point))
     for pulley in result.line.pulleys:
         if not pulley.driven:
             yield _Lump(distance(pulley.spot), pulley.spot.stand, mass=PULLEY_INERTIA.value * pulley.mass)

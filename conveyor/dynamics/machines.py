@@ -259,7 +259,7 @@ def _torque_share(unit: StarterUnit, since: Array) -> Array:
 
 def prepare_belts(setups: list[ScenarioSetup], step: float) -> tuple[list[Cells], Chain, InitialState]:
     """Cells and chain of all scenarios, padded with idle cells, and their initial state."""
-    cells = [setup.loop.cells(step) for setup in setups]
+    cells = [setup.loop.cells(step, filled=not setup.scene.running) for setup in setups]
     most = max(one.at.size for one in cells)
 
     def filled(parts: list[Array], rest: float, size: int) -> Array:

@@ -412,6 +412,13 @@ def _dynamics_assumptions(dynamics: CalculatedDynamics) -> Iterator[str]:
             "loss at rated "
             "power, general knowledge"
         )
+    if any(point.loaded_hopper is not None for point in line.loading):
+        yield (
+            "hoppers are as after filling where a scenario begins at rest: their pull falls to that of flow as soon as "
+            "the belt under them moves, no law of its decay is known; the jump of the belt there is an upper bound"
+        )
+    if any(stretch.bed is not None for stretch in line.stretches):
+        yield "a belt on a plate gives way in waves like one on the carry sets"
     for followed in dynamics.followed:
         yield from _drive_assumptions(followed.setup)
 

@@ -20,8 +20,60 @@ FEEDER_SPEED: Final = Default(
 """Belt speed of a feeder, at most [m/s]."""
 
 
-def initial_load_factor(top_width: float, *, outlet_width: float, half_angle: float) -> float:
-    """Load on the feeder after filling, q_i = (D/B - 1)/(2 tan α), of a slot (Arnold, McLean and Roberts 1982).
+BIN_PRESSURE_RATIO: Final = Default(
+    0.4, 0.3, 0.6, "horizontal over vertical pressure of bulk in bins with upright walls (Jenike)", True
+)
+"""K of a bin above a hopper [-]."""
+
+
+def bin_surcharge_height(
+    bin_height: float, *, hydraulic_radius: float, wall_friction: float, pressure_ratio: float
+) -> float:
+    """Column of bulk that presses like a bin at its foot, R/(K tan φ) (1 - e^(-K tan φ h/R)) (Janssen 1895).
+
+    Parameters
+    ----------
+    bin_height : float
+        h, of the bulk in the bin [m], at least 0.
+    hydraulic_radius : float
+        R, area over perimeter of the bin [m], above 0; half the width of a long slot.
+    wall_friction : float
+        φ of bulk on the walls [rad], above 0 and below π/2.
+    pressure_ratio : float
+        K, horizontal over vertical pressure [-], above 0; `BIN_PRESSURE_RATIO`.
+
+    Returns
+    -------
+    float
+        p/(ρ g) [m], p being the vertical pressure after filling.
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    References
+    ----------
+    G. I. Tardos, Stresses in bins and hoppers, Educational Resources for Particle Technology 992Q, equation 3.
+
+    Examples
+    --------
+    >>> import math
+    >>> bin = {"wall_friction": math.atan(0.5), "pressure_ratio": 0.4}
+    >>> round(bin_surcharge_height(10.0, hydraulic_radius=1.5, **bin), 3)
+    5.523
+    """
+    require_not_negative(bin_height=bin_height)
+    require_positive(hydraulic_radius=hydraulic_radius, pressure_ratio=pressure_ratio)
+    require(0.0 < wall_friction < 0.5 * math.pi, "wall_friction", wall_friction, "0 to π/2")
+    deepest = hydraulic_radius / (pressure_ratio * math.tan(wall_friction))
+    return -deepest * math.expm1(-bin_height / deepest)
+
+
+def initial_load_factor(
+    top_width: float, *, outlet_width: float, half_angle: float, surcharge_height: float = 0.0
+) -> float:
+    """Load on the feeder after filling, q_i = (D/B - 1)/(2 tan α) + h_s/B, of a slot (Arnold, McLean, Roberts 1982).
 
     Parameters
     ----------
@@ -31,6 +83,8 @@ def initial_load_factor(top_width: float, *, outlet_width: float, half_angle: fl
         B, width of the slot [m], above 0.
     half_angle : float
         α of the hopper to the vertical [rad], between 0 and π/2.
+    surcharge_height : float
+        h_s, column that presses on the hopper's top like the bin above it [m], at least 0; `bin_surcharge_height`.
 
     Returns
     -------
@@ -44,8 +98,8 @@ def initial_load_factor(top_width: float, *, outlet_width: float, half_angle: fl
 
     Notes
     -----
-    It is the column of bulk over the outlet as high as the hopper, without support by its walls: an upper bound. What
-    stands in a bin above the hopper is left out.
+    It is the column of bulk over the outlet as high as the hopper, without support by its walls, under the pressure of
+    the bin: an upper bound. In flow the bin does not count: the field of stress in the hopper hangs on its outlet.
 
     Examples
     --------
@@ -56,7 +110,8 @@ def initial_load_factor(top_width: float, *, outlet_width: float, half_angle: fl
     require_positive(outlet_width=outlet_width)
     require(top_width > outlet_width, "top_width", top_width, "> outlet_width")
     require(0.0 < half_angle < 0.5 * math.pi, "half_angle", half_angle, "0 to π/2")
-    return (top_width / outlet_width - 1.0) / (2.0 * math.tan(half_angle))
+    require_not_negative(surcharge_height=surcharge_height)
+    return (top_width / outlet_width - 1.0) / (2.0 * math.tan(half_angle)) + surcharge_height / outlet_width
 
 
 def flow_load_factor(half_angle: float, *, internal_friction: float, wall_friction: float) -> float:
@@ -156,8 +211,10 @@ def hopper_load(
     return load_factor * density * gravity * outlet_length * outlet_width**2
 
 
-def gate_flow(belt_speed: float, *, density: float, gate_width: float, gate_height: float) -> float:
-    """Mass flow under a gate that fills its opening, ρ b h v: the bulk moves with the belt.
+def gate_flow(
+    belt_speed: float, *, density: float, gate_width: float, gate_height: float, efficiency: float = 1.0
+) -> float:
+    """Mass flow under a gate that fills its opening, η ρ b h v (Roberts: volumetric efficiency of a belt feeder).
 
     Parameters
     ----------
@@ -167,11 +224,13 @@ def gate_flow(belt_speed: float, *, density: float, gate_width: float, gate_heig
         ρ of the bulk as it fills [kg/m³], above 0.
     gate_width, gate_height : float
         b across the belt and h over it [m], above 0.
+    efficiency : float
+        η, mean speed of the bulk under the gate over that of the belt [-], above 0, at most 1.
 
     Returns
     -------
     float
-        Mass flow [kg/s]; less by the slip of the upper layers, which is left out.
+        Mass flow [kg/s].
 
     Raises
     ------
@@ -184,4 +243,62 @@ def gate_flow(belt_speed: float, *, density: float, gate_width: float, gate_heig
     100.0
     """
     require_positive(belt_speed=belt_speed, density=density, gate_width=gate_width, gate_height=gate_height)
-    return density * gate_width * gate_height * belt_speed
+    require(0.0 < efficiency <= 1.0, "efficiency", efficiency, "> 0 and <= 1")
+    return efficiency * density * gate_width * gate_height * belt_speed
+
+
+def hopper_skirt_resistance(
+    load: float,
+    *,
+    pressure_ratio: float,
+    friction: float,
+    density: float,
+    outlet_length: float,
+    outlet_width: float,
+    gate_height: float,
+    gravity: float,
+) -> float:
+    """Friction of the bulk on both skirts under a hopper, F = μ K (2 Q + ρ g B L y) y/B (form of Roberts; derived).
+
+    Parameters
+    ----------
+    load : float
+        Q on the outlet [N], at least 0.
+    pressure_ratio : float
+        K, side pressure over vertical pressure of the moving bulk [-], above 0.
+    friction : float
+        μ of bulk on skirts [-], at least 0.
+    density : float
+        ρ [kg/m³], above 0.
+    outlet_length, outlet_width, gate_height : float
+        L along the belt, B across it, y over it [m], above 0.
+    gravity : float
+        g [m/s²], above 0.
+
+    Returns
+    -------
+    float
+        F [N].
+
+    Raises
+    ------
+    InputError
+        An argument is outside its range.
+
+    Notes
+    -----
+    The vertical pressure grows from Q/(B L) at the outlet by ρ g to the belt; K times it presses on both skirts.
+
+    Examples
+    --------
+    >>> outlet = {"outlet_length": 4.0, "outlet_width": 0.6, "gate_height": 0.25}
+    >>> round(
+    ...     hopper_skirt_resistance(3000.0, pressure_ratio=0.4, friction=0.5, density=850.0, gravity=9.81, **outlet), 1
+    ... )
+    916.9
+    """
+    require_not_negative(load=load, friction=friction)
+    require_positive(pressure_ratio=pressure_ratio, density=density, outlet_length=outlet_length)
+    require_positive(outlet_width=outlet_width, gate_height=gate_height, gravity=gravity)
+    between = density * gravity * outlet_width * outlet_length * gate_height
+    return friction * pressure_ratio * (2.0 * load + between) * gate_height / outlet_width

@@ -5,10 +5,27 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from conveyor.laws.feeder import flow_load_factor, gate_flow, hopper_load, initial_load_factor
+from conveyor.laws.feeder import gate_flow, hopper_load, hopper_skirt_resistance
 from conveyor.models import Conveyor
 from conveyor.models.hoppers import Hopper
 from conveyor.units import si
+
+
+@dataclass(frozen=True)
+class HopperSkirts:
+    """Skirts between a hopper's outlet and the belt, as `hopper_skirt_resistance` takes them, SI."""
+
+    pressure_ratio: float
+    friction: float
+    density: float
+    outlet_length: float
+    outlet_width: float
+    gate_height: float
+    gravity: float
+
+    def resistance(self, load: float) -> float:
+        """Friction of the bulk on both at a load on the outlet [N]."""
+        return hopper_skirt_resistance(load, **vars(self))
 
 
 @dataclass(frozen=True)
@@ -24,7 +41,9 @@ class HopperOutlet:
     shear_friction : float
         Pull-out force over that load [-].
     rated_flow : float
-        Mass flow of the full opening of the gate at belt speed [kg/s].
+        Mass flow under the gate at belt speed [kg/s].
+    skirts : HopperSkirts or None
+        Skirts between outlet and belt; None where their friction is not asked.
     """
 
     initial_factor: float
@@ -33,17 +52,13 @@ class HopperOutlet:
     flow_load: float
     shear_friction: float
     rated_flow: float
+    skirts: HopperSkirts | None = None
 
     @classmethod
-    def of(cls, hopper: Hopper, conveyor: Conveyor) -> HopperOutlet:
-        """Outlet of a hopper over a conveyor's belt."""
-        width, slope, inside = si(hopper.outlet_width), si(hopper.half_angle), si(hopper.internal_friction)
-        initial = hopper.initial_factor or initial_load_factor(
-            si(hopper.top_width), outlet_width=width, half_angle=slope
-        )
-        flow = hopper.flow_factor or flow_load_factor(
-            slope, internal_friction=inside, wall_friction=si(hopper.wall_friction)
-        )
+    def of(cls, hopper: Hopper, conveyor: Conveyor, *, skirt_friction: float) -> HopperOutlet:
+        """Outlet of a hopper over a conveyor's belt, between skirts of a friction [-]."""
+        width, inside = si(hopper.outlet_width), si(hopper.internal_friction)
+        initial, flow = hopper.load_factors
         after_filling, flowing = (
             hopper_load(
                 factor,
@@ -59,5 +74,17 @@ class HopperOutlet:
             density=si(conveyor.material.density),
             gate_width=width,
             gate_height=si(hopper.gate_height),
+            efficiency=1.0 if hopper.gate_efficiency is None else si(hopper.gate_efficiency),
         )
-        return cls(initial, flow, after_filling, flowing, hopper.shear_friction or math.sin(inside), rated)
+        skirts = None
+        if hopper.skirt_pressure_ratio is not None:
+            skirts = HopperSkirts(
+                hopper.skirt_pressure_ratio,
+                skirt_friction,
+                si(conveyor.material.heaviest),
+                si(hopper.outlet_length),
+                width,
+                si(hopper.gate_height),
+                si(conveyor.calculation.gravity),
+            )
+        return cls(initial, flow, after_filling, flowing, hopper.shear_friction or math.sin(inside), rated, skirts)

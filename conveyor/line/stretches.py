@@ -21,8 +21,6 @@ from conveyor.units import si
 
 Strand = Literal["carry", "return"]
 STRANDS: tuple[Strand, Strand] = ("carry", "return")
-TENSION_ON_PLATE = 1.0
-"""Least tension of a belt on a plate, which does not sag: above 0 so that ratios to it are finite [N]."""
 CurveValues = Mapping[tuple[str, Strand], float]
 """Values by section and strand on curves."""
 
@@ -147,7 +145,7 @@ class Stretch:
     loads : tuple of RollLoad
         Load of each roll of one set.
     least_tension : float
-        Tension that limits the sag between the sets as specified [N].
+        Tension that limits the sag between the sets as specified [N]; 0 on a plate, where nothing sags.
     set_mass, rim_mass : float
         Rotating mass of one set, and its mass reduced to the rim [kg].
     misalignment : tuple of float
@@ -321,7 +319,7 @@ class _StretchBuilder:
         return Stretch(
             section=section.name, strand=self.strand, length=section.length, rise=section.rise, spacing=self.spacing,
             idlers=self.idlers, trough_angle=self.trough, tilt_angle=0.0, roll_length=self.roll_length, radii=(),
-            belt_mass=self.belt_mass, bulk_mass=flow, loads=(), least_tension=TENSION_ON_PLATE, set_mass=0.0,
+            belt_mass=self.belt_mass, bulk_mass=flow, loads=(), least_tension=0.0, set_mass=0.0,
             rim_mass=0.0, misalignment=(), span_flexure=None if self.flexure is None else 0.0, bed=bed,
         )  # fmt: skip
 

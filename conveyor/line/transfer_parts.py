@@ -148,7 +148,9 @@ def _loading_point(conveyor: Conveyor, point: Feeding, places: LoopPositions, *,
         idler_stiffness=si_or_none(point.idler_stiffness),
         idler_spacing=si_or_none(point.idler_spacing),
         idler_rating=si_or_none(point.idler_rating),
-        hopper=None if point.hopper is None else HopperOutlet.of(point.hopper, conveyor),
+        hopper=None
+        if point.hopper is None
+        else HopperOutlet.of(point.hopper, conveyor, skirt_friction=point.skirt_friction),
         assumed=assumed,
     )
 

@@ -125,7 +125,11 @@ def cema_estimate(line: Line, unit_main: float) -> CemaEstimate | None:
         ("Tpl", "ploughs", at.get("Tpl", 0.0)),
         ("Tac", "other accessories", at.get("Tac", 0.0)),
         *((("", "slider bed", along["slider_bed"]),) if "slider_bed" in along else ()),
-        *((("", "hoppers", at["hopper_pull"] + at["hopper_load"]),) if "hopper_pull" in at else ()),
+        *(
+            (("", "hoppers", at["hopper_pull"] + at["hopper_load"] + at.get("hopper_skirts", 0.0)),)
+            if "hopper_pull" in at
+            else ()
+        ),
     )
     lifted = (("Tm", "lift of the bulk", math.fsum([*lift, at.get("tripper_lift", 0.0)])),)
     sums = [math.fsum(item[2] for item in group) for group in (main, secondary, special, lifted)]

@@ -328,13 +328,11 @@ class CriterionLoadings(SectionLoadings):
     def _of_sag(self, low: Array, flags: LoadingRows) -> Iterator[tuple[str, Array]]:
         """Lowest tension of each strand over that needed for the sag, with reversed sign."""
         on = np.column_stack([np.ones_like(flags), flags])
-        over = low / (self.least + on * self.more_least)
-        strands = [stretch.strand for stretch in self.line.loop.stretches]
+        needed = self.least + on * self.more_least
         for strand in STRANDS:
-            yield (
-                f"sag, {strand}",
-                -over[:, [k for k, one in enumerate(strands) if one == strand]].min(axis=-1),
-            )
+            on_sets = [k for k, one in enumerate(self.line.loop.stretches) if one.strand == strand and one.bed is None]
+            if on_sets:
+                yield f"sag, {strand}", -(low[:, on_sets] / needed[:, on_sets]).min(axis=-1)
 
 
 def _state_names(state: str, here: NDArray[np.bool_], steady: Array) -> Iterator[tuple[str, NDArray[np.bool_]]]:

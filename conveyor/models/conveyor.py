@@ -8,6 +8,7 @@ from typing import Annotated, Any, Final, Self
 from pydantic import Field, ValidationError, model_validator
 
 from conveyor.models.base import Model, Problem, raise_problems
+from conveyor.models.bulk_sections import skirted_areas
 from conveyor.models.cases import LoadCase, duplicate_case_names
 from conveyor.models.part_conflicts import CONFLICTS
 from conveyor.models.parts import ConveyorParts
@@ -115,9 +116,15 @@ class Conveyor(ConveyorParts):
         return largest.on_slope(inclination, surcharge_angle=angle)
 
     @property
+    def skirted_areas(self) -> dict[str, float]:
+        """Bulk cross-sections of sections wholly between skirts of known height [m²], by name."""
+        return skirted_areas(self)
+
+    @property
     def flooded_section(self) -> float:
-        """Bulk cross-section of a level belt heaped from edge to edge, or of a full pipe [m²]."""
-        return self.idlers.carry.shape.flooded_section(self.belt_width, self.material.surcharge).area
+        """Bulk cross-section of a level belt heaped from edge to edge, or between skirts, or of a full pipe [m²]."""
+        flooded = self.idlers.carry.shape.flooded_section(self.belt_width, self.material.surcharge)
+        return max([flooded.area, *self.skirted_areas.values()])
 
 
 CHECKS: Final[Mapping[Callable[[Any], Iterator[Problem]], tuple[str, ...]]] = {

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Final
 
 from conveyor.errors import InputError, MessageQuantity, RangeError
-from conveyor.laws.feeder import FEEDER_SPEED
 from conveyor.laws.idler_sets import rated_set_load
 from conveyor.laws.loading import bulk_line_mass
 from conveyor.laws.pipe_geometry import FURTHEST_LAP
@@ -16,16 +15,15 @@ from conveyor.laws.tension import usual_stiffness
 from conveyor.models.base import Problem
 from conveyor.models.belt import Cover, TopCover
 from conveyor.models.belt_shapes import OVERFILL_LIMIT
+from conveyor.models.bulk_sections import skirted_areas
 from conveyor.models.drive import DrivePulley
+from conveyor.models.feeder_conflicts import hopper_problems, located_feeding
 from conveyor.models.idlers import IdlerSet, overlap_problems
 from conveyor.models.parts import ConveyorParts
-from conveyor.models.route import Feeding, Route
 from conveyor.models.validation_messages import Location
 from conveyor.units import Quantity, from_si, si, text, unit_system
 from conveyor.units.presentation import format_figure
 
-FASTEST_FEEDER: Final = 2.0
-"""Belt speed above which a hopper over the belt is refused [m/s], four times that of feeders: general knowledge."""
 _FLOW_ROUNDING: Final = 1e-9
 """Relative rounding of a flow derived from a cross-section [-]."""
 
@@ -68,7 +66,11 @@ def _fill_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     if si(material.flow) == 0.0:
         return
     needed = bulk_line_mass(si(material.flow), belt_speed=si(belt.speed)) / si(material.density)
-    shape, of_belt = conveyor.idlers.carry.shape, (conveyor.belt_width, material.surcharge)
+    skirted = skirted_areas(conveyor)
+    between = [skirted.get(section.name, 0.0) for section in conveyor.route.sections if section.loaded]
+    if between and needed <= OVERFILL_LIMIT * min(between):
+        return
+    shape, of_belt = conveyor.idlers.carry.shape, (conveyor.belt_width, conveyor.material.surcharge)
     area, flooded = shape.largest_section(*of_belt).area, shape.flooded_section(*of_belt).area
     calculated = shape.most_calculated(*of_belt)
     if needed <= calculated * (1.0 + _FLOW_ROUNDING):
@@ -187,16 +189,10 @@ def _temperature_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
             yield Problem(("ambient", field), why)
 
 
-def _located_feeding(route: Route) -> dict[Location, Feeding]:
-    """Loading points by their place in the route."""
-    points: dict[Location, Feeding] = {} if route.feeding is None else {("feeding",): route.feeding}
-    return points | {("further_feeding", i): point for i, point in enumerate(route.further_feeding)}
-
-
 def _feeding_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Refuse feeding faster than the belt, and skirts, cleaners or ploughs wider than it."""
     belt, route = conveyor.belt, conveyor.route
-    points = _located_feeding(route)
+    points = located_feeding(route)
     for location, point in points.items():
         if si(point.speed) > si(belt.speed):
             yield Problem(
@@ -215,27 +211,6 @@ def _feeding_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
                 ("route", *location),
                 f"got {text(width)}, wider than the belt (belt.width {text(belt.width)}); correct one of the two",
             )
-
-
-def _hopper_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
-    """Refuse a belt too fast to pull bulk out of a hopper, and outlets wider than the skirts."""
-    route, speed = conveyor.route, conveyor.belt.speed
-    for location, point in _located_feeding(route).items():
-        if point.hopper is None:
-            continue
-        if si(speed) > FASTEST_FEEDER:
-            message = (
-                f"given, but the belt runs at {text(speed)} (belt.speed): a feeder runs at "
-                f"{FEEDER_SPEED.value:g} m/s or less, above {FASTEST_FEEDER:g} m/s the bulk under the hopper does not "
-                "follow it; feed by a feeder of its own"
-            )
-            yield Problem(("route", *location, "hopper"), message)
-        if si(point.hopper.outlet_width) > si(point.skirt_width):
-            message = (
-                f"got {text(point.hopper.outlet_width)}, wider than the skirts (skirt_width {text(point.skirt_width)}):"
-                " skirts widen from the outlet on; correct one of the two"
-            )
-            yield Problem(("route", *location, "hopper", "outlet_width"), message)
 
 
 def _discharge_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
@@ -381,6 +356,22 @@ def _flexure_factor_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
             yield Problem(("route", "sections", i, "flexure_factor"), message)
 
 
+def _belt_on_bed_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Refuse a plate under a pipe, and under steel cord without its cover."""
+    for i, section in enumerate(conveyor.route.sections):
+        if section.bed is None:
+            continue
+        if conveyor.idlers.carry.shape.closed:
+            message = "given, but rings of rolls hold the belt as a pipe (idlers.carry.pipe); remove one of the two"
+            yield Problem(("route", "sections", i, "bed"), message)
+        if conveyor.belt.carcass.kind == "steel cord" and section.bed.underside != "rubber cover":
+            message = (
+                f'got "{section.bed.underside}", but cords of steel (belt.carcass.kind) lie between covers: take '
+                '"rubber cover"'
+            )
+            yield Problem(("route", "sections", i, "bed", "underside"), message)
+
+
 def _bed_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Refuse sets, scales, and a yielding carcass on a plate."""
     route = conveyor.route
@@ -395,7 +386,7 @@ def _bed_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
         if scale.section in plates:
             message = f'got "{scale.section}", a plate (bed): a belt scale weighs on idler sets; name another section'
             yield Problem(("route", "belt_scales", i, "section"), message)
-    for location, point in _located_feeding(route).items():
+    for location, point in located_feeding(route).items():
         if (point.section or route.sections[0].name) not in plates:
             continue
         of_sets = {
@@ -411,7 +402,7 @@ def _bed_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 CONFLICTS: Final[Mapping[Callable[[ConveyorParts], Iterator[Problem]], tuple[str, ...]]] = {
     _roll_length_problems: ("belt", "idlers"),
-    _fill_problems: ("belt", "idlers", "material"),
+    _fill_problems: ("belt", "idlers", "material", "route"),
     _spacing_problems: ("idlers", "route"),
     _scale_problems: ("idlers", "route"),
     _idler_class_problems: ("belt", "idlers"),
@@ -419,7 +410,7 @@ CONFLICTS: Final[Mapping[Callable[[ConveyorParts], Iterator[Problem]], tuple[str
     _cover_problems: ("belt", "idlers", "route"),
     _temperature_problems: ("ambient", "belt", "idlers", "route"),
     _feeding_problems: ("belt", "route"),
-    _hopper_problems: ("belt", "route"),
+    hopper_problems: ("belt", "idlers", "route"),
     _discharge_problems: ("calculation", "route"),
     _drive_section_problems: ("drive", "route"),
     _inertia_problems: ("drive", "route"),
@@ -429,6 +420,7 @@ CONFLICTS: Final[Mapping[Callable[[ConveyorParts], Iterator[Problem]], tuple[str
     _belt_support_problems: ("belt", "calculation"),
     _curve_problems: ("idlers", "route"),
     _bed_problems: ("calculation", "route"),
+    _belt_on_bed_problems: ("belt", "idlers", "route"),
     _pipe_problems: ("belt", "idlers", "route"),
 }
 """Checks between the parts, and the parts that each check reads."""

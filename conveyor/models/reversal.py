@@ -38,7 +38,7 @@ def reversal_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
 
 
 def _feeding_problems(route: Route) -> Iterator[Problem]:
-    """Refuse loading points at the tail, trippers and bulk that lands with a speed."""
+    """Refuse loading points at the tail, trippers, hoppers and bulk that lands with a speed."""
     places: list[tuple[Location, Feeding | None]] = [(("route", "feeding"), route.feeding)]
     places += [(("route", "further_feeding", i), point) for i, point in enumerate(route.further_feeding)]
     for place, point in places:
@@ -47,6 +47,9 @@ def _feeding_problems(route: Route) -> Iterator[Problem]:
             yield Problem((*place, "section"), message)
         elif route.feeds_back(point):
             yield Problem((*place, "tripper_lift"), "a tripper lifts the bulk of one direction only")
+        elif point.hopper is not None:
+            message = "the gate of a hopper stands at one end of its outlet: a reversed belt pulls against its wall"
+            yield Problem((*place, "hopper"), message)
         elif si(point.speed) > 0.0:
             message = f"got {text(point.speed)} in one direction; on a belt that reverses the bulk lands at 0 m/s"
             yield Problem((*place, "speed"), message)

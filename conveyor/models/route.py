@@ -223,8 +223,18 @@ class Feeding(Model):
     """Distance of the sets where the bulk lands; that of carry sets without it."""
     idler_rating: Annotated[Force, Bounds(gt="0 N", le="10 MN")] | None = None
     """Load that a set there bears, by its maker."""
+    skirt_height: Annotated[Length, Bounds(gt="0 m", le="5 m")] | None = None
+    """Of the skirts over the belt where they stand on it; sections wholly between them hold bulk up to it, and as on an
+    open belt without it."""
     hopper: Hopper | None = None
     """Hopper from which the belt pulls the bulk here, as a feeder."""
+
+    @property
+    def skirted_length(self) -> float:
+        """Length between skirts from where the bulk lands, without a computed zone of acceleration [m]."""
+        if self.skirtboards is not None:
+            return si(self.skirtboards)
+        return si(self.skirt_length) + (0.0 if self.hopper is None else si(self.hopper.outlet_length))
 
     @model_validator(mode="after")
     def _lands(self) -> Self:

@@ -14,6 +14,7 @@ from conveyor.dynamics.published_cases import harrison_start, lodewijks_start, n
 from conveyor.laws import (
     discharge,
     drives,
+    feeder,
     horizontal_curve,
     loading,
     power,
@@ -45,6 +46,9 @@ _HELIX = "Helix shaft report"
 
 
 _HELIX_PRINTED = "Helix delta-T reports"
+
+
+_HELIX_FEEDER = "Helix feeder load calculation"
 
 
 _SHORTT = "Shortt (2019), idler of 127 mm, bearings 6305"
@@ -131,6 +135,7 @@ def run_reference_checks() -> list[ReferenceCheck]:
         _pulley_shaft(),
         _idler_roll(),
         _take_up_and_sag(),
+        _feeder_loads(),
         _motor_starts(),
         _transition_lengths(),
         _printed_designs(),
@@ -235,6 +240,22 @@ def _take_up_and_sag() -> Iterator[ReferenceCheck]:
         whole = line_mass + loading.bulk_line_mass(flow / 3.6, belt_speed=speed)
         least = tension.sag_tension(whole, spacing=spacing, relative_sag=sag, gravity=g)
         yield printed_check(_HELIX_PRINTED, f"tension for {100 * sag:g} % sag, {name} [kN]", figure, least / 1e3)
+
+
+def _feeder_loads() -> Iterator[ReferenceCheck]:
+    """Slot of 2.05 x 0.35 m under a hopper of 3.5 m and 40 deg, lump coal of 900 kg/m³, 55 and 15 deg, 0.05 m/s."""
+    half, inside, wall = (math.radians(angle) for angle in (40.0, 55.0, 15.0))
+    outlet = {"density": 900.0, "outlet_length": 2.05, "outlet_width": 0.35, "gravity": 9.81}
+    initial = feeder.initial_load_factor(3.5, outlet_width=0.35, half_angle=half)
+    load = feeder.hopper_load(initial, **outlet)
+    pull = math.sin(inside) * load
+    yield printed_check(_HELIX_FEEDER, "surcharge factor after filling", "5.36", initial)
+    yield printed_check(_HELIX_FEEDER, "vertical load after filling [kN]", "11.89", load / 1e3)
+    yield printed_check(_HELIX_FEEDER, "pull-out force after filling [kN]", "9.74", pull / 1e3)
+    yield printed_check(_HELIX_FEEDER, "pull-out power after filling [kW]", "0.49", 0.05 * pull / 1e3)
+    flow = feeder.flow_load_factor(half, internal_friction=inside, wall_friction=wall)
+    undivided = 4.0 * math.tan(half) * feeder.hopper_load(flow, **outlet)
+    yield printed_check(_HELIX_FEEDER, "vertical load in flow, times 4 tan α [kN]", "2.12", undivided / 1e3)
 
 
 def _motor_starts() -> Iterator[ReferenceCheck]:

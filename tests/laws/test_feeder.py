@@ -3,10 +3,18 @@
 import math
 
 import pytest
-from scipy.integrate import quad
+from scipy.integrate import quad, solve_ivp
 
 from conveyor.errors import ConveyorError
-from conveyor.laws.feeder import flow_load_factor, gate_flow, hopper_load, initial_load_factor
+from conveyor.laws.feeder import (
+    bin_surcharge_height,
+    flow_load_factor,
+    gate_flow,
+    hopper_load,
+    hopper_skirt_resistance,
+    initial_load_factor,
+)
+from conveyor.laws.resistance import skirt_resistance
 
 DEG = math.pi / 180.0
 PRINTED = {"density": 900.0, "outlet_length": 2.05, "outlet_width": 0.35, "gravity": 9.81}
@@ -37,6 +45,26 @@ def test_after_filling_is_the_column_over_the_outlet():
     assert load == pytest.approx(850.0 * 9.81 * width * 4.0 * height, rel=1e-12)
 
 
+def test_a_bin_presses_like_its_slices_in_balance():
+    """dp/dz = ρ g - K tan φ p/R from the top down, integrated; shallow: the whole column, deep: R/(K tan φ)."""
+    radius, ratio, wall = 1.5, 0.4, 20.0 * DEG
+    bin_walls = {"hydraulic_radius": radius, "wall_friction": wall, "pressure_ratio": ratio}
+    drag = ratio * math.tan(wall) / radius
+    integrated = solve_ivp(lambda _, p: 1.0 - drag * p, (0.0, 6.0), [0.0], rtol=1e-10, atol=1e-12).y[0, -1]
+    assert bin_surcharge_height(6.0, **bin_walls) == pytest.approx(integrated, rel=1e-8)
+    assert bin_surcharge_height(1e-6, **bin_walls) == pytest.approx(1e-6, rel=1e-6)
+    assert bin_surcharge_height(1e4, **bin_walls) == pytest.approx(1.0 / drag, rel=1e-12)
+    assert bin_surcharge_height(0.0, **bin_walls) == 0.0
+    with pytest.raises(ConveyorError, match="bin_height"):
+        bin_surcharge_height(-1.0, **bin_walls)
+
+
+def test_the_bin_stands_on_the_column_over_the_outlet():
+    hopper = {"outlet_width": 0.6, "half_angle": 20.0 * DEG}
+    more = initial_load_factor(3.0, surcharge_height=2.4, **hopper) - initial_load_factor(3.0, **hopper)
+    assert more == pytest.approx(4.0, rel=1e-12)
+
+
 def test_in_flow_the_wedge_below_the_outlet_is_in_balance():
     """Tractions of both walls, from the printed field of stress and linear from the apex, less the wedge's weight."""
     slope, wall = 40.0 * DEG, 15.0 * DEG
@@ -56,8 +84,37 @@ def test_flow_leaves_less_than_filling():
     assert all(0.0 < load < initial_load_factor(3.0, outlet_width=0.6, half_angle=0.35) for load in loads)
 
 
+def test_skirts_under_the_hopper_feel_load_and_bulk():
+    """μ K of the vertical pressure, integrated from the outlet down to the belt, on both sides."""
+    load, density, length, width, height = 3000.0, 850.0, 4.0, 0.6, 0.25
+    side = quad(lambda z: 0.4 * (load / (width * length) + density * 9.81 * z), 0.0, height)[0]
+    found = hopper_skirt_resistance(
+        load, pressure_ratio=0.4, friction=0.5, density=density, outlet_length=length, outlet_width=width,
+        gate_height=height, gravity=9.81,
+    )  # fmt: skip
+    assert found == pytest.approx(2.0 * 0.5 * length * side, rel=1e-12)
+
+
+def test_skirts_without_a_hopper_are_those_of_iso_5048_at_a_pressure_ratio_of_one():
+    """μ2 Q² ρ g l/(v² b²), Q the volume flow, against μ K ρ g l y² at the depth of the flow y = Q/(v b)."""
+    flow, speed, width, length = 0.04, 0.3, 0.6, 2.5
+    iso = skirt_resistance(
+        volume_flow=flow, bulk_density=850.0, length=length, bulk_speed=speed, skirt_distance=width,
+        skirt_friction=0.7, gravity=9.81,
+    )  # fmt: skip
+    ours = hopper_skirt_resistance(
+        0.0, pressure_ratio=1.0, friction=0.7, density=850.0, outlet_length=length, outlet_width=width,
+        gate_height=flow / (speed * width), gravity=9.81,
+    )  # fmt: skip
+    assert ours == pytest.approx(iso, rel=1e-12)
+
+
 def test_gate():
     assert gate_flow(0.3, density=1000.0, gate_width=0.6, gate_height=0.25) == pytest.approx(45.0, rel=1e-12)
+    slipping = gate_flow(0.3, density=1000.0, gate_width=0.6, gate_height=0.25, efficiency=0.8)
+    assert slipping == pytest.approx(36.0, rel=1e-12)
+    with pytest.raises(ConveyorError, match="efficiency"):
+        gate_flow(0.3, density=1000.0, gate_width=0.6, gate_height=0.25, efficiency=1.2)
 
 
 def test_refusals():

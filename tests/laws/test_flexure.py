@@ -98,7 +98,18 @@ def test_the_mean_sag_of_halves_is_that_of_the_whole():
     halves = [flexure.mean_sag_ratio(*pair, limit=limit) for pair in ((starts, middle), (middle, ends))]
     assert 0.5 * sum(halves) == pytest.approx(flexure.mean_sag_ratio(starts, ends, limit=limit), rel=1e-13)
     with pytest.raises(InputError, match="limit"):
-        flexure.mean_sag_ratio(starts, ends, limit=np.zeros(2))
+        flexure.mean_sag_ratio(starts, ends, limit=np.array([1.0, -1.0]))
+
+
+def test_a_belt_carried_everywhere_is_the_limit_of_no_tension_for_sag():
+    """T_0 ln(T/T_0)/T falls to 0: what is taut has no sag, what is not is the share below 0."""
+    starts, ends = np.array([3e4, 0.0, -1e4, 2e4, 0.0]), np.array([1e4, 2e4, 3e4, 2e4, 0.0])
+    none = flexure.mean_sag_ratio(starts, ends, limit=np.zeros(5))
+    assert none == pytest.approx([0.0, 0.0, 0.25, 0.0, 1.0], abs=1e-15)
+    for limit in (1.0, 1e-3, 1e-6):
+        near = flexure.mean_sag_ratio(starts, ends, limit=np.full(5, limit))
+        bound = limit / 1e4 * (1.0 + np.log(3e4 / limit))  # T_0/T_max (1 + ln(T_max/T_0)) over the shortest rise
+        assert np.all(np.abs(near - none) <= bound), limit
 
 
 def test_load_and_sag_are_the_soft_belt_with_its_loss_as_coefficient():

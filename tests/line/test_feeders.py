@@ -6,6 +6,8 @@ from pathlib import Path
 import pytest
 
 import conveyor
+import conveyor.models
+from conveyor.dynamics.simulation import simulate_scenarios
 from conveyor.errors import InputError
 from conveyor.units import si
 from tests.command_line import run
@@ -52,6 +54,73 @@ def test_start_after_filling_breaks_the_initial_load_away(feeder):
     assert checks(high)["feeder_grip"].required > checks(low)["feeder_grip"].required
 
 
+def test_a_filled_hopper_takes_half_its_pull_off_the_slack_side_of_a_screw_take_up(feeder):
+    """Hopper at the tail, drive at the head: a loop of fixed length gains on the carry strand what the return loses."""
+    found = conveyor.analyse(with_hopper(feeder, flow_factor=0.5, initial_factor=2.0)).hopper_states
+    filled, flow, run_out = found.values()
+    load = 850.0 * si(feeder.calculation.gravity) * 4.0 * 0.6**2
+    pull = flow.balance.line.design_friction * (math.sin(math.radians(50.0)) + 0.3) * load
+    bends = [sum(one.balance.settled.bends) for one in (filled, flow, run_out)]
+    near = 2.0 * (max(bends) - min(bends))  # pulleys feel the tension
+    assert filled.motion.force - flow.motion.force == pytest.approx(1.5 * pull, abs=near)
+    assert flow.motion.force - run_out.motion.force == pytest.approx(0.5 * pull, abs=near)
+    (before,), (after,) = flow.motion.drives, filled.motion.drives
+    assert after.slack - before.slack == pytest.approx(-0.75 * pull, abs=near)
+    assert after.tight - before.tight == pytest.approx(0.75 * pull, abs=near)
+    assert near < 0.01 * pull
+
+
+def test_a_weight_keeps_the_slack_side(feeder):
+    take_up = {"kind": "gravity", "position": "head", "tension": "60 kN"}
+    found = conveyor.analyse(feeder.replace(route=feeder.route.replace(take_up=take_up))).hopper_states
+    slack = [state.motion.drives[0].slack for state in found.values()]
+    assert slack == pytest.approx([slack[0]] * 3, rel=1e-9)
+
+
+def test_the_slack_side_needed_under_the_filled_hopper(feeder):
+    """e^(μ α) - 1 of the drive; what the message asks for passes, a little less fails."""
+    loose = feeder.replace(
+        route=feeder.route.replace(take_up={"kind": "screw", "position": "tail", "tension": "60 kN"})
+    )
+    result = conveyor.analyse(loose)
+    grip = checks(result)["feeder_grip"]
+    filled = result.hopper_states["filled, after standing"].motion
+    assert grip.failed
+    assert grip.required == pytest.approx(filled.force / math.expm1(0.35 * math.radians(210.0)), rel=1e-12)
+    needed = 60e3 + grip.required - grip.calculated
+    for tension, fails in ((1.02 * needed, False), (0.96 * needed, True)):
+        taut = {"kind": "screw", "position": "tail", "tension": f"{tension:.6g} N"}
+        assert (
+            checks(conveyor.analyse(feeder.replace(route=feeder.route.replace(take_up=taut))))["feeder_grip"].failed
+            is fails
+        )
+    safety = checks(result)["feeder_safety"]
+    assert safety.calculated == pytest.approx(800e3 * 1.2 / filled.largest, rel=1e-12)
+
+
+def test_a_start_that_stalls_says_what_torque_it_needs(feeder):
+    """5.5 kW give 16.9 kN at the belt, the filled hopper holds some 90 kN."""
+    weak = conveyor.analyse(feeder.replace(drive=feeder.drive.replace(installed_power="5.5 kW")))
+    start = checks(weak)["breakaway"]
+    rated = 5.5e3 * 0.92 / 0.3
+    assert start.failed
+    assert f"{start.required / rated:.2f} times the rated torque breaks it away" in str(start.why)
+    times = {name: state.start_time for name, state in weak.hopper_states.items()}
+    assert times["filled, after standing"] is None
+    assert times["flow"] is not None
+
+
+def test_a_start_through_time_breaks_the_initial_load_away(feeder):
+    """Motors too weak for the filled hopper, strong enough for the flow: only the start from rest stalls."""
+    weak = feeder.replace(drive=feeder.drive.replace(installed_power="5.5 kW"))  # 1.6 x 16.9 kN at the belt
+    start = {"name": "s", "begins": "at rest", "loading": "full", "events": [{"do": "start"}], "duration": "4 s"}
+    scenario = conveyor.models.Scenario.from_data(start)
+    stalled = simulate_scenarios(weak, [scenario], step=0.02).followed[0]
+    light = simulate_scenarios(with_hopper(weak, initial_factor=0.5), [scenario], step=0.02).followed[0]
+    assert abs(stalled.belt_speed[-1]) < 0.01 * 0.3  # the belt before the drive gives way, then all stands
+    assert light.belt_speed[-1] > 0.9 * 0.3
+
+
 def test_an_empty_belt_has_no_hopper(feeder):
     found = conveyor.analyse(feeder.replace(material=feeder.material.replace(flow="0 t/h")))
     assert not {"hopper_pull", "hopper_load"} & set(forces(found))
@@ -93,6 +162,12 @@ def test_gate_and_speed_are_checked(feeder):
         ({"wall_friction": "55 deg"}, "wall_friction"),
         ({"half_angle": "59 deg", "wall_friction": "45 deg"}, "half_angle"),
         ({"outlet_width": "900 mm"}, "wider than the skirts"),
+        ({"top_width": "600 mm"}, "top_width: got 600 mm, not wider than the outlet"),
+        ({"top_width": "610 mm"}, "gate_height: got 250 mm, higher than the hopper, 13.74 mm"),
+        ({"half_angle": "60 deg", "top_width": "1400 mm", "flow_factor": 0.2}, "got 250 mm, higher than the hopper"),
+        ({"outlet_length": "9 m"}, "outlet_length: got 9 m, longer than the 8 m of belt to the head"),
+        ({"flow_factor": 0.5, "initial_factor": 0.4}, "initial_factor: the load factor after filling, 0.4 given"),
+        ({"flow_factor": 6.0}, "top_width: the load factor after filling, 5.49 of its shape, is below the 6 of flow"),
     ],
 )
 def test_what_a_hopper_cannot_be(feeder, changes, match):
@@ -107,6 +182,135 @@ def test_a_fast_belt_and_a_fall_are_refused(feeder):
         feeder.route.feeding.replace(drop_height="1 m")
     with pytest.raises((InputError, ValueError), match="from rest"):
         feeder.route.feeding.replace(speed="0.1 m/s")
+
+
+def test_what_a_belt_under_a_hopper_cannot_be(feeder):
+    feeding, (section,) = feeder.route.feeding, feeder.route.sections
+    share = {"share": "50 %"}
+    with pytest.raises(InputError, match="skirt_width: got 1300 mm, wider than the belt"):
+        feeder.replace(route=feeder.route.replace(feeding=feeding.replace(skirt_width="1300 mm")))
+    pipe = conveyor.load("examples/specs/pipe.yaml")
+    with pytest.raises(InputError, match=r"hopper: given, but the belt closes to a pipe"):
+        feeder.replace(idlers=pipe.idlers, material=feeder.material.replace(flow="60 t/h"))
+    twice = {"feeding": feeding.replace(**share), "further_feeding": [feeding.replace(**share)]}
+    with pytest.raises(InputError, match="stands where another hopper does"):
+        feeder.replace(route=feeder.route.replace(**twice))
+    curved = section.replace(bed=None, curve="convex", curve_radius="100 m")
+    with pytest.raises(InputError, match='given on the curve of section "feeder"'):
+        feeder.replace(route=feeder.route.replace(sections=[curved]))
+    head = section.replace(name="head", length="2 m")
+    at_head = feeder.route.replace(sections=[head.replace(name="tail"), head], feeding=feeding.replace(section="head"))
+    with pytest.raises(InputError, match="longer than the 2 m of belt to the head"):
+        feeder.replace(route=at_head)
+    short = feeding.replace(section="head", hopper=feeding.hopper.replace(outlet_length="1 m"))
+    behind = feeder.replace(route=at_head.replace(feeding=short))
+    with pytest.raises(InputError, match="the gate of a hopper stands at one end of its outlet"):
+        behind.replace(cases=[{"name": "back", "reversed": True}])
+
+
+def test_a_bin_adds_to_the_start_and_nothing_to_flow(feeder):
+    """3 m wide, 6 m of coal on 20 deg walls: h_s of Janssen over the outlet, sheared and carried."""
+    drag = 0.4 * math.tan(math.radians(20.0)) / 1.5
+    column = (1.0 - math.exp(-6.0 * drag)) / drag
+    one, other = conveyor.analyse(feeder), conveyor.analyse(with_hopper(feeder, bin_height="6 m"))
+    assert forces(other) == pytest.approx(forces(one), rel=1e-12)
+    load = 850.0 * si(feeder.calculation.gravity) * 4.0 * 0.6 * column
+    more = one.line.design_friction * (math.sin(math.radians(50.0)) + 0.3) * load
+    assert checks(other)["breakaway"].required - checks(one)["breakaway"].required == pytest.approx(more, rel=1e-9)
+    assert any("bin_pressure_ratio not given" in line for line in map(str, other.warnings))
+    with pytest.raises((InputError, ValueError), match="bin_pressure_ratio: given without bin_height"):
+        with_hopper(feeder, bin_pressure_ratio=0.5)
+    with pytest.raises((InputError, ValueError), match="bin_height: given with initial_factor"):
+        with_hopper(feeder, bin_height="6 m", initial_factor=9.0)
+
+
+def test_skirts_under_the_hopper(feeder):
+    """2 μ K y/B of the load and the weight of the bulk between, in flow; the start shears what filling adds."""
+    given = {"flow_factor": 0.5, "initial_factor": 2.0}
+    bare, between = (with_hopper(feeder, **given, **more) for more in ({}, {"skirt_pressure_ratio": 0.4}))
+    one, other = conveyor.analyse(bare), conveyor.analyse(between)
+    unit, gravity = 0.4 * feeder.route.feeding.skirt_friction * 0.25 / 0.6, si(feeder.calculation.gravity)
+    load, weight = 850.0 * gravity * 4.0 * 0.6**2, 850.0 * gravity * 4.0 * 0.6 * 0.25
+    assert forces(other)["hopper_skirts"] == pytest.approx(unit * (2.0 * 0.5 * load + weight), rel=1e-12)
+    assert "hopper_skirts" not in forces(one)
+
+    def added(result):
+        design = result.motions.design_start.breakaway - result.balance.settled.design_force
+        return design / result.line.design_friction
+
+    assert added(other) - added(one) == pytest.approx(unit * 2.0 * 1.5 * load, rel=1e-9)
+    cema = {"flexure_factor": 0.02, "idler_friction": "6.7 N"}
+    by_cema = conveyor.analyse(between.replace(calculation=feeder.calculation.replace(cema=cema))).balance.cema
+    items = {item[1]: item[2] for item in by_cema.items}
+    assert items["hoppers"] == pytest.approx(
+        sum(forces(other)[key] for key in ("hopper_pull", "hopper_load", "hopper_skirts")), rel=1e-12
+    )
+
+
+def test_two_hoppers_add_up_and_the_first_has_room_to_the_second(feeder):
+    """Each as alone, with the same load: their pulls are not shared by the flow."""
+    feeding, (section,) = feeder.route.feeding.replace(share="50 %"), feeder.route.sections
+    sections = [section, section.replace(name="second")]
+    second = feeding.replace(section="second")
+    both = feeder.replace(
+        route=feeder.route.replace(sections=sections, feeding=feeding, further_feeding=[second]),
+        material=feeder.material.replace(flow="120 t/h"),
+    )
+    pulls = [each.total for each in conveyor.analyse(both).balance.every if each.key == "hopper_pull"]
+    alone = forces(conveyor.analyse(feeder))["hopper_pull"]
+    assert pulls == pytest.approx([alone, alone], rel=1e-12)
+    with pytest.raises(InputError, match="longer than the 3 m of belt to the next hopper"):
+        both.replace(route=both.route.replace(sections=[section.replace(length="3 m"), sections[1]]))
+
+
+def test_the_same_feeder_in_us_units(feeder):
+    feet = {
+        "outlet_length": f"{4 / 0.3048!r} ft",
+        "outlet_width": f"{600 / 25.4!r} in",
+        "top_width": f"{3 / 0.3048!r} ft",
+    }
+    us = with_hopper(feeder, **feet, gate_height=f"{250 / 25.4!r} in")
+    one, other = conveyor.analyse(feeder), conveyor.analyse(us)
+    assert forces(other)["hopper_pull"] == pytest.approx(forces(one)["hopper_pull"], rel=1e-12)
+    assert checks(other)["feeder_flow"].required == pytest.approx(checks(one)["feeder_flow"].required, rel=1e-12)
+    assert checks(other)["feeder_grip"].required == pytest.approx(checks(one)["feeder_grip"].required, rel=1e-9)
+
+
+def skirted(spec, **of_feeding):
+    """The feeder of twice the flow, between skirts from the rear of the hopper to the head."""
+    between = {"skirt_length": "4 m", "skirt_width": "600 mm"} | of_feeding
+    feeding = spec.route.feeding.replace(**between, hopper=spec.route.feeding.hopper.replace(gate_height="500 mm"))
+    route = spec.route.replace(feeding=feeding)
+    return spec.replace(route=route, material=spec.material.replace(flow="240 t/h"))
+
+
+def test_bulk_between_skirts_is_held_by_them(feeder):
+    """Middle roll and flat belt: 600 mm x 500 mm over a trough whose wings 600 - 465 mm of belt reach into."""
+    result = conveyor.analyse(skirted(feeder, skirt_height="500 mm"))
+    filling = checks(result)["filling"]
+    wing = 0.5 * (0.6 - 0.465)
+    trough = (0.465 + wing * math.cos(math.radians(20.0))) * wing * math.sin(math.radians(20.0))
+    assert filling.calculated == pytest.approx(240e3 / 3600.0 / 0.3 / 850.0, rel=1e-12)
+    assert filling.required == pytest.approx(0.6 * 0.5 + trough, rel=1e-9)
+    assert filling.verdict == "pass"
+    assert "between the skirts" in str(filling)
+
+
+def test_without_height_or_length_of_skirts_the_open_section_holds(feeder):
+    with pytest.raises(InputError, match=r"material\.flow: got 240 t/h"):
+        skirted(feeder)
+    with pytest.raises(InputError, match=r"material\.flow: got 240 t/h"):
+        skirted(feeder, skirt_height="500 mm", skirt_length="3.9 m")
+    with pytest.raises(InputError, match=r"material\.flow: got 240 t/h"):  # 1.5 times what they hold
+        skirted(feeder, skirt_height="250 mm")
+    assert checks(conveyor.analyse(skirted(feeder, skirt_height="400 mm")))["filling"].failed
+
+
+def test_slip_under_the_gate_takes_flow(feeder):
+    slipping = conveyor.analyse(with_hopper(feeder, gate_efficiency="80 %"))
+    full = checks(conveyor.analyse(feeder))["feeder_flow"].required
+    assert checks(slipping)["feeder_flow"].required == pytest.approx(0.8 * full, rel=1e-12)
+    assert checks(slipping)["feeder_flow"].failed
 
 
 @pytest.mark.parametrize("units", ["SI", "US"])

@@ -65,6 +65,12 @@ def test_a_plate_has_no_rolls_and_no_sag(slider):
     assert all(on_plate.forces[key] == 0.0 for key in ("indentation", "idler_rotation", "flexure", "misalignment"))
     assert result.stretches[1].forces["indentation"] > 0.0
     assert all(duty.stretch.bed is None for duty in result.set_duty)
+    assert result.line.stretches[0].least_tension == 0.0
+    subjects = {str(check.subject) for check in result.checks if check.key == "sag"}
+    assert subjects == {"minimum tension (sag), carry", "minimum tension (sag), return"}
+    assert {str(check.subject) for check in conveyor.analyse(all_on_plates(slider)).checks if check.key == "sag"} == {
+        "minimum tension (sag), return"
+    }
 
 
 def test_sections_on_sets_are_those_of_the_belt_without_a_plate(slider):
@@ -158,6 +164,31 @@ def test_scales_impact_sets_and_a_yielding_belt_are_refused(slider):
         slider.replace(route=slider.route.replace(feeding=point))
     with pytest.raises(InputError, match="confined"):
         slider.replace(calculation=slider.calculation.replace(support="belt"))
+
+
+def test_pipes_bare_steel_cord_and_the_return_strand_have_no_plate(slider):
+    pipe = conveyor.load("examples/specs/pipe.yaml")
+    with pytest.raises(InputError, match=r"sections\[0\].bed: given, but rings of rolls hold the belt"):
+        with_sections(pipe, bed={"surface": "steel"})
+    cords = {"kind": "steel cord", "thickness": "4 mm", "mass": "8 kg/m^2", "strength": "1000 N/mm"}
+    with pytest.raises(InputError, match=r'bed\.underside: got "friction surface", but cords of steel'):
+        slider.replace(belt=slider.belt.replace(carcass=cords))
+    covered = with_sections(slider, bed={"surface": "steel"})
+    mass = slider.belt.replace(carcass=cords).line_mass + 150e3 / 3600.0 / 0.8
+    found = force(conveyor.analyse(covered.replace(belt=covered.belt.replace(carcass=cords))), "slider_bed").total
+    assert found == pytest.approx(0.525 * mass * si(slider.calculation.gravity) * 12.0, rel=1e-12)
+    with pytest.raises((InputError, ValueError), match='unknown key "return_bed"'):
+        with_sections(slider, return_bed={"surface": "steel"})
+
+
+def test_a_fast_belt_rubs_no_more_but_its_plate_is_judged(slider):
+    fast = slider.replace(belt=slider.belt.replace(speed="10 m/s"))
+    result = conveyor.analyse(fast)
+    bulk = 150e3 / 3600.0 / 10.0
+    weight = (slider.belt.line_mass + bulk) * si(slider.calculation.gravity) * 12.0
+    assert force(result, "slider_bed").total == pytest.approx(0.325 * weight, rel=1e-12)
+    (check,) = (one for one in result.checks if one.key == "bed_speed")
+    assert check.failed
 
 
 @pytest.mark.parametrize("units", ["SI", "US"])

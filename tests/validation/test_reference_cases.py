@@ -93,6 +93,7 @@ def test_shipped_checks_name_source_and_quantity():
         "Grimmer, Kessler (1987), by eytelwein 0.1.9",
         "Harrison (1983, 1985), measured",
         "Helix delta-T reports",
+        "Helix feeder load calculation",
         "Helix shaft report",
         "Hunter (1961)",
         "ISO 5048 worked example",

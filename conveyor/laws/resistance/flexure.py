@@ -106,32 +106,34 @@ def mean_sag_ratio(start: Array, end: Array, *, limit: Array) -> Array:
     start, end : ndarray, shape (...)
         T at both ends, or T - m' v² at high speed [N]; linear between them, of any sign.
     limit : ndarray, shape (...)
-        T_0 of the largest sag [N], positive.
+        T_0 of the largest sag [N], at least 0; at 0, of a belt that is carried everywhere, the limit is taken.
 
     Returns
     -------
     ndarray, shape (...)
-        Ratio [-], above 0; 1 where the tension is nowhere above T_0: more sag than the limit is not counted.
+        Ratio [-]; 1 where the tension is nowhere above T_0: more sag than the limit is not counted. At T_0 = 0 the
+        share of the stretch that is not taut.
 
     Raises
     ------
     InputError
-        A limit is not positive.
+        A limit is negative.
 
     Examples
     --------
     >>> mean_sag_ratio(np.array([20e3, 10e3, 0.0]), np.array([20e3, 20e3, 8e3]), limit=np.full(3, 10e3)).round(6)
     array([0.5     , 0.693147, 1.      ])
     """
-    require(bool(np.all(limit > 0.0)), "limit", float(np.min(limit)), "> 0")
+    require(bool(np.all(limit >= 0.0)), "limit", float(np.min(limit)), ">= 0")
     low, high = np.minimum(start, end), np.maximum(start, end)
     taut = np.maximum(low, limit)
     span = np.where(high > low, high - low, 1.0)
     above = np.where(high > low, np.clip((high - taut) / span, 0.0, 1.0), high > limit)
-    rise = np.maximum(high - taut, 0.0) / taut
+    scale = np.where(taut > 0.0, taut, 1.0)  # T_0 ln(T/T_0) vanishes with T_0
+    rise = np.maximum(high - taut, 0.0) / scale
     flat = rise < _SMALL_RISE
     mean = np.where(flat, 1.0 - 0.5 * rise, np.log1p(rise) / np.where(flat, 1.0, rise))
-    return np.asarray(1.0 - above * (1.0 - limit / taut * mean))
+    return np.asarray(1.0 - above * (1.0 - limit / scale * mean))
 
 
 def belt_flexure_resistance(

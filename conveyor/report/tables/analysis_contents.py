@@ -176,6 +176,7 @@ TABLES: Final[dict[str, Maker]] = {
     "transitions": _load_table(curve_tables.transition_table),
     "landings": _own_table(transfer_tables.loading_point_table),
     "hoppers": _own_table(feeder_tables.hopper_table),
+    "hopper_states": _own_table(feeder_tables.hopper_state_table),
     "cleaners": _own_table(transfer_tables.cleaner_table),
     "discharge": _own_table(transfer_tables.discharge_table),
     "trajectory": _own_table(transfer_tables.trajectory_table),
