@@ -27,7 +27,7 @@ from conveyor.dynamics.wave_pulleys import (
     speed_after_friction,
     winch_direction,
 )
-from conveyor.dynamics.wave_solver import BeltLaw, WaveSolver
+from conveyor.dynamics.wave_solver import BeltLaw, WaveSolver, add_impulses
 from conveyor.errors import NoSolutionError
 
 _BLOCK = 32  # steps between two searches for extremes
@@ -168,7 +168,7 @@ class _Motion:
             k, on = turn.drives, self.on_pulleys[:, turn.drives]
             self.beside[:, :, k] = (
                 np.where(turn.ends, self.chain.held[:, None], self.tension.take(turn.sides))
-                + turn.lying + turn.shares(on, rolling.take(turn.at)) * self.rubbing[:, k]
+                + turn.lying + turn.shares(on, on == 0.0, rolling.take(turn.at)) * self.rubbing[:, k]
             )  # fmt: skip
         beside = self.beside.copy()
         self.extremes.tell(self.tension)
@@ -181,6 +181,7 @@ class _Motion:
         self._at_pulleys(beside)
         slip = self.dt * (self.drives["rim"] - self.drives["belt"])
         self.ledger.drives(self.begun, self.drives, self.frictions, self.going)
+        self.ledger.take_up(self.take_up)
         extremes, speeds, kept = self.extremes, self.speeds, self.kept
         if not (np.all(np.isfinite(extremes.high)) and np.all(np.isfinite(self.speed))):
             raise NoSolutionError("the belt's motion has no finite answer: look for extreme inputs")
@@ -227,10 +228,9 @@ class _Motion:
         self.stretching = new[:, 1:] - new[:, :-1]
         if self.law.relaxes:
             damping = damping + self.law.branch
-        spread = 0.5 * (spread + self.stretching)
-        self.ledger.belts(0.5 * (self.speed + new), spread, self.resisting, self.pulled, damping)
+        self.ledger.belts(self.speed + new, spread + self.stretching, self.resisting, damping)
         self.speed = new
-        self.tension = self.law.stretch(self.dt * self.stretching)
+        self.tension = self.law.stretch(self.stretching)
         self.viscous = self.tau_k * self.law.eased * self.stretching
 
     def _acting(self) -> Array:
@@ -249,20 +249,18 @@ class _Motion:
         friction, beside = self.frictions[i], np.empty_like(self.beside)
         self.going[i] = self.speed.take(self.flat)
         for turn, reply in zip(self.turns, self.replies, strict=True):
-            k, on, going, rolls = (
-                turn.drives,
-                self.on_pulleys[:, turn.drives],
-                new.take(turn.at),
-                rolling.take(turn.at),
-            )
+            k, going, rolls = turn.drives, new.take(turn.at), rolling.take(turn.at)
+            on = self.on_pulleys[:, k]
+            rests = on == 0.0
             faster = new.take(turn.ahead) - new.take(turn.astern) - self.stretching.take(turn.sides)
             cells = self.tension.take(turn.sides) + self.viscous.take(turn.sides) + reply.softer * faster
             tight = (self.chain.held - lacking / self.dt)[:, None]
             moved = solve_pulleys(
-                turn, i, step=self.dt, answer=reply.own, rim=self.rims[:, k], free=going - reply.own * impulse[:, k],
+                turn, i, step=self.dt, answer=reply.own, reach=reply.reach, rim=self.rims[:, k],
+                free=going - reply.own * impulse[:, k],
                 sides=np.where(turn.ends, tight, cells) + turn.lying + turn.inert * (going - on)
                 - reply.yields * going,
-                yields=reply.yields, friction=np.where(on == 0.0, turn.stuck, rolls), shares=turn.shares(on, rolls),
+                yields=reply.yields, friction=np.where(rests, turn.stuck, rolls), shares=turn.shares(on, rests, rolls),
                 last=(self.driving[:, k], self.beside[:, :, k]), gripped=self.gripping[:, k],
             )  # fmt: skip
             record["force"][i][:, k], record["motor"][i][:, k] = moved.force, moved.motor
@@ -270,8 +268,7 @@ class _Motion:
             record["holding"][i][:, k], beside[:, :, k] = moved.holding, moved.sides
             friction[:, k], self.gripping[:, k] = moved.friction, moved.grips
             change = (moved.belt - going) / reply.own
-            new = new + np.einsum("sd,sdn->sn", change, reply.columns)
-            lacking = lacking + (reply.of_take_up * change).sum(axis=1)
+            new, lacking = add_impulses(change, reply.columns, reply.of_take_up, new, lacking)
         record["arriving"][i], record["leaving"][i] = self.beside = beside
         self.driving, self.rubbing = record["force"][i], friction
         self.rims, self.on_pulleys = record["rim"][i], record["belt"][i]
@@ -325,7 +322,9 @@ class _EnergyLedger:
         self.rows = np.arange(chain.end.size)
         names = ("motors", "lift", "friction", "damping", "brakes", "slip", "take-up")
         self.sums = {name: np.zeros(chain.end.size) for name in names}
-        self.winches = chain.winch[0] > 0.0
+        self.rubbed, self.damped = np.zeros_like(chain.mass), np.zeros_like(chain.stiffness)
+        self.way = np.zeros_like(chain.mass)  # twice the way over the step
+        self.apart = start.speed[self.rows, chain.end] - start.speed[:, 0]
         self.first = self._stored(start.speed, start.rims, law)
 
     def drives(self, begun: Array, drives: dict[str, Array], frictions: Array, going: Array) -> None:
@@ -340,13 +339,18 @@ class _EnergyLedger:
         ):
             self.sums[name] += self.dt * power.sum(axis=(0, 2))
 
-    def belts(self, mean: Array, spread: Array, friction: Array, tight: Array, damping: Array) -> None:
-        """Add the work of a step along the belts, at mean speeds and speed differences."""
-        apart = mean[self.rows, self.chain.end] - mean[:, 0]
-        self.sums["lift"] += self.dt * np.einsum("sn,sn->s", self.chain.weight, mean)
-        self.sums["friction"] += self.dt * np.einsum("sn,sn->s", friction, mean)
-        self.sums["damping"] += self.dt * np.einsum("sn,sn->s", damping, spread)
-        self.sums["take-up"] -= self.dt * np.where(self.winches, tight, self.chain.held) * apart
+    def belts(self, speed: Array, spread: Array, friction: Array, damping: Array) -> None:
+        """Add a step along the belts, with twice the mean speeds and speed differences."""
+        self.way += speed
+        self.rubbed += friction * speed
+        self.damped += damping * spread
+
+    def take_up(self, record: dict[str, Array]) -> None:
+        """Add the work of all steps at the take-up."""
+        apart = np.diff(record["belt"], axis=0, prepend=0.0) / self.dt
+        mean = 0.5 * (apart + np.concatenate([self.apart[None], apart[:-1]]))
+        pull = np.where(self.chain.winch[0] > 0.0, record["tension"], self.chain.held)
+        self.sums["take-up"] -= self.dt * (pull * mean).sum(axis=0)
 
     def _stored(self, speed: Array, rims: Array, law: BeltLaw) -> tuple[Array, Array, Array]:
         apart = speed[self.rows, self.chain.end] - speed[:, 0]
@@ -359,6 +363,10 @@ class _EnergyLedger:
         kinetic, elastic, held = (
             last - first for last, first in zip(self._stored(speed, rims, law), self.first, strict=True)
         )
+        half = 0.5 * self.dt
+        self.sums["lift"] += half * (self.chain.weight * self.way).sum(axis=1)
+        self.sums["friction"] += half * self.rubbed.sum(axis=1)
+        self.sums["damping"] += half * self.damped.sum(axis=1)
         made = dict(self.sums) | {"kinetic": kinetic, "elastic": elastic + held}
         made["damping"] = made["damping"] - held
         spent = sum((value for name, value in made.items() if name != "motors"), np.zeros_like(kinetic))

@@ -27,6 +27,7 @@ class BeltLaw:
         self.bears = chain.stiffness > 0.0
         self.idle = not bool(self.bears.all())
         self.k, self.sag = np.where(self.bears, chain.stiffness, 1.0), chain.sag
+        self.step = np.where(self.bears, step, 0.0) if self.idle else step
         self.hangs = bool(chain.sag.any())
         if self.hangs:
             self.sag = np.where(self.bears, chain.sag, 1.0)
@@ -49,15 +50,16 @@ class BeltLaw:
             1.0 / (1.0 + self.softens / (self.root * self.root * self.root)) if self.hangs else np.ones_like(self.root)
         )
 
-    def stretch(self, way: Array) -> Array:
-        """Elongate the cells [m] and return the tension without damping [N]."""
-        if self.idle:
-            way = np.where(self.bears, way, 0.0)
+    def stretch(self, apart: Array) -> Array:
+        """Elongate the cells at speeds [m/s] over a step and return the tension without damping [N]."""
+        way = self.step * apart
         self.apart = self.apart + way
         if not self.hangs:
             self.root = self.k * self.apart
         else:
-            for _ in range(NEWTON):  # concave and rising: from below each step falls short of the root
+            # concave and rising: from below each of Newton's steps falls short of the root, the first by the tangent
+            self.root = np.maximum(self.root + self.k * self.eased * way, 0.25 * self.root)
+            for _ in range(NEWTON):
                 earlier = self.root
                 slack = self.sag / (earlier * earlier)
                 change = (self.apart + slack - self.gives * earlier) / (self.gives + 2.0 * slack / earlier)
@@ -72,7 +74,7 @@ class BeltLaw:
             self.branch = self.fades * self.branch + self.eased * self.fed * way
             self.tension = self.root + self.branch
         if self.idle:
-            self.tension = np.where(self.bears, self.tension, 0.0)
+            self.tension = self.tension * self.bears
         return self.tension
 
     def stored(self) -> tuple[Array, Array]:
@@ -116,10 +118,17 @@ class _ImpulseResponse:
 
     def moved(self, impulse: Array, speed: Array, lacking: Array) -> tuple[Array, Array]:
         """Speeds, and the impulse lacking at the take-up, after impulses at the places."""
-        return (
-            speed + np.einsum("sd,sdn->sn", impulse, self.columns),
-            lacking + (self.of_take_up * impulse).sum(axis=1),
-        )
+        return add_impulses(impulse, self.columns, self.of_take_up, speed, lacking)
+
+
+def add_impulses(
+    impulse: Array, columns: Array, of_take_up: Array, speed: Array, lacking: Array
+) -> tuple[Array, Array]:
+    """Speeds, and the impulse lacking at the take-up, after impulses at places with these responses."""
+    for j in range(impulse.shape[1]):
+        speed = speed + impulse[:, j, None] * columns[:, j]
+        lacking = lacking + impulse[:, j] * of_take_up[:, j]
+    return speed, lacking
 
 
 def _flat_indices(places: Integers, masses: int, first: int, count: int) -> tuple[Integers, Integers, Integers]:
@@ -137,6 +146,7 @@ class WaveSolver:
         s, n = chain.stiffness.shape
         self.mass, self.end, self.rows = chain.mass, chain.end, np.arange(s)
         self.stiff = np.isinf(chain.carriage) | (chain.winch[0] > 0.0)
+        self.keeps = bool(self.stiff.any())
         self.carriage = np.where(self.stiff, 0.0, chain.carriage)
         self.damping = 0.5 * step * chain.retardation * chain.stiffness
         self.shares, self.drives = np.full((s, n), np.inf), chain.nodes.shape[1]
@@ -158,10 +168,10 @@ class WaveSolver:
         """
         if not self.damps:  # factorised once
             shares = np.zeros_like(shares)
-        off = np.abs(shares - self.middle) > 0.5 * _SHARE
-        if not off.any():
+        off = np.abs(shares - self.middle)
+        if float(off.max()) <= 0.5 * _SHARE:
             return False
-        changed = off.any(axis=1)
+        changed = off.max(axis=1) > 0.5 * _SHARE
         self.shares = np.where(changed[:, None], np.minimum(shares + 0.5 * _SHARE, 1.0), self.shares)
         self.middle = self.shares - 0.5 * _SHARE
         damping = self.damping * self.shares
@@ -200,6 +210,7 @@ class WaveSolver:
         """Change of all speeds by impulses [m/s], and the impulse lacking in the take-up's tension [N s]."""
         change = self._banded(impulse)
         apart = self._apart(change)
-        apart = np.where(self.stiff, apart + self._apart(before) - wanted, apart)
+        if self.keeps:
+            apart = np.where(self.stiff, apart + self._apart(before) - wanted, apart)
         lacking = self.kappa * apart
         return change - self.pair * lacking[:, None], lacking
