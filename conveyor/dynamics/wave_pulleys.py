@@ -42,7 +42,7 @@ class DriveGroup:
     late: Array
 
     @classmethod
-    def of(cls, chain: Chain, machines: Machines, step: float, k: list[int]) -> DriveGroup:
+    def of(cls, chain: Chain, machines: Machines, step: Array, k: list[int]) -> DriveGroup:
         """Some drives of every belt."""
         drives: list[int] | slice = slice(None) if len(k) == chain.nodes.shape[1] else k
         (s, n), at, before = chain.stiffness.shape, chain.nodes[:, drives], chain.before[:, :, drives]
@@ -97,7 +97,7 @@ class GroupResponse:
     yields: Array
 
     @classmethod
-    def of(cls, solver: WaveSolver, turn: DriveGroup, step: float) -> GroupResponse:
+    def of(cls, solver: WaveSolver, turn: DriveGroup, step: Array) -> GroupResponse:
         """Response of the present system."""
         k, pulleys = turn.drives, solver.pulleys
         softer = 0.5 * turn.tau_k * solver.shares.take(turn.sides)
@@ -133,7 +133,7 @@ def speed_after_friction(free: Array, forward: Array, backward: Array) -> Array:
 
 
 def solve_pulleys(
-    turn: DriveGroup, i: int, *, step: float, answer: Array, reach: Array, rim: Array, free: Array, sides: Array,
+    turn: DriveGroup, i: int, *, step: Array, answer: Array, reach: Array, rim: Array, free: Array, sides: Array,
     yields: Array, friction: Array, shares: Array, last: tuple[Array, Array], gripped: NDArray[np.bool_],
 ) -> PulleyState:  # fmt: skip
     """Solve motors, brakes, rims and the belt on them together; a motor on its characteristic, or at its limit.

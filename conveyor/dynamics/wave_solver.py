@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,7 +22,7 @@ _SHARE = 0.05  # of k, by which solver damping may exceed that of a cell: half o
 class BeltLaw:
     """Tension of every cell by its elongation, u = T/k - b/T², and a relaxing branch in parallel."""
 
-    def __init__(self, chain: Chain, step: float, tension: Array) -> None:
+    def __init__(self, chain: Chain, step: Array, tension: Array) -> None:
         self.bears = chain.stiffness > 0.0
         self.idle = not bool(self.bears.all())
         self.k, self.sag = np.where(self.bears, chain.stiffness, 1.0), chain.sag
@@ -38,11 +37,17 @@ class BeltLaw:
         self.root = self.tension = tension
         self.apart = self.gives * tension - (self.sag / tension**2 if self.hangs else 0.0)
         share, time = chain.relaxing
-        self.fades = math.exp(-step / time)
+        self.fades = np.exp(-step / time)
         self.branch_k = share * np.where(self.bears, self.k, 0.0)
         self.fed = self.branch_k * time / step * (1.0 - self.fades)
         self.branch, self.relaxes = np.zeros_like(tension), bool(self.branch_k.any())
         self._ease()
+
+    def drop_belts(self, count: int) -> None:
+        """Go on with the first belts only."""
+        for name, value in vars(self).items():
+            if isinstance(value, np.ndarray):
+                setattr(self, name, value[:count])
 
     def _ease(self) -> None:
         """Tangent stiffness of the cells over k at their tension; 1 without sag."""
@@ -142,15 +147,14 @@ def _flat_indices(places: Integers, masses: int, first: int, count: int) -> tupl
 class WaveSolver:
     """Linear system of a step: masses, damping, the take-up between both ends; and the responses of pulleys."""
 
-    def __init__(self, chain: Chain, step: float) -> None:
+    def __init__(self, chain: Chain, step: Array, shares: Array | None = None) -> None:
         s, n = chain.stiffness.shape
         self.mass, self.end, self.rows = chain.mass, chain.end, np.arange(s)
         self.stiff = np.isinf(chain.carriage) | (chain.winch[0] > 0.0)
         self.keeps = bool(self.stiff.any())
         self.carriage = np.where(self.stiff, 0.0, chain.carriage)
         self.damping = 0.5 * step * chain.retardation * chain.stiffness
-        self.shares, self.drives = np.full((s, n), np.inf), chain.nodes.shape[1]
-        self.middle, self.damps = self.shares, bool(self.damping.any())
+        self.drives, self.damps = chain.nodes.shape[1], bool(self.damping.any())
         places = np.hstack([chain.end[:, None], chain.nodes, chain.lumps])
         units = np.zeros((places.shape[1], s, n + 1))
         units[np.arange(places.shape[1]), self.rows[:, None], places] = 1.0
@@ -160,6 +164,9 @@ class WaveSolver:
             (part, *_flat_indices(places[:, 1:][:, part], n + 1, part.start, places.shape[1] - 1))
             for part in (slice(0, self.drives), slice(self.drives, places.shape[1] - 1))
         ]
+        self.shares = self.middle = np.full((s, n), np.inf)
+        if shares is not None:
+            self._factorise(shares)
 
     def update_damping(self, shares: Array) -> bool:
         """Factorise the system again if shares of k have changed; return true if so.
@@ -172,9 +179,13 @@ class WaveSolver:
         if float(off.max()) <= 0.5 * _SHARE:
             return False
         changed = off.max(axis=1) > 0.5 * _SHARE
-        self.shares = np.where(changed[:, None], np.minimum(shares + 0.5 * _SHARE, 1.0), self.shares)
-        self.middle = self.shares - 0.5 * _SHARE
-        damping = self.damping * self.shares
+        self._factorise(np.where(changed[:, None], np.minimum(shares + 0.5 * _SHARE, 1.0), self.shares))
+        return True
+
+    def _factorise(self, shares: Array) -> None:
+        """Factorise the system with these shares of k, and find its responses."""
+        self.shares, self.middle = shares, shares - 0.5 * _SHARE
+        damping = self.damping * shares
         diagonal, beside = self.mass.copy(), np.zeros_like(self.mass)
         diagonal[:, :-1] += damping
         diagonal[:, 1:] += damping
@@ -196,7 +207,6 @@ class WaveSolver:
             )
             for k, mutual, own, near in self.answers
         )
-        return True
 
     def _banded(self, right: Array) -> Array:
         solution, _ = dpttrs(self.lower, self.off, right.ravel())
