@@ -103,7 +103,7 @@ class _Motion:
         alone = self.loose.copy()
         alone[self.rows, chain.lumps] = 0.0
         self.over_mass, self.under_mass = alone * step / chain.mass, alone * chain.mass / step
-        self.still = chain.sticking * self.over_mass
+        self.sinking, self.still = -chain.weight, chain.sticking * self.over_mass
         self.lumps = self.rows * (n + 1) + chain.lumps
         self.lumps_loose, self.lumps_stuck = self.loose.take(self.lumps), chain.sticking.take(self.lumps)
         self.winds = bool(np.any(chain.winch[0]))
@@ -161,7 +161,7 @@ class _Motion:
             self.winding = np.clip(wanted, self.winding - most, self.winding + most)
         if self.solver.update_damping(self.law.eased):
             self._answered()
-        change, lacking = self.solver.change(self.dt * self._acting(), self.speed, self.winding)
+        change, lacking = self.solver.change(self._impulse(), self.speed, self.winding)
         new, rolling = self.speed + change, chain.resisting(self.speed)
         new, lacking, lumped = self._rubbed(new, lacking, rolling)
         if self.at.size:
@@ -185,14 +185,15 @@ class _Motion:
         self.viscous = self.tau_k * self.law.eased * self.stretching
         self.record.keep(i, shown, new, self.pulled, new[self.one, chain.end] - new[:, 0])
 
-    def _acting(self) -> Array:
-        """Force on every mass, with the last friction and drive forces."""
-        acting, strained = -self.chain.weight - self.resisting, self.tension + self.viscous
+    def _impulse(self) -> Array:
+        """Impulse on every mass over a step, with the last friction and drive forces."""
+        acting, strained = self.sinking - self.resisting, self.tension + self.viscous
         acting[:, 1:] -= strained
         acting[:, :-1] += strained
         acting[:, 0] -= self.chain.held  # cancels exactly at rest
         acting[self.one, self.chain.end] += self.chain.held
         acting[self.rows, self.at] += self.driving - self.rubbing
+        acting *= self.dt
         return acting
 
     def _driven(self, i: int, new: Array, lacking: Array, rolling: Array) -> tuple[Array, Array]:

@@ -16,6 +16,9 @@ NEWTON, NEAR = (
 )  # iterations for a tension at most, and the relative change after which the error is its square
 
 
+_FALL = 0.75  # of a tension, by which an iteration takes it down at most
+
+
 _SHARE = 0.05  # of k, by which solver damping may exceed that of a cell: half of it moves no peak by 1e-4
 
 
@@ -63,14 +66,17 @@ class BeltLaw:
             self.root = self.k * self.apart
         else:
             # concave and rising: from below each of Newton's steps falls short of the root, the first by the tangent
-            self.root = np.maximum(self.root + self.k * self.eased * way, 0.25 * self.root)
+            self.root = np.maximum(self.root + self.k * self.eased * way, (1.0 - _FALL) * self.root)
             for _ in range(NEWTON):
                 earlier = self.root
                 slack = self.sag / (earlier * earlier)
                 change = (self.apart + slack - self.gives * earlier) / (self.gives + 2.0 * slack / earlier)
-                self.root = np.maximum(earlier + change, 0.25 * earlier)
-                if float((np.abs(change) - NEAR * earlier).max()) < 0.0:
+                self.root = earlier + change
+                size = float(np.abs(change / earlier).max())
+                if size < NEAR:
                     break
+                if not size < _FALL:
+                    self.root = np.maximum(self.root, (1.0 - _FALL) * earlier)
             else:
                 raise NoSolutionError("the tension of a slack belt has no answer: look for extreme inputs")
         self._ease()
@@ -156,17 +162,24 @@ class WaveSolver:
         self.damping = 0.5 * step * chain.retardation * chain.stiffness
         self.drives, self.damps = chain.nodes.shape[1], bool(self.damping.any())
         places = np.hstack([chain.end[:, None], chain.nodes, chain.lumps])
-        units = np.zeros((places.shape[1], s, n + 1))
-        units[np.arange(places.shape[1]), self.rows[:, None], places] = 1.0
-        units[0, :, 0] -= 1.0
-        self.units = units.reshape(len(units), -1).T
+        count = places.shape[1]
+        self.units = np.zeros((count, s, n + 1))
+        self.units[np.arange(count), self.rows[:, None], places] = 1.0
+        self.units[0, :, 0] -= 1.0
+        self.lower, self.off, self.pair = np.zeros((3, s, n + 1))
+        self.kappa, self.columns, self.of_take_up = (
+            np.zeros(s),
+            np.zeros((s, count - 1, n + 1)),
+            np.zeros((s, count - 1)),
+        )
         self.answers = [
             (part, *_flat_indices(places[:, 1:][:, part], n + 1, part.start, places.shape[1] - 1))
             for part in (slice(0, self.drives), slice(self.drives, places.shape[1] - 1))
         ]
-        self.shares = self.middle = np.full((s, n), np.inf)
+        self.shares = np.full((s, n), np.inf)
+        self.middle = self.shares.copy()
         if shares is not None:
-            self._factorise(shares)
+            self._factorise(self.rows, shares)
 
     def update_damping(self, shares: Array) -> bool:
         """Factorise the system again if shares of k have changed; return true if so.
@@ -178,38 +191,40 @@ class WaveSolver:
         off = np.abs(shares - self.middle)
         if float(off.max()) <= 0.5 * _SHARE:
             return False
-        changed = off.max(axis=1) > 0.5 * _SHARE
-        self._factorise(np.where(changed[:, None], np.minimum(shares + 0.5 * _SHARE, 1.0), self.shares))
+        changed = np.flatnonzero(off.max(axis=1) > 0.5 * _SHARE)
+        self._factorise(changed, np.minimum(shares[changed] + 0.5 * _SHARE, 1.0))
         return True
 
-    def _factorise(self, shares: Array) -> None:
-        """Factorise the system with these shares of k, and find its responses."""
-        self.shares, self.middle = shares, shares - 0.5 * _SHARE
-        damping = self.damping * shares
-        diagonal, beside = self.mass.copy(), np.zeros_like(self.mass)
+    def _factorise(self, belts: Integers, shares: Array) -> None:
+        """Factorise the system of some belts with these shares of k, and find its responses."""
+        self.shares[belts], self.middle[belts] = shares, shares - 0.5 * _SHARE
+        damping, end = self.damping[belts] * shares, (np.arange(belts.size), self.end[belts])
+        diagonal, beside = self.mass[belts], np.zeros((belts.size, self.mass.shape[1]))
         diagonal[:, :-1] += damping
         diagonal[:, 1:] += damping
         beside[:, :-1] = -damping
-        self.lower, self.off, info = dpttrf(diagonal.ravel(), beside.ravel()[:-1])
+        lower, off, info = dpttrf(diagonal.ravel(), beside.ravel()[:-1])
         if info != 0:
             raise NoSolutionError("the masses of the belt must be positive")
-        solved, _ = dpttrs(self.lower, self.off, self.units)
-        made = np.moveaxis(solved.T.reshape(-1, *self.mass.shape), 0, 1)
-        self.pair = made[:, 0]
-        own = self._apart(self.pair)
-        self.kappa = np.where(self.stiff, 1.0 / own, self.carriage / (1.0 + self.carriage * own))
-        columns = made[:, 1:]
-        of_take_up = self.kappa[:, None] * (columns[self.rows, :, self.end] - columns[:, :, 0])
-        columns = columns - self.pair[:, None] * of_take_up[:, :, None]
+        self.lower[belts], self.off[belts] = lower.reshape(beside.shape), np.append(off, 0.0).reshape(beside.shape)
+        solved, _ = dpttrs(lower, off, self.units[:, belts].reshape(len(self.units), -1).T)
+        made = solved.T.reshape(-1, *beside.shape)
+        pair, columns = made[0], made[1:]
+        own, stiff, carriage = pair[end] - pair[:, 0], self.stiff[belts], self.carriage[belts]
+        kappa = np.where(stiff, 1.0 / own, carriage / (1.0 + carriage * own))
+        of_take_up = kappa * (columns[:, *end] - columns[:, :, 0])
+        self.pair[belts], self.kappa[belts], self.of_take_up[belts] = pair, kappa, of_take_up.T
+        self.columns[belts] = np.moveaxis(columns - pair * of_take_up[:, :, None], 0, 1)
+        columns = self.columns
         self.pulleys, self.lumps = (
             _ImpulseResponse(
-                columns[:, k], of_take_up[:, k], columns.take(mutual), columns.take(own), columns.take(near)
+                columns[:, k], self.of_take_up[:, k], columns.take(mutual), columns.take(own), columns.take(near)
             )
             for k, mutual, own, near in self.answers
         )
 
     def _banded(self, right: Array) -> Array:
-        solution, _ = dpttrs(self.lower, self.off, right.ravel())
+        solution, _ = dpttrs(self.lower.ravel(), self.off.ravel()[:-1], right.ravel())
         return np.asarray(solution).reshape(right.shape)
 
     def _apart(self, speed: Array) -> Array:
