@@ -201,23 +201,19 @@ def simulate_to_error(
     Scenarios that do not converge at the finest cells count as without an answer.
     """
 
-    def beside(some: list[ScenarioSetup], steps: list[float]) -> list[_ResultOrRefusal]:
-        """Simulate one group per worker; results in the order of the scenarios."""
+    def beside(some: list[ScenarioSetup], steps: list[float]) -> list[list[_ResultOrRefusal]]:
+        """Simulate one group per worker at every step; results in the order of the scenarios."""
         if executor is None:
-            return _simulate_group(some, steps)
-        count = min(workers, len(some))
-        made = list(
-            executor.map(
-                _simulate_group, [some[k::count] for k in range(count)], [steps[k::count] for k in range(count)]
-            )
-        )
-        return [made[i % count][i // count] for i in range(len(some))]
+            return _simulate_sizes(some, steps)
+        groups = [some[k::workers] for k in range(min(workers, len(some)))]
+        made = list(executor.map(_simulate_sizes, groups, itertools.repeat(steps)))
+        return [made[i % len(groups)][i // len(groups)] for i in range(len(some))]
 
     longest = max(float(setup.loop.travel[-1]) for setup in setups) / _CELLS
     sizes = [longest * 0.5**halved for halved in range(_REFINEMENTS + 1)]
     # as many as an error estimate needs, in one batch
-    first = beside([setup for setup in setups for _ in range(_SIZES)], sizes[:_SIZES] * len(setups))
-    answers = first[::_SIZES]
+    first = beside(list(setups), sizes[:_SIZES])
+    answers = [made[0] for made in first]
     peaks = [[_Peaks.of(one)] if isinstance(one, ScenarioResult) else [] for one in answers]
     for halved in range(_REFINEMENTS):
         retried = halved < _RETRIES
@@ -232,9 +228,9 @@ def simulate_to_error(
             progress(len(setups) - len(open_ones), len(setups))
         size = halved + 1
         made = (
-            [first[_SIZES * i + size] for i in open_ones]
+            [first[i][size] for i in open_ones]
             if size < _SIZES
-            else beside([setups[i] for i in open_ones], [sizes[size]] * len(open_ones))
+            else [one for (one,) in beside([setups[i] for i in open_ones], [sizes[size]])]
         )
         for i, now in zip(open_ones, made, strict=True):
             answers[i] = now
@@ -311,6 +307,12 @@ def _split_refusals(
         of_reason = ((", ".join(of), why) for why, of in named.items())
         raise NoSolutionError("\n".join(["scenario {}: {}"] * len(named)), *itertools.chain.from_iterable(of_reason))
     return followed, refused
+
+
+def _simulate_sizes(setups: list[ScenarioSetup], steps: list[float]) -> list[list[_ResultOrRefusal]]:
+    """Simulate every scenario at every step in one batch."""
+    answers = iter(_simulate_group([setup for setup in setups for _ in steps], steps * len(setups)))
+    return [list(itertools.islice(answers, len(steps))) for _ in setups]
 
 
 def _simulate_group(setups: list[ScenarioSetup], steps: list[float]) -> list[_ResultOrRefusal]:
