@@ -101,11 +101,15 @@ def contacts(row: Callable[[str, float], None]) -> None:
 def conveyors(row: Callable[[str, float], None]) -> None:
     """Whole conveyors; overland.yaml has ten sections."""
     import conveyor
+    from conveyor.dynamics.simulation import prepare_setups, simulate_to_error
 
     for path in sorted((ROOT / "examples" / "specs").glob("*.yaml")):
         row(f"read {path.name}", median(lambda p=path: conveyor.load(p), 5))
         line = conveyor.load(path)
         row(f"analyse {path.name}", median(lambda given=line: conveyor.analyse(given), 3))
+    line = conveyor.load(ROOT / "examples" / "dynamics" / "overland_15km.yaml")
+    setups, _ = prepare_setups(line, line.scenarios)
+    row("ten starts and stops of overland_15km.yaml to 1 %", median(lambda: simulate_to_error(setups), 3))
 
 
 def main() -> None:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Collection
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +18,19 @@ Integers = NDArray[np.int_]
 
 
 SPEED_POINTS = 65  # points of the motors' limits over speed
+
+_Belts = TypeVar("_Belts", "Chain", "Machines", "InitialState")
+
+
+def _of_belts(batch: _Belts, rows: slice | Integers, second: Collection[str]) -> _Belts:
+    """Some belts of a batch; their axis is the first of its arrays, of some the second."""
+    arrays = {one.name: getattr(batch, one.name) for one in fields(batch)}
+    some: dict[str, Any] = {
+        name: value[:, rows] if name in second else value[rows]
+        for name, value in arrays.items()
+        if isinstance(value, np.ndarray)
+    }
+    return replace(batch, **some)
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,12 +102,21 @@ class Chain:
     relaxing: tuple[float, float] = (0.0, 1.0)
     known: float = math.inf
 
+    def of_belts(self, rows: slice | Integers) -> Chain:
+        """Some of the belts."""
+        return _of_belts(self, rows, {"friction", "before", "winch"})
+
     @property
     def longest_step(self) -> float:
-        """Longest stable step of the leapfrog, by Gershgorin: 2/ω of the fastest pair of cells [s]."""
+        """Longest stable step of all belts [s]."""
+        return float(self.longest_steps.min())
+
+    @property
+    def longest_steps(self) -> Array:
+        """Longest stable step of the leapfrog, by Gershgorin: 2/ω of the fastest pair of cells [s], shape (s,)."""
         stiff = (1.0 + self.relaxing[0]) * self.stiffness
         pull = 2.0 * (np.pad(stiff, ((0, 0), (1, 0))) + np.pad(stiff, ((0, 0), (0, 1))))
-        return float(2.0 / np.sqrt((pull / self.mass).max()))
+        return np.asarray(2.0 / np.sqrt((pull / self.mass).max(axis=1)))
 
     def resisting(self, speed: Array) -> Array:
         """Friction of every mass at a speed [N]."""
@@ -132,6 +156,10 @@ class Machines:
     top: float
     drag: Array
 
+    def of_belts(self, rows: slice | Integers) -> Machines:
+        """Those of some belts."""
+        return _of_belts(self, rows, {"reference", "share", "brake"})
+
     @cached_property
     def even(self) -> Array | None:
         """The limits if they do not change with speed, shape (s, d)."""
@@ -159,6 +187,10 @@ class InitialState:
     driving: Array
     rims: Array
 
+    def of_belts(self, rows: slice | Integers) -> InitialState:
+        """That of some belts."""
+        return _of_belts(self, rows, ())
+
 
 @dataclass(frozen=True, eq=False)
 class Record:
@@ -166,19 +198,19 @@ class Record:
 
     Attributes
     ----------
-    step : float
+    step : ndarray, shape (s,)
         Time step [s].
     highest, lowest, highest_at, lowest_at : ndarray, shape (s, n)
         Extreme tensions in the middle of every cell, and at the driven pulley of cells ending there [N]; times [s].
     highest_speed, lowest_speed, highest_speed_at, lowest_speed_at : ndarray, shape (s, n + 1)
         Extreme speeds of every mass, initial ones included [m/s], and times [s].
-    times, tensions : ndarray, shape (m,), (m, s, n)
-        Samples of the tension [N].
+    times, tensions : ndarray, shape (m, s), (m, s, n)
+        Samples of the tension [N] and their times [s]; 0 after the end of a belt's motion.
     speeds : ndarray, shape (m, s, n + 1)
         Samples of the belt's speed [m/s].
     drives : dict of str to ndarray, shape (steps, s, d)
-        At every step: "force" on the belt, "motor" force, "rim" and "belt" speeds, "arriving" and "leaving" tensions at
-        the pulley, "holding" force of brake and backstop.
+        At every step, 0 after the end: "force" on the belt, "motor" force, "rim" and "belt" speeds, "arriving" and
+        "leaving" tensions at the pulley, "holding" force of brake and backstop.
     take_up : dict of str to ndarray, shape (steps, s)
         Its "tension" [N] and the "belt" it has taken in [m].
     slipped, heat : ndarray, shape (s, d)
@@ -189,7 +221,7 @@ class Record:
         Energy given by the motors and its uses [J]; "missing" is the error of the balance.
     """
 
-    step: float
+    step: Array
     highest: Array
     lowest: Array
     highest_at: Array
@@ -199,8 +231,8 @@ class Record:
     highest_speed_at: Array
     lowest_speed_at: Array
     times: Array
-    tensions: Array
-    speeds: Array
+    tensions: NDArray[np.float32]
+    speeds: NDArray[np.float32]
     drives: dict[str, Array]
     take_up: dict[str, Array]
     slipped: Array

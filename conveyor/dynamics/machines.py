@@ -257,9 +257,13 @@ def _torque_share(unit: StarterUnit, since: Array) -> Array:
     return np.asarray((root + (1.0 - root) * x) ** 2)
 
 
-def prepare_belts(setups: list[ScenarioSetup], step: float) -> tuple[list[Cells], Chain, InitialState]:
-    """Cells and chain of all scenarios, padded with idle cells, and their initial state."""
-    cells = [setup.loop.cells(step, filled=not setup.scene.running) for setup in setups]
+def prepare_belts(setups: list[ScenarioSetup], step: Array | float) -> tuple[list[Cells], Chain, InitialState]:
+    """Cells and chain of all scenarios, padded with idle cells, and their initial state.
+
+    Cells are as long as a wave travels in a step [s], of all or of each.
+    """
+    steps = np.broadcast_to(step, len(setups)).tolist()
+    cells = [setup.loop.cells(one, filled=not setup.scene.running) for setup, one in zip(setups, steps, strict=True)]
     most = max(one.at.size for one in cells)
 
     def filled(parts: list[Array], rest: float, size: int) -> Array:
@@ -370,12 +374,12 @@ def _taut_friction(setting: float, resisting: Array, most: Array, cells: Cells) 
     return np.asarray(np.clip(held, -most, most))
 
 
-def machines_over_time(setups: list[ScenarioSetup], start: InitialState, step: float, steps: int) -> Machines:
-    """Motors and brakes of scenarios over time; running drives start in their steady state."""
+def machines_over_time(setups: list[ScenarioSetup], start: InitialState, step: Array, lasts: Array) -> Machines:
+    """Motors and brakes of scenarios over their steps [s]; running drives start in their steady state."""
     line = setups[0].loop.line
-    times = np.asarray(step * np.arange(steps), dtype=float)
-    tables = [setup.over_time(times) for setup in setups]
-    reference, share, brake = (np.stack(parts, axis=1) for parts in zip(*tables, strict=True))
+    reference, share, brake = tables = np.zeros((3, int(lasts.max()), *start.rims.shape))
+    for i, setup in enumerate(setups):
+        tables[:, : lasts[i], i] = setup.over_time(step[i] * np.arange(lasts[i]))
     rated = np.array([setup.rated for setup in setups])
     slip = np.array([[unit.slip for unit in setup.starters] for setup in setups])
     slope = rated / (slip * line.speed)

@@ -136,7 +136,7 @@ def harrison_start() -> HarrisonStart:
     periods = np.linspace(20.0, 40.0, 401)
     power = [abs(swing @ np.exp(-2j * np.pi * times[after] / period)) for period in periods]
     return HarrisonStart(
-        float(tensions.times[int(np.argmax(behind > 0.05 * 1.6))]),
+        float(tensions.times[int(np.argmax(behind > 0.05 * 1.6)), 0]),
         abs(float(np.interp(7.0, times, belt))) / 4.0,
         float(periods[int(np.argmax(power))]),
     )
@@ -156,6 +156,6 @@ def nordell_ciozda_stop() -> tuple[float, float]:
 
     def arrival(place: float) -> float:
         i = int(np.argmin(np.abs(at - place)))
-        return float(tensions.times[int(np.argmax(slower[:, i]))])
+        return float(tensions.times[int(np.argmax(slower[:, i])), 0])
 
     return arrival(_FOOT * (2700.0 + 3000.0)), arrival(0.0)

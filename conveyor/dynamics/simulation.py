@@ -10,6 +10,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Final, NamedTuple, Self, TypeAlias, TypeGuard
 
+import numpy as np
+
 from conveyor.calculated_conveyor import CalculatedConveyor, Variant
 from conveyor.dynamics.belt_chain import Record
 from conveyor.dynamics.cut_loop import SPEEDS, CutLoop
@@ -68,7 +70,7 @@ class _Peaks(NamedTuple):
 
     @classmethod
     def of(cls, one: ScenarioResult) -> Self:
-        return cls(one.highest, one.lowest, one.record.step)
+        return cls(one.highest, one.lowest, float(one.record.step))
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,7 +181,7 @@ def simulate_scenarios(
     )
     with reraise_in_units(conveyor.report.units):
         if step is not None:
-            answers = _split_refusals(_simulate_group(setups, step))
+            answers = _split_refusals(_simulate_group(setups, [step] * len(setups)))
         else:
             answers = simulate_to_error(setups, error, executor=executor, workers=workers, progress=progress)
     return CalculatedDynamics(conveyor, given, *answers)
@@ -199,16 +201,19 @@ def simulate_to_error(
     Scenarios that do not converge at the finest cells count as without an answer.
     """
 
-    def beside(some: list[ScenarioSetup], step: float) -> list[_ResultOrRefusal]:
-        """Simulate one group per worker; results in the order of the scenarios."""
+    def beside(some: list[ScenarioSetup], steps: list[float]) -> list[list[_ResultOrRefusal]]:
+        """Simulate one group per worker at every step; results in the order of the scenarios."""
         if executor is None:
-            return _simulate_group(some, step)
+            return _simulate_sizes(some, steps)
         groups = [some[k::workers] for k in range(min(workers, len(some)))]
-        made = list(executor.map(_simulate_group, groups, itertools.repeat(step)))
+        made = list(executor.map(_simulate_sizes, groups, itertools.repeat(steps)))
         return [made[i % len(groups)][i // len(groups)] for i in range(len(some))]
 
-    step = max(float(setup.loop.travel[-1]) for setup in setups) / _CELLS
-    answers = beside(list(setups), step)
+    longest = max(float(setup.loop.travel[-1]) for setup in setups) / _CELLS
+    sizes = [longest * 0.5**halved for halved in range(_REFINEMENTS + 1)]
+    # as many as an error estimate needs, in one batch
+    first = beside(list(setups), sizes[:_SIZES])
+    answers = [made[0] for made in first]
     peaks = [[_Peaks.of(one)] if isinstance(one, ScenarioResult) else [] for one in answers]
     for halved in range(_REFINEMENTS):
         retried = halved < _RETRIES
@@ -221,8 +226,13 @@ def simulate_to_error(
             break
         if progress is not None:
             progress(len(setups) - len(open_ones), len(setups))
-        step *= 0.5
-        for i, now in zip(open_ones, beside([setups[i] for i in open_ones], step), strict=True):
+        size = halved + 1
+        made = (
+            [first[i][size] for i in open_ones]
+            if size < _SIZES
+            else [one for (one,) in beside([setups[i] for i in open_ones], [sizes[size]])]
+        )
+        for i, now in zip(open_ones, made, strict=True):
             answers[i] = now
             if isinstance(now, ScenarioResult):
                 peaks[i].append(_Peaks.of(now))
@@ -299,41 +309,60 @@ def _split_refusals(
     return followed, refused
 
 
-def _simulate_group(setups: list[ScenarioSetup], step: float) -> list[_ResultOrRefusal]:
-    """Simulate scenarios in one batch, or each alone if one of them has no answer."""
+def _simulate_sizes(setups: list[ScenarioSetup], steps: list[float]) -> list[list[_ResultOrRefusal]]:
+    """Simulate every scenario at every step in one batch."""
+    answers = iter(_simulate_group([setup for setup in setups for _ in steps], steps * len(setups)))
+    return [list(itertools.islice(answers, len(steps))) for _ in setups]
+
+
+def _simulate_group(setups: list[ScenarioSetup], steps: list[float]) -> list[_ResultOrRefusal]:
+    """Simulate scenarios in one batch, or by halves of it if one of them has no answer."""
     try:
-        return list(simulate_batch(setups, step))
+        return list(simulate_batch(setups, steps))
     except NoSolutionError as error:
         if len(setups) == 1:
             return [ScenarioRefusal(setups[0].scene.name, message(escape_braces(str(error))))]
-    return [answer for one in setups for answer in _simulate_group([one], step)]
+    half = len(setups) // 2
+    return [*_simulate_group(setups[:half], steps[:half]), *_simulate_group(setups[half:], steps[half:])]
 
 
-def simulate_batch(setups: Sequence[ScenarioSetup], step: float) -> list[ScenarioResult]:
-    """Simulate scenarios of one conveyor in one batch, with cells as long as a wave travels in a step [s].
+def simulate_batch(setups: Sequence[ScenarioSetup], step: float | Sequence[float]) -> list[ScenarioResult]:
+    """Simulate scenarios of one conveyor in one batch, each to its end.
+
+    Parameters
+    ----------
+    setups : sequence of ScenarioSetup
+        The scenarios.
+    step : float or sequence of float
+        Time in which a wave travels through a cell [s], of all or of each.
 
     Raises
     ------
     NoSolutionError
         The drives have no room, a drive cannot execute its command, or a figure is not finite.
     """
-    cells, chain, start = prepare_belts(list(setups), step)
-    step = _COURANT * min(step, chain.longest_step)
-    steps = math.ceil(max(setup.duration for setup in setups) / step) + 1
-    record = simulate_belts(chain, machines_over_time(list(setups), start, step, steps), start, step=step)
-    return [
-        ScenarioResult(setup, one, _single_record(record, i, one.at.size, setup.duration), None)
+    cells, chain, start = prepare_belts(list(setups), np.asarray(step))
+    steps = _COURANT * np.minimum(step, chain.longest_steps)
+    lasts = np.ceil(np.array([setup.duration for setup in setups]) / steps).astype(int) + 1
+    order = np.argsort(-lasts, kind="stable")
+    setups, cells, steps, lasts = [setups[i] for i in order], [cells[i] for i in order], steps[order], lasts[order]
+    chain, start = chain.of_belts(order), start.of_belts(order)
+    record = simulate_belts(chain, machines_over_time(setups, start, steps, lasts), start, step=steps, lasts=lasts)
+    made = [
+        ScenarioResult(setup, one, _single_record(record, i, one.at.size, int(lasts[i]), setup.duration), None)
         for i, (setup, one) in enumerate(zip(setups, cells, strict=True))
     ]
+    return [made[i] for i in np.argsort(order)]
 
 
-def _single_record(record: Record, i: int, size: int, duration: float) -> Record:
+def _single_record(record: Record, i: int, size: int, steps: int, duration: float) -> Record:
     """Record of one belt, with its own cells and duration."""
-    steps, kept = math.ceil(duration / record.step) + 1, record.times <= duration
+    kept = record.times[:, i] <= duration
+    kept[1:] &= record.times[1:, i] > 0.0
     return Record(
-        record.step, record.highest[i, : size - 1], record.lowest[i, : size - 1], record.highest_at[i, : size - 1],
+        record.step[i], record.highest[i, : size - 1], record.lowest[i, : size - 1], record.highest_at[i, : size - 1],
         record.lowest_at[i, : size - 1], record.highest_speed[i, :size], record.lowest_speed[i, :size],
-        record.highest_speed_at[i, :size], record.lowest_speed_at[i, :size], record.times[kept],
+        record.highest_speed_at[i, :size], record.lowest_speed_at[i, :size], record.times[kept, i],
         record.tensions[kept, i, : size - 1],
         record.speeds[kept, i, :size], {name: values[:steps, i] for name, values in record.drives.items()},
         {name: values[:steps, i] for name, values in record.take_up.items()}, record.slipped[i], record.heat[i],

@@ -20,7 +20,9 @@ _SIDES, _FROM = (
 class DriveGroup:
     """Constants of drives that are solved together; shape (2, s, d) for both sides, negative behind.
 
-    Flat indices of their places and adjacent cells; `ends` is true next to the take-up.
+    Flat indices of their places and adjacent cells; `ends` is true next to the take-up. `reverse` is infinite at a
+    backstop, else 0. `late` is the time within a step at which a rim meets its motor's characteristic: the middle while
+    the step resolves the approach, else later, so that nothing oscillates.
     """
 
     drives: list[int] | slice
@@ -36,19 +38,22 @@ class DriveGroup:
     tau_k: Array
     stuck: Array
     at_rest: Array
+    reverse: Array
+    late: Array
 
     @classmethod
-    def of(cls, chain: Chain, machines: Machines, step: float, k: list[int]) -> DriveGroup:
+    def of(cls, chain: Chain, machines: Machines, step: Array, k: list[int]) -> DriveGroup:
         """Some drives of every belt."""
         drives: list[int] | slice = slice(None) if len(k) == chain.nodes.shape[1] else k
         (s, n), at, before = chain.stiffness.shape, chain.nodes[:, drives], chain.before[:, :, drives]
         rows = np.arange(s)[:, None]
         side = np.stack([np.maximum(at - 1, 0), np.minimum(at, n - 1)])
         astern = rows * (n + 1) + side
+        rim, gives = chain.rim[:, drives], step * machines.slope[:, drives]
         weight, mass, stuck = chain.weight[rows, at], chain.mass[rows, at], chain.sticking[rows, at]
         return cls(
             drives,
-            replace(chain, rim=chain.rim[:, drives], grip=chain.grip[:, drives], backstop=chain.backstop[:, drives],
+            replace(chain, rim=rim, grip=chain.grip[:, drives], backstop=chain.backstop[:, drives],
                     before=before),
             replace(
                 machines, slope=machines.slope[:, drives], reference=machines.reference[..., drives],
@@ -60,13 +65,15 @@ class DriveGroup:
             lying=np.stack([before[1], before[1] - weight]),
             inert=np.stack([before[0], before[0] - mass]) / step,
             tau_k=chain.retardation * chain.stiffness[rows, side], stuck=stuck, at_rest=_safe_ratio(before[5], stuck),
+            reverse=np.where(chain.backstop[:, drives], np.inf, 0.0),
+            late=np.maximum(0.5, 1.0 - np.divide(rim, gives, out=np.full_like(gives, 0.5), where=gives > 0.0)),
         )  # fmt: skip
 
-    def shares(self, on: Array, rolling: Array) -> Array:
+    def shares(self, on: Array, rests: NDArray[np.bool_], rolling: Array) -> Array:
         """Share of the friction on driven masses before the pulleys, and behind them negative [-]."""
         parabola, size = self.chain.before[2:5], np.minimum(np.abs(on), self.chain.known)
         moving = _safe_ratio(parabola[0] + size * (parabola[1] + size * parabola[2]), rolling)
-        return np.asarray(np.where(on == 0.0, self.at_rest, moving) - _FROM)
+        return np.asarray(np.where(rests, self.at_rest, moving) - _FROM)
 
 
 def _safe_ratio(part: Array, whole: Array) -> Array:
@@ -78,17 +85,19 @@ def _safe_ratio(part: Array, whole: Array) -> Array:
 class GroupResponse:
     """Response of the belts to a group of drives: speeds by an impulse, damping and adjacent tensions by a speed.
 
-    `softer` is the damping at new speeds, `yields` the tension added by a speed, before, and behind negative.
+    `reach` is the speed by a force over the step, `softer` the damping at new speeds, `yields` the tension added by a
+    speed, before, and behind negative.
     """
 
     own: Array
+    reach: Array
     columns: Array
     of_take_up: Array
     softer: Array
     yields: Array
 
     @classmethod
-    def of(cls, solver: WaveSolver, turn: DriveGroup, step: float) -> GroupResponse:
+    def of(cls, solver: WaveSolver, turn: DriveGroup, step: Array) -> GroupResponse:
         """Response of the present system."""
         k, pulleys = turn.drives, solver.pulleys
         softer = 0.5 * turn.tau_k * solver.shares.take(turn.sides)
@@ -96,7 +105,7 @@ class GroupResponse:
         apart = pulleys.beside[:, :, k] * _SIDES
         tight = -of_take_up / (own * step)
         yields = turn.inert + np.where(turn.ends, tight, softer * apart)
-        return cls(own, pulleys.columns[:, k], of_take_up, softer, yields)
+        return cls(own, own * step, pulleys.columns[:, k], of_take_up, softer, yields)
 
 
 def winch_direction(over: Array, band: Array) -> Array:
@@ -124,66 +133,59 @@ def speed_after_friction(free: Array, forward: Array, backward: Array) -> Array:
 
 
 def solve_pulleys(
-    turn: DriveGroup, i: int, *, step: float, answer: Array, rim: Array, free: Array, sides: Array, yields: Array,
-    friction: Array, shares: Array, last: tuple[Array, Array], gripped: NDArray[np.bool_],
+    turn: DriveGroup, i: int, *, step: Array, answer: Array, reach: Array, rim: Array, free: Array, sides: Array,
+    yields: Array, friction: Array, shares: Array, last: tuple[Array, Array], gripped: NDArray[np.bool_],
 ) -> PulleyState:  # fmt: skip
     """Solve motors, brakes, rims and the belt on them together; a motor on its characteristic, or at its limit.
 
-    `free` is the belt's speed without the pulley, `answer` its change by an impulse; `sides` are the tensions before
-    and behind at zero speed there and without friction, `yields` their change by a speed, `shares` that by friction.
-    They include mass and damping of the half cells up to the pulley, so that a sudden force is split by the impedances
-    of both sides, however long the cells. A belt that `gripped` and now slips is taken to start slipping in the middle
-    of the step: force and tensions are the mean of the `last` and the new ones. At the start of the step they would
-    make the tension oscillate from cell to cell.
+    `free` is the belt's speed without the pulley, `answer` its change by an impulse, `reach` by a force over the step;
+    `sides` are the tensions before and behind at zero speed there and without friction, `yields` their change by a
+    speed, `shares` that by friction. They include mass and damping of the half cells up to the pulley, so that a sudden
+    force is split by the impedances of both sides, however long the cells. A belt that `gripped` and now slips is taken
+    to start slipping in the middle of the step: force and tensions are the mean of the `last` and the new ones. At the
+    start of the step they would make the tension oscillate from cell to cell.
     """
-    chain, machines = turn.chain, turn.machines
+    chain, machines, late = turn.chain, turn.machines, turn.late
     most = machines.share[i] * machines.limit(rim)
-    brake, back, grip = machines.brake[i], chain.backstop, chain.grip
+    brake, grip = machines.brake[i], chain.grip
     on = most > 0.0
-    slope = np.where(on, machines.slope, 0.0)
-    base = slope * machines.reference[i]
+    slope = machines.slope * on
+    base, rests = slope * machines.reference[i], reach * friction
     for tried in range(2):
-        # mean of both ends while a step resolves a rim's approach to the characteristic, else later: no oscillation
-        gives = step * slope
-        late = np.maximum(0.5, 1.0 - np.divide(chain.rim, gives, out=np.full_like(gives, 0.5), where=gives > 0.0))
-        mass = chain.rim + late * gives
-        alone = (chain.rim * rim + step * (base - (1.0 - late) * slope * rim)) / mass
-        together = 1.0 / answer + mass
-        stop = step * (brake + friction) / together
-        common = speed_after_friction((free / answer + mass * alone) / together, stop, np.where(back, np.inf, stop))
+        later = late * slope
+        base_now = base - (slope - later) * rim  # of the motor, without the part by the new speed
+        mass, push = chain.rim + step * later, chain.rim * rim + step * base_now
+        heavy = 1.0 + answer * mass
+        stop = (reach * brake + rests) / heavy
+        common = speed_after_friction((free + answer * push) / heavy, stop, stop + turn.reverse)
         against = np.sign(common) * friction
         rubbed = sides + shares * against
-        force = (common - free) / (answer * step) + against
+        force = (common - free) / reach + against
         bears = grip * np.maximum(rubbed + yields * common, 0.0)
-        forward, backward = force > bears[1], force < -bears[0]
-        grips = ~(forward | backward)
-        belt, turned, begins = common, common, gripped & ~grips
-        if not grips.all():
+        forward, slips = force > bears[1], force < -bears[0]
+        slips |= forward
+        belt, turned, begins = common, common, None
+        if slips.any():
             pushed, slack = np.where(forward, rubbed[1], -rubbed[0]), np.where(forward, -yields[1], yields[0])
-            eased = 1.0 + answer * step * grip * slack
-            rub = answer * step * friction / eased
-            earlier = last[0] + grip * np.where(forward, -last[1][1], last[1][0])
+            eased = 1.0 + reach * grip * slack
+            rub = rests / eased
+            earlier, begins = last[0] + grip * np.where(forward, -last[1][1], last[1][0]), gripped & slips
             driven = grip * pushed + np.where(begins, 0.5 * earlier, 0.0)
-            slid = speed_after_friction((free + answer * step * driven) / eased, rub, rub)
+            slid = speed_after_friction((free + reach * driven) / eased, rub, rub)
             limit = driven - grip * slack * slid
             limit = np.where(forward, np.maximum(limit, 0.0), np.minimum(limit, 0.0))
-            slid = np.where(
-                limit == 0.0,
-                speed_after_friction(free, answer * step * friction, answer * step * friction),
-                slid,
-            )
-            force = np.where(grips, force, limit)
+            slid = np.where(limit == 0.0, speed_after_friction(free, rests, rests), slid)
+            force = np.where(slips, limit, force)
             stop = step * (brake + np.where(on, 0.0, machines.drag)) / mass
-            spun = speed_after_friction(alone - step * force / mass, stop, np.where(back, np.inf, stop))
-            belt, turned = np.where(grips, common, slid), np.where(grips, common, spun)
-        motor = base - slope * (late * turned + (1.0 - late) * rim)
+            spun = speed_after_friction((push - step * force) / mass, stop, stop + turn.reverse)
+            belt, turned = np.where(slips, slid, common), np.where(slips, spun, common)
+        motor = base_now - later * turned
         beyond = np.abs(motor) > most
         if tried or not beyond.any():
             break
-        base, slope = np.where(beyond, np.copysign(most, motor), base), np.where(beyond, 0.0, slope)
-    taken = force - (belt - free) / (answer * step)
+        base, slope = np.where(beyond, np.copysign(most, motor), base), slope * ~beyond
+    taken = force - (belt - free) / reach
     tensions = sides + yields * belt + shares * taken
-    return PulleyState(
-        force, motor, mass * (alone - turned) / step - force, taken, turned, belt,
-        np.where(begins, 2.0 * tensions - last[1], tensions), grips,
-    )  # fmt: skip
+    if begins is not None:
+        tensions = np.where(begins, 2.0 * tensions - last[1], tensions)
+    return PulleyState(force, motor, (push - mass * turned) / step - force, taken, turned, belt, tensions, ~slips)

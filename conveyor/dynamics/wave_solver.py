@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,16 +16,20 @@ NEWTON, NEAR = (
 )  # iterations for a tension at most, and the relative change after which the error is its square
 
 
+_FALL = 0.75  # of a tension, by which an iteration takes it down at most
+
+
 _SHARE = 0.05  # of k, by which solver damping may exceed that of a cell: half of it moves no peak by 1e-4
 
 
 class BeltLaw:
     """Tension of every cell by its elongation, u = T/k - b/T², and a relaxing branch in parallel."""
 
-    def __init__(self, chain: Chain, step: float, tension: Array) -> None:
+    def __init__(self, chain: Chain, step: Array, tension: Array) -> None:
         self.bears = chain.stiffness > 0.0
         self.idle = not bool(self.bears.all())
         self.k, self.sag = np.where(self.bears, chain.stiffness, 1.0), chain.sag
+        self.step = np.where(self.bears, step, 0.0) if self.idle else step
         self.hangs = bool(chain.sag.any())
         if self.hangs:
             self.sag = np.where(self.bears, chain.sag, 1.0)
@@ -37,11 +40,17 @@ class BeltLaw:
         self.root = self.tension = tension
         self.apart = self.gives * tension - (self.sag / tension**2 if self.hangs else 0.0)
         share, time = chain.relaxing
-        self.fades = math.exp(-step / time)
+        self.fades = np.exp(-step / time)
         self.branch_k = share * np.where(self.bears, self.k, 0.0)
         self.fed = self.branch_k * time / step * (1.0 - self.fades)
         self.branch, self.relaxes = np.zeros_like(tension), bool(self.branch_k.any())
         self._ease()
+
+    def drop_belts(self, count: int) -> None:
+        """Go on with the first belts only."""
+        for name, value in vars(self).items():
+            if isinstance(value, np.ndarray):
+                setattr(self, name, value[:count])
 
     def _ease(self) -> None:
         """Tangent stiffness of the cells over k at their tension; 1 without sag."""
@@ -49,21 +58,25 @@ class BeltLaw:
             1.0 / (1.0 + self.softens / (self.root * self.root * self.root)) if self.hangs else np.ones_like(self.root)
         )
 
-    def stretch(self, way: Array) -> Array:
-        """Elongate the cells [m] and return the tension without damping [N]."""
-        if self.idle:
-            way = np.where(self.bears, way, 0.0)
+    def stretch(self, apart: Array) -> Array:
+        """Elongate the cells at speeds [m/s] over a step and return the tension without damping [N]."""
+        way = self.step * apart
         self.apart = self.apart + way
         if not self.hangs:
             self.root = self.k * self.apart
         else:
-            for _ in range(NEWTON):  # concave and rising: from below each step falls short of the root
+            # concave and rising: from below each of Newton's steps falls short of the root, the first by the tangent
+            self.root = np.maximum(self.root + self.k * self.eased * way, (1.0 - _FALL) * self.root)
+            for _ in range(NEWTON):
                 earlier = self.root
                 slack = self.sag / (earlier * earlier)
                 change = (self.apart + slack - self.gives * earlier) / (self.gives + 2.0 * slack / earlier)
-                self.root = np.maximum(earlier + change, 0.25 * earlier)
-                if float((np.abs(change) - NEAR * earlier).max()) < 0.0:
+                self.root = earlier + change
+                size = float(np.abs(change / earlier).max())
+                if size < NEAR:
                     break
+                if not size < _FALL:
+                    self.root = np.maximum(self.root, (1.0 - _FALL) * earlier)
             else:
                 raise NoSolutionError("the tension of a slack belt has no answer: look for extreme inputs")
         self._ease()
@@ -72,7 +85,7 @@ class BeltLaw:
             self.branch = self.fades * self.branch + self.eased * self.fed * way
             self.tension = self.root + self.branch
         if self.idle:
-            self.tension = np.where(self.bears, self.tension, 0.0)
+            self.tension = self.tension * self.bears
         return self.tension
 
     def stored(self) -> tuple[Array, Array]:
@@ -116,10 +129,17 @@ class _ImpulseResponse:
 
     def moved(self, impulse: Array, speed: Array, lacking: Array) -> tuple[Array, Array]:
         """Speeds, and the impulse lacking at the take-up, after impulses at the places."""
-        return (
-            speed + np.einsum("sd,sdn->sn", impulse, self.columns),
-            lacking + (self.of_take_up * impulse).sum(axis=1),
-        )
+        return add_impulses(impulse, self.columns, self.of_take_up, speed, lacking)
+
+
+def add_impulses(
+    impulse: Array, columns: Array, of_take_up: Array, speed: Array, lacking: Array
+) -> tuple[Array, Array]:
+    """Speeds, and the impulse lacking at the take-up, after impulses at places with these responses."""
+    for j in range(impulse.shape[1]):
+        speed = speed + impulse[:, j, None] * columns[:, j]
+        lacking = lacking + impulse[:, j] * of_take_up[:, j]
+    return speed, lacking
 
 
 def _flat_indices(places: Integers, masses: int, first: int, count: int) -> tuple[Integers, Integers, Integers]:
@@ -133,23 +153,33 @@ def _flat_indices(places: Integers, masses: int, first: int, count: int) -> tupl
 class WaveSolver:
     """Linear system of a step: masses, damping, the take-up between both ends; and the responses of pulleys."""
 
-    def __init__(self, chain: Chain, step: float) -> None:
+    def __init__(self, chain: Chain, step: Array, shares: Array | None = None) -> None:
         s, n = chain.stiffness.shape
         self.mass, self.end, self.rows = chain.mass, chain.end, np.arange(s)
         self.stiff = np.isinf(chain.carriage) | (chain.winch[0] > 0.0)
+        self.keeps = bool(self.stiff.any())
         self.carriage = np.where(self.stiff, 0.0, chain.carriage)
         self.damping = 0.5 * step * chain.retardation * chain.stiffness
-        self.shares, self.drives = np.full((s, n), np.inf), chain.nodes.shape[1]
-        self.middle, self.damps = self.shares, bool(self.damping.any())
+        self.drives, self.damps = chain.nodes.shape[1], bool(self.damping.any())
         places = np.hstack([chain.end[:, None], chain.nodes, chain.lumps])
-        units = np.zeros((places.shape[1], s, n + 1))
-        units[np.arange(places.shape[1]), self.rows[:, None], places] = 1.0
-        units[0, :, 0] -= 1.0
-        self.units = units.reshape(len(units), -1).T
+        count = places.shape[1]
+        self.units = np.zeros((count, s, n + 1))
+        self.units[np.arange(count), self.rows[:, None], places] = 1.0
+        self.units[0, :, 0] -= 1.0
+        self.lower, self.off, self.pair = np.zeros((3, s, n + 1))
+        self.kappa, self.columns, self.of_take_up = (
+            np.zeros(s),
+            np.zeros((s, count - 1, n + 1)),
+            np.zeros((s, count - 1)),
+        )
         self.answers = [
             (part, *_flat_indices(places[:, 1:][:, part], n + 1, part.start, places.shape[1] - 1))
             for part in (slice(0, self.drives), slice(self.drives, places.shape[1] - 1))
         ]
+        self.shares = np.full((s, n), np.inf)
+        self.middle = self.shares.copy()
+        if shares is not None:
+            self._factorise(self.rows, shares)
 
     def update_damping(self, shares: Array) -> bool:
         """Factorise the system again if shares of k have changed; return true if so.
@@ -158,38 +188,43 @@ class WaveSolver:
         """
         if not self.damps:  # factorised once
             shares = np.zeros_like(shares)
-        off = np.abs(shares - self.middle) > 0.5 * _SHARE
-        if not off.any():
+        off = np.abs(shares - self.middle)
+        if float(off.max()) <= 0.5 * _SHARE:
             return False
-        changed = off.any(axis=1)
-        self.shares = np.where(changed[:, None], np.minimum(shares + 0.5 * _SHARE, 1.0), self.shares)
-        self.middle = self.shares - 0.5 * _SHARE
-        damping = self.damping * self.shares
-        diagonal, beside = self.mass.copy(), np.zeros_like(self.mass)
+        changed = np.flatnonzero(off.max(axis=1) > 0.5 * _SHARE)
+        self._factorise(changed, np.minimum(shares[changed] + 0.5 * _SHARE, 1.0))
+        return True
+
+    def _factorise(self, belts: Integers, shares: Array) -> None:
+        """Factorise the system of some belts with these shares of k, and find its responses."""
+        self.shares[belts], self.middle[belts] = shares, shares - 0.5 * _SHARE
+        damping, end = self.damping[belts] * shares, (np.arange(belts.size), self.end[belts])
+        diagonal, beside = self.mass[belts], np.zeros((belts.size, self.mass.shape[1]))
         diagonal[:, :-1] += damping
         diagonal[:, 1:] += damping
         beside[:, :-1] = -damping
-        self.lower, self.off, info = dpttrf(diagonal.ravel(), beside.ravel()[:-1])
+        lower, off, info = dpttrf(diagonal.ravel(), beside.ravel()[:-1])
         if info != 0:
             raise NoSolutionError("the masses of the belt must be positive")
-        solved, _ = dpttrs(self.lower, self.off, self.units)
-        made = np.moveaxis(solved.T.reshape(-1, *self.mass.shape), 0, 1)
-        self.pair = made[:, 0]
-        own = self._apart(self.pair)
-        self.kappa = np.where(self.stiff, 1.0 / own, self.carriage / (1.0 + self.carriage * own))
-        columns = made[:, 1:]
-        of_take_up = self.kappa[:, None] * (columns[self.rows, :, self.end] - columns[:, :, 0])
-        columns = columns - self.pair[:, None] * of_take_up[:, :, None]
+        self.lower[belts], self.off[belts] = lower.reshape(beside.shape), np.append(off, 0.0).reshape(beside.shape)
+        solved, _ = dpttrs(lower, off, self.units[:, belts].reshape(len(self.units), -1).T)
+        made = solved.T.reshape(-1, *beside.shape)
+        pair, columns = made[0], made[1:]
+        own, stiff, carriage = pair[end] - pair[:, 0], self.stiff[belts], self.carriage[belts]
+        kappa = np.where(stiff, 1.0 / own, carriage / (1.0 + carriage * own))
+        of_take_up = kappa * (columns[:, *end] - columns[:, :, 0])
+        self.pair[belts], self.kappa[belts], self.of_take_up[belts] = pair, kappa, of_take_up.T
+        self.columns[belts] = np.moveaxis(columns - pair * of_take_up[:, :, None], 0, 1)
+        columns = self.columns
         self.pulleys, self.lumps = (
             _ImpulseResponse(
-                columns[:, k], of_take_up[:, k], columns.take(mutual), columns.take(own), columns.take(near)
+                columns[:, k], self.of_take_up[:, k], columns.take(mutual), columns.take(own), columns.take(near)
             )
             for k, mutual, own, near in self.answers
         )
-        return True
 
     def _banded(self, right: Array) -> Array:
-        solution, _ = dpttrs(self.lower, self.off, right.ravel())
+        solution, _ = dpttrs(self.lower.ravel(), self.off.ravel()[:-1], right.ravel())
         return np.asarray(solution).reshape(right.shape)
 
     def _apart(self, speed: Array) -> Array:
@@ -200,6 +235,7 @@ class WaveSolver:
         """Change of all speeds by impulses [m/s], and the impulse lacking in the take-up's tension [N s]."""
         change = self._banded(impulse)
         apart = self._apart(change)
-        apart = np.where(self.stiff, apart + self._apart(before) - wanted, apart)
+        if self.keeps:
+            apart = np.where(self.stiff, apart + self._apart(before) - wanted, apart)
         lacking = self.kappa * apart
         return change - self.pair * lacking[:, None], lacking

@@ -39,6 +39,21 @@ def test_every_scenario_is_followed_to_its_own_end():
         assert time - 2.0 * found.record.step < found.record.times[-1] <= time
 
 
+def test_a_scenario_has_the_same_figures_alone_and_beside_others():
+    """Longer and shorter ones, in longer and shorter cells: nothing of a belt is in another one, nor after its end."""
+    conveyor = line(drive=DATA["drive"] | MASSES)
+    setups = [ridden(conveyor, START | {"duration": f"{time} s"}) for time in (2.0, 5.0, 2.0)]
+    steps = [0.1, 0.1, 0.05]
+    for setup, step, beside in zip(setups, steps, simulate_batch(setups, steps), strict=True):
+        (alone,) = simulate_batch([setup], step)
+        for name, energy in alone.record.work.items():
+            size = max(abs(float(value)) for value in alone.record.work.values())
+            assert beside.record.work[name] == pytest.approx(energy, abs=1e-8 * size)
+        for name in ("highest", "lowest", "highest_speed", "slipped", "heat"):
+            figures = getattr(alone.record, name)
+            assert getattr(beside.record, name) == pytest.approx(figures, rel=1e-7, abs=1e-9)
+
+
 def test_a_motor_at_its_limit_is_told_how_long():
     """A direct start of a heavy drum is at it from the begin to the end; a led one never."""
     drive = DATA["drive"] | {"reduced_mass": "400 t"}
@@ -316,7 +331,7 @@ def test_drag_brakes_a_drive_without_power_whose_belt_slips():
     start = begun(chain, rims=np.array([[3.0]]))
     found = simulate_belts(chain, replace(idle(60, 1), drag=np.array([[drag]])), start, step=chain.longest_step)
     rims = found.drives["rim"][:, 0, 0]
-    assert np.diff(rims) == pytest.approx(-drag / rim * found.step, rel=1e-9)
+    assert np.diff(rims) == pytest.approx(-drag / rim * found.step[0], rel=1e-9)
 
 
 def test_the_drag_of_a_drive_is_assumed_where_its_belt_slips_alone():

@@ -62,8 +62,8 @@ def swing(cells, waves, periods, retardation, *nodes):
     found = follow(chain, start, periods * 2.0 * np.pi / omega)
     tension = (found.tensions[:, 0].astype(float) - PULL) @ cosine / (cosine @ cosine) / 10e3
     speeds = found.speeds[:, 0].astype(float) @ sine / (sine @ sine) * IMPEDANCE / 10e3
-    rate, _ = moved(found.times + 0.5 * step)
-    return np.abs(tension - moved(found.times)[1]).max(), np.abs(speeds - rate).max()
+    rate, _ = moved(found.times[:, 0] + 0.5 * step)
+    return np.abs(tension - moved(found.times[:, 0])[1]).max(), np.abs(speeds - rate).max()
 
 
 @pytest.mark.parametrize(("nodes", "waves"), [((0,), 0.25), ((0, -1), 0.5)])
@@ -90,7 +90,7 @@ def test_friction_stops_a_mode_without_chatter():
     found = follow(chain, begun(chain, speed=speed, resisting=friction[0].copy()), 60.0)
     # of a rigid bar t = m v/R
     stops = LINE_MASS * LENGTH * 0.2 / (150.0 * (cells + 1))
-    still = found.times > 2.0 * stops + 4.0 * LENGTH / WAVE
+    still = found.times[:, 0] > 2.0 * stops + 4.0 * LENGTH / WAVE
     assert np.all(found.speeds[still] == 0.0)
     turns = (np.diff(np.sign(found.speeds[:, 0]), axis=0) != 0).sum(axis=0)
     assert turns.max() <= 6
