@@ -357,6 +357,8 @@ def show_comparison(contents: Contents) -> None:
             for row in ranked.rows:
                 made.add_row(*(plain_text(shown(row)) for shown in columns.values()))
             screen.print(made)
+    if len(ranked.rows) == 1:
+        screen.print("one compound has nothing to be compared with: name a second one with -c, today's first")
     show_notes(screen, contents.lines("warning"))
 
 

@@ -103,7 +103,9 @@ def template(
     to.add("template", output, {output: content})
     lines = to.save()
     if not quiet:
-        print_lines(*lines)
+        from conveyor.starter import quote_path
+
+        print_lines(*lines, f"next: fill it in, then conveyor power {quote_path(str(output))}")
 
 
 @app.command(
