@@ -92,6 +92,19 @@ def test_a_density_mistaken_by_a_thousand_is_named_beside_the_flow(tmp_path: Pat
     assert "and 0.85 kg/m^3 (material.density) needs a cross-section of" in said
 
 
+@pytest.mark.parametrize(
+    ("written", "message"),
+    [
+        ("95", 'got 95, allowed: > 0 and <= 1; did you mean "95 %"?'),
+        ("950", "got 950, allowed: > 0 and <= 1"),
+        ("950 %", "got 950 %, allowed: > 0 % and <= 100 %"),
+    ],
+)
+def test_percent_without_its_sign(tmp_path: Path, written: str, message: str) -> None:
+    efficiency = GOOD.split("efficiency: ")[1].split(" %")[0]
+    assert changed(tmp_path, f"efficiency: {efficiency} %", f"efficiency: {written}").endswith(message)
+
+
 def test_a_name_without_its_ending_finds_its_neighbour(tmp_path: Path) -> None:
     (tmp_path / "mine.yaml").write_text(GOOD, encoding="utf-8")
     with pytest.raises(InputError, match=r'did you mean ".*mine\.yaml"\?'):
@@ -147,3 +160,11 @@ def test_rows_pasted_twice_are_named(tmp_path: Path) -> None:
     path.write_text("\n".join(["frequency_Hz,E'_Pa,E''_Pa", *rows, *rows[:3]]), encoding="utf-8")
     with pytest.raises(InputError, match=r"3 row.s. repeat earlier ones digit for digit: delete them; else"):
         read_dma(path)
+
+
+@pytest.mark.parametrize(("name", "unit"), [("feeder", " N "), ("overland", " kN ")])
+def test_forces_of_a_short_belt_are_no_row_of_zeros(name: str, unit: str) -> None:
+    lines = run("power", str(SPECS / f"{name}.yaml")).stdout.splitlines()
+    indentation = next(line for line in lines if line.startswith("indentation"))
+    assert unit in indentation
+    assert float(indentation.split()[1]) > 1.0

@@ -109,13 +109,14 @@ def template(
 
 
 @app.command(
+    short_help="Print the schema of specs, duties and results, or a reference page.",
     epilog=examples_text(
         "conveyor schema > conveyor.schema.json",
         "conveyor schema --duty > duty.schema.json",
         "conveyor schema --result > result.schema.json",
         "conveyor schema --markdown > spec.md",
         "conveyor schema --workbook > workbook.md",
-    )
+    ),
 )
 def schema(
     markdown: Annotated[
