@@ -14,7 +14,7 @@ from conveyor.errors import InputError
 from conveyor.files.compound_folders import ENVIRONMENT, SUFFIXES, built_in, compound_files, folders
 from conveyor.files.document import read_document, yaml_text
 from conveyor.models.compound import RubberCompound
-from conveyor.models.model_file import read_model
+from conveyor.models.file_kinds import read_file_of
 
 __all__ = ["ENVIRONMENT", "built_in", "compound", "dump", "folders", "names", "read_compound", "resolver"]
 
@@ -96,7 +96,7 @@ def read_compound(path: Path) -> RubberCompound:
 @lru_cache(maxsize=256)
 def _read_cached(path: Path, _changed: int, _size: int) -> RubberCompound:
     """Read a file, cached by its time and size: models are frozen and may be shared."""
-    return read_model(RubberCompound, path)
+    return read_file_of(RubberCompound, path)
 
 
 def resolver(*, extra: Iterable[str | Path] = (), base: Path | None = None) -> Callable[[str], RubberCompound]:

@@ -18,8 +18,8 @@ from conveyor.errors import InputError
 from conveyor.files.document import error_lines, read_document, yaml_text
 from conveyor.models import Conveyor
 from conveyor.models.base import Model, field_path, given_data, real_errors, validate_model
+from conveyor.models.file_kinds import read_file_of
 from conveyor.models.maker_lists import MakerLists
-from conveyor.models.model_file import read_model
 from conveyor.models.validation_messages import Location, error_message
 
 _FIELD: Final = re.compile(r"[a-z_]+(?:\.[a-z_]+|\[[0-9]+\])*(?=[: ])")
@@ -58,8 +58,10 @@ def load(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Conveyor:
     if where.suffix.lower() in _TABLE_ENDINGS:
         raise InputError(f"{where}: a workbook or table is read as .xlsx only; save a workbook as .xlsx")
     if where.suffix.lower() not in {".yaml", ".yml", ".json"} and not where.is_dir():
-        raise InputError(f'{where}: expected a file that ends in .yaml, .yml, .json or .xlsx, got "{where.name}"')
-    return read_model(Conveyor, where, _name_context(shelves, where.parent))
+        beside = where.with_name(f"{where.name}.yaml")
+        near = f'; did you mean "{beside}"?' if beside.is_file() else ""
+        raise InputError(f'{where}: expected a file that ends in .yaml, .yml, .json or .xlsx, got "{where.name}"{near}')
+    return read_file_of(Conveyor, where, _name_context(shelves, where.parent))
 
 
 @check_arguments

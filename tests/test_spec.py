@@ -87,7 +87,8 @@ POSITIONS = [
     ("friction: 0.35", "friction: true", "23:40 drive.friction: expected a number, got true"),
     ("efficiency: 95 %", "efficiency: 95", "23:58 drive.efficiency: got 95, allowed: > 0 and <= 1"),
     ("drive: {wrap", "drive: [] #", "23:1 drive: expected fields (key: value), got a list"),
-    ("flow: 2000 t/h", "flow: 9000 t/h", "18:51 material.flow: got 9000 t/h, which at 5 m/s (belt.speed) needs"),
+    ("flow: 2000 t/h", "flow: 9000 t/h", "18:51 material.flow: got 9000 t/h, which at 5 m/s (belt.speed) and "
+     "850 kg/m^3 (material.density) needs"),
     ("20 degC", "20 C", '24:24 ambient.temperature: got "20 C": unknown unit "C"; did you mean "20 degC"?'),
     ("20 degC", "95 degC",
      '24:24 ambient.temperature: got 95 degC, but belt.bottom_cover.compound is "standard-cover": compound'),

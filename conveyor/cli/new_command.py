@@ -51,8 +51,8 @@ def new(
     kind: Annotated[
         StarterKind,
         option(
-            "Conveyor the example values belong to; duty: of one to be sized. From shuttle on full examples in "
-            "SI, a study or search with the spec it varies beside it."
+            "Conveyor to begin with; duty: what one is to be sized from. overland, in-plant, downhill and duty have a "
+            "comment for every field; the others are whole examples, in SI."
         ),
     ] = StarterKind.OVERLAND,
     units: Annotated[Units, option("System of units.")] = _SI,
@@ -61,7 +61,8 @@ def new(
 ) -> None:
     """Write a spec to start from: every field that matters, with a comment; it runs as it stands."""
     if spec.suffix.lower() not in {".yaml", ".yml"}:
-        raise InputError(f'{spec}: a spec\'s name ends in .yaml, got "{spec.suffix}"')
+        workbook = f"; a workbook to fill in: conveyor template {spec}" if spec.suffix.lower() == ".xlsx" else ""
+        raise InputError(f'{spec}: a spec\'s name ends in .yaml, such as "{spec.with_suffix(".yaml")}"{workbook}')
     to = Outputs(force=force)
     to.file("SPEC", spec, ".yaml", ".yml", kind=TO_FILL_IN)
     from conveyor.starter import EXAMPLES, example_files, quote_path, starter_text
@@ -71,8 +72,8 @@ def new(
         files, command = example_files(kind.value, spec), EXAMPLES[kind.value].command
         if system != "SI":
             raise InputError(
-                f"--units {system}: the example of --kind {kind.value} is in SI; leave the units out, and give "
-                f"them to conveyor {command}, which then reports in them"
+                f"--units {system}: the example of --kind {kind.value} is in SI only; leave out --units here, and "
+                f"for a report in {system} units: conveyor {command} {quote_path(str(spec))} --units {system.lower()}"
             )
         for beside in [path for path in files if path != spec]:
             to.file("SPEC", beside, ".yaml", kind=TO_FILL_IN)

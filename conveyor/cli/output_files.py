@@ -32,6 +32,8 @@ _KINDS = {
     **dict.fromkeys(SPEC, output_marks.TO_FILL_IN),
 }
 """Kind of an older file that may be replaced, by its ending."""
+_OWN_OPTIONS = {".pdf": "--pdf", **dict.fromkeys(PAGE, "--html")}
+"""Options of reports that are no workbook, by ending."""
 _LARGEST_FILE = 100_000_000
 """Largest older file examined [bytes]; no output of this program is larger."""
 
@@ -98,6 +100,9 @@ class Outputs:
         pdf: Path | None = None,
     ) -> None:
         """Register the files of a report; `write` makes them."""
+        own = None if output is None else _OWN_OPTIONS.get(output.suffix.lower())
+        if own is not None:
+            raise InputError(f"--output: {output}: is for the workbook (.xlsx); give {own} {output}")
         self.file("--output", output, ".xlsx")
         paged = self.pages(html, pdf)
         self.tables(tables, parquet=parquet)

@@ -89,11 +89,9 @@ def _write_output(
 
     if ending in SPEC:
         names = _ranked_paths(path, len(sizing.designs) if len(sizing.designs) > 1 else 1)
-        made = {
-            name: f"# Rank {rank} of conveyor size.\n{dump_given(design.conveyor, shelves=shelves)}".encode()
-            for rank, (name, design) in enumerate(zip(names, sizing.designs, strict=True), start=1)
-        }
-        to.add("specs", path, made)
+        for rank, (name, design) in enumerate(zip(names, sizing.designs, strict=True), start=1):
+            text = f"# Rank {rank} of conveyor size.\n{dump_given(design.conveyor, shelves=shelves)}"
+            to.add("spec", name, {name: text.encode()})
     elif ending in FIGURE:
         around = next(drawing for drawing in contents.drawings if drawing.name == "around")
         to.figure(around.draw(), path)

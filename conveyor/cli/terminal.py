@@ -130,6 +130,10 @@ def show_notes(screen: Console, notes: Sequence[str]) -> None:
             screen.print(plain_text(wrap_line(note, screen.width, first="  - ", further="    ")))
 
 
+_LARGE_FORCE: Final = 10_000.0
+"""Effective tension from which the forces of the first table are written in kN [N]; below, their parts would be 0.0."""
+
+
 def show_power(contents: Contents) -> None:
     """Print the main results, the most important first and warnings last."""
     screen = terminal_console()
@@ -188,9 +192,10 @@ def _print_head(screen: Console, contents: Contents) -> None:
 
 def _force_table(contents: Contents) -> Grid:
     system = contents.system
-    force, power = display_unit("force", system, large=True), display_unit("power", system, large=True)
     sums = {row.key: row.value for row in contents["classical"].rows}
     total = sums["total"][0]
+    force = display_unit("force", system, large=abs(total) >= _LARGE_FORCE)
+    power = display_unit("power", system, large=True)
     whole = "effective tension Te" if trade_of(system) == "US" else "effective tension"
     names = {"main": "main resistance", "total": whole}
     rows: list[tuple[str, float, float | None]] = [
@@ -357,6 +362,8 @@ def show_comparison(contents: Contents) -> None:
             for row in ranked.rows:
                 made.add_row(*(plain_text(shown(row)) for shown in columns.values()))
             screen.print(made)
+    if len(ranked.rows) == 1:
+        screen.print("one compound has nothing to be compared with: name a second one with -c, today's first")
     show_notes(screen, contents.lines("warning"))
 
 
@@ -426,10 +433,16 @@ def _number_text(written: Unit, given: float | None) -> str:
     return f"{value:,.0f}" if abs(value) >= 100.0 else f"{value:.1f}"
 
 
+_OF_FLOODED_BELT: Final = {
+    "cross-section of the bulk", "mass flow", "load of a carry set", "motor power", "maximum tension, all states"
+}  # fmt: skip
+
+
 def _flooded_text(table: Table, system: System) -> str:
-    """Sentence on the flooded belt, or why it has no answer."""
-    said = ", ".join(f"{row.called(system)} {row.unit(system).said(row.value)}" for row in table.rows)
-    return f"flooded belt: {said}. {table.note}"
+    """Sentence on the flooded belt, or why it has no answer; the reports have every figure."""
+    shown = [row for row in table.rows if row.label in _OF_FLOODED_BELT]
+    said = ", ".join(f"{row.called(system)} {row.unit(system).said(row.value)}" for row in shown)
+    return f"flooded belt: {said}. {table.note if len(shown) == 1 else 'Nothing is checked by it.'}"
 
 
 def show_dynamics(contents: Contents) -> None:

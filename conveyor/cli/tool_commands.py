@@ -103,17 +103,20 @@ def template(
     to.add("template", output, {output: content})
     lines = to.save()
     if not quiet:
-        print_lines(*lines)
+        from conveyor.starter import quote_path
+
+        print_lines(*lines, f"next: fill it in, then conveyor power {quote_path(str(output))}")
 
 
 @app.command(
+    short_help="Print the schema of specs, duties and results, or a reference page.",
     epilog=examples_text(
         "conveyor schema > conveyor.schema.json",
         "conveyor schema --duty > duty.schema.json",
         "conveyor schema --result > result.schema.json",
         "conveyor schema --markdown > spec.md",
         "conveyor schema --workbook > workbook.md",
-    )
+    ),
 )
 def schema(
     markdown: Annotated[

@@ -16,6 +16,7 @@ from pydantic import BaseModel
 from conveyor.errors import InputError
 from conveyor.files.document import error_lines
 from conveyor.files.file_bytes import file_content
+from conveyor.files.output_marks import REPORT, output_kind
 from conveyor.files.workbook_cells import MAGIC, ArchiveLimits, Sheet, SheetCell, read_sheets
 from conveyor.forms.cell_values import from_cells
 from conveyor.forms.form_fields import FieldGroup, FieldTable, FormField, Path
@@ -323,6 +324,11 @@ def read_form(where: FilePath, model: type[BaseModel], content: bytes | None = N
     reader.cells[()] = held.places[plan.forms[0].name]
     data = {} if sheets.problems else reader.group(plan.root, _Cursor(held, held.entries, (), (), None))[0]
     if sheets.problems:
+        if output_kind(_workbook_bytes(where) if content is None else content) == REPORT:
+            raise InputError(
+                f"{where}: is a report of conveyor, not a workbook to fill in; give the spec it was calculated from, "
+                "or write a template with: conveyor template input.xlsx"
+            )
         raise InputError(error_lines(sheets.problems, str, str(where)))
     return FilledWorkbook(str(where), data, reader.cells)
 

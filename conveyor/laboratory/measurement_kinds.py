@@ -75,7 +75,9 @@ def _dynamic_kind(columns: Mapping[str, FloatArray], run: IntArray | None) -> tu
     if _temperature_count(temperature, group, run) > 1:
         unlike = _unlike_repeats(columns["storage"], group, level)
         return ("", unlike) if unlike else _stepped_kind(swept)
-    return _isothermal_kind(frequency, swept, unknown=temperature is None)
+    rows = np.column_stack(list(columns.values()))
+    repeated = rows.shape[0] - np.unique(rows, axis=0).shape[0]
+    return _isothermal_kind(frequency, swept, unknown=temperature is None, repeated=repeated)
 
 
 def _unlike_repeats(storage: FloatArray, group: IntArray, level: IntArray) -> str:
@@ -92,12 +94,13 @@ def _unlike_repeats(storage: FloatArray, group: IntArray, level: IntArray) -> st
     )
 
 
-def _isothermal_kind(frequency: FloatArray | None, swept: int, *, unknown: bool) -> tuple[str, str]:
+def _isothermal_kind(frequency: FloatArray | None, swept: int, *, unknown: bool, repeated: int) -> tuple[str, str]:
     """Kind and reason at one temperature, which may be unknown."""
     if unknown and frequency is not None and sweep_restarts(frequency):
+        same = f"{repeated} row(s) repeat earlier ones digit for digit: delete them; else " if repeated else ""
         return "", (
-            "the frequencies begin anew, as isotherms do, but there is no temperature; add a column temperature_degC,"
-            " or for repeats at one temperature give temperature (--temperature)"
+            f"{same}the frequencies begin anew, as isotherms do, but there is no temperature; add a column"
+            " temperature_degC, or for repeats at one temperature give temperature (--temperature)"
         )
     if frequency is not None and (swept or frequency.size == 1):
         return "master curve", "the frequency varies at one temperature (also: one frequency sweep)"

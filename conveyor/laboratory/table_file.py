@@ -7,6 +7,7 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Final
 
+from conveyor.errors import InputError
 from conveyor.files.file_bytes import file_content
 from conveyor.files.workbook_cells import MAGIC
 from conveyor.laboratory.cell_grid import TextGrid, cell_error
@@ -37,6 +38,8 @@ def matching_sheets(path: Path, pattern: str | None) -> list[str | None]:
 
 def load_grid(path: Path, sheet: str | None) -> TextGrid:
     """Load a text file, or the one sheet with a table."""
+    if path.suffix.lower() in {".yaml", ".yml", ".json"}:
+        raise InputError(f"{path}: a {path.suffix.lower()} file is no table of a laboratory; give .csv, .txt or .xlsx")
     data = file_content(path, largest=LARGEST_FILE, expected="table of a laboratory")
     if not data.startswith(MAGIC):
         if sheet is not None:

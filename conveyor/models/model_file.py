@@ -27,12 +27,46 @@ def read_model(model: type[M], path: Path, context: Mapping[str, Any] | None = N
     document = read_document(path)
     faults = list(document.findings)
     try:
-        read = validate_model(model, document.data, None if context is None else dict(context))
+        read = validate_model(model, document.data, _plain_context(context))
     except ValidationError as error:
-        faults = _validation_faults(error, model, document)
+        faults = _validation_faults(_error_with_commas(error, model, document, context), model, document)
     if faults:
         raise InputError(fault_lines(document.path, faults))
     return read
+
+
+def _plain_context(context: Mapping[str, Any] | None) -> dict[str, Any] | None:
+    return None if context is None else dict(context)
+
+
+def _error_with_commas(
+    error: ValidationError, model: type[BaseModel], document: Document, context: Mapping[str, Any] | None
+) -> ValidationError:
+    """Error of the data with numbers that a comma has torn apart in braces, ``{length: 2,300 ft}``, as written."""
+    joined = _join_at_commas(document.data)
+    if joined != document.data:
+        try:
+            validate_model(model, joined, _plain_context(context))
+        except ValidationError as of_joined:
+            return of_joined
+    return error
+
+
+def _join_at_commas(data: Any) -> Any:
+    """Data in which a key that begins with a digit and has no value goes on with the number before it."""
+    if isinstance(data, list):
+        return [_join_at_commas(item) for item in data]
+    if not isinstance(data, dict):
+        return data
+    joined: dict[Any, Any] = {}
+    for key, value in data.items():
+        last = next(reversed(joined), None)
+        number = joined.get(last)
+        if value is None and str(key)[:1].isdigit() and isinstance(number, int | float):
+            joined[last] = f"{number},{key}"
+        else:
+            joined[key] = _join_at_commas(value)
+    return joined
 
 
 def _validation_faults(error: ValidationError, model: type[BaseModel], document: Document) -> list[Fault]:

@@ -89,11 +89,10 @@ def _fill_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     yield Problem(
         ("material", "flow"),
         InputError(
-            f"got {text(material.flow)}, which at {text(belt.speed)} (belt.speed) needs a cross-section of {{}}, the "
-            f"belt holds {{}} and is calculated up to {{}}, {why}: reduce material.flow to "
-            f"{_safe_limit(most, down=True)} or less, raise belt.speed to {_safe_limit(least, down=False)} or more, "
-            f"or take "
-            f"{shape.larger}{metric}",
+            f"got {text(material.flow)}, which at {text(belt.speed)} (belt.speed) and {text(material.density)} "
+            f"(material.density) needs a cross-section of {{}}, the belt holds {{}} and is calculated up to {{}}, "
+            f"{why}: reduce material.flow to {_safe_limit(most, down=True)} or less, raise belt.speed to "
+            f"{_safe_limit(least, down=False)} or more, or take {shape.larger}{metric}",
             *sections_of,
         ),
     )

@@ -35,6 +35,13 @@ _EXPECTED_TYPES = {
 }
 
 
+_OTHER_NAMES = {
+    "st": "steel cord", "steel": "steel cord", "polyester": "EP", "ep/pn": "EP", "nylon": "polyamide",
+    "pa": "polyamide", "nn": "polyamide", "kevlar": "aramid", "pvg": "solid woven", "pvc": "solid woven",
+}  # fmt: skip
+"""What makers call things that a field names otherwise."""
+
+
 def error_message(item: dict[str, Any], model: type[BaseModel]) -> str:
     """Message of one pydantic error: what was given, what is allowed."""
     kind, context, given = item["type"], item.get("ctx", {}), item.get("input")
@@ -72,6 +79,7 @@ def error_message(item: dict[str, Any], model: type[BaseModel]) -> str:
 def _closest_word(given: Any, expected: str) -> str:
     """Suggest the allowed word closest to the given one, in any case."""
     words = {word.casefold(): word for word in re.findall(r"'([^']+)'", expected)}
+    words |= {other: word for other, word in _OTHER_NAMES.items() if word in words.values()}
     near = difflib.get_close_matches(given.casefold(), words, n=1) if isinstance(given, str) else []
     return f'; did you mean "{words[near[0]]}"?' if near else ""
 

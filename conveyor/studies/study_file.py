@@ -16,8 +16,8 @@ from conveyor.laboratory.cell_grid import TextLine, cell_error
 from conveyor.laboratory.delimited_text import table_lines
 from conveyor.laboratory.encoding import decode_text
 from conveyor.models.base import field_path
+from conveyor.models.file_kinds import read_file_of
 from conveyor.models.maker_lists import MakerLists
-from conveyor.models.model_file import read_model
 from conveyor.models.sizing import SizingDuty
 from conveyor.models.study import (
     DUTY_STATES,
@@ -46,12 +46,12 @@ def read_plan(path: str | Path) -> StudyPlan:
     InputError
         A file cannot be read, or is refused; all its errors at once, each with file, line, column and field.
     """
-    return _with_state_table(read_model(StudyPlan, Path(path)), Path(path))
+    return _with_state_table(read_file_of(StudyPlan, Path(path)), Path(path))
 
 
 def read_search(path: str | Path) -> SearchPlan:
     """Read a search for `conveyor optimise`; as `read_plan`."""
-    return _with_state_table(read_model(SearchPlan, Path(path)), Path(path))
+    return _with_state_table(read_file_of(SearchPlan, Path(path)), Path(path))
 
 
 def read_duty(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> SizingDuty:
@@ -64,7 +64,7 @@ def read_duty(path: str | Path, *, shelves: Iterable[str | Path] = ()) -> Sizing
     """
     where = Path(path)
     context = {"compound": shelf.resolver(extra=shelves, base=where.parent), "lists": MakerLists(where.parent)}
-    return read_model(SizingDuty, where, context)
+    return read_file_of(SizingDuty, where, context)
 
 
 @contextmanager

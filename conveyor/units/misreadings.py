@@ -33,9 +33,11 @@ _CONFUSION_HINTS = {
     ("angular frequency", "frequency"): _HZ,
     ("temperature difference", "temperature"): 'write a difference as "10 K" or "10 delta_degC"',
 }
+_DESIGNATION = re.compile(r"(?i)(?:ST|EP|NN|PA|PP|EE)[ -]?([0-9]+)(?:\s*/\s*[0-9]+)?")
+"""Designation of a belt, ST1600 or EP 1000/4: its breaking strength [N/mm], a textile one with its plies."""
 _UNIT_GUESSES = {
     "C": "degC", "c": "degC", "celsius": "degC", "Celsius": "degC", "F": "degF", "fahrenheit": "degF",
-    "Fahrenheit": "degF", "kelvin": "K", '"': "in", "inches": "in", "'": "ft", "feet": "ft", "foot": "ft",
+    "Fahrenheit": "degF", "kelvin": "K", '"': "in", "inches": "in", "''": "in", "'": "ft", "feet": "ft", "foot": "ft",
     "metre": "m", "meter": "m", "metres": "m", "meters": "m", "lbs": "lb", "pound": "lb", "pounds": "lb",
     "sec": "s", "hr": "h", "hour": "h", "hours": "h", "tonne": "t", "tonnes": "t", "tonne/h": "t/h",
     "tonnes/h": "t/h", "degree": "deg", "degrees": "deg", "percent": "%", "lbs/ft": "lb/ft", "pli": "PIW",
@@ -128,7 +130,7 @@ def _text_reason(given: str, kind: str | None, allows: Callable[[str], bool]) ->
     start = given.strip()
     if len(given) > LONGEST_TEXT:
         return f"expected {expected}, got {shown}"
-    advice = _trap_advice(start, allows)
+    advice = _trap_advice(start, kind, allows)
     if advice is not None:
         return f"got {shown}: {advice}"
     match = NUMBER_UNIT.fullmatch(given)
@@ -142,8 +144,10 @@ def _text_reason(given: str, kind: str | None, allows: Callable[[str], bool]) ->
     return f"got {shown}" + _unit_reason(number, unit, kind, allows)
 
 
-def _trap_advice(start: str, allows: Callable[[str], bool]) -> str | None:
+def _trap_advice(start: str, kind: str | None, allows: Callable[[str], bool]) -> str | None:
     """Advice for a text that is one of the traps, else None."""
+    if kind == "line force" and (belt := _DESIGNATION.fullmatch(start)):
+        return f'of a belt\'s designation write the number, "{belt[1]} N/mm"; its kind is a field of its own'
     if re.match(_THOUSANDS, start):
         together = re.sub(rf"(?<=[0-9]){_SEPARATORS}(?=[0-9]{{3}})", "", escape_line_breaks(start))
         meant = f', e.g. "{together}"' if _may_propose(together, allows) else ""

@@ -405,7 +405,11 @@ class Bounds:
             if self._hold(value):
                 return value
             allowed = " and ".join(f"{sign} {_limit_text(limit, value)}" for sign, limit, _ in self._limits())
-            raise InputError(f"got {text(value)}, allowed: {allowed}")
+            percent = f"{text(value)} %"
+            meant = measure is not None and measure.kind == "fraction" and self.allows("fraction", percent)
+            raise InputError(
+                f"got {text(value)}, allowed: {allowed}" + (f'; did you mean "{percent}"?' if meant else "")
+            )
 
         return core_schema.no_info_after_validator_function(_pydantic_validator(check), inner)
 

@@ -67,7 +67,7 @@ REFUSED = [
      [{"name": "p", "position": "head", "diameter": "0.5 m", "shaft_diameter": "500 mm", "mass": "1 t"}],
      "route.pulleys.0.shaft_diameter", "got 500 mm, but the pulley's diameter is 0.5 m"),
     ("material.flow", "4800 t/h", "material.flow",
-     r"which at 5 m/s \(belt.speed\) needs a cross-section of 0.3137 m\^2"),
+     r"\(belt.speed\) and 850 kg/m\^3 \(material.density\) needs a cross-section of 0.3137 m\^2"),
     ("ambient.temperature", "60 degC", "ambient.temperature",
      'got 60 degC, but belt.bottom_cover.compound is "test rubber": temperature 60.00 degC is outside the shift table'),
     ("ambient.belt_temperature", "0 degF", "ambient.belt_temperature", "got 0 degF, but belt.bottom_cover.compound"),

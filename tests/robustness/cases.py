@@ -142,7 +142,7 @@ SHELF = [
     Case("compound", "somebody's home that is not there", edited(("compound: standard-cover}\n  bottom", "compound: ~nobody-here/mine.yaml}\n  bottom")), 'no home folder "~nobody-here"'),
     Case("compound", "its file has errors", compound("name: mine\nkind: measured\npoisson_ratio: half\n"), 'mine.yaml:3:16 poisson_ratio: expected a number, got "half"', lines=4),
     Case("compound", "its file is no YAML", compound("name: [mine\n"), "mine.yaml:1:7 syntax"),
-    Case("compound", "its file is a spec", compound(SPEC), "mine.yaml:1:1 prony: missing", lines=11),
+    Case("compound", "its file is a spec", compound(SPEC), "mine.yaml: is the spec of a conveyor, expected a rubber compound"),
     Case("compound", "its file is a folder", folder_named("mine.yaml", "shelf", "mine.yaml"), "mine.yaml: is a folder; give a file in it"),
     Case("compound", "its file is a pipe", pipe_named("mine.yaml", "shelf", "mine.yaml"), "mine.yaml: is no ordinary file"),
     Case("compound", "two of a name", two_shelves, 'compound "house" is on the shelf twice: ours/house.yaml and theirs/house.yaml'),

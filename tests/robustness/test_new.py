@@ -127,8 +127,8 @@ def test_new_offers_every_kind_and_says_how_it_runs(tmp_path: Path) -> None:
     assert (tmp_path / "s_base.yaml").is_file()
     refused = run("new", str(tmp_path / "t.yaml"), "--kind", "shuttle", "--units", "US")
     assert refused.returncode == 2
-    assert "in SI" in refused.stderr
-    assert "give them to conveyor power" in " ".join(refused.stderr.split())
+    assert "in SI only" in refused.stderr
+    assert f"conveyor power {tmp_path / 't.yaml'} --units us" in " ".join(refused.stderr.split())
 
 
 def test_the_example_of_a_transfer_keeps_its_checks() -> None:
