@@ -216,7 +216,7 @@ class Record:
     slipped, heat : ndarray, shape (s, d)
         Slip distance of the rim on the belt [m], and its heat [J].
     fastest, slowest : ndarray, shape (s, n + 1)
-        Highest and lowest acceleration of every mass over a sample [m/s²].
+        Highest and lowest mean acceleration of every mass over `SLIDING_TIME` [m/s²].
     work : dict of str to ndarray, shape (s,)
         Energy given by the motors and its uses [J]; "missing" is the error of the balance.
     """

@@ -253,7 +253,7 @@ def _final_speed(scenario: ScenarioResult) -> Iterator[Check]:
 
 
 def _bulk_slip(scenario: ScenarioResult) -> Iterator[Check]:
-    """The bulk does not slip, by the mean acceleration between samples, on stretches where it rests at steady speed."""
+    """The bulk does not slip, by means over `SLIDING_TIME`, on stretches where it rests at steady speed."""
     line, worst = scenario.line, []
     for k, cells in scenario.stretches():
         stretch = line.loop.stretches[k]
