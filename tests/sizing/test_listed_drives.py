@@ -95,7 +95,7 @@ def test_the_report_has_every_item_with_its_use(sizing):
     gear = next(row for row in contents["listed_parts"].plain() if row["part"] == "gearbox")
     assert gear["use"] == pytest.approx(0.68755, rel=1e-4)
     told = contents.lines("assumption")
-    assert "head: the lagging of stout is not judged, its list has no lagging_pressure" in told
+    assert "pulley stout: the lagging is not judged, its list has no lagging_pressure" in told
 
 
 @pytest.mark.parametrize(

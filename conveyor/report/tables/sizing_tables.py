@@ -195,7 +195,7 @@ def _unjudged_items(design: SizedDesign) -> Iterator[str]:
         for (kind, what), needed in _JUDGED_BY.items():
             lacking = ", ".join(name for name in needed if name not in part.item.fields)
             if kind == part.item.kind and lacking:
-                yield f"{part.place}: {what} of {part.item.name} is not judged, its list has no {lacking}"
+                yield f"{part.item.one} {part.item.name}: {what} is not judged, its list has no {lacking}"
 
 
 def _belt_name(design: SizedDesign) -> str:
@@ -308,7 +308,7 @@ def _sizing_remarks(sizing: CalculatedSizing) -> Table:
         "duty (prices, rules)",
         "carry and return compounds are those of the duty; covers by DIN 22101's points for wear (general knowledge)",
         *(f"{count} calculated candidates are no designs: {why}" for why, count in sizing.refused.items()),
-        *_unjudged_items(best),
+        *dict.fromkeys(_unjudged_items(best)),
         *analysis_assumptions(best.conveyor),
     ]
     return remark_table({"assumption": lines}, page="remarks")
