@@ -144,7 +144,7 @@ def _backstop_forces(line: Line) -> tuple[float, ...]:
 
 
 def drive_parts(result: CalculatedConveyor) -> Iterator[Check]:
-    """Backstops, brakes, starts an hour and uncontrolled load sharing are within their limits; where given."""
+    """Parts of the drives, starts an hour and uncontrolled load sharing are within their limits; where given."""
     motor = result.balance.frame.motor
     for duty in result.drive_duty:
         name, parts, installed = escape_braces(duty.drive.name), duty.parts, duty.drive.power
@@ -154,6 +154,15 @@ def drive_parts(result: CalculatedConveyor) -> Iterator[Check]:
                 "torque", where="holding" if duty.backstop == duty.holding else "motors stalled",
                 why=f'the backstop of "{name}" bears {{required}}, {{calculated}} are asked of it',
             )  # fmt: skip
+        for part, asked, rated in (
+            ("gear", duty.gear_torque, parts.gearbox), ("coupling", duty.coupling_torque, parts.coupling)
+        ):  # fmt: skip
+            if asked is not None and rated is not None:
+                yield check_against_limit(
+                    f"{part}_torque", f"torque of the {part}, {name}", asked, "at most", rated, "torque",
+                    why=f'the {part} of "{name}" is rated for {{required}}, the motor asks for {{calculated}} with '
+                    f"the service factor {parts.service:g}: a larger one (drive.service_factor)",
+                )  # fmt: skip
         if parts.heat is not None and duty.heat is not None:
             yield check_against_limit(
                 "brake_heat", f"heat of a stop in the brake, {name}", duty.heat, "at most", parts.heat, "heat",

@@ -95,7 +95,8 @@ LIST_FORMS: Final[Mapping[MakerKind, ListForm]] = {
         Pulley,
         {
             "diameter": "mm", "shaft_diameter": "mm", "mass": "kg", "bearing_centres": "mm", "hub_centres": "mm",
-            "hub_shaft_diameter": "mm", "shaft_steel": "", "bearing_rating": "kN", "lagging_pressure": "MPa",
+            "hub_shaft_diameter": "mm", "face_width": "mm", "shaft_steel": "", "bearing_rating": "kN",
+            "lagging_pressure": "MPa",
         },
         ("diameter", "shaft_diameter", "mass"),
         {"name": "head", "position": "head"},
@@ -106,9 +107,10 @@ LIST_FORMS: Final[Mapping[MakerKind, ListForm]] = {
         ("installed_power",),
         {**_DRIVE, "inertia": "1 kg*m^2", "gear_ratio": 1.0},
     ),
-    "gearboxes": ListForm(Drive, {"gear_ratio": "", "efficiency": "%"}, ("gear_ratio", "efficiency"),
-                          {**_DRIVE, "inertia": "1 kg*m^2"}),
-    "couplings": ListForm(Drive, {"efficiency": "%", "torque_factor": ""}, ("efficiency",), _DRIVE),
+    "gearboxes": ListForm(Drive, {"gear_ratio": "", "efficiency": "%", "gear_torque": "kN*m"},
+                          ("gear_ratio", "efficiency"), {**_DRIVE, "inertia": "1 kg*m^2"}),
+    "couplings": ListForm(Drive, {"efficiency": "%", "torque_factor": "", "coupling_torque": "N*m"}, ("efficiency",),
+                          {**_DRIVE, "motor_speed": "1500 rpm"}),
     "backstops": ListForm(Drive, {"backstop_torque": "kN*m"}, ("backstop_torque",), _DRIVE),
     "brakes": ListForm(Drive, {"brake_force": "kN", "brake_heat": "MJ", "brake_disc": "kg"}, ("brake_force",), _DRIVE),
 }  # fmt: skip

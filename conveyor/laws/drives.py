@@ -194,15 +194,17 @@ def flywheel_inertia(
     return max(0.0, missing) * (radius / ratio) ** 2
 
 
-def gear_torque(rated_power: float, *, rotation: float) -> float:
-    """Rated torque of a gear at its slow shaft, 1.5 P/(2 π n), the factor general knowledge.
+def gear_torque(rated_power: float, *, rotation: float, service: float = GEAR_SERVICE.value) -> float:
+    """Rated torque of a gear or coupling at a shaft, k P/(2 π n), k = 1.5 general knowledge.
 
     Parameters
     ----------
     rated_power : float
         P of its motor [W], positive.
     rotation : float
-        n of the slow shaft [1/s], positive.
+        n of the shaft, a gear's slow one [1/s], positive.
+    service : float
+        k, rated torque over that of the motor [-], positive.
 
     Returns
     -------
@@ -219,8 +221,8 @@ def gear_torque(rated_power: float, *, rotation: float) -> float:
     >>> round(gear_torque(200e3, rotation=1.5))
     31831
     """
-    require_positive(rated_power=rated_power, rotation=rotation)
-    return GEAR_SERVICE.value * rated_power / (2.0 * math.pi * rotation)
+    require_positive(rated_power=rated_power, rotation=rotation, service=service)
+    return service * rated_power / (2.0 * math.pi * rotation)
 
 
 def next_preferred_number(value: float) -> float:

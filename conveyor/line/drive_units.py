@@ -19,7 +19,8 @@ class DriveParts:
     """Parts of a drive; None not given.
 
     Number of `motors` and their rated `rotation` [1/s], gear `ratio`, rated torque of the `backstop` [N m], required
-    `starts` [1/h], `loss` of pulley diameter [m], mass of the brake's `disc` [kg] and the `heat` it may take [J].
+    `starts` [1/h], `loss` of pulley diameter [m], mass of the brake's `disc` [kg] and the `heat` it may take [J],
+    rated torques of `gearbox` and `coupling` of a motor [N m] and their `service` over the motor's [-].
     """
 
     motors: int
@@ -30,6 +31,9 @@ class DriveParts:
     loss: float | None
     disc: float | None
     heat: float | None
+    gearbox: float | None
+    coupling: float | None
+    service: float
 
 
 @dataclass(frozen=True)
@@ -73,13 +77,15 @@ def drive_units(conveyor: Conveyor, places: LoopPositions) -> tuple[DriveUnit, .
             radius=_drive_radius(conveyor, pulley),
             starter=None if pulley.starter is None else StarterUnit.of(pulley.starter),
             backstop=pulley.backstop,
-            parts=_drive_parts(pulley) if any(other.judged for other in pulleys) else None,
+            parts=_drive_parts(pulley, conveyor.drive.service_factor)
+            if any(other.judged for other in pulleys)
+            else None,
         )
         for name, pulley, share in zip(names, pulleys, _drive_shares(pulleys), strict=True)
     )
 
 
-def _drive_parts(pulley: DrivePulley) -> DriveParts:
+def _drive_parts(pulley: DrivePulley, service: float) -> DriveParts:
     return DriveParts(
         motors=pulley.motors,
         rotation=None if pulley.motor_speed is None else si(pulley.motor_speed),
@@ -89,6 +95,9 @@ def _drive_parts(pulley: DrivePulley) -> DriveParts:
         loss=si_or_none(pulley.diameter_loss),
         disc=si_or_none(pulley.brake_disc),
         heat=si_or_none(pulley.brake_heat),
+        gearbox=si_or_none(pulley.gear_torque),
+        coupling=si_or_none(pulley.coupling_torque),
+        service=service,
     )
 
 

@@ -79,9 +79,23 @@ class DriveDuty:
     @cached_property
     def gear(self) -> float | None:
         """Gear size for one motor by its rated torque, of the preferred numbers [N m]; None without power."""
-        if self.drive.power is None or self.rotation is None:
+        return None if self.gear_torque is None else next_preferred_number(self.gear_torque)
+
+    @property
+    def gear_torque(self) -> float | None:
+        """Rated torque asked of the gearbox of one motor, at its slow shaft [N m]; None without power or diameter."""
+        return self._rated_torque(self.rotation)
+
+    @property
+    def coupling_torque(self) -> float | None:
+        """Rated torque asked of the coupling of one motor, at the motor's shaft [N m]; None without motor speed."""
+        return self._rated_torque(self.parts.rotation)
+
+    def _rated_torque(self, rotation: float | None) -> float | None:
+        """Service factor times the torque of one motor at a shaft [N m]."""
+        if self.drive.power is None or rotation is None:
             return None
-        return next_preferred_number(gear_torque(self.drive.power / self.parts.motors, rotation=self.rotation))
+        return gear_torque(self.drive.power / self.parts.motors, rotation=rotation, service=self.parts.service)
 
     @cached_property
     def holding(self) -> float | None:

@@ -9,6 +9,7 @@ from typing import Annotated, Any, Final, Self
 
 from pydantic import ConfigDict, Field, ValidationInfo, model_validator
 
+from conveyor.laws.drives import GEAR_SERVICE
 from conveyor.laws.resistance import FRICTION_FACTOR, FRICTION_FACTOR_DOWNHILL
 from conveyor.models.base import Model, Name, Number, Problem, Switch, raise_problems
 from conveyor.models.drive_train import PRODUCT_TOLERANCE, DrivePart, train_efficiency, with_efficiency
@@ -72,6 +73,10 @@ class DrivePulley(Model):
     """Whether it cannot turn backward, for scenarios; without it the first drive of a belt that would roll back."""
     backstop_torque: Annotated[Torque, Bounds(gt="0 N*m", le="100 MN*m")] | None = None
     """Torque that its backstop bears, at the pulley."""
+    gear_torque: Annotated[Torque, Bounds(gt="0 N*m", le="100 MN*m")] | None = None
+    """Rated torque of the gearbox of one motor, at its slow shaft; checked with service_factor."""
+    coupling_torque: Annotated[Torque, Bounds(gt="0 N*m", le="100 MN*m")] | None = None
+    """Rated torque of the coupling of one motor, at the motor's shaft; checked likewise, needs motor_speed."""
     motors: Annotated[int, Field(ge=1, le=20, strict=True)] = 1
     """How many equal motors it has."""
     motor_speed: Annotated[Rotation, Bounds(gt="0 rpm", le="5000 rpm")] | None = None
@@ -109,6 +114,9 @@ class DrivePulley(Model):
             ("starts_per_hour", self.starts_per_hour, self.installed_power, "installed_power"),
             ("brake_disc", self.brake_disc, self.brake_force, "brake_force"),
             ("brake_heat", self.brake_heat, self.brake_force, "brake_force"),
+            ("gear_torque", self.gear_torque, self.installed_power, "installed_power"),
+            ("coupling_torque", self.coupling_torque, self.installed_power, "installed_power"),
+            ("coupling_torque", self.coupling_torque, self.motor_speed, "motor_speed"),
         ):
             if value is not None and asked is None:
                 problems.append(Problem((other,), f"missing: {field} is given and needs it, or remove {field}"))
@@ -123,7 +131,7 @@ class DrivePulley(Model):
         """True if the spec has data to check the parts of the drive, beyond force and power."""
         given = (
             self.backstop_torque, self.motor_speed, self.starts_per_hour, self.diameter_loss, self.brake_disc,
-            self.brake_heat,
+            self.brake_heat, self.gear_torque, self.coupling_torque,
         )  # fmt: skip
         return any(value is not None for value in given)
 
@@ -161,6 +169,8 @@ class Drive(DrivePulley):
     """Parts of the drive train with their efficiencies, also those between mains and motor shaft."""
     regeneration_efficiency: Annotated[Fraction, Bounds(gt="0 %", le="100 %")] | None = None
     """From the belt to the motor's shaft when the belt drives; as efficiency without it."""
+    service_factor: Annotated[Number, Field(ge=1, le=5)] = GEAR_SERVICE.value
+    """Rated torque of gearbox and coupling over that of their motor, by their maker or the contract."""
     start_factor: Annotated[Number, Field(ge=1, le=5)] | None = None
     """Drive force of a controlled start over that in steady running; without it all that torque_factor or torque_curve
     let the motors give, without those 1.3. A regenerative conveyor's braking force likewise."""

@@ -60,6 +60,8 @@ class Pulley(LibraryItem):
     """Diameter of the shaft in its bearings."""
     mass: Annotated[Mass, Bounds(ge="0 kg", le="100 t")]
     """Of pulley and shaft; its weight loads the bearings."""
+    face_width: Annotated[Length, Bounds(gt="0 m", le="10 m")] | None = None
+    """Of its shell, which must be wider than the belt."""
     wrap_angle: Annotated[Angle, Bounds(gt="0 deg", le="360 deg")] = quantity("180 deg")
     """Angle over which the belt lies on it."""
     pull_angle: Annotated[Angle, Bounds(ge="0 deg", le="180 deg")] = quantity("0 deg")

@@ -252,6 +252,14 @@ def _inertia_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
             yield Problem((*place, "pulley_diameter"), message)
 
 
+def _face_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
+    """Refuse pulleys that are not wider than the belt."""
+    for i, pulley in enumerate(conveyor.route.pulleys):
+        if pulley.face_width is not None and si(pulley.face_width) <= si(conveyor.belt.width):
+            message = f"got {text(pulley.face_width)}, not wider than the belt (belt.width {text(conveyor.belt.width)})"
+            yield Problem(("route", "pulleys", i, "face_width"), f"{message}; take a wider pulley")
+
+
 def _bulk_flexure_problems(conveyor: ConveyorParts) -> Iterator[Problem]:
     """Refuse bulk flexure with four or five rolls."""
     flexure, rolls = conveyor.calculation.flexure, conveyor.idlers.carry.rolls
@@ -413,6 +421,7 @@ CONFLICTS: Final[Mapping[Callable[[ConveyorParts], Iterator[Problem]], tuple[str
     _discharge_problems: ("calculation", "route"),
     _drive_section_problems: ("drive", "route"),
     _inertia_problems: ("drive", "route"),
+    _face_problems: ("belt", "route"),
     _length_coefficient_problems: ("calculation", "route"),
     _flexure_factor_problems: ("calculation", "route"),
     _bulk_flexure_problems: ("calculation", "idlers"),

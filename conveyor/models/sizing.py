@@ -10,6 +10,7 @@ from typing import Annotated, Any, Final, Literal, Self
 from pydantic import Field, model_validator
 
 from conveyor.files import libraries
+from conveyor.laws.drives import GEAR_SERVICE
 from conveyor.laws.idler_sets import CemaClass
 from conveyor.laws.preliminary_sizing import Severity
 from conveyor.laws.resistance import Site
@@ -174,7 +175,7 @@ class SiteRules(Model):
     roll_rotation: Annotated[Rotation, Bounds(gt="0 rpm", le="5000 rpm")] = quantity("650 rpm")
     """Highest speed of the rolls."""
     roll_life: Annotated[Duration, Bounds(gt="0 h", le="1000000 h")] = quantity("30000 h")
-    """Least L10 of the bearings of a set."""
+    """Least L10 of the bearings of a set, and of listed pulleys whose bearings have a rating."""
     drives: Annotated[tuple[DriveLayout, ...], Field(min_length=1)] = (
         "head",
         "head, two pulleys",
@@ -197,6 +198,12 @@ class SiteRules(Model):
     """Force of a start over the steady one."""
     take_up_travel: Annotated[Distance, Bounds(gt="0 m", le="500 m")] = quantity("30 m")
     """Longest travel of the take-up, which keeps textile belts to short conveyors."""
+    service_factor: Annotated[Number, Field(ge=1, le=5)] = GEAR_SERVICE.value
+    """Rated torque of listed gearboxes and couplings over that of their motor."""
+    face_allowance: Annotated[Length, Bounds(gt="0 mm", le="1 m")] | None = None
+    """How much wider than the belt listed pulleys are at least; without it 100 mm, in the US series 2 in."""
+    speed_tolerance: Annotated[Fraction, Bounds(gt="0 %", le="10 %")] = quantity("5 %")
+    """How far listed gearboxes may take the belt from a speed to choose from; the design has the speed they give."""
     basis: Method = "viscoelastic"
     """Method by which the motors have to suffice, beside the friction to design for of the rolling contact."""
     motor_reserve: Annotated[Number, Field(ge=1, le=3)] = 1.1

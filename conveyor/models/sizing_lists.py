@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, Final, Literal, Self, TypeAlias
+from typing import Annotated, Any, Final, Self, TypeAlias
 
 from pydantic import Field, ValidationInfo, WithJsonSchema, model_validator
 
@@ -11,13 +11,12 @@ from conveyor.errors import InputError
 from conveyor.laws.tension import usual_stiffness
 from conveyor.models.base import Model, Problem, raise_problems
 from conveyor.models.library_items import find_item
-from conveyor.models.maker_lists import Listed, ListedItem, MakerKind, MakerLists
+from conveyor.models.maker_lists import MAKER_KINDS, Listed, ListedItem, MakerKind, MakerLists
 from conveyor.units import read_si
 
-SizedKind: TypeAlias = Literal["rolls", "belts", "motors"]
-SIZED_KINDS: Final[tuple[SizedKind, ...]] = ("rolls", "belts", "motors")
-"""Kinds of makers' lists that sizing chooses from."""
 _BEARING_FIELDS: Final = ("dynamic_rating", "distance")
+_RATED_FIELDS: Final = {"pulleys": "face_width", "gearboxes": "gear_torque", "couplings": "coupling_torque"}
+_TRAIN_FIELDS: Final = ("motor_speed", "inertia")  # of motors, for gearboxes: ratio and the masses behind it
 ALL: Final = "all"
 _SCHEMA: Final = {"anyOf": [{"const": ALL}, {"type": "array", "items": {"type": "string"}}],
                   "description": "Names of items, or `all`."}  # fmt: skip
@@ -33,6 +32,16 @@ class ListedSeries(Model):
     """Belts, likewise; one listed with its covers has those."""
     motors: Items = ()
     """Motors, likewise."""
+    pulleys: Items = ()
+    """Pulleys, likewise: the smallest that the belt allows, wide enough, and that bear their tensions."""
+    gearboxes: Items = ()
+    """Gearboxes of listed motors, likewise: by the ratio that the belt speed asks for, and their torque."""
+    couplings: Items = ()
+    """Couplings of listed motors, likewise, by their torque."""
+    backstops: Items = ()
+    """Backstops, likewise, by the torque that holds the loaded belt in the worst load."""
+    brakes: Items = ()
+    """Brakes, likewise, by the force that holds it."""
 
     @model_validator(mode="before")
     @classmethod
@@ -40,7 +49,7 @@ class ListedSeries(Model):
         if not isinstance(data, Mapping):
             return data
         problems, found = list[Problem](), dict(data)
-        for kind in SIZED_KINDS:
+        for kind in MAKER_KINDS:
             asked = data.get(kind)
             if asked == ALL or isinstance(asked, list | tuple):
                 found[kind] = tuple(_find_items(kind, asked, info, problems))
@@ -50,18 +59,28 @@ class ListedSeries(Model):
     @model_validator(mode="after")
     def _usable(self) -> Self:
         problems = []
-        for kind in SIZED_KINDS:
+        for kind in MAKER_KINDS:
             for i, item in enumerate(self.items(kind)):
-                missing = _missing_field(item)
+                missing = _missing_field(item) or self._missing_of_motor(item)
                 if item.kind != kind:
                     problems.append(Problem((kind, i), f'got "{item.name}", which is of {item.kind}'))
                 elif missing:
                     told = f'"{item.name}" has no {missing}, which sizing needs; add it to the list'
                     problems.append(Problem((kind, i), told))
+            if kind in {"gearboxes", "couplings"} and self.items(kind) and not self.items("motors"):
+                told = f"given without listed.motors, whose speed {kind} are chosen by; list motors, or remove {kind}"
+                problems.append(Problem((kind,), told))
         raise_problems(type(self).__name__, problems)
         return self
 
-    def items(self, kind: SizedKind) -> tuple[ListedItem, ...]:
+    def _missing_of_motor(self, item: ListedItem) -> str:
+        """Field that gearboxes or couplings need of a motor; empty if none."""
+        if item.kind != "motors":
+            return ""
+        needed = _TRAIN_FIELDS if self.items("gearboxes") else _TRAIN_FIELDS[:1] if self.items("couplings") else ()
+        return next((name for name in needed if name not in item.fields), "")
+
+    def items(self, kind: MakerKind) -> tuple[ListedItem, ...]:
         """Items of a kind; names are items once they are read."""
         return tuple(item for item in getattr(self, kind) if isinstance(item, ListedItem))
 
@@ -91,6 +110,8 @@ def _find_items(
 def _missing_field(item: ListedItem) -> str:
     """Field that sizing needs and an item has not; empty if none."""
     fields = item.fields
+    if item.kind in _RATED_FIELDS and _RATED_FIELDS[item.kind] not in fields:
+        return _RATED_FIELDS[item.kind]
     if item.kind == "rolls":
         return next((f"bearing.{name}" for name in _BEARING_FIELDS if name not in fields.get("bearing", {})), "")
     if item.kind == "belts":

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 from conveyor.errors import RangeError
@@ -11,6 +11,7 @@ from conveyor.laws.belt_strength import CLASSIC_SAFETY, least_cover
 from conveyor.laws.idler_sets import CemaClass, rated_set_load
 from conveyor.laws.preliminary_sizing import carcass_mass, roll_shell_mass
 from conveyor.laws.tension import least_pulley_diameter, usual_stiffness
+from conveyor.models.maker_lists import ListedItem
 from conveyor.models.sizing import DriveLayout, same_width
 from conveyor.units import from_si
 
@@ -191,10 +192,53 @@ class DesignChoice:
 
 
 @dataclass(frozen=True)
+class ListedPart:
+    """Item of a maker's list chosen for a place, by a figure of a kind, SI.
+
+    `needed`: what the design asks for, with its reserve; `rated`: what the item has.
+    """
+
+    place: str
+    item: ListedItem
+    kind: str
+    needed: float = field(compare=False)
+    rated: float
+
+    @property
+    def use(self) -> float:
+        """Needed over rated figure [-]."""
+        return self.needed / self.rated
+
+
+@dataclass(frozen=True)
+class ListedParts:
+    """Items chosen for pulleys and drives; empty or None where a kind is not listed.
+
+    `pulleys`: head, take-up, tail; `gearbox`, `coupling`: of every motor; `backstop`, `brake`: of the first drive;
+    `drive_diameter` [m]; `speed`: of the belt [m/s].
+    """
+
+    drive_diameter: float
+    speed: float
+    pulleys: tuple[ListedPart, ...] = ()
+    gearbox: ListedPart | None = None
+    coupling: ListedPart | None = None
+    backstop: ListedPart | None = None
+    brake: ListedPart | None = None
+
+    @property
+    def parts(self) -> tuple[ListedPart, ...]:
+        """All items chosen."""
+        every = (self.gearbox, self.coupling, self.backstop, self.brake)
+        return (*self.pulleys, *(part for part in every if part is not None))
+
+
+@dataclass(frozen=True)
 class SelectedParts:
     """Parts selected from a candidate's tensions: carcass, covers [m], motors of each drive [W], brake force [N].
 
     `backstop`: torque of that on the first pulley [N m]; `take_up`: its tension [N], 0 where grip and sag decide;
+    `listed`: items of makers' lists, None without lists of pulleys and parts of drives;
     `settling`: selected from exact tensions already.
     """
 
@@ -205,4 +249,5 @@ class SelectedParts:
     brake: float
     backstop: float = 0.0
     take_up: float = 0.0
+    listed: ListedParts | None = None
     settling: bool = False

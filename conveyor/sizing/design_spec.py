@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any, Final
 
@@ -10,10 +12,11 @@ from conveyor.laws.preliminary_sizing import PULLEY_MASS
 from conveyor.line.usual_parts import SHAFT_DIAMETER_RATIO
 from conveyor.models import Conveyor
 from conveyor.models.base import given_data
+from conveyor.models.maker_lists import ListedItem
 from conveyor.sizing.design_choice import CarcassClass, DesignChoice, RollSize, SelectedParts
 from conveyor.sizing.listed_sizes import listed_belt, listed_motor, named_item
 from conveyor.sizing.sizing_task import SizingTask
-from conveyor.units import from_si
+from conveyor.units import from_si, text
 
 _BEARING_INSET: Final = 0.02  # [m], middle of a bearing inside the tube's end; general knowledge
 
@@ -44,8 +47,8 @@ def design_spec(task: SizingTask, choice: DesignChoice, chosen: SelectedParts, n
     InputError
         The spec is invalid: the duty does not fit the choice.
     """
+    choice = built_choice(task, choice, chosen)
     duty, carcass, written = task.duty, chosen.carcass, partial(_field_text, task)
-    drive_diameter, bend_diameter = task.drive_diameter(carcass), task.bend_diameter(carcass)
     route = given_data(duty.sized_route)
     for section, spacing in zip(route["sections"], choice.graduated, strict=bool(choice.graduated)):
         section["carry_spacing"] = written(spacing, "m")
@@ -53,14 +56,7 @@ def design_spec(task: SizingTask, choice: DesignChoice, chosen: SelectedParts, n
         at = next((i for i, section in enumerate(route["sections"]) if section["name"] == point.get("section")), 0)
         spacing = choice.graduated[at] if choice.graduated else choice.carry
         point.setdefault("idler_spacing", written(task.loading_spacing(spacing), "m"))
-    route["pulleys"] = [
-        _pulley_fields(task, name, place, size, choice.trough.width.belt)
-        for name, place, size in (
-            ("head", "head", drive_diameter),
-            ("take-up", "take-up", bend_diameter),
-            ("tail", "tail", drive_diameter if "tail" in choice.drives else bend_diameter),
-        )
-    ]
+    route["pulleys"] = _all_pulleys(task, choice, chosen)
     tension = {"tension": written(chosen.take_up, "kN", 4)} if chosen.take_up > 0.0 else {}
     route["take_up"] = {"kind": "gravity", **tension}
     covers = duty.covers
@@ -83,6 +79,19 @@ def design_spec(task: SizingTask, choice: DesignChoice, chosen: SelectedParts, n
     })  # fmt: skip
 
 
+def built_choice(task: SizingTask, choice: DesignChoice, chosen: SelectedParts) -> DesignChoice:
+    """The choice at the belt speed that its gearboxes give."""
+    if chosen.listed is None or chosen.listed.gearbox is None:
+        return choice
+    speed = chosen.listed.speed
+    return replace(choice, speed=speed, filling=task.filled(choice.trough, speed))
+
+
+def drive_diameter(task: SizingTask, chosen: SelectedParts) -> float:
+    """Diameter of the drive pulleys [m]."""
+    return task.drive_diameter(chosen.carcass) if chosen.listed is None else chosen.listed.drive_diameter
+
+
 def _field_text(task: SizingTask, value: float, unit: str, digits: int = 6) -> str:
     """Value and unit as spec text, in the unit of the series."""
     own = _US_UNITS.get(unit, unit) if task.duty.series == "US" else unit
@@ -100,6 +109,19 @@ def _belt_fields(task: SizingTask, carcass: CarcassClass) -> dict[str, Any]:
     )
     thickness, mass = _field_text(task, carcass.thickness, "mm"), _field_text(task, carcass.mass, "kg/m^2", 3)
     return {"carcass": {"kind": carcass.kind, **strength, "thickness": thickness, "mass": mass}}
+
+
+def _all_pulleys(task: SizingTask, choice: DesignChoice, chosen: SelectedParts) -> list[dict[str, Any]]:
+    """Pulleys of head, take-up and tail, of the lists or the series."""
+    if chosen.listed is not None and chosen.listed.pulleys:
+        return [
+            {"name": one.place, "position": one.place, "listed": one.item}
+            | ({"bearing_life": text(task.rules.roll_life)} if "bearing_rating" in one.item.fields else {})
+            for one in chosen.listed.pulleys
+        ]
+    driven, bend = drive_diameter(task, chosen), task.bend_diameter(chosen.carcass)
+    sizes = (("head", driven), ("take-up", bend), ("tail", driven if "tail" in choice.drives else bend))
+    return [_pulley_fields(task, place, place, size, choice.trough.width.belt) for place, size in sizes]
 
 
 def _pulley_fields(task: SizingTask, name: str, place: str, diameter: float, width: float) -> dict[str, Any]:
@@ -138,32 +160,48 @@ def _idler_fields(task: SizingTask, choice: DesignChoice) -> dict[str, Any]:
 
 def _drive_fields(task: SizingTask, choice: DesignChoice, chosen: SelectedParts) -> dict[str, Any]:
     rules, motors = task.rules, chosen.motors
-    turning = choice.speed / (math.pi * task.drive_diameter(chosen.carcass))
     one = {"wrap_angle": _field_text(task, task.grip[1], "deg"), "friction": rules.friction}
-    brake = {"brake_force": _field_text(task, chosen.brake, "kN", 4)} if chosen.brake > 0.0 else {}
-    if chosen.backstop > 0.0:
-        brake["backstop_torque"] = _field_text(task, chosen.backstop, "kN*m", 4)
+    listed, holding, held = chosen.listed, dict[str, str](), list[ListedItem]()
+    for part, field, value, unit in (
+        (None if listed is None else listed.backstop, "backstop_torque", chosen.backstop, "kN*m"),
+        (None if listed is None else listed.brake, "brake_force", chosen.brake, "kN"),
+    ):
+        if part is not None:
+            held.append(part.item)
+        elif value > 0.0:
+            holding[field] = _field_text(task, value, unit, 4)
+    train = listed is not None and listed.gearbox is not None
+    rated = listed is not None and (listed.gearbox is not None or listed.coupling is not None)
     first = {
         **one,
-        **brake,
+        **holding,
         "position": "tail" if choice.drives == "tail" else "head",
-        **_motor_fields(task, motors[0], turning),
-        "efficiency": f"{100.0 * task.efficiency:.6g} %",
+        **_motor_fields(task, choice, chosen, 0, held),
+        **({} if train else {"efficiency": f"{100.0 * task.efficiency:.6g} %"}),
+        **({"service_factor": rules.service_factor} if rated else {}),
         "start_factor": rules.start_factor,
     }
     further = []
-    for number, motor in enumerate(motors[1:], start=2):
+    for number in range(2, len(motors) + 1):
         tail = "tail" in choice.drives and number == len(motors)
         place = {"name": f"drive {number}", "position": "tail" if tail else "head"}
-        further.append({**one, **place, **_motor_fields(task, motor, turning)})
+        further.append({**one, **place, **_motor_fields(task, choice, chosen, number - 1)})
     return {**first, "further_drives": further} if further else first
 
 
-def _motor_fields(task: SizingTask, rated: float, turning: float) -> dict[str, Any]:
-    """Spec fields of a pulley's motors of a total power [W]; `turning` is the speed of the pulley [1/s]."""
+def _motor_fields(
+    task: SizingTask, choice: DesignChoice, chosen: SelectedParts, drive: int, further: Sequence[ListedItem] = ()
+) -> dict[str, Any]:
+    """Spec fields of a drive's motors with their gearboxes, couplings and further listed parts."""
+    rated, listed = chosen.motors[drive], chosen.listed
     count, item = task.motor_count(rated), task.listed_motor(rated)
-    power = {"installed_power": _field_text(task, rated, "kW")} if item is None else listed_motor(item, turning)
-    return power | ({"motors": count} if count > 1 else {})
+    parts = [] if listed is None else [part.item for part in (listed.gearbox, listed.coupling) if part is not None]
+    turning = choice.speed / (math.pi * drive_diameter(task, chosen))
+    motor = {"installed_power": _field_text(task, rated, "kW")} if item is None else listed_motor(item, turning)
+    if listed is not None and listed.gearbox is not None:
+        motor.pop("gear_ratio", None)
+    items = [*motor.get("listed", []), *parts, *further]
+    return motor | ({"listed": items} if items else {}) | ({"motors": count} if count > 1 else {})
 
 
 def _roll_fields(task: SizingTask, roll: RollSize, length: float) -> dict[str, Any]:

@@ -17,7 +17,8 @@ from conveyor.laws.drives import next_preferred_number
 from conveyor.models import Conveyor
 from conveyor.pipeline import calculate_many
 from conveyor.sizing.design_choice import CarcassClass, DesignChoice, SelectedParts
-from conveyor.sizing.design_spec import design_spec
+from conveyor.sizing.design_spec import built_choice, design_spec, drive_diameter
+from conveyor.sizing.listed_drives import HoldingDemand, select_listed_parts
 from conveyor.sizing.screen import Limit
 from conveyor.sizing.sized_design import Shortfall, SizedDesign, highest_tension
 from conveyor.sizing.sizing_task import SizingTask
@@ -87,8 +88,14 @@ def size_parts(
     made : sequence of SizedDesign
         The same candidates as designs for the full belt, whose results are reused.
     """
-    now = {i: chosen for i, (_, chosen, _) in enumerate(begin)}
+    now = dict[int, SelectedParts]()
     answers: dict[int, SizedDesign | Shortfall] = {}
+    for i, (choice, chosen, _) in enumerate(begin):
+        first = select_listed_parts(task, choice, chosen, HoldingDemand())
+        if isinstance(first, Shortfall):
+            answers[i] = first
+        else:
+            now[i] = first
     both = set(now) if every_load and task.cold else set[int]()  # calculated at both temperatures
     for _ in range(_SIZINGS):
         specs, refused = candidate_specs(task, {i: (begin[i][0], chosen) for i, chosen in now.items()})
@@ -233,21 +240,39 @@ def _select_parts(
         carcass = before.carcass
     motor = task.motors(power)
     brake = max((0.0 if one.motions.rolls_back else one.motions.brake_to_hold) for one in loads)
-    brake = 0.0 if brake <= 0.0 else max(before.brake, BRAKE_RESERVE * brake)
+    held = BRAKE_RESERVE * brake
+    brake = 0.0 if brake <= 0.0 else max(before.brake, held)
     if before.brake > 0.0 and brake <= before.brake * (1.0 + RTOL):
         brake = before.brake
-    backstop = max(before.backstop, _backstop_torque(task, carcass, loads)) if every_load else before.backstop
+    diameter = drive_diameter(task, replace(before, carcass=carcass))
+    backstop = max(before.backstop, _backstop_torque(diameter, loads)) if every_load else before.backstop
     chosen = SelectedParts(
         carcass, *task.covers(choice, carcass), (motor,) * len(before.motors), brake, backstop,
-        _take_up_setting(before.take_up, loads), settling=True,
+        _take_up_setting(before.take_up, loads), before.listed, settling=True,
     )  # fmt: skip
-    return replace(asked, chosen=chosen)
+    made = select_listed_parts(task, choice, chosen, _holding_demand(loads, held, every_load=every_load), loads)
+    return replace(asked, short=made) if isinstance(made, Shortfall) else replace(asked, chosen=made)
 
 
-def _backstop_torque(task: SizingTask, carcass: CarcassClass, loads: Iterable[CalculatedConveyor]) -> float:
+def _holding_demand(loads: Sequence[CalculatedConveyor], brake: float, *, every_load: bool) -> HoldingDemand:
+    """Demands of the loads on a backstop, with every load only, and on a brake whose force is given [N]."""
+    duties = [one.drive_duty[0] for one in loads if one.drive_duty]
+    return HoldingDemand(
+        BRAKE_RESERVE * _rolling_back(loads) if every_load else 0.0,
+        brake,
+        max((duty.stalled or 0.0 for duty in duties), default=0.0),
+        max((duty.heat or 0.0 for duty in duties), default=0.0),
+    )
+
+
+def _rolling_back(loads: Iterable[CalculatedConveyor]) -> float:
+    """Force that holds the belt where it rolls back, of all loads [N]."""
+    return max((one.motions.brake_to_hold if one.motions.rolls_back else 0.0) for one in loads)
+
+
+def _backstop_torque(diameter: float, loads: Iterable[CalculatedConveyor]) -> float:
     """Torque of the next preferred backstop for all loads, with a reserve [N m]; 0 if none rolls back."""
-    held = max((one.motions.brake_to_hold if one.motions.rolls_back else 0.0) for one in loads)
-    torque = BRAKE_RESERVE * held * 0.5 * task.drive_diameter(carcass)
+    torque = BRAKE_RESERVE * _rolling_back(loads) * 0.5 * diameter
     return next_preferred_number(torque) if torque > 0.0 else 0.0
 
 
@@ -322,7 +347,9 @@ def foresee_parts(task: SizingTask, design: SizedDesign) -> SelectedParts:
     )
     top, bottom = task.covers(design.choice, carcass)
     motors = (max(motor, *chosen.motors),) * len(chosen.motors)
-    backstop = _backstop_torque(task, carcass, design.pair)
+    backstop = chosen.backstop if task.duty.listed.items("backstops") else _backstop_torque(
+        drive_diameter(task, replace(chosen, carcass=carcass)), design.pair
+    )  # fmt: skip
     return replace(chosen, carcass=carcass, top=top, bottom=bottom, motors=motors, backstop=backstop, settling=False)
 
 
@@ -350,6 +377,8 @@ def _design_or_shortfall(
     if failed is not None:
         return failed
     choice, _, estimate = begin
+    if asked.chosen is not None:
+        chosen = replace(chosen, listed=asked.chosen.listed)  # with what all loads ask of its items
     result = (asked.warm or asked.cold)[0]
     energy = 0.0 if result.year is None or result.year.cost is None else result.year.cost
     parts = conveyor_parts(result)
@@ -357,7 +386,8 @@ def _design_or_shortfall(
         raise AssertionError("a sized spec lists its parts")
     cost = conveyor_costs(parts, task.duty.prices.amounts, seconds=task.seconds, energy=energy)
     life = roll_life(result)
-    return SizedDesign(choice, chosen, result, asked.cold[0], cost, estimate, life, asked.uses)
+    built = built_choice(task, choice, chosen)
+    return SizedDesign(built, chosen, result, asked.cold[0], cost, estimate, life, asked.uses)
 
 
 def _failed_criteria(task: SizingTask, asked: _RequiredParts) -> Iterator[Shortfall]:

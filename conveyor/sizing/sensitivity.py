@@ -64,11 +64,17 @@ def vary_choices(task: SizingTask, design: SizedDesign) -> tuple[VariedChoice, .
         choice: one.why.text(system) if isinstance(one, Shortfall) else one
         for choice, one in zip(varied, made, strict=True)
     }
+
+    def point_value(kind: str, value: float, choice: DesignChoice | None) -> float:
+        """Value of a point; a belt speed as gearboxes give it."""
+        answer = None if choice is None or kind != "speed" else answers[choice]
+        return answer.choice.speed if isinstance(answer, SizedDesign) else value
+
     return tuple(
         VariedChoice(
             name,
             kind,
-            tuple(value for value, _ in points),
+            tuple(point_value(kind, value, choice) for value, choice in points),
             tuple(
                 "keeps no rule of filling, speed or rolls" if choice is None else answers[choice]
                 for _, choice in points

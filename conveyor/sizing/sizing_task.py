@@ -49,6 +49,10 @@ from conveyor.units import Quantity, read_si, si
 _OVERLAND_LENGTH: Final = 1000.0  # [m], length from which spacings are those of overland belts; general knowledge
 
 
+_FACE_ALLOWANCE: Final = 0.1  # [m], ISO 1536 has more for wide belts; general knowledge, 0.1 to 0.2
+_FACE_ALLOWANCE_US: Final = 2.0 * 0.0254  # [m], CEMA drums, 3 in for wide belts; general knowledge
+
+
 _KEPT_FIELDS: Final = ("site", "material", "ambient", "operation", "calculation", "report")
 
 
@@ -217,8 +221,43 @@ class SizingTask:
 
     @cached_property
     def speeds(self) -> tuple[float, ...]:
-        """Belt speeds to choose from [m/s]."""
-        return tuple(map(si, self.rules.speeds or self.sizes.speeds))
+        """Belt speeds to choose from [m/s]; of those that listed gearboxes can give, if any."""
+        every = tuple(map(si, self.rules.speeds or self.sizes.speeds))
+        geared = self._geared_speeds
+        near = tuple(one for one in every if any(abs(v / one - 1.0) <= self.speed_tolerance for v in geared))
+        return near or every
+
+    @property
+    def speed_tolerance(self) -> float:
+        """Largest deviation of the belt speed that gearboxes give from that of the rules, over it [-]."""
+        return si(self.rules.speed_tolerance)
+
+    @cached_property
+    def _geared_speeds(self) -> tuple[float, ...]:
+        """Belt speeds of listed motors, gearboxes and pulleys [m/s]; empty without gearboxes."""
+        listed = self.duty.listed
+        turns = {
+            read_si(motor.fields["motor_speed"], "rotation") / float(gearbox.fields["gear_ratio"])
+            for gearbox in listed.items("gearboxes")
+            for motor in listed.items("motors")
+        }
+        return tuple(math.pi * size * turn for turn in turns for size in self.pulley_sizes)
+
+    @property
+    def pulley_sizes(self) -> tuple[float, ...]:
+        """Diameters of pulleys to choose from, of the lists or the series [m]."""
+        pulleys = self.duty.listed.items("pulleys")
+        if pulleys:
+            return tuple(sorted({read_si(item.fields["diameter"], "length") for item in pulleys}))
+        return tuple(CEMA_PULLEYS if self.duty.series == "US" else PULLEY_DIAMETERS)
+
+    @property
+    def face_allowance(self) -> float:
+        """Face of a listed pulley beyond the belt's width, at least [m]; general knowledge without a rule."""
+        given = self.rules.face_allowance
+        if given is not None:
+            return si(given)
+        return _FACE_ALLOWANCE_US if self.duty.series == "US" else _FACE_ALLOWANCE
 
     @cached_property
     def spacings(self) -> tuple[tuple[float, ...], tuple[float, ...]]:

@@ -36,6 +36,32 @@ belts:
 motors:
   M110: {source: "list C", fields: {installed_power: 110 kW, motor_speed: 1485 rpm, inertia: 1.9 kg*m^2}}
   M132: {source: "list C", fields: {installed_power: 132 kW, inertia: 2.7 kg*m^2}}
+  plain: {source: "list C", fields: {installed_power: 132 kW, motor_speed: 1485 rpm}}
+pulleys:
+  narrow: {source: "list D", fields: {diameter: 630 mm, face_width: 850 mm, shaft_diameter: 125 mm, mass: 400 kg}}
+  thin: {source: "list D", fields: {diameter: 500 mm, face_width: 950 mm, shaft_diameter: 60 mm, mass: 250 kg,
+         bearing_centres: 1.25 m, hub_centres: 0.8 m, shaft_steel: C1045}}
+  stout: {source: "list D", fields: {diameter: 500 mm, face_width: 950 mm, shaft_diameter: 140 mm, mass: 400 kg,
+          bearing_centres: 1.25 m, hub_centres: 0.8 m, shaft_steel: C1045}}
+  bare: {source: "list D", fields: {diameter: 630 mm, shaft_diameter: 125 mm, mass: 400 kg}}
+gearboxes:
+  G16-12: {source: "list E", fields: {gear_ratio: 16.2, efficiency: 96 %, gear_torque: 12 kN*m}}
+  G16-25: {source: "list E", fields: {gear_ratio: 16.2, efficiency: 96 %, gear_torque: 25 kN*m}}
+  G16-40: {source: "list E", fields: {gear_ratio: 16.2, efficiency: 96 %, gear_torque: 40 kN*m}}
+  G20-16: {source: "list E", fields: {gear_ratio: 20.3, efficiency: 96 %, gear_torque: 16 kN*m}}
+  fast: {source: "list E", fields: {gear_ratio: 2.5, efficiency: 98 %, gear_torque: 40 kN*m}}
+  old: {source: "list E", fields: {gear_ratio: 20.3, efficiency: 96 %}}
+couplings:
+  C1000: {source: "list F", fields: {efficiency: 99 %, coupling_torque: 1000 N*m}}
+  C1250: {source: "list F", fields: {efficiency: 99 %, coupling_torque: 1250 N*m}}
+backstops:
+  B1: {source: "list G", fields: {backstop_torque: 1 kN*m}}
+  B11: {source: "list G", fields: {backstop_torque: 11 kN*m}}
+  B18: {source: "list G", fields: {backstop_torque: 18 kN*m}}
+brakes:
+  BR1: {source: "list H", fields: {brake_force: 1 kN}}
+  BR40: {source: "list H", fields: {brake_force: 40 kN, brake_heat: 1 kJ}}
+  BR60: {source: "list H", fields: {brake_force: 60 kN, brake_heat: 5 MJ}}
 """
 DUTY = """\
 name: Listed
@@ -138,7 +164,13 @@ def test_a_belt_listed_by_its_rating_breaks_at_ten_times_it():
         ("{rolls: [R9]}", r'listed\.rolls\[0\]: "R9" is not in the library of rolls'),
         ("{rolls: all}", r'listed\.rolls\[3\]: "bare" has no bearing\.dynamic_rating, which sizing needs'),
         ("{belts: [woven]}", r'listed\.belts\[0\]: "woven" has no carcass\.stiffness'),
-        ("{gearboxes: all}", r'unknown key "gearboxes"; keys allowed: rolls, belts, motors'),
+        ("{gearboxes: [G20-16]}", r"listed\.gearboxes: given without listed\.motors, whose speed"),
+        ("{gearboxes: [old]}", r'listed\.gearboxes\[0\]: "old" has no gear_torque, which sizing needs'),
+        ("{couplings: [C1000]}", r"listed\.couplings: given without listed\.motors"),
+        ("{motors: [M132], gearboxes: [G20-16]}", r'listed\.motors\[0\]: "M132" has no motor_speed'),
+        ("{motors: [plain], gearboxes: [G20-16]}", r'listed\.motors\[0\]: "plain" has no inertia'),
+        ("{pulleys: [narrow, bare]}", r'listed\.pulleys\[1\]: "bare" has no face_width'),
+        ("{axles: all}", r'unknown key "axles"; keys allowed: rolls, belts, motors, pulleys'),
         (
             "{belts: [stock]}\nrules: {carcasses: [steel cord]}",
             r"listed\.belts: none is of rules\.carcasses, steel cord",

@@ -54,12 +54,8 @@ def held(force: float, *, rolls_back: bool = True) -> SimpleNamespace:
 @pytest.mark.parametrize(("force", "torque"), [(10e3, 3.15e3), (20e3, 6.3e3), (19e3, 6.3e3)])
 def test_a_backstop_holds_over_the_radius_of_its_pulley(force, torque):
     """1.3 × 10 kN × 0.48/2 m ... 3.12 kN m for a pulley of 0.48 m: the next of R10 is 3.15 kN m."""
-    carcass = SimpleNamespace(least_pulley=0.48)
-    sized = SimpleNamespace(drive_diameter=lambda of: of.least_pulley)
-    assert part_sizing._backstop_torque(sized, carcass, [held(force), held(9e9, rolls_back=False)]) == pytest.approx(
-        torque
-    )
-    assert part_sizing._backstop_torque(sized, carcass, [held(force, rolls_back=False)]) == 0.0
+    assert part_sizing._backstop_torque(0.48, [held(force), held(9e9, rolls_back=False)]) == pytest.approx(torque)
+    assert part_sizing._backstop_torque(0.48, [held(force, rolls_back=False)]) == 0.0
 
 
 def test_motors_break_the_belt_away_with_their_rated_power(monkeypatch):

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from conveyor.calculated_conveyor import CalculatedConveyor
-from conveyor.laws.drives import next_preferred_number
+from conveyor.laws.drives import GEAR_SERVICE, next_preferred_number
 from conveyor.loop.drive_duty import coasting_flywheel
 from conveyor.report.table_model import Column, Figure, PagePlacement, Table, extreme_getter, figure_table
 from conveyor.studies.load_cases import Load
@@ -115,6 +115,7 @@ def drive_parts(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
 
     worst = partial(extreme_getter, path="1")
     motor = a.balance.frame.motor
+    service = next((duty.parts.service for duty in a.drive_duty), GEAR_SERVICE.value)
     columns = (
         Column("drive", "text", "0.drive.name"),
         Column("motors", "count", lambda row: float(row[0].parts.motors), page=None),
@@ -137,9 +138,9 @@ def drive_parts(a: CalculatedConveyor, loads: Sequence[Load]) -> Table:
                sparse=True),
     )  # fmt: skip
     note = (
-        "Sizes are preferred numbers (ISO 3): gear 1.5 times the motor's torque, one of several backstops 1.4 times an "
-        "even share (general knowledge). Starts of motors switched on directly, NEMA MG 10. Uncontrolled: nothing but "
-        "the belt couples the drives."
+        f"Sizes are preferred numbers (ISO 3): gear {service:g} times the motor's torque, one of several backstops "
+        "1.4 times an even share (general knowledge). Starts of motors switched on directly, NEMA MG 10. Uncontrolled: "
+        "nothing but the belt couples the drives."
     )
     heading = "Parts of the drives, all cases"
     return Table("drive_parts", "Loop", heading, columns, tuple(rows), "start-stop", note)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
@@ -27,7 +28,9 @@ from conveyor.report.table_model import (
 from conveyor.report.tables.check_tables import check_table
 from conveyor.report.tables.document_tables import provenance_table, report_head
 from conveyor.report.tables.loop_tables import section_boundaries
+from conveyor.sizing.design_choice import ListedPart
 from conveyor.sizing.design_search import CalculatedSizing
+from conveyor.sizing.part_sizing import BRAKE_RESERVE
 from conveyor.sizing.sensitivity import VariedChoice, vary_choices
 from conveyor.sizing.sized_design import SizedDesign
 from conveyor.sizing.spacing import section_spacings
@@ -42,6 +45,7 @@ if TYPE_CHECKING:
 PARTS: Final = (
     ("verdict", "The best design"),
     ("designs", "Designs"),
+    ("listed", "Parts of makers' lists"),
     ("costs", "Costs"),
     ("around", "Around the best design"),
     ("spacing", "Distances of the sets"),
@@ -50,7 +54,14 @@ PARTS: Final = (
     ("provenance", "Provenance"),
 )
 """Parts of the page."""
-_TABLES: Final = ("designs", "costs", "around", "spacing")
+_TABLES: Final = ("designs", "listed_parts", "costs", "around", "spacing")
+_JUDGED_BY: Final = {
+    ("pulleys", "the shaft"): ("bearing_centres", "hub_centres", "shaft_steel"),
+    ("pulleys", "the life of the bearings"): ("bearing_rating",),
+    ("pulleys", "the lagging"): ("lagging_pressure",),
+    ("brakes", "the heat of a stop"): ("brake_heat",),
+}
+"""Fields of an item that a part of it is judged by."""
 _CANDIDATES: Final = (
     "of {calculated} candidates calculated exactly, chosen by a closed estimate out of {possible} that the series can "
     "build"
@@ -62,7 +73,8 @@ def sizing_contents(sizing: CalculatedSizing, system: System, *, vary: bool = Tr
     sweeps = vary_choices(sizing.task, sizing.best) if vary else ()
     best, line = sizing.best, sizing.best.found.line
     parts = (
-        best_design_table(sizing), design_table(sizing), cost_table(sizing),
+        best_design_table(sizing), design_table(sizing),
+        *([listed_part_table(sizing)] if sizing.best.chosen.listed else []), cost_table(sizing),
         *([sweep_table(sizing, sweeps)] if sweeps else []), spacing_table(sizing),
         check_table(run_checks(best.found), system), _sizing_remarks(sizing),
         provenance_table(fingerprint(best.conveyor)),
@@ -140,6 +152,50 @@ def design_table(sizing: CalculatedSizing) -> Table:
     caption = "Designs, the cheapest in a year first; every one calculated exactly at its own belt class and motors"
     rows = tuple(enumerate(sizing.designs, start=1))
     return Table("designs", "Designs", caption, columns, rows, "designs")
+
+
+def listed_part_table(sizing: CalculatedSizing) -> Table:
+    """Items of makers' lists that pulleys and drives of every design are made of, and their use."""
+    rows = [
+        (rank, part)
+        for rank, design in enumerate(sizing.designs, start=1)
+        if design.chosen.listed is not None
+        for part in design.chosen.listed.parts
+    ]
+
+    def figure(kind: str, name: str) -> Callable[[tuple[int, ListedPart]], float | None]:
+        return lambda row: getattr(row[1], name) if row[1].kind == kind else None
+
+    columns = (
+        Column("rank", "count", "0", json="rank"),
+        Column("place", "text", "1.place", json="place"),
+        Column("part", "text", "1.item.one", json="part"),
+        Column("item", "text", "1.item.name", json="item"),
+        Column("least diameter", "size", figure("thickness", "needed"), json="least_diameter_mm", sparse=True),
+        Column("diameter", "size", figure("thickness", "rated"), json="diameter_mm", sparse=True),
+        Column("torque needed", "torque", figure("torque", "needed"), json="torque_needed_Nm", sparse=True),
+        Column("rated torque", "torque", figure("torque", "rated"), json="rated_torque_Nm", sparse=True),
+        Column("force needed", "force", figure("force", "needed"), json="force_needed_N", sparse=True),
+        Column("rated force", "force", figure("force", "rated"), json="rated_force_N", sparse=True),
+        Column("use", "share", "1.use", json="use"),
+        Column("source", "text", "1.item.source", None, json="source"),
+    )
+    caption = "Items of makers' lists chosen for pulleys and drives"
+    note = (
+        f"Gearbox and coupling with the service factor {sizing.duty.rules.service_factor:g}; backstop and brake "
+        f"{BRAKE_RESERVE:g} times what holds the belt in the worst load with the least friction; pulleys by the "
+        "carcass, their shafts, bearings and lagging in the checks where the list has them"
+    )
+    return Table("listed_parts", "Listed parts", caption, columns, tuple(rows), "listed", note)
+
+
+def _unjudged_items(design: SizedDesign) -> Iterator[str]:
+    """Remarks on chosen items that are not judged, because their lists do not state what they bear."""
+    for part in () if design.chosen.listed is None else design.chosen.listed.parts:
+        for (kind, what), needed in _JUDGED_BY.items():
+            lacking = ", ".join(name for name in needed if name not in part.item.fields)
+            if kind == part.item.kind and lacking:
+                yield f"{part.item.one} {part.item.name}: {what} is not judged, its list has no {lacking}"
 
 
 def _belt_name(design: SizedDesign) -> str:
@@ -252,6 +308,7 @@ def _sizing_remarks(sizing: CalculatedSizing) -> Table:
         "duty (prices, rules)",
         "carry and return compounds are those of the duty; covers by DIN 22101's points for wear (general knowledge)",
         *(f"{count} calculated candidates are no designs: {why}" for why, count in sizing.refused.items()),
+        *dict.fromkeys(_unjudged_items(best)),
         *analysis_assumptions(best.conveyor),
     ]
     return remark_table({"assumption": lines}, page="remarks")
