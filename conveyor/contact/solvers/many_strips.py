@@ -52,6 +52,7 @@ _COARSEST = 64  # nodes on the roll of the first grid
 _FIRST_POLISH, _WRAP_LEVEL, _FINEST = 2, 6, 10  # doublings of it
 _MOST_POINTS = 1 << 20
 _LAST_TRIAL_ORDER, _ORDER_FAILURES = 64, 2  # low orders may have no contact near the grid's
+_FAR_OFF = 100.0  # of the tolerance: then a rung is left out; a change grows with the step that it is taken over
 _FINAL_ENDS = (RefinementEnd.MET, RefinementEnd.EXHAUSTED)
 _MOST_STRIPS = 8  # three at most were seen to converge
 _POLISHES = 3  # grids whose strips are refined spectrally
@@ -314,11 +315,11 @@ class StripsOrders:
         )
 
     def advance(self, checked: EnergyCheck | None) -> bool:
-        """Raise the order."""
+        """Raise the order, by two rungs where the error is far off."""
         if self.is_last():
             return False
         error = self._error if checked is None else checked.error
-        self.order = next_order(self.order, error / self._rtol if error < 1.0 else 0.0)
+        self.order = next_order(self.order, math.inf if _FAR_OFF * self._rtol < error < 1.0 else 0.0)
         return True
 
     def result(self, checked: EnergyCheck) -> ContactResult | None:
