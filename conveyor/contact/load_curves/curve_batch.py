@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from conveyor.arguments.argument_types import check_arguments
 from conveyor.contact.galerkin.galerkin_tables import GalerkinTables
-from conveyor.contact.galerkin.orders import ORDERS, lowest_order, predicted_order
+from conveyor.contact.galerkin.orders import ORDERS, lowest_order, next_order
 from conveyor.contact.galerkin.quadrature import CHECK_PANELS, SOLVE_PANELS, build_rule
 from conveyor.contact.galerkin.sampling import (
     SampledContacts,
@@ -70,8 +70,6 @@ _DEGREES = (8, 12, 16, 32, 64, 128)
 _LOW_DEGREE_FROM = 2e-5  # rtol that degree 8 may meet over a factor of 4 in load
 _FEW_DEGREE = 4  # degree that carries what a higher order changes
 _RANGE_MARGIN = 1e-2  # the sampled range of ln α goes this far beyond the loads of the curve
-_SIGN_FLOOR = 1e-9
-_LARGEST_ORDER_STEP = 4.0  # times the order, in one step
 _BETWEEN_FACTOR = 1.25  # errors between the five checked points over errors at them: 1.03 seen
 _ENDS_RTOL = 1e-3  # the ends need to be known only well enough to be enclosed
 _WRAP_EXTENT = 0.75  # (a + |e|)/R beyond which one half width may have two loads (docs/method.md)
@@ -369,10 +367,8 @@ class _CurveSampler:
                 else self._sample(first.rows[places], lobatto_points(_FEW_DEGREE if thin else first.count - 1), n, rtol)
             )
             error, energy, by_loss = self._errors(batch.few(), exponent[places], rtol)
-            worst = np.maximum(np.maximum(_BETWEEN_FACTOR * error, by_loss), self.floor)
-            most = np.repeat(np.maximum(worst, _SIGN_FLOOR), batch.count)
-            signs = pressure_signs(batch.contact, most)
-            pulling, pressing = (one.reshape(-1, batch.count) for one in (signs.pulling, signs.pressing))
+            pulling, pressing, tension = (one.reshape(-1, batch.count) for one in pressure_signs(batch.contact, rtol))
+            worst = np.max([_BETWEEN_FACTOR * error, by_loss, tension.max(axis=1)], axis=0).clip(min=self.floor)
             enclosed = self._enclosed(batch)
             for k, place in enumerate(places.tolist()):
                 row = int(first.rows[place])
@@ -397,13 +393,8 @@ class _CurveSampler:
                 elif worst[k] <= rtol and plain:  # a few points do not carry what the order changes
                     todo.setdefault((n, False), []).append(place)
                 else:
-                    more = predicted_order(
-                        n,
-                        _BETWEEN_FACTOR * float(error[k]) / rtol,
-                        float(by_loss[k]) / rtol,
-                        _LARGEST_ORDER_STEP,
-                    )
-                    todo.setdefault((more, plain), []).append(place)
+                    more = max(_BETWEEN_FACTOR * float(error[k]), float(by_loss[k]))
+                    todo.setdefault((next_order(n, more / rtol), plain), []).append(place)
 
     def _errors(self, batch: _ContactBatch, exponent: Array, rtol: float) -> tuple[Array, Array, Array]:
         """Largest error of each row by order, of the energy, and of friction by the energy."""

@@ -204,7 +204,7 @@ def interior_dip(contact: Contact) -> tuple[float, float]:
 
 
 class PressureSigns(NamedTuple):
-    """Masks of PULLING and of PRESSING contacts, and the share of the load that tension carries in each [-]."""
+    """Masks of PULLING and of PRESSING contacts; share of the load that tension carries, zero where undecided [-]."""
 
     pulling: NDArray[np.bool_]
     pressing: NDArray[np.bool_]
@@ -239,7 +239,8 @@ def pressure_signs(contact: Contact, rtol: Array | float) -> PressureSigns:
     tail = np.abs(contact.c[:, -(n // 4) :]).sum(axis=1) / highest
     ripple = tension.max(axis=1) <= _RIPPLE_TAILS * tail * highest
     pulling = ~pressing & (~ripple | (_longest_run(tension > 0.0) >= _LASTING_SAMPLES))
-    return PressureSigns(pulling, pressing | (slight & ~pulling & (n >= _RIPPLE_ORDER)), share)
+    pressing |= slight & ~pulling & (n >= _RIPPLE_ORDER)
+    return PressureSigns(pulling, pressing, np.where(pulling | pressing, share, 0.0))
 
 
 def _lowest_between(p: Array) -> Array:

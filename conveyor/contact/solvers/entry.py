@@ -175,10 +175,8 @@ def _find_outcome(
         outcome = _find_contact(scene, rtol, left)
     except RuleTooLongError:
         outcome = SolveOutcome(Status.TOO_THIN)
-    rule = scene.rules.get("solve")
-    return replace(
-        outcome, matrices=scene.matrices, nodes=rule.nodes.size if rule else 0, terms=scene.creep.weights.size
-    )
+    nodes = scene.built.nodes.size if scene.built else 0
+    return replace(outcome, matrices=scene.matrices, nodes=nodes, terms=scene.creep.weights.size)
 
 
 def _find_contact(scene: SolverState, rtol: float, left: UnsolvedReason | HalfWidthStart | None) -> SolveOutcome:

@@ -52,6 +52,7 @@ _COARSEST = 64  # nodes on the roll of the first grid
 _FIRST_POLISH, _WRAP_LEVEL, _FINEST = 2, 6, 10  # doublings of it
 _MOST_POINTS = 1 << 20
 _LAST_TRIAL_ORDER, _ORDER_FAILURES = 64, 2  # low orders may have no contact near the grid's
+_FAR_OFF = 100.0  # of the tolerance: then a rung is left out; a change grows with the step that it is taken over
 _FINAL_ENDS = (RefinementEnd.MET, RefinementEnd.EXHAUSTED)
 _MOST_STRIPS = 8  # three at most were seen to converge
 _POLISHES = 3  # grids whose strips are refined spectrally
@@ -234,7 +235,7 @@ class StripsOrders:
     """Orders of strips that are balanced from the grid's; the error of an order is the change from the one before."""
 
     def __init__(self, scene: SolverState, start: _StartStrips, rtol: float) -> None:
-        scene.rules.clear()  # made for wider strips, and longer
+        scene.built = None  # made for wider strips, and longer
         self.scene, self._rtol, self._start = scene, rtol, start
         self._tight = max(1e-3 * rtol, LOAD_FLOOR)
         self.order, self._failures = ORDERS[0], 0
@@ -261,7 +262,7 @@ class StripsOrders:
             self._failures += 1
             if self._failures > self._start.failures or self.order >= _LAST_TRIAL_ORDER:
                 return None
-            self.order = next_order(self.order, 1.0, self._rtol)
+            self.order = next_order(self.order, math.inf)
             before, friction_before = None, math.inf
         self._before, self._strips = before, found
         friction, self._scale = found.friction, _error_scale(self.scene, found.friction)
@@ -314,11 +315,11 @@ class StripsOrders:
         )
 
     def advance(self, checked: EnergyCheck | None) -> bool:
-        """Raise the order, by two where the error is far off."""
+        """Raise the order, by two rungs where the error is far off."""
         if self.is_last():
             return False
         error = self._error if checked is None else checked.error
-        self.order = next_order(self.order, error if error < 1.0 else 0.0, self._rtol)
+        self.order = next_order(self.order, math.inf if _FAR_OFF * self._rtol < error < 1.0 else 0.0)
         return True
 
     def result(self, checked: EnergyCheck) -> ContactResult | None:

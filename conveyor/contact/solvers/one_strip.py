@@ -196,7 +196,7 @@ def _next_orders(
     """
     n, last = orders
     if last == n:
-        following = next_order(n, float(pairs[0].friction[0]), rtol)
+        following = next_order(n, float(pairs[0].friction[0]) / rtol)
         if not longest:
             return (following, following) if following > n else None
         return (following, following) if following <= DENSE_ORDER else (_CORE, FIRST_TAIL)

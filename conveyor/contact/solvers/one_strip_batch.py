@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from conveyor.contact.fields.contact_fields import SpectralFields
 from conveyor.contact.galerkin.galerkin_tables import GalerkinTables
 from conveyor.contact.galerkin.order_tail import DENSE_ORDER
-from conveyor.contact.galerkin.orders import lowest_order, predicted_order
+from conveyor.contact.galerkin.orders import lowest_order, next_order
 from conveyor.contact.galerkin.short_rule import (
     FINE_FROM,
     NARROW_CAP,
@@ -75,7 +75,6 @@ _MOST_PANELS = 12
 _WIDEST_ON_ROLL = 0.98  # of its radius: the widest half width
 _WIDE_CHUNK = 16  # wide ones have several times the nodes
 _MOST_ENTRIES = 3_000_000  # of the matrices that are formed together
-_LARGEST_ORDER_STEP = 2.0  # times the order, in one step
 _FLATTEST, _FARTHEST_GUESS = 0.4, 1.5  # d ln p/d ln α; ln of half widths
 _CAPS = np.array(WINDOW_CAPS)
 CHUNK_SIZE = 200  # problems whose tables stay in the processor's cache
@@ -437,8 +436,7 @@ class _OrderControl:
                 return
 
     def _raise(self, row: int, n: int, energy: float) -> None:
-        excess, excess_energy = float(self.error[row]) / self.rtol, energy / self.rtol
-        self.wanted[row] = predicted_order(n, excess, excess_energy, _LARGEST_ORDER_STEP)
+        self.wanted[row] = next_order(n, max(float(self.error[row]), energy) / self.rtol)
         if self.wanted[row] > DENSE_ORDER:
             self.search.alive[row] = False
             self.done[row] = HalfWidthStart(*self.search.place_and_slope(row))
@@ -451,9 +449,8 @@ class _OrderControl:
         check = search.check[_row_selection(rows, search.place.size)]
         orders = contact, found.lower
         energy, by_loss_error = energy_errors(found.tabled, check, orders, rho, most=self.most[rows], rtol=rtol)
-        estimate = np.maximum(np.maximum(error, by_loss_error), grade.floor(search.group.layers))
         pulling, pressing, tension = pressure_signs(contact, rtol)
-        estimate = np.maximum(estimate, np.where(pressing, tension, 0.0))
+        estimate = np.max([error, by_loss_error, tension], axis=0).clip(min=grade.floor(search.group.layers))
         outside = may_touch_elsewhere(closed, rho)
         n = int(contact.c.shape[1])
         for k, row in enumerate(rows.tolist()):

@@ -130,7 +130,6 @@ def _closed_outcome(ladder: OrderLadder, checked: EnergyCheck, rtol: float) -> t
     """Outcome of a closed contact; its friction may be off by the share of the load that tension carries."""
     contact = ladder.contact
     sign, tension = worst_sign(contact, rtol)
-    tension = 0.0 if sign is PressureSign.UNDECIDED else tension
     estimate = max(checked.error, tension, ROUNDING)
     result = ladder.result(EnergyCheck(checked.energy, estimate))
     if result is None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +30,7 @@ def merge_instant_terms(creep: CreepSpectrum) -> CreepSpectrum:
 
 @dataclass
 class SolverState:
-    """Problem under solution: creep without terms of ζ = 0, quadrature rules, counters.
+    """Problem under solution: creep without terms of ζ = 0, the quadrature rule built last, counters.
 
     `depth` is the Δ/R prescribed in place of the problem's load.
     """
@@ -38,7 +38,7 @@ class SolverState:
     problem: ContactProblem
     creep: CreepSpectrum
     depth: float | None = None
-    rules: dict[str, Rule] = field(default_factory=dict)
+    built: Rule | None = None
     matrices: int = 0
 
     @classmethod
@@ -66,11 +66,10 @@ class SolverState:
 
     def rule(self, alpha: float) -> Rule:
         """Quadrature rule valid for half width `alpha`; rebuilt with room when a contact outgrows it."""
-        rule = self.rules.get("solve")
-        if rule is None or alpha > rule.half_width:
+        if self.built is None or alpha > self.built.half_width:
             widest = min(1.3 * alpha, 0.5 * (alpha + self.problem.rho))
-            rule = self.rules["solve"] = build_rule(self.problem.layer, self.creep, widest)
-        return rule
+            self.built = build_rule(self.problem.layer, self.creep, widest)
+        return self.built
 
     def system(self, alpha: float, n: int, last: int) -> ContactEquations:
         """Galerkin equations of one contact of order n, with the orders from n up to `last` eliminated."""
