@@ -32,8 +32,8 @@ OVERSPEED: Final = 1.1
 """Speed over the steady one that a belt may reach without power [-]; general knowledge."""
 
 _AT_LIMIT: Final = 1e-6  # rounding of the limit [-]
-_BACK_SWING: Final = 0.02
-"""Speed backward over the steady one that a swing may reach [-]; general knowledge."""
+_BACK_SWING: Final = (0.02, 0.02)
+"""Speed backward that a swing may reach, over the steady one [-] and of slow belts [m/s]; general knowledge."""
 
 
 @dataclass(frozen=True)
@@ -201,10 +201,10 @@ def _motor_torque(scenario: ScenarioResult) -> Iterator[Check]:
 
 def _roll_back(scenario: ScenarioResult) -> Iterator[Check]:
     """The belt does not roll back; backstops hold it, given or assumed."""
-    least = float(scenario.belt_speed.min())
+    least, (share, slow) = float(scenario.belt_speed.min()), _BACK_SWING
     yield check_against_limit(
-        "dynamic_backward", "belt does not roll back", max(0.0, -least), "at most", _BACK_SWING * scenario.line.speed,
-        "speed", source="the swing of a wave, general knowledge",
+        "dynamic_backward", "belt does not roll back", max(0.0, -least), "at most",
+        max(share * scenario.line.speed, slow), "speed", source="the swing of a wave, general knowledge",
         why="the belt rolls back at {calculated}: a backstop or a brake is needed",
     )  # fmt: skip
     for d, drive in enumerate(scenario.setup.drives):

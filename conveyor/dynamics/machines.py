@@ -137,12 +137,14 @@ class ScenarioSetup:
             starters = [self.starters[d] for d in happening.drives]
             takes = {
                 "start": max(unit.delay + (unit.time or coasting) for unit in starters),
-                "ramp down": max(unit.stop_time or 0.0 for unit in starters),
+                "ramp down": max(unit.stop_time or 1.2 * coasting for unit in starters),
                 "power off": 1.2 * coasting,
                 "brake": 1.2 * coasting,
             }[happening.do]
             last = max(last, happening.at + takes)
-        return last + _AFTER * float(self.loop.travel[-1])
+        heavy = float(self.rims.sum() / self.loop.mass.sum())
+        swing = 2.0 * math.pi * math.sqrt(heavy) if heavy > 1.0 else 1.0  # of drives on a belt lighter than they are
+        return last + _AFTER * swing * float(self.loop.travel[-1])
 
     def over_time(self, times: Array) -> tuple[Array, Array, Array]:
         """Reference over no-load speed, share of the torque limit, brake force, each (steps, d).
