@@ -494,7 +494,7 @@ class DeskServer:
 def _listening_socket(host: str, port: int) -> socket.socket:
     """Socket on an address of this machine, on a free port where the given one is taken."""
     for tried in dict.fromkeys((port, 0)):
-        made = socket.socket()
+        made = socket.socket(proto=socket.IPPROTO_TCP)  # named, or asyncio leaves a 40 ms wait for packets in it
         made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             made.bind((host, tried))

@@ -730,3 +730,9 @@ def test_without_its_packages_the_command_says_what_to_install():
     done = run("desk", spoil=lambda patched: patched.setattr(desk_command, "find_spec", lambda _: None))
     assert done.returncode == 2
     assert 'pip install "conveyor[desk]"' in done.stderr
+
+
+def test_answers_do_not_wait_for_packets_to_be_acknowledged():
+    """asyncio turns the waiting off only where a socket names its protocol, which accepted ones have from it."""
+    with desk_server._listening_socket("127.0.0.1", 0) as waiting:
+        assert waiting.proto == socket.IPPROTO_TCP
