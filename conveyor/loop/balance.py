@@ -244,7 +244,8 @@ class OpenLoop(NamedTuple):
 def close_at_one_setting(loops: Sequence[Balance], behind: bool, serving: Sequence[int]) -> list[Balance]:
     """Close loops at the least setting of the take-up that suits those at the indices `serving`, each plan's own."""
     asked = [OpenLoop(one.frame.standing_on(behind=behind), one.along, one.unit_main) for one in loops]
-    return raise_first_error(close_loops(asked, [i in set(serving) for i in range(len(asked))]))
+    marked = set(serving)
+    return raise_first_error(close_loops(asked, [i in marked for i in range(len(asked))]))
 
 
 def close_loops(asked: Sequence[OpenLoop], serving: Sequence[bool] = ()) -> list[Balance | NoSolutionError]:

@@ -133,10 +133,9 @@ def _page_ends(
     room, least = _SURE * room - names, TEXT_WIDTH - names
     widths = [columns_width(sheet, [column]) for column in columns[named:]]
     count = len(_page_fills(widths, room))
-    even = next(
-        part for k in range(101) if len(_page_fills(widths, part := least + k / 100.0 * (room - least))) == count
-    )
-    return tuple(named + last for last in _page_fills(widths, even))
+    tried = (least + k / 100.0 * (room - least) for k in range(101))  # pages of one width, the last as well
+    even = next(ends for part in tried if len(ends := _page_fills(widths, part)) == count)
+    return tuple(named + last for last in even)
 
 
 def _page_fills(widths: Sequence[float], room: float) -> list[int]:
