@@ -96,13 +96,13 @@ class JointMinimum:
 
 @dataclass(frozen=True, eq=False)
 class _RoundState:
-    """Spacing, stiffness, variance and weights held during a round, for each modulus that counts."""
+    """Spacing, stiffness, variance and weights of each modulus in a round; rows whose squares uneven shifts cost."""
 
     spacing: float
     stiffness: tuple[float, ...]
     variance: FloatArray
     weight: FloatArray
-    evenness: FloatArray
+    uneven: FloatArray
 
 
 class JointShift:
@@ -186,9 +186,8 @@ class JointShift:
         state = self._choose_smoothing(
             place, np.array([hampel_weights(one) for one in residual]), np.zeros(len(self.y))
         )
-        parts, gradient = self._normal_equations(*self._fit(place, state), state)
-        down = gradient - state.evenness @ place
-        return float(down @ _invert_normal_matrix(parts.sum(axis=0) + state.evenness) @ down)
+        rows, downward = self._regression(place, *self._fit(place, state), state)
+        return float(downward @ _invert_normal_matrix(_normal_matrix(rows)) @ downward)
 
     def _choose_smoothing(self, place: FloatArray, weight: FloatArray, share: FloatArray) -> _RoundState:
         x, y = self._moved(place)
@@ -200,7 +199,7 @@ class JointShift:
         freedom = np.maximum(weight.sum(axis=1) - PENALTY_ORDER - share, 1.0)
         rates = self.rates @ place
         uneven = np.diff(self.rates, axis=0) / (RATE_SCATTER * max(float(np.mean(np.abs(rates))), LEAST_RATE))
-        return _RoundState(spacing, best, np.maximum(cost / freedom, SCATTER_FLOOR**2), weight, uneven.T @ uneven)
+        return _RoundState(spacing, best, np.maximum(cost / freedom, SCATTER_FLOOR**2), weight, uneven)
 
     def _descend(
         self, place: FloatArray, state: _RoundState
@@ -208,23 +207,22 @@ class JointShift:
         """Projected Gauss-Newton steps; place, covariance, effective parameters of each modulus, curves."""
         splines, curves = self._fit(place, state)
         for _ in range(STEPS):
-            parts, gradient = self._normal_equations(splines, curves, state)
-            whole = parts.sum(axis=0) + state.evenness
-            gradient -= state.evenness @ place
-            held = ((place <= self.lower) & (gradient < 0.0)) | ((place >= self.upper) & (gradient > 0.0))
+            rows, downward = self._regression(place, splines, curves, state)
+            held = ((place <= self.lower) & (downward < 0.0)) | ((place >= self.upper) & (downward > 0.0))
             move = np.zeros_like(place)
             free = ~held
+            whole = _normal_matrix(rows)
             inner = _invert_normal_matrix(whole[np.ix_(free, free)])
-            move[free] = inner @ gradient[free]
+            move[free] = inner @ downward[free]
             move /= max(1.0, float(np.max(np.abs(move))) / LONGEST_STEP)
             small = np.maximum(STEP_TOLERANCE * np.sqrt(np.diagonal(inner)) / 2.0, ROUNDING_STEP)
             if np.all(np.abs(move[free]) <= small):
                 break
-            before = _total_cost(curves, state) + place @ state.evenness @ place
+            before = _total_cost(place, curves, state)
             for halving in range(HALVINGS):
                 trial = np.clip(place + move / 2.0**halving, self.lower, self.upper)
                 splines, curves = self._fit(trial, state)
-                if _total_cost(curves, state) + trial @ state.evenness @ trial < before:
+                if _total_cost(trial, curves, state) < before:
                     place = trial
                     break
             else:
@@ -232,27 +230,35 @@ class JointShift:
                 break
         inverse = _invert_normal_matrix(whole)
         wide = [_variance_widening(c.residual * np.sqrt(w), self.of) for c, w in zip(curves, state.weight, strict=True)]
-        told = np.einsum("k,kij->ij", np.array(wide), parts) + state.evenness
-        covariance = inverse @ told @ inverse
-        share = np.array([float(np.sum(inverse * part)) for part in parts])
+        spread = [one @ inverse * np.sqrt(f) for one, f in zip(rows, [*wide, 1.0], strict=True)]
+        covariance = _normal_matrix(spread)
+        share = np.array([float(np.sum((one @ inverse) * one)) for one in rows[:-1]])
         return place, covariance, share, curves
 
-    def _normal_equations(
-        self, splines: SplineBasis, curves: ModulusCurves, state: _RoundState
-    ) -> tuple[FloatArray, FloatArray]:
-        """Normal matrices of the steps of each modulus, curves eliminated; downward gradient."""
-        parts, gradient = [], np.zeros(self.lower.size)
-        for row, (one, weight, variance) in enumerate(zip(curves, state.weight, state.variance, strict=True)):
+    def _regression(
+        self, place: FloatArray, splines: SplineBasis, curves: ModulusCurves, state: _RoundState
+    ) -> tuple[list[FloatArray], FloatArray]:
+        """Rows of the steps for each modulus, curves eliminated, and for unevenness; downward gradient.
+
+        The product of the rows with themselves is the normal matrix. Formed as a difference of two matrices it is not
+        positive where a direction is hardly determined: G. H. Golub, V. Pereyra, SIAM J. Numer. Anal. 10 (1973)
+        413-432, project the rows instead.
+        """
+        rows, downward = [], -(place @ state.uneven.T @ state.uneven)
+        of_each = zip(curves, state.weight, state.stiffness, state.variance, strict=True)
+        for row, (one, weight, stiffness, variance) in enumerate(of_each):
             across = one.slope[:, None] * self.to_rows
             columns = np.hstack([across, self.to_rows]) if self.vertical else across
             columns = np.column_stack([columns, *(trend[row] for trend in self.trends)])
             weighted = weight[:, None] * columns
-            cross = splines.matrix.T @ weighted
-            parts.append((columns.T @ weighted - cross.T @ one.solve(cross)) / variance)
-            gradient += weighted.T @ one.residual / variance
+            along = one.solve(splines.matrix.T @ weighted)
+            apart = np.sqrt(weight)[:, None] * (columns - splines.matrix @ along)
+            bends = 10.0 ** (stiffness / 2.0) * np.diff(along, PENALTY_ORDER, axis=0)
+            rows.append(np.vstack([apart, bends]) / np.sqrt(variance))
+            downward += weighted.T @ one.residual / variance
             turning = weight * np.sum(splines.slope * one.solve(splines.matrix.T).T, axis=1)
-            gradient[: self.count - 1] -= turning @ self.to_rows
-        return np.array(parts), gradient
+            downward[: self.count - 1] -= turning @ self.to_rows
+        return [*rows, state.uneven], downward
 
     def _fit(self, place: FloatArray, state: _RoundState) -> tuple[SplineBasis, ModulusCurves]:
         x, y = self._moved(place)
@@ -289,8 +295,9 @@ class JointShift:
         )
 
 
-def _total_cost(curves: ModulusCurves, state: _RoundState) -> float:
-    return float(sum(c.cost / v + c.occam for c, v in zip(curves, state.variance, strict=True)))
+def _total_cost(place: FloatArray, curves: ModulusCurves, state: _RoundState) -> float:
+    fitted = sum(c.cost / v + c.occam for c, v in zip(curves, state.variance, strict=True))
+    return float(fitted + np.sum((state.uneven @ place) ** 2))
 
 
 def _isotherm_correlation(residual: FloatArray, of: NDArray[np.intp]) -> float:
@@ -304,6 +311,11 @@ def _variance_widening(residual: FloatArray, of: NDArray[np.intp]) -> float:
     """Variance of a mean of correlated rows over that of independent ones [-]."""
     c = _isotherm_correlation(residual, of)
     return (1.0 + c) / (1.0 - c) if c > 2.0 / np.sqrt(residual.size) else 1.0
+
+
+def _normal_matrix(rows: list[FloatArray]) -> FloatArray:
+    whole = np.vstack(rows)
+    return np.asarray(whole.T @ whole)
 
 
 def _invert_normal_matrix(matrix: FloatArray) -> FloatArray:
