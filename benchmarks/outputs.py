@@ -50,7 +50,7 @@ def write(folder: Path, only: str) -> None:
             where.mkdir(parents=True, exist_ok=True)
             asked = (command, str(spec.relative_to(ROOT)), *options)
             for system in ("si", "us"):
-                files = ("-o", str(where / f"{system}.xlsx"), "--html", str(where / f"{system}.html"))
+                files = ("-o", str(where / f"{system}.xlsx"), "-o", str(where / f"{system}.html"))
                 tables = ("--tables", str(where / system), "--units", system)
                 if system == "si":
                     said = _run(*asked, *files, *tables, "--json")

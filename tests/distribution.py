@@ -33,7 +33,7 @@ IN_SOURCE = (
 PERMISSIVE = ("mit", "bsd", "apache", "psf", "python software foundation", "isc", "0bsd", "zlib", "hpnd", "cc0", "mpl")
 """Words of licences that may come with an installation."""
 COMMANDS = (
-    ("doctor",), ("new", "mine.yaml"), ("power", "mine.yaml", "-o", "mine.xlsx", "--html", "mine.html"), ("shelf",),
+    ("doctor",), ("new", "mine.yaml"), ("power", "mine.yaml", "-o", "mine.xlsx", "-o", "mine.html"), ("shelf",),
     ("compare", "mine.yaml", "-c", "standard-cover", "-c", "low-rolling-resistance-cover"), ("validate",),
     ("template", "input.xlsx"), ("library", "template", "list.xlsx"), ("new", "--kind", "study", "study.yaml"),
 )  # fmt: skip

@@ -105,7 +105,7 @@ def test_unreadable_specs(name: str, tmp_path: Path) -> None:
     assert done.stderr.strip()
 
 
-@pytest.mark.parametrize("target", ["nowhere/report.xlsx", "report.pdf", "."])
+@pytest.mark.parametrize("target", ["nowhere/report.xlsx", "report.doc", "."])
 def test_unwritable_workbooks(target: str, tmp_path: Path) -> None:
     done = run("power", OVERLAND, "-o", tmp_path / target)
     assert done.returncode == 2

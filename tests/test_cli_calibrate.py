@@ -64,7 +64,7 @@ def test_calibrate_writes_every_table(tmp_path: Path) -> None:
     [
         (["--error", "two"], "--error: "),
         (["--factor", "rubber"], "factors: got rubber, allowed: indentation, idler_rotation, flexure"),
-        (["-o", "found.pdf"], "its name ends in .yaml, .yml or .xlsx"),
+        (["-o", "found.doc"], "its name ends in .xlsx, .html, .htm, .pdf, .yaml or .yml"),
     ],
 )
 def test_calibrate_refuses_in_one_message(tmp_path: Path, options: list[str], said: str) -> None:
@@ -94,7 +94,7 @@ def test_verify_sheet_writes_workbook_and_page(tmp_path: Path) -> None:
         "--temperature",
         "20,150",
     )
-    done = run("verify-sheet", "s100", *axes, "-o", "sheet.xlsx", "--html", "sheet.html", cwd=tmp_path)
+    done = run("verify-sheet", "s100", *axes, "-o", "sheet.xlsx", "-o", "sheet.html", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith("2 rows, 0 of an idler set; 1 without a figure")
     assert openpyxl.load_workbook(tmp_path / "sheet.xlsx").sheetnames == ["About", "N per width"]
@@ -107,6 +107,6 @@ def test_verify_sheet_writes_workbook_and_page(tmp_path: Path) -> None:
 def test_verify_sheet_asks_for_an_output() -> None:
     done = run("verify-sheet", "s100")
     assert done.returncode == 2
-    assert "give -o SHEET.xlsx, --html SHEET.html, --pdf SHEET.pdf or --json" in done.stderr
+    assert "give -o SHEET.xlsx, -o SHEET.html, -o SHEET.pdf or --json" in done.stderr
     assert "unknown compound" in run("verify-sheet", "s1000", "--json").stderr
     assert "give --spec, too" in run("verify-sheet", "s100", "--set", "belt.speed=3 m/s", "--json").stderr

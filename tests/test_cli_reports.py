@@ -24,7 +24,7 @@ HORSE = 745.69987158227022  # [W], 550 ft lbf/s
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
     folder = tmp_path_factory.mktemp("reports")
-    options = ("--html", "a.html", "--tables", "t", "--plots", "p", "--plot-kind", "svg", "--units", "us")
+    options = ("-o", "a.html", "--tables", "t", "--plots", "p", "--plot-kind", "svg", "--units", "us")
     return run("power", SPECS / "in_plant_us.yaml", *options, cwd=folder, columns=120), folder
 
 
@@ -111,7 +111,7 @@ def test_nothing_is_wider_than_the_terminal(command, columns, busy):
 def test_comparison_writes_a_page_and_figures(tmp_path):
     options = ("-c", "standard-cover", "-c", "low-rolling-resistance-cover", "--temperature", "32:68:18 degF")
     files = (
-        "--html",
+        "-o",
         "c.html",
         "--csv",
         "c.csv",
@@ -135,15 +135,15 @@ def test_comparison_writes_a_page_and_figures(tmp_path):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (("--html", "a.pdf"), r'--html: a.pdf: its name ends in .html or .htm, got ".pdf"'),
-        (("-o", "a.xls"), r'--output: a.xls: its name ends in .xlsx, got ".xls"'),
-        (("--html", "none/a.html"), r"its folder does not exist"),
+        (("-o", "a.xls"), r'--output: a.xls: its name ends in .xlsx, .html, .htm or .pdf, got ".xls"'),
+        (("-o", "a.xlsx", "-o", "./a.xlsx"), r"--output: a.xlsx: is the file of --output, too; give each its own"),
+        (("-o", "none/a.html"), r"its folder does not exist"),
         (("--tables", "file"), r"--tables: file: is a file; give the name of a folder"),
         (("--tables", "none/t"), r"--tables: none/t: its folder does not exist"),
         (("--plots", "file"), r"--plots: file: is a file"),
         (("--parquet",), r"--parquet: says how tables are written; give --tables FOLDER, too"),
         (("--units", "uk"), r"invalid value for '--units'"),
-        (("--htm", "a.html"), r"no such option: --htm; did you mean --html\?"),
+        (("--table", "t"), r"no such option: --table; did you mean --tables\?"),
     ],
 )
 def test_outputs_are_refused_before_anything_is_spent(options, message, tmp_path):
@@ -156,7 +156,7 @@ def test_outputs_are_refused_before_anything_is_spent(options, message, tmp_path
 
 
 def test_quiet_writes_and_says_nothing(tmp_path):
-    assert run("power", SPECS / "shuttle.yaml", "--html", tmp_path / "a.html", "-q").stdout == ""
+    assert run("power", SPECS / "shuttle.yaml", "-o", tmp_path / "a.html", "-q").stdout == ""
     assert (tmp_path / "a.html").stat().st_size > 10_000
 
 

@@ -127,8 +127,6 @@ def test_a_report_is_no_workbook_to_fill_in(tmp_path: Path) -> None:
         (("new", "mine"), 'a spec\'s name ends in .yaml, such as "mine.yaml"'),
         (("new", "mine.xlsx"), "a workbook to fill in: conveyor template mine.xlsx"),
         (("new", "mine.yaml", "--kind", "feeder", "--units", "us"), "conveyor power mine.yaml --units us"),
-        (("power", "good.yaml", "-o", "report.pdf"), "is for the workbook (.xlsx); give --pdf report.pdf"),
-        (("power", "good.yaml", "-o", "report.html"), "is for the workbook (.xlsx); give --html report.html"),
     ],
 )
 def test_the_message_holds_the_next_command(tmp_path: Path, words: tuple[str, ...], said: str) -> None:

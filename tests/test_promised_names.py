@@ -35,7 +35,7 @@ def test_the_list_has_every_kind_of_name() -> None:
         "json power checks[] verdict",
         "sheet Results, table results",
         "table results: `motor_power`",
-        "command conveyor power --pdf",
+        "command conveyor power --tables",
     } <= known
     assert "spec belt.width may be left out" not in known
 

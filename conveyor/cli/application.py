@@ -81,7 +81,7 @@ app = typer.Typer(
     epilog=examples_text(
         "conveyor new mine.yaml",
         "conveyor power mine.yaml",
-        "conveyor power mine.yaml -o report.xlsx --html report.html",
+        "conveyor power mine.yaml -o report.xlsx -o report.pdf",
         "conveyor power --help",
         "conveyor --install-completion",
     )
@@ -116,9 +116,12 @@ class ImageKind(StrEnum):
 
 
 Spec = Annotated[Path, argument("Conveyor spec: .yaml, .json or .xlsx.", "SPEC", show_default=False)]
-Workbook = Annotated[Path | None, option("Write the workbook (.xlsx).", "FILE", "-o", "--output")]
-WebPage = Annotated[Path | None, option("Write the report as a web page (.html).", "FILE", "--html")]
-PdfPage = Annotated[Path | None, option("Write the report as PDF.", "FILE", "--pdf")]
+Reports = Annotated[
+    list[Path] | None,
+    option(
+        "Write the report: workbook (.xlsx), web page (.html) or PDF (.pdf); may be repeated.", "FILE", "-o", "--output"
+    ),
+]
 TablesFolder = Annotated[Path | None, option("Folder for the tables, one file each.", "FOLDER", "--tables")]
 AsParquet = Annotated[bool, option("Tables as Parquet files; without it as CSV.", None, "--parquet")]
 Shelves = Annotated[

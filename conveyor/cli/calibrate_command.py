@@ -51,13 +51,18 @@ def calibrate(
         ),
     ] = None,
     output: Annotated[
-        Path | None,
-        option("Write the part of the spec (.yaml) or every table (.xlsx).", "FILE", "-o", "--output"),
+        list[Path] | None,
+        option(
+            "Write the part of the spec (.yaml) or the report (.xlsx, .html, .pdf); may be repeated.",
+            "FILE",
+            "-o",
+            "--output",
+        ),
     ] = None,
 ) -> None:
     """Fit factors on indentation, idler rotation and flexure to measured power, as far as the runs tell them apart."""
     to = session.outputs(spec, measured)
-    to.file("--output", output, *SPEC, ".xlsx")
+    parts = to.reports(output, *SPEC)
     import conveyor
 
     line = session.read(spec)
@@ -65,10 +70,9 @@ def calibrate(
     share = si_of("--error", error, "fraction")
     with session.progress("runs") as told:
         calibration = conveyor.calibrate(line, measured, error=share, factors=factors, progress=told)
-    if output is not None and output.suffix.lower() == ".xlsx":
-        to.report(calibration.contents(system), output)
-    elif output is not None:
-        to.add("part of a spec", output, {output: calibration.fragment.encode()})
+    to.write(calibration.contents(system))
+    for path in parts:
+        to.add("part of a spec", path, {path: calibration.fragment.encode()})
     session.answer(calibration.to_dict, to, lambda: _show_calibration(calibration, system))
 
 

@@ -9,11 +9,9 @@ from typing import Annotated
 
 from conveyor.cli.application import (
     AsParquet,
-    PdfPage,
+    Reports,
     Spec,
     TablesFolder,
-    WebPage,
-    Workbook,
     compound_names,
     one_of,
     option,
@@ -31,7 +29,7 @@ from conveyor.errors import InputError, NoSolutionError
     examples_of=(
         "conveyor compare overland.yaml -c standard-cover -c low-rolling-resistance-cover",
         "conveyor compare overland.yaml -c s100 -c mine.yaml --temperature -30:40:5",
-        "conveyor compare overland.yaml -c s100 -c s120 --speed 5,6 -o compounds.xlsx --html compounds.html",
+        "conveyor compare overland.yaml -c s100 -c s120 --speed 5,6 -o compounds.xlsx -o compounds.html",
         "conveyor compare overland.yaml -c s100 -c s120 -c mine.yaml --temperature -40:40:2 --workers 3",
         'conveyor compare overland.yaml -c s100 -c s120 --temperature "0:100:20 degF" --units us',
     ),
@@ -80,9 +78,7 @@ def compare(
             "--lot-scatter",
         ),
     ] = None,
-    output: Workbook = None,
-    html: WebPage = None,
-    pdf: PdfPage = None,
+    output: Reports = None,
     tables: TablesFolder = None,
     parquet: AsParquet = False,
     csv: Annotated[Path | None, option("Write every scene to this file (.csv).", "FILE")] = None,
@@ -98,7 +94,7 @@ def compare(
     """Compare rubber compounds on a conveyor: power, energy, cost and payback over temperature and speed."""
     preload_workers(None, workers)
     to = session.outputs(spec, *compounds)
-    to.reports(output, html, tables, parquet=parquet, pdf=pdf)
+    to.reports(output, tables=tables, parquet=parquet)
     to.file("--csv", csv, ".csv")
     for name, path in (("--plot", plot), ("--speed-plot", speed_plot), ("--tan-delta", tan_delta)):
         to.file(name, path, *FIGURE)

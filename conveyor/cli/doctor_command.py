@@ -19,7 +19,7 @@ _PACKAGES: Final = (
     "numpy", "scipy", "pandas", "pint", "pydantic", "openpyxl", "typer", "rich", "ruamel.yaml", "matplotlib",
 )  # fmt: skip
 _EXTRAS: Final = {
-    "pdf": (("typst",), "reports as PDF (--pdf)"),
+    "pdf": (("typst",), "reports as PDF (-o report.pdf)"),
     "desk": (("starlette", "uvicorn"), "the page in the browser (conveyor desk)"),
     "parquet": (("pyarrow",), "tables as Parquet"),
     "cluster": (("dask", "distributed"), "studies on several machines (--scheduler)"),

@@ -7,8 +7,8 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from conveyor.cli.application import PdfPage, Spec, option
-from conveyor.cli.output_files import FIGURE, PAGE, Outputs
+from conveyor.cli.application import Spec, option
+from conveyor.cli.output_files import PICTURE, Outputs
 from conveyor.cli.shared_options import Session, session_command
 from conveyor.cli.worker_processes import open_executor
 from conveyor.errors import InputError
@@ -46,13 +46,12 @@ def dynamics(
     output: Annotated[
         list[Path] | None,
         option(
-            "Write .xlsx, .html, or a figure of each scenario (.png, .svg, .pdf); may be repeated.",
+            "Write the report (.xlsx, .html, .pdf), or a figure of each scenario (.png, .svg); may be repeated.",
             "FILE",
             "-o",
             "--output",
         ),
     ] = None,
-    pdf: PdfPage = None,
     error: Annotated[float, option("Error of the highest and lowest tension asked for.", "SHARE")] = 0.01,
     size: Annotated[
         SizeTarget | None, option("Find the least of it with which each scenario keeps every criterion.")
@@ -61,9 +60,7 @@ def dynamics(
 ) -> None:
     """Follow starts and stops of a conveyor through time: those of its spec, or standard ones."""
     to = session.outputs(spec)
-    for path in output or ():
-        to.file("--output", path, ".xlsx", *PAGE, *FIGURE)
-    to.reports(pdf=pdf)
+    pictures = to.reports(output, *PICTURE)
     from conveyor.dynamics.simulation import simulate_scenarios
     from conveyor.report.tables.dynamics_tables import dynamics_contents, dynamics_json
 
@@ -81,8 +78,8 @@ def dynamics(
 
             followed = size_and_simulate(line, chosen, size.value, error=error, **how)
     contents = dynamics_contents(followed, system)
-    for path in output or ():
-        _write_output(followed, contents, path, to)
+    for path in pictures:
+        _write_figures(followed, contents, path, to)
     to.write(contents)
     from conveyor.cli.terminal import show_dynamics
 
@@ -101,14 +98,11 @@ def _chosen_scenarios(line: Conveyor, names: list[str] | None) -> tuple[Scenario
     return tuple(every[name] for name in names) if names else tuple(every.values())
 
 
-def _write_output(dynamics: CalculatedDynamics, contents: Contents, path: Path, to: Outputs) -> None:
-    """Add the report or figure of an output path, by its ending; one figure for each scenario."""
+def _write_figures(dynamics: CalculatedDynamics, contents: Contents, path: Path, to: Outputs) -> None:
+    """Add a figure for each scenario."""
     from conveyor.report.dynamics_plots import scenario_figure
     from conveyor.report.table_model import slug
 
-    if path.suffix.lower() not in FIGURE:
-        to.report(contents, path)
-        return
     several = len(dynamics.followed) > 1
     for one in dynamics.followed:
         at = path.with_stem(f"{path.stem}_{slug(one.name)}") if several else path

@@ -23,7 +23,10 @@ if TYPE_CHECKING:
     from conveyor.text.markup import Html
 
 PAGE = (".html", ".htm")
-FIGURE = (".png", ".svg", ".pdf")
+REPORT = (".xlsx", *PAGE, ".pdf")
+"""Endings of a report's files; a PDF is its page on paper."""
+PICTURE = (".png", ".svg")
+FIGURE = (*PICTURE, ".pdf")
 SPEC = (".yaml", ".yml")
 _KINDS = {
     ".xlsx": output_marks.REPORT,
@@ -32,8 +35,6 @@ _KINDS = {
     **dict.fromkeys(SPEC, output_marks.TO_FILL_IN),
 }
 """Kind of an older file that may be replaced, by its ending."""
-_OWN_OPTIONS = {".pdf": "--pdf", **dict.fromkeys(PAGE, "--html")}
-"""Options of reports that are no workbook, by ending."""
 _LARGEST_FILE = 100_000_000
 """Largest older file examined [bytes]; no output of this program is larger."""
 
@@ -48,7 +49,8 @@ class Outputs:
         self._folders: list[Path] = []
         self._contents: dict[Path, bytes] = {}
         self._said: list[str] = []
-        self._reports: list[Callable[[Contents], None]] = []
+        self._reports: list[Path] = []
+        self._tables: tuple[Path, str] | None = None
 
     def file(self, option: str, path: Path | None, *endings: str, kind: str | None = None) -> None:
         """Register an output file; refuse one that cannot be written, has another ending, or replaces another kind."""
@@ -80,88 +82,78 @@ class Outputs:
             raise InputError(f"{option}: {path}: {holder} is read-only; choose another folder")
         self._folders.append(path)
 
-    def tables(self, path: Path | None, *, parquet: bool) -> None:
+    def _register_tables(self, path: Path | None, *, parquet: bool) -> None:
         """Register the folder for tables; refuse Parquet without a folder or without pyarrow."""
         self.folder("--tables", path)
-        if not parquet:
-            return
-        if path is None:
+        if parquet and path is None:
             raise InputError("--parquet: says how tables are written; give --tables FOLDER, too")
-        if find_spec("pyarrow") is None:
+        if parquet and find_spec("pyarrow") is None:
             raise InputError("--parquet: needs the package pyarrow (pip install pyarrow); without it: CSV")
+        if path is not None:
+            self._tables = path, "parquet" if parquet else "csv"
 
     def reports(
         self,
-        output: Path | None = None,
-        html: Path | None = None,
+        outputs: Iterable[Path] | None = None,
+        *others: str,
         tables: Path | None = None,
-        *,
         parquet: bool = False,
-        pdf: Path | None = None,
+        kind: str | None = None,
+    ) -> list[Path]:
+        """Register the files of a report, which `write` makes, and return those of other endings, of the same kind."""
+        rest = []
+        for path in outputs or ():
+            ending = path.suffix.lower()
+            if ending not in REPORT:
+                self.file("--output", path, *REPORT, *others, kind=kind)
+                rest.append(path)
+                continue
+            self.file("--output", path, *REPORT, *others, kind=output_marks.PAGE if ending == ".pdf" else None)
+            self._reports.append(path)
+            if ending == ".pdf":
+                from conveyor.report.pdf import require_typst
+
+                require_typst()
+        self._register_tables(tables, parquet=parquet)
+        return rest
+
+    @property
+    def reported(self) -> bool:
+        """True if a file of a report is registered."""
+        return bool(self._reports) or self._tables is not None
+
+    def write(
+        self, contents: Contents, told: Progress | None = None, *, page: Callable[..., Html] | None = None
     ) -> None:
-        """Register the files of a report; `write` makes them."""
-        own = None if output is None else _OWN_OPTIONS.get(output.suffix.lower())
-        if own is not None:
-            raise InputError(f"--output: {output}: is for the workbook (.xlsx); give {own} {output}")
-        self.file("--output", output, ".xlsx")
-        paged = self.pages(html, pdf)
-        self.tables(tables, parquet=parquet)
-        if output is not None:
-            self._reports.append(partial(self.report, path=output))
-        if paged:
-            self._reports.append(partial(self._paged, paths=paged))
-        if tables is not None:
-            self._reports.append(partial(self.tabled, folder=tables, parquet=parquet))
+        """Make the registered files of a report; a page of its own is built by `page`, called with `on_paper`."""
+        from conveyor.report import html
 
-    def pages(self, html: Path | None, pdf: Path | None) -> list[Path]:
-        """Register the files of a page and return them; refuse PDF without the package that sets it."""
-        self.file("--html", html, *PAGE)
-        self.file("--pdf", pdf, ".pdf", kind=output_marks.PAGE)
-        if pdf is not None:
-            from conveyor.report.pdf import require_typst
-
-            require_typst()
-        return [path for path in (html, pdf) if path is not None]
-
-    def write(self, contents: Contents, told: Progress | None = None) -> None:
-        """Make the registered files of a report."""
-        for done, make in enumerate(self._reports):
+        page = page or partial(html.build_page, contents)
+        for done, path in enumerate(self._reports):
             if told is not None:
                 told("writing", done, len(self._reports))
-            make(contents)
+            self._write_report(contents, page, path)
+        if self._tables is not None:
+            from conveyor.report import table_files
 
-    def report(self, contents: Contents, path: Path) -> None:
-        """Make the workbook or page of a report, by file ending."""
-        if path.suffix.lower() == ".xlsx":
+            folder, kind = self._tables
+            self.add("tables", folder, table_files.encode_tables(contents, folder, kind))
+
+    def _write_report(self, contents: Contents, page: Callable[..., Html], path: Path) -> None:
+        """Make the workbook, page or PDF of a report, by file ending."""
+        ending = path.suffix.lower()
+        if ending == ".xlsx":
             from conveyor.report import excel
 
             self.add("workbook", path, excel.workbook_files(contents, path))
+        elif ending == ".pdf":
+            from conveyor.report import pdf
+
+            with atomic_write.name_write_errors(path):
+                made = pdf.page_pdf(page(on_paper=True))
+            self.add("PDF", path, {path: made})
         else:
-            self._paged(contents, [path])
-
-    def _paged(self, contents: Contents, paths: Iterable[Path]) -> None:
-        """Make the page of a report as HTML or PDF files."""
-        from conveyor.report import html
-
-        self.page(partial(html.build_page, contents), paths)
-
-    def page(self, build: Callable[..., Html], paths: Iterable[Path]) -> None:
-        """Make a page as HTML or PDF, by file ending, from its builder with `on_paper`."""
-        for path in paths:
-            if path.suffix.lower() == ".pdf":
-                from conveyor.report import pdf
-
-                with atomic_write.name_write_errors(path):
-                    made = pdf.page_pdf(build(on_paper=True))
-                self.add("PDF", path, {path: made})
-            else:
-                self.add("page", path, {path: build().encode()})
-
-    def tabled(self, contents: Contents, folder: Path, *, parquet: bool) -> None:
-        """Make a file for each table of a report."""
-        from conveyor.report import table_files
-
-        self.add("tables", folder, table_files.encode_tables(contents, folder, "parquet" if parquet else "csv"))
+            self.add("page", path, {path: page().encode()})
 
     def figure(self, figure: Figure, path: Path) -> None:
         """Make the file of a figure."""

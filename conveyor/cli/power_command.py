@@ -8,11 +8,9 @@ from typing import Annotated
 from conveyor.cli.application import (
     AsParquet,
     ImageKind,
-    PdfPage,
+    Reports,
     Spec,
     TablesFolder,
-    WebPage,
-    Workbook,
     option,
 )
 from conveyor.cli.shared_options import Session, session_command
@@ -22,7 +20,7 @@ from conveyor.cli.shared_options import Session, session_command
     short_help="Power, forces and tensions of a conveyor.",
     examples_of=(
         "conveyor power overland.yaml",
-        "conveyor power overland.yaml -o report.xlsx --html report.html",
+        "conveyor power overland.yaml -o report.xlsx -o report.pdf",
         "conveyor power overland.yaml --units us",
         "conveyor power overland.yaml --tables tables --plots figures",
         "conveyor power overland.yaml --json | jq .power_kW",
@@ -32,9 +30,7 @@ from conveyor.cli.shared_options import Session, session_command
 def power(
     session: Session,
     spec: Spec,
-    output: Workbook = None,
-    html: WebPage = None,
-    pdf: PdfPage = None,
+    output: Reports = None,
     tables: TablesFolder = None,
     parquet: AsParquet = False,
     plots: Annotated[Path | None, option("Draw every figure into it.", "FOLDER", "--plots")] = None,
@@ -42,7 +38,7 @@ def power(
 ) -> None:
     """Power, forces and tensions of a conveyor, with the load cases, the year and the ranges its spec has."""
     to = session.outputs(spec)
-    to.reports(output, html, tables, parquet=parquet, pdf=pdf)
+    to.reports(output, tables=tables, parquet=parquet)
     to.folder("--plots", plots)
     import conveyor
     from conveyor import spec as spec_file

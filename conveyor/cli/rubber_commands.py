@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from conveyor.cli.application import (
     Force,
-    PdfPage,
     Quiet,
     Shelves,
     app,
@@ -66,7 +65,8 @@ def fit(
     output: Annotated[
         list[Path] | None,
         option(
-            "Write the compound file (.yaml) or the workbook (.xlsx); may be repeated.",
+            "Write the compound file (.yaml), the workbook (.xlsx), or the page to sign with verdict, figures and "
+            "glossary (.html, .pdf); may be repeated.",
             "FILE",
             "-o",
             "--output",
@@ -136,12 +136,10 @@ def fit(
             "FINDING",
         ),
     ] = None,
-    html: Annotated[Path | None, option("Write the page to sign: verdict, figures, glossary (.html).", "FILE")] = None,
-    pdf: PdfPage = None,
     document: Annotated[
         list[str] | None,
         option(
-            "On that page: laboratory, number, specimen, instrument, method, measured, by; may be repeated.",
+            "On the page: laboratory, number, specimen, instrument, method, measured, by; may be repeated.",
             "NAME=WORDS",
         ),
     ] = None,
@@ -160,13 +158,9 @@ def fit(
     from conveyor.fitting import fitted_compound as compound_file
 
     to = Outputs(*data, shift, strain, spec, force=force)
-    books = [path for path in output or () if path.suffix.lower() == ".xlsx"]
-    compounds = [path for path in output or () if path not in books]
-    for path in output or ():
-        to.file("--output", path, *SPEC, ".xlsx", kind=None if path in books else output_marks.COMPOUND)
+    compounds = to.reports(output, *SPEC, kind=output_marks.COMPOUND)
     to.file("--plot", plot, *FIGURE)
     to.file("--write-shift", write_shift, ".csv")
-    paged = to.pages(html, pdf)
     said = dict(_document_field(words) for words in document or ())
     for path in export or ():
         to.file("--export", path, *EXPORT_ENDINGS)
@@ -213,8 +207,8 @@ def fit(
     if write_shift is not None:
         to.add("shift factors", write_shift, {write_shift: summary.shift_table(fitted).encode()})
     _add_exports(fitted.compound, export, to)
-    if books or paged or spec is not None:
-        lines += _verdict_lines((fitted, criteria), spec, said, books, paged, to)
+    if to.reported or spec is not None:
+        lines += _verdict_lines((fitted, criteria), spec, said, to)
     lines += to.save()
     lines += [
         f'use it by its path in specs and with --compound, or by the name "{path.stem}" with --shelf {path.parent}'
@@ -245,8 +239,6 @@ def _verdict_lines(
     judged: tuple[FittedCompound | TabulatedCompound, tuple[Criterion, ...]],
     spec: Path | None,
     said: Mapping[str, str],
-    books: Sequence[Path],
-    paged: Sequence[Path],
     to: Outputs,
 ) -> list[str]:
     """Add the page to sign and the workbook of a fit and its criteria; returns the lines of the verdict."""
@@ -257,13 +249,11 @@ def _verdict_lines(
 
     rubber, criteria = judged
     if isinstance(rubber, TabulatedCompound):
-        raise InputError("--html, --pdf, --spec, -o .xlsx: a Prony table has no measurement to judge")
+        raise InputError("-o .xlsx, .html, .pdf, --spec: a Prony table has no measurement to judge")
     if spec is not None:
         criteria = (*criteria, *coverage_criteria(rubber, load(spec)))
-    for path in books:
-        to.report(fit_tables.fit_contents(rubber, criteria, said), path)
-    if paged:
-        to.page(partial(fit_page.build_page, rubber, criteria, said), paged)
+    page = partial(fit_page.build_page, rubber, criteria, said)
+    to.write(fit_tables.fit_contents(rubber, criteria, said), page=page)
     return ["verdict", *(f"  {one.verdict:>11}  {one.line}" for one in criteria)]
 
 

@@ -6,12 +6,12 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from conveyor.cli.application import AsParquet, PdfPage, TablesFolder, argument, option
-from conveyor.cli.output_files import FIGURE, PAGE, SPEC, Outputs
+from conveyor.cli.application import AsParquet, TablesFolder, argument, option
+from conveyor.cli.output_files import PICTURE, SPEC
 from conveyor.cli.shared_options import Session, session_command
 
 if TYPE_CHECKING:
-    from conveyor.report.table_model import Contents
+    from conveyor.cli.output_files import Outputs
     from conveyor.sizing import CalculatedSizing
 
 _MOST_DESIGNS = 50
@@ -34,14 +34,13 @@ def size(
     output: Annotated[
         list[Path] | None,
         option(
-            "Write specs of the designs (.yaml, numbered by rank), .xlsx, .html, or what varies around the best "
-            "(.png, .svg, .pdf); may be repeated.",
+            "Write specs of the designs (.yaml, numbered by rank), the report (.xlsx, .html, .pdf), or a figure of "
+            "what varies around the best (.png, .svg); may be repeated.",
             "FILE",
             "-o",
             "--output",
         ),
     ] = None,
-    pdf: PdfPage = None,
     tables: TablesFolder = None,
     parquet: AsParquet = False,
 ) -> None:
@@ -51,12 +50,14 @@ def size(
     design shown is calculated exactly and passes its checks; a closed estimate chooses which are worth it.
     """
     shelves = session.shelf or ()
-    asked = [(path, path.suffix.lower()) for path in output or ()]
+    specs = [path for path in output or () if path.suffix.lower() in SPEC]
     to = session.outputs(duty)
-    for path, ending in asked:
-        for each in _ranked_paths(path, best) if ending in SPEC else [path]:
-            to.file("--output", each, ".xlsx", *PAGE, *FIGURE, *SPEC)
-    to.reports(tables=tables, parquet=parquet, pdf=pdf)
+    for path in specs:
+        for each in _ranked_paths(path, best):
+            to.file("--output", each, *SPEC)
+    pictures = to.reports(
+        [path for path in output or () if path not in specs], *PICTURE, *SPEC, tables=tables, parquet=parquet
+    )
     from conveyor import sizing
     from conveyor.report.tables.sizing_tables import sizing_contents, sizing_json
     from conveyor.studies.study_file import read_duty
@@ -64,12 +65,12 @@ def size(
     read = read_duty(duty, shelves=shelves)
     with session.progress("designs") as told:
         designs = sizing.size_conveyor(read, best=best, progress=told)
-    pictured = (
-        session.as_json or tables is not None or pdf is not None or any(ending not in SPEC for _, ending in asked)
-    )
-    contents = sizing_contents(designs, session.system(read), vary=pictured)
-    for path, ending in asked:
-        _write_output(designs, contents, path, ending, to, shelves)
+    varied = session.as_json or to.reported or bool(pictures)
+    contents = sizing_contents(designs, session.system(read), vary=varied)
+    for path in specs:
+        _write_specs(designs, path, to, shelves)
+    for path in pictures:
+        to.figure(next(drawing for drawing in contents.drawings if drawing.name == "around").draw(), path)
     to.write(contents)
     from conveyor.cli.terminal import show_sizing
 
@@ -81,19 +82,12 @@ def _ranked_paths(path: Path, best: int) -> list[Path]:
     return [path] if best == 1 else [path.with_stem(f"{path.stem}-{rank}") for rank in range(1, best + 1)]
 
 
-def _write_output(
-    sizing: CalculatedSizing, contents: Contents, path: Path, ending: str, to: Outputs, shelves: Iterable[str | Path]
-) -> None:
-    """Add the specs, report or figure of an output path, by its ending."""
+def _write_specs(sizing: CalculatedSizing, path: Path, to: Outputs, shelves: Iterable[str | Path]) -> None:
+    """Add the specs of the designs, numbered by rank where there are several."""
     from conveyor.spec import dump_given
 
-    if ending in SPEC:
-        names = _ranked_paths(path, len(sizing.designs) if len(sizing.designs) > 1 else 1)
-        for rank, (name, design) in enumerate(zip(names, sizing.designs, strict=True), start=1):
-            text = f"# Rank {rank} of conveyor size.\n{dump_given(design.conveyor, shelves=shelves)}"
-            to.add("spec", name, {name: text.encode()})
-    elif ending in FIGURE:
-        around = next(drawing for drawing in contents.drawings if drawing.name == "around")
-        to.figure(around.draw(), path)
-    else:
-        to.report(contents, path)
+    for rank, (name, design) in enumerate(
+        zip(_ranked_paths(path, len(sizing.designs)), sizing.designs, strict=True), start=1
+    ):
+        text = f"# Rank {rank} of conveyor size.\n{dump_given(design.conveyor, shelves=shelves)}"
+        to.add("spec", name, {name: text.encode()})

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Set
+from collections.abc import Callable, Sequence, Set
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated
 
-from conveyor.cli.application import PdfPage, WebPage, argument, option, print_lines
-from conveyor.cli.output_files import Outputs
+from conveyor.cli.application import argument, option, print_lines
+from conveyor.cli.output_files import REPORT, Outputs
 from conveyor.cli.shared_options import Session, session_command
 from conveyor.cli.worker_processes import Scheduler, Workers, open_executor, preload_workers
+from conveyor.errors import InputError
 from conveyor.files import output_marks
 from conveyor.text.printable import escape_controls
 
@@ -32,7 +33,7 @@ _REASONS_SHOWN = 3
     short_help="Calculate many variants of a spec.",
     examples_of=(
         "conveyor study spacing.yaml -o spacing.csv",
-        "conveyor study year.yaml -o points.csv --designs designs.csv --html year.html --specs best",
+        "conveyor study year.yaml -o points.csv -o year.html --designs designs.csv --specs best",
         "conveyor study spacing.yaml -o spacing.parquet --workers 8",
         "conveyor study year.yaml -o points --workers 8  # a folder of parts, while it runs",
         "conveyor study spacing.yaml -o spacing.csv --scheduler tcp://10.0.0.1:8786 --workers 64",
@@ -41,10 +42,11 @@ _REASONS_SHOWN = 3
 def study(
     session: Session,
     plan_file: Annotated[Path, argument("Study: .yaml or .json.", "STUDY", show_default=False)],
-    output: Annotated[
-        Path,
+    outputs: Annotated[
+        list[Path],
         option(
-            "Write the points (.csv, .parquet); into a folder part by part while they are calculated.",
+            "Write the points (.csv, .parquet; into a folder part by part while they are calculated), and the report "
+            "(.xlsx, .html, .pdf); may be repeated.",
             "FILE",
             "-o",
             "--output",
@@ -52,14 +54,12 @@ def study(
         ),
     ],
     designs: Annotated[Path | None, option("Write the designs (.csv, .parquet).", "FILE")] = None,
-    html: WebPage = None,
-    pdf: PdfPage = None,
     plots: Annotated[Path | None, option("Draw every figure into it (.png).", "FOLDER", "--plots")] = None,
     specs: Annotated[Path | None, option("Write the best ten designs into it as specs.", "FOLDER")] = None,
     workers: Workers = 1,
     scheduler: Scheduler = None,
 ) -> None:
-    """Calculate every point of a study; stopped or extended, it goes on from FILE.answers beside the table."""
+    """Calculate every point of a study; stopped or extended, it goes on from FILE.answers beside the points."""
     preload_workers(scheduler, workers)
     from conveyor import shelf as shelves
     from conveyor.report import point_tables
@@ -69,7 +69,7 @@ def study(
     from conveyor.studies.study_file import base_spec_path, name_plan_file, read_plan
 
     plan = read_plan(plan_file)
-    spec, answers = base_spec_path(plan, plan_file), output.with_name(f"{output.name}.answers")
+    spec, output = base_spec_path(plan, plan_file), _points_file(outputs)
     line = session.read(spec)
     system = session.system(line)
     with name_plan_file(plan_file):
@@ -80,12 +80,12 @@ def study(
     to.folder("--output", output if parted else None)
     _check_table_file(to, "--output", None if parted else output)
     _check_table_file(to, "--designs", designs)
-    to.reports(html=html, pdf=pdf)
-    to.folder("--plots", plots)
-    to.folder("--specs", specs)
+    to.reports(path for path in outputs if path is not output)
+    for option_name, folder in (("--plots", plots), ("--specs", specs)):
+        to.folder(option_name, folder)
     begun = perf_counter()
     with ExitStack() as stack:
-        known = stack.enter_context(running.ResultStore(answers))
+        known = stack.enter_context(running.ResultStore(output.with_name(f"{output.name}.answers")))
         before = len(known)
         told = stack.enter_context(session.progress())
         executor = stack.enter_context(open_executor(scheduler, workers))
@@ -123,6 +123,14 @@ def study(
         print_lines(f"table: {output}", *([] if designs is None else [f"designs: {designs}"]))
 
     session.answer(lambda: plain | design_tables.study_json(evaluated), to, show)
+
+
+def _points_file(outputs: Sequence[Path]) -> Path:
+    """File or folder of the points among the outputs; the others are reports."""
+    points = [path for path in outputs if path.suffix.lower() not in REPORT]
+    if len(points) != 1:
+        raise InputError(f"--output: got {len(points)} for the points, give one: .csv, .parquet or a folder")
+    return points[0]
 
 
 def _check_table_file(to: Outputs, option: str, path: Path | None) -> None:

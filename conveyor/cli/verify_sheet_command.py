@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from conveyor.cli.application import PdfPage, WebPage, Workbook, argument, option, parse_values, print_lines
+from conveyor.cli.application import Reports, argument, option, parse_values, print_lines
 from conveyor.cli.shared_options import Session, session_command
 from conveyor.errors import InputError
 
@@ -27,7 +27,7 @@ _AXIS_OPTIONS = {
     short_help="Write a sheet for a belt maker to fill in.",
     examples_of=(
         "conveyor verify-sheet standard-cover low-rolling-resistance-cover -o sheet.xlsx",
-        'conveyor verify-sheet mine.yaml --load "1:8:1 N/mm" --roll "194 mm" --html sheet.html',
+        'conveyor verify-sheet mine.yaml --load "1:8:1 N/mm" --roll "194 mm" -o sheet.html',
         "conveyor verify-sheet s100 --spec overland.yaml --temperature -10:30:10 -o sheet.xlsx",
     ),
 )
@@ -48,15 +48,13 @@ def verify_sheet(
         bool,
         option("Moduli at the strain of every roll, where known: half a second a figure.", None, "--softened"),
     ] = False,
-    output: Workbook = None,
-    html: WebPage = None,
-    pdf: PdfPage = None,
+    output: Reports = None,
 ) -> None:
     """Write the calculated rolling resistance of compounds beside empty columns for a maker's tests."""
     to = session.outputs(spec, *compounds)
-    to.reports(output, html, pdf=pdf)
-    if output is None and html is None and pdf is None and not session.as_json:
-        raise InputError("verify-sheet: give -o SHEET.xlsx, --html SHEET.html, --pdf SHEET.pdf or --json")
+    to.reports(output)
+    if not output and not session.as_json:
+        raise InputError("verify-sheet: give -o SHEET.xlsx, -o SHEET.html, -o SHEET.pdf or --json")
     import conveyor
 
     if spec is None and session.changed:

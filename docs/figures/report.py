@@ -57,13 +57,13 @@ def main() -> None:
         folder = Path(made)
         book, page, compared = folder / "a.xlsx", folder / "a.html", folder / "c.xlsx"
         sheets = folder / "sheets.pdf"
-        run("conveyor", "power", SPECS / "overland_10km.yaml", "-o", book, "--html", page, "--pdf", sheets)
+        run("conveyor", "power", SPECS / "overland_10km.yaml", "-o", book, "-o", page, "-o", sheets)
         run("conveyor", "compare", SPECS / "overland.yaml", *covers, "--temperature=-20:40:20", "-o", compared)
         laboratory = [SPECS.parent / "laboratory" / name for name in ("isotherms.csv", "relaxation.txt", "ramp.csv")]
         stated = ("--document", "number=2026-17", "--document", "by=A. Tester")
         fit = folder / "acme-7.pdf"
         run("conveyor", "fit", *laboratory, "--at", "20 degC", "--name", "acme-7", *stated,
-            "--spec", SPECS / "overland.yaml", "--pdf", fit)  # fmt: skip
+            "--spec", SPECS / "overland.yaml", "-o", fit)  # fmt: skip
         of_pdf(fit, "fit")
         of_workbook(book, "workbook")
         of_pdf(sheets, "pdf")

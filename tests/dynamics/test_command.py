@@ -324,7 +324,7 @@ def test_a_lost_worker_is_told():
 def test_power_reports_the_scenarios_of_a_spec(spec, tmp_path):
     """Sheet, part of the page, checks beside the others, plain figures; without scenarios nothing of it."""
     to = [tmp_path / name for name in ("power.xlsx", "power.html")]
-    code, out, err = run("power", spec, "-o", str(to[0]), "--html", str(to[1]), "--json")
+    code, out, err = run("power", spec, "-o", str(to[0]), "-o", str(to[1]), "--json")
     assert (code, err) == (0, "")
     told = json.loads(out)
     schema = result_schema()

@@ -315,8 +315,6 @@ def test_slip_under_the_gate_takes_flow(feeder):
 
 @pytest.mark.parametrize("units", ["SI", "US"])
 def test_report(units, tmp_path):
-    done = run(
-        "power", SPEC, "--set", f"report.units={units}", "-o", tmp_path / "a.xlsx", "--html", tmp_path / "a.html"
-    )
+    done = run("power", SPEC, "--set", f"report.units={units}", "-o", tmp_path / "a.xlsx", "-o", tmp_path / "a.html")
     assert "belt speed under a hopper" in done.stdout
     assert "Hoppers over the belt" in (tmp_path / "a.html").read_text(encoding="utf-8")

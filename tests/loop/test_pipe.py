@@ -110,7 +110,7 @@ def test_six_rolls_without_a_pipe_are_refused(spec):
 
 
 def test_the_command_reports_it(tmp_path):
-    code, out, err = run("power", str(SPEC), "--html", str(tmp_path / "pipe.html"))
+    code, out, err = run("power", str(SPEC), "-o", str(tmp_path / "pipe.html"))
     assert code == 0, err
     assert "FAIL" not in out
     assert "idlers.carry.pipe.filling" in out

@@ -155,7 +155,7 @@ def test_a_flat_return_strand_drifts_as_any_flat_belt():
 def test_the_command_reports_the_curves(tmp_path):
     spec = tmp_path / "bend.yaml"
     spec.write_text(dump(with_section(BEND | {"horizontal_curve": "left"})), encoding="utf-8")
-    code, out, err = run("power", str(spec), "--html", str(tmp_path / "bend.html"))
+    code, out, err = run("power", str(spec), "-o", str(tmp_path / "bend.html"))
     assert code == 0, err
     assert "horizontal curve of the pipe, bend, carry" in " ".join(out.split())
     assert "Curves of the pipe, all cases" in (tmp_path / "bend.html").read_text(encoding="utf-8")

@@ -255,16 +255,17 @@ def test_results_write_it(report, tmp_path):
 @pytest.mark.parametrize(
     "asked",
     [
-        ("power", SPECS / "shuttle.yaml", "--html", "a.html"),
-        ("compare", SPECS / "in_plant_us.yaml", "-c", "standard-cover", "-c", "s100", "--html", "a.html"),
-        ("verify-sheet", "standard-cover", "--load", "1:3:1 N/mm", "--roll", "159 mm", "--html", "a.html"),
-        ("fit", EXAMPLES / "laboratory" / "isotherms.csv", "--at", "20 degC", "--html", "a.html"),
+        ("power", SPECS / "shuttle.yaml", "-o", "a.html"),
+        ("compare", SPECS / "in_plant_us.yaml", "-c", "standard-cover", "-c", "s100", "-o", "a.html"),
+        ("verify-sheet", "standard-cover", "--load", "1:3:1 N/mm", "--roll", "159 mm", "-o", "a.html"),
+        ("fit", EXAMPLES / "laboratory" / "isotherms.csv", "--at", "20 degC", "-o", "a.html"),
         ("dynamics", SPECS / "in_plant_us.yaml", "-s", "start empty", "--error", "0.2", "-o", "a.html"),
         ("size", EXAMPLES / "duties" / "in_plant.yaml", "-n", "1", "-o", "a.html"),
+        ("calibrate", SPECS / "overland.yaml", "--measured", EXAMPLES / "measured" / "overland.csv", "-o", "a.html"),
     ],
 )
 def test_commands_write_the_page_they_write_as_html(asked, tmp_path):
-    done = run(*asked, "--pdf", "a.pdf", "--force", cwd=tmp_path)
+    done = run(*asked, "-o", "a.pdf", "--force", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     assert "PDF: a.pdf" in done.stdout
     words = Counter(map(bare, Printed((tmp_path / "a.html").read_text(encoding="utf-8")).words))
@@ -275,13 +276,12 @@ def test_commands_write_the_page_they_write_as_html(asked, tmp_path):
 @pytest.mark.parametrize(
     ("name", "message"),
     [
-        ("a.html", r'--pdf: a.html: its name ends in .pdf, got ".html"'),
         ("none/a.pdf", "its folder does not exist"),
         ("foreign.pdf", "exists and is no report page that conveyor wrote"),
     ],
 )
-def test_the_option_is_refused_before_anything_is_calculated(name, message, tmp_path):
+def test_a_pdf_is_refused_before_anything_is_calculated(name, message, tmp_path):
     (tmp_path / "foreign.pdf").write_bytes(b"%PDF-1.7\n")
-    done = run("power", tmp_path / "not-even-there.yaml", "--pdf", name, cwd=tmp_path)
+    done = run("power", tmp_path / "not-even-there.yaml", "-o", name, cwd=tmp_path)
     assert done.returncode == 2
     assert message in done.stderr

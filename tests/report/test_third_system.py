@@ -54,7 +54,7 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
     """What the terminal shows, and the folder of page and tables."""
     folder = tmp_path_factory.mktemp("km")
     (folder / "tables").mkdir()
-    asked = ["power", str(SPECS / "overland.yaml"), "--units", "km", "--html", str(folder / "page.html")]
+    asked = ["power", str(SPECS / "overland.yaml"), "--units", "km", "-o", str(folder / "page.html")]
     command = [sys.executable, "-c", PROGRAM, ROW, *asked, "--tables", str(folder / "tables")]
     done = subprocess.run(command, capture_output=True, encoding="utf-8", check=False)
     assert done.returncode == 0, done.stderr

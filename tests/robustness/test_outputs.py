@@ -87,7 +87,7 @@ def test_all_outputs_of_a_command_or_none(tmp_path: Path) -> None:
 
         patched.setattr(Path, "write_bytes", half)
 
-    asked = ("power", "spec.yaml", "-o", "r.xlsx", "--tables", "t", "--html", "r.html")
+    asked = ("power", "spec.yaml", "-o", "r.xlsx", "--tables", "t", "-o", "r.html")
     found = run(Case("output", "half", given(*asked), "", spoil=spoil), tmp_path)
     assert (found.code, found.out) == (2, "")
     assert "r.html: cannot be written (No space left on device)" in found.err
@@ -136,7 +136,7 @@ def test_control_characters_of_names_reach_no_output(tmp_path: Path) -> None:
     line["report"] = {"project": ESC, "client": ESC}
     line["cases"] = [{"name": ESC}]
     text = json.dumps(line)
-    asked = ("power", "spec.json", "-o", "r.xlsx", "--tables", "t", "--html", "r.html", "--plots", "p")
+    asked = ("power", "spec.json", "-o", "r.xlsx", "--tables", "t", "-o", "r.html", "--plots", "p")
 
     def arrange(folder: Path) -> tuple[str, ...]:
         (folder / "spec.json").write_text(text, encoding="utf-8")

@@ -43,7 +43,7 @@ def printed(tmp_path: Path) -> Path:
 
 
 def test_a_printed_design_fails_its_filling_with_what_it_takes_and_holds(printed: Path) -> None:
-    done = run("power", printed, "--json", "-o", "a.xlsx", "--html", "a.html", cwd=printed.parent)
+    done = run("power", printed, "--json", "-o", "a.xlsx", "-o", "a.html", cwd=printed.parent)
     assert done.returncode == 0, done.stderr
     result = json.loads(done.stdout)
     (filling,) = (check for check in result["checks"] if check["key"] == "filling" and check["governs"])

@@ -44,7 +44,7 @@ def numbers(data: object) -> Iterator[float]:
 
 
 def test_a_drive_left_out_is_answered_with_failing_checks_in_every_output(one_drive: Path, tmp_path: Path) -> None:
-    outputs = ("-o", "a.xlsx", "--html", "a.html", "--tables", ".")
+    outputs = ("-o", "a.xlsx", "-o", "a.html", "--tables", ".")
     done = run("power", one_drive, "--json", *outputs, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     result = json.loads(done.stdout)

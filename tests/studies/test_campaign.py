@@ -461,7 +461,7 @@ def test_a_study_without_any_answer_says_why_and_draws_nothing(tmp_path):
     file, page = tmp_path / "study.json", tmp_path / "page.html"
     plan = PLAN | {"base": str(SPECS / "shuttle.yaml"), "axes": {"belt.speed": ["0.001 m/s", "0.002 m/s"]}}
     file.write_text(json.dumps(plan), encoding="utf-8")
-    done = command("study", file, "-o", tmp_path / "t.csv", "--html", page, "--plots", tmp_path / "figures")
+    done = command("study", file, "-o", tmp_path / "t.csv", "-o", page, "--plots", tmp_path / "figures")
     assert done.returncode == 0, done.stderr
     assert "2 without an answer" in done.stdout
     assert "raise belt.speed" in page.read_text(encoding="utf-8")

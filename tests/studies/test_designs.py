@@ -305,7 +305,7 @@ def test_the_command_writes_page_figures_designs_and_specs_that_power_reads(tmp_
         "together": [{"idlers.carry.spacing": "1 m", "idlers.return.spacing": "2 m"}],
     }
     file.write_text(json.dumps(plan | {"best": {"motor_power highest": "least"}}), encoding="utf-8")
-    outputs = ("--designs", "d.csv", "--html", "p.html", "--plots", "plots", "--specs", "best")
+    outputs = ("--designs", "d.csv", "-o", "p.html", "--plots", "plots", "--specs", "best")
     given = [str(tmp_path / one) if "." in one or one in {"plots", "best"} else one for one in outputs]
     done = command("study", file, "-o", tmp_path / "t.csv", *given)
     assert done.returncode == 0, done.stderr
