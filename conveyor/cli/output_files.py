@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from conveyor.errors import InputError
 from conveyor.files import atomic_write, output_marks
@@ -50,7 +50,7 @@ class Outputs:
         self._contents: dict[Path, bytes] = {}
         self._said: list[str] = []
         self._reports: list[Path] = []
-        self._tables: tuple[Path, str] | None = None
+        self._tables: tuple[Path, Literal["csv", "parquet"]] | None = None
 
     def file(self, option: str, path: Path | None, *endings: str, kind: str | None = None) -> None:
         """Register an output file; refuse one that cannot be written, has another ending, or replaces another kind."""
