@@ -259,19 +259,18 @@ def test_compare_prints_one_json_object() -> None:
 
 
 def test_compare_writes_what_it_is_asked_for(tmp_path: Path) -> None:
-    book, table, figure = tmp_path / "c.xlsx", tmp_path / "c.csv", tmp_path / "c.png"
-    tangents = tmp_path / "tan.svg"
+    book, tables, figures = tmp_path / "c.xlsx", tmp_path / "tables", tmp_path / "figures"
     done = run(
         "compare", OVERLAND, "-c", "s100", "-c", "s120", "--temperature", "-25,20 degC", "-o", book,
-        "--csv", table, "--plot", figure, "--tan-delta", tangents, "--workers", 2,
+        "--tables", tables, "--plots", figures, "--plot-kind", "svg", "--workers", 2,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert "S100" in done.stdout
     assert "basis and limitations" in done.stdout
     assert book.stat().st_size > 10_000
-    assert figure.read_bytes().startswith(b"\x89PNG")
-    assert tangents.stat().st_size > 10_000
-    assert len(table.read_text(encoding="utf-8").splitlines()) == 1 + 2 * 2
+    assert {path.name for path in figures.iterdir()} == {"differences.svg", "power-temperature.svg", "tangents.svg"}
+    assert all(path.stat().st_size > 10_000 for path in figures.iterdir())
+    assert len((tables / "scenes.csv").read_text(encoding="utf-8").splitlines()) == 1 + 2 * 2
 
 
 @pytest.mark.parametrize(
@@ -288,7 +287,7 @@ def test_compare_writes_what_it_is_asked_for(tmp_path: Path) -> None:
         (("--extra-cost", "standard-cover=nan"), 2, "expected NAME=AMOUNT"),
         (("--base", "s100"), 2, '"s100" is none of the compounds compared: standard-cover'),
         (("--temperature", "-90"), 1, "no scene has an answer"),
-        (("--plot", "x.xyz"), 2, "ends in .png, .svg or .pdf"),
+        (("--plots", "pyproject.toml"), 2, "pyproject.toml: is a file; give the name of a folder"),
     ],
 )
 def test_compare_refuses(options: tuple[str, ...], code: int, message: str) -> None:

@@ -110,23 +110,13 @@ def test_nothing_is_wider_than_the_terminal(command, columns, busy):
 
 def test_comparison_writes_a_page_and_figures(tmp_path):
     options = ("-c", "standard-cover", "-c", "low-rolling-resistance-cover", "--temperature", "32:68:18 degF")
-    files = (
-        "-o",
-        "c.html",
-        "--csv",
-        "c.csv",
-        "--tables",
-        "t",
-        "--plot",
-        "t.svg",
-        "--speed-plot",
-        "v.svg",
-    )
+    files = ("-o", "c.html", "--tables", "t", "--plots", "p")
     spec = SPECS / "in_plant_us.yaml"
     shown = run("compare", spec, *options, *files, "--speed", "550,600 fpm", "--units", "us", cwd=tmp_path).stdout
-    assert {path.name for path in tmp_path.iterdir()} == {"c.html", "c.csv", "t", "t.svg", "v.svg"}
+    assert {path.name for path in tmp_path.iterdir()} == {"c.html", "t", "p"}
+    assert (tmp_path / "p" / "power-speed.png").read_bytes().startswith(b"\x89PNG")
     assert f"tables: {len(list((tmp_path / 't').iterdir()))} in t" in shown
-    head, first, *_ = (tmp_path / "c.csv").read_text(encoding="utf-8").splitlines()
+    head, first, *_ = (tmp_path / "t" / "scenes.csv").read_text(encoding="utf-8").splitlines()
     assert "temperature [degF]" in head
     assert "32.0" in first
     assert "[hp]" in shown

@@ -23,9 +23,7 @@ ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), ROOT / "materials" / "README.md"]
 REFUSED = "S100_strain_sweep.txt"  # the page shows what a doubtful file ends in
 OTHER_PROGRAMS = ("make ", "py -m venv ", ".venv\\Scripts\\python -m pip ")
-WRITTEN = re.compile(
-    r"(?:-o|--html|--pdf|--plot|--tan-delta|--csv|--tables|--plots|--from|conveyor new|template) (\S+\.\w+|\S+)"
-)
+WRITTEN = re.compile(r"(?:-o|--plot|--tables|--plots|--from|conveyor new|template) (\S+\.\w+|\S+)")
 # forces hold to the contact's rtol of 1e-6; a printed digit may round either way
 RELATIVE = 2e-6
 

@@ -123,6 +123,8 @@ Reports = Annotated[
     ),
 ]
 TablesFolder = Annotated[Path | None, option("Folder for the tables, one file each.", "FOLDER", "--tables")]
+PlotsFolder = Annotated[Path | None, option("Draw every figure into it.", "FOLDER", "--plots")]
+PlotKind = Annotated[ImageKind, option("Format of the figures.", None, "--plot-kind")]
 AsParquet = Annotated[bool, option("Tables as Parquet files; without it as CSV.", None, "--parquet")]
 Shelves = Annotated[
     list[Path] | None, option("Additional folder of compound files; may be repeated.", "FOLDER", "--shelf")

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Annotated
 
 from conveyor.cli.application import (
     AsParquet,
+    ImageKind,
+    PlotKind,
+    PlotsFolder,
     Reports,
     Spec,
     TablesFolder,
@@ -18,7 +20,6 @@ from conveyor.cli.application import (
     parse_values,
     si_of,
 )
-from conveyor.cli.output_files import FIGURE
 from conveyor.cli.shared_options import Session, session_command
 from conveyor.cli.worker_processes import open_executor, preload_workers
 from conveyor.errors import InputError, NoSolutionError
@@ -81,23 +82,14 @@ def compare(
     output: Reports = None,
     tables: TablesFolder = None,
     parquet: AsParquet = False,
-    csv: Annotated[Path | None, option("Write every scene to this file (.csv).", "FILE")] = None,
-    plot: Annotated[Path | None, option("Draw power over temperature to this file (.png, .svg, .pdf).", "FILE")] = None,
-    speed_plot: Annotated[
-        Path | None, option("Draw power over belt speed to this file.", "FILE", "--speed-plot")
-    ] = None,
-    tan_delta: Annotated[
-        Path | None, option("Draw the loss tangents and the band the rolls excite to this file.", "FILE")
-    ] = None,
+    plots: PlotsFolder = None,
+    plot_kind: PlotKind = ImageKind.PNG,
     workers: Annotated[int, option("Processes.", "N", min=1, max=1024)] = 1,
 ) -> None:
     """Compare rubber compounds on a conveyor: power, energy, cost and payback over temperature and speed."""
     preload_workers(None, workers)
     to = session.outputs(spec, *compounds)
-    to.reports(output, tables=tables, parquet=parquet)
-    to.file("--csv", csv, ".csv")
-    for name, path in (("--plot", plot), ("--speed-plot", speed_plot), ("--tan-delta", tan_delta)):
-        to.file(name, path, *FIGURE)
+    to.reports(output, tables=tables, parquet=parquet, plots=plots, plot_kind=plot_kind)
     from conveyor.results.comparisons import compare_compounds
 
     line = session.read(spec)
@@ -120,18 +112,10 @@ def compare(
     if not comparison.scenes:
         reasons = "; ".join(dict.fromkeys(refusal.reason for refusal in comparison.refused))
         raise NoSolutionError(f"no scene has an answer: {reasons}")
-    from conveyor.report import table_files
     from conveyor.report.tables import comparison_tables
 
-    contents, draw = comparison_tables.comparison_contents(comparison, system), comparison.plots
+    contents = comparison_tables.comparison_contents(comparison, system)
     to.write(contents)
-    if csv is not None:
-        to.add("table", csv, {csv: table_files.csv_bytes(contents["scenes"].frame(contents.system))})
-    for path, figure in (
-        (plot, draw.power_against_temperature), (speed_plot, draw.power_against_speed), (tan_delta, draw.loss_tangents)
-    ):  # fmt: skip
-        if path is not None:
-            to.figure(figure(system=system), path)
     from conveyor.cli.terminal import show_comparison
 
     session.answer(lambda: comparison_tables.comparison_json(comparison), to, lambda: show_comparison(contents))

@@ -50,6 +50,7 @@ class Outputs:
         self._contents: dict[Path, bytes] = {}
         self._said: list[str] = []
         self._reports: list[Path] = []
+        self._plots: tuple[Path, str] | None = None
         self._tables: tuple[Path, Literal["csv", "parquet"]] | None = None
 
     def file(self, option: str, path: Path | None, *endings: str, kind: str | None = None) -> None:
@@ -98,6 +99,8 @@ class Outputs:
         *others: str,
         tables: Path | None = None,
         parquet: bool = False,
+        plots: Path | None = None,
+        plot_kind: str = "png",
         kind: str | None = None,
     ) -> list[Path]:
         """Register the files of a report, which `write` makes, and return those of other endings, of the same kind."""
@@ -115,6 +118,8 @@ class Outputs:
 
                 require_typst()
         self._register_tables(tables, parquet=parquet)
+        self.folder("--plots", plots)
+        self._plots = None if plots is None else (plots, plot_kind)
         return rest
 
     @property
@@ -138,6 +143,8 @@ class Outputs:
 
             folder, kind = self._tables
             self.add("tables", folder, table_files.encode_tables(contents, folder, kind))
+        if self._plots is not None:
+            self.figures({drawing.name: drawing.draw() for drawing in contents.drawings}, *self._plots)
 
     def _write_report(self, contents: Contents, page: Callable[..., Html], path: Path) -> None:
         """Make the workbook, page or PDF of a report, by file ending."""

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated
-
 from conveyor.cli.application import (
     AsParquet,
     ImageKind,
+    PlotKind,
+    PlotsFolder,
     Reports,
     Spec,
     TablesFolder,
-    option,
 )
 from conveyor.cli.shared_options import Session, session_command
 
@@ -33,8 +31,8 @@ def power(
     output: Reports = None,
     tables: TablesFolder = None,
     parquet: AsParquet = False,
-    plots: Annotated[Path | None, option("Draw every figure into it.", "FOLDER", "--plots")] = None,
-    plot_kind: Annotated[ImageKind, option("Format of the figures.", None, "--plot-kind")] = ImageKind.PNG,
+    plots: PlotsFolder = None,
+    plot_kind: PlotKind = ImageKind.PNG,
 ) -> None:
     """Power, forces and tensions of a conveyor, with the load cases, the year and the ranges its spec has."""
     to = session.outputs(spec)

@@ -10,7 +10,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated
 
-from conveyor.cli.application import argument, option, print_lines
+from conveyor.cli.application import ImageKind, PlotKind, PlotsFolder, argument, option, print_lines
 from conveyor.cli.output_files import REPORT, Outputs
 from conveyor.cli.shared_options import Session, session_command
 from conveyor.cli.worker_processes import Scheduler, Workers, open_executor, preload_workers
@@ -54,7 +54,8 @@ def study(
         ),
     ],
     designs: Annotated[Path | None, option("Write the designs (.csv, .parquet).", "FILE")] = None,
-    plots: Annotated[Path | None, option("Draw every figure into it (.png).", "FOLDER", "--plots")] = None,
+    plots: PlotsFolder = None,
+    plot_kind: PlotKind = ImageKind.PNG,
     specs: Annotated[Path | None, option("Write the best ten designs into it as specs.", "FOLDER")] = None,
     workers: Workers = 1,
     scheduler: Scheduler = None,
@@ -80,9 +81,8 @@ def study(
     to.folder("--output", output if parted else None)
     _check_table_file(to, "--output", None if parted else output)
     _check_table_file(to, "--designs", designs)
-    to.reports(path for path in outputs if path is not output)
-    for option_name, folder in (("--plots", plots), ("--specs", specs)):
-        to.folder(option_name, folder)
+    to.reports((path for path in outputs if path is not output), plots=plots, plot_kind=plot_kind)
+    to.folder("--specs", specs)
     begun = perf_counter()
     with ExitStack() as stack:
         known = stack.enter_context(running.ResultStore(output.with_name(f"{output.name}.answers")))
@@ -111,7 +111,7 @@ def study(
         evaluated = summarise_study(campaign, running.design_results(campaign, known))
         if designs is not None:
             designed.write(designs, point_tables.design_rows(evaluated, running.design_results(campaign, known)))
-    contents = _write_study_files(to, campaign, evaluated, system, plots=plots, specs=specs)
+    contents = _write_study_files(to, campaign, evaluated, system, specs=specs)
     plain = {"points": count, "calculated": new, "without_an_answer": reasons.total(), "table": str(output)}
 
     def show() -> None:
@@ -145,7 +145,6 @@ def _write_study_files(
     study: StudySummary,
     system: System,
     *,
-    plots: Path | None,
     specs: Path | None,
 ) -> Contents:
     """Make the page, figures and design specs; return the contents of the report."""
@@ -153,8 +152,6 @@ def _write_study_files(
 
     contents = study_contents(study, system)
     to.write(contents)
-    if plots is not None:
-        to.figures({drawing.name: drawing.draw() for drawing in contents.drawings}, plots)
     if specs is not None:
         ranked = enumerate(study.best, start=1)
         made = {specs / f"{rank:02}_design_{one.number}.yaml": one for rank, one in ranked}

@@ -321,7 +321,7 @@ def commands() -> Iterator[Case]:
         *(("compare", "spec.yaml", "-c", "s100", "--speed", v) for v in ("-5", "0", "nan", "1:2", "5:1:1", "1:2:0", "1e300", "5e-324", "a,b", "1:1e9:1e-9", "30")),
         *(("compare", "spec.yaml", "-c", "s100", "--temperature", v) for v in ("nan", "-400", "1e300", "x", "1:2:-1", "")),
         *(("compare", "spec.yaml", "-c", "s100", "--extra-cost", v) for v in ("s100", "s100=", "=5", "s100=nan", "s100=1e999", "other=5")),
-        *(("compare", "spec.yaml", "-c", "s100", option, "x") for option in ("--cover", "--base", "--units", "--csv", "--plot")),
+        *(("compare", "spec.yaml", "-c", "s100", option, "x") for option in ("--cover", "--base", "--units", "-o", "--plot-kind")),
         *((*fit, "--terms-per-decade", v) for v in ("1e9", "-1", "0", "nan", "1e-9", "1e300", "x")),
         *((*fit, "--poisson", v) for v in ("-1", "1", "nan", "5")), *((*fit, "--by", v) for v in ("x", "")),
         *(("fit", "data.csv", "--at", v) for v in ("x", "-400 degC", "1e300 degC", "20", "nan degC", "")),
