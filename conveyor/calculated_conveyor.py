@@ -220,8 +220,8 @@ class CalculatedConveyor:
         return set_duty(self.balance)
 
     @cached_property
-    def hopper_states(self) -> dict[str, HopperState]:
-        """States of the hoppers over a belt feeder by name; none without a hopper that has bulk in it."""
+    def hopper_states(self) -> tuple[HopperState, ...]:
+        """States of the hoppers over a belt feeder; none without a hopper that has bulk in it."""
         return hopper_states(self.balance, self.motions)
 
     @cached_property

@@ -10,7 +10,6 @@ from conveyor.laws.belt_strength import CLASSIC_SAFETY, RATED_START, belt_safety
 from conveyor.laws.feeder import FEEDER_SPEED
 from conveyor.laws.tension import grip_tension
 from conveyor.loop.equilibrium import tension_suffices
-from conveyor.loop.hopper_states import FILLED
 from conveyor.loop.tensions import MotionState
 from conveyor.units.sentences import escape_braces, message
 
@@ -33,7 +32,8 @@ def belt_feeder(result: CalculatedConveyor) -> Iterator[Check]:
             why="the belt runs at {calculated} under the hopper, feeders at {required} or less: bulk slips on it, the "
             "hopper empties from one end and the belt wears; lower belt.speed and raise the gate",
         )  # fmt: skip
-        yield from _filled_checks(result, result.hopper_states[FILLED].motion)
+    if (filled := result.balance.settled.filled) is not None:
+        yield from _filled_checks(result, filled)
 
 
 def _filled_checks(result: CalculatedConveyor, filled: MotionState) -> Iterator[Check]:

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from conveyor.classical_forces import initial_pull
 from conveyor.force_sums import Force
 from conveyor.forces import PulleyResistance, point_forces, pulley_resistances
 from conveyor.laws.power import belt_power, motor_power
@@ -84,6 +85,8 @@ class LoopConstants:
     ----------
     met : ndarray, shape (3, count)
         Forces at single places without and with friction [N], and masses of the runs [kg].
+    filling : ndarray, shape (count,)
+        What more the belt pulls at a start after its hoppers were filled, at the computed friction [N].
     mass : ndarray, shape (2n + 1,)
         Running sum of the moving masses [kg].
     least, centrifugal, lengths : ndarray, shape (2n,)
@@ -101,6 +104,7 @@ class LoopConstants:
     """
 
     met: Array
+    filling: Array
     mass: Array
     least: Array
     centrifugal: Array
@@ -287,10 +291,15 @@ def _loop_constants(frame: LoopLayout) -> LoopConstants:
     for force in frame.points:
         if force.spot is not None:
             met[0 if force.certain else 1, plan.spots[frame.at[force.spot]]] += force.total
+    filling = np.zeros(plan.count)
+    for point in line.loading:
+        if point.loaded_hopper is not None:
+            filling[plan.spots[frame.at[point.spot]]] += initial_pull(line, point)
     mass = np.concatenate([[0.0], np.cumsum(shape.mass)])
     met[2, plan.runs] = np.diff(mass[plan.boundaries])
     return LoopConstants(
         met=met,
+        filling=filling,
         mass=mass,
         least=shape.least,
         centrifugal=line.speed**2 * np.array([stretch.line_mass for stretch in shape.stretches]),

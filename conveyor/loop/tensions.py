@@ -168,7 +168,9 @@ class LoopBatch:
         begun = self.along[..., self.plan.boundaries[:-1]] * self._shares[:, None]
         return np.asarray((mean - begun.sum(axis=-1))[..., None])
 
-    def moving(self, friction: Array, acceleration: Array, forces: Array, bends: Array) -> MotionOffsets:
+    def moving(
+        self, friction: Array, acceleration: Array, forces: Array, bends: Array, filled: Array | None = None
+    ) -> MotionOffsets:
         """Tension offsets of states with given drive forces, which balance resistances and inertia.
 
         Parameters
@@ -179,9 +181,13 @@ class LoopBatch:
             Forces of the drives [N].
         bends : ndarray, shape (b, pulleys)
             Resistances of the pulleys [N].
+        filled : ndarray, shape (m,), optional
+            1 for states in which the belt breaks away under filled hoppers, else 0 [-].
         """
         plan = self.plan
         steps = _totals_in_state(self.met, friction, acceleration)
+        if filled is not None:
+            steps += (friction * filled)[..., None] * self.standing.filling[:, None]
         steps[..., plan.bends] = friction[..., None] * bends[:, None]
         steps[..., plan.drives] = -forces
         offsets = np.zeros((*friction.shape, plan.count + 1))
@@ -225,11 +231,11 @@ class MotionOffsets:
         """Offsets before and behind every drive [N], shape (b, m, d, 2)."""
         return self.offsets[..., self.loops.plan.driven]
 
-    def asked(self, sagging: Array) -> Array:
-        """Settings needed for grip of every drive and sag of every run at constant speed [N], (b, m, d + runs)."""
+    def asked(self, sagging: Array, running: NDArray[np.bool_]) -> Array:
+        """Settings needed for grip of every drive, and in running states for sag of every run [N], (b, m, d + runs)."""
         begun = self.offsets[..., self.loops.plan.runs]
         grip = np.abs(self.forces) * self.loops.standing.grip[:, None] - self.sides.min(axis=-1)
-        sag = np.where(self.acceleration[..., None] == 0.0, sagging - begun, -np.inf)
+        sag = np.where(running[..., None], sagging - begun, -np.inf)
         return np.concatenate([grip, sag], axis=-1) + self.anchor[..., None]
 
     @cached_property

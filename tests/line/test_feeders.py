@@ -57,7 +57,7 @@ def test_start_after_filling_breaks_the_initial_load_away(feeder):
 def test_a_filled_hopper_takes_half_its_pull_off_the_slack_side_of_a_screw_take_up(feeder):
     """Hopper at the tail, drive at the head: a loop of fixed length gains on the carry strand what the return loses."""
     found = conveyor.analyse(with_hopper(feeder, flow_factor=0.5, initial_factor=2.0)).hopper_states
-    filled, flow, run_out = found.values()
+    filled, flow, run_out = found
     load = 850.0 * si(feeder.calculation.gravity) * 4.0 * 0.6**2
     pull = flow.balance.line.design_friction * (math.sin(math.radians(50.0)) + 0.3) * load
     bends = [sum(one.balance.settled.bends) for one in (filled, flow, run_out)]
@@ -73,7 +73,7 @@ def test_a_filled_hopper_takes_half_its_pull_off_the_slack_side_of_a_screw_take_
 def test_a_weight_keeps_the_slack_side(feeder):
     take_up = {"kind": "gravity", "position": "head", "tension": "60 kN"}
     found = conveyor.analyse(feeder.replace(route=feeder.route.replace(take_up=take_up))).hopper_states
-    slack = [state.motion.drives[0].slack for state in found.values()]
+    slack = [state.motion.drives[0].slack for state in found]
     assert slack == pytest.approx([slack[0]] * 3, rel=1e-9)
 
 
@@ -84,7 +84,7 @@ def test_the_slack_side_needed_under_the_filled_hopper(feeder):
     )
     result = conveyor.analyse(loose)
     grip = checks(result)["feeder_grip"]
-    filled = result.hopper_states["filled, after standing"].motion
+    filled = result.hopper_states[0].motion
     assert grip.failed
     assert grip.required == pytest.approx(filled.force / math.expm1(0.35 * math.radians(210.0)), rel=1e-12)
     needed = 60e3 + grip.required - grip.calculated
@@ -98,6 +98,35 @@ def test_the_slack_side_needed_under_the_filled_hopper(feeder):
     assert safety.calculated == pytest.approx(800e3 * 1.2 / filled.largest, rel=1e-12)
 
 
+@pytest.mark.parametrize("kind", [{"kind": "screw", "position": "tail"}, {"kind": "gravity", "position": "head"}])
+def test_the_take_up_suits_the_start_under_the_filled_hopper(feeder, kind):
+    """Without a setting the least is found with which no drive slips, and asked for by name where one is given.
+
+    Filled, the drive pulls 1.5 loads more than in flow; a weight leaves the slack side, a screw takes half of it off.
+    """
+    half_and_two = with_hopper(feeder, flow_factor=0.5, initial_factor=2.0)
+    found = conveyor.analyse(half_and_two.replace(route=half_and_two.route.replace(take_up=kind)))
+    grip = checks(found)["feeder_grip"]
+    assert not grip.failed
+    assert grip.calculated == pytest.approx(grip.required, rel=1e-9)
+    setting = found.balance.settled.setting
+    asked = found.balance.settled.conditions["grip, drive, hopper filled"]
+    assert found.balance.settled.governing == "grip, drive, hopper filled"
+    assert setting == pytest.approx(asked, rel=1e-12)
+    slack = found.hopper_states[1].motion.drives[0].slack
+    load = 850.0 * si(feeder.calculation.gravity) * 4.0 * 0.6**2
+    more = found.line.design_friction * (math.sin(math.radians(50.0)) + 0.3) * 1.5 * load
+    taken = 0.5 * more if kind["kind"] == "screw" else 0.0
+    assert slack - grip.calculated == pytest.approx(taken, rel=0.02, abs=1.0)
+    for share, fails in ((1.0, False), (0.9, True)):
+        given = {**kind, "tension": f"{share * asked!r} N"}
+        again = conveyor.analyse(half_and_two.replace(route=half_and_two.route.replace(take_up=given)))
+        taken_up = next(one for one in again.checks if one.key == "take_up_tension")
+        assert taken_up.failed is checks(again)["feeder_grip"].failed is fails
+        assert "hopper filled" in str(taken_up.where)
+        assert taken_up.required == pytest.approx(asked, rel=0.02)  # a given setting is one default less
+
+
 def test_a_start_that_stalls_says_what_torque_it_needs(feeder):
     """5.5 kW give 16.9 kN at the belt, the filled hopper holds some 90 kN."""
     weak = conveyor.analyse(feeder.replace(drive=feeder.drive.replace(installed_power="5.5 kW")))
@@ -105,7 +134,7 @@ def test_a_start_that_stalls_says_what_torque_it_needs(feeder):
     rated = 5.5e3 * 0.92 / 0.3
     assert start.failed
     assert f"{start.required / rated:.2f} times the rated torque breaks it away" in str(start.why)
-    times = {name: state.start_time for name, state in weak.hopper_states.items()}
+    times = {state.name: state.start_time for state in weak.hopper_states}
     assert times["filled, after standing"] is None
     assert times["flow"] is not None
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import cProfile
 import math
-import time
+import tracemalloc
 from pathlib import Path
 from typing import Any
 
@@ -52,17 +53,22 @@ def test_a_straight_line_is_the_same_in_2000_sections(share: bool) -> None:
 
 
 def test_the_effort_grows_with_the_number_of_sections() -> None:
-    """Ten times the sections cost at most twenty times as much: without work that grows with their square, tenfold."""
+    """Calls and memory of ten times the sections: tenfold in the limit, a hundredfold with their square."""
 
-    def taken(parts: int) -> float:
-        line = divided(parts, curved=10.0)
-        start = time.process_time()
-        found = conveyor.analyse(line)
-        found.contents(studies(line, found))
-        return time.process_time() - start
+    def effort(parts: int) -> tuple[int, int]:
+        line, profile = divided(parts, curved=10.0), cProfile.Profile()
+        tracemalloc.start()
+        with profile:
+            found = conveyor.analyse(line)
+            found.contents(studies(line, found))
+        _, memory = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+        return sum(one.callcount for one in profile.getstats()), memory
 
-    taken(50)
-    assert taken(3000) < 20.0 * taken(300)
+    effort(20)
+    few, many = effort(40), effort(400)
+    assert many[0] < 20.0 * few[0]
+    assert many[1] < 20.0 * few[1]
 
 
 def test_rolls_read_side_by_side_are_those_read_alone() -> None:

@@ -49,7 +49,7 @@ def hopper_table(a: CalculatedConveyor) -> Table:
 
 def hopper_state_table(a: CalculatedConveyor) -> Table:
     """Drive force, tensions, safety and start of a belt feeder in each state of its hoppers."""
-    belt, rows = a.line.belt, list(a.hopper_states.values())
+    belt = a.line.belt
 
     def safety(state: HopperState) -> float | None:
         largest = state.motion.largest
@@ -71,7 +71,8 @@ def hopper_state_table(a: CalculatedConveyor) -> Table:
         "breaks the initial load away; in the run-out the hoppers are empty and the belt is full. Time to full speed "
         "by the drive force at rest, as if the load stayed; none where the start stalls."
     )
-    return Table("hopper_states", SHEET, "Belt feeder by state of the hoppers", columns, tuple(rows), "transfer", note)
+    heading = "Belt feeder by state of the hoppers"
+    return Table("hopper_states", SHEET, heading, columns, a.hopper_states, "transfer", note)
 
 
 def _state_rows(a: CalculatedConveyor, point: LoadingPoint, hopper: HopperOutlet) -> list[_StateRow]:
