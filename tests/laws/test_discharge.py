@@ -84,16 +84,24 @@ def test_bulk_leaves_at_once_or_where_weight_and_speed_balance(ratio, slope, ang
     assert math.degrees(found) == pytest.approx(angle, abs=1e-5)
 
 
-@pytest.mark.parametrize("friction", [(0.5, 0.5), (0.8, 0.4), (0.3, 0.2)])
-def test_slipping_bulk_obeys_its_equation_of_motion(friction):
+@pytest.mark.parametrize(
+    ("friction", "inclination"),
+    [((0.5, 0.5), 0.0), ((0.8, 0.4), 0.0), ((0.3, 0.2), 0.0), ((0.3, 0.2), 0.3), ((0.3, 0.2), -0.35)],
+)
+def test_slipping_bulk_obeys_its_equation_of_motion(friction, inclination):
+    """Slip begins where friction no longer holds the bulk, or at once where a belt falls more steeply than that."""
     speed, radius = 1.2, 0.55
     still, sliding = friction
     found = slipping_discharge(
-        speed, radius=radius, inclination=0.0, friction=still, sliding_friction=sliding, gravity=G
+        speed, radius=radius, inclination=inclination, friction=still, sliding_friction=sliding, gravity=G
     )
     begin = found.slip_angle
     held = still * (G * math.cos(begin) - speed**2 / radius)
-    assert G * math.sin(begin) == pytest.approx(held, rel=1e-12)
+    if inclination < 0.0:
+        assert begin == pytest.approx(-inclination, rel=1e-12)
+        assert G * math.sin(begin) > held
+    else:
+        assert G * math.sin(begin) == pytest.approx(held, rel=1e-12)
 
     def motion(angle, v):
         return radius * (G * np.sin(angle) - sliding * (G * np.cos(angle) - v**2 / radius)) / v

@@ -80,21 +80,23 @@ def test_every_case_has_every_criterion(plain: CaseStudy) -> None:
 
 
 @pytest.mark.parametrize(
-    ("calculated", "relation", "required", "margin"),
+    ("calculated", "relation", "required", "margin", "use"),
     [
-        (120.0, "at least", 100.0, 0.2),
-        (90.0, "at least", 100.0, -0.1),
-        (90.0, "at most", 100.0, 0.1),
-        (150.0, "at most", 100.0, -0.5),
-        (-5.0, "at least", -10.0, 0.5),
-        (5.0, "at least", 0.0, None),
-        (5.0, "at least", None, None),
-        (None, "at least", 5.0, None),
+        (120.0, "at least", 100.0, 0.2, 100.0 / 120.0),
+        (90.0, "at least", 100.0, -0.1, 100.0 / 90.0),
+        (90.0, "at most", 100.0, 0.1, 0.9),
+        (150.0, "at most", 100.0, -0.5, 1.5),
+        (-5.0, "at least", -10.0, 0.5, 2.0),
+        (0.0, "at least", 100.0, -1.0, None),
+        (5.0, "at least", 0.0, None, None),
+        (5.0, "at least", None, None, None),
+        (None, "at least", 5.0, None, None),
     ],
 )
-def test_the_margin_is_what_is_left_over_the_limit(calculated, relation, required, margin) -> None:
+def test_the_margin_is_what_is_left_over_the_limit(calculated, relation, required, margin, use) -> None:
     one = Check("k", message("s"), calculated, required, "force", message(""), message(""), "pass", None, relation)
     assert one.margin == (None if margin is None else pytest.approx(margin, rel=1e-12))
+    assert one.use == (None if use is None else pytest.approx(use, rel=1e-12))
 
 
 def made(case: str, verdict: str, calculated: float | None, subject: str = "s", key: str = "k") -> Check:

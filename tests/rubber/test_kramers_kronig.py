@@ -37,6 +37,14 @@ def test_scaled_loss_is_found_with_its_factor() -> None:
     assert test.storage.rms > 0.03
 
 
+def test_decades_are_counted_from_the_lowest_frequency() -> None:
+    # a decade from either end 10^0.15 to 10^2.85 Hz are left, in steps of 0.3 decades
+    f = 10.0 ** (0.3 * np.arange(18) - 1.05)
+    test = kramers_kronig(f, SMOOTH.storage(2 * np.pi * f), SMOOTH.loss(2 * np.pi * f))
+    found = [(np.log10(d.low), np.log10(d.high), d.rows) for d in test.decades]
+    assert found == [pytest.approx(one) for one in [(0.15, 1.05, 4), (1.35, 1.95, 3), (2.25, 2.85, 3)]]
+
+
 def test_noise_is_not_a_contradiction() -> None:
     clean, wrong = [], []
     for seed in range(5):
