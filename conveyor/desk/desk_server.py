@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import json
 import socket
 import time
@@ -82,6 +83,8 @@ class Desk:
         with suppress(ConveyorError):  # the page says what is wrong
             self.workbench.form(name)
             self.workbench.assess(self.workbench.file(name).conveyor, StopSignal())
+        gc.collect()
+        gc.freeze()  # a full collection of what is now imported takes longer than an answer
 
     def close(self) -> None:
         """End the calculations."""

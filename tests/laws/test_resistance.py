@@ -231,6 +231,10 @@ def test_every_default_lies_in_its_range_and_names_a_source():
             r"tight_tension: got -1\.0",
         ),
         (
+            lambda: resistance.pulley_load(tight_tension=math.inf, slack_tension=0.0, pulley_mass=0.0, gravity=9.8),
+            r"tight_tension: got inf, allowed: >= 0 and finite",
+        ),
+        (
             lambda: resistance.pulley_bearing_resistance(1.0, shaft_diameter=0.0, pulley_diameter=1.0),
             r"shaft_diameter: got 0\.0",
         ),
