@@ -43,10 +43,10 @@ def format_number(number: float, digits: int = DIGITS) -> str:
     >>> format_number(30097.4), format_number(76.331), format_number(0.04069), format_number(-0.0)
     ('30,100', '76.3', '0.0407', '0')
     """
-    written = f"{number:.{digits}g}"
-    if 10.0 ** (digits - 1) <= abs(float(written)) < _GROUPED_BELOW:
-        return f"{float(written):,.0f}"
-    return "0" if float(written) == 0.0 else written
+    rounded = float(f"{number:.{digits}g}")
+    if 10.0 ** (digits - 1) <= abs(rounded) < _GROUPED_BELOW:
+        return f"{rounded:,.0f}"
+    return "0" if rounded == 0.0 else f"{number:,.{digits}g}"
 
 
 @dataclass(frozen=True)

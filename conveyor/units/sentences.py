@@ -20,6 +20,8 @@ ZERO_CELSIUS: Final = 273.15
 SUPERSCRIPTS: Final = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 """Digits of an exponent."""
 _DEGREES: Final = re.compile(r"deg(?<=\bdeg)(?=[CF]\b)")  # letters first: searched for four times as fast
+_MOST_DIGITS: Final = 6
+"""Digits of figures that would be written alike with fewer."""
 _PLAIN_FROM, _PLAIN_BELOW = 1e-2, 1e6  # frequencies between which no power of ten is written [Hz]
 
 
@@ -55,14 +57,24 @@ class Message:
     >>> line = message("at most {}, {} are installed", (500e3, "power"), (450e3, "power"))
     >>> line.text(), line.text("US")
     ('at most 500 kW, 450 kW are installed', 'at most 671 hp, 603 hp are installed')
+    >>> message("{} are asked for, {} are there", (5.002e6, "power"), (5e6, "power")).text()
+    '5,002 kW are asked for, 5,000 kW are there'
     """
 
     words: str
     figures: tuple[tuple[float, str], ...] = ()
 
     def text(self, system: System = "SI") -> str:
-        """Text in a system of units."""
-        return self.words.format(*(format_figure(value, kind, system) for value, kind in self.figures))
+        """Text in a system of units; figures that differ get the digits that show it."""
+        shown = self._figures(system, DIGITS)
+        if len(set(shown)) < len(shown):
+            unlike = len({(float(f"{value:.{_MOST_DIGITS}g}"), kind) for value, kind in self.figures})
+            more = (self._figures(system, digits) for digits in range(DIGITS, _MOST_DIGITS + 1))
+            shown = next((one for one in more if len(set(one)) == unlike), shown)
+        return self.words.format(*shown)
+
+    def _figures(self, system: System, digits: int) -> list[str]:
+        return [format_figure(value, kind, system, digits=digits) for value, kind in self.figures]
 
     def __str__(self) -> str:
         return self.text()
