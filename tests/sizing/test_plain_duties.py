@@ -17,6 +17,7 @@ from conveyor.line.stretches import STRANDS
 from conveyor.line.usual_parts import usual_lump_factor
 from conveyor.models.sizing import SizingDuty
 from conveyor.pipeline import calculate_many
+from conveyor.report.tables.sizing_tables import best_design_table
 from conveyor.sizing import size_conveyor
 from conveyor.sizing.design_search import _calibrate_estimate, _estimated_parts
 from conveyor.sizing.design_spec import design_spec
@@ -132,8 +133,13 @@ def test_a_lift_that_no_motor_gives_is_refused_with_the_power_it_needs():
     lifting = 6400.0 / 3.6 * GRAVITY * 150.0 / 0.94 * 1.1 / 3.0 / 1e3
     assert allowed == 1000.0
     assert lifting < needed < 1.5 * lifting
-    with_two = size_conveyor(given, best=1).best
+    sizing = size_conveyor(given, best=1)
+    with_two = sizing.best
     assert sum(with_two.chosen.motors) / 3.0 >= lifting * 1e3
+    tile = next(row.value for row in best_design_table(sizing, "SI").rows if row.label == "motors")
+    count, each = re.fullmatch(r"(\d)\s×\s(\d+) kW", tile).groups()
+    assert int(count) == 6
+    assert int(count) * float(each) == pytest.approx(sum(with_two.chosen.motors) / 1e3, rel=1e-12)
 
 
 def test_a_carcass_that_stretches_too_far_for_good_is_refused_with_the_travel_it_needs():

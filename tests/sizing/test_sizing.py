@@ -128,6 +128,14 @@ def test_no_weaker_class_and_no_smaller_motor_would_do(small, sized):
             assert again.chosen.carcass == design.chosen.carcass
 
 
+def test_pulleys_weigh_by_width_and_the_square_of_their_diameter(small, sized):
+    """1750 kg of a pulley of 1 m in diameter and width, with its shaft: head, take-up and tail."""
+    task, carcass = SizingTask(small), sized.best.chosen.carcass
+    head, bend = task.drive_diameter(carcass), task.bend_diameter(carcass)
+    assert bend < head
+    assert task.pulley_mass(carcass, 0.8) == pytest.approx(1750.0 * 0.8 * (head * head + 2.0 * bend * bend), rel=1e-12)
+
+
 def test_the_estimate_is_close_where_it_chose(sized):
     assert sized.estimate_error < 0.1
     assert 0 < sized.calculated <= sized.possible <= sized.candidates

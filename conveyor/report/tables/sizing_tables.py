@@ -36,7 +36,7 @@ from conveyor.sizing.sized_design import SizedDesign
 from conveyor.sizing.spacing import section_spacings
 from conveyor.spec import fingerprint
 from conveyor.units import System
-from conveyor.units.presentation import MONEY, display_unit
+from conveyor.units.presentation import MONEY, display_unit, format_figure
 from conveyor.units.sentences import percent
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ def sizing_contents(sizing: CalculatedSizing, system: System, *, vary: bool = Tr
     sweeps = vary_choices(sizing.task, sizing.best) if vary else ()
     best, line = sizing.best, sizing.best.found.line
     parts = (
-        best_design_table(sizing), design_table(sizing),
+        best_design_table(sizing, system), design_table(sizing),
         *([listed_part_table(sizing)] if sizing.best.chosen.listed else []), cost_table(sizing),
         *([sweep_table(sizing, sweeps)] if sweeps else []), spacing_table(sizing),
         check_table(run_checks(best.found), system), _sizing_remarks(sizing),
@@ -98,10 +98,10 @@ def _money_kind(sizing: CalculatedSizing) -> str:
     return f"{MONEY}{sizing.duty.prices.currency}"
 
 
-def best_design_table(sizing: CalculatedSizing) -> Table:
+def best_design_table(sizing: CalculatedSizing, system: System) -> Table:
     """Figures of the best design; the largest stand as tiles on page one."""
     best, money = sizing.best, _money_kind(sizing)
-    choice, chosen, found = best.choice, best.chosen, best.found
+    choice, found = best.choice, best.found
     rows = (
         Figure("belt width", "size", choice.trough.width.belt, "tile"),
         Figure("belt speed", "speed", choice.speed, "tile"),
@@ -109,7 +109,7 @@ def best_design_table(sizing: CalculatedSizing) -> Table:
         Figure("roll diameter", "size", choice.roll.diameter, "tile"),
         Figure("carry sets every", "spacing", _widest_spacing(best), "tile"),
         Figure("return sets every", "spacing", choice.back, "tile"),
-        Figure("motors", "power", sum(chosen.motors), "tile"),
+        Figure("motors", "text", _motor_sizes(best, system), "tile"),
         Figure("motor power", "power", found.balance.power.motor, "tile"),
         Figure("belt safety", "ratio", best.safety, "tile"),
         Figure("take-up", "force", found.balance.settled.setting, "tile"),
@@ -117,6 +117,14 @@ def best_design_table(sizing: CalculatedSizing) -> Table:
         Figure("cost a year", money, best.year, "tile"),
     )
     return figure_table("best_design", "", "The best design", rows)
+
+
+def _motor_sizes(best: SizedDesign, system: System) -> str:
+    """Number and rated power of the motors, which are equal."""
+    drive = best.conveyor.drive
+    count = sum(one.motors for one in (drive, *drive.further_drives))
+    each = format_figure(sum(best.chosen.motors) / count, "power", system)
+    return f"{count}\N{NO-BREAK SPACE}×\N{NO-BREAK SPACE}{each}" if count > 1 else each
 
 
 def design_table(sizing: CalculatedSizing) -> Table:
