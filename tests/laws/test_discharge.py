@@ -191,7 +191,9 @@ def test_arguments_out_of_range_are_named(law, named):
 
 
 def test_beds_by_the_energy_of_the_lump():
-    assert [transfer.impact_class(energy) for energy in (100.0, 500.0, 2000.0, 5000.0)] == [
-        "light", "medium", "heavy", "beyond heavy",
-    ]  # fmt: skip
+    names = ("light", "medium", "heavy", "beyond heavy")
+    for most, name, heavier in zip((200.0, 1000.0, 2000.0), names[:-1], names[1:], strict=True):
+        border = most * 4.4482216152605 * 0.3048  # lbf ft in J
+        assert transfer.impact_class(0.999 * border) == name
+        assert transfer.impact_class(1.001 * border) == heavier
     assert discharge.TIME_STEP == 0.05
