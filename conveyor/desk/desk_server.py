@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import gc
 import json
 import socket
 import time
@@ -83,8 +82,6 @@ class Desk:
         with suppress(ConveyorError):  # the page says what is wrong
             self.workbench.form(name)
             self.workbench.assess(self.workbench.file(name).conveyor, StopSignal())
-        gc.collect()
-        gc.freeze()  # a full collection of what is now imported takes longer than an answer
 
     def close(self) -> None:
         """End the calculations."""
