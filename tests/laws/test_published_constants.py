@@ -5,8 +5,20 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from conveyor.laws import energy, resistance, roll_life
+from conveyor.laws import (
+    belt_warming,
+    drives,
+    energy,
+    power,
+    preliminary_sizing,
+    pulley,
+    resistance,
+    roll_life,
+    transfer,
+    weighing,
+)
 from conveyor.laws.resistance import cema, roll_bearing
+from conveyor.loop import drive_duty
 
 # C over L [m], DIN 22101 and ISO 5048
 LENGTHS = """
@@ -97,3 +109,69 @@ def test_pulleys_and_rolls_after_standstill():
     # lbf a pulley; drag after standstill over running drag
     assert pytest.approx({"tight": 200.0, "slack": 150.0, "other": 100.0}, rel=1e-15) == cema.PULLEY_FRICTION
     assert pytest.approx(1.5, rel=1e-15) == resistance.ROLL_DRAG_STANDSTILL_FACTOR
+
+
+def test_figures_printed_in_other_units():
+    """CEMA's feet, pounds and psi, a kilowatt-hour, the acceleration of 2000 lb an hour over 32.2 ft/s²."""
+    foot, pound, psi = 0.3048, 0.45359237, 4.4482216152605 / 0.0254**2
+    assert pytest.approx(20.0 * foot, rel=1e-12) == weighing.LEAST_SCALE_DISTANCE
+    assert pytest.approx(40.0 * foot, rel=1e-12) == weighing.LEAST_CURVE_DISTANCE
+    assert transfer.SKIRT_LEAST.value == pytest.approx(3.0 * foot, rel=1e-12)
+    assert transfer.SKIRT_SECONDS.value == pytest.approx(2.0 * foot / (100.0 * foot / 60.0), rel=1e-12)
+    assert pytest.approx(pound / foot**3, rel=1e-6) == preliminary_sizing.POUND_PER_CUBIC_FOOT
+    assert pytest.approx(1000.0 * 3600.0, rel=1e-15) == power.JOULE_PER_KWH
+    assert pytest.approx(2000.0 / (3600.0 * 60.0 * 32.2), rel=1e-4) == cema.ACCELERATION_FACTOR
+    assert pytest.approx(29e6 * psi, rel=1e-12) == pulley.STEEL_MODULUS
+    in_psi = {steel: tuple(each / psi for each in both) for steel, both in pulley.SHAFT_STEELS.items()}
+    assert in_psi["C1018"] == pytest.approx((29e3, 32e3), rel=1e-12)
+    assert in_psi["C1045"] == pytest.approx((41e3, 45e3), rel=1e-12)
+    assert in_psi["C4140"] == pytest.approx((47.5e3, 60.5e3), rel=1e-12)
+    assert pytest.approx({"profiled": 0.63, "sled runner": 0.77}, rel=1e-12) == pulley.KEYWAY_FACTOR
+
+
+def test_additions_for_wear_are_the_middle_of_their_ranges():
+    """DIN 22101: 0 to 1 mm for 5 or 6 points, 1 to 3, 3 to 6, 6 to 10, from 10 mm."""
+    ranges = ((6, 0.0, 1.0), (8, 1.0, 3.0), (11, 3.0, 6.0), (13, 6.0, 10.0), (15, 10.0, 10.0))
+    for (points, low, high), (most, addition) in zip(ranges, preliminary_sizing.WEAR_ADDITIONS, strict=True):
+        assert most == points
+        assert addition == pytest.approx(0.5e-3 * (low + high), rel=1e-12)
+
+
+def test_preferred_numbers_round_their_roots():
+    """ISO 3: R20 is 10^(k/20), rounded by at most 1.3 %."""
+    exact = 10.0 ** (np.arange(20) / 20.0)
+    assert sorted(drives._R20) == pytest.approx(exact, rel=0.013)
+
+
+def test_starts_of_motors_fall_smoothly_with_their_power():
+    """NEMA MG 10, table 2-3, has no slip of a digit: each row lies within 4 % of the power law through its neighbours.
+
+    The figures are printed with two or three digits, 1.8 starts an hour to 3 %.
+    """
+    rated = np.log([row[0] for row in drives._STARTS])
+    for poles in (1, 2, 3):
+        for k in (0, 1):
+            column = np.log([row[poles][k] for row in drives._STARTS])
+            share = (rated[1:-1] - rated[:-2]) / (rated[2:] - rated[:-2])
+            between = column[:-2] + share * (column[2:] - column[:-2])
+            assert np.exp(column[1:-1] - between) == pytest.approx(1.0, abs=0.04)
+            steps = np.diff(column)
+            assert np.all(steps < 0.0 if k == 0 else steps > 0.0)
+
+
+def test_the_film_of_a_bearing_is_fed_from_where_both_laws_of_palmgren_meet():
+    """(ν n)^(2/3) at 2000 is 158.7: 160 as printed."""
+    fed = roll_bearing.PALMGREN_FED * roll_bearing.PALMGREN_SWITCH ** (2.0 / 3.0)
+    assert pytest.approx(fed, rel=0.01) == roll_bearing.PALMGREN_SLOW
+
+
+def test_poles_are_told_apart_by_the_rated_speed():
+    """Slip up to 8 % at 50 Hz, above the synchronous speed of the next poles at 60 Hz."""
+    for poles, least in drive_duty._POLE_SPEEDS:
+        assert 60.0 / ((poles + 2) / 2) < least < 0.92 * 50.0 / (poles / 2)
+
+
+def test_heat_transfer_by_juerges():
+    """5.7 + 3.8 v up to 5 m/s, 6.47 v^0.78 beyond; they differ by 8 % where they meet, as printed."""
+    for speed, expected in ((2.0, 13.3), (5.0, 24.7), (10.0, 6.47 * 10.0**0.78)):
+        assert belt_warming.heat_transfer(speed) == pytest.approx(expected, rel=1e-12)
