@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -9,15 +11,17 @@ from conveyor.laws import (
     belt_warming,
     drives,
     energy,
+    idler_sets,
     power,
     preliminary_sizing,
     pulley,
     resistance,
     roll_life,
     transfer,
+    transition,
     weighing,
 )
-from conveyor.laws.resistance import cema, roll_bearing
+from conveyor.laws.resistance import cema, roll_bearing, service_drag
 from conveyor.loop import drive_duty
 
 # C over L [m], DIN 22101 and ISO 5048
@@ -175,3 +179,55 @@ def test_heat_transfer_by_juerges():
     """5.7 + 3.8 v up to 5 m/s, 6.47 v^0.78 beyond; they differ by 8 % where they meet, as printed."""
     for speed, expected in ((2.0, 13.3), (5.0, 24.7), (10.0, 6.47 * 10.0**0.78)):
         assert belt_warming.heat_transfer(speed) == pytest.approx(expected, rel=1e-12)
+
+
+def test_load_ratings_of_idlers_fall_with_trough_and_width():
+    """CEMA 502: beyond the load of the class 93 % of the rating at 20 deg stand at 35 deg, 90 % at 45 deg."""
+    most = {"B": 410, "C": 900, "D": 1200, "E": 1800}
+    for cema_class, widths in idler_sets._RATINGS.items():
+        rows = list(widths.values())
+        for width, (low, middle, steep, _) in widths.items():
+            if low == middle == steep:
+                assert low == most[cema_class]
+            elif (cema_class, width) == ("B", 36):  # 440 at 20 deg, cut to the load of the class
+                assert (low, middle, steep) == (410, 410, 0.9 * 440)
+            else:
+                assert (middle, steep) == pytest.approx((0.93 * low, 0.9 * low), abs=1.01)
+        for wide, wider in pairwise(rows):
+            assert all(b <= a for a, b in zip(wide, wider, strict=True))
+
+
+def test_half_troughs_have_half_the_transition():
+    """All but one: 1.0 instead of 1.4 widths of steel cord below 60 % at 20 deg, as it is reproduced."""
+    for angle, rows in transition.CEMA_TRANSITIONS["full trough"].items():
+        half = np.array(transition.CEMA_TRANSITIONS["half trough"][angle])
+        expected = 0.5 * np.array(rows)
+        if angle == 20:
+            expected[2, 1] = 1.0
+        assert half == pytest.approx(expected, rel=1e-12)
+        assert np.all(np.diff(np.array(rows), axis=0) < 0.0)
+
+
+# deep-groove ball bearings: bore and outside diameter [mm] of ISO 15, static rating of makers' catalogues [kN]
+BEARINGS = {
+    "6201": (12, 32, 3.1), "6203": (17, 40, 4.75), "6204": (20, 47, 6.55), "6205": (25, 52, 7.8),
+    "6305": (25, 62, 11.6), "6306": (30, 72, 16.0), "6308": (40, 90, 24.0),
+}  # fmt: skip
+
+
+def test_usual_bearings_are_those_of_the_catalogues():
+    found = {
+        one.name: (1e3 * one.bore, 1e3 * one.outside, 1e-3 * one.static_rating)
+        for _, one in service_drag.USUAL_BEARINGS
+    }
+    assert found == {name: pytest.approx(row, rel=1e-12) for name, row in BEARINGS.items()}
+    diameters = [most for most, _ in service_drag.USUAL_BEARINGS]
+    assert diameters[:-1] == pytest.approx([0.051, 0.076, 0.108, 0.133, 0.159, 0.219], rel=1e-12)
+
+
+def test_the_usual_oil_is_of_viscosity_grade_100():
+    """ISO 3448: 100 mm²/s at 40 degC; viscosity index 95: 11.1 to 11.2 mm²/s at 100 degC (ISO 2909)."""
+    (warm, at_40), (hot, at_100) = service_drag.USUAL_OIL
+    assert (warm, hot) == pytest.approx((313.15, 373.15), rel=1e-12)
+    assert at_40 == pytest.approx(100e-6, rel=1e-12)
+    assert at_100 == pytest.approx(11.1e-6, rel=0.03)
