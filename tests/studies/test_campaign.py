@@ -467,6 +467,23 @@ def test_a_study_without_any_answer_says_why_and_draws_nothing(tmp_path):
     assert "raise belt.speed" in page.read_text(encoding="utf-8")
 
 
+@pytest.mark.parametrize(
+    ("outputs", "said"),
+    [
+        (("page.html",), "--output: got 0 for the points, give one: .csv, .parquet or a folder"),
+        (("a.csv", "b.parquet", "page.pdf"), "--output: got 2 for the points"),
+        (("a.csv", "none/page.pdf"), "none/page.pdf: its folder does not exist"),
+    ],
+)
+def test_one_output_of_a_study_has_the_points(tmp_path, outputs, said):
+    file = tmp_path / "study.json"
+    file.write_text(json.dumps(PLAN | {"base": str(SPECS / "shuttle.yaml")}), encoding="utf-8")
+    done = command("study", file, *(word for path in outputs for word in ("-o", tmp_path / path)))
+    assert done.returncode == 2
+    assert said in done.stderr
+    assert list(tmp_path.iterdir()) == [file]
+
+
 def by_speed(_, points):
     """Figures of points at once, instead of their calculation."""
     return [[1e3 * float(point["belt.speed"].split()[0]), None, 1] for point in points]
