@@ -134,6 +134,7 @@ def test_comparison_writes_a_page_and_figures(tmp_path):
         (("--parquet",), r"--parquet: says how tables are written; give --tables FOLDER, too"),
         (("--units", "uk"), r"invalid value for '--units'"),
         (("--table", "t"), r"no such option: --table; did you mean --tables\?"),
+        (("--pdf", "a.pdf"), r"no such option: --pdf; give a name that ends so: -o report\.pdf"),
     ],
 )
 def test_outputs_are_refused_before_anything_is_spent(options, message, tmp_path):

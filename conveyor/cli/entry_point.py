@@ -28,6 +28,8 @@ _RESUMABLE_COMMANDS: Final = (["study"], ["optimise"])
 """Commands that can be resumed after a stop."""
 
 _UsageError: type[Exception] = next(t for t in typer.BadParameter.__mro__ if t.__name__ == "UsageError")
+_REPORT_OPTIONS: Final = ("--xlsx", "--html", "--pdf")
+"""Options that people try; the ending of --output says what a report is."""
 _SPEC_ENDINGS: Final = (".yaml", ".yml", ".json", ".xlsx")
 _PARSER_MESSAGES: Final = {
     "Input should be a valid number.*": "expected a number",
@@ -128,6 +130,8 @@ def _closest_option(error: Any, said: str) -> str:
     given = getattr(error, "option_name", None)
     if given is not None:
         known = [name for parameter in error.ctx.command.params for name in parameter.opts if name.startswith("--")]
+        if str(given) in _REPORT_OPTIONS and "--output" in known:
+            return f"; give a name that ends so: -o report.{str(given).lstrip('-')}"
         near = difflib.get_close_matches(str(given), [*known, "--help"], n=1)
         return f"; did you mean {near[0]}?" if near else ""
     quoted = re.fullmatch(r"No such command '(.*)'", said)
