@@ -17,6 +17,7 @@ from conveyor.laws import (
     pulley,
     resistance,
     roll_life,
+    tension,
     transfer,
     transition,
     weighing,
@@ -231,3 +232,35 @@ def test_the_usual_oil_is_of_viscosity_grade_100():
     assert (warm, hot) == pytest.approx((313.15, 373.15), rel=1e-12)
     assert at_40 == pytest.approx(100e-6, rel=1e-12)
     assert at_100 == pytest.approx(11.1e-6, rel=0.03)
+
+
+def test_belts_stretch_as_their_sources_print():
+    """EA over strength: about 72 for steel cord; over rated tension 400, 100 and 70 (CEMA's moduli, Newcastle)."""
+    assert pytest.approx(72.0, rel=1e-12) == tension.STEEL_CORD_STIFFNESS_FACTOR
+    assert pytest.approx({"EP": 5.0, "polyamide": 4.0}, rel=1e-12) == tension.TEXTILE_STIFFNESS_FACTOR
+    printed = {"steel cord": 400.0, "EP": 100.0, "polyamide": 70.0}
+    assert pytest.approx(printed, rel=1e-12) == tension.RATED_STIFFNESS_FACTOR
+    # DIN 22101, c of the least pulley diameter over the carcass's thickness
+    assert pytest.approx({"polyamide": 90.0, "EP": 108.0, "steel cord": 145.0}, rel=1e-12) == tension.PULLEY_FACTOR
+
+
+def test_suggested_spacings_fall_with_width_and_density():
+    """CEMA: in half feet, none wider apart on a wider belt or under a denser bulk."""
+    rows = np.array([row[1:7] for row in preliminary_sizing.NORMAL_SPACINGS])
+    assert np.all(np.diff(rows, axis=0) <= 0.0)
+    assert np.all(np.diff(rows, axis=1) <= 0.0)
+    assert 2.0 * rows == pytest.approx(np.round(2.0 * rows), abs=1e-12)
+    assert rows[0, 0] == pytest.approx(5.5)
+    assert rows[-1, -1] == pytest.approx(2.0)
+
+
+def test_recommended_speeds_rise_with_width_and_fall_with_abrasion():
+    """CEMA: up to 1000 fpm on wide belts with light bulk, never faster with a harsher one."""
+    kinds = [preliminary_sizing.RECOMMENDED_SPEEDS[name] for name in ("low", "medium", "high")]
+    for rows in kinds:
+        assert [fastest for _, fastest in rows] == sorted(fastest for _, fastest in rows)
+        assert [width for width, _ in rows] == sorted(width for width, _ in rows)
+    for width in (0.4, 0.6, 0.9, 1.0, 1.4, 2.0):
+        at = [next(fastest for most, fastest in rows if width <= most) for rows in kinds]
+        assert at == sorted(at, reverse=True)
+    assert kinds[0][-1][1] == 1000
