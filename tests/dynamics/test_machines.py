@@ -10,7 +10,7 @@ import pytest
 
 from conveyor.dynamics.criteria import pulley_peak, tension_peaks
 from conveyor.dynamics.machines import prepare_belts
-from conveyor.dynamics.simulation import CalculatedDynamics, prepare_setups, simulate_batch
+from conveyor.dynamics.simulation import CalculatedDynamics, prepare_setups, simulate_batch, simulate_scenarios
 from conveyor.dynamics.wave import simulate_belts
 from conveyor.errors import InputError, NoSolutionError
 from conveyor.laws.waves import STEEPEST_SLOPE, ramp_speed
@@ -448,3 +448,20 @@ def test_splice_pulleys_and_curves_are_checked_at_their_own_highest_tensions():
     cell = 1.0 / found.middles.size
     assert head.highest == pytest.approx(float(found.record.drives["arriving"].max()), rel=cell)
     assert head.lowest == pytest.approx(float(found.record.drives["leaving"].min()), rel=cell)
+
+
+def test_cells_in_belt_order_lie_in_their_stretches():
+    """The take-up on the carry strand cuts the loop there; figures show the belt from the head on."""
+    transfer = load(SPECS / "transfer.yaml")
+    stop = Scenario.from_data(
+        {"name": "off", "begins": "running", "loading": "full", "events": [{"do": "power off"}], "duration": "1 s"}
+    )
+    found = simulate_scenarios(transfer, [stop], error=0.5).followed[0]
+    ways = found.line.loop.way
+    assert found.setup.loop.order[0] != 0
+    order, distance = found.round_loop
+    assert np.all(np.diff(distance) > 0.0)
+    place = dict(zip(order.tolist(), distance.tolist(), strict=True))
+    for k, cells in found.stretches():
+        middle = place[(cells.start + cells.stop - 1) // 2]
+        assert ways[k] < middle < ways[k + 1]
